@@ -1,0 +1,1 @@
+"""The gear shift: scenes, co-simulation masters, energy book."""

@@ -1,0 +1,65 @@
+"""What can go wrong, and how it is said."""
+
+from enum import IntEnum
+
+
+class ParameterError(ValueError):
+    """An argument or parameter is outside the range the model holds for."""
+
+
+class SolveError(RuntimeError):
+    """No solution was found; the message says what was tried and what to change."""
+
+
+class BranchError(ParameterError, SolveError):
+    """The wanted solution branch does not exist at this operating point."""
+
+
+class EnvironmentProblem(RuntimeError):
+    """Something this machine lacks (a package, a writable folder); the message says what to do."""
+
+
+class Status(IntEnum):
+    """How a kernel ended, the more severe the larger; ``advice`` is the sentence the user needs.
+
+    Numbers below ``FIRST_FAILURE`` are advice: the numbers returned are a solution.
+    """
+
+    advice: str
+    OK = 0, "solved"
+    OUTSIDE_VERIFIED = (
+        1,
+        "an input is outside the range the accuracy was verified for; use with care",
+    )
+    HOT = (
+        2,
+        "the interface is hotter than 523 K, where oil and lining fail; lower load, slip or time",
+    )
+    DISTRESS = 3, "the oil film is lost (thermo-viscous distress); lower the load to regain it"
+    STALLED = (
+        4,
+        "both packs hold: the driveline stands still or the engine stalls; release one pack",
+    )
+    MAX_ITERATIONS = (
+        10,
+        "not converged; start from a neighbouring result or refine in smaller steps",
+    )
+    SINGULAR = 11, "the equations are singular here, as at a fold; move the load a little"
+    NO_BRANCH = 12, "the wanted branch has no solution at this load; ask for the other branch"
+    NO_EVENT = 13, "a lock-up or break-away could not be located; use a smaller communication step"
+    NOT_FINITE = 14, "the computation left the range of numbers; check parameters and inputs"
+    BAD_INPUT = 15, "an input is not finite or outside its range"
+
+    def __new__(cls, code: int, advice: str = "") -> "Status":
+        """Keep the number as the value and the sentence beside it."""
+        status = int.__new__(cls, code)
+        status._value_, status.advice = code, advice
+        return status
+
+    @property
+    def is_failure(self) -> bool:
+        """True when the numbers that came with it are only a best estimate."""
+        return self >= FIRST_FAILURE
+
+
+FIRST_FAILURE = 10

@@ -1,0 +1,1 @@
+"""From the models' lists to FMUs: variables, XML, packing, checking."""

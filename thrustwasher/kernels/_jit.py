@@ -1,0 +1,56 @@
+"""The one place that sets the compiler options: IEEE rules kept, 1/0 is inf, code cached.
+
+numba stamps cached code by its own file only: after an edit of a called function in another file it
+would go on running the old one. The cache folder is therefore named by a digest of all kernels.
+"""
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import numba
+from numba.core import config
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@cache
+def kernel_digest() -> str:
+    """Return the first 16 hex digits of the SHA-256 over all kernel sources."""
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    return hashlib.sha256(b"".join(f.name.encode() + f.read_bytes() for f in files)).hexdigest()[
+        :16
+    ]
+
+
+@cache
+def cache_folder() -> str:
+    """Return the folder for compiled kernels: the user's cache, else a temporary folder."""
+    base = os.environ.get("NUMBA_CACHE_DIR") or os.path.join(
+        os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
+        "thrustwasher",
+    )
+    folder = os.path.join(base, f"kernels-{kernel_digest()}")
+    try:
+        os.makedirs(folder, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return os.path.join(tempfile.gettempdir(), f"thrustwasher-kernels-{kernel_digest()}")
+
+
+def _compiled(function: Callable[..., Any]) -> Any:
+    """Compile lazily with the cache in ``cache_folder``; other users' numba cache is left alone."""
+    before = config.CACHE_DIR
+    config.CACHE_DIR = cache_folder()
+    try:
+        return numba.njit(cache=True, fastmath=False, error_model="numpy", nogil=True)(function)
+    finally:
+        config.CACHE_DIR = before
+
+
+kernel = cast(Callable[[F], F], _compiled)

@@ -1,0 +1,1 @@
+"""Closed forms: importable, used by tests and documentation. No iteration, no numba."""

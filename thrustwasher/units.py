@@ -1,0 +1,161 @@
+"""Quantities as people write them: "24 degC", "3000 rpm", "1 MPa"; inside, SI only.
+
+For the command line and scene files. A bare number is in SI units already.
+"""
+
+import math
+import re
+
+from .errors import ParameterError
+
+# SI unit -> unit as written -> (factor, offset): SI value = factor * number + offset.
+# The offset is left out for a difference of temperatures.
+UNITS: dict[str, dict[str, tuple[float, float]]] = {
+    "1": {"1": (1.0, 0.0), "%": (1e-2, 0.0)},
+    "m": {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0), "nm": (1e-9, 0.0),
+          "in": (0.0254, 0.0)},
+    "N": {"N": (1.0, 0.0), "kN": (1e3, 0.0), "MN": (1e6, 0.0)},
+    "N.m": {"N.m": (1.0, 0.0), "Nm": (1.0, 0.0), "mN.m": (1e-3, 0.0), "kN.m": (1e3, 0.0)},
+    "Pa": {"Pa": (1.0, 0.0), "kPa": (1e3, 0.0), "MPa": (1e6, 0.0), "GPa": (1e9, 0.0),
+           "bar": (1e5, 0.0), "psi": (6894.757293168361, 0.0)},
+    "Pa.s": {"Pa.s": (1.0, 0.0), "mPa.s": (1e-3, 0.0), "cP": (1e-3, 0.0)},
+    "rad": {"rad": (1.0, 0.0), "mrad": (1e-3, 0.0), "deg": (math.pi / 180.0, 0.0)},
+    "rad/s": {"rad/s": (1.0, 0.0), "rpm": (math.pi / 30.0, 0.0), "1/min": (math.pi / 30.0, 0.0),
+              "deg/s": (math.pi / 180.0, 0.0)},
+    "m/s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "km/h": (1.0 / 3.6, 0.0)},
+    "s": {"s": (1.0, 0.0), "ms": (1e-3, 0.0), "us": (1e-6, 0.0), "min": (60.0, 0.0)},
+    "K": {"K": (1.0, 0.0), "degC": (1.0, 273.15), "degF": (5.0 / 9.0, 459.67 * 5.0 / 9.0)},
+    "W": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
+    "J": {"J": (1.0, 0.0), "kJ": (1e3, 0.0), "MJ": (1e6, 0.0)},
+    "J/m2": {"J/m2": (1.0, 0.0), "kJ/m2": (1e3, 0.0), "MJ/m2": (1e6, 0.0), "J/mm2": (1e6, 0.0)},
+    "W/m2": {"W/m2": (1.0, 0.0), "kW/m2": (1e3, 0.0), "MW/m2": (1e6, 0.0)},
+    "kg.m2": {"kg.m2": (1.0, 0.0), "g.m2": (1e-3, 0.0)},
+    "1/m2": {"1/m2": (1.0, 0.0), "1/mm2": (1e6, 0.0)},
+    "m2": {"m2": (1.0, 0.0), "mm2": (1e-6, 0.0), "um2": (1e-12, 0.0)},
+    "m2/s": {"m2/s": (1.0, 0.0), "mm2/s": (1e-6, 0.0), "cSt": (1e-6, 0.0)},
+}  # fmt: skip
+
+# The unit a person reads, tried in this order: the first whose number is at least 1.
+_DISPLAY: dict[str, tuple[str, ...]] = {
+    "m": ("m", "mm", "um"),
+    "N": ("kN", "N"),
+    "Pa": ("GPa", "MPa", "kPa", "Pa"),
+    "Pa.s": ("Pa.s", "mPa.s"),
+    "rad": ("rad", "mrad"),
+    "s": ("s", "ms", "us"),
+    "W": ("kW", "W"),
+    "J": ("kJ", "J"),
+    "J/m2": ("MJ/m2", "kJ/m2", "J/m2"),
+}
+_PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
+
+
+def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool = False) -> float:
+    """Return ``value`` as a finite number in the SI unit ``unit``.
+
+    Parameters
+    ----------
+    value : str or float
+        "24 degC", "3000 rpm", "0.1 deg"; a bare number, or a text without unit, is SI.
+    unit : str
+        SI unit of the argument, e.g. "rad/s"; the unit in ``value`` must measure the same thing.
+    name : str
+        Name of the argument, for the message.
+    difference : bool
+        True for a difference of temperatures: 10 degC is then 10 K.
+
+    Raises
+    ------
+    ParameterError
+        One line with the argument, the text and the units allowed.
+
+    Examples
+    --------
+    >>> parse_quantity("24 degC", "K", "oil_temperature")
+    297.15
+    >>> parse_quantity("1.2 kN", "N", "load")
+    1200.0
+    """
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
+    if not isinstance(value, str):
+        number, written = float(value), ""
+    else:
+        match = _NUMBER.fullmatch(value)
+        if match is None:
+            raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
+        number, written = float(match[1]), _plain(match[2])
+    if written in ("", _plain(unit)):
+        factor, offset = 1.0, 0.0
+    else:
+        known = {_plain(text): pair for text, pair in UNITS.get(unit, {}).items()}
+        if written not in known:
+            raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
+        factor, offset = known[written]
+    si = factor * number + (0.0 if difference else offset)
+    if not math.isfinite(si):
+        raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
+    return si
+
+
+def format_quantity(value: float, unit: str, *, difference: bool = False, digits: int = 4) -> str:
+    """Return ``value`` [SI ``unit``] as a person would write it, with its display unit.
+
+    Examples
+    --------
+    >>> format_quantity(297.15, "K")
+    '24 °C'
+    >>> format_quantity(1.12e-5, "m")
+    '11.2 µm'
+    """
+    if unit == "K" and not difference:
+        return f"{_rounded(value - 273.15, digits)} {_PRETTY['degC']}"
+    shown = _readable(value, unit, _DISPLAY.get(unit, (unit,)))
+    factor = UNITS[unit][shown][0] if shown in UNITS.get(unit, {}) else 1.0
+    number = value / factor
+    text = _rounded(number, digits)
+    return text if shown == "1" else f"{text} {_pretty(shown)}"
+
+
+def _readable(value: float, unit: str, choices: tuple[str, ...]) -> str:
+    """Return the first display unit in which the number is at least 1, or the last."""
+    if value == 0.0 or not math.isfinite(value):
+        return unit
+    for shown in choices:
+        if abs(value) >= 0.9995 * UNITS.get(unit, {}).get(shown, (1.0, 0.0))[0]:
+            return shown
+    return choices[-1]
+
+
+def _rounded(number: float, digits: int) -> str:
+    """Return significant digits without an exponent where that stays readable."""
+    if number == 0.0 or not math.isfinite(number):
+        return f"{number:g}"
+    places = digits - 1 - math.floor(math.log10(abs(number)))
+    if 10.0 ** (digits + 2) > abs(number) >= 1e-4:
+        text = f"{number:.{max(0, places)}f}"
+        return text.rstrip("0").rstrip(".") if "." in text else text
+    return f"{number:.{digits - 1}e}"
+
+
+def _plain(unit: str) -> str:
+    """Return one spelling for °C and degC, N·m and N m, m² and m^2, µm and um."""
+    text = unit.strip().replace("°", "deg").replace("·", ".").replace("*", ".").replace("^", "")
+    text = text.replace("²", "2").replace("³", "3").replace("µ", "u").replace("μ", "u")
+    return re.sub(r"\s+", ".", text)
+
+
+def _pretty(unit: str) -> str:
+    """Return the unit in typography, e.g. N·m, MJ/m²."""
+    text = _PRETTY.get(unit, unit)
+    return text.replace(".", "·").replace("m2", "m²").replace("m3", "m³")
+
+
+def _wanted(unit: str) -> str:
+    """Say which units are allowed."""
+    others = [text for text in UNITS.get(unit, {}) if text not in (unit, "1")]
+    if unit == "1":
+        return "a finite number, or one in %"
+    also = f", or one in {', '.join(others)}" if others else ""
+    return f"a finite number in {unit}{also}"

@@ -1,0 +1,131 @@
+"""Parameters, inputs and outputs of the wet clutch: the one list all interfaces come from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..errors import ParameterError
+from ._params import check_ranges, choice, count, flag, quantity
+from ._spec import ModelSpec, Signal, Terminal
+
+FRICTION_LAWS = {
+    "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",
+    "constant": "the constant coefficient constant_friction",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClutchParams:
+    """A pack of wet friction plates: geometry, lining, friction law, oil and steel.
+
+    The friction law is that of Wang, Wei & Wu (2012); its speed law was lost with the paper's
+    figures and is fitted to the prose. Lining data: Shock and Vibration 2021, 5522998. Faces, oil
+    cooling and speed smoothing are chosen here.
+    """
+
+    inner_radius: float = quantity(0.064, "m", 1e-3, 1.0, "inner radius of the friction faces")
+    outer_radius: float = quantity(0.085, "m", 2e-3, 2.0, "outer radius of the friction faces")
+    faces: int = count(8, 1, 100, "number of friction faces in the pack")
+    effective_radius: float = quantity(
+        0.0, "m", 0.0, 10.0, "radius the friction acts at (0: from the face's radii)"
+    )
+    friction_law: str = choice("wang", FRICTION_LAWS, "ClutchFrictionLaw", "law of dry friction")
+    constant_friction: float = quantity(0.12, "1", 0.0, 2.0, "coefficient of the constant law")
+    indentation: float = quantity(0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R")
+    plough_weight: float = quantity(0.085275, "1", 0.0, 1.0, "weight of the ploughing share")
+    hardness_ratio: float = quantity(6.0, "1", 1.0, 20.0, "hardness over shear strength of lining")
+    shear_floor: float = quantity(0.30, "1", 0.0, 1.0, "shear ratio s/s_m at very high slip speed")
+    stick_speed: float = quantity(1.185, "m/s", 0.0, 50.0, "slip speed below which s/s_m is 1")
+    decay_speed: float = quantity(2.872, "m/s", 1e-3, 100.0, "decay of s/s_m above stick_speed")
+    kink_width: float = quantity(
+        0.0, "m/s", 0.0, 1.0, "rounds the kink at stick_speed (0: sharp, as the law says)"
+    )
+    roughness: float = quantity(8.41e-6, "m", 1e-8, 1e-4, "combined RMS roughness of lining, steel")
+    contact_modulus: float = quantity(2.7e7, "Pa", 1e5, 1e11, "contact modulus of the lining")
+    asperity_density: float = quantity(7e7, "1/m2", 1e5, 1e12, "lining's asperities per area")
+    asperity_radius: float = quantity(8e-4, "m", 1e-7, 1e-2, "radius of the lining's asperities")
+    lining_thickness: float = quantity(
+        1e-3, "m", 0.0, 0.02, "thickness of the permeable lining (moving film only)"
+    )
+    permeability: float = quantity(
+        4e-12, "m2", 0.0, 1e-9, "permeability of the lining (moving film only)"
+    )
+    groove_factor: float = quantity(
+        1.0, "1", 0.01, 1.0, "share of squeeze resistance the grooves leave (moving film only)"
+    )
+    initial_film: float = quantity(8.8e-5, "m", 1e-6, 1e-2, "film thickness of the open pack")
+    film_dynamics: bool = flag(True, "film takes time to squeeze out (rungs with a moving film)")
+    viscosity_constant: float = quantity(3.545, "1", 1.0, 6.0, "G_o of the Roelands law")
+    viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
+    viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 1e-2, "scale of the Roelands law")
+    steel_thickness: float = quantity(2e-3, "m", 1e-4, 0.1, "thickness of a steel plate")
+    steel_density: float = quantity(7850.0, "kg/m3", 500.0, 2e4, "density of the steel plates")
+    steel_heat_capacity: float = quantity(475.0, "J/(kg.K)", 50.0, 5e3, "heat capacity of steel")
+    heat_transfer: float = quantity(1000.0, "W/(m2.K)", 0.0, 1e5, "cooling of a face by the oil")
+    speed_smoothing: float = quantity(
+        0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
+    )
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
+        if self.inner_radius >= self.outer_radius:
+            raise ParameterError(
+                f"inner_radius = {self.inner_radius!r} m, allowed: below outer_radius "
+                f"({self.outer_radius!r} m)"
+            )
+
+
+LOAD = Signal(name="load", unit="N", help="axial force that presses the pack together",
+              low=0.0, high=1e6, nominal=5000.0, start=0.0)  # fmt: skip
+SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two sides of the pack",
+               low=-5000.0, high=5000.0, nominal=100.0, start=0.0)  # fmt: skip
+OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
+             low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
+_POINT = ("load", "speed")
+_ALL = ("load", "speed", "oil_temperature")
+
+SPEC = ModelSpec(
+    key="clutch",
+    name="WetClutch",
+    help="Wet multi-plate clutch or brake: friction torque, torque capacity, interface temperature",
+    params=ClutchParams,
+    fidelities={
+        "closed": "constant coefficient of friction",
+        "stribeck": "boundary friction over slip speed, the film always settled",
+    },
+    default_fidelity="stribeck",
+    inputs=(LOAD, SPEED, OIL),
+    outputs=(
+        Signal(name="friction_torque", unit="N.m", nominal=100.0, depends=_POINT,
+               help="friction torque of the pack, sign of the slip, smooth through zero"),
+        Signal(name="temperature", unit="K", nominal=300.0, depends=("oil_temperature",),
+               help="interface temperature of the steel plates"),
+        Signal(name="film_thickness", unit="m", nominal=1e-5, depends=("load",),
+               help="separation of the mean surfaces of lining and steel"),
+        Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_POINT, low=0.0,
+               help="largest torque the pack can hold at this load and slip"),
+        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=_POINT,
+               help="coefficient of friction of the contacting faces"),
+        Signal(name="film_ratio", unit="1", nominal=1.0, depends=("load",),
+               help="film thickness over the combined RMS roughness"),
+        Signal(name="friction_power", unit="W", nominal=1e4, depends=_POINT,
+               help="heat made by friction, torque times slip"),
+        Signal(name="energy", unit="J", nominal=1e4, low=0.0,
+               help="heat made by friction since the start"),
+        Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_POINT,
+               help="lubrication regime of the friction faces"),
+        Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
+               depends=_ALL, help="how the last solution was obtained"),
+    ),
+    kernel="clutch_step",
+    terminals=(
+        Terminal(name="shaft", kind="thrustwasher.ClutchFlange",
+                 help="Slip speed and load in, friction torque out",
+                 members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
+                          ("load", "load", "signal"), ("torque_capacity", "capacity", "signal"))),
+        Terminal(name="oil", kind="thrustwasher.HeatPort",
+                 help="Oil temperature in, friction power out",
+                 members=(("oil_temperature", "T", "signal"),
+                          ("friction_power", "Q_flow", "outflow"))),
+    ),
+)  # fmt: skip

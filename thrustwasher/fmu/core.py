@@ -1,0 +1,243 @@
+"""One running model: arrays, checks, lazy outputs, steps; knows no protocol and no FMU."""
+
+from collections.abc import Sequence
+from dataclasses import fields
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+
+from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
+from ..models._spec import ModelSpec
+from .interface import Variable, enumerations, variables
+from .registry import content_digest, load_kernel
+from .snapshot import Snapshot
+
+
+class Mode(IntEnum):
+    """Where an instance is in its life."""
+
+    INSTANTIATED = 0
+    INITIALIZING = 1
+    STEPPING = 2
+    TERMINATED = 3
+
+
+class Core:
+    """Memory and life of one instance.
+
+    Outputs are lazy: a value that changes marks them; the next reading solves once with ``dt = 0``,
+    which leaves ``state`` alone, so that readings never change what follows. A step either succeeds
+    or leaves everything as it was, except the status that tells why.
+    """
+
+    def __init__(self, spec: ModelSpec) -> None:
+        kernel = load_kernel(spec.kernel)
+        self.spec, self._derive, self._step = spec, kernel.derive, kernel.step
+        self._n_param = kernel.n_param
+        self.variables = variables(spec)
+        self.par, self.inp = np.zeros(kernel.n_par), np.zeros(kernel.n_inp)
+        self.state, self.work = np.zeros(kernel.n_state), np.zeros(kernel.n_work)
+        self.out, self.iout = np.zeros(kernel.n_out), np.zeros(kernel.n_iout, np.int32)
+        self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
+        self._zeros = np.zeros(kernel.n_out)
+        self._arrays: dict[str, Any] = {
+            "par": self.par, "inp": self.inp, "out": self.out, "iout": self.iout,
+        }  # fmt: skip
+        self.status_slot = next((v.slot for v in self.variables if v.type_name == "SolverStatus"
+                                 and v.store == "iout"), None)  # fmt: skip
+        self.time, self.mode = 0.0, Mode.INSTANTIATED
+        self.dirty, self.prepared = True, False
+        self.latch = 0  # the failure to be seen in solver_status until something changes
+        self.refused: dict[int, str] = {}  # variables whose last value was not taken over
+        for v in self.variables:
+            if v.start is not None:
+                self._arrays[v.store][v.slot] = v.start
+
+    # Values
+
+    def set(self, references: Sequence[int], values: Sequence[float], kind: str) -> None:
+        """Take over all values or, if one is not allowed, none (ParameterError)."""
+        taken = []
+        found = [self._find(reference, kind) for reference in references]
+        for v, value in zip(found, values, strict=True):
+            problem = self._problem(v, value)
+            if problem:
+                self.latch = Status.BAD_INPUT
+                self._refuse(references, problem)
+                raise ParameterError(problem)
+            taken.append((v, value))
+        for v, value in taken:
+            array = self._arrays[v.store]
+            if array.item(v.slot) != value:
+                array[v.slot] = value
+                self.dirty, self.latch = True, 0
+                self.prepared = self.prepared and v.store != "par"
+            if self.refused and self.refused.pop(v.reference, "") and not self.refused:
+                self.latch = 0
+
+    def _refuse(self, references: Sequence[int], problem: str) -> None:
+        """Remember that the values of this call are missing: no step until they are set."""
+        for reference in references:
+            causality = self.variables[reference].causality
+            if causality == "input" or (causality == "parameter" and self.mode < Mode.STEPPING):
+                self.refused[reference] = problem
+
+    def get(self, references: Sequence[int], kind: str) -> list[float]:
+        """Return present values; outputs that are out of date are solved first."""
+        found = [self._find(reference, kind) for reference in references]
+        if self.dirty and any(v.causality == "output" for v in found):
+            if not (self.latch and all(v.type_name == "SolverStatus" for v in found)):
+                self.refresh()
+        return [self._value(v) for v in found]
+
+    def stored(self, references: Sequence[int]) -> list[float]:
+        """Return what is stored, solving nothing; 0 for an unknown reference."""
+        known = range(len(self.variables))
+        return [self._value(self.variables[r]) if r in known else 0.0 for r in references]
+
+    def _value(self, v: Variable) -> float:
+        if v.store == "time":
+            return self.time
+        if self.latch and v.store == "iout" and v.slot == self.status_slot:
+            return self.latch
+        value: float = self._arrays[v.store].item(v.slot)
+        return value
+
+    def _find(self, reference: int, kind: str) -> Variable:
+        if not 0 <= reference < len(self.variables):
+            raise ParameterError(f"value reference {reference} is unknown in {self.spec.name}")
+        v = self.variables[reference]
+        if v.type != kind and not (v.type == "Enumeration" and kind == "Integer"):
+            raise ParameterError(f"{v.name} is of type {v.type}, not {kind}")
+        return v
+
+    def _problem(self, v: Variable, value: float) -> str:
+        """Say why a value cannot be taken over; empty if it can."""
+        if v.causality not in ("input", "parameter"):
+            return f"{v.name} is an {v.causality} variable; it cannot be set"
+        if v.causality == "parameter" and self.mode >= Mode.STEPPING:
+            return f"{v.name} is a fixed parameter; it can be set before the initialization ends"
+        low, high = v.bounds
+        if low <= value <= high:  # False for NaN
+            return ""
+        unit = "" if v.unit == "1" else f" {v.unit}"
+        allowed = f"{low:g} .. {high:g}{unit}"
+        if v.type_name:
+            allowed = ", ".join(f"{i.value} ({i.name})"
+                                for i in enumerations(self.spec)[v.type_name])  # fmt: skip
+        text = f"{v.name} = {value:g}{unit} is outside {allowed}; the value is not taken over."
+        if v.unit == "K" and not v.relative and low <= value + 273.15 <= high:
+            text += f" Did you mean {value + 273.15:g} K ({value:g} degC)?"
+        if value == 0.0:
+            text += " An input that is not connected reads 0."
+        return text
+
+    # Life
+
+    def prepare(self) -> None:
+        """Check the rules between parameters and compute the derived constants."""
+        if self.prepared:
+            return
+        failed, self.latch = self.latch, Status.BAD_INPUT
+        self.spec.params(**self._named_parameters())  # raises ParameterError naming the rule
+        rc = self._derive(self.par)
+        if rc >= FIRST_FAILURE:
+            raise ParameterError(f"the parameters cannot be used: {Status(rc).advice}")
+        self.prepared, self.latch = True, failed
+
+    def _named_parameters(self) -> dict[str, Any]:
+        named: dict[str, Any] = {}
+        for f, value in zip(fields(self.spec.params), self.par.tolist(), strict=False):
+            kind = f.metadata["kind"]
+            if kind == "enumeration":
+                value = list(f.metadata["options"])[int(value) - 1]
+            elif kind != "real":
+                value = bool(value) if kind == "boolean" else int(value)
+            named[f.name] = value
+        return named
+
+    def refresh(self) -> None:
+        """Bring the outputs up to date, at most once per change; a failure is latched."""
+        if not self.dirty:
+            return
+        self.dirty = False  # also after a failure: the same inputs would fail again
+        self.prepare()
+        rc = self._solve(0.0)
+        if rc:
+            self.latch = rc
+            raise SolveError(self._story(rc, f"t = {self.time:g} s"))
+
+    def advance(self, t: float, h: float) -> None:
+        """Step from ``t`` to ``t + h``, or raise SolveError and leave everything as it was."""
+        if self.mode != Mode.STEPPING:
+            raise ParameterError(
+                f"a step is not allowed while {self.mode.name.lower()}; initialize first"
+            )
+        if not (0.0 < h < np.inf and -np.inf < t < np.inf):
+            self.latch = Status.BAD_INPUT
+            raise ParameterError(f"step from t = {t!r} s by {h!r} s, allowed: finite, step > 0")
+        if self.refused:
+            self.latch = Status.BAD_INPUT
+            raise SolveError(f"no step at t = {t:g} s: {next(iter(self.refused.values()))}")
+        if not self.prepared:
+            self.prepare()
+        before, self.time = self.time, t
+        rc = self._solve(h)
+        if rc:
+            self.time, self.latch = before, rc
+            raise SolveError(self._story(rc, f"t = {t:g} s, step {h:g} s"))
+        self.time, self.dirty, self.latch = t + h, False, 0
+
+    def _solve(self, h: float) -> int:
+        """Call the kernel; after a failure ``state`` and the outputs are what they were."""
+        state, out, iout = self._undo
+        state[:], out[:], iout[:] = self.state, self.out, self.iout
+        rc = self._step(
+            self.par, self.inp, self.state, self.work, self.out, self.iout, self.time, h
+        )
+        if rc < FIRST_FAILURE and self.out.dot(self._zeros) != 0.0:  # NaN if any is not finite
+            rc = Status.NOT_FINITE
+        if rc < FIRST_FAILURE:
+            return 0
+        self.state[:], self.out[:], self.iout[:] = state, out, iout
+        return int(rc)
+
+    def _story(self, rc: int, where: str) -> str:
+        values = zip(self.spec.inputs, self.inp.tolist(), strict=True)
+        point = ", ".join(f"{s.name} = {x:g} {s.unit}".removesuffix(" 1") for s, x in values)
+        return f"{self.spec.name} at {where}, {point}: {Status(rc).name}: {Status(rc).advice}"
+
+    @property
+    def status(self) -> Status:
+        """How the last solution was obtained."""
+        solved = 0 if self.status_slot is None else self.iout.item(self.status_slot)
+        return Status(self.latch or solved)
+
+    # State
+
+    def snapshot(self) -> Snapshot:
+        """Copy all that decides what comes next."""
+        return Snapshot(
+            identity=content_digest(self.spec), par=self.par.copy(), inp=self.inp.copy(),
+            state=self.state.copy(), out=self.out.copy(), iout=self.iout.copy(), time=self.time,
+            mode=int(self.mode), dirty=self.dirty, prepared=self.prepared, latch=int(self.latch),
+        )  # fmt: skip
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go back to a snapshot of this model and version, or raise ParameterError."""
+        names = ("par", "inp", "state", "out", "iout")
+        mine = content_digest(self.spec)
+        if snapshot.identity != mine or any(
+            getattr(snapshot, n).shape != getattr(self, n).shape for n in names
+        ):
+            raise ParameterError(
+                f"FMU state of another model or version ({snapshot.identity}), "
+                f"allowed: {self.spec.name} {mine}"
+            )
+        for name in names:
+            getattr(self, name)[:] = getattr(snapshot, name)
+        self.time, self.mode = snapshot.time, Mode(snapshot.mode)
+        self.dirty, self.prepared = snapshot.dirty, snapshot.prepared
+        self.latch = snapshot.latch
+        self.refused.clear()

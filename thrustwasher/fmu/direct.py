@@ -1,0 +1,130 @@
+"""The kernels of a model stepped in this process: the same face as an FMU instance, without FMU."""
+
+import difflib
+from collections.abc import Mapping, Sequence
+from time import perf_counter
+from typing import Any, Self
+
+from ..errors import ParameterError
+from ..models._spec import ModelSpec
+from .core import Core, Mode
+from .interface import enumerations, variables
+from .snapshot import from_bytes
+
+
+class DirectInstance:
+    """The kernels of a model in this process, without an FMU."""
+
+    def __init__(self, spec: ModelSpec, *, parameters: Mapping[str, Any] | None = None) -> None:
+        start = perf_counter()
+        self.spec = spec
+        found = variables(spec)
+        self._inputs = [v.reference for v in found if v.causality == "input"]
+        self.input_names = [s.name for s in spec.inputs]
+        self.output_names = [s.name for s in spec.outputs]
+        self._outputs = [v for v in found if v.causality == "output"]
+        self._parameters = dict(parameters or {})
+        self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
+        self.reset()
+        self.instantiate_time = perf_counter() - start
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def reset(self) -> None:
+        """Go back to the start values and the parameters given at construction."""
+        self.core = Core(self.spec)
+        named = {v.name: v for v in self.core.variables if v.causality == "parameter"}
+        items = enumerations(self.spec)
+        for name, value in self._parameters.items():
+            v = named.get(name) or unknown(name, list(named))
+            numbers = {i.name: i.value for i in items.get(v.type_name or "", ())}
+            self.core.set([v.reference], [number(name, value, numbers)], v.type)
+
+    def initialize(
+        self, start_time: float = 0.0, inputs: Mapping[str, float] | None = None
+    ) -> None:
+        """Set the inputs at the start and solve there."""
+        start = perf_counter()
+        self.core.time, self.core.mode = start_time, Mode.INITIALIZING
+        for name, value in (inputs or {}).items():
+            if name not in self.input_names:
+                unknown(name, self.input_names)
+            self.core.set([self._inputs[self.input_names.index(name)]], [float(value)], "Real")
+        self.core.prepare()
+        self.core.mode = Mode.STEPPING
+        self.core.refresh()
+        self.initialize_time = perf_counter() - start
+
+    def set_inputs(self, values: Sequence[float]) -> None:
+        """Set all inputs."""
+        start = perf_counter()
+        self.core.set(self._inputs, values, "Real")
+        self.wall_time += perf_counter() - start
+
+    def step(self, t: float, h: float) -> None:
+        """Advance from ``t`` to ``t + h``; SolveError if there is no solution."""
+        start = perf_counter()
+        self.calls += 1
+        try:
+            self.core.advance(t, h)
+        finally:
+            self.wall_time += perf_counter() - start
+
+    def outputs(self) -> list[float]:
+        """Return all outputs."""
+        start = perf_counter()
+        self.core.refresh()
+        values = [float(self.core.stored([v.reference])[0]) for v in self._outputs]
+        self.wall_time += perf_counter() - start
+        return values
+
+    def get(self, names: Sequence[str]) -> list[float]:
+        """Return variables by name."""
+        known = {v.name: v for v in self.core.variables}
+        found = [known.get(name) or unknown(name, list(known)) for name in names]
+        if any(v.causality == "output" for v in found):
+            self.core.refresh()
+        return [float(x) for x in self.core.stored([v.reference for v in found])]
+
+    def get_state(self) -> Any:
+        """Return the complete state."""
+        return self.core.snapshot()
+
+    def set_state(self, state: Any) -> None:
+        """Go back to a state."""
+        self.core.restore(state)
+
+    def free_state(self, state: Any) -> None:
+        """Do nothing: the state is an ordinary object."""
+
+    def serialize(self, state: Any) -> bytes:
+        """Return a state as bytes."""
+        data: bytes = state.to_bytes()
+        return data
+
+    def deserialize(self, data: bytes) -> Any:
+        """Return the state in bytes of ``serialize``."""
+        return from_bytes(data)
+
+    def close(self) -> None:
+        """Do nothing: the memory goes with the object."""
+
+
+def unknown(name: str, known: list[str]) -> Any:
+    """Raise ParameterError for a name that is not among the known ones."""
+    near = difflib.get_close_matches(name, known, 1)
+    hint = f"; did you mean {near[0]}?" if near else f", allowed: {', '.join(known)}"
+    raise ParameterError(f"there is no variable {name!r} here{hint}")
+
+
+def number(name: str, value: Any, items: Mapping[str, int]) -> float:
+    """Return a value as a number; an enumeration may be given by the name of its item."""
+    if isinstance(value, str):
+        if value not in items:
+            raise ParameterError(f"{name} = {value!r}, allowed: {', '.join(items) or 'a number'}")
+        return items[value]
+    return float(value)

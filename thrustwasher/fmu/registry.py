@@ -1,0 +1,99 @@
+"""Which models there are, their kernels, and the digest that ties an FMU to this package."""
+
+import hashlib
+import importlib
+import importlib.util
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from ..kernels._jit import kernel_digest
+from ..models._spec import ModelSpec
+
+MODELS = {
+    "washer": "thrustwasher.models.washer_params:SPEC",
+    "clutch": "thrustwasher.models.clutch_params:SPEC",
+    "transmission": "thrustwasher.models.transmission_params:SPEC",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Kernel:
+    """The compiled entries of a model and the lengths of their arrays."""
+
+    derive: Callable[[Any], int]
+    step: Callable[..., int]
+    n_param: int
+    n_par: int
+    n_inp: int
+    n_state: int
+    n_work: int
+    n_out: int
+    n_iout: int
+
+
+def find_spec(model: str) -> ModelSpec:
+    """Return a model by key ("washer"), by FMU name ("ThrustWasher") or by "module:NAME"."""
+    if model in MODELS or ":" in model:
+        return _load(MODELS.get(model, model))
+    specs = all_specs()
+    for spec in specs:
+        if spec.name == model:
+            return spec
+    raise ParameterError(f"model = {model!r}, allowed: {', '.join(spec.name for spec in specs)}")
+
+
+def all_specs() -> list[ModelSpec]:
+    """Return the models of this version, in the order they are built."""
+    return [_load(place) for place in MODELS.values()]
+
+
+@cache
+def _load(place: str) -> ModelSpec:
+    module, _, name = place.partition(":")
+    spec: ModelSpec = getattr(importlib.import_module(module), name)
+    return spec
+
+
+@cache
+def load_kernel(name: str) -> Kernel:
+    """Import a kernel module: a name below ``thrustwasher.kernels``, or a dotted name."""
+    k = importlib.import_module(_module(name))
+    sizes = (k.N_PARAM, k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT, k.NIOUT)
+    return Kernel(k.derive, k.step, *sizes)
+
+
+def _module(kernel: str) -> str:
+    return kernel if "." in kernel else f"thrustwasher.kernels.{kernel}"
+
+
+@cache
+def package_version() -> str:
+    """Return the version of thrustwasher, also in a source tree that is not installed."""
+    try:
+        return metadata.version("thrustwasher")
+    except metadata.PackageNotFoundError:
+        project = Path(__file__).parents[2] / "pyproject.toml"
+        lines = project.read_text("utf-8").splitlines() if project.is_file() else []
+        numbers = [line.split('"')[1] for line in lines if line.startswith("version = ")]
+        return numbers[0] if numbers else "0"
+
+
+def content_digest(spec: ModelSpec) -> str:
+    """Return 16 hex digits over everything that decides the numbers: kernels, maps, parameters."""
+    return _content_digest(_module(spec.kernel), spec.params.__module__)
+
+
+@cache
+def _content_digest(kernel: str, params: str) -> str:
+    found = [importlib.util.find_spec(name) for name in (kernel, params)]
+    files = [Path(s.origin) for s in found if s and s.origin]
+    files += sorted(p for p in (Path(__file__).parents[1] / "data").rglob("*") if p.is_file())
+    hashed = hashlib.sha256(f"{package_version()} {kernel_digest()}".encode())
+    for file in files:
+        hashed.update(file.name.encode() + file.read_bytes())
+    return hashed.hexdigest()[:16]

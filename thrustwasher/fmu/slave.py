@@ -1,0 +1,208 @@
+"""The slave of every Python FMU: the protocol of pythonfmu 0.7.0 around ``Core``.
+
+What shapes it: an exception that leaves a callback makes pythonfmu drop references twice, and the
+second one on an instance ends the process. Therefore no callback ever raises, not even for Ctrl-C.
+A callback other than ``do_step`` cannot report failure at all; so a failure is logged, latched in
+``solver_status``, and the next step is refused until it is cured. ``__init__`` may raise: the
+instantiation then returns NULL.
+"""
+
+import sys
+import traceback
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from ..errors import EnvironmentProblem, ParameterError, SolveError, Status
+from .core import Core, Mode
+from .registry import content_digest, find_spec, package_version
+from .snapshot import Snapshot, from_bytes
+from .xml import LOG_CATEGORIES, description
+
+
+def _safe(callback: Callable[..., Any]) -> Callable[..., Any]:
+    """Catch everything; return what the callback returns, or False after a failure."""
+
+    @wraps(callback)
+    def guarded(self: "Slave", *args: Any) -> Any:
+        try:
+            return callback(self, *args)
+        except BaseException as problem:
+            self.report(problem)
+            return False
+
+    return guarded
+
+
+class Slave(Fmi2Slave):  # type: ignore[misc]
+    """Base class; a model's slave file names the model and what it was built with."""
+
+    model = ""
+    version = digest = guid = ""
+    log_categories = LOG_CATEGORIES
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        _forget_repeated_path(self.resources)
+        spec = find_spec(self.model)
+        if type(self).digest != content_digest(spec):
+            raise EnvironmentProblem(
+                f"{spec.name}: this FMU was built with thrustwasher {type(self).version} "
+                f"(content {type(self).digest}), this Python has {package_version()} (content "
+                f"{content_digest(spec)}): pip install thrustwasher=={type(self).version}, or "
+                "build the FMU again"
+            )
+        self.core = Core(spec)
+        self.warned = 0
+
+    # Life
+
+    @_safe
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """Keep the start time."""
+        self.core.time = float(start_time)
+
+    @_safe
+    def enter_initialization_mode(self) -> None:
+        """From here on outputs can be read."""
+        self.core.mode = Mode.INITIALIZING
+
+    @_safe
+    def exit_initialization_mode(self) -> None:
+        """Check the rules between parameters and solve the start point."""
+        self.core.mode = Mode.STEPPING
+        self.core.prepare()
+        self.core.refresh()
+        self._warn()
+
+    @_safe
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance; False (fmi2Discard) after a failure, with everything as it was."""
+        expected = self.core.time
+        if abs(current_time - expected) > 1e-6 * step_size:
+            self.tell(f"step from t = {current_time:g} s, but the last one ended at "
+                      f"{expected:g} s; the host's time counts", Fmi2Status.warning)  # fmt: skip
+        self.core.advance(current_time, step_size)
+        self._warn()
+        return True
+
+    @_safe
+    def terminate(self) -> None:
+        """Values can still be read."""
+        self.core.mode = Mode.TERMINATED
+
+    # Values
+
+    @_safe
+    def set_real(self, vrs: list[int], values: list[float]) -> None:
+        """Take over all values or none."""
+        self.core.set(vrs, values, "Real")
+
+    @_safe
+    def set_integer(self, vrs: list[int], values: list[int]) -> None:
+        """Take over all values or none; enumerations are integers here."""
+        self.core.set(vrs, values, "Integer")
+
+    @_safe
+    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
+        """Take over all values or none."""
+        self.core.set(vrs, values, "Boolean")
+
+    @_safe
+    def set_string(self, vrs: list[int], values: list[str]) -> None:
+        """Refuse: there are no texts."""
+        self.core.set(vrs, [0.0] * len(vrs), "String")
+
+    def get_real(self, vrs: list[int]) -> list[float]:
+        """Return real values, solving first where needed."""
+        return self._read(vrs, "Real")
+
+    def get_integer(self, vrs: list[int]) -> list[int]:
+        """Return integers and enumerations."""
+        return [int(value) for value in self._read(vrs, "Integer")]
+
+    def get_boolean(self, vrs: list[int]) -> list[bool]:
+        """Return Booleans."""
+        return [bool(value) for value in self._read(vrs, "Boolean")]
+
+    def get_string(self, vrs: list[int]) -> list[str]:
+        """Refuse: there are no texts."""
+        self._read(vrs, "String")
+        return [""] * len(vrs)
+
+    def _read(self, vrs: list[int], kind: str) -> list[float]:
+        """Return values; after a failure, reported, the last good ones."""
+        try:
+            return self.core.get(vrs, kind)
+        except BaseException as problem:
+            self.report(problem)
+            return self.core.stored(vrs)
+
+    # State
+
+    def _get_fmu_state(self) -> Snapshot | None:
+        try:
+            return self.core.snapshot()
+        except BaseException as problem:  # out of memory
+            self.report(problem)
+            return None
+
+    @_safe
+    def _set_fmu_state(self, state: Snapshot | str | None) -> None:
+        if not isinstance(state, Snapshot):
+            raise ParameterError(state or "FMU state = none, allowed: one that was got before")
+        self.core.restore(state)
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: Snapshot | str | None) -> bytes:
+        return state.to_bytes() if isinstance(state, Snapshot) else b""
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> Snapshot | str:
+        """Return the state, or the reason why it is none, for ``_set_fmu_state`` to refuse."""
+        try:
+            return from_bytes(state)
+        except BaseException as problem:
+            return str(problem)
+
+    # Messages
+
+    def tell(self, text: str, status: Any, category: str | None = None) -> None:
+        """Queue a message; FMI gives # and % in texts a meaning, so they are not used."""
+        self.log(text.replace("#", "no. ").replace("%", " percent"), status, category)
+
+    def report(self, problem: BaseException) -> None:
+        """Log a failure in one sentence; a defect also with its traceback."""
+        self.tell(str(problem) or type(problem).__name__, Fmi2Status.error, "logStatusError")
+        if not isinstance(problem, ParameterError | SolveError):
+            core = getattr(self, "core", None)
+            if core is not None:
+                core.latch = Status.NOT_FINITE
+            story = "".join(traceback.format_exception(problem))
+            self.tell(story, Fmi2Status.ok, "logAll")
+        elif isinstance(problem, ParameterError):
+            self.core.latch = Status.BAD_INPUT
+
+    def _warn(self) -> None:
+        """Warn once when the solution begins to need care."""
+        status = self.core.status
+        if status != self.warned and status != Status.OK:
+            self.tell(f"{self.core.spec.name} at t = {self.core.time:g} s: {status.name}: "
+                      f"{status.advice}", Fmi2Status.warning, "logStatusWarning")  # fmt: skip
+        self.warned = status
+
+    def to_xml(self, model_options: Any = None) -> Any:
+        """Return the description from the model's list of variables."""
+        return description(self.core.spec, guid=type(self).guid)
+
+
+def _forget_repeated_path(folder: str | None) -> None:
+    """Keep one entry of the FMU's folder in sys.path: pythonfmu adds one per instantiation."""
+    if folder in sys.path:
+        first = sys.path.index(folder)
+        sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != folder]

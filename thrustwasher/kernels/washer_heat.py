@@ -1,0 +1,245 @@
+"""Heat balance of carrier, washer and gear: residual, matrix, slopes over the positions.
+
+Finite volumes in the plane, conduction across by resistances. Sources and conduction across use
+the same weights as force and torque, so that friction power in is heat out to rounding.
+
+Source: Jackson & Green Eq 19-29; R1 = h_T/K_oil + t_w/(2 K), likewise R2.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._jit import kernel
+from .banded import cholesky, cholesky_solve, lu, lu_solve
+from .washer_fields import Fields, Point
+from .washer_gap import DCONTACT, FRICTION
+from .washer_model import WasherModel
+
+
+@kernel
+def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields) -> float:
+    """Fill ``f.heat`` [W], heat leaving each node less heat made; return the heat made [W]."""
+    n_r, n_t, i_g = m.n_r, m.n_t, m.i_g
+    m_t = 3 * n_r - i_g
+    kc = m.conductivity * m.carrier_thickness
+    kw = m.conductivity * m.washer_thickness
+    kg = m.conductivity * m.gear_thickness
+    far_c, far_g = m.conductivity / m.carrier_thickness, m.conductivity / m.gear_thickness
+    half = m.washer_thickness / (2.0 * m.conductivity)
+    omega = abs(pt.speed)
+    friction = f.small[FRICTION]
+    made = 0.0
+    for k in range(m_t * n_t):
+        f.heat[np.uintp(k)] = 0.0
+    for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        c0, n0 = j * m_t, jn * m_t
+        for i in range(n_r):
+            k = np.uintp(j * n_r + i)
+            ic, iw = np.uintp(c0 + i), np.uintp(c0 + n_r + i)
+            w1 = m.weight1[i] * m.weight_t[j]
+            v = omega * m.r[i]
+            q = m.film_heat_fraction * f.mu[k] * v * v / f.ht[k] + friction * f.pc[k] * v
+            made += w1 * q
+            across = w1 * (temp[ic] - temp[iw]) / (f.ht[k] / m.oil_conductivity + half)
+            f.heat[ic] += (
+                across + w1 * far_c * (temp[ic] - pt.oil_temperature) - m.heat_split * w1 * q
+            )
+            f.heat[iw] -= across + (1.0 - m.heat_split) * w1 * q
+            # to the next column
+            g = m.log_width[i] / m.step_t[j]
+            flow = kc * m.carrier_spread * g * (temp[ic] - temp[np.uintp(n0 + i)])
+            f.heat[ic] += flow
+            f.heat[np.uintp(n0 + i)] -= flow
+            flow = kw * m.rotating_spread * g * (temp[iw] - temp[np.uintp(n0 + n_r + i)])
+            f.heat[iw] += flow
+            f.heat[np.uintp(n0 + n_r + i)] -= flow
+            if i + 1 < n_r:  # to the next radius
+                g = m.r_face[i] * m.width_t[j] / (m.r[i + 1] - m.r[i])
+                flow = kc * g * (temp[ic] - temp[ic + np.uintp(1)])
+                f.heat[ic] += flow
+                f.heat[ic + np.uintp(1)] -= flow
+                flow = kw * g * (temp[iw] - temp[iw + np.uintp(1)])
+                f.heat[iw] += flow
+                f.heat[iw + np.uintp(1)] -= flow
+            if i >= i_g:
+                ig = np.uintp(c0 + 2 * n_r + i - i_g)
+                ign = np.uintp(n0 + 2 * n_r + i - i_g)
+                w2 = m.weight2[i] * m.weight_t[j]
+                across = w2 * (temp[iw] - temp[ig]) / (f.ht2[k] / m.oil_conductivity + half)
+                f.heat[iw] += across
+                f.heat[ig] += w2 * far_g * (temp[ig] - pt.oil_temperature) - across
+                width = np.log(m.r_face[i] / m.r[i]) if i == i_g else m.log_width[i]
+                flow = kg * m.rotating_spread * width / m.step_t[j] * (temp[ig] - temp[ign])
+                f.heat[ig] += flow
+                f.heat[ign] -= flow
+                if i + 1 < n_r:
+                    g = m.r_face[i] * m.width_t[j] / (m.r[i + 1] - m.r[i])
+                    flow = kg * g * (temp[ig] - temp[ig + np.uintp(1)])
+                    f.heat[ig] += flow
+                    f.heat[ig + np.uintp(1)] -= flow
+    return made
+
+
+@kernel
+def _place(j: int, n_t: int) -> int:
+    """Return the position of column j when the ring is folded: 0, n-1, 1, n-2, ..."""
+    return 2 * j if 2 * j <= n_t - 1 else 2 * (n_t - 1 - j) + 1
+
+
+@kernel
+def _add(
+    a: NDArray[np.float64], band: int, symmetric: bool, row: int, col: int, value: float
+) -> None:
+    """Add to one entry of the band matrix; a symmetric one keeps its lower half only."""
+    if symmetric:
+        if row >= col:
+            a[col * (band + 1) + row - col] += value
+    else:
+        a[row * (2 * band + 1) + band + col - row] += value
+
+
+@kernel
+def _link(
+    a: NDArray[np.float64], band: int, symmetric: bool, one: int, two: int, g: float
+) -> None:
+    """Add a conductance between two unknowns."""
+    _add(a, band, symmetric, one, one, g)
+    _add(a, band, symmetric, two, two, g)
+    _add(a, band, symmetric, one, two, -g)
+    _add(a, band, symmetric, two, one, -g)
+
+
+@kernel
+def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
+    """Assemble the slope of the heat residual over all temperatures in ``f.factor``; factor it.
+
+    Columns go in folded order, so that the ring is a band of two columns. The matrix is symmetric
+    (Cholesky) when the heat is split evenly, else it is factored by LU.
+    """
+    n_r, n_t, i_g = m.n_r, m.n_t, m.i_g
+    m_t = 3 * n_r - i_g
+    band = 2 * m_t
+    symmetric = m.heat_split == 0.5
+    a = f.factor
+    for k in range(a.size):
+        a[np.uintp(k)] = 0.0
+    kc = m.conductivity * m.carrier_thickness
+    kw = m.conductivity * m.washer_thickness
+    kg = m.conductivity * m.gear_thickness
+    far_c, far_g = m.conductivity / m.carrier_thickness, m.conductivity / m.gear_thickness
+    half = m.washer_thickness / (2.0 * m.conductivity)
+    omega = abs(pt.speed)
+    for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        c0, n0 = _place(j, n_t) * m_t, _place(jn, n_t) * m_t
+        for i in range(n_r):
+            k = j * n_r + i
+            ic, iw = c0 + i, c0 + n_r + i
+            w1 = m.weight1[i] * m.weight_t[j]
+            v = omega * m.r[i]
+            _link(a, band, symmetric, ic, iw, w1 / (f.ht[k] / m.oil_conductivity + half))
+            _add(a, band, symmetric, ic, ic, w1 * far_c)
+            # the film's heat falls with either temperature
+            s = -0.5 * w1 * m.film_heat_fraction * f.dmu[k] * v * v / f.ht[k]
+            _add(a, band, symmetric, ic, ic, m.heat_split * s)
+            _add(a, band, symmetric, ic, iw, m.heat_split * s)
+            _add(a, band, symmetric, iw, ic, (1.0 - m.heat_split) * s)
+            _add(a, band, symmetric, iw, iw, (1.0 - m.heat_split) * s)
+            g = m.log_width[i] / m.step_t[j]
+            _link(a, band, symmetric, ic, n0 + i, kc * m.carrier_spread * g)
+            _link(a, band, symmetric, iw, n0 + n_r + i, kw * m.rotating_spread * g)
+            along = 0.0
+            if i + 1 < n_r:
+                along = m.r_face[i] * m.width_t[j] / (m.r[i + 1] - m.r[i])
+                _link(a, band, symmetric, ic, ic + 1, kc * along)
+                _link(a, band, symmetric, iw, iw + 1, kw * along)
+            if i >= i_g:
+                ig, ign = c0 + 2 * n_r + i - i_g, n0 + 2 * n_r + i - i_g
+                w2 = m.weight2[i] * m.weight_t[j]
+                _link(a, band, symmetric, iw, ig, w2 / (f.ht2[k] / m.oil_conductivity + half))
+                _add(a, band, symmetric, ig, ig, w2 * far_g)
+                width = np.log(m.r_face[i] / m.r[i]) if i == i_g else m.log_width[i]
+                _link(a, band, symmetric, ig, ign, kg * m.rotating_spread * width / m.step_t[j])
+                if i + 1 < n_r:
+                    _link(a, band, symmetric, ig, ig + 1, kg * along)
+    if symmetric:
+        return cholesky(a, m_t * n_t, band)
+    return lu(a, m_t * n_t, band)
+
+
+@kernel
+def solve_heat(
+    m: WasherModel, rhs: NDArray[np.float64], x: NDArray[np.float64], f: Fields
+) -> None:
+    """Solve the factored heat equations for ``rhs`` (n_temp,); the solution goes to ``x``."""
+    n_t, m_t = m.n_t, 3 * m.n_r - m.i_g
+    for j in range(n_t):
+        to, fro = _place(j, n_t) * m_t, j * m_t
+        for k in range(m_t):
+            f.spare[np.uintp(to + k)] = rhs[np.uintp(fro + k)]
+    if m.heat_split == 0.5:
+        cholesky_solve(f.factor, f.spare, m_t * n_t, 2 * m_t)
+    else:
+        lu_solve(f.factor, f.spare, m_t * n_t, 2 * m_t)
+    for j in range(n_t):
+        fro, to = _place(j, n_t) * m_t, j * m_t
+        for k in range(m_t):
+            x[np.uintp(to + k)] = f.spare[np.uintp(fro + k)]
+
+
+@kernel
+def heat_slopes(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields) -> None:
+    """Fill ``f.sens``, minus the slopes of the heat residual over z_w, z_g, gx, gy."""
+    n_r, n_t, i_g = m.n_r, m.n_t, m.i_g
+    m_t = 3 * n_r - i_g
+    n_temp = m_t * n_t
+    half = m.washer_thickness / (2.0 * m.conductivity)
+    omega = abs(pt.speed)
+    friction, dfriction = f.small[FRICTION], f.small[FRICTION + 1]
+    for k in range(4 * n_temp):
+        f.sens[np.uintp(k)] = 0.0
+    for j in range(n_t):
+        for i in range(n_r):
+            k = j * n_r + i
+            ic = j * m_t + i
+            iw = ic + n_r
+            x, y = m.r[i] * m.cos[j], m.r[i] * m.sin[j]
+            w1 = m.weight1[i] * m.weight_t[j]
+            v = omega * m.r[i]
+            res = f.ht[k] / m.oil_conductivity + half
+            dacross = -w1 * (temp[ic] - temp[iw]) / (res * res) * f.dht[k] / m.oil_conductivity
+            dq = w1 * (
+                friction * f.dpc[k] * v
+                - m.film_heat_fraction * f.mu[k] * v * v / (f.ht[k] * f.ht[k]) * f.dht[k]
+            )
+            dc = m.heat_split * dq - dacross
+            dw = (1.0 - m.heat_split) * dq + dacross
+            # through the friction coefficient, which knows the total contact force
+            all_q = w1 * dfriction * f.pc[k] * v
+            for s in range(4):
+                part = all_q * f.small[DCONTACT + s]
+                h = 0.0
+                if s == 0:
+                    h = 1.0
+                elif s == 2:
+                    h = y
+                elif s == 3:
+                    h = -x
+                f.sens[s * n_temp + ic] += dc * h + m.heat_split * part
+                f.sens[s * n_temp + iw] += dw * h + (1.0 - m.heat_split) * part
+            if i >= i_g:
+                ig = j * m_t + 2 * n_r + i - i_g
+                w2 = m.weight2[i] * m.weight_t[j]
+                res = f.ht2[k] / m.oil_conductivity + half
+                d = -w2 * (temp[iw] - temp[ig]) / (res * res) * f.dht2[k] / m.oil_conductivity
+                for s in range(4):
+                    h = 1.0
+                    if s == 0:
+                        h = -1.0
+                    elif s == 2:
+                        h = -y
+                    elif s == 3:
+                        h = x
+                    f.sens[s * n_temp + iw] -= d * h
+                    f.sens[s * n_temp + ig] += d * h

@@ -75,6 +75,8 @@ def variables(spec: ModelSpec) -> tuple[Variable, ...]:
         entries += map(_parameter, range(len(fields(spec.params))), fields(spec.params))
         entries.append(_fidelity(spec))
         entries += _outputs(spec)
+        for entry in entries:
+            _bound_enumeration(entry, enumerations(spec))
         made = tuple(Variable(reference=i, **entry) for i, entry in enumerate(entries))
         _made[id(spec)] = spec, made
     return _made[id(spec)][1]
@@ -94,6 +96,12 @@ def enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
     }
     used = {signal.type for signal in (*spec.inputs, *spec.outputs)}
     return found | {name: items for name, items in shared.items() if name in used}
+
+
+def _bound_enumeration(entry: dict[str, Any], found: dict[str, tuple[Item, ...]]) -> None:
+    if entry["type"] == "Enumeration":
+        numbers = [item.value for item in found[entry["type_name"]]]
+        entry["low"], entry["high"] = min(numbers), max(numbers)
 
 
 def _counted(options: dict[str, str]) -> tuple[Item, ...]:

@@ -32,6 +32,7 @@ LOG_CATEGORIES = {
     "logEvents": "Film lost or regained, lock and break-away",
     "logAll": "Everything, also tracebacks of defects",
 }
+MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
 RELEASED = 1767225600  # without git and SOURCE_DATE_EPOCH: 2026-01-01
 
 
@@ -72,8 +73,9 @@ def description(spec: ModelSpec, *, guid: str) -> Element:
     categories = SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         SubElement(categories, "Category", {"name": name, "description": text})
+    stop = min(spec.stop_time, MOST_STEPS * spec.step_size)
     SubElement(root, "DefaultExperiment", {
-        "startTime": "0.0", "stopTime": _number(spec.stop_time), "tolerance": "1e-06",
+        "startTime": "0.0", "stopTime": _number(stop), "tolerance": "1e-06",
         "stepSize": _number(spec.step_size),
     })  # fmt: skip
     listed = SubElement(root, "ModelVariables")

@@ -1,0 +1,122 @@
+"""What works on this machine, and why not: the first thing to read when an FMU does not run."""
+
+import importlib
+import os
+import platform
+import shutil
+import sys
+import sysconfig
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+from ..errors import ParameterError
+from ..kernels._jit import cache_folder, kernel_digest
+from .build import source_folder
+from .registry import all_specs, load_kernel, package_version
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One finding: what was looked at, whether it works, and what to know or do."""
+
+    name: str
+    ok: bool
+    text: str
+
+
+def diagnose() -> list[Check]:
+    """Look at everything this package uses; nothing is changed and no kernel is compiled."""
+    looks: list[tuple[str, Callable[[], str]]] = [
+        ("thrustwasher", package_version),
+        ("Python", _python),
+        *((name, _importable(name)) for name in ("numpy", "numba", "fmpy", "pythonfmu")),
+        ("models", _models),
+        ("compiled kernels", _kernels),
+        ("temporary folder", lambda: _writable(tempfile.gettempdir())),
+        ("slave files", lambda: str(source_folder())),
+        ("Python FMU, this process", _binary),
+        ("Python FMU, C hosts", _shared_library),
+        ("C compiler (optional)", _compiler),
+        ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
+    ]
+    return [_look(name, look) for name, look in looks]
+
+
+def _look(name: str, look: Callable[[], str]) -> Check:
+    try:
+        return Check(name, True, look())
+    except Exception as problem:  # a doctor reports; whatever is wrong is a finding
+        return Check(name, False, str(problem) or type(problem).__name__)
+
+
+def _python() -> str:
+    if sys.version_info < (3, 11):
+        raise ParameterError(f"Python = {platform.python_version()}, allowed: 3.11 or later")
+    return f"{platform.python_version()} in {sys.executable}, {platform.platform()}"
+
+
+def _importable(name: str) -> Callable[[], str]:
+    def look() -> str:
+        try:
+            importlib.import_module(name)
+        except ImportError as problem:
+            raise ParameterError(f"{problem}; pip install {name.replace('_', '-')}") from None
+        return metadata.version(name.replace("_", "-"))
+
+    return look
+
+
+def _models() -> str:
+    specs = all_specs()
+    for spec in specs:
+        load_kernel(spec.kernel)
+    return ", ".join(spec.name for spec in specs)
+
+
+def _kernels() -> str:
+    folder = Path(cache_folder())
+    number = len(list(folder.rglob("*.nbc"))) if folder.is_dir() else 0
+    _writable(str(folder if folder.is_dir() else folder.parent))
+    note = "" if number else "; the first run of each model compiles for some seconds"
+    return f"{number} in {folder} (digest of the sources: {kernel_digest()}){note}"
+
+
+def _writable(folder: str) -> str:
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError as problem:
+        raise ParameterError(f"{folder} cannot be written to: {problem.strerror}") from None
+
+
+def _binary() -> str:
+    system, machine = platform.system(), platform.machine().lower()
+    if system == "Linux" and machine in ("x86_64", "amd64"):
+        return "runs in FMPy and other Python hosts"
+    if system == "Windows" and machine in ("x86_64", "amd64"):
+        return "pythonfmu's library is inside; not tested on Windows"
+    raise ParameterError(
+        f"pythonfmu has no library for {system} on {machine}; use the Python API here"
+    )
+
+
+def _shared_library() -> str:
+    name = sysconfig.get_config_var("INSTSONAME") or ""
+    folder = sysconfig.get_config_var("LIBDIR") or ""
+    library = os.path.join(folder, name)
+    if sys.platform == "linux" and not (".so" in name and os.path.exists(library)):
+        raise ParameterError(
+            "this Python has no shared libpython; a host that is no Python cannot load the FMUs; "
+            "use a Python built with --enable-shared"
+        )
+    return f"such a host must load {library} first (LD_PRELOAD)"
+
+
+def _compiler() -> str:
+    found = shutil.which("gcc") or shutil.which("cc")
+    if not found:
+        raise ParameterError("no gcc or cc; not needed for Python FMUs")
+    return found

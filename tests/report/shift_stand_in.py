@@ -1,0 +1,78 @@
+"""A made-up shift with the face of a real one: fast input for plots and pages."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from thrustwasher.report.shift_record import Event, Phase, Record
+
+
+def record(washer: bool = True) -> Record:
+    """Return a shift of 2.5 s: pressure ramp 0.1 to 0.4 s, lock-up at 1.75 s."""
+    t = np.linspace(0.0, 2.5, 2501)
+    command = np.clip((t - 0.1) / 0.3, 0.0, 1.0)
+    done = np.clip((t - 0.25) / 1.5, 0.0, 1.0)
+    slip = 350.0 * (1.0 - done)
+    output = 109.0 - 10.0 * np.minimum(t / 1.75, 1.0)
+    engine = np.where(t < 0.25, 350.0, output + (350.0 - 109.0) * (1.0 - done))
+    capacity = 389.0 * command * (0.4 + 0.6 * done**3)
+    locked = t >= 1.75
+    reaction = np.where(locked, 160.0, capacity)
+    dt = np.diff(t, prepend=0.0)
+    s: dict[str, np.ndarray] = {
+        "transmission.engine_speed": engine,
+        "transmission.output_speed": output,
+        "transmission.ring_speed": output - (engine - output) / 2.2,
+        "transmission.clutch_speed": slip,
+        "transmission.washer_speed": 401.0 * (1.0 - done),
+        "transmission.drive_torque": np.full_like(t, 150.0),
+        "transmission.resistance_torque": 250.0 * (output / 100.0) ** 2,
+        "transmission.clutch_reaction": reaction,
+        "transmission.brake_reaction": np.where(t < 0.25, 330.0 - 2 * reaction, 0.0),
+        "transmission.sun_torque": np.where(t < 0.25, 150.0 - reaction, 60.0 + 60 * done**3),
+        "transmission.oil_supply_temperature": np.full_like(t, 297.15),
+        "clutch.torque_capacity": capacity,
+        "brake.torque_capacity": 389.0 * (1.0 - command),
+        "clutch.temperature": 297.15 + 150.0 * done**0.7,
+        "brake.temperature": np.full_like(t, 297.2),
+        "clutch.film_ratio": 10.0 - 9.2 * command,
+        "brake.film_ratio": 0.8 + 9.0 * command,
+        "clutch.friction_power": capacity * slip,
+        "brake.friction_power": np.zeros_like(t),
+        "transmission.engine_work": np.cumsum(150.0 * engine * dt),
+        "transmission.load_work": np.cumsum(250.0 * (output / 100.0) ** 2 * output * dt),
+        "transmission.clutch_heat": np.cumsum(capacity * slip * dt),
+        "transmission.brake_heat": np.zeros_like(t),
+        "transmission.mesh_heat": np.zeros_like(t),
+        "transmission.washer_heat": np.zeros_like(t),
+    }
+    if washer:
+        load = 96.0 - 50.0 * np.sin(np.pi * np.clip(done, 0, 1))
+        s |= {
+            "transmission.washer_load": load,
+            "transmission.washer_tilt": np.full_like(t, 1.6e-3),
+            "washer.friction_torque": 0.03 * (1.0 - done),
+            "washer.temperature": 297.15 + 15.0 * (1.0 - done),
+            "washer.temperature_max": 297.15 + 25.0 * (1.0 - done),
+            "washer.film_ratio": 6.6 * (1.0 - done) + 0.3 * done,
+            "washer.fluid_load_share": 1.0 - 0.9 * done**8,
+            "washer.friction_power": 12.0 * (1.0 - done),
+            "washer.distress": ((t > 0.3) & (t < 0.34)).astype(float),
+        }
+        s["transmission.washer_heat"] = np.cumsum(8 * s["washer.friction_power"] * dt)
+    book = ("load_work", "clutch_heat", "brake_heat", "washer_heat", "mesh_heat")
+    kinetic = s["transmission.engine_work"] - sum(s[f"transmission.{k}"] for k in book)
+    s["transmission.kinetic_change"] = kinetic
+    return Record(
+        name="stand-in",
+        description="a made-up shift",
+        time=t,
+        signals=s,
+        phases=(Phase("first gear", 0.0, 0.1), Phase("torque phase", 0.1, 0.25),
+                Phase("inertia phase", 0.25, 1.75), Phase("second gear", 1.75, 2.5)),
+        events=(Event(0.1, "pressure ramp starts"), Event(0.25, "brake breaks away"),
+                Event(1.75, "clutch locks")),
+        energy={},
+        figures={},
+        cost={},
+    )  # fmt: skip

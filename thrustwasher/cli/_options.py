@@ -1,0 +1,134 @@
+"""Options made from a model's list of inputs and parameters, so that nothing is typed twice."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import re
+from dataclasses import fields
+from typing import Any
+
+from ..errors import ParameterError
+from ..models._params import allowed
+from ..models._spec import ModelSpec
+from ..units import parse_quantity
+
+_TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
+
+
+def add_inputs(parser: argparse.ArgumentParser, spec: ModelSpec, without: str = "") -> None:
+    """Add one option per input of the model, with unit, range and default in its help."""
+    group = parser.add_argument_group("operating point")
+    for signal in spec.inputs:
+        if signal.name == without:
+            continue
+        span = f"{signal.low:g} .. {signal.high:g} {signal.unit}"
+        usual = signal.start or signal.nominal or 0.0
+        group.add_argument(
+            option_name(signal.name), dest=signal.name, metavar="QUANTITY", default=usual,
+            help=f"{signal.help} [{signal.unit}]; {span}, default {usual:g}",
+        )  # fmt: skip
+
+
+def read_inputs(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, Any]:
+    """Return the inputs that the parser knows, in SI units."""
+    given = vars(arguments)
+    return {
+        s.name: parse_quantity(given[s.name], s.unit, s.name, difference=s.relative)
+        for s in spec.inputs
+        if s.name in given
+    }
+
+
+def add_parameters(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
+    """Add ``--set`` and ``--parameters``."""
+    group = parser.add_argument_group("parameters")
+    group.add_argument(
+        "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
+        help="change a parameter, e.g. --set roughness=4e-7; may be repeated",
+    )  # fmt: skip
+    group.add_argument(
+        "--parameters",
+        action="store_true",
+        help=f"list the parameters of {spec.name} with default, unit and range, and stop",
+    )
+
+
+def read_parameters(arguments: argparse.Namespace, spec: ModelSpec) -> Any:
+    """Return the parameter object with every ``--set`` applied; its own checks included."""
+    metadata = {f.name: f.metadata for f in fields(spec.params)}
+    values: dict[str, Any] = {}
+    for setting in arguments.settings:
+        name, equals, text = (part.strip() for part in setting.partition("="))
+        if not equals or not text:
+            raise ParameterError(f"--set {setting}: allowed: NAME=VALUE, e.g. roughness=4e-7")
+        if name not in metadata:
+            near = difflib.get_close_matches(name, metadata, n=1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise ParameterError(
+                f"--set {setting}: {spec.name} has no parameter {name!r}; {hint}"
+                f"thrustwasher {spec.key} --parameters lists them"
+            )
+        values[name] = _parameter(name, text, metadata[name])
+    return spec.params(**values)
+
+
+def parameter_table(spec: ModelSpec) -> str:
+    """Return the parameters as lines of text: name, default, unit, range, meaning."""
+    rows = [("name", "default", "unit", "allowed", "meaning")]
+    for f in fields(spec.params):
+        m = f.metadata
+        shown = f"{f.default:.10g}" if m["kind"] == "real" else str(f.default)
+        unit = "" if m["unit"] == "1" else m["unit"]
+        span = allowed(m)
+        if m["kind"] in ("real", "integer"):
+            span = f"{m['min']:g} .. {m['max']:g}"
+        rows.append((f.name, shown, unit, span, m["help"]))
+    widths = [max(len(row[i]) for row in rows) for i in range(4)]
+    return "\n".join(
+        "  ".join([*(row[i].ljust(widths[i]) for i in range(4)), row[4]]).rstrip() for row in rows
+    )
+
+
+def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
+    """Add ``--fidelity`` with one sentence per rung."""
+    rungs = "; ".join(f"{name}: {text}" for name, text in spec.fidelities.items())
+    parser.add_argument(
+        "--fidelity", choices=list(spec.fidelities), default=spec.default_fidelity,
+        help=f"{rungs}; default {spec.default_fidelity}".replace("%", "%%"),
+    )  # fmt: skip
+
+
+def add_grid(parser: argparse.ArgumentParser) -> None:
+    """Add ``--grid``."""
+    parser.add_argument(
+        "--grid", metavar="RxT", help="nodes along the radius x around, e.g. 9x32 or 17x64"
+    )
+
+
+def read_grid(arguments: argparse.Namespace) -> tuple[int, int] | None:
+    """Return (n_r, n_theta), or None if no grid was asked for; the model checks its limits."""
+    if arguments.grid is None:
+        return None
+    match = re.fullmatch(r"\s*(\d{1,5})\s*[xX,]\s*(\d{1,5})\s*", arguments.grid)
+    if match is None:
+        raise ParameterError(f"grid = {arguments.grid!r}, allowed: two node counts as in 9x32")
+    return int(match[1]), int(match[2])
+
+
+def option_name(name: str) -> str:
+    """Return the option for an argument: oil_temperature is --oil-temperature."""
+    return "--" + name.replace("_", "-")
+
+
+def _parameter(name: str, text: str, meta: Any) -> float | int | bool | str:
+    """Return the value of one ``--set``; ranges are checked by the dataclass."""
+    kind = meta["kind"]
+    if kind == "enumeration":
+        return text
+    if kind == "boolean":
+        if text.lower() not in _TRUE + _FALSE:
+            raise ParameterError(f"{name} = {text!r}, allowed: true or false")
+        return text.lower() in _TRUE
+    number = parse_quantity(text, meta["unit"], name, difference=bool(meta.get("relative")))
+    return int(number) if kind == "integer" and number == int(number) else number

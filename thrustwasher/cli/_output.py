@@ -1,0 +1,154 @@
+"""What a command leaves behind: one JSON object, a table, or whole files; never half of one."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from ..units import format_quantity
+
+PLOT_SUFFIXES = (".png", ".svg", ".pdf")
+
+
+def scalars(result: Any) -> dict[str, Any]:
+    """Return the public fields of a result that JSON can hold, in their order."""
+    pairs = ((f.name, getattr(result, f.name)) for f in dataclasses.fields(result))
+    plain = ((name, as_json(value)) for name, value in pairs if not name.startswith("_"))
+    return {name: value for name, value in plain if value is not NotImplemented}
+
+
+def as_json(value: Any) -> Any:
+    """Return ``value`` as JSON types; NotImplemented for arrays and other large things."""
+    if isinstance(value, Enum):
+        return value.name
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, int):
+        return int(value)
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, tuple | list):
+        items = [as_json(item) for item in value]
+        return NotImplemented if NotImplemented in items else items
+    if isinstance(value, Mapping):
+        return {str(key): as_json(item) for key, item in value.items()}
+    if hasattr(value, "item") and getattr(value, "ndim", None) == 0:
+        return as_json(value.item())
+    if hasattr(value, "tolist") and getattr(value, "ndim", None) == 1:
+        return as_json(value.tolist())
+    return NotImplemented
+
+
+def parameters_of(params: Any) -> dict[str, Any]:
+    """Return the parameters by name."""
+    return {f.name: getattr(params, f.name) for f in dataclasses.fields(params)}
+
+
+def print_json(record: Mapping[str, Any]) -> None:
+    """Write one JSON object to standard output, numbers in full precision."""
+    print(json.dumps(as_json(record), indent=2, allow_nan=False))
+
+
+def print_rows(rows: list[tuple[str, str, str]]) -> None:
+    """Write name, value and meaning in columns."""
+    names, values = max(len(row[0]) for row in rows), max(len(row[1]) for row in rows)
+    for name, value, meaning in rows:
+        print(f"  {name:<{names}}  {value:<{values}}  {meaning}".rstrip())
+
+
+def shown(value: Any, unit: str) -> str:
+    """Return a value as a person reads it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int | float):
+        return format_quantity(float(value), unit, digits=5)
+    return value.name if isinstance(value, Enum) else str(value)
+
+
+def note(message: str) -> None:
+    """Write a message for a person to standard error."""
+    print(message, file=sys.stderr)
+
+
+def check_file(path: str, option: str, suffixes: tuple[str, ...] = ()) -> Path:
+    """Return the path if a file can be written there, before any work is done."""
+    target = Path(path)
+    if suffixes and target.suffix.lower() not in suffixes:
+        raise ParameterError(f"{option} {path}: allowed: a file name ending in {_or(suffixes)}")
+    if target.is_dir():
+        raise ParameterError(f"{option} {path}: is a folder, the name of a file is wanted")
+    check_folder(str(target.parent), option)
+    return target
+
+
+def check_folder(path: str, option: str) -> Path:
+    """Return the folder if files can be written there; leave no trace of the test."""
+    folder = Path(path).absolute()
+    if folder.exists() and not folder.is_dir():
+        raise ParameterError(f"{option} {path}: is a file, a folder is wanted")
+    missing = [p for p in (folder, *folder.parents) if not p.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise ParameterError(f"{option} {path}: cannot be written ({reason})") from None
+    finally:
+        for made in missing:
+            if made.is_dir():
+                made.rmdir()
+    return Path(path)
+
+
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """Give a temporary path beside ``path`` that takes its place only if all went well."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
+    os.close(handle)
+    try:
+        yield Path(name)
+        os.chmod(name, 0o666 & ~_umask())
+        os.replace(name, path)
+    finally:
+        Path(name).unlink(missing_ok=True)
+
+
+@contextmanager
+def whole_folder(path: Path) -> Iterator[Path]:
+    """Give a temporary folder whose files move to ``path`` only if all went well."""
+    existed = path.exists()
+    path.mkdir(parents=True, exist_ok=True)
+    draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=path))
+    try:
+        yield draft
+        for made in sorted(draft.iterdir()):
+            os.replace(made, path / made.name)
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+        if not existed and not any(path.iterdir()):
+            path.rmdir()
+
+
+def _umask() -> int:
+    """Return the mask that ordinary new files get."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _or(suffixes: tuple[str, ...]) -> str:
+    """Return the suffixes in words."""
+    return f"{', '.join(suffixes[:-1])} or {suffixes[-1]}" if suffixes[1:] else suffixes[0]

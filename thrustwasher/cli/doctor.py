@@ -1,0 +1,26 @@
+"""``thrustwasher doctor``: what works on this machine, and why not."""
+
+from __future__ import annotations
+
+import argparse
+
+from . import _output
+
+HELP = "say what works on this machine, and why not"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Look at the machine and report."""
+    from ..fmu.doctor import diagnose
+
+    findings = diagnose()
+    if arguments.json:
+        _output.print_json({"findings": [_output.scalars(f) for f in findings]})
+        return 0
+    _output.print_rows([("ok" if f.ok else "NO", f.name, f.text) for f in findings])
+    return 0

@@ -1,0 +1,81 @@
+"""One look for all plots: colours told apart by everyone, units on axes, no global state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+# Okabe & Ito's palette, safe for the usual kinds of colour blindness; yellow is too pale for lines.
+BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
+SKY, PURPLE, BLACK, GREY = "#56B4E9", "#CC79A7", "#222222", "#8A8A8A"
+
+_RC: Any = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.5,
+    "axes.titlesize": 10.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9.5,
+    "axes.edgecolor": "#666666",
+    "axes.linewidth": 0.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#E3E3E3",
+    "grid.linewidth": 0.7,
+    "lines.linewidth": 1.7,
+    "legend.fontsize": 8.5,
+    "legend.frameon": False,
+    "legend.handlelength": 2.2,
+    "xtick.color": "#444444",
+    "ytick.color": "#444444",
+    "figure.titlesize": 11,
+    "figure.dpi": 130,
+    "figure.facecolor": "white",
+    "path.simplify_threshold": 0.2,
+}
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def styled(function: F) -> F:
+    """Run a drawing function in the house style; settings outside stay as they were."""
+    return rc_context(_RC)(function)
+
+
+def new_figure(
+    width: float, height: float, rows: int = 1, columns: int = 1, **options: Any
+) -> tuple[Figure, list[Axes]]:
+    """Return a figure [inch] that arranges itself, and its axes row by row."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    return figure, list(np.atleast_1d(figure.subplots(rows, columns, **options)).ravel())
+
+
+def time_figure(
+    height: float, rows: int = 1, shares: tuple[float, ...] = (1.0,)
+) -> tuple[Figure, list[Axes]]:
+    """Return panels over one time axis; all such figures have it at the same place of the page."""
+    figure = Figure(figsize=(10.4, height))
+    axes = figure.subplots(rows, 1, sharex=True, height_ratios=shares)
+    figure.subplots_adjust(
+        left=0.07, right=0.735, top=1.0 - 0.32 / height, bottom=0.5 / height, hspace=0.22
+    )
+    return figure, list(np.atleast_1d(axes).ravel())
+
+
+def beside(axes: Axes, **options: Any) -> None:
+    """Put the legend to the right of the axes, where it hides no line."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, **options)
+
+
+def label(axes: Axes, title: str, across: str, up: str) -> None:
+    """Set title and axis labels; a label carries its unit in brackets."""
+    axes.set_title(title)
+    axes.set_xlabel(across)
+    axes.set_ylabel(up)

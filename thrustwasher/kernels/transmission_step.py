@@ -1,0 +1,189 @@
+# mypy: disable-error-code="no-any-return"
+"""One co-simulation step of the shift transmission: received torques in, speeds and loads out."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import transmission_layout as L
+from . import transmission_motion as motion
+from ._jit import kernel
+from .transmission_course import is_at_rest, run
+
+Array = NDArray[np.float64]
+
+N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
+NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
+LEAST_WASHER_LOAD = 1.0  # N
+derive = motion.derive
+
+
+@kernel
+def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
+    """Copy the memory, or the start values, to where the step works."""
+    if state[L.S_STARTED] != 0.0:
+        for i in range(L.N_Y):
+            work[np.uintp(L.W_Y + i)] = state[np.uintp(L.S_Y + i)]
+        work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE]
+        for i in range(4):
+            work[np.uintp(L.W_EVENTS + i)] = state[np.uintp(L.S_LOCK_TIME + i)]
+        return
+    for i in range(L.N_Y):
+        work[np.uintp(L.W_Y + i)] = 0.0
+    sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
+    carrier = (sun + r * ring) / (1.0 + r)
+    work[L.W_Y + L.Y_CARRIER] = carrier
+    # With the drum at rest the slip must be zero to the last bit, or nothing can stick.
+    work[L.W_Y + L.Y_SUN] = (1.0 + r) * carrier if ring == 0.0 else sun
+    work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = 1.0, 1.0
+    work[L.W_EVENTS], work[L.W_EVENTS + 1], work[L.W_EVENTS + 2] = -1.0, 0.0, -1.0
+    work[L.W_EVENTS + 3] = 0.0
+
+
+@kernel
+def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
+    """Turn the received torques into capacities over the step, or torques taken as they are.
+
+    Capacities arrive once per step and would be up to a step old at its end. They go on changing
+    as they did in the last step, from the instant they belong to (``torque_age`` steps ago): the
+    error then falls with the square of the step.
+    """
+    r = par[L.D_RATIO]
+    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(inp[L.I_WASHER])
+    work[L.W_MESHES] = par[L.D_MESHES] * abs(inp[L.I_MESH])
+    drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
+    work[L.W_DRAG] = drag * r / (1.0 + r)
+    for k in range(2):
+        given, start, slope = 0.0, 0.0, 0.0
+        if par[L.P_COUPLING] == L.TORQUE_COUPLING:
+            given = inp[np.uintp(L.I_CLUTCH + k)]
+        else:
+            start = max(0.0, inp[np.uintp(L.I_CLUTCH + k)])
+            last = max(0.0, state[np.uintp(L.S_LAST_CLUTCH + k)])
+            if dt == 0.0 and state[L.S_STARTED] != 0.0 and start == last:
+                start = state[np.uintp(L.S_CLUTCH_NOW + k)]
+            elif par[L.P_CAPACITY_EXTRAPOLATION] != 0.0 and state[L.S_STARTED] != 0.0:
+                slope = (start - last) / state[L.S_LAST_DURATION]
+                ahead = dt if dt > 0.0 else state[L.S_LAST_DURATION]
+                start += slope * par[L.P_TORQUE_AGE] * ahead
+        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given
+        work[np.uintp(L.W_CLUTCH_START + 2 * k)] = start
+        work[np.uintp(L.W_CLUTCH_SLOPE + 2 * k)] = slope if dt > 0.0 else 0.0
+
+
+@kernel
+def keep(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
+    """Take the result of a step over into the memory."""
+    if state[L.S_STARTED] == 0.0:
+        sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
+        start = motion.kinetic_energy(par, sun, (sun + r * ring) / (1.0 + r))
+        state[L.S_KINETIC_START] = start
+    state[L.S_STARTED] = 1.0
+    for i in range(L.N_Y):
+        state[np.uintp(L.S_Y + i)] = work[np.uintp(L.W_Y + i)]
+    state[L.S_LAST_CLUTCH], state[L.S_LAST_BRAKE] = inp[L.I_CLUTCH], inp[L.I_BRAKE]
+    state[L.S_LAST_DURATION] = dt
+    state[L.S_CLUTCH_NOW] = motion.clutch_capacity(work, dt)
+    state[L.S_BRAKE_NOW] = motion.brake_capacity(work, dt)
+    state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
+    for i in range(4):
+        state[np.uintp(L.S_LOCK_TIME + i)] = work[np.uintp(L.W_EVENTS + i)]
+
+
+@kernel
+def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> None:
+    """Fill speeds, torques and loads at ``s`` seconds into the step."""
+    r = par[L.D_RATIO]
+    sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
+    motion.solve_torques(par, work, s, carrier)
+    clutch = motion.clutch_share(par, work, s)
+    drag = (work[L.W_CLUTCH] - clutch) * (1.0 + r) / r
+    tau = work[L.W_ENGINE] - clutch - drag - par[L.P_SUN_INERTIA] * work[L.W_SUN_RATE]
+    force = abs(tau) / (par[L.P_PLANETS] * par[L.D_SUN_RADIUS])
+    couple = 2.0 * par[L.D_PLANET_RADIUS] * force * par[L.D_TAN_HELIX]
+    command = inp[L.I_COMMAND]
+    spin = par[L.D_SPIN] * (sun - carrier)
+    out[L.O_CLUTCH_LOAD] = command * par[L.P_CLUTCH_FORCE]
+    out[L.O_CLUTCH_SPEED] = motion.clutch_slip(r, sun, carrier)
+    out[L.O_BRAKE_LOAD] = (1.0 - command) * par[L.P_BRAKE_FORCE]
+    out[L.O_BRAKE_SPEED] = motion.ring_speed(r, sun, carrier)
+    out[L.O_WASHER_LOAD] = max(
+        LEAST_WASHER_LOAD, par[L.P_THRUST_SHARE] * couple / (2.0 * par[L.P_WASHER_RADIUS])
+    )
+    out[L.O_WASHER_SPEED] = spin
+    out[L.O_WASHER_TILT] = par[L.P_PLANET_TILT]
+    out[L.O_MESH_LOAD] = force * par[L.D_PLANET_RADIUS]
+    out[L.O_MESH_SPEED] = spin
+    out[L.O_ENGINE_SPEED], out[L.O_OUTPUT_SPEED] = sun, carrier
+    out[L.O_RING_SPEED] = motion.ring_speed(r, sun, carrier)
+    out[L.O_DRIVE_TORQUE] = work[L.W_ENGINE]
+    out[L.O_RESISTANCE_TORQUE] = motion.load_torque(par, carrier)
+    out[L.O_CLUTCH_REACTION], out[L.O_BRAKE_REACTION] = clutch, work[L.W_BRAKE]
+    out[L.O_SUN_TORQUE], out[L.O_DRAG_TORQUE] = tau, drag
+    out[L.O_TOOTH_FORCE], out[L.O_TILTING_COUPLE] = force, couple
+    out[L.O_SUN_THRUST] = abs(tau) * par[L.D_TAN_HELIX] / par[L.D_SUN_RADIUS]
+    out[L.O_OIL_SUPPLY_TEMPERATURE] = par[L.P_OIL_TEMPERATURE]
+
+
+@kernel
+def show_energy(par: Array, state: Array, work: Array, out: Array) -> None:
+    """Fill the energy book; the residual is what the entries leave unexplained."""
+    kinetic = motion.kinetic_energy(par, work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER])
+    start = state[L.S_KINETIC_START] if state[L.S_STARTED] != 0.0 else kinetic
+    out[L.O_ENGINE_WORK] = work[L.W_Y + L.Y_ENGINE]
+    out[L.O_LOAD_WORK] = work[L.W_Y + L.Y_LOAD]
+    out[L.O_KINETIC_ENERGY], out[L.O_KINETIC_CHANGE] = kinetic, kinetic - start
+    out[L.O_CLUTCH_HEAT] = work[L.W_Y + L.Y_CLUTCH]
+    out[L.O_BRAKE_HEAT] = work[L.W_Y + L.Y_BRAKE]
+    out[L.O_WASHER_HEAT] = work[L.W_Y + L.Y_WASHER]
+    out[L.O_MESH_HEAT] = work[L.W_Y + L.Y_MESH]
+    spent = out[L.O_KINETIC_CHANGE] + out[L.O_LOAD_WORK] + out[L.O_CLUTCH_HEAT]
+    spent += out[L.O_BRAKE_HEAT] + out[L.O_WASHER_HEAT] + out[L.O_MESH_HEAT]
+    out[L.O_ENERGY_RESIDUAL] = out[L.O_ENGINE_WORK] - spent
+    out[L.O_LOCK_TIME], out[L.O_LOCK_SPEED] = work[L.W_EVENTS], work[L.W_EVENTS + 1]
+    out[L.O_RELEASE_TIME] = work[L.W_EVENTS + 2]
+
+
+@kernel
+def step(
+    par: Array,
+    inp: Array,
+    state: Array,
+    work: Array,
+    out: Array,
+    iout: NDArray[np.int32],
+    t: float,
+    dt: float,
+) -> int:
+    """Advance the driveline from t to t + dt, then fill the outputs.
+
+    Returns 0 or the status of a failure; STALLED is advice and stands in ``iout`` only.
+    """
+    for i in range(L.NINP):
+        if not math.isfinite(inp[np.uintp(i)]):
+            iout[L.IO_STATUS] = L.BAD_INPUT
+            return L.BAD_INPUT
+    if not (math.isfinite(t) and dt >= 0.0 and 0.0 <= inp[L.I_COMMAND] <= 1.0):
+        iout[L.IO_STATUS] = L.BAD_INPUT
+        return L.BAD_INPUT
+    begin(par, inp, state, work)
+    receive(par, inp, state, work, dt)
+    status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
+    if status == L.OK and dt > 0.0:
+        for i in range(L.N_Y):
+            if not math.isfinite(work[np.uintp(L.W_Y + i)]):
+                status = L.NOT_FINITE
+        if status == L.OK:
+            keep(par, inp, state, work, dt)
+    show_motion(par, inp, work, out, dt)
+    show_energy(par, state, work, out)
+    for i in range(L.NOUT):
+        if status == L.OK and not math.isfinite(out[np.uintp(i)]):
+            status = L.NOT_FINITE
+    clutch_holds = motion.clutch_capacity(work, dt) > 0.0
+    iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
+    iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0
+    iout[L.IO_EVENTS] = int(work[L.W_EVENTS + 3])
+    iout[L.IO_STATUS] = L.STALLED if status == L.OK and is_at_rest(par, work) else status
+    return status

@@ -1,0 +1,177 @@
+"""Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import ParameterError, SolveError, Status
+from ..kernels import boundary, clutch_step
+from ._params import as_numbers, check_number
+from ._spec import REGIMES
+from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
+
+
+@dataclass(frozen=True, slots=True)
+class ClutchResult:
+    """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
+
+    friction_torque: float
+    """[N m] with the sign of the slip; 0 at slip 0."""
+    friction_coefficient: float
+    temperature: float
+    """[K] interface after a very long time at this slip; compare with status HOT."""
+    film_thickness: float
+    """[m] separation of the mean surfaces, settled; below 0 the roughness is pressed flat."""
+    film_ratio: float
+    shear_ratio: float
+    """[-] shear strength of the interface over that of the material, s/s_m."""
+    torque_capacity: float
+    """[N m] largest torque the pack holds at this load and slip."""
+    friction_power: float
+    """[W] heat made in the whole pack."""
+    regime: str
+    status: Status
+    iterations: int
+    fidelity: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the fields as a dictionary that JSON can hold; status by name."""
+        return asdict(self) | {"status": self.status.name}
+
+
+def _in_range(name: str, values: ArrayLike, low: float, high: float) -> Any:
+    array = np.asarray(values, float)
+    bad = ~((array >= low) & (array <= high))
+    if bad.any():
+        first = float(array[bad].flat[0])
+        raise ParameterError(f"{name} = {first!r}, allowed: {low:g} .. {high:g}")
+    return array
+
+
+def boundary_friction(
+    x: ArrayLike,
+    shear_ratio: ArrayLike,
+    plough_weight: ArrayLike = 1.0,
+    hardness_ratio: ArrayLike = 6.0,
+) -> Any:
+    """Return the coefficient of boundary friction [-] of Wang, Wei & Wu (2012), Eq 12.
+
+    Parameters
+    ----------
+    x : width of the indentation over the asperity's diameter, W/2R, above 0 up to 1
+    shear_ratio : shear strength of the interface over the material's, s/s_m, 0 .. 1
+    plough_weight : weight k of the ploughing share, 0 .. 1
+    hardness_ratio : hardness over shear strength N (6 after Tresca, 5.2 after von Mises)
+
+    Returns
+    -------
+    float, or an array of the common shape of the arguments
+
+    Notes
+    -----
+    As printed the equation loses all digits for small x; the form used here is good to rounding
+    for every x.
+
+    Examples
+    --------
+    >>> round(boundary_friction(0.1, 0.5, 0.5), 8)
+    0.07446961
+    """
+    arrays = np.broadcast_arrays(
+        _in_range("x", x, 1e-300, 1.0),
+        _in_range("shear_ratio", shear_ratio, 0.0, 1.0),
+        _in_range("plough_weight", plough_weight, 0.0, 1.0),
+        _in_range("hardness_ratio", hardness_ratio, 1.0, 20.0),
+    )
+    values = [boundary.friction(*map(float, point)) for point in zip(*map(np.ravel, arrays))]  # noqa: B905 (broadcast: equal lengths)
+    return np.array(values).reshape(arrays[0].shape) if arrays[0].ndim else values[0]
+
+
+def prepare(params: ClutchParams, fidelity: str) -> Any:
+    """Return the parameter array of the kernel, constants included."""
+    rungs = list(SPEC.fidelities)
+    if fidelity not in rungs:
+        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")
+    par = np.zeros(clutch_step.NPAR)
+    par[: clutch_step.N_PARAM] = [*as_numbers(params), rungs.index(fidelity) + 1]
+    status = Status(clutch_step.derive(par))
+    if status.is_failure:
+        raise ParameterError(f"the clutch parameters cannot be used: {status.advice}")
+    return par
+
+
+def solve_clutch(
+    params: ClutchParams,
+    *,
+    load: float,
+    speed: float,
+    oil_temperature: float = 297.15,
+    fidelity: str = "stribeck",
+    start: ClutchResult | None = None,
+    throw: bool = True,
+) -> ClutchResult:
+    """Return torque and steady temperature of a pack that slips at a constant speed.
+
+    Parameters
+    ----------
+    params : the pack
+    load : axial force on the pack [N]
+    speed : slip [rad/s], with its sign
+    oil_temperature : [K]
+    fidelity : "closed" (constant coefficient) or "stribeck" (coefficient over slip speed)
+    start : an earlier result to start the search for the film from
+    throw : False returns the best estimate with its status instead of raising SolveError
+
+    Notes
+    -----
+    The temperature is where cooling balances friction. For slip that lasts it soon lies far above
+    what a lining survives: status HOT says so. A shift is over long before; its temperature is
+    that of the time-stepping model.
+
+    Examples
+    --------
+    >>> r = solve_clutch(ClutchParams(), load=9000.0, speed=0.0)
+    >>> r.friction_torque, r.regime
+    (0.0, 'adhesive')
+    >>> round(r.torque_capacity, 2)
+    593.95
+    """
+    load = check_number("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0)
+    speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
+    oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
+    par = prepare(params, fidelity)
+    guess = start.film_ratio if start else 1.0
+    ratio, code, iterations = clutch_step.film_ratio_of(par, load, guess)
+    coefficient = clutch_step.coefficient_of(par, speed)
+    capacity = params.faces * coefficient * load * par[clutch_step.D_RADIUS]
+    torque = math.copysign(capacity, speed) if speed else 0.0
+    power = torque * speed
+    if power > 0.0 and params.heat_transfer == 0.0:
+        raise ParameterError(
+            "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
+        )
+    rise = power / params.faces / par[clutch_step.D_COOLING] if power else 0.0
+    status = Status(code)
+    if status.is_failure and throw:
+        raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
+    if not status.is_failure and oil + rise > clutch_step.HOT_LIMIT:
+        status = Status.HOT
+    return ClutchResult(
+        friction_torque=torque,
+        friction_coefficient=float(coefficient),
+        temperature=float(oil + rise),
+        film_thickness=float(ratio * params.roughness),
+        film_ratio=float(ratio),
+        shear_ratio=float(clutch_step.shear_of(par, speed)),
+        torque_capacity=float(capacity),
+        friction_power=float(power),
+        regime=list(REGIMES)[clutch_step.regime_of(par, ratio, speed) - 1],
+        status=status,
+        iterations=int(iterations),
+        fidelity=fidelity,
+    )

@@ -49,6 +49,7 @@ class Core:
         self.time, self.mode = 0.0, Mode.INSTANTIATED
         self.dirty, self.prepared = True, False
         self.latch = 0  # the failure to be seen in solver_status until something changes
+        self._unsolved = ""  # why the present outputs cannot be had
         self.refused: dict[int, str] = {}  # variables whose last value was not taken over
         for v in self.variables:
             if v.start is not None:
@@ -71,7 +72,7 @@ class Core:
             array = self._arrays[v.store]
             if array.item(v.slot) != value:
                 array[v.slot] = value
-                self.dirty, self.latch = True, 0
+                self.dirty, self.latch, self._unsolved = True, 0, ""
                 self.prepared = self.prepared and v.store != "par"
             if self.refused and self.refused.pop(v.reference, "") and not self.refused:
                 self.latch = 0
@@ -161,12 +162,14 @@ class Core:
         """Bring the outputs up to date, at most once per change; a failure is latched."""
         if not self.dirty:
             return
-        self.dirty = False  # also after a failure: the same inputs would fail again
+        if self._unsolved:  # the same inputs would fail again
+            raise SolveError(self._unsolved)
         self.prepare()
         rc = self._solve(0.0)
         if rc:
-            self.latch = rc
-            raise SolveError(self._story(rc, f"t = {self.time:g} s"))
+            self.latch, self._unsolved = rc, self._story(rc, f"t = {self.time:g} s")
+            raise SolveError(self._unsolved)
+        self.dirty = False
 
     def advance(self, t: float, h: float) -> None:
         """Step from ``t`` to ``t + h``, or raise SolveError and leave everything as it was."""
@@ -187,7 +190,7 @@ class Core:
         if rc:
             self.time, self.latch = before, rc
             raise SolveError(self._story(rc, f"t = {t:g} s, step {h:g} s"))
-        self.time, self.dirty, self.latch = t + h, False, 0
+        self.time, self.dirty, self.latch, self._unsolved = t + h, False, 0, ""
 
     def _solve(self, h: float) -> int:
         """Call the kernel; after a failure ``state`` and the outputs are what they were."""
@@ -239,5 +242,5 @@ class Core:
             getattr(self, name)[:] = getattr(snapshot, name)
         self.time, self.mode = snapshot.time, Mode(snapshot.mode)
         self.dirty, self.prepared = snapshot.dirty, snapshot.prepared
-        self.latch = snapshot.latch
+        self.latch, self._unsolved = snapshot.latch, ""
         self.refused.clear()

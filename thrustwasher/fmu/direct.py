@@ -86,9 +86,7 @@ class DirectInstance:
         """Return variables by name."""
         known = {v.name: v for v in self.core.variables}
         found = [known.get(name) or unknown(name, list(known)) for name in names]
-        if any(v.causality == "output" for v in found):
-            self.core.refresh()
-        return [float(x) for x in self.core.stored([v.reference for v in found])]
+        return [float(self.core.get([v.reference], v.type)[0]) for v in found]
 
     def get_state(self) -> Any:
         """Return the complete state."""

@@ -53,8 +53,6 @@ def _look(name: str, look: Callable[[], str]) -> Check:
 
 
 def _python() -> str:
-    if sys.version_info < (3, 11):
-        raise ParameterError(f"Python = {platform.python_version()}, allowed: 3.11 or later")
     return f"{platform.python_version()} in {sys.executable}, {platform.platform()}"
 
 

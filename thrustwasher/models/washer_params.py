@@ -52,7 +52,7 @@ class WasherParams:
         "young", YIELD_LAWS, "YieldStrainLaw", "modulus that the yield strain refers to"
     )
     asperity_radius: float = quantity(1e-5, "m", 1e-7, 1e-3, "radius of the asperity tips")
-    asperity_density: float = quantity(6.865114e9, "1/m2", 1e8, 1e12, "asperities per area")
+    asperity_density: float = quantity(6.865114e9, "1/m2", 1e8, 1e12, "asperities per nominal area")
     asperity_height_law: str = choice(
         "surface", HEIGHT_LAWS, "HeightLaw", "scatter of the asperity heights"
     )

@@ -1,0 +1,58 @@
+"""The toy model is packed once; its folder is importable for slaves and child processes."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from toy.spec import SPEC as TOY
+
+from thrustwasher.fmu.build import build
+from thrustwasher.fmu.stepper import DirectInstance, Instance
+
+HERE = Path(__file__).parent
+TOY_SLAVES = HERE / "toy" / "slaves"
+TOY_START = {"load": 500.0, "speed": 20.0, "oil_temperature": 310.0}
+
+
+@pytest.fixture(scope="session")
+def toy_fmu(tmp_path_factory):
+    out = tmp_path_factory.mktemp("dist")
+    return build([TOY.key], out=out, sources=TOY_SLAVES)[0]
+
+
+@pytest.fixture(scope="session")
+def fmus(tmp_path_factory):
+    """Every model of this version, packed."""
+    return {path.stem: path for path in build(out=tmp_path_factory.mktemp("dist"))}
+
+
+@pytest.fixture
+def toy(toy_fmu):
+    with Instance(toy_fmu) as instance:
+        instance.initialize(inputs=TOY_START)
+        yield instance
+
+
+@pytest.fixture
+def direct_toy():
+    instance = DirectInstance(TOY)
+    instance.initialize(inputs=TOY_START)
+    return instance
+
+
+@pytest.fixture
+def run_child():
+    """Run Python code in a fresh process and return what it prints."""
+
+    def run(code, *args, check=True):
+        path = os.pathsep.join([str(HERE), str(HERE.parents[1]), os.environ.get("PYTHONPATH", "")])
+        done = subprocess.run(
+            [sys.executable, "-c", code, *map(str, args)],
+            env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=500,
+        )  # fmt: skip
+        assert not check or done.returncode == 0, done.stderr
+        return done.stdout.strip() if check else done
+
+    return run

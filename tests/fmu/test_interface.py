@@ -1,0 +1,102 @@
+"""The list of variables says what the dataclass and the kernel say."""
+
+from dataclasses import fields
+
+import pytest
+from toy.spec import SPEC as TOY
+
+from thrustwasher.errors import ParameterError, Status
+from thrustwasher.fmu.interface import all_specs, enumerations, find_spec, variables
+from thrustwasher.fmu.units import exponents
+from thrustwasher.models._params import as_numbers
+
+SPECS = [TOY, *all_specs()]
+each_spec = pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.name)
+
+
+@each_spec
+def test_references_count_through_time_inputs_parameters_outputs(spec):
+    found = variables(spec)
+    expected = ["time", *(s.name for s in spec.inputs), *(f.name for f in fields(spec.params))]
+    expected += ["fidelity", *(s.name for s in spec.outputs)]
+    assert [v.name for v in found] == expected
+    assert [v.reference for v in found] == list(range(len(found)))
+    assert len({v.name for v in found}) == len(found)
+
+
+@each_spec
+def test_parameters_start_as_the_dataclass_does(spec):
+    starts = [v.start for v in variables(spec) if v.causality == "parameter"]
+    fidelity = list(spec.fidelities).index(spec.default_fidelity) + 1
+    assert starts == [*as_numbers(spec.params()), fidelity]
+
+
+@each_spec
+def test_ranges_and_units_are_those_of_the_dataclass(spec):
+    found = {v.name: v for v in variables(spec)}
+    for f in fields(spec.params):
+        v, m = found[f.name], f.metadata
+        assert (v.low, v.high, v.unit, v.help) == (m["min"], m["max"], m["unit"], m["help"])
+
+
+@each_spec
+def test_every_variable_is_described_bounded_and_started_within_its_range(spec):
+    for v in variables(spec):
+        assert len(v.help.split()) >= 4, v.name
+        exponents(v.unit)
+        if v.causality in ("input", "parameter"):
+            low, high = v.bounds
+            assert low <= v.start <= high, v.name
+
+
+@each_spec
+def test_inputs_that_a_host_leaves_open_are_allowed_to_be_zero(spec):
+    for v in variables(spec):
+        if v.causality == "input" and v.unit != "K":
+            assert v.low <= 0.0 <= v.high, v.name
+
+
+@each_spec
+def test_outputs_fill_the_kernel_arrays_in_order(spec):
+    for store in ("out", "iout"):
+        slots = [v.slot for v in variables(spec) if v.store == store]
+        assert slots == list(range(len(slots)))
+
+
+@each_spec
+def test_only_reals_are_continuous(spec):
+    for v in variables(spec):
+        assert (v.variability == "continuous") == (v.type == "Real" and v.causality != "parameter")
+
+
+@each_spec
+def test_first_outputs_are_the_same_everywhere_and_status_is_complete(spec):
+    items = enumerations(spec)["SolverStatus"]
+    assert {i.name: i.value for i in items} == {s.name: int(s) for s in Status}
+    assert all(i.help for i in items)
+
+
+def test_a_model_is_found_by_key_and_by_fmu_name():
+    assert find_spec("washer") is find_spec("ThrustWasher")
+    with pytest.raises(ParameterError, match="ThrustWasher, WetClutch, ShiftTransmission"):
+        find_spec("Washer")
+
+
+@pytest.mark.parametrize(
+    ("unit", "expected"),
+    [
+        ("1", {}),
+        ("1/m2", {"m": -2}),
+        ("J/(kg.K)", {"m": 2, "s": -2, "K": -1}),
+        ("N.m", {"kg": 1, "m": 2, "s": -2}),
+        ("kg.m2", {"kg": 1, "m": 2}),
+        ("N.m.s/rad", {"kg": 1, "m": 2, "s": -1, "rad": -1}),
+    ],
+)
+def test_units_in_base_units(unit, expected):
+    assert exponents(unit) == expected
+
+
+def test_an_unknown_unit_is_refused():
+    with pytest.raises(ParameterError, match="furlong"):
+        exponents("furlong/s")

@@ -1,0 +1,107 @@
+"""What lies in the zip, and that building repeats to the byte."""
+
+import struct
+import zipfile
+from pathlib import Path
+
+import pytest
+from conftest import TOY_SLAVES
+from toy.spec import SPEC as TOY
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.fmu import archive
+from thrustwasher.fmu.build import build, identifier, source_folder
+from thrustwasher.fmu.interface import all_specs
+
+
+def test_building_twice_in_different_folders_gives_the_same_bytes(tmp_path, toy_fmu):
+    again = build([TOY.key], out=tmp_path / "elsewhere", sources=TOY_SLAVES)[0]
+    assert again.read_bytes() == toy_fmu.read_bytes()
+
+
+def test_building_in_another_process_gives_the_same_bytes(tmp_path, toy_fmu, run_child):
+    code = (
+        "import sys; from pathlib import Path; from thrustwasher.fmu.build import build;"
+        "build([sys.argv[1]], out=Path(sys.argv[2]), sources=Path(sys.argv[3]))"
+    )
+    run_child(code, TOY.key, tmp_path, TOY_SLAVES)
+    again = tmp_path / "python-fmi2" / "ToyClutch.fmu"
+    assert again.read_bytes() == toy_fmu.read_bytes()
+
+
+def test_the_guid_follows_the_content():
+    template = (TOY_SLAVES / "toy_clutch" / "slave.py").read_text()
+    guid = identifier(TOY, template, "python", 2)
+    assert guid == identifier(TOY, template, "python", 2)
+    changed = [(template + "#", "python", 2), (template, "native", 2), (template, "native", 3)]
+    assert len({guid, *(identifier(TOY, *case) for case in changed)}) == 4
+
+
+def test_the_zip_is_sorted_undated_and_has_plain_names(toy_fmu):
+    with zipfile.ZipFile(toy_fmu) as zipped:
+        entries = zipped.infolist()
+        assert zipped.testzip() is None
+    names = [e.filename for e in entries]
+    assert names[0] == "modelDescription.xml"
+    assert names[1:] == sorted(names[1:])
+    assert {e.date_time for e in entries} == {(1980, 1, 1, 0, 0, 0)}
+    assert {e.create_system for e in entries} == {3}
+    assert {e.external_attr >> 16 for e in entries} == {0o100644}
+    assert {e.compress_type for e in entries} == {zipfile.ZIP_DEFLATED}
+    assert all(name.isascii() and "\\" not in name and not name.endswith("/") for name in names)
+
+
+@pytest.mark.parametrize("name", [s.name for s in all_specs()])
+def test_everything_a_user_looks_for_is_inside(name, fmus):
+    with zipfile.ZipFile(fmus[name]) as zipped:
+        files = {n: zipped.read(n) for n in zipped.namelist()}
+    module = files["resources/slavemodule.txt"].decode()
+    assert f"resources/{module}.py" in files
+    guid = module.rpartition("_")[2]
+    assert f'guid="{guid}' in files["modelDescription.xml"].decode()
+    assert f"binaries/linux64/{name}.so" in files
+    assert "MIT" in files["documentation/licenses/pythonfmu.txt"].decode()
+    assert b"thrustwasher authors" in files["documentation/licenses/license.txt"]
+    assert b"pip install thrustwasher==" in files["documentation/externalDependencies.txt"]
+    page = files["documentation/index.html"].decode()
+    assert "<script" not in page and "http" not in page and "Equations" in page
+    assert "@" not in files[f"resources/{module}.py"].decode()
+    size = struct.unpack(">II", files["model.png"][16:24])
+    assert size == (200, 200) and files["model.png"] == files["terminalsAndIcons/icon.png"]
+
+
+def test_the_icons_of_the_models_differ(fmus):
+    pictures = {zipfile.ZipFile(p).open("model.png").read() for p in fmus.values()}
+    assert len(pictures) == len(fmus)
+
+
+def test_slaves_are_short_and_have_no_kernels():
+    for file in [*source_folder().glob("*/slave.py"), *TOY_SLAVES.glob("*/slave.py")]:
+        text = file.read_text()
+        assert len(text.splitlines()) <= 40
+        assert "Py_IncRef" in text and "njit" not in text and "__file__" not in text
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"target": "native"}, "native target is not part of this version"),
+        ({"fmi": 3}, "use target native"),
+        ({"target": "wasm"}, "python or native"),
+        ({"models": ["Washer"]}, "allowed: ThrustWasher"),
+    ],
+)
+def test_what_cannot_be_built_is_refused(options, message, tmp_path):
+    with pytest.raises(ParameterError, match=message):
+        build(out=tmp_path, **options)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
+    path = tmp_path / "a.fmu"
+    archive.write(path, b"old")
+    monkeypatch.setattr("os.replace", lambda *_: (_ for _ in ()).throw(OSError("disk full")))
+    with pytest.raises(OSError, match="disk full"):
+        archive.write(path, b"new")
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in Path(tmp_path).iterdir()] == ["a.fmu"]

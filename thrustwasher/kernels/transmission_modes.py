@@ -2,8 +2,8 @@
 """Stick and slip of two packs: which modes are consistent, and when they end.
 
 A pack slips forward (+1), backward (-1) or sticks (0). Sticking needs |torque| <= capacity,
-slipping from rest an acceleration in the direction of the mode. With the symmetric positive mobility of the
-driveline exactly one combination holds, apart from ties.
+slipping from rest an acceleration in the direction of the mode. With the symmetric positive
+mobility of the driveline exactly one combination holds, apart from ties.
 """
 
 import math

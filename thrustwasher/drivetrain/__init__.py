@@ -1,1 +1,20 @@
-"""The gear shift: scenes, co-simulation masters, energy book."""
+"""Scenes, connected instances, masters and what a shift run leaves.
+
+================  =================================================================================
+``scene``         TOML file -> checked ``Scene``; ``scenes/`` holds the built-in ones
+``parts``         which parts there are and who passes what to whom
+``system``        instances with their present inputs and outputs
+``master``        the list of masters; ``jacobi``, ``gauss_seidel``: one each
+``shift``         ``run_shift``: the loop, and the result
+``course``        events and phases; ``book``: energy book and key figures
+``result``        ``ShiftResult``
+================  =================================================================================
+"""
+
+from .result import Cost, Event, Phase, ShiftResult
+from .scene import Scene, builtin_scenes, load_scene
+from .shift import run_shift
+
+__all__ = [
+    "Cost", "Event", "Phase", "Scene", "ShiftResult", "builtin_scenes", "load_scene", "run_shift",
+]  # fmt: skip

@@ -1,0 +1,136 @@
+"""What a shift run leaves: time series, events, energy book, key figures, cost."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError
+from .parts import PARTS
+from .scene import Scene
+
+
+class Event(NamedTuple):
+    """Something that happened at one time [s]."""
+
+    time: float
+    kind: str
+    text: str
+
+
+class Phase(NamedTuple):
+    """A stretch of the shift [s]."""
+
+    name: str
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cost:
+    """What one part cost: times in s of wall clock, share of the whole run."""
+
+    part: str
+    model: str
+    fidelity: str
+    instantiate: float
+    initialize: float
+    steps: int
+    wall_time: float
+    share: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShiftResult:
+    """A finished shift, SI units.
+
+    ``signals`` maps "part.variable" to the values at ``time``, for every input and output: an
+    output is that at the time point, an input the one used in the step that ends there.
+    """
+
+    scene: Scene
+    step: float
+    master: str
+    time: NDArray[np.float64]
+    signals: dict[str, NDArray[np.float64]]
+    events: list[Event]
+    phases: list[Phase]
+    energy: dict[str, float]
+    figures: dict[str, float | None]
+    cost: list[Cost]
+    wall_time: float
+    """[s] of wall clock for all steps, without building and instantiating."""
+    overhead: float
+    """[s] of it spent by the master itself."""
+    real_time_factor: float
+    """Simulated time over wall-clock time."""
+    messages: list[str]
+
+    def units(self) -> dict[str, str]:
+        """Return the unit of every signal."""
+        found = {}
+        for part, spec in PARTS.items():
+            for signal in (*spec.inputs, *spec.outputs):
+                found[f"{part}.{signal.name}"] = signal.unit
+        return {name: found.get(name, "1") for name in self.signals}
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return every number but the time series, as JSON can hold it."""
+        scene = self.scene
+        return {
+            "scene": scene.name,
+            "title": scene.title,
+            "start_time": scene.start_time,
+            "stop_time": scene.stop_time,
+            "step": self.step,
+            "master": self.master,
+            "oil_temperature": scene.oil_temperature,
+            "shift_start": scene.shift_start,
+            "shift_duration": scene.shift_duration,
+            **self.figures,
+            "energy": self.energy,
+            "energy_residual": self.energy["residual"],
+            "events": [e._asdict() for e in self.events],
+            "phases": [p._asdict() for p in self.phases],
+            "cost": [asdict(c) for c in self.cost],
+            "wall_time": self.wall_time,
+            "master_overhead": self.overhead,
+            "real_time_factor": self.real_time_factor,
+            "messages": self.messages,
+            "parameters": {name: part.parameters() for name, part in scene.parts.items()},
+        }
+
+    def write_csv(self, path: str | Path) -> None:
+        """Write time and all signals; the column heads carry the units. All of it or nothing."""
+        target = Path(path)
+        units = self.units()
+        head = ["time [s]", *(f"{name} [{units[name]}]" for name in self.signals)]
+        columns = [self.time.tolist(), *(s.tolist() for s in self.signals.values())]
+        part = ""
+        try:
+            handle, part = tempfile.mkstemp(dir=target.parent, prefix=target.name, suffix=".part")
+            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+                file.write(",".join(head) + "\n")
+                for row in zip(*columns, strict=True):
+                    file.write(",".join(map(repr, row)) + "\n")
+            os.chmod(part, 0o666 & ~_umask())
+            os.replace(part, target)
+        except OSError as problem:
+            if part:
+                Path(part).unlink(missing_ok=True)
+            raise ParameterError(
+                f"path = {str(target)!r}: cannot be written ({problem.strerror})"
+            ) from None
+
+
+def _umask() -> int:
+    """Return the process's umask; it can only be read by setting it."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

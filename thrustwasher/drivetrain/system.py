@@ -1,0 +1,127 @@
+"""Connected instances: each part with its inputs, its last outputs and where its inputs come from.
+
+An instance is anything with the methods of ``Stepping``: an FMU that is kept alive, or the kernels
+called in this process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+from ..errors import ParameterError, SolveError
+from ..models._spec import ModelSpec
+from .parts import COMMAND, Link
+
+INITIAL_SWEEPS = 4
+
+
+class Stepping(Protocol):
+    """What a master needs from an instance."""
+
+    input_names: list[str]
+    output_names: list[str]
+    calls: int
+    wall_time: float
+    instantiate_time: float
+    initialize_time: float
+
+    def initialize(self, start_time: float, inputs: Mapping[str, float]) -> None:
+        """Set the inputs at the start and solve there."""
+
+    def set_inputs(self, values: Sequence[float]) -> None:
+        """Set all inputs, in the order of ``input_names``."""
+
+    def step(self, t: float, h: float) -> None:
+        """Advance from ``t`` to ``t + h``."""
+
+    def outputs(self) -> list[float]:
+        """Return all outputs, in the order of ``output_names``."""
+
+
+class ConnectedPart:
+    """One instance, its present inputs and outputs, and the sources of its inputs."""
+
+    def __init__(self, name: str, spec: ModelSpec, instance: Stepping) -> None:
+        self.name, self.spec, self.instance = name, spec, instance
+        self.input_names = [s.name for s in spec.inputs]
+        self.output_names = [s.name for s in spec.outputs]
+        for found, wanted, kind in (
+            (instance.input_names, self.input_names, "inputs"),
+            (instance.output_names, self.output_names, "outputs"),
+        ):
+            if list(found) != wanted:
+                raise ParameterError(
+                    f"{name}: the instance has the {kind} {', '.join(found)}, "
+                    f"{spec.name} of this version has {', '.join(wanted)}; build it again"
+                )
+        self.inputs = [float(s.start or 0.0) for s in spec.inputs]
+        self.outputs = [0.0] * len(self.output_names)
+        self.sources: list[tuple[int, ConnectedPart, int]] = []
+
+    def connect(self, link: Link, source: ConnectedPart) -> None:
+        """Take an input from an output of another part."""
+        self.sources.append(
+            (self.input_names.index(link.input), source, source.output_names.index(link.output))
+        )
+
+    def pull(self) -> None:
+        """Take the inputs over from the last outputs of the other parts."""
+        inputs = self.inputs
+        for slot, source, output in self.sources:
+            inputs[slot] = source.outputs[output]
+
+    def initialize(self, time: float) -> None:
+        """Start the instance with the present inputs."""
+        self.guarded(time, lambda: self.instance.initialize(time, dict(zip(self.input_names, self.inputs, strict=True))))  # fmt: skip
+        self.outputs = self.instance.outputs()
+
+    def refresh(self, time: float) -> None:
+        """Set the present inputs without a step and read the outputs."""
+        self.guarded(time, lambda: self.instance.set_inputs(self.inputs))
+        self.outputs = self.instance.outputs()
+
+    def step(self, t: float, h: float) -> None:
+        """Advance with the present inputs and read the outputs."""
+        try:
+            self.instance.set_inputs(self.inputs)
+            self.instance.step(t, h)
+            self.outputs = self.instance.outputs()
+        except (ParameterError, SolveError) as problem:
+            raise SolveError(f"{self.name} at t = {t:g} s: {problem}") from problem
+
+    def guarded(self, time: float, call: Any) -> None:
+        """Call, and name part and time if it fails."""
+        try:
+            call()
+        except (ParameterError, SolveError) as problem:
+            raise SolveError(f"{self.name} at t = {time:g} s: {problem}") from problem
+
+
+class System:
+    """All parts of a shift, connected; the shift command comes from outside."""
+
+    def __init__(self, parts: Mapping[str, ConnectedPart], links: Sequence[Link]) -> None:
+        self.parts = dict(parts)
+        self.transmission = self.parts["transmission"]
+        self.friction_parts = [p for n, p in self.parts.items() if n != "transmission"]
+        self._command = self.transmission.input_names.index(COMMAND)
+        for link in links:
+            self.parts[link.target].connect(link, self.parts[link.source])
+
+    def set_command(self, value: float) -> None:
+        """Set the shift command for the end of the coming step."""
+        self.transmission.inputs[self._command] = value
+
+    def initialize(self, time: float) -> None:
+        """Start all parts and pass signals round until loads and torques belong together."""
+        self.transmission.initialize(time)
+        for part in self.friction_parts:
+            part.pull()
+            part.initialize(time)
+        for _ in range(INITIAL_SWEEPS):
+            self.transmission.pull()
+            self.transmission.refresh(time)
+            for part in self.friction_parts:
+                part.pull()
+                part.refresh(time)

@@ -1,7 +1,8 @@
 """Scenes, connected instances, masters and what a shift run leaves.
 
 ================  =================================================================================
-``scene``         TOML file -> checked ``Scene``; ``scenes/`` holds the built-in ones
+``scene``         ``Scene``: what is simulated
+``scene_file``    TOML file -> checked ``Scene``; ``scenes/`` holds the built-in ones
 ``parts``         which parts there are and who passes what to whom
 ``system``        instances with their present inputs and outputs
 ``master``        the list of masters; ``jacobi``, ``gauss_seidel``: one each
@@ -12,9 +13,11 @@
 """
 
 from .result import Cost, Event, Phase, ShiftResult
-from .scene import Scene, builtin_scenes, load_scene
+from .scene import Part, Scene
+from .scene_file import builtin_scenes, load_scene
 from .shift import run_shift
 
 __all__ = [
-    "Cost", "Event", "Phase", "Scene", "ShiftResult", "builtin_scenes", "load_scene", "run_shift",
+    "Cost", "Event", "Part", "Phase", "Scene", "ShiftResult",
+    "builtin_scenes", "load_scene", "run_shift",
 ]  # fmt: skip

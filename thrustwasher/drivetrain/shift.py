@@ -79,7 +79,7 @@ def run_shift(
     h = span / n
     if abs(h / scene.step - 1.0) > 1e-9:
         messages.append(f"the step is {h:.9g} s so that {n} steps end at the stop time")
-    time = scene.start_time + h * np.arange(n + 1)
+    time = scene.start_time + h * np.arange(n + 1, dtype=np.float64)
     recorders = [_Recorder(part, n + 1) for part in parts.values()]
     system.set_command(scene.command(scene.start_time))
     system.initialize(scene.start_time)

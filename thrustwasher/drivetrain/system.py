@@ -6,8 +6,9 @@ called in this process.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Protocol
 
 from ..errors import ParameterError, SolveError
 from ..models._spec import ModelSpec
@@ -73,13 +74,15 @@ class ConnectedPart:
 
     def initialize(self, time: float) -> None:
         """Start the instance with the present inputs."""
-        self.guarded(time, lambda: self.instance.initialize(time, dict(zip(self.input_names, self.inputs, strict=True))))  # fmt: skip
-        self.outputs = self.instance.outputs()
+        with _named(self.name, time):
+            self.instance.initialize(time, dict(zip(self.input_names, self.inputs, strict=True)))
+            self.outputs = self.instance.outputs()
 
     def refresh(self, time: float) -> None:
         """Set the present inputs without a step and read the outputs."""
-        self.guarded(time, lambda: self.instance.set_inputs(self.inputs))
-        self.outputs = self.instance.outputs()
+        with _named(self.name, time):
+            self.instance.set_inputs(self.inputs)
+            self.outputs = self.instance.outputs()
 
     def step(self, t: float, h: float) -> None:
         """Advance with the present inputs and read the outputs."""
@@ -88,14 +91,21 @@ class ConnectedPart:
             self.instance.step(t, h)
             self.outputs = self.instance.outputs()
         except (ParameterError, SolveError) as problem:
-            raise SolveError(f"{self.name} at t = {t:g} s: {problem}") from problem
+            raise _renamed(problem, self.name, t) from problem
 
-    def guarded(self, time: float, call: Any) -> None:
-        """Call, and name part and time if it fails."""
-        try:
-            call()
-        except (ParameterError, SolveError) as problem:
-            raise SolveError(f"{self.name} at t = {time:g} s: {problem}") from problem
+
+def _renamed(problem: Exception, part: str, time: float) -> SolveError:
+    """Return the same problem with part and time in front."""
+    return SolveError(f"{part} at t = {time:g} s: {problem}")
+
+
+@contextmanager
+def _named(part: str, time: float) -> Iterator[None]:
+    """Name part and time if something fails inside."""
+    try:
+        yield
+    except (ParameterError, SolveError) as problem:
+        raise _renamed(problem, part, time) from problem
 
 
 class System:

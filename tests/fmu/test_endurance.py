@@ -70,3 +70,21 @@ def test_a_process_that_forgets_to_close_ends_cleanly_too(toy_fmu, run_child):
     code = "import sys; from thrustwasher.fmu.stepper import Instance; f = Instance(sys.argv[1])"
     ends = [run_child(code, toy_fmu, check=False).returncode for _ in range(4)]
     assert ends == [0] * 4
+
+
+PLAIN = """
+import sys
+from fmpy import extract, instantiate_fmu, read_model_description
+md, folder = read_model_description(sys.argv[1]), extract(sys.argv[1], sys.argv[2])
+fmu = instantiate_fmu(folder, md, "CoSimulation")
+fmu.setupExperiment()
+fmu.enterInitializationMode()
+fmu.exitInitializationMode()
+fmu.doStep(0.0, 1e-3)
+fmu.freeInstance()
+"""
+
+
+def test_a_host_that_unloads_the_library_ends_cleanly(toy_fmu, run_child, tmp_path):
+    run = [run_child(PLAIN, toy_fmu, tmp_path / str(i), check=False) for i in range(12)]
+    assert [done.returncode for done in run] == [0] * 12, run[-1].stderr

@@ -22,7 +22,7 @@ class DirectInstance:
         self._inputs = [v.reference for v in found if v.causality == "input"]
         self.input_names = [s.name for s in spec.inputs]
         self.output_names = [s.name for s in spec.outputs]
-        self._outputs = [v for v in found if v.causality == "output"]
+        self._outputs = [v.reference for v in found if v.causality == "output"]
         self._parameters = dict(parameters or {})
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
         self.reset()
@@ -78,7 +78,7 @@ class DirectInstance:
         """Return all outputs."""
         start = perf_counter()
         self.core.refresh()
-        values = [float(self.core.stored([v.reference])[0]) for v in self._outputs]
+        values = [float(x) for x in self.core.stored(self._outputs)]
         self.wall_time += perf_counter() - start
         return values
 

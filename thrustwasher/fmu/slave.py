@@ -7,10 +7,15 @@ A callback other than ``do_step`` cannot report failure at all; so a failure is 
 instantiation then returns NULL.
 """
 
+import _ctypes
+import ctypes
+import logging
+import os
 import sys
 import traceback
 from collections.abc import Callable
 from functools import wraps
+from pathlib import Path
 from typing import Any
 
 from pythonfmu import Fmi2Slave
@@ -48,13 +53,17 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         super().__init__(**kwargs)
         _forget_repeated_path(self.resources)
         spec = find_spec(self.model)
+        _settle_library(self.resources, spec.name)
         if type(self).digest != content_digest(spec):
-            raise EnvironmentProblem(
+            problem = EnvironmentProblem(
                 f"{spec.name}: this FMU was built with thrustwasher {type(self).version} "
                 f"(content {type(self).digest}), this Python has {package_version()} (content "
                 f"{content_digest(spec)}): pip install thrustwasher=={type(self).version}, or "
                 "build the FMU again"
             )
+            # pythonfmu drops this message if the host has not switched logging on
+            logging.getLogger("thrustwasher").error("%s", problem)
+            raise problem
         self.core = Core(spec)
         self.warned = 0
 
@@ -206,3 +215,22 @@ def _forget_repeated_path(folder: str | None) -> None:
     if folder in sys.path:
         first = sys.path.index(folder)
         sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != folder]
+
+
+def _settle_library(folder: str | None, model: str) -> None:
+    """Empty pythonfmu's global pointer in a Python host, where it has nothing left to do.
+
+    When the library is unloaded, or the process ends, its destructors release that pointer twice if
+    it is set; some processes then end with "corrupted double-linked list". A host that is no Python
+    still needs it: there it ends the interpreter.
+    """
+    embedded = not sys.orig_argv
+    if embedded or sys.platform != "linux" or not folder:
+        return
+    path = Path(folder).parent / "binaries" / "linux64" / f"{model}.so"
+    try:
+        library = ctypes.CDLL(str(path), mode=os.RTLD_NOLOAD | os.RTLD_NOW)
+    except OSError:
+        return  # loaded from another place
+    library.finalizePythonInterpreter()
+    _ctypes.dlclose(library._handle)

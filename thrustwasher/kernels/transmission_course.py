@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 MAX_TRIALS = 20000
 MAX_EVENTS = 200
+LEAST_SHARE = 1e-9  # of the step: shorter returns to zero slip are rounding
 
 
 @kernel
@@ -114,6 +115,21 @@ def reach(par: Array, work: Array, pack: int, s: float, h: float) -> float:
 
 
 @kernel
+def returns(par: Array, work: Array, s: float, h: float) -> bool:
+    """Return True if a pack that starts slipping from zero has come back across zero after ``h``.
+
+    Its slip then has two zeros in the trial step; a shorter one has none or, later, one.
+    """
+    for pack in range(2):
+        slips = work[np.uintp(L.W_CLUTCH_MODE + pack)] != L.STUCK
+        if slips and work[np.uintp(L.W_CLUTCH_ACTIVE + pack)] > 0.0:
+            if slip_of(par, work, pack, L.W_Y) == 0.0:
+                if guard(par, work, pack, s + h, L.W_NEW) < 0.0:
+                    return True
+    return False
+
+
+@kernel
 def run(par: Array, work: Array, t: float, dt: float, started: bool) -> int:
     """Carry the vector at ``work[W_Y:]`` from ``t`` to ``t + dt``; return a status.
 
@@ -136,6 +152,9 @@ def run(par: Array, work: Array, t: float, dt: float, started: bool) -> int:
             if not h > 1e-12 * dt:
                 return L.NOT_FINITE
             h *= max(0.1, 0.9 * ratio**-0.2) if ratio < 1e30 else 0.1
+            continue
+        if h > LEAST_SHARE * dt and returns(par, work, s, h):
+            h *= 0.25
             continue
         fraction, pack = first_event(par, work, s, h)
         if pack >= 0:

@@ -128,13 +128,15 @@ def guard(par: Array, work: Array, pack: int, s: float, y: int) -> float:
 def locate(par: Array, work: Array, pack: int, s: float, h: float, start: float) -> float:
     """Return the fraction of the step ``h`` at which the guard of a pack passes through zero.
 
-    ``start`` is the guard at the beginning, >= 0; at ``h`` it is negative. Regula falsi with the
+    ``start`` is the guard at the beginning; at ``h`` it is negative. Regula falsi with the
     Illinois rule; each trial integrates from the beginning, so the result lies on the solution.
     """
+    if start <= 0.0:
+        return 0.0
     low, high, g_low, side = 0.0, 1.0, start, 0
     g_high = guard(par, work, pack, s + h, L.W_NEW)
     for _ in range(MAX_ROOT_STEPS):
-        if high - low < 1e-15 or g_low <= 0.0:
+        if high - low < 1e-15:
             break
         x = (low * g_high - high * g_low) / (g_high - g_low)
         if not low < x < high:

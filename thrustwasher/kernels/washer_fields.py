@@ -1,7 +1,7 @@
 """Work arrays of the washer by name, and their sizes.
 
-Nodal arrays are indexed ``j * n_r + i`` (angle j, radius i). Temperatures are stored column by
-column: carrier, washer (n_r each), then gear (n_r - i_g nodes): ``m_t = 3 n_r - i_g`` a column.
+Nodal arrays are indexed ``j * n_r + i`` (angle j, radius i). Temperatures (rises above
+the oil) are stored column by column: carrier, washer (n_r each), then gear (n_r - i_g nodes): ``m_t = 3 n_r - i_g`` a column.
 """
 
 from typing import NamedTuple
@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .washer_model import WasherModel
+from .washer_model import WasherModel, gear_node
 
 N_TAG = 16  # what the stored heat factor was made for: inputs and positions
 N_SMALL = 128
+N_KEEP = 3
 
 
 class Point(NamedTuple):
@@ -51,12 +52,15 @@ class Fields(NamedTuple):
     wet: NDArray[np.float64]  # (n,) 1 where the film is full, 0 where it cavitates
     place: NDArray[np.float64]  # (n_t,) position of a column in the film's system, -1 dry
     film: NDArray[np.float64]  # band of the film equations
-    film_rhs: NDArray[np.float64]  # (5 n,) right sides, then solutions
-    temp: NDArray[np.float64]  # (n_temp,) temperatures [K], the iterate
+    film_rhs: NDArray[np.float64]  # (8 n,) node by node: right sides, then solutions
+    lag: NDArray[np.float64]  # (8 n,) fluidity changes that follow the temperatures
+    sides: NDArray[np.float64]  # (8 n,) right sides in the order of the film's system
+    temp: NDArray[np.float64]  # (n_temp,) rises above the oil [K], the iterate
     p: NDArray[np.float64]  # (n,) pressure [Pa], the iterate
     heat: NDArray[np.float64]  # (n_temp,) residual of the heat equations [W]
     dtemp: NDArray[np.float64]  # (n_temp,) T step at fixed positions
     spare: NDArray[np.float64]  # (n_temp,) permuted right side
+    keep: NDArray[np.float64]  # (N_KEEP (4 + n_temp + n),) remembered solutions
 
 
 @kernel
@@ -68,11 +72,11 @@ def temperatures_of(n_r: int, n_t: int, i_g: int) -> int:
 @kernel
 def size_of_work(n_r: int, n_t: int, symmetric_only: bool) -> int:
     """Return the length of ``work`` for a grid; an uneven heat split needs the wider band."""
-    i_g = max(1, int(0.25 * (n_r - 1) + 0.5))
+    i_g = gear_node(n_r)
     n, n_temp, m_t = n_r * n_t, temperatures_of(n_r, n_t, i_g), 3 * n_r - i_g
     width = 2 * m_t + 1 if symmetric_only else 4 * m_t + 1
     film = (2 * n_r + 1) * n
-    return N_TAG + 1 + n_temp + n_temp * width + 8 * n_temp + N_SMALL + n_t + 24 * n + film
+    return N_TAG + 1 + n_temp + n_temp * width + 8 * n_temp + N_SMALL + n_t + 42 * n + film + N_KEEP * (4 + n_temp + n)
 
 
 @kernel
@@ -89,9 +93,10 @@ def washer_fields(m: WasherModel, work: NDArray[np.float64]) -> Fields:
     b = a3 + 17 * n
     c = b + n_t
     d = c + (2 * n_r + 1) * n
-    e = d + 5 * n
+    e = d + 24 * n
     g = e + n_temp
     k = g + n
+    z = k + 3 * n_temp
     return Fields(
         work[:a0], work[a0:a1], work[a1:a2], work[a2:a3],
         work[a3 : a3 + n], work[a3 + n : a3 + 2 * n], work[a3 + 2 * n : a3 + 3 * n],
@@ -102,7 +107,8 @@ def washer_fields(m: WasherModel, work: NDArray[np.float64]) -> Fields:
         work[a3 + 11 * n : a3 + 12 * n], work[a3 + 12 * n : a3 + 13 * n],
         work[a3 + 13 * n : a3 + 14 * n], work[a3 + 14 * n : a3 + 15 * n],
         work[a3 + 15 * n : a3 + 16 * n], work[a3 + 16 * n : b],
-        work[b:c], work[c:d], work[d:e], work[e:g], work[g:k],
+        work[b:c], work[c:d], work[d : d + 8 * n],
+        work[d + 8 * n : d + 16 * n], work[d + 16 * n : e], work[e:g], work[g:k],
         work[k : k + n_temp], work[k + n_temp : k + 2 * n_temp],
-        work[k + 2 * n_temp : k + 3 * n_temp],
+        work[k + 2 * n_temp : z], work[z : z + N_KEEP * (4 + n_temp + n)],
     )  # fmt: skip

@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .banded import cholesky, cholesky_solve
+from .banded import N_SIDES, cholesky, cholesky_solve_many
 from .film import flow_conductance, mean_gap, shear_flow
 from .washer_fields import Fields, Point
 from .washer_model import WasherModel
+
+RING = 127  # place in Fields.small: 1 if no column is dry, so that the ring is closed
 
 
 @kernel
@@ -98,88 +100,78 @@ def film_residual(
         if f.place[j] >= 0.0:
             f.place[j] = count
             count += 1
-    f.small[127] = 0.0 if first_dry >= 0 else 1.0
+    f.small[RING] = 0.0 if first_dry >= 0 else 1.0
     return worst, p_max, count * (n_r - 2)
 
 
 @kernel
-def _film_rhs(m: WasherModel, p: NDArray[np.float64], f: Fields, k: int, side: int, n: int) -> None:
-    """Add the slopes of one face to the five right sides of its two nodes.
+def _face(
+    f: Fields, k: int, other: int, c: float, drop: float, per_h: float, x: float, y: float
+) -> None:
+    """Add the slopes of the flow through one face to the right sides of its two nodes.
 
-    ``k`` is the node before the face; ``side`` 0: face to the next angle, 1: to the next radius.
+    Sides: 0 the step at fixed positions, 1..4 the slopes over z_w, z_g, gx, gy.
     """
-    n_r, n_t = m.n_r, m.n_t
-    i, j = k % n_r, k // n_r
-    m_t = 3 * n_r - m.i_g
-    n_temp = m_t * n_t
-    if side == 0:
-        jn = j + 1 if j + 1 < n_t else 0
-        other, jo, io = jn * n_r + i, jn, i
-        c, dc = f.ct[k], f.dct[k]
-        x, y = m.r[i] * m.cos_face[j], m.r[i] * m.sin_face[j]
-        d_wedge = f.dwedge[k]
-    else:
-        other, jo, io = k + 1, j, i + 1
-        c, dc = f.cr[k], f.dcr[k]
-        x, y = m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j]
-        d_wedge = 0.0
-    fluid_k, fluid_o = 1.0 / f.mu[k], 1.0 / f.mu[other]
-    drop = p[k] - p[other]
-    per_h = dc * (fluid_k + fluid_o) * drop + d_wedge
-    per_tk = -c * f.dmu[k] * fluid_k * fluid_k * drop * 0.5  # half: mean of carrier and washer
-    per_to = -c * f.dmu[other] * fluid_o * fluid_o * drop * 0.5
-    tk, to = j * m_t + i, jo * m_t + io
-    for s in range(5):
-        if s == 0:
-            value = per_tk * (f.dtemp[tk] + f.dtemp[tk + n_r]) + per_to * (
-                f.dtemp[to] + f.dtemp[to + n_r]
-            )
-        else:
-            b = (s - 1) * n_temp
-            value = per_tk * (f.sens[b + tk] + f.sens[b + tk + n_r]) + per_to * (
-                f.sens[b + to] + f.sens[b + to + n_r]
-            )
-            if s == 1:
-                value += per_h
-            elif s == 3:
-                value += per_h * y
-            elif s == 4:
-                value -= per_h * x
-        f.film_rhs[s * n + k] -= value
-        f.film_rhs[s * n + other] += value
+    a, b = k * N_SIDES, other * N_SIDES
+    flow = c * drop
+    for s in range(N_SIDES):
+        v = flow * (f.lag[np.uintp(a + s)] + f.lag[np.uintp(b + s)])
+        f.film_rhs[np.uintp(a + s)] -= v
+        f.film_rhs[np.uintp(b + s)] += v
+    f.film_rhs[np.uintp(a + 1)] -= per_h
+    f.film_rhs[np.uintp(b + 1)] += per_h
+    f.film_rhs[np.uintp(a + 3)] -= per_h * y
+    f.film_rhs[np.uintp(b + 3)] += per_h * y
+    f.film_rhs[np.uintp(a + 4)] += per_h * x
+    f.film_rhs[np.uintp(b + 4)] -= per_h * x
 
 
 @kernel
-def film_solve(m: WasherModel, p: NDArray[np.float64], f: Fields) -> bool:
-    """Solve the linearised film for five right sides; return False if a pivot fails.
-
-    Out, in ``f.film_rhs``: the new pressure at fixed positions (after the temperature step
-    ``f.dtemp``), then its slopes over z_w, z_g, gx, gy (temperatures following by ``f.sens``).
-    Zero at cavitated nodes and rims. The residual is linear in p, so the new pressure itself is
-    solved for and the neighbours that just cavitated need no care.
-    """
+def _lags(m: WasherModel, f: Fields) -> None:
+    """Fill the fluidity change of each node that follows from the temperature step and slopes."""
     n_r, n_t = m.n_r, m.n_t
-    n, rows = n_r * n_t, n_r - 2
-    band = rows if f.small[127] == 0.0 else 2 * rows
-    for k in range(5 * n):
-        f.film_rhs[np.uintp(k)] = 0.0
-    size = 0
+    m_t = 3 * n_r - m.i_g
+    n_temp = m_t * n_t
     for j in range(n_t):
-        if f.place[j] >= 0.0:
-            size = max(size, (int(f.place[j]) + 1) * rows)
-    for k in range(size * (band + 1)):
-        f.film[np.uintp(k)] = 0.0
+        for i in range(n_r):
+            k = j * n_r + i
+            t, a = j * m_t + i, k * N_SIDES
+            scale = -0.5 * f.dmu[k] / (f.mu[k] * f.mu[k])  # half: mean of carrier and washer
+            f.lag[np.uintp(a)] = scale * (f.dtemp[np.uintp(t)] + f.dtemp[np.uintp(t + n_r)])
+            for s in range(1, 5):
+                b = (s - 1) * n_temp + t
+                f.lag[np.uintp(a + s)] = scale * (
+                    f.sens[np.uintp(b)] + f.sens[np.uintp(b + n_r)]
+                )
+            for s in range(5, N_SIDES):
+                f.lag[np.uintp(a + s)] = 0.0
+
+
+@kernel
+def _assemble(m: WasherModel, p: NDArray[np.float64], f: Fields, band: int) -> None:
+    """Fill the film's matrix and the right sides."""
+    n_r, n_t = m.n_r, m.n_t
+    rows = n_r - 2
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         jb = j - 1 if j > 0 else n_t - 1
         used = f.place[j] >= 0.0
-        if used or f.place[jn] >= 0.0:
-            for i in range(1, n_r - 1):
-                _film_rhs(m, p, f, j * n_r + i, 0, n)
+        if not (used or f.place[jn] >= 0.0):
+            continue
+        for i in range(1, n_r - 1):
+            k, o = j * n_r + i, jn * n_r + i
+            drop = p[k] - p[o]
+            fluid = 1.0 / f.mu[k] + 1.0 / f.mu[o]
+            _face(f, k, o, f.ct[k], drop, f.dct[k] * fluid * drop + f.dwedge[k],
+                  m.r[i] * m.cos_face[j], m.r[i] * m.sin_face[j])  # fmt: skip
         if not used:
             continue
         for i in range(n_r - 1):
-            _film_rhs(m, p, f, j * n_r + i, 1, n)
+            k = j * n_r + i
+            drop = p[k] - p[k + 1]
+            fluid = 1.0 / f.mu[k] + 1.0 / f.mu[k + 1]
+            _face(f, k, k + 1, f.cr[k], drop, f.dcr[k] * fluid * drop,
+                  m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j])  # fmt: skip
         for i in range(1, n_r - 1):
             k = j * n_r + i
             row = int(f.place[j]) * rows + i - 1
@@ -193,27 +185,56 @@ def film_solve(m: WasherModel, p: NDArray[np.float64], f: Fields) -> bool:
             c_u = f.cr[k] * (here + 1.0 / f.mu[k + 1])
             c_d = f.cr[k - 1] * (here + 1.0 / f.mu[k - 1])
             f.film[row * (band + 1)] = c_n + c_b + c_u + c_d
-            f.film_rhs[k] -= f.wedge[k] - f.wedge[kb]
+            f.film_rhs[k * N_SIDES] -= f.wedge[k] - f.wedge[kb]
             if i + 1 < n_r - 1 and f.wet[k + 1] == 1.0:
                 f.film[row * (band + 1) + 1] = -c_u
             if f.wet[kn] == 1.0:
                 col = int(f.place[jn]) * rows + i - 1
                 f.film[min(row, col) * (band + 1) + abs(row - col)] -= c_n
-    if size > 0 and not cholesky(f.film, size, band):
-        return False
-    for s in range(5):
-        for j in range(n_t):
-            if f.place[j] >= 0.0:
-                row = int(f.place[j]) * rows - 1
-                for i in range(1, n_r - 1):
-                    k = j * n_r + i
-                    f.spare[row + i] = f.film_rhs[s * n + k] * f.wet[k]
-        if size > 0:
-            cholesky_solve(f.film, f.spare, size, band)
-        for j in range(n_t):
+
+
+@kernel
+def film_solve(m: WasherModel, p: NDArray[np.float64], f: Fields) -> bool:
+    """Solve the linearised film for five right sides; return False if a pivot fails.
+
+    Out, in ``f.film_rhs[node * N_SIDES + side]``: the new pressure at fixed positions (after the
+    temperature step ``f.dtemp``), then its slopes over z_w, z_g, gx, gy (temperatures following by
+    ``f.sens``). Zero at cavitated nodes and rims. The residual is linear in p, so the new pressure
+    itself is solved for, and the neighbours of nodes that just cavitated need no care.
+    """
+    n_r, n_t = m.n_r, m.n_t
+    n, rows = n_r * n_t, n_r - 2
+    band = rows if f.small[RING] == 0.0 else 2 * rows
+    size = 0
+    for j in range(n_t):
+        if f.place[j] >= 0.0:
+            size += rows
+    for k in range(N_SIDES * n):
+        f.film_rhs[np.uintp(k)] = 0.0
+    for k in range(size * (band + 1)):
+        f.film[np.uintp(k)] = 0.0
+    _lags(m, f)
+    _assemble(m, p, f, band)
+    for j in range(n_t):
+        if f.place[j] >= 0.0:
             row = int(f.place[j]) * rows - 1
-            for i in range(n_r):
+            for i in range(1, n_r - 1):
                 k = j * n_r + i
-                inside = f.place[j] >= 0.0 and 0 < i < n_r - 1
-                f.film_rhs[s * n + k] = f.spare[row + i] * f.wet[k] if inside else 0.0
+                for s in range(N_SIDES):
+                    f.sides[np.uintp((row + i) * N_SIDES + s)] = (
+                        f.film_rhs[np.uintp(k * N_SIDES + s)] * f.wet[k]
+                    )
+    if size > 0:
+        if not cholesky(f.film, size, band):
+            return False
+        cholesky_solve_many(f.film, f.sides, size, band)
+    for j in range(n_t):
+        row = int(f.place[j]) * rows - 1
+        for i in range(n_r):
+            k = j * n_r + i
+            inside = f.place[j] >= 0.0 and 0 < i < n_r - 1
+            for s in range(N_SIDES):
+                f.film_rhs[np.uintp(k * N_SIDES + s)] = (
+                    f.sides[np.uintp((row + i) * N_SIDES + s)] * f.wet[k] if inside else 0.0
+                )
     return True

@@ -111,13 +111,14 @@ def evaluate_gaps(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) 
 
 
 @kernel
-def evaluate_viscosity(m: WasherModel, temp: NDArray[np.float64], f: Fields) -> None:
+def evaluate_viscosity(m: WasherModel, pt: Point, f: Fields) -> None:
     """Fill viscosity and slope at the film temperature, the mean of carrier and washer."""
     m_t = 3 * m.n_r - m.i_g
     for j in range(m.n_t):
         for i in range(m.n_r):
             k = np.uintp(j * m.n_r + i)
-            t = 0.5 * (temp[np.uintp(j * m_t + i)] + temp[np.uintp(j * m_t + m.n_r + i)])
+            a = j * m_t + i
+            rise = 0.5 * (f.temp[np.uintp(a)] + f.temp[np.uintp(a + m.n_r)])
             f.mu[k], f.dmu[k] = viscosity(
-                t, m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
+                pt.oil_temperature + rise, m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
             )

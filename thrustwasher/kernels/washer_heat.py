@@ -3,6 +3,8 @@
 Finite volumes in the plane, conduction across by resistances. Sources and conduction across use
 the same weights as force and torque, so that friction power in is heat out to rounding.
 
+Temperatures are rises above the oil: no digits are lost on a cool washer.
+
 Source: Jackson & Green Eq 19-29; R1 = h_T/K_oil + t_w/(2 K), likewise R2.
 """
 
@@ -43,7 +45,7 @@ def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Field
             made += w1 * q
             across = w1 * (temp[ic] - temp[iw]) / (f.ht[k] / m.oil_conductivity + half)
             f.heat[ic] += (
-                across + w1 * far_c * (temp[ic] - pt.oil_temperature) - m.heat_split * w1 * q
+                across + w1 * far_c * temp[ic] - m.heat_split * w1 * q
             )
             f.heat[iw] -= across + (1.0 - m.heat_split) * w1 * q
             # to the next column
@@ -68,7 +70,7 @@ def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Field
                 w2 = m.weight2[i] * m.weight_t[j]
                 across = w2 * (temp[iw] - temp[ig]) / (f.ht2[k] / m.oil_conductivity + half)
                 f.heat[iw] += across
-                f.heat[ig] += w2 * far_g * (temp[ig] - pt.oil_temperature) - across
+                f.heat[ig] += w2 * far_g * temp[ig] - across
                 width = np.log(m.r_face[i] / m.r[i]) if i == i_g else m.log_width[i]
                 flow = kg * m.rotating_spread * width / m.step_t[j] * (temp[ig] - temp[ign])
                 f.heat[ig] += flow

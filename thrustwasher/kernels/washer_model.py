@@ -23,8 +23,8 @@ TABLES = N_PARAM + N_SCALAR
 MESH = TABLES + 2 * N_TABLE
 N_RADIAL = 5  # arrays over the radial nodes
 N_AROUND = 7  # arrays over the angles
-RADIAL_GRADING = 1.5
-ANGULAR_GRADING = 0.4
+RADIAL_GRADING = 1.6
+ANGULAR_GRADING = 0.3
 OK, NOT_FINITE, BAD_INPUT = 0, 14, 15  # errors.Status; a test keeps them equal
 
 
@@ -76,6 +76,12 @@ class WasherModel(NamedTuple):
     weight_t: NDArray[np.float64]  # (n_t,) trapezoid weights [rad]
     width_t: NDArray[np.float64]  # (n_t,) cell widths [rad]
     step_t: NDArray[np.float64]  # (n_t,) from j to j + 1 [rad]
+
+
+@kernel
+def gear_node(n_r: int) -> int:
+    """Return the radial node that lies on the gear's inner radius: a third of the intervals."""
+    return max(1, (n_r - 1) // 3)
 
 
 @kernel
@@ -153,7 +159,7 @@ def derive_grid(par: NDArray[np.float64], n_r: int, n_t: int) -> int:
     """
     if n_r < 5 or n_t < 8 or not (0.0 < par[0] < par[2] < par[1]):
         return BAD_INPUT
-    i_g = max(1, int(0.25 * (n_r - 1) + 0.5))
+    i_g = gear_node(n_r)
     good = _mesh(par, n_r, n_t, i_g)
     carrier, washer = _pair(par, 7, 8)
     gear, _ = _pair(par, 9, 8)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
+from .banded import N_SIDES
 from .dense import dense_solve
 from .washer_fields import N_TAG, Fields, Point
 from .washer_film import evaluate_film, film_residual, film_solve
@@ -24,6 +25,7 @@ from .washer_model import WasherModel
 
 OK, MAX_ITERATIONS, SINGULAR, NOT_FINITE = 0, 10, 11, 14  # errors.Status; a test keeps them equal
 LOAD, FILM = 0, 1  # modes
+NO_FLOOR = -100.0
 # places in Fields.small
 BALANCE = 32  # (4,) forces conjugate to q [N, N, N m, N m], load not subtracted
 SLOPES = 36  # (16,) their slopes over q
@@ -40,6 +42,12 @@ def smooth_film(m: WasherModel, q: NDArray[np.float64]) -> float:
     e = 0.05 * m.sigma1
     reach = m.outer_radius * m.outer_radius * (q[2] * q[2] + q[3] * q[3])
     return q[0] - math.sqrt(reach + e * e)
+
+
+@kernel
+def film_ratio(m: WasherModel, q: NDArray[np.float64]) -> float:
+    """Return the least film thickness over the disc in sigma."""
+    return (q[0] - m.outer_radius * math.sqrt(q[2] * q[2] + q[3] * q[3])) / m.sigma1
 
 
 @kernel
@@ -97,7 +105,6 @@ def _balance(m: WasherModel, p: NDArray[np.float64], f: Fields) -> None:
 def _linearise(m: WasherModel, f: Fields) -> None:
     """Fill the forces after the step at fixed q and their slopes, film pressure following."""
     s = f.small
-    n = m.n_r * m.n_t
     for a in range(4):
         s[BALANCE + a] = s[FORCE + a]
     for a in range(16):
@@ -107,12 +114,12 @@ def _linearise(m: WasherModel, f: Fields) -> None:
             k = j * m.n_r + i
             w = m.weight1[i] * m.weight_t[j]
             wy, wx = w * m.r[i] * m.sin[j], w * m.r[i] * m.cos[j]
-            p0 = f.film_rhs[k]
+            p0 = f.film_rhs[k * N_SIDES]
             s[BALANCE] += w * p0
             s[BALANCE + 2] += wy * p0
             s[BALANCE + 3] -= wx * p0
             for c in range(4):
-                dp = f.film_rhs[(c + 1) * n + k]
+                dp = f.film_rhs[k * N_SIDES + c + 1]
                 s[SLOPES + c] += w * dp
                 s[SLOPES + 8 + c] += wy * dp
                 s[SLOPES + 12 + c] -= wx * dp
@@ -176,7 +183,7 @@ def _limit(m: WasherModel, q: NDArray[np.float64], f: Fields) -> float:
 def evaluate(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> float:
     """Evaluate everything at (q, f.temp, f.p); return the heat made [W]."""
     evaluate_gaps(m, pt, q, f)
-    evaluate_viscosity(m, f.temp, f)
+    evaluate_viscosity(m, pt, f)
     made = heat_residual(m, pt, f.temp, f)
     evaluate_film(m, pt, q, f)
     return made
@@ -185,15 +192,18 @@ def evaluate(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> fl
 @kernel
 def newton(
     m: WasherModel, pt: Point, mode: int, target: float, q: NDArray[np.float64], f: Fields,
-    keep_factor: bool, tolerance: float, max_iterations: int, info: NDArray[np.float64],
+    floor: float, tolerance: float, max_iterations: int, info: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve for positions ``q``, temperatures ``f.temp`` and pressures ``f.p``; return a status.
+
+    The heat factor and slopes in ``f`` serve as long as each iteration gains a digit (chord); set
+    ``f.tag[0] = 0`` to have them made anew. Film, contacts and the system of four are always exact.
 
     Parameters
     ----------
     mode, target : LOAD and a load [N], or FILM and a smoothed film thickness [m]
     q : (4,) start in, best estimate out; so are ``f.temp`` and ``f.p``
-    keep_factor : go on with the heat factor and slopes in ``f`` while they serve (chord)
+    floor : give up when the film ratio falls below it
     tolerance : on the largest of force and moment over load, pressure over its maximum, heat over
         the heat made
     info : (N_INFO,) out: iterations, factorings, residual, load reached, dload/ds, heat made [W]
@@ -228,8 +238,9 @@ def newton(
             return OK
         if iteration == max_iterations:
             break
-        slow = error > 0.1 * before
-        if not (keep_factor and not slow and f.tag[0] == 1.0):
+        if film_ratio(m, q) < floor:
+            break
+        if error > 0.1 * before or f.tag[0] != 1.0:
             if not make_factor(m, pt, q, f.temp, f):
                 return SINGULAR
             info[FACTORED] += 1.0
@@ -263,12 +274,12 @@ def newton(
             f.temp[np.uintp(k)] += damp * f.dtemp[np.uintp(k)]
         n = m.n_r * m.n_t
         for k in range(n):
-            p = (
-                f.film_rhs[np.uintp(k)]
-                + f.film_rhs[np.uintp(n + k)] * d0 + f.film_rhs[np.uintp(2 * n + k)] * d1
-                + f.film_rhs[np.uintp(3 * n + k)] * d2 + f.film_rhs[np.uintp(4 * n + k)] * d3
+            a = k * N_SIDES
+            f.p[np.uintp(k)] = (
+                f.film_rhs[np.uintp(a)]
+                + f.film_rhs[np.uintp(a + 1)] * d0 + f.film_rhs[np.uintp(a + 2)] * d1
+                + f.film_rhs[np.uintp(a + 3)] * d2 + f.film_rhs[np.uintp(a + 4)] * d3
             )  # fmt: skip
-            f.p[np.uintp(k)] = p
         q[0] += d0
         q[1] += d1
         q[2] += d2

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thrustwasher.report.shift_record import Event, Phase, Record
+from thrustwasher.report.shift_record import Cost, Event, Part, Phase, Record
 
 
 def record(washer: bool = True) -> Record:
@@ -51,6 +51,7 @@ def record(washer: bool = True) -> Record:
         s |= {
             "transmission.washer_load": load,
             "transmission.washer_tilt": np.full_like(t, 1.6e-3),
+            "washer.load": load,
             "washer.friction_torque": 0.03 * (1.0 - done),
             "washer.temperature": 297.15 + 15.0 * (1.0 - done),
             "washer.temperature_max": 297.15 + 25.0 * (1.0 - done),
@@ -63,16 +64,56 @@ def record(washer: bool = True) -> Record:
     book = ("load_work", "clutch_heat", "brake_heat", "washer_heat", "mesh_heat")
     kinetic = s["transmission.engine_work"] - sum(s[f"transmission.{k}"] for k in book)
     s["transmission.kinetic_change"] = kinetic
+    s |= {
+        "transmission.lock_time": np.where(locked, 1.75, -1.0),
+        "transmission.lock_speed": np.where(locked, engine[-1], 0.0),
+        "transmission.release_time": np.where(t >= 0.25, 0.25, -1.0),
+        "transmission.energy_residual": np.full_like(t, 1e-5),
+        "clutch.energy": 1.0002 * s["transmission.clutch_heat"],
+        "clutch.friction_coefficient": 0.04 + 0.07 * done**3,
+    }
+    small = {"inner_radius": 0.00555, "gear_inner_radius": 0.0078, "outer_radius": 0.01135}
+    parts = [
+        Part("transmission", "ShiftTransmission", {}),
+        Part("clutch", "WetClutch", {}),
+        Part("brake", "WetClutch", {}),
+    ]
+    parts += [Part("washer", "ThrustWasher", small)] if washer else []
+    heat = float(s["transmission.clutch_heat"][-1])
+    figures: dict[str, float | None] = {
+        "lock_time": 1.75, "lock_speed": 99.0, "release_time": 0.25, "slip_energy": heat,
+        "slip_energy_per_area": heat / 0.0786, "peak_power": 49e3, "peak_clutch_torque": 389.0,
+        "peak_sun_thrust": 2280.0, "peak_clutch_temperature": 447.15,
+        "peak_brake_temperature": 297.2, "friction_start": 0.04, "friction_middle": 0.05,
+        "friction_lock": 0.11,
+    }  # fmt: skip
+    if washer:
+        figures |= {"peak_washer_temperature_max": 322.15, "least_washer_film_ratio": 0.31,
+                    "washer_distress_time": 0.04}  # fmt: skip
+    energy = {
+        "engine_work": float(s["transmission.engine_work"][-1]), "kinetic": float(kinetic[-1]),
+        "load_work": float(s["transmission.load_work"][-1]), "clutch": heat, "brake": 0.0,
+        "washers": float(s["transmission.washer_heat"][-1]), "meshes": 0.0, "residual": 1e-5,
+        "residual_share": 1.3e-10, "coupling_difference": 9.4, "coupling_difference_share": 2e-4,
+    }  # fmt: skip
     return Record(
         name="stand-in",
-        description="a made-up shift",
+        title="A made-up shift",
+        help="Straight lines with the shape of a shift.",
+        ramp_start=0.1,
+        oil_temperature=297.15,
+        step=1e-3,
+        master="gauss-seidel",
         time=t,
         signals=s,
         phases=(Phase("first gear", 0.0, 0.1), Phase("torque phase", 0.1, 0.25),
-                Phase("inertia phase", 0.25, 1.75), Phase("second gear", 1.75, 2.5)),
-        events=(Event(0.1, "pressure ramp starts"), Event(0.25, "brake breaks away"),
+                Phase("inertia phase", 0.25, 1.75), Phase("locked", 1.75, 2.5)),
+        events=(Event(0.1, "shift ramp starts"), Event(0.25, "brake lets go of the ring"),
                 Event(1.75, "clutch locks")),
-        energy={},
-        figures={},
-        cost={},
+        energy=energy,
+        figures=figures,
+        parts=parts,
+        costs=[Cost(part.name, "field", 0.01, 0.001, 2500, 0.05) for part in parts],
+        wall_time=0.4,
+        messages=("a remark of the run",),
     )  # fmt: skip

@@ -9,23 +9,22 @@ from collections.abc import Callable
 WIDTH = 32
 
 
-def progress_bar(label: str) -> Callable[[float], None]:
-    """Return ``show(fraction)``, which redraws at most ten times a second; 1 clears the line."""
+def progress_bar(label: str) -> Callable[[int, int], None] | None:
+    """Return ``show(done, total)``, which clears the line at the end; None in a pipe."""
     stream = sys.stderr
     if not stream.isatty():
-        return lambda fraction: None
+        return None
     last = 0.0
 
-    def show(fraction: float) -> None:
+    def show(done: int, total: int) -> None:
         nonlocal last
         now = time.monotonic()
-        if fraction < 1.0 and now - last < 0.1:
+        if done < total and now - last < 0.1:
             return
         last = now
-        done = round(WIDTH * min(max(fraction, 0.0), 1.0))
-        bar = "█" * done + "·" * (WIDTH - done)
-        text = "\r\033[K" if fraction >= 1.0 else f"\r{label} {bar} {fraction:4.0%}"
-        stream.write(text)
+        filled = WIDTH * done // total
+        bar = "█" * filled + "·" * (WIDTH - filled)
+        stream.write("\r\033[K" if done >= total else f"\r{label} {bar} {done / total:4.0%}")
         stream.flush()
 
     return show

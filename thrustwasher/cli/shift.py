@@ -3,35 +3,39 @@
 from __future__ import annotations
 
 import argparse
+import time
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
 
 from ..errors import ParameterError
 from ..units import parse_quantity
 from . import _output
+from ._progress import progress_bar
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
+REPORT, TABLE, OVERVIEW = "report.html", "shift.csv", "overview.png"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
-        "--scene", metavar="NAME|FILE", default="planetary",
-        help="a built-in scene (planetary, msl) or a TOML file; default planetary",
+        "--scene", metavar="NAME|FILE.toml", default="planetary",
+        help="a built-in scene (planetary, msl, ...) or a TOML file; default planetary",
     )  # fmt: skip
     parser.add_argument(
         "--out", metavar="DIR", default="shift-report",
-        help="folder for report.html, the plots and shift.csv; default shift-report",
+        help=f"folder for {REPORT}, the plots and {TABLE}; default shift-report",
     )  # fmt: skip
     parser.add_argument(
-        "--step", metavar="QUANTITY", default=None,
-        help="communication step [s]; default: the scene's, 1e-3",
-    )  # fmt: skip
+        "--step", metavar="QUANTITY", help="communication step [s], if not the scene's"
+    )
+    parser.add_argument(
+        "--master", metavar="NAME", help="gauss-seidel or jacobi, if not the scene's"
+    )
     parser.add_argument(
         "--fmu", choices=["python", "native"], default="python",
         help="kind of FMU; this version builds the python kind",
-    )  # fmt: skip
-    parser.add_argument(
-        "--master", choices=["gauss-seidel", "jacobi"], default=None,
-        help="order in which the FMUs step; default: the scene's",
     )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object with every number")
 
@@ -40,6 +44,56 @@ def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
     if arguments.fmu == "native":
         raise ParameterError("fmu = 'native', allowed in this version: 'python'")
+    from ..drivetrain import load_scene
+
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
+    scene = load_scene(arguments.scene).with_options(step=step, master=arguments.master)
     folder = _output.check_folder(arguments.out, "--out")
-    raise ParameterError(f"{folder} {step}")
+
+    began = time.perf_counter()
+    result = _simulate(scene)
+    from ..report import summary
+    from ..report.shift_record import record_of
+
+    record = record_of(result)
+    with _output.whole_folder(folder) as draft:
+        _write(record, result, draft)
+    if arguments.json:
+        total = time.perf_counter() - began
+        _output.print_json({**result.as_dict(), "total_time": total, "out": str(folder)})
+        return 0
+    for text in [*summary.sentences(record), *summary.warnings(record)]:
+        print(text)
+    print(f"Energy book: {record.energy['residual_share']:.1e} of the engine's work is missing.")
+    print(f"Report: {folder / REPORT}")
+    return 0
+
+
+def _simulate(scene: Any) -> Any:
+    """Return the finished shift; the FMUs are built, loaded and freed here."""
+    from ..drivetrain import run_shift
+    from ..fmu.stepper import Instance
+    from ._fmu_cache import fmu_paths
+
+    paths = fmu_paths(part.spec.name for part in scene.parts.values())
+    with ExitStack() as loaded:
+        instances = {
+            name: loaded.enter_context(
+                Instance(paths[part.spec.name], parameters=part.parameters(), name=name)
+            )
+            for name, part in scene.parts.items()
+        }
+        return run_shift(scene, instances, progress=progress_bar(scene.name))
+
+
+def _write(record: Any, result: Any, folder: Path) -> None:
+    """Write page, plots and time series into a folder that is still a draft."""
+    from ..report.html import render, save_plots
+    from ..report.shift_plots import overview_figure
+    from ..report.shift_report import shift_page
+
+    page = shift_page(record)
+    (folder / REPORT).write_text(render(page), encoding="utf-8")
+    save_plots(page, folder)
+    overview_figure(record).savefig(folder / OVERVIEW)
+    result.write_csv(folder / TABLE)

@@ -113,6 +113,6 @@ def _drawing(figure: Figure, prefix: str) -> str:
 def _picture(figure: Figure) -> str:
     """Return an image element with the PNG inside."""
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", dpi=130)
+    figure.savefig(stream, format="png", dpi=100)
     data = base64.b64encode(stream.getvalue()).decode("ascii")
     return f'<img alt="" src="data:image/png;base64,{data}">'

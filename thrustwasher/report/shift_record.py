@@ -1,9 +1,9 @@
-"""What the report needs from a finished shift."""
+"""What the report needs from a finished shift, as plain data."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,29 +26,99 @@ class Event(NamedTuple):
     text: str
 
 
-@dataclass(frozen=True, kw_only=True)
-class Record:
-    """A finished shift as plain data."""
+class Part(NamedTuple):
+    """One FMU of the run: its name in the scene, its model, its parameters and fidelity."""
 
     name: str
-    description: str
+    model: str
+    parameters: Mapping[str, Any]
+
+
+class Cost(NamedTuple):
+    """What one FMU took: calls, and seconds of wall-clock time."""
+
+    name: str
+    fidelity: str
+    instantiate: float
+    initialize: float
+    calls: int
+    steps: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Record:
+    """A finished shift; ``signals`` maps "part.variable" to values at ``time``, SI units."""
+
+    name: str
+    title: str
+    help: str
+    ramp_start: float
+    oil_temperature: float
+    step: float
+    master: str
     time: Array
-    signals: Mapping[str, Array]  # "component.variable" -> values at ``time``
+    signals: Mapping[str, Array]
     phases: Sequence[Phase]
     events: Sequence[Event]
     energy: Mapping[str, float]
-    figures: Mapping[str, Any]
-    cost: Mapping[str, Any]
+    figures: Mapping[str, float | None]
+    parts: Sequence[Part]
+    costs: Sequence[Cost]
+    wall_time: float
     messages: Sequence[str] = ()
-    parameters: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def series(self, name: str) -> Array | None:
         """Return a signal, or None if this run has none of that name."""
         values = self.signals.get(name)
         return None if values is None else np.asarray(values, dtype=float)
 
-    @property
-    def oil_temperature(self) -> float:
-        """Temperature of the oil [K]."""
-        values = self.series("transmission.oil_supply_temperature")
-        return 297.15 if values is None else float(values[0])
+    def at(self, name: str, time: float) -> float | None:
+        """Return a signal at the last recorded time that is not later."""
+        values = self.series(name)
+        if values is None:
+            return None
+        index = int(np.searchsorted(self.time, time, side="right")) - 1
+        return float(values[max(index, 0)])
+
+    def window(self, start: float, end: float) -> Record:
+        """Return the record between two times [s]; key figures and energy stay those of all."""
+        inside = (self.time >= start) & (self.time <= end)
+        clipped = (Phase(p.name, max(p.start, start), min(p.end, end)) for p in self.phases)
+        return replace(
+            self,
+            time=self.time[inside],
+            signals={name: values[inside] for name, values in self.signals.items()},
+            phases=[p for p in clipped if p.end > p.start],
+            events=[e for e in self.events if start <= e.time <= end],
+        )
+
+    def part(self, name: str) -> Part | None:
+        """Return the FMU of that name, or None."""
+        return next((part for part in self.parts if part.name == name), None)
+
+
+def record_of(result: Any) -> Record:
+    """Return a shift result of the drivetrain as plain data."""
+    scene = result.scene
+    return Record(
+        name=scene.name,
+        title=scene.title,
+        help=" ".join(scene.description.split()),
+        ramp_start=scene.shift_start,
+        oil_temperature=scene.oil_temperature,
+        step=result.step,
+        master=result.master,
+        time=result.time,
+        signals=result.signals,
+        phases=[Phase(*phase) for phase in result.phases],
+        events=[Event(event.time, event.text) for event in result.events],
+        energy=result.energy,
+        figures=result.figures,
+        parts=[Part(n, part.spec.name, part.parameters()) for n, part in scene.parts.items()],
+        costs=[
+            Cost(c.part, c.fidelity, c.instantiate, c.initialize, c.steps, c.wall_time)
+            for c in result.cost
+        ],
+        wall_time=result.wall_time,
+        messages=result.messages,
+    )

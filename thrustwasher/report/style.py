@@ -66,7 +66,9 @@ def time_figure(
     figure.subplots_adjust(
         left=0.07, right=0.735, top=1.0 - 0.32 / height, bottom=0.5 / height, hspace=0.22
     )
-    return figure, list(np.atleast_1d(axes).ravel())
+    panels = list(np.atleast_1d(axes).ravel())
+    panels[-1].xaxis.set_label_text("time [s]")
+    return figure, panels
 
 
 def beside(axes: Axes, **options: Any) -> None:
@@ -75,7 +77,8 @@ def beside(axes: Axes, **options: Any) -> None:
 
 
 def label(axes: Axes, title: str, across: str, up: str) -> None:
-    """Set title and axis labels; a label carries its unit in brackets."""
+    """Set title and axis labels; a label carries its unit in brackets, "" leaves it as it is."""
     axes.set_title(title)
-    axes.set_xlabel(across)
     axes.set_ylabel(up)
+    if across:
+        axes.set_xlabel(across)

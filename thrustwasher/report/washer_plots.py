@@ -48,14 +48,17 @@ def field_figure(result: Any, point: Mapping[str, float], heading: str = "") -> 
 def _draw_map(axis: Axes, fields: Any, values: Array, title: str, unit: str, cmap: str) -> None:
     """Draw one field over x, y in millimetres."""
     x, y = _plane(fields)
-    shades = axis.pcolormesh(x, y, _closed(values), shading="gouraud", cmap=cmap, rasterized=True)
+    low, high = float(np.min(values)), float(np.max(values))
+    shades = axis.pcolormesh(
+        x, y, _closed(values), shading="gouraud", cmap=cmap, rasterized=True,
+        vmin=low, vmax=high if high > low else low + 1.0,
+    )  # fmt: skip
     bar = axis.figure.colorbar(shades, ax=axis, shrink=0.82, pad=0.02)
     bar.set_label(f"{title.lower()} [{unit}]")
     bar.outline.set_visible(False)
     for rim in (fields.radius[0], fields.radius[-1]):
         turn = np.linspace(0.0, 2.0 * np.pi, 181)
         axis.plot(1e3 * rim * np.cos(turn), 1e3 * rim * np.sin(turn), color="#666666", lw=0.7)
-    low, high = float(np.min(values)), float(np.max(values))
     label(axis, f"{title}, {low:.3g} to {high:.3g} {unit}", "x [mm]", "y [mm]")
     axis.set_aspect("equal")
     axis.grid(False)

@@ -1,0 +1,93 @@
+"""The main job from the command line: one folder with a report, or nothing at all."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from thrustwasher.cli import main
+
+
+@pytest.fixture(scope="module")
+def msl(tmp_path_factory):
+    """Run the scene with a known answer once."""
+    folder = tmp_path_factory.mktemp("shift") / "report"
+    words = ["shift", "--scene", "msl", "--out", str(folder), "--json"]
+    done = subprocess.run(
+        [sys.executable, "-m", "thrustwasher", *words],
+        capture_output=True, text=True, check=False, cwd=Path(__file__).parents[2],
+    )  # fmt: skip
+    return folder, done
+
+
+def test_json_is_one_object_and_nothing_else(msl):
+    _, done = msl
+    assert (done.returncode, done.stderr) == (0, "")
+    record = json.loads(done.stdout)
+    assert {"lock_time", "energy", "energy_residual", "events", "cost", "wall_time"} <= set(record)
+    assert record["lock_time"] == pytest.approx(2.1107904, abs=2e-4)
+    assert abs(record["energy_residual"]) < 1e-6 * record["energy"]["engine_work"]
+
+
+def test_folder_holds_page_plots_and_series(msl):
+    folder, _ = msl
+    names = {path.name for path in folder.iterdir()}
+    assert {"report.html", "shift.csv", "overview.png", "speeds.png", "energy.png"} <= names
+    assert [name for name in names if name.startswith(".")] == []
+    with (folder / "shift.csv").open(encoding="utf-8") as stream:
+        rows = csv.reader(stream)
+        head = next(rows)
+        assert head[0] == "time [s]" and all("[" in name for name in head)
+        assert sum(1 for _ in rows) == 5001
+
+
+def test_summary_names_lock_and_report(tmp_path, capsys):
+    out = tmp_path / "r"
+    assert main(["shift", "--scene", "msl", "--step", "4 ms", "--out", str(out)]) == 0
+    text, err = capsys.readouterr()
+    assert err == "", "no progress bar in a pipe"
+    assert "the clutch locked at 2.11" in text and str(out / "report.html") in text
+
+
+def test_a_failure_leaves_nothing_behind(tmp_path, capsys, monkeypatch):
+    def fail(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("thrustwasher.drivetrain.ShiftResult.write_csv", fail)
+    out = tmp_path / "r"
+    assert main(["shift", "--scene", "msl", "--step", "10 ms", "--out", str(out)]) == 2
+    assert "No space left" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_files_that_were_there_stay(tmp_path, capsys):
+    (tmp_path / "notes.txt").write_text("mine")
+    assert main(["shift", "--scene", "msl", "--step", "10 ms", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "notes.txt").read_text() == "mine"
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["--scene", "planetray"], ["planetray", "planetary"]),
+        (["--scene", "none.toml"], ["none.toml"]),
+        (["--master", "magic"], ["master", "magic", "jacobi"]),
+        (["--step", "1 h"], ["step", "'1 h'", "ms"]),
+        (["--step", "10 s"], ["step", "10", "s"]),
+        (["--fmu", "native"], ["native", "python"]),
+        (["--out", "file"], ["file", "folder"]),
+    ],
+)
+def test_wrong_words_are_refused_before_any_work(words, named, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("file").write_text("x")
+    monkeypatch.setattr("thrustwasher.cli.shift._simulate", lambda _: pytest.fail("it began"))
+    assert main(["shift", *words]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1
+    assert [text for text in named if text not in err] == []
+    assert [p.name for p in tmp_path.iterdir()] == ["file"]

@@ -1,0 +1,197 @@
+"""The report says what its record says, in one page that needs nothing else."""
+
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+import shift_stand_in
+import washer_stand_in
+
+from thrustwasher.report import panels, shift_plots, shift_report, summary, tables
+from thrustwasher.report.clutch_plot import clutch_figure
+from thrustwasher.report.curve_plot import curve_figure
+from thrustwasher.report.extremes import highest, worst_film
+from thrustwasher.report.html import render, save_plots
+from thrustwasher.report.washer_moment import Moment
+from thrustwasher.report.washer_plots import field_figure
+
+POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15}
+
+
+@pytest.fixture
+def record(monkeypatch):
+    def solve(record, time):
+        ratio = record.at("washer.film_ratio", time)
+        return Moment(time, POINT, washer_stand_in.Washer(), ratio)
+
+    monkeypatch.setattr(shift_report, "solve_moment", solve)
+    return shift_stand_in.record()
+
+
+class _Reader(HTMLParser):
+    """Collects what a browser would fetch, the identifiers, and whether tags are balanced."""
+
+    VOID = frozenset({"meta", "img", "br", "link", "hr", "input"})
+
+    def __init__(self):
+        super().__init__()
+        self.fetched, self.ids, self.open, self.text = [], [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        found = dict(attributes)
+        self.fetched += [found[k] for k in ("src", "href", "xlink:href") if found.get(k)]
+        self.ids += [found["id"]] if "id" in found else []
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in self.VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def test_page_is_well_formed_and_fetches_nothing(record):
+    reader = _Reader()
+    reader.feed(render(shift_report.shift_page(record)))
+    assert reader.open == []
+    assert [a for a in reader.fetched if not a.startswith(("#", "data:"))] == []
+    assert len(reader.ids) == len(set(reader.ids))
+    assert {a[1:] for a in reader.fetched if a.startswith("#")} <= set(reader.ids)
+
+
+def test_page_carries_every_chapter_and_the_numbers(record):
+    page = shift_report.shift_page(record)
+    text = render(page)
+    titles = [section.title for section in page.sections]
+    assert titles == ["Speeds", "Torques", "Temperatures", "Film ratios", "The thrust washer",
+                      "Energy", "Key figures", "Time spent", "What was simulated",
+                      "How far to trust it"]  # fmt: skip
+    for words in ("1.75 s", "99 rad/s", "Thermo-viscous distress", "upper bound", "half the size",
+                  "a remark of the run", "Jackson", "roughness_carrier"):  # fmt: skip
+        assert words in text
+
+
+def test_same_record_gives_the_same_page(record):
+    assert render(shift_report.shift_page(record)) == render(shift_report.shift_page(record))
+
+
+def test_text_from_a_scene_cannot_become_markup(record):
+    from dataclasses import replace
+
+    text = render(shift_report.shift_page(replace(record, title="<script>alert(1)</script>")))
+    assert "<script" not in text
+
+
+def test_a_scene_without_washer_has_no_word_of_it():
+    page = shift_report.shift_page(shift_stand_in.record(washer=False))
+    assert "The thrust washer" not in [section.title for section in page.sections]
+    assert "washer" not in " ".join(page.summary)
+    assert render(page)
+
+
+def test_a_short_shift_is_also_drawn_enlarged(record):
+    from dataclasses import replace
+
+    short = replace(record, figures={**record.figures, "lock_time": 0.2})
+    stems = [p.file for s in shift_report.shift_page(short).sections for p in s.plots]
+    assert "speeds_enlarged" in stems and "torques_enlarged" in stems
+
+
+def test_every_plot_becomes_a_file(record, tmp_path):
+    page = shift_report.shift_page(record)
+    paths = save_plots(page, tmp_path)
+    assert len(paths) == len({p.name for p in paths}) == sum(len(s.plots) for s in page.sections)
+    assert all(path.read_bytes()[:4] == b"\x89PNG" for path in paths)
+
+
+def test_three_sentences_tell_the_shift(record):
+    course, clutch, washer = summary.sentences(record)
+    assert "0.25 s" in course and "1.75 s" in course and "945 rpm" in course
+    assert "47 kJ" in clutch and "49 kW" in clutch and "174 °C" in clutch
+    assert "lost their oil film" in washer
+
+
+def test_a_shift_that_does_not_lock_is_said(record):
+    from dataclasses import replace
+
+    figures = {**record.figures, "lock_time": None, "lock_speed": None}
+    slipping = replace(record, figures=figures)
+    assert "still slipping" in summary.sentences(slipping)[0]
+    assert "did not lock" in summary.warnings(slipping)[0]
+    assert render(shift_report.shift_page(slipping))
+
+
+def test_energy_table_adds_up(record):
+    rows = tables.energy_table(record).rows
+    joules = [float(row[1].replace("\u2009", "")) for row in rows]
+    assert joules[0] + joules[1] == pytest.approx(sum(joules[2:8]), abs=0.05)
+
+
+def test_parameters_tell_scene_from_default(record):
+    washer = next(t for t in tables.parameter_tables(record) if t.title.startswith("washer"))
+    origin = {row[0]: row[4] for row in washer.rows}
+    assert (origin["inner_radius"], origin["roughness"]) == ("scene", "default")
+
+
+def test_worst_film_is_looked_for_while_the_washer_turns(record):
+    low = worst_film(record)
+    assert abs(record.at("transmission.washer_speed", low.time)) > 1.0
+    assert low.value > np.min(record.series("washer.film_ratio"))
+    assert highest(record, "clutch.temperature").time == pytest.approx(1.75)
+
+
+def axes_of(figure):
+    """Return the axes that hold data: colour bars left out."""
+    return [a for a in figure.axes if a.get_label() != "<colorbar>"]
+
+
+def test_every_axis_carries_its_unit(record):
+    figures = [
+        shift_plots.speed_figure(record), shift_plots.torque_figure(record),
+        shift_plots.temperature_figure(record), shift_plots.film_figure(record),
+        shift_plots.washer_figure(record), shift_plots.energy_figure(record),
+        shift_plots.overview_figure(record), curve_figure(washer_stand_in.curve(), POINT),
+        field_figure(washer_stand_in.Washer(), POINT),
+    ]  # fmt: skip
+    for figure in figures:
+        for axis in axes_of(figure):
+            assert re.search(r"\[.+\]", axis.get_ylabel()), axis.get_title()
+            assert axis.get_title(loc="left"), "a title says what is seen"
+        assert re.search(r"\[.+\]", axes_of(figure)[-1].get_xlabel())
+
+
+def test_film_ratios_below_zero_are_drawn_not_dropped(record):
+    record.signals["washer.film_ratio"][:] = -0.5
+    axis = axes_of(shift_plots.film_figure(record))[0]
+    drawn = [line for line in axis.lines if line.get_label() == "thrust washer"]
+    assert np.all(drawn[0].get_ydata() == panels.LOWEST_RATIO)
+    assert axis.get_ylim()[0] <= panels.LOWEST_RATIO
+
+
+def test_branches_of_the_curve_differ_in_more_than_colour():
+    axis = axes_of(curve_figure(washer_stand_in.curve(), POINT))[0]
+    styles = {line.get_label(): line.get_linestyle() for line in axis.lines}
+    branches = [s for words, s in styles.items() if "stable" in words]
+    assert len(branches) == len(set(branches)) == 3
+    assert {"film lost", "film regained"} <= set(styles)
+
+
+def test_plots_leave_matplotlib_as_it_was(record):
+    import matplotlib as mpl
+
+    before = dict(mpl.rcParams)
+    shift_plots.overview_figure(record).canvas.draw()
+    clutch_figure([1.0, 2.0], [Pack(), Pack()], Pack(), POINT)
+    assert dict(mpl.rcParams) == before
+
+
+class Pack:
+    friction_coefficient = 0.1
+    friction_torque = 10.0

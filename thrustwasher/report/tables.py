@@ -1,0 +1,165 @@
+"""The report's tables as rows of text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import fields
+from typing import Any
+
+from ..models.clutch_params import SPEC as CLUTCH
+from ..models.transmission_params import SPEC as TRANSMISSION
+from ..models.washer_params import SPEC as WASHER
+from ..units import format_quantity as say
+from .extremes import highest, lowest, worst_film
+from .html import Table
+from .shift_record import Part, Record
+
+SPECS = {spec.name: spec for spec in (TRANSMISSION, CLUTCH, WASHER)}
+
+
+def energy_table(record: Record) -> Table:
+    """Return where every joule went, in joule and percent of the engine's work."""
+    book = record.energy
+    whole, kinetic = abs(book["engine_work"]), book["kinetic"]
+    rows = [
+        ("work of the engine", book["engine_work"]),
+        (f"kinetic energy {'gained' if kinetic > 0.0 else 'given up'}", abs(kinetic)),
+        ("work into the load", book["load_work"]),
+        ("heat in the clutch", book["clutch"]),
+        ("heat in the brake", book["brake"]),
+        ("heat in all thrust washers", book["washers"]),
+        ("heat in all gear meshes", book["meshes"]),
+        ("residual: what the book cannot account for", book["residual"]),
+        ("coupling: clutch heat, driveline minus clutch FMU", book["coupling_difference"]),
+    ]
+    return Table(
+        heads=("", "J", "% of engine work"),
+        rows=[(words, _joule(value), _percent(value, whole)) for words, value in rows],
+        numbers=(1, 2),
+    )
+
+
+def key_table(record: Record) -> Table:
+    """Return the key figures with the time they belong to."""
+    figures = record.figures
+    rows: list[tuple[str, str, str]] = []
+    for words, name in (("brake lets go", "release_time"), ("clutch locks", "lock_time")):
+        when = figures[name]
+        if when is not None:
+            rows.append((words, "", f"{when:.6g}"))
+    for words, name, unit in (
+        ("engine speed at lock-up", "lock_speed", "rad/s"),
+        ("slip energy, heat in the clutch", "slip_energy", "J"),
+        ("the same per area of lining", "slip_energy_per_area", "J/m2"),
+        ("greatest power in the clutch", "peak_power", "W"),
+        ("greatest torque of the clutch", "peak_clutch_torque", "N.m"),
+        ("greatest thrust of the sun", "peak_sun_thrust", "N"),
+        ("clutch friction coefficient, slip begins", "friction_start", "1"),
+        ("clutch friction coefficient, half the slip", "friction_middle", "1"),
+        ("clutch friction coefficient, before lock-up", "friction_lock", "1"),
+        ("time with the washers' film lost", "washer_distress_time", "s"),
+    ):
+        value = figures.get(name)
+        if value:  # neither None nor zero
+            rows.append((words, say(value, unit, digits=5), ""))
+    for words, found, unit in (
+        ("clutch interface, hottest", highest(record, "clutch.temperature"), "K"),
+        ("brake interface, hottest", highest(record, "brake.temperature"), "K"),
+        ("clutch, least film ratio", lowest(record, "clutch.film_ratio"), "1"),
+        ("washer, greatest load", highest(record, "washer.load"), "N"),
+        ("washer, mean film, hottest", highest(record, "washer.temperature"), "K"),
+        ("washer, hottest spot", highest(record, "washer.temperature_max"), "K"),
+        ("washer, least film ratio while turning", worst_film(record), "1"),
+    ):
+        if found is not None:
+            rows.append((words, say(found.value, unit, digits=5), f"{found.time:.4g}"))
+    return Table(heads=("", "value", "at time [s]"), rows=rows, numbers=(1, 2))
+
+
+def cost_table(record: Record) -> Table:
+    """Return what each FMU took, and the rest."""
+    used = sum(cost.steps for cost in record.costs)
+    rest = max(record.wall_time - used, 0.0)
+    rows = [
+        (c.name, c.fidelity, _ms(c.instantiate), _ms(c.initialize), str(c.calls), _ms(c.steps),
+         _us(c.steps, c.calls), _percent(c.steps, record.wall_time))
+        for c in record.costs
+    ]  # fmt: skip
+    rows.append(
+        ("master, the rest", "", "", "", "", _ms(rest), "", _percent(rest, record.wall_time))
+    )
+    rows.append(("together", "", "", "", "", _ms(record.wall_time), "", _percent(1.0, 1.0)))
+    return Table(
+        heads=("", "fidelity", "instantiate [ms]", "initialise [ms]", "calls", "time [ms]",
+               "per call [µs]", "share [%]"),
+        rows=rows,
+        numbers=(2, 3, 4, 5, 6, 7),
+    )  # fmt: skip
+
+
+def parameter_tables(record: Record) -> list[Table]:
+    """Return one folded table per FMU: every parameter with unit, meaning and origin."""
+    return [_parameters(part) for part in record.parts if part.model in SPECS]
+
+
+def _parameters(part: Part) -> Table:
+    """Return the parameters of one FMU; what the scene sets is told from the defaults."""
+    spec = SPECS[part.model]
+    rows: list[Sequence[str]] = []
+    for f in fields(spec.params):
+        value = part.parameters.get(f.name, f.default)
+        unit = "" if f.metadata["unit"] == "1" else f.metadata["unit"]
+        origin = "default" if value == f.default else "scene"
+        rows.append((f.name, _plain(value), unit, f.metadata["help"], origin))
+    extra = [name for name in part.parameters if name not in {row[0] for row in rows}]
+    rows += [(name, _plain(part.parameters[name]), "", "", "scene") for name in extra]
+    return Table(
+        title=f"{part.name} ({part.model})",
+        heads=("parameter", "value", "unit", "meaning", "from"),
+        rows=rows,
+        numbers=(1,),
+        folded=True,
+    )
+
+
+def source_texts(record: Record) -> list[str]:
+    """Return where the defaults of the models in this run come from."""
+    models = dict.fromkeys(part.model for part in record.parts if part.model in SPECS)
+    texts = []
+    for model in models:
+        words = " ".join((SPECS[model].params.__doc__ or "").split()).replace("``", "")
+        texts.append(f"{model}. {words}")
+    return texts
+
+
+def _plain(value: Any) -> str:
+    """Return a parameter's value in SI units."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return str(value)
+    return f"{value:.8g}"
+
+
+def _joule(value: float) -> str:
+    """Return joules with a thin space between thousands; tiny values with an exponent."""
+    if value != 0.0 and abs(value) < 0.01:
+        return f"{value:.2e}"
+    return f"{value:,.2f}".replace(",", "\u2009")
+
+
+def _percent(part: float, whole: float) -> str:
+    """Return a share in percent."""
+    if not whole or not math.isfinite(part / whole):
+        return ""
+    share = 100.0 * part / whole
+    return f"{share:.1e}" if share and abs(share) < 1e-3 else f"{share:.3f}"
+
+
+def _ms(seconds: float) -> str:
+    """Return milliseconds."""
+    return f"{1e3 * seconds:.1f}"
+
+
+def _us(seconds: float, calls: int) -> str:
+    """Return microseconds per call."""
+    return f"{1e6 * seconds / calls:.1f}" if calls else ""

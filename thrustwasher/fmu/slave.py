@@ -27,6 +27,8 @@ from .registry import content_digest, find_spec, package_version
 from .snapshot import Snapshot, from_bytes
 from .xml import LOG_CATEGORIES, description
 
+_at_exit: set[str] = set()  # libraries that release their pointer when the process ends
+
 
 def _safe(callback: Callable[..., Any]) -> Callable[..., Any]:
     """Catch everything; return what the callback returns, or False after a failure."""
@@ -218,19 +220,26 @@ def _forget_repeated_path(folder: str | None) -> None:
 
 
 def _settle_library(folder: str | None, model: str) -> None:
-    """Empty pythonfmu's global pointer in a Python host, where it has nothing left to do.
+    """Release pythonfmu's global pointer once, before the library's destructors do so twice.
 
-    When the library is unloaded, or the process ends, its destructors release that pointer twice if
-    it is set; some processes then end with "corrupted double-linked list". A host that is no Python
-    still needs it: there it ends the interpreter.
+    They run when the library is unloaded or the process ends, and release the pointer again if it
+    is still set: "corrupted double-linked list". In a Python host the pointer has nothing left to
+    do and is emptied at once. Any other host needs it to end the interpreter: there the library
+    stays loaded and empties it at exit, before its own destructors.
     """
-    embedded = not sys.orig_argv
-    if embedded or sys.platform != "linux" or not folder:
+    if sys.platform != "linux" or not folder:
         return
-    path = Path(folder).parent / "binaries" / "linux64" / f"{model}.so"
+    path = str(Path(folder).parent / "binaries" / "linux64" / f"{model}.so")
+    embedded = not sys.orig_argv
+    stay = os.RTLD_NODELETE if embedded else 0
     try:
-        library = ctypes.CDLL(str(path), mode=os.RTLD_NOLOAD | os.RTLD_NOW)
+        library = ctypes.CDLL(path, mode=os.RTLD_NOLOAD | os.RTLD_NOW | stay)
     except OSError:
         return  # loaded from another place
-    library.finalizePythonInterpreter()
+    if not embedded:
+        library.finalizePythonInterpreter()
+    elif path not in _at_exit:
+        _at_exit.add(path)
+        release = ctypes.cast(library.finalizePythonInterpreter, ctypes.c_void_p)
+        ctypes.CDLL(None).__cxa_atexit(release, None, None)
     _ctypes.dlclose(library._handle)

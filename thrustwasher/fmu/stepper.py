@@ -9,6 +9,7 @@ the working directory while it loads.
 import ctypes
 import hashlib
 import os
+import platform
 import shutil
 import sys
 import tempfile
@@ -278,10 +279,13 @@ class Instance:
         """Read solver_status plainly, so that reading it cannot fail in turn."""
         if self._status is None:
             return Status.OK
+        said = len(self._messages)
         try:
             return Status(self._fmu.getInteger([self._status.valueReference])[0])
-        except Exception:
+        except self._call_failure:
             return Status.NOT_FINITE
+        finally:
+            del self._messages[said:]
 
     def _check_status(self) -> None:
         status = self._read_status()
@@ -304,6 +308,10 @@ def _instantiate(folder: Path, description: Any, name: str, messages: list[tuple
     try:
         fmu = FMU2Slave(instanceName=name, guid=description.guid, unzipDirectory=str(folder),
                         modelIdentifier=identifier)  # fmt: skip
+    except Exception as problem:  # FMPy has no type of its own for a library that does not load
+        raise EnvironmentProblem(
+            f"{identifier} cannot be loaded on {platform.system()} {platform.machine()}: {problem}"
+        ) from None
     finally:
         os.chdir(before)
     _keep_loaded(fmu.dll)

@@ -39,7 +39,7 @@ def test_a_folder_that_cannot_be_written_to_is_a_finding(tmp_path):
 
 def test_a_platform_without_library_is_a_finding(monkeypatch):
     monkeypatch.setattr("platform.machine", lambda: "aarch64")
-    with pytest.raises(ParameterError, match="no library for .* on aarch64"):
+    with pytest.raises(ParameterError, match=r"no library for .* on aarch64"):
         doctor._binary()
 
 

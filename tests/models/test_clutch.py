@@ -1,0 +1,89 @@
+"""The clutch as a library: results, ranges, messages."""
+
+import json
+
+import numpy as np
+import pytest
+
+from thrustwasher.errors import ParameterError, Status
+from thrustwasher.models.clutch import boundary_friction, solve_clutch
+from thrustwasher.models.clutch_params import ClutchParams
+
+PACK, UNCOOLED = ClutchParams(), ClutchParams(heat_transfer=0.0)
+
+
+def test_paper_like_sample_has_friction_of_the_paper():
+    """0.11 at lock-up, falling with speed; 85 x 65 mm faces."""
+    sample = ClutchParams(inner_radius=0.0325, outer_radius=0.0425)
+    at = {n: solve_clutch(sample, load=1000.0, speed=n * np.pi / 30).friction_coefficient
+          for n in (0, 600, 1500, 3000)}  # fmt: skip
+    assert at[0] == pytest.approx(0.11, abs=1e-5)
+    assert [round(at[n], 4) for n in (600, 1500, 3000)] == [0.0848, 0.0498, 0.0374]
+
+
+def test_torque_has_the_sign_of_the_slip_and_vanishes_with_it():
+    results = [solve_clutch(PACK, load=5000.0, speed=w) for w in (-30.0, 0.0, 30.0)]
+    torques = [r.friction_torque for r in results]
+    assert torques[0] == -torques[2] and torques[1] == 0.0
+    assert results[1].torque_capacity > results[2].torque_capacity > 0.0
+    assert [r.regime for r in results] == ["boundary", "adhesive", "boundary"]
+
+
+def test_steady_heat_balances():
+    p = PACK
+    r = solve_clutch(p, load=500.0, speed=20.0, oil_temperature=350.0)
+    area = np.pi * (p.outer_radius**2 - p.inner_radius**2)
+    cooled = p.faces * p.heat_transfer * area * (r.temperature - 350.0)
+    assert cooled == pytest.approx(r.friction_power, rel=1e-12)
+    assert r.status == Status.OK
+
+
+def test_lasting_slip_at_full_load_is_called_hot():
+    assert solve_clutch(PACK, load=9000.0, speed=200.0).status == Status.HOT
+
+
+def test_closed_rung_has_the_constant_coefficient():
+    r = solve_clutch(ClutchParams(constant_friction=0.2), load=10.0, speed=3.0, fidelity="closed")
+    assert r.friction_coefficient == 0.2 and r.fidelity == "closed"
+
+
+def test_result_is_json():
+    r = solve_clutch(PACK, load=9000.0, speed=50.0)
+    assert json.loads(json.dumps(r.as_dict()))["status"] == "HOT"
+
+
+def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
+    mu = boundary_friction([[0.1], [0.3]], [0.0, 0.5, 1.0], 0.5)
+    assert mu.shape == (2, 3) and mu[0, 1] == boundary_friction(0.1, 0.5, 0.5)
+    assert isinstance(boundary_friction(0.1, 0.5), float)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: boundary_friction(0.0, 0.5), "x = 0.0, allowed"),
+        (lambda: boundary_friction(0.1, 1.5), "shear_ratio = 1.5, allowed: 0 .. 1"),
+        (lambda: boundary_friction(np.nan, 0.5), "x = nan"),
+        (
+            lambda: solve_clutch(PACK, load=-1.0, speed=1.0),
+            r"load = -1.0 N, allowed: 0 ..",
+        ),
+        (lambda: solve_clutch(PACK, load=1.0, speed=np.nan), "speed = nan rad/s"),
+        (lambda: solve_clutch(PACK, load=1.0, speed=1.0, fidelity="x"), "fidelity = 'x'"),
+        (
+            lambda: solve_clutch(ClutchParams(heat_transfer=0.0), load=1e3, speed=1.0),
+            "heat_transfer",
+        ),
+        (lambda: ClutchParams(inner_radius=0.09), "inner_radius = 0.09 m, allowed: below"),
+        (lambda: ClutchParams(faces=0), "faces = 0, allowed: 1 .. 100"),
+        (lambda: ClutchParams(friction_law="dry"), "friction_law = 'dry', allowed: 'wang'"),
+    ],
+)
+def test_bad_input_is_named(call, message):
+    with pytest.raises(ParameterError, match=message):
+        call()
+
+
+def test_no_load_is_an_open_pack():
+    r = solve_clutch(PACK, load=0.0, speed=100.0)
+    assert (r.friction_torque, r.regime, r.film_thickness) == (0.0, "film", 8.8e-5)

@@ -1,0 +1,239 @@
+"""The transmission's step: the kernels' contract, closed forms, and located stick and slip."""
+
+import math
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from thrustwasher.kernels import transmission_layout as L
+from thrustwasher.kernels import transmission_step as k
+from thrustwasher.models._params import as_numbers
+from thrustwasher.models.transmission_params import SPEC, TransmissionParams
+from thrustwasher.reference.engagement import engagement, reduced_inertia
+from thrustwasher.reference.planetary import pitch_radius, planet_forces
+
+
+class Gearbox:
+    """A transmission with its arrays."""
+
+    def __init__(self, **params):
+        self.par = np.zeros(k.NPAR)
+        self.par[: k.N_PARAM] = [*as_numbers(TransmissionParams(**params)), 1.0]
+        assert k.derive(self.par) == 0
+        self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
+        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+        self.time = 0.0
+
+    def step(self, dt, clutch=0.0, brake=0.0, washer=0.0, mesh=0.0, command=0.0):
+        inp = np.array([clutch, brake, washer, mesh, command])
+        status = k.step(self.par, inp, self.state, self.work, self.out, self.iout, self.time, dt)
+        self.time += dt if status == 0 else 0.0
+        return status
+
+    def __getitem__(self, name):
+        reals = [s.name for s in SPEC.outputs if s.kind == "real"]
+        others = [s.name for s in SPEC.outputs if s.kind != "real"]
+        return float(self.out[reals.index(name)] if name in reals else
+                     self.iout[others.index(name)])  # fmt: skip
+
+
+FREE = {"engine_torque": 0.0, "load_torque": 0.0, "washers": 0}
+
+
+def test_the_arrays_are_laid_out_as_the_lists_say():
+    def names(start, skip=()):
+        return [n[len(start) :].lower() for n in vars(L) if n.startswith(start) and n not in skip]
+
+    assert names("P_") == [f.name for f in fields(TransmissionParams)] + ["fidelity"]
+    assert names("O_") == [s.name for s in SPEC.outputs if s.kind == "real"]
+    others = [s.name for s in SPEC.outputs if s.kind != "real"]
+    assert names("IO_") == [n.replace("solver_", "") for n in others]
+    assert [s.name.split("_")[0] for s in SPEC.inputs[:4]] == names("I_")[:4]
+
+
+def test_clutch_locks_two_free_inertias_when_the_closed_form_says():
+    """Massless ring, brake open: the clutch acts with (1 + 1/r) between sun and carrier."""
+    box = Gearbox(**FREE | {"ring_inertia": 0.0, "engine_torque": 40.0, "initial_ring_speed": 9.0})
+    sun, carrier = 350.0, (350.0 + 2.2 * 9.0) / 3.2
+    exact = engagement(300.0 * (1 + 1 / 2.2), 40.0, 0.0, 0.25, 8.0, sun, carrier)
+    while not box["clutch_locked"]:
+        assert box.step(0.01, clutch=300.0) == 0
+    assert box["lock_time"] == pytest.approx(exact.lock_time, rel=1e-12)
+    assert box["lock_speed"] == pytest.approx(exact.speed, rel=1e-12)
+    assert box["clutch_heat"] == pytest.approx(exact.heat, rel=1e-12)
+    assert box["clutch_speed"] == 0.0
+
+
+@pytest.mark.parametrize("ring_inertia", [0.0, 0.01, 0.3])
+def test_slip_sees_the_reduced_inertia(ring_inertia):
+    box = Gearbox(**FREE | {"ring_inertia": ring_inertia})
+    box.step(0.0)
+    slip = box["clutch_speed"]
+    box.step(1e-3, clutch=100.0)
+    expected = 100.0 / reduced_inertia(2.2, 0.25, ring_inertia, 8.0)
+    assert (slip - box["clutch_speed"]) / 1e-3 == pytest.approx(expected, rel=1e-10)
+
+
+def test_the_lock_up_does_not_depend_on_the_communication_step():
+    times = []
+    for n in (1, 7, 100):
+        box = Gearbox(ring_inertia=0.02)
+        for _ in range(n):
+            assert box.step(2.0 / n, clutch=350.0) == 0
+        times.append(box["lock_time"])
+    assert times == pytest.approx([times[0]] * 3, rel=1e-11) and times[0] > 0.0
+
+
+def test_a_held_drum_stays_at_exactly_zero_and_carries_r_tau():
+    box = Gearbox()
+    for _ in range(50):
+        box.step(1e-2, brake=380.0)
+        assert box["brake_speed"] == 0.0 and box["brake_locked"] == 1.0
+        assert box["brake_reaction"] == pytest.approx(-2.2 * box["sun_torque"], rel=1e-12)
+    assert box["engine_speed"] == pytest.approx(3.2 * box["output_speed"], rel=1e-15)
+
+
+def test_break_away_comes_where_the_capacity_crosses_the_reaction():
+    """Brake capacity falls linearly; the reaction at constant speed is known in closed form."""
+    box = Gearbox(load_torque=0.0, ring_inertia=0.0, washers=0)
+    inertia = 0.25 + 8.0 / 3.2**2  # first gear, seen by the engine
+    reaction = 2.2 * (150.0 - 0.25 * 150.0 / inertia)
+    box.step(0.01, brake=404.0)
+    n = 0
+    while box["brake_locked"]:
+        n += 1
+        assert n < 40 and box.step(0.01, brake=404.0 - 10.0 * n) == 0
+    # The capacity received at t is 404 - 1000 t, and extrapolated in between.
+    assert box["release_time"] == pytest.approx((404.0 - reaction) / 1000.0, rel=1e-10)
+    assert box["clutch_locked"] == 0.0 and box["brake_speed"] < 0.0
+
+
+def test_a_pack_without_capacity_never_sticks():
+    box = Gearbox(**FREE | {"initial_engine_speed": 0.0})
+    box.step(0.01)
+    assert box["clutch_locked"] == box["brake_locked"] == 0.0
+
+
+def test_both_packs_hold_everything_still_and_say_so():
+    box = Gearbox(initial_engine_speed=60.0)
+    for _ in range(200):
+        assert box.step(0.01, clutch=500.0, brake=500.0) == 0
+    assert box["clutch_locked"] == box["brake_locked"] == 1.0
+    assert box["engine_speed"] == box["output_speed"] == box["ring_speed"] == 0.0
+    assert box["solver_status"] == L.STALLED
+    assert box["clutch_reaction"] == pytest.approx(box["brake_reaction"]) == 150.0
+    box.step(0.01, clutch=500.0, brake=0.0)
+    assert box["solver_status"] == 0.0 and box["engine_speed"] > 0.0
+
+
+def test_an_engine_turned_on_inside_a_step_starts_there():
+    box = Gearbox(**FREE | {"engine_torque": 20.0, "engine_start_time": 0.037,
+                            "initial_engine_speed": 0.0})  # fmt: skip
+    for _ in range(2):
+        box.step(0.05, brake=1e4)
+    inertia = 0.25 + 8.0 / 3.2**2
+    assert box["engine_speed"] == pytest.approx(20.0 * 0.063 / inertia, rel=1e-12)
+
+
+def test_locked_clutch_breaks_away_and_locks_again_within_one_step():
+    """Capacity dips under the reaction and is received again: both events are located."""
+    box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_ring_speed": 350.0})
+    box.step(0.01, clutch=300.0)
+    box.step(0.01, clutch=300.0)
+    assert box["clutch_locked"] == 1.0
+    box.step(0.05, clutch=10.0)
+    assert box["clutch_locked"] == 0.0 and box["clutch_speed"] > 0.0
+    events = box["events"]
+    for _ in range(20):
+        box.step(0.05, clutch=300.0)
+    assert box["clutch_locked"] == 1.0 and box["events"] == events + 1
+
+
+def test_drag_alone_holds_the_planets_but_not_the_clutch():
+    box = Gearbox(**FREE | {"initial_ring_speed": 350.0, "engine_torque": 1.0, "washers": 8})
+    for _ in range(10):
+        assert box.step(0.01, washer=0.5) == 0
+    assert box["clutch_speed"] == 0.0 and box["clutch_locked"] == 0.0
+    assert box["drag_torque"] > 0.0 and box["clutch_reaction"] == 0.0
+
+
+def test_loads_on_planet_washer_and_mesh_are_the_closed_forms():
+    box = Gearbox()
+    box.step(1e-3, brake=380.0)
+    helix = math.radians(20.0)
+    sun, planet = pitch_radius(30, 1.5e-3, helix), pitch_radius(18, 1.5e-3, helix)
+    forces = planet_forces(box["sun_torque"], sun, planet, helix, 4)
+    assert box["tooth_force"] == pytest.approx(forces.tangential, rel=1e-13)
+    assert box["tilting_couple"] == pytest.approx(forces.couple, rel=1e-13)
+    assert box["sun_thrust"] == pytest.approx(forces.sun_thrust, rel=1e-13)
+    assert box["mesh_load"] == pytest.approx(forces.planet_torque, rel=1e-13)
+    assert box["washer_load"] == pytest.approx(0.1 * forces.couple / 0.017, rel=1e-13)
+    spin = (box["engine_speed"] - box["output_speed"]) * 30 / 18
+    assert box["washer_speed"] == box["mesh_speed"] == pytest.approx(spin, rel=1e-13)
+
+
+@pytest.mark.parametrize("clutch", [0.0, 120.0])
+def test_dt_0_leaves_the_state_and_work_carries_nothing(clutch):
+    box, messy = Gearbox(), Gearbox()
+    for i in range(30):
+        messy.time = box.time
+        box.step(2e-3, clutch=clutch + i, brake=300.0 - 9.0 * i, washer=0.03)
+        before = messy.state.tobytes()
+        messy.work[:] = 1e300
+        messy.step(0.0, clutch=7.0, brake=1.0)
+        assert messy.state.tobytes() == before
+        messy.step(2e-3, clutch=clutch + i, brake=300.0 - 9.0 * i, washer=0.03)
+    assert messy.out.tobytes() == box.out.tobytes()
+    assert messy.state.tobytes() == box.state.tobytes()
+
+
+def test_outputs_read_again_after_a_step_are_the_same():
+    box = Gearbox()
+    for i in range(5):
+        box.step(2e-3, clutch=20.0 * i, brake=380.0 - 80.0 * i)
+    shown = box.out.copy()
+    box.step(0.0, clutch=80.0, brake=60.0)
+    assert box.out == pytest.approx(shown, rel=1e-12)
+
+
+@pytest.mark.parametrize("bad", [{"clutch": math.nan}, {"command": 1.5}, {"washer": math.inf}])
+def test_bad_input_is_a_status_and_leaves_the_state(bad):
+    box = Gearbox()
+    box.step(1e-3, brake=380.0)
+    before = box.state.tobytes()
+    assert box.step(1e-3, **bad) == L.BAD_INPUT == box["solver_status"]
+    assert box.state.tobytes() == before
+
+
+torques = st.one_of(st.just(0.0), st.floats(0.0, 500.0))
+rows = st.tuples(torques, torques, st.one_of(st.just(0.0), st.floats(-2.0, 2.0)))
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.floats(-400.0, 400.0), st.one_of(st.just(0.0), st.floats(-200.0, 200.0)),
+    st.sampled_from([0.0, 0.01, 0.5]), st.floats(-200.0, 200.0), st.floats(0.0, 500.0),
+    st.sampled_from([1e-4, 1e-3, 1e-2, 0.1]), st.sampled_from([0, 1]),
+    st.lists(rows, min_size=5, max_size=40),
+)  # fmt: skip
+def test_whatever_arrives_friction_takes_energy_and_the_book_closes(
+    engine, ring, ring_inertia, torque, load, dt, age, received
+):
+    box = Gearbox(initial_engine_speed=engine, initial_ring_speed=ring, load_torque=load,
+                  ring_inertia=ring_inertia, engine_torque=torque, torque_age=age)  # fmt: skip
+    turnover = 1.0
+    for clutch, brake, washer in received:
+        assert box.step(dt, clutch=clutch, brake=brake, washer=washer, mesh=0.1) == 0
+        turnover = max(turnover, abs(box["engine_work"]) + box["kinetic_energy"])
+        assert box["clutch_reaction"] * box["clutch_speed"] >= 0.0
+        assert box["brake_reaction"] * box["brake_speed"] >= 0.0
+        if box["clutch_locked"]:
+            assert box["clutch_speed"] == 0.0
+        if box["brake_locked"]:
+            assert box["brake_speed"] == 0.0
+    for heat in ("clutch_heat", "brake_heat", "washer_heat", "mesh_heat"):
+        assert box[heat] >= -1e-9 * turnover
+    assert abs(box["energy_residual"]) <= 1e-8 * turnover

@@ -7,68 +7,22 @@ the working directory while it loads.
 """
 
 import ctypes
-import hashlib
 import os
-import platform
-import shutil
-import sys
-import tempfile
-import zipfile
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
 from pathlib import Path
 from time import perf_counter
 from typing import Any, Self
 
-from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, SolveError, Status
+from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .direct import DirectInstance, number, unknown
+from .loading import WARNING, description, instantiate, unpack
 
 __all__ = ["DirectInstance", "Instance", "unpack"]
 
-WARNING = 1  # fmi2Warning; what is above carries the reason of a failure
 TYPES = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolean": "Boolean"}
 C_TYPES: dict[str, Any] = {
     "Real": ctypes.c_double, "Integer": ctypes.c_int, "Boolean": ctypes.c_int,
 }  # fmt: skip
-
-
-def unpack(path: str | os.PathLike[str]) -> Path:
-    """Unpack an FMU once per content into the user's cache and return the folder."""
-    file = Path(path)
-    if not file.is_file():
-        raise ParameterError(f"FMU = {str(file)!r}, allowed: an existing file; build it first")
-    return _unpacked(str(file.resolve()), file.stat().st_mtime_ns, file.stat().st_size)
-
-
-@cache
-def _unpacked(path: str, _changed: int, _size: int) -> Path:
-    digest = hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
-    cache_home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    home = Path(cache_home) / "thrustwasher" / "fmus"
-    try:
-        home.mkdir(parents=True, exist_ok=True)
-        part = Path(tempfile.mkdtemp(dir=home))
-    except OSError:
-        home = Path(tempfile.mkdtemp(prefix="thrustwasher-fmus-"))
-        part = Path(tempfile.mkdtemp(dir=home))
-    folder = home / f"{Path(path).stem}-{digest}"
-    if not (folder / "modelDescription.xml").is_file():
-        with zipfile.ZipFile(path) as archive:
-            archive.extractall(part)
-        try:
-            part.rename(folder)  # all or nothing; two processes may do it at once
-        except OSError:
-            if not (folder / "modelDescription.xml").is_file():
-                raise
-    shutil.rmtree(part, ignore_errors=True)
-    return folder
-
-
-@cache
-def _description(folder: Path) -> Any:
-    from fmpy import read_model_description
-
-    return read_model_description(str(folder), validate=False)
 
 
 class _Group:
@@ -118,7 +72,7 @@ class Instance:
         self._call_failure = FMICallException
         self.path = Path(path)
         folder = unpack(path)
-        self.description = _description(folder)
+        self.description = description(folder)
         self._by_name = {v.name: v for v in self.description.modelVariables}
         chosen = {
             c: [v for v in self.description.modelVariables if v.causality == c]
@@ -131,7 +85,7 @@ class Instance:
         self._messages: list[tuple[int, str]] = []
         self.warnings: list[str] = []
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
-        self._fmu: Any = _instantiate(folder, self.description, name or self.path.stem,
+        self._fmu: Any = instantiate(folder, self.description, name or self.path.stem,
                                       self._messages)  # fmt: skip
         self._parameters = dict(parameters or {})
         try:
@@ -291,43 +245,3 @@ class Instance:
         status = self._read_status()
         if status >= FIRST_FAILURE:
             raise SolveError(f"{self.path.stem} at the start: {status.name}: {status.advice}")
-
-
-def _instantiate(folder: Path, description: Any, name: str, messages: list[tuple[int, str]]) -> Any:
-    """Instantiate; what the FMU logs is appended to ``messages`` as (status, text)."""
-    from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions
-    from fmpy.fmi2 import defaultCallbacks as default
-    from fmpy.fmi2 import fmi2CallbackLoggerTYPE as logger_type
-
-    def log(_: Any, _name: bytes, status: int, _category: bytes, message: bytes) -> None:
-        if status >= WARNING:
-            messages.append((status, message.decode("utf-8", "replace")))
-
-    identifier = description.coSimulation.modelIdentifier
-    before = os.getcwd()
-    try:
-        fmu = FMU2Slave(instanceName=name, guid=description.guid, unzipDirectory=str(folder),
-                        modelIdentifier=identifier)  # fmt: skip
-    except Exception as problem:  # FMPy has no type of its own for a library that does not load
-        raise EnvironmentProblem(
-            f"{identifier} cannot be loaded on {platform.system()} {platform.machine()}: {problem}"
-        ) from None
-    finally:
-        os.chdir(before)
-    _keep_loaded(fmu.dll)
-    callbacks = fmi2CallbackFunctions()
-    callbacks.logger = logger_type(log)
-    callbacks.allocateMemory, callbacks.freeMemory = default.allocateMemory, default.freeMemory
-    try:
-        fmu.instantiate(callbacks=callbacks, loggingOn=True)
-    except Exception as problem:
-        fmu.freeLibrary()
-        why = "; ".join(text for _, text in messages) or str(problem)
-        raise EnvironmentProblem(f"{identifier} cannot be instantiated: {why}") from None
-    return fmu
-
-
-def _keep_loaded(dll: Any) -> None:
-    """Pin the library: unloading it and loading it again costs time and upsets its destructors."""
-    if sys.platform == "linux":
-        ctypes.CDLL(dll._name, mode=os.RTLD_NOLOAD | os.RTLD_NODELETE | os.RTLD_NOW)

@@ -37,6 +37,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status; never raises, never shows a traceback."""
     words = list(sys.argv[1:] if argv is None else argv)
     label = f"thrustwasher {words[0]}" if words and words[0] in COMMANDS else "thrustwasher"
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="replace")  # a terminal that knows no µ still gets numbers
     try:
         status = _dispatch(words)
         sys.stdout.flush()

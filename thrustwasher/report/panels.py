@@ -30,11 +30,7 @@ def draw_speeds(axis: Axes, record: Record) -> None:
     ):
         if record.part("washer") or "washer" not in name:
             _draw(axis, record, name, words, colour, dashes)
-    for number, event in enumerate(record.events, 1):
-        axis.axvline(event.time, color="#444444", lw=0.8, ls=":",
-                     label=f"{number}: {event.time:.4g} s {event.text}")  # fmt: skip
-        axis.annotate(str(number), (event.time, 0.0), (2, 3), textcoords="offset points",
-                      xycoords=axis.get_xaxis_transform(), fontsize=8, color="#444444")  # fmt: skip
+    _draw_events(axis, record)
     label(axis, "Speeds: the engine comes down to the output", "", "speed [rad/s]")
     beside(axis)
 
@@ -47,11 +43,17 @@ def draw_torques(axis: Axes, record: Record) -> None:
         ("transmission.clutch_reaction", "clutch", RED, "-"),
         ("clutch.torque_capacity", "clutch could hold", RED, ":"),
         ("transmission.brake_reaction", "brake", PURPLE, "-"),
-        ("brake.torque_capacity", "brake could hold", PURPLE, ":"),
         ("transmission.sun_torque", "sun's teeth", GREY, "--"),
         ("transmission.resistance_torque", "load at the output", GREEN, "-"),
     ):
         _draw(axis, record, name, words, colour, dashes)
+    held, able = (
+        record.series("transmission.brake_reaction"),
+        record.series("brake.torque_capacity"),
+    )
+    if held is not None and able is not None:  # on the side where the brake is needed
+        side = -1.0 if -np.min(held) > np.max(held) else 1.0
+        axis.plot(record.time, side * able, color=PURPLE, ls=":", label="brake could hold")
     label(axis, "Torques: the clutch takes over from the brake", "", "torque [N·m]")
     beside(axis)
 
@@ -220,6 +222,20 @@ def _draw_phases(axis: Axes, record: Record, words: bool = True, legend: bool = 
                           color="#666666")  # fmt: skip
 
 
+def _draw_events(axis: Axes, record: Record) -> None:
+    """Draw the events as numbered lines; numbers of close neighbours stand above each other."""
+    close = 0.025 * float(record.time[-1] - record.time[0])
+    height, before = 0, -np.inf
+    for number, event in enumerate(record.events, 1):
+        height = height + 1 if event.time - before < close else 0
+        before = event.time
+        axis.axvline(event.time, color="#444444", lw=0.8, ls=":",
+                     label=f"{number}: {event.time:.4g} s {event.text}")  # fmt: skip
+        axis.annotate(str(number), (event.time, 0.0), (2, 3 + 9 * height),
+                      textcoords="offset points", xycoords=axis.get_xaxis_transform(),
+                      fontsize=8, color="#444444")  # fmt: skip
+
+
 def _draw_phase_lines(axis: Axes, record: Record) -> None:
     """Draw thin lines where a phase begins."""
     axis.set_xlim(float(record.time[0]), float(record.time[-1]))
@@ -237,8 +253,8 @@ def _draw_regimes(axis: Axes, low: float, high: float) -> None:
         if bottom < top:
             axis.axhspan(bottom, top, color=shade, lw=0, zorder=0)
             axis.annotate(
-                words, (0.995, np.sqrt(bottom * top)), xycoords=axis.get_yaxis_transform(),
-                ha="right", va="center", fontsize=8.5, color="#666666",
+                words, (0.995, bottom), (0, 3), xycoords=axis.get_yaxis_transform(),
+                textcoords="offset points", ha="right", va="bottom", fontsize=8.5, color="#666666",
             )  # fmt: skip
     for ratio in (1.0, 3.0):
         axis.axhline(ratio, color="#555555", lw=0.9, ls="--", zorder=1)

@@ -152,7 +152,8 @@ def _cost_section(record: Record) -> Section:
     words = (
         f"{say(record.wall_time, 's', digits=3)} for {say(span, 's')} of shift, "
         f"{span / record.wall_time:.2g} simulated seconds a second, without building and "
-        "loading the FMUs. Python FMUs through FMPy; the time of a step includes setting inputs and reading outputs."
+        "loading the FMUs. Python FMUs through FMPy; the time of a step includes setting inputs "
+        "and reading outputs."
     )
     return Section(
         anchor="cost", title="Time spent", texts=[words], tables=[tables.cost_table(record)]

@@ -1,0 +1,37 @@
+"""Every example runs and returns the number it is known for."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+PINNED = {
+    "ex01_washer": 0.232072,  # N m
+    "ex02_load_curve": 775.2,  # N
+    "ex03_clutch": -3.973642530390515,  # N m s/rad: below 0, friction falls with slip
+    "ex04_shift": 2.1107904,  # s
+}
+TOLERANCE = {"ex01_washer": 6e-3, "ex02_load_curve": 0.02, "ex04_shift": 1e-5}
+
+
+def load(name):
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_example_is_pinned():
+    assert {path.stem for path in EXAMPLES.glob("ex*.py")} == set(PINNED)
+
+
+@pytest.mark.parametrize("name", PINNED)
+def test_example_returns_its_number(name, capsys):
+    assert load(name).main() == pytest.approx(PINNED[name], rel=TOLERANCE.get(name, 1e-9))
+    assert capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", PINNED)
+def test_example_is_short(name):
+    assert len((EXAMPLES / f"{name}.py").read_text("utf-8").splitlines()) <= 60

@@ -86,7 +86,8 @@ def instantiate(folder: Path, described: Any, name: str, messages: list[tuple[in
         fmu.instantiate(callbacks=callbacks, loggingOn=True)
     except Exception as problem:
         fmu.freeLibrary()
-        why = "; ".join(text for _, text in messages) or str(problem)
+        # pythonfmu writes one line on where it was, then the exception
+        why = "; ".join(text.rpartition("\n")[2] for _, text in messages) or str(problem)
         raise EnvironmentProblem(f"{identifier} cannot be instantiated: {why}") from None
     return fmu
 

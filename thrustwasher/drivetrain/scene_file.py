@@ -50,7 +50,7 @@ def _read(name: str) -> dict[str, Any]:
     """Return the merged tables of a scene and its bases."""
     seen: list[str] = []
     merged: dict[str, Any] = {}
-    while name:
+    while name or not seen:
         if name in seen:
             raise ParameterError(f"scene {name!r}: its bases go round in a circle")
         seen.append(name)

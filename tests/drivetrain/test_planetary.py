@@ -1,0 +1,91 @@
+"""The default shift: expected magnitudes, the energy book, and independence of the step."""
+
+import numpy as np
+import pytest
+from scene_runs import shift
+
+# Settled film, no drag: ramp -> lock after ramp start [s], at [rad/s]; engine work, load work,
+# kinetic and clutch heat [kJ] until lock-up; per face [MJ/m2].
+EXPECTED = {
+    "planetary-fast": (1.465, 98.98, 63.7, 44.1, -22.7, 42.2, 0.54),
+    "planetary": (1.649, 98.83, 73.5, 50.3, -22.8, 46.0, 0.59),
+    "planetary-slow": (1.831, 98.67, 83.3, 56.5, -23.0, 49.8, 0.63),
+}
+NO_DRAG = {"washer": None, "transmission": {"washers": 0}}
+
+
+@pytest.mark.parametrize("name", list(EXPECTED))
+def test_shifts_without_drag_have_the_expected_magnitudes(name):
+    r = shift(name, parts=NO_DRAG)
+    after, speed, engine, load, kinetic, heat, per_area = EXPECTED[name]
+    assert r.figures["lock_after_ramp_start"] == pytest.approx(after, abs=6e-4)
+    assert r.figures["lock_speed"] == pytest.approx(speed, abs=6e-3)
+    i = int(np.searchsorted(r.time, r.figures["lock_time"]))
+    at_lock = [r.signals[f"transmission.{n}"][i] / 1e3 for n in
+               ("engine_work", "load_work", "kinetic_change", "clutch_heat")]  # fmt: skip
+    # Read at the end of the step of the lock-up: up to 1 ms x 15 kW of engine work later.
+    assert at_lock == pytest.approx([engine, load, kinetic, heat], abs=0.07)
+    assert r.figures["slip_energy_per_area"] / 1e6 == pytest.approx(per_area, abs=6e-3)
+    assert 0.0 < r.energy["brake"] < 1.0
+    assert r.figures["friction_lock"] == pytest.approx(0.11, abs=1e-5)
+
+
+def test_energy_book_closes_and_coupling_is_tight(default_shift):
+    e = default_shift.energy
+    assert e["residual_share"] <= 1e-6
+    assert e["coupling_difference_share"] <= 1e-3
+    parts = (e["kinetic"], e["load_work"], e["clutch"], e["brake"], e["washers"], e["meshes"])
+    assert sum(parts) + e["residual"] == pytest.approx(e["engine_work"], rel=1e-12)
+    assert e["washers"] > 0.0 and e["meshes"] == 0.0
+
+
+@pytest.mark.parametrize("master", ["gauss-seidel", "jacobi"])
+def test_halving_the_step_changes_little(master):
+    coarse, fine = (shift("planetary", master=master, step=h).figures for h in (1e-3, 5e-4))
+    for name in ("lock_time", "slip_energy", "peak_clutch_temperature"):
+        assert coarse[name] == pytest.approx(fine[name], rel=5e-3)
+    rise = [f["peak_clutch_temperature"] - 297.15 for f in (coarse, fine)]
+    assert rise[0] == pytest.approx(rise[1], rel=5e-3)
+
+
+def test_coupling_difference_shrinks_with_the_square_of_the_step():
+    shares = [shift("planetary", step=h).energy["coupling_difference_share"] for h in (2e-3, 1e-3)]
+    assert np.log2(shares[0] / shares[1]) == pytest.approx(2.0, abs=0.2)
+
+
+def test_the_masters_agree_in_the_limit():
+    a, b = (shift("planetary", step=2.5e-4, master=m).figures for m in ("gauss-seidel", "jacobi"))
+    assert a["lock_time"] == pytest.approx(b["lock_time"], abs=2e-6)
+
+
+def test_the_washer_gets_what_the_planets_give(default_shift):
+    s = default_shift.signals
+    for name in ("load", "speed", "tilt"):
+        sent, used = s[f"transmission.washer_{name}"], s[f"washer.{name}"]
+        assert (used[1:] == sent[:-1]).all()
+    assert (s["washer.oil_temperature"] == 297.15).all()
+    assert (s["transmission.washer_torque"][1:] == s["washer.friction_torque"][1:]).all()
+
+
+def test_the_course_has_a_torque_and_an_inertia_phase(default_shift):
+    r = default_shift
+    s, t = r.signals, r.time
+    assert [p.name for p in r.phases] == ["first gear", "torque phase", "inertia phase", "locked"]
+    tau, start = s["transmission.sun_torque"], r.phases[0].end
+    assert tau.min() < 0.4 * tau[t <= start].max()
+    locked = t > r.figures["lock_time"]
+    assert (s["transmission.clutch_speed"][locked] == 0.0).all()
+    assert (s["transmission.brake_speed"][t <= r.figures["release_time"]] == 0.0).all()
+    assert s["transmission.clutch_load"][-1] == 5898.0 and s["transmission.brake_load"][-1] == 0.0
+
+
+@pytest.mark.slow
+def test_plain_torque_loop_finds_the_same_shift_at_small_steps():
+    """Coupling torque needs steps below 2 w0 J/T = 0.06 ms; it creeps instead of sticking."""
+    limit = 2.0 * 0.1 * 0.1157 / 389.0
+    held = {**NO_DRAG, "transmission": {"washers": 0, "coupling": "torque"}}
+    r = shift("planetary", parts=held, step=0.5 * limit)
+    reference = shift("planetary", parts=NO_DRAG)
+    assert r.figures["slip_energy"] == pytest.approx(reference.figures["slip_energy"], rel=2e-3)
+    assert abs(r.signals["transmission.clutch_speed"][-1]) < 0.1
+    assert r.energy["residual_share"] < 1e-9

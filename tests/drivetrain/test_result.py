@@ -1,0 +1,125 @@
+"""What a run leaves behind, and what happens when it cannot run."""
+
+import csv
+import json
+import os
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scene_runs import instances, shift
+
+from thrustwasher.drivetrain import load_scene, run_shift
+from thrustwasher.errors import ParameterError, SolveError
+from thrustwasher.models.clutch_params import ClutchParams
+
+
+def test_every_signal_of_every_part_is_kept(default_shift):
+    r = default_shift
+    assert len(r.time) == 2201 and r.time[-1] == 2.2
+    for name, part in r.scene.parts.items():
+        for signal in (*part.spec.inputs, *part.spec.outputs):
+            assert r.signals[f"{name}.{signal.name}"].shape == r.time.shape
+    assert all(np.isfinite(values).all() for values in r.signals.values())
+    assert r.units()["transmission.clutch_speed"] == "rad/s"
+
+
+def test_everything_but_the_series_is_json(default_shift):
+    d = json.loads(json.dumps(default_shift.as_dict(), allow_nan=False))
+    assert d["scene"] == "planetary" and d["energy_residual"] == d["energy"]["residual"]
+    assert d["parameters"]["washer"]["inner_radius"] == 0.00555
+    assert [p["name"] for p in d["phases"]][-1] == "locked"
+
+
+def test_cost_adds_up(default_shift):
+    r = default_shift
+    assert [c.steps for c in r.cost] == [2200] * 4
+    assert sum(c.wall_time for c in r.cost) + r.overhead == pytest.approx(r.wall_time)
+    assert r.real_time_factor == pytest.approx(2.2 / r.wall_time)
+
+
+def test_csv_holds_every_number_with_its_unit(default_shift, tmp_path):
+    default_shift.write_csv(tmp_path / "shift.csv")
+    with open(tmp_path / "shift.csv", newline="", encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    assert head[0] == "time [s]" and "clutch.torque_capacity [N.m]" in head
+    column = head.index("transmission.engine_speed [rad/s]")
+    values = np.array([float(row[column]) for row in rows])
+    assert (values == default_shift.signals["transmission.engine_speed"]).all()
+    assert os.listdir(tmp_path) == ["shift.csv"]
+
+
+def test_a_path_that_cannot_be_written_is_named_and_nothing_is_left(default_shift, tmp_path):
+    (tmp_path / "shift.csv").mkdir()
+    with pytest.raises(ParameterError, match=r"path = .*shift.csv.*cannot be written"):
+        default_shift.write_csv(tmp_path / "shift.csv")
+    assert os.listdir(tmp_path) == ["shift.csv"]
+    with pytest.raises(ParameterError, match="cannot be written"):
+        default_shift.write_csv(tmp_path / "none" / "shift.csv")
+
+
+def test_messages_say_what_is_left_out(default_shift):
+    assert any("gear mesh" in m for m in default_shift.messages)
+    assert any("upper bound" in m for m in default_shift.messages)
+
+
+def test_a_run_with_instances_for_another_master_says_so():
+    scene = load_scene("msl").with_options(stop_time=0.02)
+    r = run_shift(scene, instances(scene), master="jacobi")
+    assert any("made for master 'gauss-seidel'" in m for m in r.messages)
+
+
+def test_progress_is_called_to_the_end():
+    scene = load_scene("msl").with_options(stop_time=0.05)
+    calls = []
+    run_shift(scene, instances(scene), progress=lambda done, total: calls.append((done, total)))
+    assert calls[-1] == (50, 50) and len(calls) <= 101
+
+
+def test_a_part_that_fails_is_named_with_the_time():
+    scene = load_scene("planetary").with_options(stop_time=0.05)
+    parts = instances(scene)
+
+    def fail(t, h):
+        if t > 0.03:
+            raise SolveError("not converged")
+
+    parts["washer"].step = fail
+    with pytest.raises(SolveError, match=r"washer at t = 0.031 s: not converged"):
+        run_shift(scene, parts)
+
+
+def test_a_missing_or_outdated_instance_is_named():
+    scene = load_scene("planetary").with_options(stop_time=0.05)
+    parts = instances(scene)
+    parts["washer"].output_names = ["friction_torque"]
+    with pytest.raises(ParameterError, match=r"washer: the instance has the outputs .* build it"):
+        run_shift(scene, parts)
+    del parts["washer"]
+    with pytest.raises(ParameterError, match="instances: washer missing"):
+        run_shift(scene, parts)
+
+
+def test_a_step_that_does_not_divide_the_time_is_adapted_and_said():
+    r = shift("msl", stop_time=0.1, step=3e-3)
+    assert len(r.time) == 34 and r.time[-1] == pytest.approx(0.1, rel=1e-15)
+    assert any("33 steps" in m for m in r.messages)
+
+
+def test_a_stall_is_said():
+    """A command that stays at one half: both packs hold, and everything stops."""
+    scene = load_scene("planetary").with_options(stop_time=1.0)
+    scene = replace(scene, shift_start=-50.0, shift_duration=100.0)
+    packs = {n: replace(scene.parts[n], params=ClutchParams(faces=40)) for n in ("clutch", "brake")}
+    scene = replace(scene, parts=scene.parts | packs)
+    r = run_shift(scene, instances(scene))
+    assert r.signals["transmission.engine_speed"][-1] == 0.0
+    assert any("STALLED" in m for m in r.messages)
+
+
+def test_jacobi_hands_over_old_values_and_gauss_seidel_fresh_ones():
+    fresh, old = (shift("planetary", stop_time=0.3, master=m) for m in ("gauss-seidel", "jacobi"))
+    for r, lag in ((fresh, 0), (old, 1)):
+        used = r.signals["transmission.clutch_torque"][2:]
+        sent = r.signals["clutch.torque_capacity"][2 - lag : len(r.time) - lag]
+        assert (used == sent).all()

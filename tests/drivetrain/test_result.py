@@ -108,7 +108,7 @@ def test_a_step_that_does_not_divide_the_time_is_adapted_and_said():
 
 def test_a_stall_is_said():
     """A command that stays at one half: both packs hold, and everything stops."""
-    scene = load_scene("planetary").with_options(stop_time=1.0)
+    scene = load_scene("planetary")
     scene = replace(scene, shift_start=-50.0, shift_duration=100.0)
     packs = {n: replace(scene.parts[n], params=ClutchParams(faces=40)) for n in ("clutch", "brake")}
     scene = replace(scene, parts=scene.parts | packs)

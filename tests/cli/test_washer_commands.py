@@ -34,7 +34,8 @@ def test_json_has_every_field_and_input_in_full_precision(capsys):
 
 def test_units_and_settings_reach_the_model(capsys):
     words = ["washer", "--load", "0.3 kN", "--speed", "9100.479 rpm", "--tilt", "2 mrad",
-             "--oil-temperature", "40 degC", "--set", "roughness=0.4 um", "--grid", "9x24"]  # fmt: skip
+             "--oil-temperature", "40 degC", "--set", "roughness=0.4 um",
+             "--grid", "9x24"]  # fmt: skip
     record = run_json(words, capsys)
     assert record["speed"] == pytest.approx(953.0, abs=1e-3)
     assert record["oil_temperature"] == pytest.approx(313.15)

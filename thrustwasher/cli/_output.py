@@ -10,7 +10,7 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -45,8 +45,6 @@ def as_json(value: Any) -> Any:
         return {str(key): as_json(item) for key, item in value.items()}
     if hasattr(value, "item") and getattr(value, "ndim", None) == 0:
         return as_json(value.item())
-    if hasattr(value, "tolist") and getattr(value, "ndim", None) == 1:
-        return as_json(value.tolist())
     return NotImplemented
 
 
@@ -97,49 +95,70 @@ def check_folder(path: str, option: str) -> Path:
     folder = Path(path).absolute()
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"{option} {path}: is a file, a folder is wanted")
-    missing = [p for p in (folder, *folder.parents) if not p.exists()]
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
+        with _folder_for_trial(folder), tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
         reason = error.strerror or str(error)
         raise ParameterError(f"{option} {path}: cannot be written ({reason})") from None
-    finally:
-        for made in missing:
-            if made.is_dir():
-                made.rmdir()
     return Path(path)
 
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
     """Give a temporary path beside ``path`` that takes its place only if all went well."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    try:
-        yield Path(name)
-        os.chmod(name, 0o666 & ~_umask())
-        os.replace(name, path)
-    finally:
-        Path(name).unlink(missing_ok=True)
+    with _folder_unless_failed(path.parent):
+        handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
+        os.close(handle)
+        try:
+            yield Path(name)
+            os.chmod(name, 0o666 & ~_umask())
+            os.replace(name, path)
+        finally:
+            Path(name).unlink(missing_ok=True)
 
 
 @contextmanager
 def whole_folder(path: Path) -> Iterator[Path]:
     """Give a temporary folder whose files move to ``path`` only if all went well."""
-    existed = path.exists()
-    path.mkdir(parents=True, exist_ok=True)
-    draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=path))
+    with _folder_unless_failed(path):
+        draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=path))
+        try:
+            yield draft
+            for made in sorted(draft.iterdir()):
+                os.replace(made, path / made.name)
+        finally:
+            shutil.rmtree(draft, ignore_errors=True)
+
+
+@contextmanager
+def _folder_unless_failed(folder: Path) -> Iterator[None]:
+    """Make a folder with its parents; after a failure those that are new and empty go again."""
+    missing = [p for p in (folder, *folder.parents) if not p.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
     try:
-        yield draft
-        for made in sorted(draft.iterdir()):
-            os.replace(made, path / made.name)
+        yield
+    except BaseException:
+        _remove(missing)
+        raise
+
+
+@contextmanager
+def _folder_for_trial(folder: Path) -> Iterator[None]:
+    """Make a folder with its parents; those that are new go again in any case."""
+    missing = [p for p in (folder, *folder.parents) if not p.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        yield
     finally:
-        shutil.rmtree(draft, ignore_errors=True)
-        if not existed and not any(path.iterdir()):
-            path.rmdir()
+        _remove(missing)
+
+
+def _remove(folders: list[Path]) -> None:
+    """Remove the folders that exist and are empty, innermost first."""
+    for folder in folders:
+        with suppress(OSError):
+            folder.rmdir()
 
 
 def _umask() -> int:

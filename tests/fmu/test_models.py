@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from thrustwasher.fmu.interface import all_specs, find_spec, variables
+from thrustwasher.fmu.registry import load_kernel
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 H = 1e-3
@@ -28,6 +29,16 @@ WASHER = {"load": (100.0, 600.0), "speed": (100.0, 500.0), "tilt": (1e-3, 2e-3)}
 def drawn(spec, rng):
     ranges = TYPICAL | (WASHER if spec.name == "ThrustWasher" else {})
     return [rng.uniform(*ranges[signal.name]) for signal in spec.inputs]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_kernel_has_the_lengths_of_the_list(name):
+    spec = find_spec(name)
+    kernel, found = load_kernel(spec.kernel), variables(spec)
+    held = {s: sum(v.store == s for v in found) for s in ("par", "inp", "out", "iout")}
+    lengths = (kernel.n_param, kernel.n_inp, kernel.n_out, kernel.n_iout)
+    assert tuple(held.values()) == lengths
+    assert kernel.n_par >= kernel.n_param
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -149,7 +149,9 @@ class Core:
 
     def _named_parameters(self) -> dict[str, Any]:
         named: dict[str, Any] = {}
-        for f, value in zip(fields(self.spec.params), self.par.tolist(), strict=False):
+        for f, value in zip(
+            fields(self.spec.params), self.par[: self._n_param].tolist(), strict=False
+        ):
             kind = f.metadata["kind"]
             if kind == "enumeration":
                 value = list(f.metadata["options"])[int(value) - 1]

@@ -1,6 +1,7 @@
 """Shifts with the kernels in this process; a washer with Petroff's torque keeps it quick."""
 
 from dataclasses import replace
+from functools import cache
 from time import perf_counter
 
 from thrustwasher.drivetrain import load_scene, run_shift
@@ -57,3 +58,9 @@ def shift(name, *, parts=None, **options):
             changed[part] = replace(changed[part], params=replace(changed[part].params, **values))
     scene = replace(scene, parts=changed)
     return run_shift(scene, instances(scene))
+
+
+@cache
+def default_shift():
+    """Return the default scene's result at its default step."""
+    return shift("planetary")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scene_runs import shift
+from scene_runs import default_shift, shift
 
 # Settled film, no drag: ramp -> lock after ramp start [s], at [rad/s]; engine work, load work,
 # kinetic and clutch heat [kJ] until lock-up; per face [MJ/m2].
@@ -30,8 +30,8 @@ def test_shifts_without_drag_have_the_expected_magnitudes(name):
     assert r.figures["friction_lock"] == pytest.approx(0.11, abs=1e-5)
 
 
-def test_energy_book_closes_and_coupling_is_tight(default_shift):
-    e = default_shift.energy
+def test_energy_book_closes_and_coupling_is_tight():
+    e = default_shift().energy
     assert e["residual_share"] <= 1e-6
     assert e["coupling_difference_share"] <= 1e-3
     parts = (e["kinetic"], e["load_work"], e["clutch"], e["brake"], e["washers"], e["meshes"])
@@ -58,8 +58,8 @@ def test_the_masters_agree_in_the_limit():
     assert a["lock_time"] == pytest.approx(b["lock_time"], abs=2e-6)
 
 
-def test_the_washer_gets_what_the_planets_give(default_shift):
-    s = default_shift.signals
+def test_the_washer_gets_what_the_planets_give():
+    s = default_shift().signals
     for name in ("load", "speed", "tilt"):
         sent, used = s[f"transmission.washer_{name}"], s[f"washer.{name}"]
         assert (used[1:] == sent[:-1]).all()
@@ -67,8 +67,8 @@ def test_the_washer_gets_what_the_planets_give(default_shift):
     assert (s["transmission.washer_torque"][1:] == s["washer.friction_torque"][1:]).all()
 
 
-def test_the_course_has_a_torque_and_an_inertia_phase(default_shift):
-    r = default_shift
+def test_the_course_has_a_torque_and_an_inertia_phase():
+    r = default_shift()
     s, t = r.signals, r.time
     assert [p.name for p in r.phases] == ["first gear", "torque phase", "inertia phase", "locked"]
     tau, start = s["transmission.sun_torque"], r.phases[0].end

@@ -7,15 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scene_runs import instances, shift
+from scene_runs import default_shift, instances, shift
 
 from thrustwasher.drivetrain import load_scene, run_shift
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.models.clutch_params import ClutchParams
 
 
-def test_every_signal_of_every_part_is_kept(default_shift):
-    r = default_shift
+def test_every_signal_of_every_part_is_kept():
+    r = default_shift()
     assert len(r.time) == 2201 and r.time[-1] == 2.2
     for name, part in r.scene.parts.items():
         for signal in (*part.spec.inputs, *part.spec.outputs):
@@ -24,43 +24,43 @@ def test_every_signal_of_every_part_is_kept(default_shift):
     assert r.units()["transmission.clutch_speed"] == "rad/s"
 
 
-def test_everything_but_the_series_is_json(default_shift):
-    d = json.loads(json.dumps(default_shift.as_dict(), allow_nan=False))
+def test_everything_but_the_series_is_json():
+    d = json.loads(json.dumps(default_shift().as_dict(), allow_nan=False))
     assert d["scene"] == "planetary" and d["energy_residual"] == d["energy"]["residual"]
     assert d["parameters"]["washer"]["inner_radius"] == 0.00555
     assert [p["name"] for p in d["phases"]][-1] == "locked"
 
 
-def test_cost_adds_up(default_shift):
-    r = default_shift
+def test_cost_adds_up():
+    r = default_shift()
     assert [c.steps for c in r.cost] == [2200] * 4
     assert sum(c.wall_time for c in r.cost) + r.overhead == pytest.approx(r.wall_time)
     assert r.real_time_factor == pytest.approx(2.2 / r.wall_time)
 
 
-def test_csv_holds_every_number_with_its_unit(default_shift, tmp_path):
-    default_shift.write_csv(tmp_path / "shift.csv")
+def test_csv_holds_every_number_with_its_unit(tmp_path):
+    default_shift().write_csv(tmp_path / "shift.csv")
     with open(tmp_path / "shift.csv", newline="", encoding="utf-8") as file:
         head, *rows = csv.reader(file)
     assert head[0] == "time [s]" and "clutch.torque_capacity [N.m]" in head
     column = head.index("transmission.engine_speed [rad/s]")
     values = np.array([float(row[column]) for row in rows])
-    assert (values == default_shift.signals["transmission.engine_speed"]).all()
+    assert (values == default_shift().signals["transmission.engine_speed"]).all()
     assert os.listdir(tmp_path) == ["shift.csv"]
 
 
-def test_a_path_that_cannot_be_written_is_named_and_nothing_is_left(default_shift, tmp_path):
+def test_a_path_that_cannot_be_written_is_named_and_nothing_is_left(tmp_path):
     (tmp_path / "shift.csv").mkdir()
     with pytest.raises(ParameterError, match=r"path = .*shift.csv.*cannot be written"):
-        default_shift.write_csv(tmp_path / "shift.csv")
+        default_shift().write_csv(tmp_path / "shift.csv")
     assert os.listdir(tmp_path) == ["shift.csv"]
     with pytest.raises(ParameterError, match="cannot be written"):
-        default_shift.write_csv(tmp_path / "none" / "shift.csv")
+        default_shift().write_csv(tmp_path / "none" / "shift.csv")
 
 
-def test_messages_say_what_is_left_out(default_shift):
-    assert any("gear mesh" in m for m in default_shift.messages)
-    assert any("upper bound" in m for m in default_shift.messages)
+def test_messages_say_what_is_left_out():
+    assert any("gear mesh" in m for m in default_shift().messages)
+    assert any("upper bound" in m for m in default_shift().messages)
 
 
 def test_a_run_with_instances_for_another_master_says_so():

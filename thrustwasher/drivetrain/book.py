@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .course import turning
 from .result import Event
 from .scene import Scene
 
@@ -65,15 +66,15 @@ def figures(
         "peak_power": float(np.max(np.abs(power))),
         "peak_clutch_temperature": float(np.max(signals["clutch.temperature"])),
         "peak_brake_temperature": float(np.max(signals["brake.temperature"])),
-        "peak_clutch_torque": float(np.max(np.abs(signals["transmission.clutch_reaction"]))),
+        "peak_clutch_torque": float(np.max(np.abs(signals["clutch.friction_torque"]))),
         "peak_sun_thrust": float(np.max(signals["transmission.sun_thrust"])),
         "least_clutch_film_ratio": float(np.min(signals["clutch.film_ratio"])),
         **_friction(time, signals, start, lock),
     }
     if "washer.friction_torque" in signals:
-        turning = np.abs(signals["transmission.washer_speed"]) > 1.0  # a film needs some speed
-        ratio = signals["washer.film_ratio"][turning]
-        distress = signals["washer.distress"] > 0.5
+        moving = turning(signals)
+        ratio = signals["washer.film_ratio"][moving]
+        distress = (signals["washer.distress"] > 0.5) & moving
         result |= {
             "peak_washer_load": float(np.max(signals["transmission.washer_load"])),
             "peak_washer_temperature": float(np.max(signals["washer.temperature"])),

@@ -10,6 +10,7 @@ from .result import Event, Phase
 from .scene import Scene
 
 Signals = dict[str, NDArray[np.float64]]
+STANDSTILL = 1.0  # rad/s
 # What a change of a Boolean signal means: (signal, kind and text when it rises, when it falls,
 # signals with the located time; None: known to the communication step only).
 CHANGES = (
@@ -22,6 +23,11 @@ CHANGES = (
 )  # fmt: skip
 
 
+def turning(signals: Signals) -> NDArray[np.bool_]:
+    """Return where the washer turns; one that stands still has no film to lose."""
+    return np.asarray(np.abs(signals["transmission.washer_speed"]) > STANDSTILL)
+
+
 def events(scene: Scene, time: NDArray[np.float64], signals: Signals) -> list[Event]:
     """Return all events in the order of time."""
     found = [Event(scene.shift_start, "ramp_start", "shift ramp starts")]
@@ -32,6 +38,8 @@ def events(scene: Scene, time: NDArray[np.float64], signals: Signals) -> list[Ev
         if name not in signals:
             continue
         on = signals[name] > 0.5
+        if name == "washer.distress":
+            on &= turning(signals)
         if on[0] and name == "washer.distress":
             found.append(Event(float(time[0]), "film_lost", "washer has no film at the start"))
         for i in np.flatnonzero(on[1:] != on[:-1]) + 1:

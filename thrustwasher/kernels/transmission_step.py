@@ -47,7 +47,8 @@ def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> Non
 
     Capacities arrive once per step and would be up to a step old at its end. They go on changing
     as they did in the last step, from the instant they belong to (``torque_age`` steps ago): the
-    error then falls with the square of the step.
+    error then falls with the square of the step. Where the friction law has a kink the capacity
+    overshoots for one step (a few percent just before lock-up at 1 ms).
     """
     r = par[L.D_RATIO]
     work[L.W_WASHERS] = par[L.P_WASHERS] * abs(inp[L.I_WASHER])

@@ -4,8 +4,13 @@ from dataclasses import replace
 from functools import cache
 from time import perf_counter
 
+import numba
+import pytest
+
 from thrustwasher.drivetrain import load_scene, run_shift
 from thrustwasher.fmu.direct import DirectInstance
+
+slow_without_jit = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="minutes without JIT")
 
 
 class PetroffWasher:

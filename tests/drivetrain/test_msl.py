@@ -5,15 +5,13 @@ Event-driven reference at tolerance 1e-11: lock at 2.1107904 s, 5.0425032 rad/s.
 
 import math
 
-import numba
 import numpy as np
 import pytest
-from scene_runs import shift
+from scene_runs import shift, slow_without_jit
 
 from thrustwasher.reference.gear_shift import speed_against_quadratic_load
 
 LOCK_TIME, LOCK_SPEED = 2.1107904, 5.0425032
-slow_without_jit = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="minutes without JIT")
 MASTERS = ["gauss-seidel", "jacobi"]
 
 
@@ -55,6 +53,7 @@ def test_lock_time_converges_with_the_order_of_the_capacities(master, extrapolat
     assert found == pytest.approx([order, order], abs=0.1)
 
 
+@slow_without_jit
 def test_drum_inertia_delays_the_lock_up_in_proportion():
     """First order in J_r: + 0.0257 s and - 0.419 rad/s per kg m2."""
     base = shift("msl", stop_time=2.2, step=5e-4).figures

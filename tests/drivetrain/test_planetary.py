@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scene_runs import default_shift, shift
+from scene_runs import default_shift, shift, slow_without_jit
 
 # Settled film, no drag: ramp -> lock after ramp start [s], at [rad/s]; engine work, load work,
 # kinetic and clutch heat [kJ] until lock-up; per face [MJ/m2].
@@ -53,6 +53,7 @@ def test_coupling_difference_shrinks_with_the_square_of_the_step():
     assert np.log2(shares[0] / shares[1]) == pytest.approx(2.0, abs=0.2)
 
 
+@slow_without_jit
 def test_the_masters_agree_in_the_limit():
     a, b = (shift("planetary", step=2.5e-4, master=m).figures for m in ("gauss-seidel", "jacobi"))
     assert a["lock_time"] == pytest.approx(b["lock_time"], abs=2e-6)
@@ -79,7 +80,7 @@ def test_the_course_has_a_torque_and_an_inertia_phase():
     assert s["transmission.clutch_load"][-1] == 5898.0 and s["transmission.brake_load"][-1] == 0.0
 
 
-@pytest.mark.slow
+@slow_without_jit
 def test_plain_torque_loop_finds_the_same_shift_at_small_steps():
     """Coupling torque needs steps below 2 w0 J/T = 0.06 ms; it creeps instead of sticking."""
     limit = 2.0 * 0.1 * 0.1157 / 389.0

@@ -127,7 +127,8 @@ def test_only_listed_inputs_move_an_output_at_once(name):
             for i, signal in enumerate(spec.inputs):
                 direct.set_inputs(point)
                 before = direct.outputs()
-                changed = [*point[:i], drawn(spec, rng)[i], *point[i + 1 :]]
+                changed = list(point)
+                changed[i] += 0.1 * (drawn(spec, rng)[i] - point[i])
                 direct.set_inputs(changed)
                 pairs = zip(spec.outputs, before, direct.outputs(), strict=True)
                 seen |= {(signal.name, output.name) for output, a, b in pairs if a != b}

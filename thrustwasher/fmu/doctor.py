@@ -78,7 +78,7 @@ def _kernels() -> str:
     folder = Path(cache_folder())
     number = len(list(folder.rglob("*.nbc"))) if folder.is_dir() else 0
     _writable(str(folder if folder.is_dir() else folder.parent))
-    note = "" if number else "; the first run of each model compiles for some seconds"
+    note = "" if number else "; the first run of each model compiles it: seconds to minutes"
     return f"{number} in {folder} (digest of the sources: {kernel_digest()}){note}"
 
 

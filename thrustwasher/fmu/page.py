@@ -16,8 +16,8 @@ th{background:#eef1f4}code,pre{background:#f4f6f8}pre{padding:1em;overflow:auto}
 NEEDS = """<p>This FMU runs in Python: the importing process must be, or find, a Python with the
 package <code>thrustwasher</code> of version {version}
 (<code>pip install thrustwasher=={version}</code>). Another version is refused at instantiation with
-a message that names both. The first run on a machine compiles the model, which takes seconds; later
-runs load the result.</p>"""
+a message that names both. The first run on a machine compiles the model, which takes seconds to
+minutes; later runs load the result.</p>"""
 
 FAILS = """<ul>
 <li>A value outside its range, or NaN, is not taken over: the old value stays, the message names

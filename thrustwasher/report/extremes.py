@@ -41,6 +41,14 @@ def worst_film(record: Record) -> Extreme | None:
     return _extreme(record, values, int(np.argmin(np.where(turning, values, np.inf))))
 
 
+def distressed(record: Record) -> Array:
+    """Return where the washer turns and has lost its film."""
+    lost, speed = record.series("washer.distress"), record.series("transmission.washer_speed")
+    if lost is None or speed is None:
+        return np.zeros(len(record.time), dtype=bool)
+    return np.asarray((lost > 0.5) & (np.abs(speed) > TURNING))
+
+
 def _extreme(record: Record, values: Array, index: int) -> Extreme:
     """Return one value with its time."""
     return Extreme(float(values[index]), float(record.time[index]))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from .extremes import distressed
 from .shift_record import Record
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, beside, label
 
@@ -110,11 +111,10 @@ def draw_films(axis: Axes, record: Record) -> bool:
     high = 1.6 * max(3.0, *(float(np.max(d)) for d in drawn))
     _draw_regimes(axis, low, high)
     _draw_phase_lines(axis, record)
-    distress = record.series("washer.distress")
-    if distress is not None and np.any(distress > 0.5):
-        times = record.time[distress > 0.5]
-        axis.plot(times, np.full(times.shape, 1.25 * low), "|", color=BLACK, ms=7, mew=1.2,
-                  label="washer's film lost (distress)", zorder=4)  # fmt: skip
+    lost = distressed(record)
+    if np.any(lost):
+        axis.plot(record.time[lost], np.full(np.sum(lost), 0.82 * high), "|", color=BLACK, ms=7,
+                  mew=1.2, label="washer's film lost (distress)", zorder=4)  # fmt: skip
     up = r"film ratio $h/\sigma$ [1]"
     label(axis, "Film ratios: does oil or do asperities carry?", "", up)
     beside(axis)

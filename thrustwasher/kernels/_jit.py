@@ -43,14 +43,27 @@ def cache_folder() -> str:
         return os.path.join(tempfile.gettempdir(), f"thrustwasher-kernels-{kernel_digest()}")
 
 
-def _compiled(function: Callable[..., Any]) -> Any:
+def _compiled(function: Callable[..., Any], inline: str = "never") -> Any:
     """Compile lazily with the cache in ``cache_folder``; other users' numba cache is left alone."""
     before = config.CACHE_DIR
     config.CACHE_DIR = cache_folder()
     try:
-        return numba.njit(cache=True, fastmath=False, error_model="numpy", nogil=True)(function)
+        return numba.njit(
+            cache=True, fastmath=False, error_model="numpy", nogil=True, inline=inline
+        )(function)
     finally:
         config.CACHE_DIR = before
 
 
 kernel = cast(Callable[[F], F], _compiled)
+
+
+def _inlined(function: Callable[..., Any]) -> Any:
+    """Compile as a part of each caller: for one that is called once and calls much code itself.
+
+    numba optimises all code below a function again with that function; each layer costs seconds.
+    """
+    return _compiled(function, inline="always")
+
+
+inlined = cast(Callable[[F], F], _inlined)

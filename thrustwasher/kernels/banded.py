@@ -14,7 +14,6 @@ from ._jit import kernel
 N_SIDES = 8  # right sides solved together: a full vector register
 
 
-
 @kernel
 def cholesky(a: NDArray[np.float64], n: int, band: int) -> bool:
     """Replace ``a`` by its Cholesky factor; return False if it is not positive definite.
@@ -89,9 +88,7 @@ def cholesky_solve(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band:
 
 
 @kernel
-def cholesky_solve_many(
-    a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int
-) -> None:
+def cholesky_solve_many(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
     """Solve for ``N_SIDES`` right sides at once; ``b[row * N_SIDES + side]``, in place."""
     w = band + 1
     for j in range(n):

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .washer_model import WasherModel, gear_node
+from .washer_model import WasherModel
 
-N_TAG = 16  # what the stored heat factor was made for: inputs and positions
+N_TAG = 48  # what the stored heat factor was made for: inputs, positions, parameters, grid
 N_SMALL = 128
 N_KEEP = 3
 
@@ -63,20 +63,18 @@ class Fields(NamedTuple):
     keep: NDArray[np.float64]  # (N_KEEP (4 + n_temp + n),) remembered solutions
 
 
-@kernel
-def temperatures_of(n_r: int, n_t: int, i_g: int) -> int:
+def temperatures_of(n_r: int, n_t: int) -> int:
     """Return the number of temperatures."""
-    return (3 * n_r - i_g) * n_t
+    return (3 * n_r - max(1, (n_r - 1) // 3)) * n_t
 
 
-@kernel
-def size_of_work(n_r: int, n_t: int, symmetric_only: bool) -> int:
+def size_of_work(n_r: int, n_t: int, even_split: bool) -> int:
     """Return the length of ``work`` for a grid; an uneven heat split needs the wider band."""
-    i_g = gear_node(n_r)
-    n, n_temp, m_t = n_r * n_t, temperatures_of(n_r, n_t, i_g), 3 * n_r - i_g
-    width = 2 * m_t + 1 if symmetric_only else 4 * m_t + 1
+    n, n_temp = n_r * n_t, temperatures_of(n_r, n_t)
+    width = 2 * n_temp // n_t + 1 if even_split else 4 * n_temp // n_t + 1
     film = (2 * n_r + 1) * n
-    return N_TAG + 1 + n_temp + n_temp * width + 8 * n_temp + N_SMALL + n_t + 42 * n + film + N_KEEP * (4 + n_temp + n)
+    kept = N_KEEP * (4 + n_temp + n)
+    return N_TAG + 1 + n_temp * (width + 9) + N_SMALL + n_t + 42 * n + film + kept
 
 
 @kernel

@@ -50,9 +50,7 @@ def evaluate_film(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) 
 
 
 @kernel
-def film_residual(
-    m: WasherModel, p: NDArray[np.float64], f: Fields
-) -> tuple[float, float, int]:
+def film_residual(m: WasherModel, p: NDArray[np.float64], f: Fields) -> tuple[float, float, int]:
     """Mark full and cavitated nodes; return (complementarity residual [Pa], p_max [Pa], n).
 
     ``n`` counts the unknowns of the linear system. A node cavitates if p - residual/diagonal <= 0,
@@ -140,9 +138,7 @@ def _lags(m: WasherModel, f: Fields) -> None:
             f.lag[np.uintp(a)] = scale * (f.dtemp[np.uintp(t)] + f.dtemp[np.uintp(t + n_r)])
             for s in range(1, 5):
                 b = (s - 1) * n_temp + t
-                f.lag[np.uintp(a + s)] = scale * (
-                    f.sens[np.uintp(b)] + f.sens[np.uintp(b + n_r)]
-                )
+                f.lag[np.uintp(a + s)] = scale * (f.sens[np.uintp(b)] + f.sens[np.uintp(b + n_r)])
             for s in range(5, N_SIDES):
                 f.lag[np.uintp(a + s)] = 0.0
 

@@ -120,5 +120,8 @@ def evaluate_viscosity(m: WasherModel, pt: Point, f: Fields) -> None:
             a = j * m_t + i
             rise = 0.5 * (f.temp[np.uintp(a)] + f.temp[np.uintp(a + m.n_r)])
             f.mu[k], f.dmu[k] = viscosity(
-                pt.oil_temperature + rise, m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
+                pt.oil_temperature + rise,
+                m.viscosity_scale,
+                m.viscosity_constant,
+                m.viscosity_exponent,
             )

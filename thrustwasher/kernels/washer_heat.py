@@ -44,9 +44,7 @@ def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Field
             q = m.film_heat_fraction * f.mu[k] * v * v / f.ht[k] + friction * f.pc[k] * v
             made += w1 * q
             across = w1 * (temp[ic] - temp[iw]) / (f.ht[k] / m.oil_conductivity + half)
-            f.heat[ic] += (
-                across + w1 * far_c * temp[ic] - m.heat_split * w1 * q
-            )
+            f.heat[ic] += across + w1 * far_c * temp[ic] - m.heat_split * w1 * q
             f.heat[iw] -= across + (1.0 - m.heat_split) * w1 * q
             # to the next column
             g = m.log_width[i] / m.step_t[j]
@@ -102,9 +100,7 @@ def _add(
 
 
 @kernel
-def _link(
-    a: NDArray[np.float64], band: int, symmetric: bool, one: int, two: int, g: float
-) -> None:
+def _link(a: NDArray[np.float64], band: int, symmetric: bool, one: int, two: int, g: float) -> None:
     """Add a conductance between two unknowns."""
     _add(a, band, symmetric, one, one, g)
     _add(a, band, symmetric, two, two, g)
@@ -171,9 +167,7 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
 
 
 @kernel
-def solve_heat(
-    m: WasherModel, rhs: NDArray[np.float64], x: NDArray[np.float64], f: Fields
-) -> None:
+def solve_heat(m: WasherModel, rhs: NDArray[np.float64], x: NDArray[np.float64], f: Fields) -> None:
     """Solve the factored heat equations for ``rhs`` (n_temp,); the solution goes to ``x``."""
     n_t, m_t = m.n_t, 3 * m.n_r - m.i_g
     for j in range(n_t):

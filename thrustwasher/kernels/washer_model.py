@@ -84,7 +84,6 @@ def gear_node(n_r: int) -> int:
     return max(1, (n_r - 1) // 3)
 
 
-@kernel
 def size_of_par(n_r: int, n_t: int) -> int:
     """Return the length of ``par`` for a grid; its tail is scratch for `derive_grid`."""
     scratch = max(N_CONTACT_WORK, n_r * n_r + n_r)

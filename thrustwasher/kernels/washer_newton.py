@@ -24,7 +24,8 @@ from .washer_heat import factor_heat, heat_residual, heat_slopes, solve_heat
 from .washer_model import WasherModel
 
 OK, MAX_ITERATIONS, SINGULAR, NOT_FINITE = 0, 10, 11, 14  # errors.Status; a test keeps them equal
-LOAD, FILM = 0, 1  # modes
+# modes and counts are floats: numba would compile anew for each integer constant
+LOAD, FILM = 0.0, 1.0
 NO_FLOOR = -100.0
 # places in Fields.small
 BALANCE = 32  # (4,) forces conjugate to q [N, N, N m, N m], load not subtracted
@@ -51,23 +52,6 @@ def film_ratio(m: WasherModel, q: NDArray[np.float64]) -> float:
 
 
 @kernel
-def tag_matches(
-    m: WasherModel, pt: Point, q: NDArray[np.float64], temp: NDArray[np.float64], f: Fields
-) -> bool:
-    """Tell if the stored heat factor was made for exactly these parameters and fields."""
-    t = f.tag
-    if not (t[0] == 1.0 and t[1] == pt.speed and t[2] == pt.tilt):
-        return False
-    for k in range(4):
-        if t[3 + k] != q[k]:
-            return False
-    for k in range(temp.size):
-        if t[np.uintp(N_TAG + k)] != temp[np.uintp(k)]:
-            return False
-    return True
-
-
-@kernel
 def make_factor(
     m: WasherModel, pt: Point, q: NDArray[np.float64], temp: NDArray[np.float64], f: Fields
 ) -> bool:
@@ -79,7 +63,7 @@ def make_factor(
     n = temp.size
     for s in range(4):
         solve_heat(m, f.sens[s * n : s * n + n], f.sens[s * n : s * n + n], f)
-    f.tag[0], f.tag[1], f.tag[2] = 1.0, pt.speed, pt.tilt
+    f.tag[0], f.tag[1], f.tag[2], f.tag[7] = 1.0, pt.speed, pt.tilt, pt.oil_temperature
     for k in range(4):
         f.tag[3 + k] = q[k]
     for k in range(n):
@@ -126,7 +110,7 @@ def _linearise(m: WasherModel, f: Fields) -> None:
 
 
 @kernel
-def _steps(m: WasherModel, mode: int, target: float, q: NDArray[np.float64], f: Fields) -> bool:
+def _steps(m: WasherModel, mode: float, target: float, q: NDArray[np.float64], f: Fields) -> bool:
     """Solve the system of four for the step (RIGHT, RIGHT + 2, ...) and the tangent dq/ds."""
     s = f.small
     ro = m.outer_radius
@@ -191,8 +175,8 @@ def evaluate(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> fl
 
 @kernel
 def newton(
-    m: WasherModel, pt: Point, mode: int, target: float, q: NDArray[np.float64], f: Fields,
-    floor: float, tolerance: float, max_iterations: int, info: NDArray[np.float64],
+    m: WasherModel, pt: Point, mode: float, target: float, q: NDArray[np.float64], f: Fields,
+    floor: float, tolerance: float, max_iterations: float, info: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve for positions ``q``, temperatures ``f.temp`` and pressures ``f.p``; return a status.
 
@@ -212,7 +196,7 @@ def newton(
     s = f.small
     before = math.inf
     info[ITERATIONS], info[FACTORED] = 0.0, 0.0
-    for iteration in range(max_iterations + 1):
+    for iteration in range(int(max_iterations) + 1):
         made = evaluate(m, pt, q, f)
         pressure_error, p_max, _ = film_residual(m, f.p, f)
         _balance(m, f.p, f)
@@ -236,7 +220,7 @@ def newton(
             return NOT_FINITE
         if error < tolerance and iteration > 0:
             return OK
-        if iteration == max_iterations:
+        if iteration == int(max_iterations):
             break
         if film_ratio(m, q) < floor:
             break
@@ -269,7 +253,7 @@ def newton(
             )  # fmt: skip
             f.dtemp[np.uintp(k)] = change
             jump = max(jump, abs(change))
-        damp = 1.0 if jump <= 150.0 else 150.0 / jump
+        damp = 1.0 if jump <= 1000.0 else 1000.0 / jump
         for k in range(n_temp):
             f.temp[np.uintp(k)] += damp * f.dtemp[np.uintp(k)]
         n = m.n_r * m.n_t

@@ -106,8 +106,8 @@ SPEC = ModelSpec(
     help="Tilted thrust washer in mixed lubrication: friction torque, temperature, film thickness",
     params=WasherParams,
     fidelities={
-        "field": "9 x 32 graded nodes: torque within 0.6 % of the converged value",
-        "fine": "17 x 64 graded nodes: torque within 0.1 % of the converged value",
+        "field": "10 x 32 graded nodes: torque within 0.6 % of the converged value",
+        "fine": "19 x 64 graded nodes: torque within 0.1 % of the converged value",
     },
     default_fidelity="field",
     inputs=(LOAD, SPEED, TILT, OIL),

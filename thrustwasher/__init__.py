@@ -1,0 +1,54 @@
+"""Friction units for drivetrain simulation: thrust washer and wet clutch, in Python and as FMUs.
+
+>>> from thrustwasher import WasherParams, solve_washer
+>>> result = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
+>>> round(result.friction_torque, 3)
+0.232
+"""
+
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from .errors import BranchError, ParameterError, SolveError, Status
+    from .models.clutch import ClutchParams, boundary_friction, solve_clutch
+    from .models.washer import WasherParams, WasherResult, solve_washer
+    from .models.washer_curve import LoadCurve, load_curve
+
+_HOMES = {
+    "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
+    "models.clutch": ("ClutchParams", "boundary_friction", "solve_clutch"),
+    "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
+    "models.washer_curve": ("LoadCurve", "load_curve"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+__all__ = [
+    "BranchError",
+    "ClutchParams",
+    "LoadCurve",
+    "ParameterError",
+    "SolveError",
+    "Status",
+    "WasherParams",
+    "WasherResult",
+    "boundary_friction",
+    "load_curve",
+    "solve_clutch",
+    "solve_washer",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used: ``import thrustwasher`` stays quick."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])

@@ -1,0 +1,257 @@
+"""Which of several solutions: the film branch up to its fold, the contact branch beyond it.
+
+A descent along the curve from light load decides when Newton's method alone cannot: it meets the
+solutions in order and names their branches. It always arrives, because the curve is
+single-valued in film thickness.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._jit import inlined, kernel
+from .washer_curve import (
+    ACCURACY, SHARE, SLOPE, S, W, cold_start, enter_curve, find_fold, recall, remember, walk_down, walk_to,
+)  # fmt: skip
+from .washer_fields import Fields, Point
+from .washer_gap import CONTACT
+from .washer_model import WasherModel
+from .washer_newton import (
+    FILM, LOAD, LOAD_SLOPE, MAX_ITERATIONS, NO_FLOOR, OK, REACHED_LOAD, film_ratio, newton, smooth_film,
+)  # fmt: skip
+
+NO_BRANCH = 12  # errors.Status; a test keeps them equal
+ANY, FILM_BRANCH, UNSTABLE, CONTACT_BRANCH = 0.0, 1.0, 2.0, 3.0
+UNKNOWN, SINGLE, MULTIPLE = 0.0, 1.0, 2.0  # is the curve single-valued in load?
+TOLERANCE = 1e-9  # of a solve from nothing
+FILM_RATIO = 3.0  # single-valued curves are called film above it
+CLEAR_SHARE = 0.01  # below this share of contact a stable solution is on the film branch
+# results of a descent, in an array: branch, multiplicity, loads of the folds found (nan: not met)
+BRANCH, MULTIPLICITY, LOST, REGAINED, N_FOUND = 0, 1, 2, 3, 4
+ENTRY_RATIO = 4.0
+DESCENT = 0.2  # finest step of the descent [sigma]
+
+
+@kernel
+def first_guess(m: WasherModel, pt: Point) -> float:
+    """Return a film ratio to start from: narrow ring, isothermal, half the viscosity."""
+    width = m.outer_radius - m.inner_radius
+    mean = 0.5 * (m.outer_radius + m.inner_radius)
+    mu = 0.5 * m.viscosity_scale * math.exp(
+        2.302585 * min(8.0, m.viscosity_constant * math.exp(-m.viscosity_exponent * math.log(
+            max(0.05, 1.0 + (pt.oil_temperature - 273.15) / 135.0))))
+    )  # fmt: skip
+    strength = 0.25 * mu * abs(pt.speed) * mean * width**3
+    if strength <= 0.0 or pt.tilt <= 0.0:
+        return ENTRY_RATIO
+    gap = math.sqrt(strength / pt.load)
+    for _ in range(5):  # W = strength (1/gap^2 - 1/(gap + 2 mean tilt)^2)
+        far = gap + 2.0 * mean * pt.tilt
+        gap = math.sqrt(strength / (pt.load + strength / (far * far)))
+    ratio = (gap - pt.tilt * 0.5 * width) / m.sigma1
+    return min(max(ratio, ENTRY_RATIO), 60.0)
+
+
+@kernel
+def _settle(
+    m: WasherModel, pt: Point, upper: float, lower: float, q: NDArray[np.float64], f: Fields,
+    info: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve for the load between two film thicknesses [m] that bracket it on a stable stretch.
+
+    ``upper`` carries less than the load, ``lower`` at least the load.
+    """
+    for _ in range(60):
+        remember(q, f, 1.0)
+        status = newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, TOLERANCE, 15.0, info)
+        s = smooth_film(m, q)
+        margin = 1e-6 * m.sigma1 + 1e-3 * (upper - lower)
+        if status == OK and lower - margin <= s <= upper + margin:
+            return OK
+        recall(q, f, 1.0)
+        f.tag[0] = 0.0
+        if upper - lower < 1e-7 * m.sigma1:  # on the fold itself: the load is met to rounding
+            return OK if abs(walk[W] / pt.load - 1.0) < 1e-6 else MAX_ITERATIONS
+        status = walk_to(m, pt, 0.5 * (upper + lower), q, f, info, walk)
+        if status != OK:
+            return status
+        if walk[W] < pt.load:
+            upper = walk[S]
+        else:
+            lower = walk[S]
+    return MAX_ITERATIONS
+
+
+@inlined
+def _climb(
+    m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Settle above the walker, which carries more than the load with a thick film."""
+    lower = walk[S]
+    for _ in range(60):
+        status = walk_to(m, pt, 1.25 * walk[S], q, f, info, walk)
+        if status != OK:
+            return status
+        if walk[W] < pt.load:
+            return _settle(m, pt, walk[S], lower, q, f, info, walk)
+        lower = walk[S]
+    return MAX_ITERATIONS
+
+
+@kernel
+def _near(value: float, load: float) -> bool:
+    """Tell if a fold's load estimate is too close to the load to decide without refining."""
+    return abs(value / load - 1.0) < 0.02
+
+
+@inlined
+def _contact_side(
+    m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve for the load below the walker, which has passed every fold above the load.
+
+    One solution is left, so any way to it will do: first from a washer pressed on, then by walking.
+    """
+    remember(q, f, 1.0)
+    for attempt in range(2):
+        ratio = 0.8 - 0.6 * attempt
+        if ratio * m.sigma1 < walk[S]:
+            cold_start(m, pt, ratio, q, f)
+            status = newton(m, pt, FILM, ratio * m.sigma1, q, f, NO_FLOOR, 1e-2, 20.0, info)
+            if status == OK:
+                status = newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, TOLERANCE, 20.0, info)
+            if status == OK and smooth_film(m, q) <= walk[S]:
+                return OK
+    recall(q, f, 1.0)
+    f.tag[0] = 0.0
+    for _ in range(200):
+        upper, before = walk[S], walk[W]
+        status = walk_down(m, pt, DESCENT, q, f, info, walk)
+        if status != OK:
+            return status
+        if before < pt.load <= walk[W]:
+            return _settle(m, pt, upper, walk[S], q, f, info, walk)
+    return MAX_ITERATIONS
+
+
+@kernel
+def descend(
+    m: WasherModel, pt: Point, wanted: float, q: NDArray[np.float64], f: Fields,
+    info: NDArray[np.float64], found: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve for the load on the wanted branch by a descent from light load; return a status.
+
+    ``wanted``: FILM_BRANCH, CONTACT_BRANCH, or ANY: film up to the fold, contact beyond it. If the
+    wanted branch has no solution at this load, the other one is solved and NO_BRANCH returned.
+    """
+    found[BRANCH], found[MULTIPLICITY] = 0.0, 0.0
+    found[LOST], found[REGAINED] = math.nan, math.nan
+    walk[ACCURACY] = 1e-5
+    for attempt in range(3):
+        status = enter_curve(m, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt), q, f, info, walk)
+        if status != OK:
+            return status
+        if walk[SHARE] < CLEAR_SHARE and walk[SLOPE] < 0.0:
+            break
+    if walk[W] >= pt.load:
+        status = _climb(m, pt, q, f, info, walk)
+        found[BRANCH] = FILM_BRANCH
+        return NO_BRANCH if status == OK and wanted == CONTACT_BRANCH else status
+    s0, w0, s1, w1 = walk[S], walk[W], walk[S], walk[W]  # the last two points
+    upper, lower = math.nan, math.nan  # bracket of the solution above any fold
+    lost = False
+    for _ in range(400):
+        status = walk_down(m, pt, DESCENT, q, f, info, walk)
+        if status != OK:
+            return status
+        s2, w2 = walk[S], walk[W]
+        has_film = not math.isnan(upper)
+        if not lost and w2 < w1:  # film lost between s0 and s2
+            lost = True
+            found[MULTIPLICITY] = MULTIPLE
+            found[LOST] = w1
+            if not has_film and _near(w1, pt.load):
+                remember(q, f, 2.0)
+                status = find_fold(m, pt, s0, s2, q, f, info, walk)
+                if status != OK:
+                    return status
+                found[LOST] = walk[W]
+                if walk[W] >= pt.load:
+                    upper, lower, has_film = s0, walk[S], True
+                    remember(q, f, 2.0)
+                else:
+                    recall(q, f, 2.0)
+                    f.tag[0] = 0.0
+                    walk[S], walk[W] = s2, w2
+            if has_film and wanted != CONTACT_BRANCH:
+                break
+            if not has_film:  # beyond the fold: one solution only, on the contact branch
+                found[BRANCH] = CONTACT_BRANCH
+                status = _contact_side(m, pt, q, f, info, walk)
+                return NO_BRANCH if status == OK and wanted == FILM_BRANCH else status
+        elif lost and w2 > w1:  # film regained between s0 and s2; the contact branch is wanted
+            found[REGAINED] = w1
+            if _near(w1, pt.load):
+                status = find_fold(m, pt, s0, s2, q, f, info, walk)
+                if status != OK:
+                    return status
+                found[REGAINED] = walk[W]
+            if found[REGAINED] > pt.load:
+                break  # no solution on the contact branch
+            found[BRANCH] = CONTACT_BRANCH
+            return _contact_side(m, pt, q, f, info, walk)
+        elif not lost and not has_film and w2 >= pt.load:
+            upper, lower = s1, s2
+            remember(q, f, 2.0)
+        if not lost and not math.isnan(upper) and (
+            walk[SHARE] > 0.9 or walk[S] < 0.5 * m.sigma1
+        ):  # fmt: skip
+            found[MULTIPLICITY] = SINGLE  # the asperities carry: no fold will come
+            break
+        s0, w0, s1, w1 = s1, w1, s2, w2
+        if walk[S] < -12.0 * m.sigma1:
+            return MAX_ITERATIONS
+    if math.isnan(upper):
+        return MAX_ITERATIONS
+    recall(q, f, 2.0)
+    f.tag[0] = 0.0
+    walk[S], walk[W] = lower, pt.load
+    status = _settle(m, pt, upper, lower, q, f, info, walk)
+    thick = film_ratio(m, q) >= FILM_RATIO
+    single = found[MULTIPLICITY] == SINGLE
+    found[BRANCH] = FILM_BRANCH if thick or not single else CONTACT_BRANCH
+    if status == OK and wanted != ANY and found[BRANCH] != wanted:
+        return NO_BRANCH
+    return status
+
+
+@inlined
+def solve_cold(
+    m: WasherModel, pt: Point, wanted: float, q: NDArray[np.float64], f: Fields,
+    info: NDArray[np.float64], found: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve from nothing: Newton from a guess if that lands on a clear film, else a descent."""
+    found[BRANCH], found[MULTIPLICITY] = 0.0, 0.0
+    found[LOST], found[REGAINED] = math.nan, math.nan
+    if wanted != CONTACT_BRANCH:
+        cold_start(m, pt, first_guess(m, pt), q, f)
+        status = newton(m, pt, LOAD, pt.load, q, f, 2.4, TOLERANCE, 40.0, info)
+        if status == OK and is_clear_film(m, q, f, info):
+            found[BRANCH] = FILM_BRANCH
+            return OK
+    return descend(m, pt, wanted, q, f, info, found, walk)
+
+
+@kernel
+def is_clear_film(
+    m: WasherModel, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64]
+) -> bool:
+    """Tell if the present solution is stable, thicker than 3 sigma and carried by the film."""
+    return (
+        info[LOAD_SLOPE] < 0.0
+        and film_ratio(m, q) >= FILM_RATIO
+        and f.small[CONTACT] < CLEAR_SHARE * info[REACHED_LOAD]
+    )

@@ -1,0 +1,188 @@
+"""Walking along the curve of solutions at fixed speed, tilt and oil: load over film thickness.
+
+With the film thickness prescribed the solution is unique: falling film thickness leads from light
+load over the film branch, through the fold where the film is lost, back along the unstable
+branch to the fold where it is regained, and along the contact branch.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._jit import inlined, kernel
+from .washer_fields import Fields, Point
+from .washer_gap import CONTACT
+from .washer_model import WasherModel
+from .washer_newton import (
+    FILM, LOAD_SLOPE, MAX_ITERATIONS, NO_FLOOR, OK, REACHED_LOAD, TANGENT, newton, smooth_film,
+)  # fmt: skip
+
+# the walker: film thickness s [m], load [N], dload/ds [N/m], contact share [-]; and, set by the
+# caller, the tolerance of the points on the way
+S, W, SLOPE, SHARE, ACCURACY, N_WALK = 0, 1, 2, 3, 4, 8
+
+
+@kernel
+def remember(q: NDArray[np.float64], f: Fields, slot: float) -> None:
+    """Keep the present solution in a slot of ``f.keep``."""
+    n_temp, n = f.temp.size, f.p.size
+    base = int(slot) * (4 + n_temp + n)
+    for k in range(4):
+        f.keep[base + k] = q[k]
+    for k in range(n_temp):
+        f.keep[np.uintp(base + 4 + k)] = f.temp[np.uintp(k)]
+    for k in range(n):
+        f.keep[np.uintp(base + 4 + n_temp + k)] = f.p[np.uintp(k)]
+
+
+@kernel
+def recall(q: NDArray[np.float64], f: Fields, slot: float) -> None:
+    """Take a solution back from a slot of ``f.keep``."""
+    n_temp, n = f.temp.size, f.p.size
+    base = int(slot) * (4 + n_temp + n)
+    for k in range(4):
+        q[k] = f.keep[base + k]
+    for k in range(n_temp):
+        f.temp[np.uintp(k)] = f.keep[np.uintp(base + 4 + k)]
+    for k in range(n):
+        f.p[np.uintp(k)] = f.keep[np.uintp(base + 4 + n_temp + k)]
+
+
+@kernel
+def cold_start(m: WasherModel, pt: Point, ratio: float, q: NDArray[np.float64], f: Fields) -> None:
+    """Place washer and gear for a film of ``ratio`` sigma; no pressure, everything at oil."""
+    q[3] = 0.95 * pt.tilt
+    q[2] = 0.0
+    q[0] = q[3] * m.outer_radius + ratio * m.sigma1
+    q[1] = q[0] + 3.0 * m.sigma2 + 0.05 * pt.tilt * m.outer_radius
+    for k in range(f.temp.size):
+        f.temp[np.uintp(k)] = 0.0
+    for k in range(f.p.size):
+        f.p[np.uintp(k)] = 0.0
+    f.tag[0] = 0.0
+
+
+@kernel
+def note(
+    m: WasherModel, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    walk: NDArray[np.float64],
+) -> None:  # fmt: skip
+    """Write where the walker stands."""
+    walk[S], walk[W], walk[SLOPE] = smooth_film(m, q), info[REACHED_LOAD], info[LOAD_SLOPE]
+    walk[SHARE] = f.small[CONTACT] / max(info[REACHED_LOAD], 1e-12)
+
+
+@kernel
+def enter_curve(
+    m: WasherModel, pt: Point, ratio: float, q: NDArray[np.float64], f: Fields,
+    info: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve at a film of ``ratio`` sigma from nothing; thicker films are tried if that fails."""
+    status = MAX_ITERATIONS
+    for attempt in range(6):
+        wanted = ratio * (1.0 + 0.5 * attempt)
+        cold_start(m, pt, wanted, q, f)
+        status = newton(m, pt, FILM, wanted * m.sigma1, q, f, NO_FLOOR, walk[ACCURACY], 40.0, info)
+        if status == OK:
+            note(m, q, f, info, walk)
+            return OK
+    return status
+
+
+@kernel
+def walk_to(
+    m: WasherModel, pt: Point, target: float, q: NDArray[np.float64], f: Fields,
+    info: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve at the smoothed film thickness ``target`` [m], in smaller steps if need be."""
+    for _ in range(60):
+        step = target - walk[S]
+        if abs(step) < 1e-9 * m.sigma1:
+            return OK
+        for _half in range(12):
+            remember(q, f, 0.0)
+            wanted = target if abs(step - (target - walk[S])) == 0.0 else walk[S] + step
+            for k in range(4):  # along the tangent
+                q[k] += f.small[TANGENT + k] * step
+            status = newton(m, pt, FILM, wanted, q, f, NO_FLOOR, walk[ACCURACY], 12.0, info)
+            if status == OK and info[REACHED_LOAD] > 0.0:
+                break
+            recall(q, f, 0.0)
+            f.tag[0] = 0.0
+            step *= 0.4
+        else:
+            return MAX_ITERATIONS
+        note(m, q, f, info, walk)
+    return MAX_ITERATIONS
+
+
+@inlined
+def exact_slope(
+    m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve again where the walker stands, with heat factors made on the spot."""
+    f.tag[0] = 0.0
+    status = newton(m, pt, FILM, smooth_film(m, q), q, f, NO_FLOOR, 1e-7, 20.0, info)
+    note(m, q, f, info, walk)
+    return status
+
+
+@kernel
+def step_down(m: WasherModel, s: float, finest: float) -> float:
+    """Return the next film thickness [m]: a tenth off a thick one, ``finest`` sigma near contact."""
+    return s - max(finest * m.sigma1, 0.12 * (s - 2.5 * m.sigma1))
+
+
+@inlined
+def walk_down(
+    m: WasherModel, pt: Point, finest: float, q: NDArray[np.float64], f: Fields,
+    info: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Take one step to a thinner film; return a status."""
+    return walk_to(m, pt, step_down(m, walk[S], finest), q, f, info, walk)
+
+
+@kernel
+def find_fold(
+    m: WasherModel, pt: Point, upper: float, lower: float, q: NDArray[np.float64], f: Fields,
+    info: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Walk to the film thickness between two [m] at which the load has an extremum.
+
+    Bracketed secant on dload/ds (Illinois). ``upper`` and ``lower`` lie on different sides of one
+    fold; the walker ends on it. Slopes need a heat factor made at the point itself: one from a
+    little way off finds the fold 0.1 sigma away.
+    """
+    a, b = upper, lower
+    ga, gb = 0.0, 0.0
+    for attempt in range(40):
+        if attempt == 0:
+            s = a
+        elif attempt == 1:
+            s = b
+        else:
+            s = (a * gb - b * ga) / (gb - ga)
+            if not min(a, b) < s < max(a, b):
+                s = 0.5 * (a + b)
+        if walk_to(m, pt, s, q, f, info, walk) != OK:
+            return MAX_ITERATIONS
+        status = exact_slope(m, pt, q, f, info, walk)
+        if status != OK:
+            return status
+        g = walk[SLOPE]
+        if attempt == 0:
+            ga = g
+        elif attempt == 1:
+            gb = g
+            if not ga * gb < 0.0:
+                return MAX_ITERATIONS
+        elif g * gb < 0.0:
+            a, ga, b, gb = b, gb, s, g
+        else:
+            ga *= 0.5
+            b, gb = s, g
+        if attempt > 1 and (abs(a - b) < 1e-5 * m.sigma1 or abs(g) * m.sigma1 < 1e-6 * walk[W]):
+            return OK
+    return OK if math.isfinite(walk[W]) else MAX_ITERATIONS

@@ -1,0 +1,115 @@
+"""One washer solve with memory: warm where it can be, on the branch that the history asks for."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._jit import inlined, kernel
+from .washer_branch import (
+    ANY, BRANCH, CONTACT_BRANCH, FILM_BRANCH, FILM_RATIO, MULTIPLE, MULTIPLICITY, NO_BRANCH, SINGLE,
+    descend, is_clear_film, solve_cold,
+)  # fmt: skip
+from .washer_fields import Fields, Point
+from .washer_memory import (
+    BRANCH_NOW, MULTIPLICITY_NOW, RATIO_THEN, SCAN_OIL, SCAN_SPEED, SCAN_TILT, VALID, recall_state,
+    remember_state,
+)  # fmt: skip
+from .washer_model import WasherModel
+from .washer_newton import (
+    FACTORED, ITERATIONS, LOAD, LOAD_SLOPE, NO_FLOOR, OK, REACHED_LOAD, film_ratio, newton,
+)  # fmt: skip
+
+WARM_TOLERANCE = 1e-6
+CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
+
+
+@kernel
+def _scan_holds(pt: Point, state: NDArray[np.float64]) -> bool:
+    """Tell if the last descent was at about this speed, tilt and oil temperature."""
+    return (
+        state[SCAN_TILT] >= 0.0
+        and abs(pt.speed - state[SCAN_SPEED]) <= 0.05 * abs(state[SCAN_SPEED])
+        and abs(pt.tilt - state[SCAN_TILT]) <= 0.05 * state[SCAN_TILT]
+        and abs(pt.oil_temperature - state[SCAN_OIL]) <= 3.0
+    )
+
+
+@inlined
+def _warm(
+    m: WasherModel, pt: Point, wanted: float, state: NDArray[np.float64], q: NDArray[np.float64],
+    f: Fields, info: NDArray[np.float64], found: NDArray[np.float64],
+) -> bool:  # fmt: skip
+    """Solve from the remembered solution; return True if it arrived on the remembered branch."""
+    branch = state[BRANCH_NOW]
+    if branch == 0.0 or (wanted != ANY and wanted != branch):
+        return False
+    if newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, WARM_TOLERANCE, 12.0, info) != OK:
+        return False
+    found[BRANCH], found[MULTIPLICITY] = branch, state[MULTIPLICITY_NOW]
+    if branch == FILM_BRANCH and is_clear_film(m, q, f, info):
+        return True
+    ratio = film_ratio(m, q)
+    if abs(ratio - state[RATIO_THEN]) > CONTINUOUS or not _scan_holds(pt, state):
+        return False
+    if info[LOAD_SLOPE] * m.sigma1 > -0.3 * info[REACHED_LOAD]:
+        # a fold may be near: the slope is needed with a heat factor made here
+        f.tag[0] = 0.0
+        made, iterations = info[FACTORED], info[ITERATIONS]
+        if newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, WARM_TOLERANCE, 12.0, info) != OK:
+            return False
+        info[FACTORED] += made
+        info[ITERATIONS] += iterations
+        if not info[LOAD_SLOPE] < 0.0 or abs(film_ratio(m, q) - ratio) > 0.5 * CONTINUOUS:
+            return False
+    if found[MULTIPLICITY] == SINGLE:
+        found[BRANCH] = FILM_BRANCH if film_ratio(m, q) >= FILM_RATIO else CONTACT_BRANCH
+    return True
+
+
+@inlined
+def solve(
+    par: NDArray[np.float64], m: WasherModel, pt: Point, wanted: float, keep: bool,
+    state: NDArray[np.float64], q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    found: NDArray[np.float64], walk: NDArray[np.float64],
+) -> int:  # fmt: skip
+    """Solve at ``pt``; return a status. The solution is in ``q`` and ``f``, evaluated.
+
+    Parameters
+    ----------
+    wanted : ANY (the remembered branch while it exists, else the other; without memory the film
+        branch up to its fold), FILM_BRANCH or CONTACT_BRANCH
+    keep : write the solution to ``state`` (also that of the other branch if NO_BRANCH)
+    found : out, branch and multiplicity (see washer_branch)
+    """
+    scanned = False
+    arrived = False
+    status = OK
+    if state[VALID] == 1.0:
+        recall_state(par, m, state, q, f)
+        arrived = _warm(m, pt, wanted, state, q, f, info, found)
+        if not arrived:
+            before = state[BRANCH_NOW]
+            if wanted == ANY and before == CONTACT_BRANCH:
+                status = descend(m, pt, CONTACT_BRANCH, q, f, info, found, walk)
+                if status == NO_BRANCH:
+                    status = OK
+                scanned = True
+    if not arrived and not scanned:
+        status = solve_cold(m, pt, wanted, q, f, info, found, walk)
+        scanned = found[MULTIPLICITY] != 0.0
+    if keep and (status == OK or status == NO_BRANCH):
+        remember_state(par, pt, q, f, state)
+        state[BRANCH_NOW], state[MULTIPLICITY_NOW] = found[BRANCH], found[MULTIPLICITY]
+        state[RATIO_THEN] = film_ratio(m, q)
+        if scanned:
+            state[SCAN_SPEED], state[SCAN_TILT] = pt.speed, pt.tilt
+            state[SCAN_OIL] = pt.oil_temperature
+        elif not arrived:
+            state[SCAN_TILT] = -1.0
+    return status
+
+
+@kernel
+def is_distressed(found: NDArray[np.float64], mean_rise: float) -> bool:
+    """Tell if the film is lost: contact branch of a multivalued curve, or 200 K mean rise."""
+    lost = found[BRANCH] == CONTACT_BRANCH and found[MULTIPLICITY] == MULTIPLE
+    return lost or not mean_rise <= 200.0

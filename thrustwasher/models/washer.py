@@ -1,0 +1,232 @@
+"""The thrust washer: one operating point.
+
+Average-flow Reynolds equation with cavitation, elasto-plastic asperity contact, heat balance of
+carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/theory/washer.md.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import BranchError, ParameterError, SolveError, Status
+from ..kernels import washer_step as kernel
+from ..kernels.washer_fields import size_of_work
+from ..kernels.washer_memory import Q, size_of_state
+from ..kernels.washer_model import derive_grid, size_of_par
+from ..kernels.washer_newton import ITERATIONS, N_INFO
+from ._buffers import work_array
+from ._params import as_numbers, check_number
+from .washer_params import SPEC, WasherParams
+from .washer_result import WasherResult
+
+__all__ = ["WasherParams", "WasherResult", "solve_washer"]
+
+Array = NDArray[np.float64]
+GRIDS = {"field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID}
+# largest error of friction_torque against the grid-converged value over the verified range
+# (tests/models/test_washer_accuracy.py measures it again)
+ERRORS = {"field": 6e-3, "fine": 1e-3}
+BRANCHES = {"film": 1.0, "contact": 3.0}
+NAMES = {1: "film", 2: "unstable", 3: "contact"}
+LARGEST_GRID = (129, 512)
+N_NUMBERS = N_INFO + kernel.N_FOUND + kernel.N_WALK
+
+
+@lru_cache(maxsize=64)
+def constants(params: WasherParams, grid: tuple[int, int]) -> Array:
+    """Return the kernel's ``par`` for parameters and grid; read only.
+
+    Raises
+    ------
+    ParameterError : the parameters admit no surface or no mesh
+    """
+    par = np.zeros(size_of_par(*grid))
+    numbers = as_numbers(params)
+    par[: len(numbers)] = numbers
+    par[len(numbers)] = 1.0
+    status = Status(derive_grid(par, *grid))
+    if status is Status.BAD_INPUT:
+        raise ParameterError(
+            f"asperity_density x asperity_radius = {params.asperity_density:g} 1/m2 x "
+            f"{params.asperity_radius:g} m leaves no scatter of the summits at roughness = "
+            f"{params.roughness:g} m; raise either, or use asperity_height_law = 'surface'"
+        )
+    if status is not Status.OK:
+        raise ParameterError(
+            "the asperity contact cannot be tabulated for these parameters; check yield_strength, "
+            "youngs_modulus, asperity_radius and asperity_density"
+        )
+    return par
+
+
+def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]:
+    """Return (n_r, n_theta) or raise ParameterError naming what is wrong."""
+    if fidelity not in GRIDS:
+        known = " or ".join(repr(name) for name in GRIDS)
+        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {known}")
+    if grid is None:
+        return GRIDS[fidelity]
+    try:
+        n_r, n_t = (int(n) for n in grid)
+        whole = (n_r, n_t) == tuple(grid)
+    except (TypeError, ValueError):
+        whole = False
+    if not whole or not (5 <= n_r <= LARGEST_GRID[0] and 8 <= n_t <= LARGEST_GRID[1]):
+        raise ParameterError(
+            f"grid = {grid!r} (radial x circumferential nodes), allowed: two integers from 5 x 8 "
+            f"to {LARGEST_GRID[0]} x {LARGEST_GRID[1]}"
+        )
+    return n_r, n_t
+
+
+def check_point(
+    load: float, speed: float, tilt: float, oil_temperature: float
+) -> tuple[float, float, float, float]:
+    """Return the operating point as floats, or raise ParameterError for the first bad one."""
+    values = []
+    for signal, value in zip(SPEC.inputs, (load, speed, tilt, oil_temperature), strict=True):
+        low = 1e-3 if signal.name == "load" else float(signal.low or 0.0)
+        values.append(check_number(signal.name, value, signal.unit, low, float(signal.high or 0.0)))
+    return values[0], values[1], values[2], values[3]
+
+
+def result_from(
+    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    grid: tuple[int, int], state: Array, work: Array, status: Status, branch: float, lost: bool,
+    error: float,
+) -> WasherResult:  # fmt: skip
+    """Build the result from what the kernel left at the head of ``work``."""
+    out = work[N_NUMBERS : N_NUMBERS + kernel.N_ALL].tolist()
+    q = work[N_NUMBERS + kernel.N_ALL : kernel.N_HEAD]
+    return WasherResult(
+        out[0], out[1], out[3], out[2], out[4], out[8], out[9], out[6], float(q[2]), float(q[3]),
+        NAMES.get(int(branch), "film"), lost, status, int(work[ITERATIONS]), fidelity, grid, error,
+        *point, params, state,
+    )  # fmt: skip
+
+
+def solve_washer(
+    params: WasherParams, *, load: float, speed: float, tilt: float,
+    oil_temperature: float = 297.15, fidelity: str = "field", grid: tuple[int, int] | None = None,
+    branch: str | None = None, start: WasherResult | None = None, throw: bool = True,
+) -> WasherResult:  # fmt: skip
+    """Return friction torque, temperature and film thickness of a thrust washer.
+
+    Parameters
+    ----------
+    params : geometry, surfaces, oil
+    load : axial load [N], 0.001 .. 1e4; below 1 N it counts as 1 N
+    speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
+    tilt : of the gear [rad], 0 .. 0.01
+    oil_temperature : [K], 233.15 .. 473.15
+    fidelity : "field" (10 x 32 nodes) or "fine" (19 x 64)
+    grid : (n_r, n_theta), overrides the nodes of the fidelity
+    branch : "film" or "contact", the one wanted where several solutions exist; without it the
+        branch of ``start``, else the film branch up to its fold and the contact branch beyond
+    start : a result to start from; same parameters and grid, else only its branch is used
+    throw : raise on failure, or return the best estimate with its status
+
+    Returns
+    -------
+    WasherResult
+
+    Raises
+    ------
+    ParameterError : an argument is outside its range (named, with unit and range)
+    BranchError : the branch asked for has no solution at this load
+    SolveError : not converged
+
+    Notes
+    -----
+    Source: Jackson & Green (2006), misprints corrected as listed in docs/theory/washer.md.
+    Quasi-steady: no heat capacity, no squeeze film.
+
+    Examples
+    --------
+    >>> r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
+    >>> f"{r.friction_torque:.3f} N m, film ratio {r.film_ratio:.1f}, {r.branch}"
+    '0.232 N m, film ratio 15.4, film'
+    """
+    nodes = resolve_grid(fidelity, grid)
+    point = check_point(load, speed, tilt, oil_temperature)
+    if branch is not None and branch not in BRANCHES:
+        raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
+    wanted = BRANCHES[branch] if branch is not None else 0.0
+    result = _solve(params, point, fidelity, nodes, wanted, start)
+    if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
+        result = _with_embedded_estimate(result, wanted)
+    if throw and result.status is Status.NO_BRANCH:
+        raise BranchError(
+            f"branch = {branch!r} has no solution at load = {point[0]:g} N, speed = {point[1]:g} "
+            f"rad/s, tilt = {point[2]:g} rad; allowed here: {result.branch!r} (the folds that "
+            "bound the branches come from load_curve)"
+        )
+    if throw and result.status.is_failure:
+        raise SolveError(
+            f"washer: {result.status.advice} (load = {point[0]:g} N, speed = {point[1]:g} rad/s, "
+            f"tilt = {point[2]:g} rad, oil_temperature = {point[3]:g} K, grid {nodes[0]} x "
+            f"{nodes[1]}; tried: warm start, Newton from a guess, descent in film thickness)"
+        )
+    return result
+
+
+def _solve(
+    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    nodes: tuple[int, int], wanted: float, start: WasherResult | None,
+) -> WasherResult:  # fmt: skip
+    par = constants(params, nodes)
+    even = params.heat_split == 0.5
+    size = kernel.N_HEAD + size_of_work(*nodes, even_split=even)
+    work = work_array(("washer", nodes, even), size)
+    if start is not None and start.grid == nodes and start.params == params:
+        state = start._state.copy()
+    else:
+        state = np.zeros(size_of_state(*nodes))
+        if start is not None and wanted == 0.0:
+            wanted = BRANCHES.get(start.branch, 0.0)
+            return _prefer(params, point, fidelity, nodes, wanted)
+    inp, out, iout = np.array((*point, wanted)), np.empty(kernel.NOUT), np.zeros(3, np.int32)
+    status = Status(kernel.step(par, inp, state, work, out, iout, 0.0, 1.0))
+    if status.is_failure:
+        keep_estimate(state, work)
+    branch = work[N_INFO]
+    return result_from(
+        params, point, fidelity, nodes, state, work, status, branch, bool(iout[1]), ERRORS[fidelity]
+    )
+
+
+def _prefer(
+    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    nodes: tuple[int, int], wanted: float,
+) -> WasherResult:  # fmt: skip
+    """Solve from nothing on a preferred branch, on the other if it does not exist."""
+    result = _solve(params, point, fidelity, nodes, wanted, None)
+    if result.status is Status.NO_BRANCH:
+        return _solve(params, point, fidelity, nodes, 0.0, None)
+    return result
+
+
+def keep_estimate(state: Array, work: Array) -> None:
+    """Put the positions of a failed solve into ``state`` so that fields() shows them."""
+    q = work[kernel.N_HEAD - 4 : kernel.N_HEAD]
+    if np.all(np.isfinite(q)):
+        state[Q : Q + 4] = q
+
+
+def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:
+    """Replace the error estimate by the change from a grid of half the intervals."""
+    import dataclasses
+
+    half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
+    point = (result.load, result.speed, result.tilt, result.oil_temperature)
+    coarse = _prefer(result.params, point, result.fidelity, half, BRANCHES.get(result.branch, 0.0))
+    estimate = math.inf
+    if not coarse.status.is_failure and coarse.branch == result.branch:
+        change = abs(result.friction_torque - coarse.friction_torque)
+        # second order: the finer grid keeps a third of the change
+        estimate = change / 3.0 / max(abs(result.friction_torque), 1e-12)
+    return dataclasses.replace(result, error_estimate=estimate)

@@ -6,7 +6,8 @@ import json
 import pytest
 
 from thrustwasher.cli import main
-from thrustwasher.models.washer import load_curve, solve_washer
+from thrustwasher.models.washer import solve_washer
+from thrustwasher.models.washer_curve import load_curve
 from thrustwasher.models.washer_params import WasherParams
 
 POINT = ["--load", "300", "--speed", "953", "--tilt", "0.002"]

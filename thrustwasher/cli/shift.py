@@ -95,5 +95,5 @@ def _write(record: Any, result: Any, folder: Path) -> None:
     page = shift_page(record)
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)
-    overview_figure(record).savefig(folder / OVERVIEW)
+    overview_figure(record).savefig(folder / OVERVIEW, dpi=110)
     result.write_csv(folder / TABLE)

@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
         from ..report.washer_plots import field_figure
 
         with _output.whole_file(plot) as draft:
-            field_figure(result, point, params).savefig(draft)
+            field_figure(result, point).savefig(draft)
         _output.note(f"wrote {plot}")
     fields = _output.scalars(result)
     if arguments.json:

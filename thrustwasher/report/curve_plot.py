@@ -13,6 +13,7 @@ from ..units import format_quantity
 from .style import BLACK, BLUE, GREY, ORANGE, RED, label, new_figure, styled
 
 CELSIUS = 273.15
+LOWEST_RATIO = 0.1  # film ratios below, even negative ones, leave the logarithmic axis
 BRANCHES = {
     "film": (BLUE, "-", "film branch (stable)"),
     "unstable": (GREY, "--", "unstable: never stays here"),
@@ -35,7 +36,12 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
         ("film_ratio", "Film ratio: how much film is left", r"film ratio $h/\sigma$ [1]", 0.0),
         ("friction_torque", "Friction torque", "friction torque [N·m]", 0.0),
         ("temperature", "Mean film temperature", "temperature [°C]", CELSIUS),
-        ("friction_coefficient", "Friction coefficient", "friction coefficient [1]", 0.0),
+        (
+            "friction_coefficient",
+            "Friction coefficient (Stribeck)",
+            "friction coefficient [1]",
+            0.0,
+        ),
     )
     for axis, (name, title, up, zero) in zip(axes, panels, strict=True):
         _draw_branches(axis, curve.points, name, zero)
@@ -43,6 +49,11 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
         label(axis, title, "load [N]", up)
         axis.set_xlim(left=0.0)
     axes[0].set_yscale("log")
+    axes[0].set_ylim(bottom=LOWEST_RATIO)
+    axes[3].set_yscale("log")
+    for axis in (axes[0], axes[3]):
+        axis.yaxis.set_major_formatter("{x:g}")
+    axes[3].yaxis.set_minor_formatter("{x:g}")
     for ratio, words in ((3.0, "3: asperities begin to touch"), (1.0, "1: boundary lubrication")):
         axes[0].axhline(ratio, color=ORANGE, lw=0.9, ls=":")
         axes[0].annotate(

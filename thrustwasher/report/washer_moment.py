@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 from ..errors import ParameterError, SolveError
 from .shift_record import Record
 
+LEAST_LOAD = 1.0  # [N] the washer in a run takes a smaller load as this
+
 
 class Moment(NamedTuple):
     """One moment [s], the inputs recorded there, and the washer solved again."""
@@ -34,11 +36,10 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     params = WasherParams(**{k: v for k, v in part.parameters.items() if k in known})
     fidelity = str(part.parameters.get("fidelity", SPEC.default_fidelity))
     point: dict[str, Any] = {
-        "load": max(record.at("transmission.washer_load", time) or 0.0, 1.0),
-        "speed": record.at("transmission.washer_speed", time) or 0.0,
-        "tilt": record.at("transmission.washer_tilt", time) or 0.0,
-        "oil_temperature": record.oil_temperature,
+        name: record.at(f"washer.{name}", time) or 0.0
+        for name in ("load", "speed", "tilt", "oil_temperature")
     }
+    point["load"] = max(point["load"], LEAST_LOAD)
     found = []
     for branch in (None, "film", "contact"):
         try:

@@ -14,6 +14,7 @@ from .style import BLACK, RED, label, new_figure, styled
 
 Array = np.ndarray[Any, Any]
 CELSIUS = 273.15
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 241)
 
 
 @styled
@@ -50,7 +51,7 @@ def _draw_map(axis: Axes, fields: Any, values: Array, title: str, unit: str, cma
     x, y = _plane(fields)
     low, high = float(np.min(values)), float(np.max(values))
     shades = axis.pcolormesh(
-        x, y, _closed(values), shading="gouraud", cmap=cmap, rasterized=True,
+        x, y, _around(fields, values), shading="gouraud", cmap=cmap, rasterized=True,
         vmin=low, vmax=high if high > low else low + 1.0,
     )  # fmt: skip
     bar = axis.figure.colorbar(shades, ax=axis, shrink=0.82, pad=0.02)
@@ -67,11 +68,12 @@ def _draw_map(axis: Axes, fields: Any, values: Array, title: str, unit: str, cma
 def _mark_film(axis: Axes, fields: Any, result: Any) -> None:
     """Mark the nodes' thinnest place and the lines film ratio 1 and 3."""
     x, y = _plane(fields)
-    thinnest = np.unravel_index(np.argmin(fields.film_thickness), fields.film_thickness.shape)
+    gap = _around(fields, fields.film_thickness)
+    thinnest = np.unravel_index(np.argmin(gap), gap.shape)
     axis.plot(x[thinnest], y[thinnest], "x", color=RED, ms=9, mew=2.2, clip_on=False)
     axis.set_xlabel("x [mm]    (cross: thinnest film)")
     sigma = result.film_thickness / result.film_ratio if result.film_ratio else 0.0
-    ratio = _closed(fields.film_thickness) / sigma if sigma > 0.0 else None
+    ratio = gap / sigma if sigma > 0.0 else None
     levels = [] if ratio is None else [v for v in (1.0, 3.0) if ratio.min() < v < ratio.max()]
     if ratio is not None and levels:
         lines = axis.contour(x, y, ratio, levels=levels, colors="white", linewidths=1.2)
@@ -110,12 +112,12 @@ def _heading(result: Any, point: Mapping[str, float], heading: str) -> str:
 
 
 def _plane(fields: Any) -> tuple[Array, Array]:
-    """Return x, y [mm] of the nodes, the first meridian repeated at the end."""
-    angle = np.append(fields.angle, fields.angle[0] + 2.0 * np.pi)
+    """Return x, y [mm] of the drawn points: the nodes' circles, finer around."""
     radius = 1e3 * fields.radius[:, None]
-    return radius * np.cos(angle), radius * np.sin(angle)
+    return radius * np.cos(ANGLES), radius * np.sin(ANGLES)
 
 
-def _closed(values: Array) -> Array:
-    """Return the field with its first meridian repeated at the end."""
-    return np.concatenate((values, values[:, :1]), axis=1)
+def _around(fields: Any, values: Array) -> Array:
+    """Return the field at the drawn points, interpolated around."""
+    rows = (np.interp(ANGLES, fields.angle, row, period=2.0 * np.pi) for row in values)
+    return np.array(list(rows))

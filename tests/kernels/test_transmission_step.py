@@ -152,6 +152,20 @@ def test_locked_clutch_breaks_away_and_locks_again_within_one_step():
     assert box["clutch_locked"] == 1.0 and box["events"] == events + 1
 
 
+def test_a_dip_of_the_slip_below_zero_inside_one_step_is_not_missed():
+    """Capacity falls from 400 N m to 0: slip dips through zero and is positive again at the end."""
+    found = []
+    for n in (1, 50):
+        box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_engine_speed": 144.3,
+                                "initial_ring_speed": 100.0})  # fmt: skip
+        box.step(1e-4, clutch=400.8)
+        for i in range(n):
+            box.step(0.05 / n, clutch=400.0 * (1.0 - i / n))
+        assert box["clutch_speed"] > 0.0 and box["events"] == 2.0
+        found.append((box["lock_time"], box["lock_speed"], box["clutch_speed"]))
+    assert found[0] == pytest.approx(found[1], rel=1e-9)
+
+
 def test_drag_alone_holds_the_planets_but_not_the_clutch():
     box = Gearbox(**FREE | {"initial_ring_speed": 350.0, "engine_torque": 1.0, "washers": 8})
     for _ in range(10):

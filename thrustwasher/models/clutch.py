@@ -15,6 +15,8 @@ from ._params import as_numbers, check_number
 from ._spec import REGIMES
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
 
+__all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
+
 
 @dataclass(frozen=True, slots=True)
 class ClutchResult:

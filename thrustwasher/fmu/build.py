@@ -3,7 +3,7 @@
 import hashlib
 import re
 from collections.abc import Sequence
-from importlib import metadata, resources
+from importlib import metadata
 from pathlib import Path
 
 from ..errors import EnvironmentProblem, ParameterError
@@ -117,7 +117,8 @@ def identifier(spec: ModelSpec, template: str, target: str, fmi: int) -> str:
 
 def _pythonfmu(model: str) -> dict[str, bytes]:
     """Return pythonfmu's libraries, renamed to the model, and its modules."""
-    root = resources.files("pythonfmu")
+    # Not by import: a process that has run an FMU imported the FMU's own, smaller pythonfmu.
+    root = Path(str(metadata.distribution("pythonfmu").locate_file("pythonfmu")))
     binaries = root / "resources" / "binaries"
     files = {
         f"binaries/linux64/{model}.so": binaries / "linux64" / "libpythonfmu-export.so",

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any
 
+from ..models._spec import ModelSpec
 from ..models.clutch_params import SPEC as CLUTCH
 from ..models.transmission_params import SPEC as TRANSMISSION
 from ..models.washer_params import SPEC as WASHER
@@ -113,7 +114,10 @@ def _parameters(part: Part) -> Table:
         origin = "default" if value == f.default else "scene"
         rows.append((f.name, _plain(value), unit, f.metadata["help"], origin))
     extra = [name for name in part.parameters if name not in {row[0] for row in rows}]
-    rows += [(name, _plain(part.parameters[name]), "", "", "scene") for name in extra]
+    rows += [
+        (name, _plain(part.parameters[name]), "", "", _origin(part.parameters[name], spec))
+        for name in extra
+    ]
     return Table(
         title=f"{part.name} ({part.model})",
         heads=("parameter", "value", "unit", "meaning", "from"),
@@ -121,6 +125,11 @@ def _parameters(part: Part) -> Table:
         numbers=(1,),
         folded=True,
     )
+
+
+def _origin(rung: Any, spec: ModelSpec) -> str:
+    """Say whether a fidelity is the model's own choice."""
+    return "default" if rung == spec.default_fidelity else "scene"
 
 
 def source_texts(record: Record) -> list[str]:

@@ -1,0 +1,104 @@
+"""Band and dense solvers against LAPACK, and what they say about matrices without a solution."""
+
+import numpy as np
+import pytest
+
+from thrustwasher.kernels.banded import (
+    N_SIDES,
+    cholesky,
+    cholesky_solve,
+    cholesky_solve_many,
+    lu,
+    lu_solve,
+)  # fmt: skip
+from thrustwasher.kernels.dense import dense_solve
+
+SHAPES = [(1, 1), (2, 1), (5, 1), (6, 2), (7, 3), (12, 5), (13, 6), (40, 17), (4, 6), (9, 8)]
+
+
+def random_band(n, band, symmetric):
+    rng = np.random.default_rng(100 * n + band)
+    a = rng.normal(size=(n, n))
+    i, j = np.indices((n, n))
+    a[abs(i - j) > band] = 0.0
+    if symmetric:
+        a = a + a.T
+    a[np.diag_indices(n)] = 1.0 + np.abs(a).sum(axis=1)
+    return a, rng.normal(size=(n, N_SIDES))
+
+
+def lower(a, band):
+    n = len(a)
+    store = np.zeros(n * (band + 1))
+    for j in range(n):
+        for k in range(min(band, n - 1 - j) + 1):
+            store[j * (band + 1) + k] = a[j + k, j]
+    return store
+
+
+def rows(a, band):
+    n = len(a)
+    store = np.zeros(n * (2 * band + 1))
+    for i in range(n):
+        for k in range(-min(band, i), min(band, n - 1 - i) + 1):
+            store[i * (2 * band + 1) + band + k] = a[i, i + k]
+    return store
+
+
+@pytest.mark.parametrize(("n", "band"), SHAPES)
+def test_cholesky_solves_as_lapack_does(n, band):
+    a, b = random_band(n, band, symmetric=True)
+    store = lower(a, band)
+    assert cholesky(store, n, band)
+    one = b[:, 0].copy()
+    cholesky_solve(store, one, n, band)
+    many = b.ravel().copy()
+    cholesky_solve_many(store, many, n, band)
+    expected = np.linalg.solve(a, b)
+    np.testing.assert_allclose(one, expected[:, 0], rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(many.reshape(n, N_SIDES), expected, rtol=1e-12, atol=1e-14)
+
+
+@pytest.mark.parametrize(("n", "band"), SHAPES)
+def test_cholesky_factor_is_the_factor(n, band):
+    a, _ = random_band(n, band, symmetric=True)
+    store = lower(a, band)
+    cholesky(store, n, band)
+    np.testing.assert_allclose(store, lower(np.linalg.cholesky(a), band), rtol=1e-12, atol=1e-15)
+
+
+@pytest.mark.parametrize(("n", "band"), SHAPES)
+def test_lu_solves_as_lapack_does(n, band):
+    a, b = random_band(n, band, symmetric=False)
+    store = rows(a, band)
+    assert lu(store, n, band)
+    x = b[:, 0].copy()
+    lu_solve(store, x, n, band)
+    np.testing.assert_allclose(x, np.linalg.solve(a, b[:, 0]), rtol=1e-12, atol=1e-14)
+
+
+@pytest.mark.parametrize("row", range(6))
+@pytest.mark.parametrize("value", [-1.0, 0.0, np.nan, np.inf])
+def test_a_bad_pivot_is_said(row, value):
+    a, _ = random_band(6, 2, symmetric=True)
+    a[row, :], a[:, row] = 0.0, 0.0
+    a[row, row] = value
+    assert not cholesky(lower(a, 2), 6, 2)
+    if value != -1.0:
+        assert not lu(rows(a, 2), 6, 2)
+
+
+@pytest.mark.parametrize("n", [1, 2, 4, 9])
+def test_dense_solve_exchanges_rows(n):
+    rng = np.random.default_rng(n)
+    a, b = rng.normal(size=(n, n)), rng.normal(size=(n, 3))
+    if n > 1:
+        a[0, 0] = 0.0
+    x = b.ravel().copy()
+    assert dense_solve(a.ravel().copy(), x, n, 3)
+    np.testing.assert_allclose(x.reshape(n, 3), np.linalg.solve(a, b), rtol=1e-10)
+
+
+def test_dense_solve_says_singular():
+    assert not dense_solve(np.array([1.0, 2.0, 2.0, 4.0]), np.ones(2), 2, 1)
+    assert not dense_solve(np.array([np.nan, 2.0, 2.0, 4.0]), np.ones(2), 2, 1)

@@ -1,5 +1,6 @@
 """Asperity contact against adaptive quadrature, the elastic closed form and published numbers."""
 
+import itertools
 import math
 
 import numpy as np
@@ -56,7 +57,7 @@ def pressure_by_quadrature(d):
     edges = [split, 0.2, 1.0, 3.0, 6.0, 9.0, 18.0]
     high = sum(
         quad(share, a, b, epsabs=0, epsrel=1e-12, limit=200)[0]
-        for a, b in zip(edges[:-1], edges[1:], strict=True)
+        for a, b in itertools.pairwise(edges)
         if a < 9.0 - min(d, 0.0)
     )
     front = DENSITY * BASE.critical_force / math.sqrt(2.0 * math.pi)

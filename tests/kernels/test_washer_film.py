@@ -1,0 +1,284 @@
+"""Film equation: closed forms at their order, complementarity, differences, exact zeros."""
+
+import math
+
+import numpy as np
+import pytest
+
+from thrustwasher.kernels.banded import N_SIDES
+from thrustwasher.kernels.film import flow_conductance, mean_gap, shear_flow
+from thrustwasher.kernels.washer_fields import Point
+from thrustwasher.kernels.washer_film import RING, evaluate_film, film_residual, film_solve
+from thrustwasher.kernels.washer_gap import evaluate_gaps, evaluate_viscosity
+from thrustwasher.reference.couette import couette_torque
+from thrustwasher.reference.narrow_ring import narrow_ring_load
+from thrustwasher.reference.thin_wedge import wedge_moment, wedge_pressure
+
+from washer_setup import BASE, bench, order, tilted  # isort: skip
+
+MU = 0.06
+GRIDS = [(10, 32), (19, 64), (37, 128)]
+
+
+def at_constant_viscosity(grid, q, pt, **changes):
+    b = bench(grid, **changes)
+    evaluate_gaps(b.m, pt, q, b.f)
+    b.f.mu[:], b.f.dmu[:] = MU, 0.0
+    evaluate_film(b.m, pt, q, b.f)
+    return b
+
+
+def solve_without_cavitation(b):
+    b.f.wet.reshape(b.m.n_t, b.m.n_r)[:, 1:-1] = 1.0
+    n_t = b.m.n_t
+    b.f.place[: (n_t + 1) // 2] = np.arange(0, n_t, 2)
+    b.f.place[(n_t + 1) // 2 :] = np.arange(1, n_t, 2)[::-1]
+    b.f.small[RING] = 1.0
+    assert film_solve(b.m, b.f.p, b.f)
+    return b.f.film_rhs[::N_SIDES].reshape(n_t, b.m.n_r).T.copy()
+
+
+def solve_with_cavitation(b):
+    for _ in range(40):
+        error, p_max, _ = film_residual(b.m, b.f.p, b.f)
+        if error <= 1e-12 * p_max and p_max > 0.0:
+            return b.node("p")
+        assert film_solve(b.m, b.f.p, b.f)
+        b.f.p[:] = b.f.film_rhs[::N_SIDES]
+    raise AssertionError(f"active set not found, {error} of {p_max} Pa")
+
+
+def moment_about_x(b, p):
+    weight = np.outer(b.m.weight1 * b.m.r, b.m.weight_t * b.m.sin)
+    return (weight * p).sum()
+
+
+def smooth_wedge():
+    """Return positions and tilt of a film so thick (1000 sigma) that roughness does not count."""
+    gap, tilt = 7.28e-4, 1e-7
+    return gap, tilt, np.array([gap, 2.0 * gap, 0.0, tilt])
+
+
+def test_parallel_gap_drives_no_flow_at_all():
+    b = at_constant_viscosity((10, 32), np.array([3e-6, 6e-6, 0.0, 0.0]), BASE)
+    assert film_residual(b.m, b.f.p, b.f) == (0.0, 0.0, 0)
+
+
+@pytest.mark.parametrize("grid", GRIDS)
+def test_torque_of_a_parallel_film_is_couettes(grid):
+    """Spline weights integrate r^3 exactly, on every grid."""
+    b = at_constant_viscosity(grid, np.array([1e-5, 2e-5, 0.0, 0.0]), BASE)
+    w = np.outer(b.m.weight1, b.m.weight_t)
+    torque = (w * b.radius**2 * MU * BASE.speed / b.node("ht")).sum()
+    exact = couette_torque(MU, BASE.speed, 1e-5, b.m.inner_radius, b.m.outer_radius)
+    assert torque == pytest.approx(exact, rel=1e-13)
+
+
+def test_small_tilt_pressure_converges_with_order_two():
+    gap, tilt, q = smooth_wedge()
+    pressures, moments = [], []
+    for grid in GRIDS:
+        b = at_constant_viscosity(grid, q, BASE)
+        p = solve_without_cavitation(b)
+        args = (MU, BASE.speed, tilt, gap, b.m.inner_radius, b.m.outer_radius)
+        angle = np.arctan2(b.m.sin, b.m.cos)
+        exact = np.array([[wedge_pressure(r, a, *args) for a in angle] for r in b.m.r])
+        pressures.append(np.abs(p - exact).max() / np.abs(exact).max())
+        moments.append(abs(moment_about_x(b, p) / wedge_moment(*args) - 1.0))
+    assert order(pressures) == pytest.approx([2.0, 2.0], abs=0.2)
+    assert order(moments) == pytest.approx([2.0, 2.0], abs=0.2)
+    assert pressures[-1] < 6e-4 and moments[-1] < 6e-4
+
+
+def test_a_wide_ring_shows_where_the_faces_are():
+    """With r_o = 5 r_i a face radius wrong by half a cell spoils the order."""
+    gap, tilt, q = smooth_wedge()
+    wide = {"inner_radius": 0.005, "outer_radius": 0.025, "gear_inner_radius": 0.012}
+    errors = []
+    for grid in GRIDS:
+        b = at_constant_viscosity(grid, q, BASE, **wide)
+        moment = moment_about_x(b, solve_without_cavitation(b))
+        errors.append(abs(moment / wedge_moment(MU, BASE.speed, tilt, gap, 0.005, 0.025) - 1.0))
+    assert order(errors) == pytest.approx([2.0, 2.0], abs=0.2)
+
+
+def test_narrow_ring_carries_the_closed_form_load():
+    """The error falls with the square of width over radius, at the same relative mesh."""
+    errors = []
+    h0, e = 1e-3, 4e-4
+    for width in (0.002, 0.001, 0.0005):
+        ri, ro = 0.02 - width / 2, 0.02 + width / 2
+        b = at_constant_viscosity(
+            (25, 256), np.array([h0, 2 * h0, 0.0, e / 0.02]), BASE,
+            inner_radius=ri, gear_inner_radius=ri + width / 3, outer_radius=ro,
+        )  # fmt: skip
+        load = (np.outer(b.m.weight1, b.m.weight_t) * solve_with_cavitation(b)).sum()
+        errors.append(abs(load / narrow_ring_load(MU, BASE.speed, ri, ro, h0 - e, h0 + e) - 1.0))
+    assert errors[-1] < 3e-3
+    assert errors[0] > errors[1] > errors[2]
+
+
+def independent_flows(b, q, pt, p):
+    """Return the net outflow of each inner node, written again as whole-array formulas."""
+    m = b.m
+    r, n_t = np.asarray(m.r), m.n_t
+    face = 0.5 * (r[1:] + r[:-1])
+    theta = np.unwrap(np.arctan2(m.sin, m.cos))
+    ahead = np.append(theta[1:], theta[0] + 2 * np.pi)
+    half = np.unwrap(np.arctan2(m.sin_face, m.cos_face))  # between the nodes in the parameter s
+    width = half - np.concatenate(([half[-1] - 2 * np.pi], half[:-1]))
+
+    def gap(radius, angle):
+        tilt = np.sin(angle) * q[2] - np.cos(angle) * q[3]
+        return q[0] + radius[:, None] * tilt[None, :]
+
+    def conductance(h):
+        return np.array([flow_conductance(x, m.sigma1)[0] for x in h.ravel()]).reshape(h.shape)
+
+    def wedge(h):
+        flat = [
+            mean_gap(x, m.sigma1)[0] - m.sigma1 * m.shear * shear_flow(x, m.sigma1)[0]
+            for x in h.ravel()
+        ]
+        return np.array(flat).reshape(h.shape)
+
+    fluid = 1.0 / b.node("mu")
+    across = conductance(gap(face, theta)) / 12.0 * 0.5 * (fluid[1:] + fluid[:-1])
+    q_r = -across * (p[1:] - p[:-1]) / (r[1:] - r[:-1])[:, None] * face[:, None] * width
+    around = conductance(gap(r, half)) / 12.0 * 0.5 * (fluid + np.roll(fluid, -1, axis=1))
+    log_width = np.log(face[1:] / face[:-1])
+    q_t = -around * (np.roll(p, -1, axis=1) - p) / (ahead - theta)
+    area = 0.5 * (face[1:] ** 2 - face[:-1] ** 2)[:, None]
+    q_t = q_t[1:-1] * log_width[:, None] + 0.5 * pt.speed * area * wedge(gap(r, half))[1:-1]
+    assert q_t.shape == (m.n_r - 2, n_t)
+    return q_r[1:] - q_r[:-1] + q_t - np.roll(q_t, 1, axis=1)
+
+
+@pytest.mark.parametrize("surfaces", [{}, {"roughness_carrier": 1e-6, "roughness_washer": 3e-7}])
+@pytest.mark.parametrize("ratio", [0.4, 3.0, 15.0])
+def test_solution_is_full_or_cavitated_everywhere(surfaces, ratio):
+    """p >= 0, outflow >= 0, one of them zero: Reynolds cavitation, with uneven viscosity."""
+    b = bench((10, 32), **surfaces)
+    q = tilted(b.m, ratio)
+    rng = np.random.default_rng(7)
+    evaluate_gaps(b.m, BASE, q, b.f)
+    b.f.mu[:] = MU * rng.uniform(0.3, 1.0, b.f.mu.size)
+    evaluate_film(b.m, BASE, q, b.f)
+    p = solve_with_cavitation(b)
+    flow = independent_flows(b, q, BASE, p)
+    full = p[1:-1] > 0.0
+    scale = np.abs(flow).max()
+    assert np.all(p >= 0.0) and np.all(p[[0, -1]] == 0.0)
+    assert full.any() and (~full).any()
+    assert np.all(flow >= -1e-11 * scale)
+    assert np.all(np.abs(flow[full]) <= 1e-11 * scale)
+
+
+def test_unequal_roughness_changes_what_the_film_carries():
+    """A rough moving washer drags oil into the wedge (shear factor > 0), a rough carrier less."""
+    loads = {}
+    for name, rough in {
+        "carrier": (1e-6, 2e-7),
+        "even": (7.2111e-7,) * 2,
+        "washer": (2e-7, 1e-6),
+    }.items():
+        b = at_constant_viscosity((10, 32), np.array([4e-5, 8e-5, 0.0, 0.00165]), BASE,
+                                  roughness_carrier=rough[0], roughness_washer=rough[1])  # fmt: skip
+        q = tilted(b.m, 3.0)
+        evaluate_film(b.m, BASE, q, b.f)
+        loads[name] = (np.outer(b.m.weight1, b.m.weight_t) * solve_with_cavitation(b)).sum()
+    assert loads["carrier"] != pytest.approx(loads["washer"], rel=1e-2)
+    assert min(loads["carrier"], loads["washer"]) < loads["even"] < max(loads.values())
+
+
+def test_film_that_only_opens_cavitates_everywhere():
+    """All around: no column is left, the pressure is zero, nothing fails."""
+    b = at_constant_viscosity((10, 32), np.array([1e-5, 2e-5, 0.0, 2e-4]), BASE._replace(speed=0.0))
+    assert film_residual(b.m, b.f.p, b.f)[2] == 0
+    assert film_solve(b.m, b.f.p, b.f)
+    assert np.all(b.f.film_rhs == 0.0)
+
+
+@pytest.mark.parametrize("surfaces", [{}, {"roughness_carrier": 1e-6, "roughness_washer": 3e-7}])
+@pytest.mark.parametrize("ratio", [0.4, 3.0, 15.0])
+def test_slopes_over_the_positions_are_the_differences(ratio, surfaces):
+    """Sides 1..4, with temperatures that follow by given slopes; on a fixed active set."""
+    b = bench((10, 32), **surfaces)
+    m, f = b.m, b.f
+    q = tilted(m, ratio)
+    rng = np.random.default_rng(3)
+    n_temp = f.temp.size
+    base_temp = rng.uniform(0.0, 30.0, n_temp)
+    f.sens[:] = rng.normal(size=4 * n_temp) * np.repeat([3e6, 0.0, 6e4, 6e4], n_temp)
+    f.dtemp[:] = 0.0
+
+    def pressure_at(positions, temp):
+        f.temp[:] = temp
+        evaluate_gaps(m, BASE, positions, f)
+        evaluate_viscosity(m, BASE, f)
+        evaluate_film(m, BASE, positions, f)
+
+    pressure_at(q, base_temp)
+    solve_with_cavitation(b)
+    film_residual(m, f.p, f)
+    assert film_solve(m, f.p, f)
+    slopes = f.film_rhs.reshape(-1, N_SIDES).copy()
+    wet = f.wet.copy()
+    kept = f.p.copy()
+    np.testing.assert_allclose(slopes[:, 0], kept, rtol=1e-9, atol=1e-9 * kept.max())
+    for side in range(1, 5):
+        unit = m.sigma1 * (1.0 if side < 3 else 1.0 / m.outer_radius) * 1e-4
+        found = []
+        for sign in (1.0, -1.0):
+            moved = q.copy()
+            moved[side - 1] += sign * unit
+            step = f.sens[(side - 1) * n_temp : side * n_temp] * sign * unit
+            pressure_at(moved, base_temp + step)
+            f.wet[:] = wet
+            assert film_solve(m, kept, f)
+            found.append(f.film_rhs[::N_SIDES].copy())
+        differences = (found[0] - found[1]) / (2.0 * unit)
+        scale = np.abs(slopes[:, side]).max()
+        np.testing.assert_allclose(slopes[:, side], differences, rtol=0, atol=2e-6 * scale + 1e-9)
+
+
+def test_step_of_the_temperature_moves_the_pressure_as_much_as_it_should():
+    """Side 0 after a temperature step is the pressure at the new temperature, to second order."""
+    b = bench((10, 32))
+    m, f = b.m, b.f
+    q = tilted(m, 4.0)
+    rng = np.random.default_rng(5)
+    start, step = rng.uniform(5.0, 20.0, f.temp.size), rng.normal(size=f.temp.size)
+    errors = []
+    for share in (0.1, 0.05):
+        f.temp[:], f.dtemp[:] = start, 0.0
+        evaluate_gaps(m, BASE, q, f)
+        evaluate_viscosity(m, BASE, f)
+        evaluate_film(m, BASE, q, f)
+        before = solve_with_cavitation(b).copy()
+        film_residual(m, f.p, f)
+        f.dtemp[:] = share * step
+        assert film_solve(m, f.p, f)
+        told = f.film_rhs[::N_SIDES].copy()
+        f.temp[:], wet = start + share * step, f.wet.copy()
+        evaluate_viscosity(m, BASE, f)
+        f.dtemp[:] = 0.0
+        f.wet[:] = wet
+        assert film_solve(m, np.ascontiguousarray(before.T).ravel(), f)
+        errors.append(np.abs(f.film_rhs[::N_SIDES] - told).max())
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
+
+
+def test_speed_and_wedge_mirror_each_other():
+    """Turning back is the mirror image in x: the pressure at -theta."""
+    pressures = []
+    for speed, gx in ((545.0, -1e-4), (-545.0, 1e-4)):
+        b = bench((10, 32))
+        q = tilted(b.m, 5.0, gx=gx)
+        pt = Point(300.0, speed, 0.002, 297.15)
+        evaluate_gaps(b.m, pt, q, b.f)
+        b.f.mu[:] = MU
+        evaluate_film(b.m, pt, q, b.f)
+        pressures.append(solve_with_cavitation(b).copy())
+    mirrored = np.roll(pressures[1][:, ::-1], 1, axis=1)
+    np.testing.assert_allclose(pressures[0], mirrored, rtol=1e-9, atol=1e-6)

@@ -174,21 +174,18 @@ def test_solution_is_full_or_cavitated_everywhere(surfaces, ratio):
     assert np.all(np.abs(flow[full]) <= 1e-11 * scale)
 
 
-def test_unequal_roughness_changes_what_the_film_carries():
-    """A rough moving washer drags oil into the wedge (shear factor > 0), a rough carrier less."""
+def test_a_rough_moving_surface_weakens_the_wedge():
+    """It carries along most oil where the gap is least; beyond 1 sigma the shear factor falls."""
+    rough = {"carrier": (1e-6, 2e-7), "even": (7.2111e-7,) * 2, "washer": (2e-7, 1e-6)}
     loads = {}
-    for name, rough in {
-        "carrier": (1e-6, 2e-7),
-        "even": (7.2111e-7,) * 2,
-        "washer": (2e-7, 1e-6),
-    }.items():
-        b = at_constant_viscosity((10, 32), np.array([4e-5, 8e-5, 0.0, 0.00165]), BASE,
-                                  roughness_carrier=rough[0], roughness_washer=rough[1])  # fmt: skip
+    for name, (carrier, washer) in rough.items():
+        b = bench((10, 32), roughness_carrier=carrier, roughness_washer=washer)
         q = tilted(b.m, 3.0)
+        evaluate_gaps(b.m, BASE, q, b.f)
+        b.f.mu[:] = MU
         evaluate_film(b.m, BASE, q, b.f)
         loads[name] = (np.outer(b.m.weight1, b.m.weight_t) * solve_with_cavitation(b)).sum()
-    assert loads["carrier"] != pytest.approx(loads["washer"], rel=1e-2)
-    assert min(loads["carrier"], loads["washer"]) < loads["even"] < max(loads.values())
+    assert loads["washer"] < 0.99 * loads["even"] < 0.98 * loads["carrier"]
 
 
 def test_film_that_only_opens_cavitates_everywhere():

@@ -34,6 +34,14 @@ def bench(grid=(10, 32), **changes):
     return Bench(m, f)
 
 
+def full_gear(grid, **changes):
+    """Return a bench whose gear is as large as the washer."""
+    m = bench(grid, **changes).m._replace(i_g=0)
+    m = m._replace(weight2=m.weight1)
+    room = 2 * size_of_work(*grid, even_split=False)
+    return Bench(m, washer_fields(m, np.zeros(room)))
+
+
 def tilted(m, ratio, gy=0.00197, gx=-1.9e-5, second=3.0, tilt=0.002):
     """Return positions with a film of ``ratio`` sigma and a second gap of ``second`` sigma."""
     z_w = ratio * m.sigma1 + m.outer_radius * np.hypot(gx, gy)

@@ -11,9 +11,9 @@ the native FMU call the same code:
 ``step(...)``       ``step(par, inp, state, work, out, iout, t, dt)`` returns a status
 ==================  ===============================================================================
 
-``par`` and ``inp`` are read only. ``state`` is all the memory there is (all zeros: no history) and
+``par`` and ``inp`` are read only. ``state`` is all the memory there is (all zeros: no history); it
 changes only if ``dt > 0`` and the step succeeds; with ``dt = 0`` the outputs at the present inputs
-come back and ``state`` stays as it was to the bit. ``work`` belongs to the caller; whatever it holds
-on entry, the result is the same. ``out`` holds the real outputs, ``iout`` (int32) the enumerations
-and Booleans, both in the order of the model's list of outputs.
+come back and ``state`` stays as it was to the bit. ``work`` belongs to the caller; whatever it
+holds on entry, the result is the same. ``out`` holds the real outputs, ``iout`` (int32) the
+enumerations and Booleans, both in the order of the model's list of outputs.
 """

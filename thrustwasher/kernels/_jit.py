@@ -45,14 +45,16 @@ def cache_folder() -> str:
 
 def _compiled(function: Callable[..., Any], inline: str = "never") -> Any:
     """Compile lazily with the cache in ``cache_folder``; other users' numba cache is left alone."""
-    before = config.CACHE_DIR
-    config.CACHE_DIR = cache_folder()
+    settings: Any = config
+    njit: Any = numba.njit
+    before = settings.CACHE_DIR
+    settings.CACHE_DIR = cache_folder()
     try:
-        return numba.njit(
-            cache=True, fastmath=False, error_model="numpy", nogil=True, inline=inline
-        )(function)
+        return njit(cache=True, fastmath=False, error_model="numpy", nogil=True, inline=inline)(
+            function
+        )
     finally:
-        config.CACHE_DIR = before
+        settings.CACHE_DIR = before
 
 
 kernel = cast(Callable[[F], F], _compiled)

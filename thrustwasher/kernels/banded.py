@@ -1,7 +1,7 @@
 """Band matrices: symmetric (Cholesky) and general (LU without exchange), factor and solve.
 
-A symmetric matrix is stored by columns of its lower half: ``a[j * (band + 1) + k]`` is the entry in
-row j + k, column j. A general one by rows: ``a[i * (2 * band + 1) + band + k]`` is row i, column i + k.
+A symmetric matrix is stored by columns of its lower half: ``a[j * (band + 1) + k]`` is row j + k,
+column j. A general one by rows: ``a[i * (2 * band + 1) + band + k]`` is row i, column i + k.
 """
 
 import math

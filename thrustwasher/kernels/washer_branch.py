@@ -11,14 +11,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import inlined, kernel
+from .roelands import viscosity
 from .washer_curve import (
-    ACCURACY, SHARE, SLOPE, S, W, cold_start, enter_curve, find_fold, recall, remember, walk_down, walk_to,
+    ACCURACY,
+    SHARE,
+    SLOPE,
+    S,
+    W,
+    cold_start,
+    enter_curve,
+    find_fold,
+    recall,
+    remember,
+    walk_down,
+    walk_to,
 )  # fmt: skip
 from .washer_fields import Fields, Point
 from .washer_gap import CONTACT
 from .washer_model import WasherModel
 from .washer_newton import (
-    FILM, LOAD, LOAD_SLOPE, MAX_ITERATIONS, NO_FLOOR, OK, REACHED_LOAD, film_ratio, newton, smooth_film,
+    FILM,
+    LOAD,
+    LOAD_SLOPE,
+    MAX_ITERATIONS,
+    NO_FLOOR,
+    OK,
+    REACHED_LOAD,
+    film_ratio,
+    newton,
+    smooth_film,
 )  # fmt: skip
 
 NO_BRANCH = 12  # errors.Status; a test keeps them equal
@@ -31,26 +52,35 @@ CLEAR_SHARE = 0.01  # below this share of contact a stable solution is on the fi
 BRANCH, MULTIPLICITY, LOST, REGAINED, N_FOUND = 0, 1, 2, 3, 4
 ENTRY_RATIO = 4.0
 DESCENT = 0.2  # finest step of the descent [sigma]
+NOISE = 3e-4  # a load must change by more to count as past a fold; points are good to 1e-4
 
 
 @kernel
 def first_guess(m: WasherModel, pt: Point) -> float:
-    """Return a film ratio to start from: narrow ring, isothermal, half the viscosity."""
+    """Return a film ratio to start from: narrow ring, film heated at its mean gap.
+
+    The factors 0.8 and 0.4 were fitted to solutions from 50 to 1367 rad/s: 15 % off at the median.
+    """
     width = m.outer_radius - m.inner_radius
     mean = 0.5 * (m.outer_radius + m.inner_radius)
-    mu = 0.5 * m.viscosity_scale * math.exp(
-        2.302585 * min(8.0, m.viscosity_constant * math.exp(-m.viscosity_exponent * math.log(
-            max(0.05, 1.0 + (pt.oil_temperature - 273.15) / 135.0))))
-    )  # fmt: skip
-    strength = 0.25 * mu * abs(pt.speed) * mean * width**3
+    mu, dmu = viscosity(
+        pt.oil_temperature, m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
+    )
+    v = abs(pt.speed) * mean
+    strength = 0.25 * mu * v * width**3
     if strength <= 0.0 or pt.tilt <= 0.0:
         return ENTRY_RATIO
+    resistance = 1.0 / (m.conductivity * (1.0 / m.carrier_thickness + 1.0 / m.gear_thickness))
+    thinned = 1.0  # viscosity over that at oil temperature
     gap = math.sqrt(strength / pt.load)
-    for _ in range(5):  # W = strength (1/gap^2 - 1/(gap + 2 mean tilt)^2)
+    for _ in range(6):  # W = strength (1/gap^2 - 1/(gap + 2 mean tilt)^2)
+        rise = 2.0 * resistance * mu * thinned * v * v / (gap + mean * pt.tilt)
+        thinned = 1.0 / (1.0 - rise * dmu / mu)
         far = gap + 2.0 * mean * pt.tilt
-        gap = math.sqrt(strength / (pt.load + strength / (far * far)))
-    ratio = (gap - pt.tilt * 0.5 * width) / m.sigma1
-    return min(max(ratio, ENTRY_RATIO), 60.0)
+        lift = 0.8 * thinned * strength
+        gap = math.sqrt(lift / (pt.load + lift / (far * far)))
+    ratio = (gap - 0.4 * pt.tilt * width) / m.sigma1
+    return min(max(ratio, ENTRY_RATIO), 150.0)
 
 
 @kernel
@@ -83,7 +113,7 @@ def _settle(
     return MAX_ITERATIONS
 
 
-@inlined
+@kernel
 def _climb(
     m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
     walk: NDArray[np.float64],
@@ -149,18 +179,18 @@ def descend(
     """
     found[BRANCH], found[MULTIPLICITY] = 0.0, 0.0
     found[LOST], found[REGAINED] = math.nan, math.nan
-    walk[ACCURACY] = 1e-5
+    walk[ACCURACY] = 1e-4
     for attempt in range(3):
         status = enter_curve(m, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt), q, f, info, walk)
         if status != OK:
             return status
         if walk[SHARE] < CLEAR_SHARE and walk[SLOPE] < 0.0:
             break
-    if walk[W] >= pt.load:
-        status = _climb(m, pt, q, f, info, walk)
+    above = walk[W] >= pt.load  # the film branch carries the load above the entry
+    if above and wanted != CONTACT_BRANCH:
         found[BRANCH] = FILM_BRANCH
-        return NO_BRANCH if status == OK and wanted == CONTACT_BRANCH else status
-    s0, w0, s1, w1 = walk[S], walk[W], walk[S], walk[W]  # the last two points
+        return _climb(m, pt, q, f, info, walk)
+    s0, s1, w1 = walk[S], walk[S], walk[W]  # the last two points
     upper, lower = math.nan, math.nan  # bracket of the solution above any fold
     lost = False
     for _ in range(400):
@@ -168,8 +198,8 @@ def descend(
         if status != OK:
             return status
         s2, w2 = walk[S], walk[W]
-        has_film = not math.isnan(upper)
-        if not lost and w2 < w1:  # film lost between s0 and s2
+        has_film = above or not math.isnan(upper)
+        if not lost and w2 < w1 * (1.0 - NOISE) - 1e-3:  # film lost between s0 and s2
             lost = True
             found[MULTIPLICITY] = MULTIPLE
             found[LOST] = w1
@@ -192,7 +222,8 @@ def descend(
                 found[BRANCH] = CONTACT_BRANCH
                 status = _contact_side(m, pt, q, f, info, walk)
                 return NO_BRANCH if status == OK and wanted == FILM_BRANCH else status
-        elif lost and w2 > w1:  # film regained between s0 and s2; the contact branch is wanted
+        elif lost and w2 > w1 * (1.0 + NOISE):
+            # film regained between s0 and s2; the contact branch is wanted
             found[REGAINED] = w1
             if _near(w1, pt.load):
                 status = find_fold(m, pt, s0, s2, q, f, info, walk)
@@ -202,18 +233,26 @@ def descend(
             if found[REGAINED] > pt.load:
                 break  # no solution on the contact branch
             found[BRANCH] = CONTACT_BRANCH
+            if w2 >= pt.load:  # the step has passed the solution already
+                return _settle(m, pt, walk[S] if walk[S] > s2 else s1, s2, q, f, info, walk)
             return _contact_side(m, pt, q, f, info, walk)
         elif not lost and not has_film and w2 >= pt.load:
             upper, lower = s1, s2
             remember(q, f, 2.0)
-        if not lost and not math.isnan(upper) and (
+        if not lost and (above or not math.isnan(upper)) and (
             walk[SHARE] > 0.9 or walk[S] < 0.5 * m.sigma1
         ):  # fmt: skip
             found[MULTIPLICITY] = SINGLE  # the asperities carry: no fold will come
             break
-        s0, w0, s1, w1 = s1, w1, s2, w2
+        s0, s1, w1 = s1, s2, w2
         if walk[S] < -12.0 * m.sigma1:
             return MAX_ITERATIONS
+    if above:  # no contact branch at this load after all
+        status = enter_curve(m, pt, ENTRY_RATIO, q, f, info, walk)
+        if status == OK:
+            status = _climb(m, pt, q, f, info, walk)
+        found[BRANCH] = FILM_BRANCH
+        return NO_BRANCH if status == OK else status
     if math.isnan(upper):
         return MAX_ITERATIONS
     recall(q, f, 2.0)

@@ -11,11 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import inlined, kernel
+from .banded import N_SIDES
 from .washer_fields import Fields, Point
-from .washer_gap import CONTACT
+from .washer_film import film_residual, film_solve
+from .washer_gap import CONTACT, FORCE, STIFF, evaluate_gaps
 from .washer_model import WasherModel
 from .washer_newton import (
-    FILM, LOAD_SLOPE, MAX_ITERATIONS, NO_FLOOR, OK, REACHED_LOAD, TANGENT, newton, smooth_film,
+    FILM,
+    LOAD_SLOPE,
+    MAX_ITERATIONS,
+    NO_FLOOR,
+    OK,
+    REACHED_LOAD,
+    TANGENT,
+    evaluate,
+    newton,
+    smooth_film,
 )  # fmt: skip
 
 # the walker: film thickness s [m], load [N], dload/ds [N/m], contact share [-]; and, set by the
@@ -50,17 +61,51 @@ def recall(q: NDArray[np.float64], f: Fields, slot: float) -> None:
 
 
 @kernel
+def _press_gear(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> None:
+    """Move the gear until gap 2 carries what film 1 carries; its force is nearly exponential."""
+    lift = f.small[FORCE] + f.small[FORCE + 1]
+    for j in range(m.n_t):
+        for i in range(1, m.n_r - 1):
+            k = np.uintp(j * m.n_r + i)
+            lift += m.weight1[i] * m.weight_t[j] * f.p[k]
+    lift = max(lift, 1.0)
+    for _ in range(12):
+        evaluate_gaps(m, pt, q, f)
+        force, slope = f.small[FORCE + 1], f.small[STIFF + 5]
+        if not force > 1e-12 * lift:
+            q[1] -= m.sigma2
+            continue
+        move = math.log(force / lift) * force / -slope
+        q[1] += min(max(move, -m.sigma2), m.sigma2)
+        if abs(move) < 0.05 * m.sigma2:
+            return
+
+
+@kernel
 def cold_start(m: WasherModel, pt: Point, ratio: float, q: NDArray[np.float64], f: Fields) -> None:
-    """Place washer and gear for a film of ``ratio`` sigma; no pressure, everything at oil."""
-    q[3] = 0.95 * pt.tilt
+    """Place washer and gear for a film of ``ratio`` sigma, everything at oil temperature.
+
+    The pressure is that of these gaps: from no pressure at all a film without contact would show
+    Newton's method no stiffness.
+    """
+    q[3] = (0.99 if ratio > 3.0 else 0.95) * pt.tilt
     q[2] = 0.0
     q[0] = q[3] * m.outer_radius + ratio * m.sigma1
     q[1] = q[0] + 3.0 * m.sigma2 + 0.05 * pt.tilt * m.outer_radius
     for k in range(f.temp.size):
         f.temp[np.uintp(k)] = 0.0
+        f.dtemp[np.uintp(k)] = 0.0
     for k in range(f.p.size):
         f.p[np.uintp(k)] = 0.0
     f.tag[0] = 0.0
+    evaluate(m, pt, q, f)
+    for _ in range(6):
+        error, p_max, _size = film_residual(m, f.p, f)
+        if not error > 1e-2 * p_max or not film_solve(m, f.p, f):
+            break
+        for k in range(f.p.size):
+            f.p[np.uintp(k)] = max(f.film_rhs[np.uintp(k * N_SIDES)], 0.0)
+    _press_gear(m, pt, q, f)
 
 
 @kernel
@@ -131,7 +176,7 @@ def exact_slope(
 
 @kernel
 def step_down(m: WasherModel, s: float, finest: float) -> float:
-    """Return the next film thickness [m]: a tenth off a thick one, ``finest`` sigma near contact."""
+    """Return the next film thickness [m]: a tenth less, near contact ``finest`` sigma less."""
     return s - max(finest * m.sigma1, 0.12 * (s - 2.5 * m.sigma1))
 
 

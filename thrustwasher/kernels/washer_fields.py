@@ -1,7 +1,8 @@
 """Work arrays of the washer by name, and their sizes.
 
-Nodal arrays are indexed ``j * n_r + i`` (angle j, radius i). Temperatures (rises above
-the oil) are stored column by column: carrier, washer (n_r each), then gear (n_r - i_g nodes): ``m_t = 3 n_r - i_g`` a column.
+Nodal arrays are indexed ``j * n_r + i`` (angle j, radius i). Temperatures (rises above the oil) are
+stored column by column: carrier, washer (n_r each), then gear (n_r - i_g nodes), which makes
+``m_t = 3 n_r - i_g`` a column.
 """
 
 from typing import NamedTuple

@@ -48,8 +48,8 @@ def dry_friction(m: WasherModel, contact_load: float) -> tuple[float, float]:
 def evaluate_gaps(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> None:
     """Fill gaps, contact pressures and their sums in ``f`` at the positions ``q``."""
     s = f.small
-    for k in range(FRICTION + 2):
-        s[k] = 0.0
+    for place in range(FRICTION + 2):
+        s[place] = 0.0
     z_w, z_g, gx, gy = q[0], q[1], q[2], q[3]
     for j in range(m.n_t):
         cj, sj = m.cos[j], m.sin[j]

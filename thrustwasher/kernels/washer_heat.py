@@ -31,8 +31,8 @@ def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Field
     omega = abs(pt.speed)
     friction = f.small[FRICTION]
     made = 0.0
-    for k in range(m_t * n_t):
-        f.heat[np.uintp(k)] = 0.0
+    for node in range(m_t * n_t):
+        f.heat[np.uintp(node)] = 0.0
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         c0, n0 = j * m_t, jn * m_t

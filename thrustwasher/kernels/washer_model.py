@@ -1,9 +1,9 @@
 """The washer's constants for the kernels: parameters by name, mesh, contact tables.
 
-The mesh is polar: nodes at both rims and at the gear's inner radius. Radial nodes are uniform up to
-the gear's inner radius and then graded towards the outer rim, where film and contact are
-thinnest. Around the circumference they crowd near theta = 0, where the tilt about y closes the film:
-theta = s - c sin(s), s uniform, which keeps the trapezoid rule spectrally accurate.
+The mesh is polar: nodes at both rims and at the gear's inner radius. Radial nodes are uniform up
+to the gear's inner radius and then graded towards the outer rim, where film and contact are
+thinnest. Around the circumference they crowd near theta = 0, where the tilt about y closes the
+film: theta = s - c sin(s), s uniform, which keeps the trapezoid rule spectrally accurate.
 """
 
 import math

@@ -33,7 +33,7 @@ SLOPES = 36  # (16,) their slopes over q
 SYSTEM = 52  # (16,) scratch
 RIGHT = 68  # (8,) scratch
 TANGENT = 76  # (4,) dq/ds along the curve of solutions
-# places in `info`
+# places in `info`; iterations and factorings add up over the calls of one solve
 ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT, N_INFO = 0, 1, 2, 3, 4, 5, 8
 
 
@@ -42,13 +42,14 @@ def smooth_film(m: WasherModel, q: NDArray[np.float64]) -> float:
     """Return the smoothed least film thickness s [m] that mode FILM prescribes."""
     e = 0.05 * m.sigma1
     reach = m.outer_radius * m.outer_radius * (q[2] * q[2] + q[3] * q[3])
-    return q[0] - math.sqrt(reach + e * e)
+    return float(q[0] - math.sqrt(reach + e * e))
 
 
 @kernel
 def film_ratio(m: WasherModel, q: NDArray[np.float64]) -> float:
     """Return the least film thickness over the disc in sigma."""
-    return (q[0] - m.outer_radius * math.sqrt(q[2] * q[2] + q[3] * q[3])) / m.sigma1
+    tilt = math.sqrt(q[2] * q[2] + q[3] * q[3])
+    return float((q[0] - m.outer_radius * tilt) / m.sigma1)
 
 
 @kernel
@@ -146,21 +147,26 @@ def _steps(m: WasherModel, mode: float, target: float, q: NDArray[np.float64], f
 
 
 @kernel
-def _limit(m: WasherModel, q: NDArray[np.float64], f: Fields) -> float:
-    """Return the share of the step to take: gaps change by a film thickness' fraction at most."""
+def _limit(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> float:
+    """Return the share of the step to take.
+
+    The least gaps change by a film thickness' fraction at most; elsewhere, where the gaps are wide
+    and a rocking washer moves most, eight times as much.
+    """
     s = f.small
     ro = m.outer_radius
-    ratio = (q[0] - ro * math.sqrt(q[2] * q[2] + q[3] * q[3])) / m.sigma1
+    tilt = math.sqrt(q[2] * q[2] + q[3] * q[3])
+    ratio = (q[0] - ro * tilt) / m.sigma1
     limit = max(1.0, 0.3 * ratio) * m.sigma1
+    small = 1e-3 * m.sigma1 / ro
+    rel = pt.tilt - q[3]
+    lean = math.sqrt(rel * rel + q[2] * q[2]) + small
     turn = ro * math.sqrt(s[RIGHT + 2] * s[RIGHT + 2] + s[RIGHT + 3] * s[RIGHT + 3])
-    one = abs(s[RIGHT]) + turn
-    two = abs(s[RIGHT + 1] - s[RIGHT]) + turn
-    share = 1.0
-    if one > limit:
-        share = limit / one
-    if two > 2.0 * limit:
-        share = min(share, 2.0 * limit / two)
-    return share
+    lift = s[RIGHT + 1] - s[RIGHT]
+    one = s[RIGHT] - ro * (q[2] * s[RIGHT + 2] + q[3] * s[RIGHT + 3]) / (tilt + small)
+    two = lift + ro * (rel * s[RIGHT + 3] - q[2] * s[RIGHT + 2]) / lean
+    worst = max(abs(one), 0.5 * abs(two), (abs(s[RIGHT]) + turn) / 8.0, (abs(lift) + turn) / 16.0)
+    return limit / worst if worst > limit else 1.0
 
 
 @kernel
@@ -190,12 +196,12 @@ def newton(
     floor : give up when the film ratio falls below it
     tolerance : on the largest of force and moment over load, pressure over its maximum, heat over
         the heat made
-    info : (N_INFO,) out: iterations, factorings, residual, load reached, dload/ds, heat made [W]
+    info : (N_INFO,) iterations and factorings are added to; out: residual, load reached [N],
+        dload/ds [N/m], heat made [W]
     """
     n_temp = f.temp.size
     s = f.small
     before = math.inf
-    info[ITERATIONS], info[FACTORED] = 0.0, 0.0
     for iteration in range(int(max_iterations) + 1):
         made = evaluate(m, pt, q, f)
         pressure_error, p_max, _ = film_residual(m, f.p, f)
@@ -241,7 +247,7 @@ def newton(
         for c in range(4):
             slope += s[SLOPES + 4 + c] * s[TANGENT + c]
         info[LOAD_SLOPE] = slope
-        share = _limit(m, q, f)
+        share = _limit(m, pt, q, f)
         d0, d1 = share * s[RIGHT], share * s[RIGHT + 1]
         d2, d3 = share * s[RIGHT + 2], share * s[RIGHT + 3]
         jump = 0.0
@@ -268,5 +274,5 @@ def newton(
         q[1] += d1
         q[2] += d2
         q[3] += d3
-        info[ITERATIONS] = iteration + 1.0
+        info[ITERATIONS] += 1.0
     return MAX_ITERATIONS

@@ -5,27 +5,53 @@ from numpy.typing import NDArray
 
 from ._jit import inlined, kernel
 from .washer_branch import (
-    ANY, BRANCH, CONTACT_BRANCH, FILM_BRANCH, FILM_RATIO, MULTIPLE, MULTIPLICITY, NO_BRANCH, SINGLE,
-    descend, is_clear_film, solve_cold,
+    ANY,
+    BRANCH,
+    CONTACT_BRANCH,
+    FILM_BRANCH,
+    FILM_RATIO,
+    MULTIPLE,
+    MULTIPLICITY,
+    NO_BRANCH,
+    SINGLE,
+    descend,
+    is_clear_film,
+    solve_cold,
 )  # fmt: skip
 from .washer_fields import Fields, Point
 from .washer_memory import (
-    BRANCH_NOW, MULTIPLICITY_NOW, RATIO_THEN, SCAN_OIL, SCAN_SPEED, SCAN_TILT, VALID, recall_state,
+    BRANCH_NOW,
+    MULTIPLICITY_NOW,
+    RATIO_THEN,
+    SCAN_OIL,
+    SCAN_SPEED,
+    SCAN_TILT,
+    VALID,
+    recall_state,
     remember_state,
 )  # fmt: skip
 from .washer_model import WasherModel
 from .washer_newton import (
-    FACTORED, ITERATIONS, LOAD, LOAD_SLOPE, NO_FLOOR, OK, REACHED_LOAD, film_ratio, newton,
+    FACTORED,
+    ITERATIONS,
+    LOAD,
+    LOAD_SLOPE,
+    NO_FLOOR,
+    OK,
+    REACHED_LOAD,
+    film_ratio,
+    make_factor,
+    newton,
 )  # fmt: skip
 
-WARM_TOLERANCE = 1e-6
+WARM_TOLERANCE = 5e-6
 CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
 
 
 @kernel
 def _scan_holds(pt: Point, state: NDArray[np.float64]) -> bool:
     """Tell if the last descent was at about this speed, tilt and oil temperature."""
-    return (
+    return bool(
         state[SCAN_TILT] >= 0.0
         and abs(pt.speed - state[SCAN_SPEED]) <= 0.05 * abs(state[SCAN_SPEED])
         and abs(pt.tilt - state[SCAN_TILT]) <= 0.05 * state[SCAN_TILT]
@@ -53,11 +79,8 @@ def _warm(
     if info[LOAD_SLOPE] * m.sigma1 > -0.3 * info[REACHED_LOAD]:
         # a fold may be near: the slope is needed with a heat factor made here
         f.tag[0] = 0.0
-        made, iterations = info[FACTORED], info[ITERATIONS]
         if newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, WARM_TOLERANCE, 12.0, info) != OK:
             return False
-        info[FACTORED] += made
-        info[ITERATIONS] += iterations
         if not info[LOAD_SLOPE] < 0.0 or abs(film_ratio(m, q) - ratio) > 0.5 * CONTINUOUS:
             return False
     if found[MULTIPLICITY] == SINGLE:
@@ -80,6 +103,7 @@ def solve(
     keep : write the solution to ``state`` (also that of the other branch if NO_BRANCH)
     found : out, branch and multiplicity (see washer_branch)
     """
+    info[ITERATIONS], info[FACTORED] = 0.0, 0.0
     scanned = False
     arrived = False
     status = OK
@@ -97,6 +121,8 @@ def solve(
         status = solve_cold(m, pt, wanted, q, f, info, found, walk)
         scanned = found[MULTIPLICITY] != 0.0
     if keep and (status == OK or status == NO_BRANCH):
+        if not arrived:  # a factor made here makes the next, warm solve quick
+            make_factor(m, pt, q, f.temp, f)
         remember_state(par, pt, q, f, state)
         state[BRANCH_NOW], state[MULTIPLICITY_NOW] = found[BRANCH], found[MULTIPLICITY]
         state[RATIO_THEN] = film_ratio(m, q)

@@ -27,7 +27,10 @@ FILM, MIXED, BOUNDARY = 1, 2, 3  # regimes
 REGIME_OUT, DISTRESS_OUT, STATUS_OUT = 0, 1, 2
 LEAST_LOAD = 1.0  # [N]; an unloaded washer counts as loaded so much
 
-__all__ = ["NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "derive", "step"]
+__all__ = [
+    "FIELD_GRID", "FINE_GRID", "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_ALL",
+    "N_FOUND", "N_HEAD", "N_INFO", "N_PARAM", "N_WALK", "derive", "step",
+]  # fmt: skip
 
 
 @kernel

@@ -11,11 +11,24 @@ from numpy.typing import NDArray
 from ..errors import SolveError, Status
 from ..kernels import washer_step as kernel
 from ..kernels.washer_curve import (
-    ACCURACY, N_WALK, S, W, enter_curve, find_fold, step_down, walk_to,
+    ACCURACY,
+    N_WALK,
+    S,
+    W,
+    enter_curve,
+    find_fold,
+    step_down,
+    walk_to,
 )  # fmt: skip
 from ..kernels.washer_fields import Point, size_of_work, washer_fields
 from ..kernels.washer_memory import (
-    BRANCH_NOW, MULTIPLICITY_NOW, RATIO_THEN, SCAN_OIL, SCAN_SPEED, SCAN_TILT, remember_state,
+    BRANCH_NOW,
+    MULTIPLICITY_NOW,
+    RATIO_THEN,
+    SCAN_OIL,
+    SCAN_SPEED,
+    SCAN_TILT,
+    remember_state,
     size_of_state,
 )  # fmt: skip
 from ..kernels.washer_model import washer_model
@@ -73,8 +86,9 @@ class _Walker:
         if code:
             raise SolveError(
                 f"load_curve: {Status(code).advice} ({where}, film of "
-                f"{self.walk[S] / self.m.sigma1:.2f} sigma, speed = {self.pt.speed:g} rad/s, tilt = "
-                f"{self.pt.tilt:g} rad; tried: steps down to 1e-4 of the first); use another grid"
+                f"{self.walk[S] / self.m.sigma1:.2f} sigma, speed = {self.pt.speed:g} rad/s, "
+                f"tilt = {self.pt.tilt:g} rad; tried: steps down to 1e-4 of the first); "
+                "use another grid"
             )
 
     def enter(self, load: float) -> None:
@@ -116,8 +130,9 @@ class _Walker:
         remember_state(self.par, pt, self.q, self.f, state)
         state[RATIO_THEN] = self.out[RATIO]
         state[SCAN_SPEED], state[SCAN_TILT], state[SCAN_OIL] = pt.speed, pt.tilt, pt.oil_temperature
+        point = (pt.load, pt.speed, pt.tilt, pt.oil_temperature)
         return result_from(
-            self.params, tuple(pt), fidelity, self.nodes, state, self.work, Status.OK, 1.0, False,
+            self.params, point, fidelity, self.nodes, state, self.work, Status.OK, 1.0, False,
             ERRORS[fidelity],
         )  # fmt: skip
 
@@ -170,7 +185,9 @@ def load_curve(
         walker.to(step_down(walker.m, walker.walk[S], FINEST))
         places.append(float(walker.walk[S]))
         points.append(walker.result(fidelity))
-        if (points[-1].load > points[-2].load) != rising:
+        noise = 1e-6 * points[-2].load + 1e-3
+        gain = points[-1].load - points[-2].load
+        if gain < -noise if rising else gain > noise:
             rising = not rising
             kind = "film_regained" if rising else "film_lost"
             folds.append(walker.fold(kind, places[max(-3, -len(places))], places[-1]))

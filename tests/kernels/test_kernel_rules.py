@@ -1,0 +1,151 @@
+"""What keeps the kernels fit for compilation ahead of time: read from their sources."""
+
+import ast
+import inspect
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import thrustwasher.kernels
+from thrustwasher.errors import Status
+from thrustwasher.kernels import (
+    washer_branch,
+    washer_curve,
+    washer_model,
+    washer_newton,
+    washer_solve,
+    washer_step,
+)  # fmt: skip
+
+FOLDER = Path(inspect.getfile(thrustwasher.kernels)).parent
+FILES = sorted(f for f in FOLDER.glob("*.py") if f.name not in ("_jit.py", "__init__.py"))
+ARRAY_METHODS = {
+    "append", "astype", "copy", "dot", "fill", "max", "mean", "min", "ravel", "reshape", "sum", "T",
+}  # fmt: skip
+FORBIDDEN = (
+    ast.Raise, ast.Try, ast.With, ast.List, ast.Dict, ast.Set, ast.ListComp, ast.DictComp,
+    ast.SetComp, ast.GeneratorExp, ast.JoinedStr, ast.Lambda, ast.Yield, ast.Global, ast.Import,
+    ast.ImportFrom, ast.Assert, ast.MatMult,
+)  # fmt: skip
+
+
+def kernels_of(path):
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.FunctionDef):
+            names = {d.id for d in node.decorator_list if isinstance(d, ast.Name)}
+            if names & {"kernel", "inlined"}:
+                yield node
+
+
+def body_nodes(function):
+    """Walk what is compiled: neither annotations nor the docstring."""
+    for statement in function.body:
+        yield from ast.walk(statement)
+
+
+def refused(function):
+    for node in body_nodes(function):
+        where = getattr(node, "lineno", 0)
+        if isinstance(node, FORBIDDEN):
+            yield where, type(node).__name__
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            if node.value.id == "np" and node.attr not in ("uintp", "log"):
+                yield where, f"np.{node.attr}"
+            elif node.value.id == "math" and node.attr == "gamma":
+                yield where, "math.gamma"
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            if node.func.id in ("print", "list", "dict", "set", "sorted", "sum", "open"):
+                yield where, node.func.id
+        elif isinstance(node, ast.While) and isinstance(node.test, ast.Constant):
+            yield where, "loop without an end"
+        elif isinstance(node, ast.Assign):
+            for target in node.targets:
+                if isinstance(target, ast.Subscript) and isinstance(target.slice, ast.Slice):
+                    yield where, "assignment to a slice"
+        if (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Attribute)
+            and node.func.attr in ARRAY_METHODS
+        ):
+            yield where, f"method {node.func.attr}"
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda f: f.stem)
+def test_imports_are_numbers_only(path):
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            assert {a.name for a in node.names} <= {"math", "numpy", "numba"}
+        elif isinstance(node, ast.ImportFrom):
+            own = node.level == 1
+            assert own or node.module in ("typing", "numpy.typing", "numba", "__future__")
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda f: f.stem)
+def test_kernels_allocate_nothing_and_never_raise(path):
+    found = [(f.name, *hit) for f in kernels_of(path) for hit in refused(f)]
+    assert found == []
+
+
+def test_the_check_itself_sees_what_it_should():
+    bad = """
+@kernel
+def k(a: NDArray[np.float64]) -> None:
+    b = np.zeros(3)
+    a[0:3] = b
+    c = a.reshape(2, 2)
+    while True:
+        print([1])
+    raise ValueError
+"""
+    function = next(n for n in ast.walk(ast.parse(bad)) if isinstance(n, ast.FunctionDef))
+    kinds = {kind for _, kind in refused(function)}
+    assert kinds == {
+        "np.zeros", "assignment to a slice", "method reshape", "loop without an end", "print",
+        "List", "Raise",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "module",
+    [washer_branch, washer_curve, washer_model, washer_newton, washer_solve, washer_step],
+    ids=lambda m: m.__name__.rsplit(".", 1)[1],
+)
+def test_status_numbers_are_those_of_the_enumeration(module):
+    found = [name for name in Status.__members__ if hasattr(module, name)]
+    assert "OK" in found
+    assert all(getattr(module, name) == Status[name] for name in found)
+
+
+PLAIN = """
+import json
+from thrustwasher import WasherParams, solve_washer
+from thrustwasher.kernels.film import mean_gap, flow_conductance
+from thrustwasher.kernels.roelands import viscosity
+r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, grid=(5, 8), throw=False)
+b = solve_washer(WasherParams(heat_split=0.3), load=900.0, speed=136.0, tilt=0.002, grid=(5, 8),
+                 start=None, throw=False)
+print(json.dumps([
+    r.friction_torque, r.temperature, r.film_ratio, int(r.status), r.iterations, r.branch,
+    b.friction_torque, b.temperature, b.film_ratio, int(b.status), b.iterations, b.branch,
+    *mean_gap(1e-6, 7e-7), *flow_conductance(1e-6, 7e-7), *viscosity(297.15, 6.31e-5, 3.545, 1.053),
+]))
+"""
+
+
+def test_kernels_run_as_plain_python():
+    """The same numbers without compilation, to the last few bits, on the smallest grid."""
+    answers = []
+    for disable in ("1", "0"):
+        environment = {**os.environ, "NUMBA_DISABLE_JIT": disable}
+        run = subprocess.run(
+            [sys.executable, "-c", PLAIN], capture_output=True, text=True, env=environment,
+            timeout=300, cwd=FOLDER.parents[1], check=True,
+        )  # fmt: skip
+        answers.append(json.loads(run.stdout))
+    for plain, compiled in zip(*answers, strict=True):
+        assert plain == (compiled if isinstance(plain, str) else pytest.approx(compiled, rel=1e-8))
+    assert answers[0][3] == answers[0][9] == 0

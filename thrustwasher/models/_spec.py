@@ -21,7 +21,7 @@ class Signal:
     ``kind`` is "real", "boolean", "integer" or "enumeration" (then ``type`` names the enumeration,
     e.g. "Regime", "SolverStatus"). ``start`` is for inputs only. ``depends`` lists the inputs that
     enter an output at once, at the same time point; an output that is an integral of the past
-    has none.
+    has none. ``events``, of a Boolean output, says what happens when it becomes true, then false.
     """
 
     name: str
@@ -35,6 +35,7 @@ class Signal:
     start: float | None = None
     depends: tuple[str, ...] = ()
     relative: bool = False  # a temperature difference, no absolute temperature
+    events: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,3 +64,7 @@ class ModelSpec:
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0
     step_size: float = 1e-3
+    # The reference run: rows of time and all inputs, linear between; none: inputs at their start.
+    course: tuple[tuple[float, ...], ...] = ()
+    # What the solver counts: (text, "module below thrustwasher.kernels:NAME of the place in work").
+    counts: tuple[tuple[str, str], ...] = ()

@@ -82,7 +82,6 @@ SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two side
 OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
              low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
 _POINT = ("load", "speed")
-_ALL = ("load", "speed", "oil_temperature")
 
 SPEC = ModelSpec(
     key="clutch",
@@ -104,7 +103,7 @@ SPEC = ModelSpec(
                help="separation of the mean surfaces of lining and steel"),
         Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_POINT, low=0.0,
                help="largest torque the pack can hold at this load and slip"),
-        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=_POINT,
+        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=("speed",),
                help="coefficient of friction of the contacting faces"),
         Signal(name="film_ratio", unit="1", nominal=1.0, depends=("load",),
                help="film thickness over the combined RMS roughness"),
@@ -115,17 +114,24 @@ SPEC = ModelSpec(
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_POINT,
                help="lubrication regime of the friction faces"),
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-               depends=_ALL, help="how the last solution was obtained"),
+               depends=_POINT, help="how the last solution was obtained"),
     ),
     kernel="clutch_step",
     terminals=(
-        Terminal(name="shaft", kind="thrustwasher.ClutchFlange",
-                 help="Slip speed and load in, friction torque out",
+        Terminal(name="shaft", kind="thrustwasher.PackFlange",
+                 help="Slip speed and load in, friction torque out (coupling torque)",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
-                          ("load", "load", "signal"), ("torque_capacity", "capacity", "signal"))),
+                          ("load", "load", "signal"))),
+        Terminal(name="shaft_capacity", kind="thrustwasher.PackFlange",
+                 help="Slip speed and load in, torque capacity out (coupling capacity)",
+                 members=(("speed", "w", "signal"), ("torque_capacity", "tau", "inflow"),
+                          ("load", "load", "signal"))),
         Terminal(name="oil", kind="thrustwasher.HeatPort",
                  help="Oil temperature in, friction power out",
                  members=(("oil_temperature", "T", "signal"),
                           ("friction_power", "Q_flow", "outflow"))),
     ),
+    # An engagement: the force rises, the slip falls to zero, then the pack holds.
+    course=((0.0, 0.0, 120.0, 320.0), (0.2, 5000.0, 120.0, 320.0), (0.7, 5000.0, 0.0, 320.0),
+            (1.0, 4000.0, 0.0, 320.0)),
 )  # fmt: skip

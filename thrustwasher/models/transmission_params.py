@@ -79,6 +79,7 @@ INPUTS = (
            low=0.0, high=1.0, nominal=1.0, start=0.0),
 )  # fmt: skip
 _TORQUES = tuple(signal.name for signal in INPUTS[:4])
+_PACKS = _TORQUES[:2]  # drag decides only who holds a clutch beyond its capacity, not how much
 _COMMAND = ("shift_command",)
 
 OUTPUTS = (
@@ -96,7 +97,7 @@ OUTPUTS = (
     _out("ring_speed", "rad/s", 100.0, "speed of ring and drum"),
     _out("drive_torque", "N.m", 100.0, "torque of the engine now"),
     _out("resistance_torque", "N.m", 100.0, "torque of the load now"),
-    _out("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _TORQUES),
+    _out("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _PACKS),
     _out("brake_reaction", "N.m", 100.0, "torque the brake really holds", _TORQUES),
     _out("sun_torque", "N.m", 100.0, "torque in the sun's teeth", _TORQUES),
     _out("drag_torque", "N.m", 1.0, "drag of all washers and meshes at the sun", _TORQUES),
@@ -117,9 +118,11 @@ OUTPUTS = (
     _out("release_time", "s", 1.0, "time the brake last broke away (-1: it never did)"),
     _out("oil_supply_temperature", "K", 300.0, "temperature of the oil sent to every part"),
     Signal(name="clutch_locked", unit="1", kind="boolean", depends=_TORQUES,
-           help="the clutch sticks, its slip is exactly zero"),
+           help="the clutch sticks, its slip is exactly zero",
+           events=("clutch locked", "clutch broke away")),
     Signal(name="brake_locked", unit="1", kind="boolean", depends=_TORQUES,
-           help="the brake sticks, the ring stands still"),
+           help="the brake sticks, the ring stands still",
+           events=("brake locked", "brake broke away")),
     Signal(name="events", unit="1", kind="integer",
            help="lock-ups and break-aways located so far"),
     Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
@@ -145,10 +148,18 @@ SPEC = ModelSpec(
                  help="Slip speed and load of the brake out, its torque in",
                  members=(("brake_speed", "w", "signal"), ("brake_torque", "tau", "inflow"),
                           ("brake_load", "load", "signal"))),
+        Terminal(name="mesh", kind="thrustwasher.MeshFlange",
+                 help="Speed and torque of a planet in the sun mesh out, its friction torque in",
+                 members=(("mesh_speed", "w", "signal"), ("mesh_torque", "tau", "inflow"),
+                          ("mesh_load", "load", "signal"))),
         Terminal(name="washer", kind="thrustwasher.WasherFlange",
                  help="Speed, load and tilt of one washer out, its torque in",
                  members=(("washer_speed", "w", "signal"), ("washer_torque", "tau", "inflow"),
                           ("washer_load", "load", "signal"), ("washer_tilt", "tilt", "signal"))),
     ),
-    stop_time=2.5,
+    stop_time=1.0,
+    # An upshift: the brake lets go while the clutch takes over and locks.
+    course=((0.0, 0.0, 400.0, 0.05, 0.2, 0.0), (0.2, 0.0, 400.0, 0.05, 0.2, 0.0),
+            (0.5, 150.0, 0.0, 0.05, 0.2, 0.6), (0.7, 300.0, 0.0, 0.05, 0.2, 1.0),
+            (1.0, 300.0, 0.0, 0.05, 0.2, 1.0)),
 )  # fmt: skip

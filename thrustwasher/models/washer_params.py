@@ -131,7 +131,8 @@ SPEC = ModelSpec(
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
                help="lubrication regime of the loaded film"),
         Signal(name="distress", unit="1", kind="boolean", depends=_ALL,
-               help="film lost, or more than 200 K mean rise"),
+               help="film lost, or more than 200 K mean rise",
+               events=("film lost, or more than 200 K mean rise", "film regained")),
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                depends=_ALL, help="how the last solution was obtained"),
     ),
@@ -146,4 +147,9 @@ SPEC = ModelSpec(
                  members=(("oil_temperature", "T", "signal"),
                           ("friction_power", "Q_flow", "outflow"))),
     ),
+    step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed
+    course=((0.0, 100.0, 545.0, 2e-3, 297.15), (0.6, 400.0, 545.0, 2e-3, 310.0),
+            (1.0, 200.0, 300.0, 1.5e-3, 310.0)),
+    counts=(("Newton iterations", "washer_newton:ITERATIONS"),
+            ("heat factors made", "washer_newton:FACTORED")),
 )  # fmt: skip

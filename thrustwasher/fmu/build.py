@@ -12,6 +12,7 @@ from . import archive, xml
 from .icon import icon
 from .interface import all_specs, enumerations, find_spec, variables
 from .page import page
+from .reference import reference_files
 from .registry import content_digest, package_version
 from .terminals import terminals_and_icons
 
@@ -99,6 +100,7 @@ def contents(spec: ModelSpec, *, sources: Path) -> dict[str, bytes]:
         "documentation/index.html": page(spec, guid=guid, equations=equations).encode(),
         "documentation/externalDependencies.txt": needs.encode(),
         **_licenses(),
+        **reference_files(spec),
         f"resources/{module}.py": slave.encode(),
         "resources/slavemodule.txt": module.encode(),
         **_pythonfmu(spec.name),

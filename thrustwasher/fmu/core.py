@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ..models._spec import ModelSpec
 from .interface import Variable, enumerations, variables
-from .registry import content_digest, load_kernel
+from .registry import content_digest, count_places, load_kernel
 from .snapshot import Snapshot
 
 
@@ -51,6 +51,11 @@ class Core:
         self.latch = 0  # the failure to be seen in solver_status until something changes
         self._unsolved = ""  # why the present outputs cannot be had
         self.refused: dict[int, str] = {}  # variables whose last value was not taken over
+        self.events: list[str] = []  # what happened in the last step
+        events = {signal.name: signal.events for signal in spec.outputs if signal.events}
+        self._switches = [(v.slot, events[v.name]) for v in self.variables if v.name in events]
+        self._seen = [0 for _ in self._switches]  # at the last communication point
+        self._counts = count_places(spec)
         for v in self.variables:
             if v.start is not None:
                 self._arrays[v.store][v.slot] = v.start
@@ -179,7 +184,7 @@ class Core:
             raise ParameterError(
                 f"a step is not allowed while {self.mode.name.lower()}; initialize first"
             )
-        if not (0.0 < h < np.inf and -np.inf < t < np.inf):
+        if not (0.0 < h < np.inf and -np.inf < t + h < np.inf):
             self.latch = Status.BAD_INPUT
             raise ParameterError(f"step from t = {t!r} s by {h!r} s, allowed: finite, step > 0")
         if self.refused:
@@ -193,6 +198,24 @@ class Core:
             self.time, self.latch = before, rc
             raise SolveError(self._story(rc, f"t = {t:g} s, step {h:g} s"))
         self.time, self.dirty, self.latch, self._unsolved = t + h, False, 0, ""
+        if self._switches:
+            self.events = self.note_switches()
+
+    def note_switches(self) -> list[str]:
+        """Return one sentence for each event since the last communication point."""
+        seen, self._seen = self._seen, [self.iout.item(slot) for slot, _ in self._switches]
+        pairs = zip(self._switches, seen, self._seen, strict=True)
+        return [
+            f"{self.spec.name} at t = {self.time:g} s: {texts[0 if now else 1]}; {self._point()}"
+            for (_, texts), before, now in pairs
+            if now != before
+        ]
+
+    @property
+    def effort(self) -> str:
+        """What the last solve took, "" if the model's solver counts nothing."""
+        counted = [f"{text}: {self.work.item(place):g}" for text, place in self._counts]
+        return f"{self.spec.name} at t = {self.time:g} s, " + ", ".join(counted) if counted else ""
 
     def _solve(self, h: float) -> int:
         """Call the kernel; after a failure ``state`` and the outputs are what they were."""
@@ -209,9 +232,14 @@ class Core:
         return int(rc)
 
     def _story(self, rc: int, where: str) -> str:
-        values = zip(self.spec.inputs, self.inp.tolist(), strict=True)
-        point = ", ".join(f"{s.name} = {x:g} {s.unit}".removesuffix(" 1") for s, x in values)
+        point = self._point(show=())
         return f"{self.spec.name} at {where}, {point}: {Status(rc).name}: {Status(rc).advice}"
+
+    def _point(self, show: tuple[str, ...] = ("film_ratio", "engine_speed")) -> str:
+        """Return the inputs in words, and those of the outputs in ``show`` that there are."""
+        wanted = [v for v in self.variables if v.causality == "input" or v.name in show]
+        values = [(v, self._value(v)) for v in wanted]
+        return ", ".join(f"{v.name} = {x:g} {v.unit}".removesuffix(" 1") for v, x in values)
 
     @property
     def status(self) -> Status:
@@ -227,22 +255,30 @@ class Core:
             identity=content_digest(self.spec), par=self.par.copy(), inp=self.inp.copy(),
             state=self.state.copy(), out=self.out.copy(), iout=self.iout.copy(), time=self.time,
             mode=int(self.mode), dirty=self.dirty, prepared=self.prepared, latch=int(self.latch),
+            refused=np.array(sorted(self.refused), np.int32), seen=np.array(self._seen, np.int32),
         )  # fmt: skip
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot of this model and version, or raise ParameterError."""
         names = ("par", "inp", "state", "out", "iout")
         mine = content_digest(self.spec)
-        if snapshot.identity != mine or any(
-            getattr(snapshot, n).shape != getattr(self, n).shape for n in names
+        if (
+            snapshot.identity != mine
+            or any(getattr(snapshot, n).shape != getattr(self, n).shape for n in names)
+            or len(snapshot.seen) != len(self._seen)
         ):
             raise ParameterError(
                 f"FMU state of another model or version ({snapshot.identity}), "
                 f"allowed: {self.spec.name} {mine}"
             )
+        refused = {
+            r: f"{self.variables[r].name} was refused before this state was saved; set it again"
+            for r in snapshot.refused.tolist()
+        }
         for name in names:
             getattr(self, name)[:] = getattr(snapshot, name)
         self.time, self.mode = snapshot.time, Mode(snapshot.mode)
         self.dirty, self.prepared = snapshot.dirty, snapshot.prepared
         self.latch, self._unsolved = snapshot.latch, ""
-        self.refused.clear()
+        self._seen, self.events = snapshot.seen.tolist(), []
+        self.refused = refused

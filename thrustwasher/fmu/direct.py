@@ -57,6 +57,7 @@ class DirectInstance:
         self.core.prepare()
         self.core.mode = Mode.STEPPING
         self.core.refresh()
+        self.core.note_switches()
         self.initialize_time = perf_counter() - start
 
     def set_inputs(self, values: Sequence[float]) -> None:

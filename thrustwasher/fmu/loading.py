@@ -7,13 +7,17 @@ import platform
 import shutil
 import sys
 import tempfile
+import time
 import zipfile
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from ..errors import EnvironmentProblem, ParameterError
 
+KEPT = 20  # unpacked FMUs
+IN_USE = 86400.0  # s; a folder used within this time may be open in another process
 WARNING = 1  # fmi2Warning; what is above carries the reason of a failure
 
 
@@ -22,7 +26,14 @@ def unpack(path: str | os.PathLike[str]) -> Path:
     file = Path(path)
     if not file.is_file():
         raise ParameterError(f"FMU = {str(file)!r}, allowed: an existing file; build it first")
-    return _unpacked(str(file.resolve()), file.stat().st_mtime_ns, file.stat().st_size)
+    named = str(file.resolve()), file.stat().st_mtime_ns, file.stat().st_size
+    folder = _unpacked(*named)
+    if not (folder / "modelDescription.xml").is_file():  # somebody emptied the cache
+        _unpacked.cache_clear()
+        folder = _unpacked(*named)
+    with suppress(OSError):
+        os.utime(folder)  # the time of the last use
+    return folder
 
 
 @cache
@@ -45,8 +56,24 @@ def _unpacked(path: str, _changed: int, _size: int) -> Path:
         except OSError:
             if not (folder / "modelDescription.xml").is_file():
                 raise
+        prune(home)
     shutil.rmtree(part, ignore_errors=True)
     return folder
+
+
+def prune(home: Path) -> None:
+    """Remove folders that were not used for a day, except the ``KEPT`` used last."""
+    used = []
+    for folder in home.iterdir():
+        with suppress(OSError):  # another process prunes too
+            if folder.is_dir():
+                used.append((folder.stat().st_mtime, folder))
+    for last, folder in sorted(used, reverse=True)[KEPT:]:
+        if time.time() - last > IN_USE:
+            gone = folder.with_name(f".{folder.name}.{os.getpid()}")
+            with suppress(OSError):
+                folder.rename(gone)  # nobody finds half a folder
+                shutil.rmtree(gone, ignore_errors=True)
 
 
 @cache

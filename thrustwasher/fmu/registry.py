@@ -67,6 +67,15 @@ def load_kernel(name: str) -> Kernel:
     return Kernel(k.derive, k.step, *sizes)
 
 
+def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
+    """Return (text, place in ``work``) of everything the model's solver counts."""
+    found = [(text, *where.split(":")) for text, where in spec.counts]
+    return tuple(
+        (text, int(getattr(importlib.import_module(_module(module)), name)))
+        for text, module, name in found
+    )
+
+
 def _module(kernel: str) -> str:
     return kernel if "." in kernel else f"thrustwasher.kernels.{kernel}"
 

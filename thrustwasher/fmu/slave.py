@@ -15,13 +15,14 @@ import sys
 import traceback
 from collections.abc import Callable
 from functools import wraps
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
-from ..errors import EnvironmentProblem, ParameterError, SolveError, Status
+from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, SolveError, Status
 from .core import Core, Mode
 from .registry import content_digest, find_spec, package_version
 from .snapshot import Snapshot, from_bytes
@@ -57,11 +58,12 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         spec = find_spec(self.model)
         _settle_library(self.resources, spec.name)
         if type(self).digest != content_digest(spec):
+            theirs, ours = type(self).version, package_version()
+            cure = "" if theirs == ours else f"pip install thrustwasher=={theirs}, or "
             problem = EnvironmentProblem(
-                f"{spec.name}: this FMU was built with thrustwasher {type(self).version} "
-                f"(content {type(self).digest}), this Python has {package_version()} (content "
-                f"{content_digest(spec)}): pip install thrustwasher=={type(self).version}, or "
-                "build the FMU again"
+                f"{spec.name}: this FMU was built with thrustwasher {theirs} (content "
+                f"{type(self).digest}), this Python has {ours} (content {content_digest(spec)}): "
+                f"{cure}build the FMU again"
             )
             # pythonfmu drops this message if the host has not switched logging on
             logging.getLogger("thrustwasher").error("%s", problem)
@@ -76,7 +78,10 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
     ) -> None:
         """Keep the start time."""
-        self.core.time = float(start_time)
+        start = float(start_time)
+        if not isfinite(start):
+            raise ParameterError(f"start time = {start!r} s, allowed: a finite number")
+        self.core.time = start
 
     @_safe
     def enter_initialization_mode(self) -> None:
@@ -89,6 +94,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         self.core.mode = Mode.STEPPING
         self.core.prepare()
         self.core.refresh()
+        self.core.note_switches()  # how a run starts is no event
         self._warn()
 
     @_safe
@@ -99,6 +105,11 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             self.tell(f"step from t = {current_time:g} s, but the last one ended at "
                       f"{expected:g} s; the host's time counts", Fmi2Status.warning)  # fmt: skip
         self.core.advance(current_time, step_size)
+        for event in self.core.events:
+            self.tell(event, Fmi2Status.ok, "logEvents")
+        effort = self.core.effort
+        if effort:
+            self.tell(effort, Fmi2Status.ok, "logNonlinearSystems")
         self._warn()
         return True
 
@@ -202,7 +213,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     def _warn(self) -> None:
         """Warn once when the solution begins to need care."""
         status = self.core.status
-        if status != self.warned and status != Status.OK:
+        if status != self.warned and Status.OK < status < FIRST_FAILURE:
             self.tell(f"{self.core.spec.name} at t = {self.core.time:g} s: {status.name}: "
                       f"{status.advice}", Fmi2Status.warning, "logStatusWarning")  # fmt: skip
         self.warned = status

@@ -27,9 +27,8 @@ CAPABILITIES = {
 LOG_CATEGORIES = {
     "logStatusWarning": "Results that need care, such as distress or too hot",
     "logStatusError": "Refused values and failed steps, with the reason",
-    "logStatusFatal": "Defects of the program",
-    "logNonlinearSystems": "Iterations and substeps of the solver",
-    "logEvents": "Film lost or regained, lock and break-away",
+    "logNonlinearSystems": "What the solver took in each step",
+    "logEvents": "Film lost or regained, lock and break-away: once each",
     "logAll": "Everything, also tracebacks of defects",
 }
 MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
@@ -71,18 +70,31 @@ def description(spec: ModelSpec, *, guid: str) -> Element:
     _units(root, found)
     _types(root, spec, found)
     categories = SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
+    for name, text in log_categories(spec).items():
         SubElement(categories, "Category", {"name": name, "description": text})
-    stop = min(spec.stop_time, MOST_STEPS * spec.step_size)
+    stop, step = default_experiment(spec)
     SubElement(root, "DefaultExperiment", {
         "startTime": "0.0", "stopTime": _number(stop), "tolerance": "1e-06",
-        "stepSize": _number(spec.step_size),
+        "stepSize": _number(step),
     })  # fmt: skip
     listed = SubElement(root, "ModelVariables")
     for v in found:
         _variable(listed, v)
     _structure(root, found)
     return root
+
+
+def default_experiment(spec: ModelSpec) -> tuple[float, float]:
+    """Return (stop time, step size) [s]; the start time is 0."""
+    return min(spec.stop_time, MOST_STEPS * spec.step_size), spec.step_size
+
+
+def log_categories(spec: ModelSpec) -> dict[str, str]:
+    """Return the categories this model sends messages in."""
+    silent = set() if spec.counts else {"logNonlinearSystems"}
+    if not any(signal.events for signal in spec.outputs):
+        silent.add("logEvents")
+    return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}
 
 
 def text(root: Element) -> bytes:

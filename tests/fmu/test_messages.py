@@ -1,0 +1,126 @@
+"""What the host is told: events once, advice once per change, counts on request, errors always."""
+
+import ctypes
+
+import pytest
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+
+from thrustwasher.errors import Status
+from thrustwasher.fmu.interface import all_specs
+from thrustwasher.fmu.xml import log_categories
+
+OK, WARNING, ERROR = 0, 1, 3
+H = 1e-3
+
+
+class Listener:
+    """An FMU in FMPy that keeps what it logs as (status, category, text)."""
+
+    def __init__(self, path, folder, logging=True):
+        self.said = []
+        described = read_model_description(str(path))
+        self.references = {v.name: v.valueReference for v in described.modelVariables}
+        unpacked = extract(str(path), str(folder))
+        self.fmu = FMU2Slave(guid=described.guid, unzipDirectory=unpacked, instanceName="heard",
+                             modelIdentifier=described.coSimulation.modelIdentifier)  # fmt: skip
+        callbacks = fmi2CallbackFunctions()
+        callbacks.logger = fmi2CallbackLoggerTYPE(self.hear)
+        callbacks.allocateMemory = defaultCallbacks.allocateMemory
+        callbacks.freeMemory = defaultCallbacks.freeMemory
+        self.fmu.instantiate(callbacks=callbacks, loggingOn=logging)
+
+    def hear(self, _, _name, status, category, text):
+        self.said.append((status, category.decode(), text.decode()))
+
+    def begin(self, **inputs):
+        self.fmu.setupExperiment()
+        self.fmu.enterInitializationMode()
+        self.set(**inputs)
+        self.fmu.exitInitializationMode()
+
+    def set(self, **inputs):
+        self.fmu.setReal([self.references[name] for name in inputs], list(inputs.values()))
+
+    def only(self, *names):
+        array = (ctypes.c_char_p * len(names))(*[name.encode() for name in names])
+        self.fmu.fmi2SetDebugLogging(self.fmu.component, 1, len(names), array)
+
+    def heard(self, category):
+        return [text for _, kind, text in self.said if kind == category]
+
+
+@pytest.fixture
+def listen(fmus, tmp_path):
+    made = []
+
+    def open_(name, **options):
+        made.append(Listener(fmus[name], tmp_path / str(len(made)), **options))
+        return made[-1]
+
+    yield open_
+    for listener in made:
+        listener.fmu.freeInstance()
+
+
+def test_the_washer_tells_once_when_the_film_is_lost_and_once_when_it_is_back(listen):
+    washer = listen("ThrustWasher")
+    washer.begin(load=600.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
+    for i, load in enumerate([600, 700, 800, 900, 900, 900, 700, 500, 300, 300, 300]):
+        washer.set(load=float(load))
+        washer.fmu.doStep(i * H, H)
+    lost, regained = washer.heard("logEvents")
+    assert "film lost" in lost and "film regained" in regained
+    assert all("load = " in text and "film_ratio = " in text for text in (lost, regained))
+    warnings = washer.heard("logStatusWarning")
+    assert len(warnings) == 1 and Status.DISTRESS.advice in warnings[0]
+    assert len(washer.heard("logNonlinearSystems")) == 11
+    assert "Newton iterations: " in washer.heard("logNonlinearSystems")[0]
+
+
+def test_the_transmission_tells_each_lock_and_each_break_away(listen):
+    shift = listen("ShiftTransmission")
+    shift.begin(clutch_torque=0.0, brake_torque=400.0, shift_command=0.0)
+    for i in range(1000):
+        t = i * H
+        shift.set(clutch_torque=600.0 * min(t, 0.5), brake_torque=max(0.0, 400.0 - 1000.0 * t))
+        shift.fmu.doStep(t, H)
+    texts = [text.split(": ")[1].split(";")[0] for text in shift.heard("logEvents")]
+    assert texts == ["brake broke away", "clutch locked"]
+    assert shift.heard("logNonlinearSystems") == []
+
+
+def test_advice_is_told_once_per_change(listen):
+    washer = listen("ThrustWasher")
+    washer.begin(load=300.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
+    oils = [297.15, 250.0, 250.0, 297.15, 297.15, 250.0]
+    for i, oil in enumerate(oils):
+        washer.set(oil_temperature=oil)
+        washer.fmu.doStep(i * H, H)
+    warnings = washer.heard("logStatusWarning")
+    assert [Status.OUTSIDE_VERIFIED.name in text for text in warnings] == [True, True]
+
+
+def test_a_category_can_be_chosen(listen):
+    washer = listen("ThrustWasher")
+    washer.begin(load=300.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
+    washer.only("logStatusError")
+    washer.fmu.doStep(0.0, H)
+    washer.set(load=float("nan"))
+    assert {kind for _, kind, _ in washer.said} == {"logStatusError"}
+
+
+def test_without_logging_nothing_is_said(listen):
+    clutch = listen("WetClutch", logging=False)
+    clutch.begin(load=float("nan"))
+    assert clutch.said == []
+
+
+def test_every_category_that_is_declared_can_be_heard():
+    declared = {spec.name: set(log_categories(spec)) for spec in all_specs()}
+    always = {"logStatusWarning", "logStatusError", "logAll"}
+    assert declared == {
+        "ThrustWasher": always | {"logEvents", "logNonlinearSystems"},
+        "ShiftTransmission": always | {"logEvents"},
+        "WetClutch": always,
+    }

@@ -23,7 +23,8 @@ TABLES = N_PARAM + N_SCALAR
 MESH = TABLES + 2 * N_TABLE
 N_RADIAL = 5  # arrays over the radial nodes
 N_AROUND = 7  # arrays over the angles
-RADIAL_GRADING = 1.6
+COARSE_GRADING, FINE_GRADING = 1.6, 2.0  # best below and from FINE_FROM radial nodes
+FINE_FROM = 16
 ANGULAR_GRADING = 0.3
 OK, NOT_FINITE, BAD_INPUT = 0, 14, 15  # errors.Status; a test keeps them equal
 
@@ -123,9 +124,10 @@ def _mesh(par: NDArray[np.float64], n_r: int, n_t: int, i_g: int) -> bool:
     ri, ro, rg = par[0], par[1], par[2]
     for i in range(i_g + 1):
         r[i] = ri + (rg - ri) * i / i_g
+    grading = FINE_GRADING if n_r >= FINE_FROM else COARSE_GRADING
     for i in range(i_g, n_r):
         s = (i - i_g) / (n_r - 1 - i_g)
-        r[i] = rg + (ro - rg) * (1.0 - (1.0 - s) ** RADIAL_GRADING)
+        r[i] = rg + (ro - rg) * (1.0 - (1.0 - s) ** grading)
     r[n_r - 1] = ro
     for i in range(n_r):
         face[i] = 0.5 * (r[i] + r[i + 1]) if i + 1 < n_r else ro

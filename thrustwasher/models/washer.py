@@ -89,7 +89,8 @@ def check_point(
     """Return the operating point as floats, or raise ParameterError for the first bad one."""
     values = []
     for signal, value in zip(SPEC.inputs, (load, speed, tilt, oil_temperature), strict=True):
-        low = 1e-3 if signal.name == "load" else float(signal.low or 0.0)
+        # an FMU takes 0 from an unconnected input; here a load is wanted
+        low = 1.0 if signal.name == "load" else float(signal.low or 0.0)
         values.append(check_number(signal.name, value, signal.unit, low, float(signal.high or 0.0)))
     return values[0], values[1], values[2], values[3]
 
@@ -119,7 +120,7 @@ def solve_washer(
     Parameters
     ----------
     params : geometry, surfaces, oil
-    load : axial load [N], 0.001 .. 1e4; below 1 N it counts as 1 N
+    load : axial load [N], 1 .. 1e4
     speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15

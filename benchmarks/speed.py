@@ -1,0 +1,131 @@
+"""What a washer solve costs: warm, cold, curve, import; and where the time of an iteration goes.
+
+python benchmarks/speed.py
+
+One process, one thread; medians over repeats, minima in brackets. Run it on an idle machine.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
+from thrustwasher.kernels import washer_gap, washer_heat, washer_newton
+from thrustwasher.kernels.washer_curve import cold_start
+from thrustwasher.kernels.washer_fields import Point, size_of_work, washer_fields
+from thrustwasher.kernels.washer_film import evaluate_film, film_residual, film_solve
+from thrustwasher.kernels.washer_model import washer_model
+from thrustwasher.models.washer import constants
+
+PARAMS = WasherParams()
+POINTS = [
+    ("full film", 545.0, 300.0), ("full film", 953.0, 300.0), ("transition", 136.0, 320.0),
+    ("transition", 545.0, 700.0), ("boundary", 136.0, 1361.0), ("contact", 545.0, 1200.0),
+    ("contact", 1367.0, 1000.0),
+]  # fmt: skip
+
+
+def timed(work: Callable[[], object], repeats: int) -> tuple[float, float]:
+    """Return median and minimum seconds of a call."""
+    seconds = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        work()
+        seconds.append(time.perf_counter() - start)
+    return statistics.median(seconds), min(seconds)
+
+
+def neighbours(base: WasherResult) -> Callable[[], WasherResult]:
+    """Return a call that solves 1 % above or below ``base``, starting from it."""
+    signs = iter(np.random.default_rng(0).choice((-1.0, 1.0), 1000).tolist())
+
+    def solve() -> WasherResult:
+        load = base.load * (1.0 + 0.01 * next(signs))
+        return solve_washer(PARAMS, load=load, speed=base.speed, tilt=0.002, start=base)
+
+    return solve
+
+
+def solves() -> None:
+    """Print warm and cold solves point by point."""
+    print("| point | cold ms | warm us, load +-1 % | iterations |")
+    print("|---|---|---|---|")
+    warm_all, cold_all = [], []
+    for name, speed, load in POINTS:
+        cold_solve = partial(solve_washer, PARAMS, load=load, speed=speed, tilt=0.002)
+        base = cold_solve()
+        cold = timed(cold_solve, 15)
+        iterations = neighbours(base)().iterations
+        warm = timed(neighbours(base), 400)
+        warm_all.append(warm[0])
+        cold_all.append(cold[0])
+        print(
+            f"| {name}, {speed:g} rad/s, {load:g} N | {1e3 * cold[0]:.1f} ({1e3 * cold[1]:.1f}) "
+            f"| {1e6 * warm[0]:.0f} ({1e6 * warm[1]:.0f}) | {iterations} |"
+        )
+    print(
+        f"\nmedian of points: cold {1e3 * statistics.median(cold_all):.1f} ms, "
+        f"warm {1e6 * statistics.median(warm_all):.0f} us"
+    )
+
+
+def curve() -> None:
+    """Print the cost of whole load curves."""
+    for speed in (136.0, 545.0, 1367.0):
+        load_curve(PARAMS, speed=speed, tilt=0.002)
+        t = timed(partial(load_curve, PARAMS, speed=speed, tilt=0.002), 7)
+        print(f"load curve at {speed:g} rad/s: {t[0]:.3f} s ({t[1]:.3f})")
+
+
+def starts() -> None:
+    """Print the cost of importing and of a first solve in a new process, caches warm."""
+    first = (
+        "import thrustwasher as t; t.solve_washer(t.WasherParams(), load=300, speed=953, "
+        "tilt=0.002)"
+    )
+    for name, code in (
+        ("import thrustwasher", "import thrustwasher"),
+        ("first solve", first),
+        ("bare interpreter", "pass"),
+    ):
+        run = partial(subprocess.run, [sys.executable, "-c", code], check=True)
+        run()
+        t = timed(run, 7)
+        print(f"{name}, new process: {t[0]:.2f} s ({t[1]:.2f})")
+
+
+def profile() -> None:
+    """Print microseconds of the parts of one warm iteration at 545 rad/s, 300 N."""
+    m = washer_model(constants(PARAMS, (10, 32)))
+    f = washer_fields(m, np.zeros(size_of_work(10, 32, True)))
+    pt, q, info = Point(300.0, 545.0, 0.002, 297.15), np.zeros(4), np.zeros(washer_newton.N_INFO)
+    cold_start(m, pt, 13.0, q, f)
+    washer_newton.newton(m, pt, washer_newton.LOAD, 300.0, q, f, -100.0, 1e-9, 40.0, info)
+    empty, _ = timed(lambda: washer_newton.smooth_film(m, q), 2000)
+    parts: list[tuple[str, Callable[[], object]]] = [
+        ("gaps and contact", lambda: washer_gap.evaluate_gaps(m, pt, q, f)),
+        ("viscosity", lambda: washer_gap.evaluate_viscosity(m, pt, f)),
+        ("heat residual", lambda: washer_heat.heat_residual(m, pt, f.temp, f)),
+        ("film conductances", lambda: evaluate_film(m, pt, q, f)),
+        ("film residual", lambda: film_residual(m, f.p, f)),
+        ("heat, back substitution", lambda: washer_heat.solve_heat(m, f.heat, f.dtemp, f)),
+        ("film, five right sides", lambda: film_solve(m, f.p, f)),
+        ("heat, factor (cold only)", lambda: washer_heat.factor_heat(m, pt, f)),
+    ]
+    for name, work in parts:
+        work()
+        print(f"{name}: {1e6 * (timed(work, 2000)[0] - empty):.1f} us")
+
+
+if __name__ == "__main__":
+    solves()
+    curve()
+    starts()
+    profile()

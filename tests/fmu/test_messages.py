@@ -90,6 +90,20 @@ def test_the_transmission_tells_each_lock_and_each_break_away(listen):
     assert shift.heard("logNonlinearSystems") == []
 
 
+def test_a_reading_between_steps_hides_no_event_and_a_restored_state_repeats_it(listen):
+    washer = listen("ThrustWasher")
+    washer.begin(load=300.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
+    washer.fmu.doStep(0.0, H)
+    state = washer.fmu.getFMUstate()
+    for count in (1, 2):
+        washer.set(load=1200.0)
+        assert washer.fmu.getBoolean([washer.references["distress"]]) == [1]
+        washer.fmu.doStep(H, H)
+        assert len(washer.heard("logEvents")) == count
+        washer.fmu.setFMUstate(state)
+    washer.fmu.freeFMUstate(state)
+
+
 def test_advice_is_told_once_per_change(listen):
     washer = listen("ThrustWasher")
     washer.begin(load=300.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)

@@ -1,6 +1,9 @@
 """A running FMU: numbers of the kernels, dependencies, lazy outputs, instances side by side."""
 
+import os
 import random
+import shutil
+import time
 
 import pytest
 from conftest import TOY_START
@@ -9,6 +12,7 @@ from toy.spec import SPEC as TOY
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.core import Core, Mode
 from thrustwasher.fmu.interface import variables
+from thrustwasher.fmu.loading import IN_USE, KEPT, prune
 from thrustwasher.fmu.stepper import DirectInstance, Instance, unpack
 
 H = 1e-3
@@ -157,6 +161,37 @@ def test_an_fmu_is_unpacked_once_per_content(toy_fmu, tmp_path):
     assert unpack(copy) == unpack(toy_fmu)
     with pytest.raises(ParameterError, match="build it first"):
         unpack(tmp_path / "none.fmu")
+
+
+def test_the_cache_keeps_what_is_new_or_among_the_last_used(tmp_path):
+    for i in range(KEPT + 5):
+        folder = tmp_path / f"old-{i:02}"
+        folder.mkdir()
+        (folder / "modelDescription.xml").write_text("")
+        age = (i + 1) * IN_USE if i else 0.0
+        os.utime(folder, (time.time() - age - 60.0,) * 2)
+    for i in range(5):
+        (tmp_path / f"new-{i}").mkdir()
+    prune(tmp_path)
+    left = {p.name for p in tmp_path.iterdir()}
+    assert left == {f"old-{i:02}" for i in range(KEPT - 5)} | {f"new-{i}" for i in range(5)}
+    for folder in tmp_path.iterdir():  # used today: however many, none goes
+        os.utime(folder)
+    for i in range(KEPT):
+        (tmp_path / f"more-{i}").mkdir()
+    prune(tmp_path)
+    assert len(list(tmp_path.iterdir())) == 2 * KEPT
+
+
+def test_an_emptied_cache_is_filled_again(toy_fmu, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    copy = tmp_path / "ToyClutch.fmu"
+    copy.write_bytes(toy_fmu.read_bytes())
+    folder = unpack(copy)
+    assert folder.is_relative_to(tmp_path)
+    shutil.rmtree(folder)
+    assert unpack(copy) == folder and (folder / "modelDescription.xml").is_file()
+    assert [p.name for p in folder.parent.iterdir()] == [folder.name]  # nothing half unpacked
 
 
 def test_the_core_solves_what_the_kernel_solves():

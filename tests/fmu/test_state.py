@@ -6,7 +6,7 @@ import pytest
 from conftest import TOY_START
 from toy.spec import SPEC as TOY
 
-from thrustwasher.errors import ParameterError
+from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.snapshot import HEADER, from_bytes
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
@@ -68,6 +68,21 @@ def test_serialized_bytes_carry_the_run_to_another_process(instance, toy_fmu, tm
     file.write_bytes(instance.serialize(state))
     expected = run(instance, 20, 40)
     assert run_child(CONTINUE, toy_fmu, file) == str(expected)
+
+
+def test_a_refused_value_is_still_missing_in_a_state_that_is_set_again(toy):
+    with pytest.raises(ParameterError):
+        toy.set_inputs([500.0, float("nan"), 300.0])
+    state = toy.get_state()
+    data = toy.serialize(state)
+    toy.set_inputs([500.0, 20.0, 310.0])
+    toy.step(0.0, H)
+    for kept in (state, toy.deserialize(data)):
+        toy.set_state(kept)
+        with pytest.raises((SolveError, ParameterError), match="was refused before"):
+            toy.step(0.0, H)
+        toy.set_inputs([500.0, 20.0, 310.0])
+        toy.step(0.0, H)
 
 
 def test_bytes_are_the_same_for_the_same_state(instance):

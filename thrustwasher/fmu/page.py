@@ -1,15 +1,18 @@
 """documentation/index.html of an FMU: one page without scripts and outside links."""
 
 import base64
+from collections.abc import Sequence
 from html import escape
 
 from ..models._spec import ModelSpec
 from .icon import icon
 from .interface import Variable, enumerations, variables
+from .reference import FOLDER
 from .registry import package_version
 
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60em;margin:2em auto;padding:0 1em;
 color:#263242}table{border-collapse:collapse;width:100%;margin:1em 0}
+td:nth-child(3){min-width:7em}
 th,td{border:1px solid #c4ccd4;padding:.25em .5em;text-align:left;vertical-align:top}
 th{background:#eef1f4}code,pre{background:#f4f6f8}pre{padding:1em;overflow:auto}"""
 
@@ -31,6 +34,10 @@ A step with better input works again.</li>
 <li>Values read after setting an input, without a step, are those at the new input.</li>
 </ul>"""
 
+CHECK = """<p>Simulate the default experiment with the inputs of
+<code>{folder}/{model}_in.csv</code> (linear between the rows, those at the beginning of a step hold
+during it) and compare with <code>{model}_out.csv</code> beside it.</p>"""
+
 
 def page(spec: ModelSpec, *, guid: str, equations: str) -> str:
     """Return the page; ``equations`` is the model's readme, shown as it is."""
@@ -45,6 +52,7 @@ def page(spec: ModelSpec, *, guid: str, equations: str) -> str:
         *_section("Parameters", found, "parameter"),
         "<h2>Enumerations</h2>", _enumerations(spec),
         "<h2>When something goes wrong</h2>", FAILS,
+        "<h2>To check an installation</h2>", CHECK.format(folder=FOLDER, model=spec.name),
         f"<h2>Equations</h2><pre>{escape(equations)}</pre>",
         f"<h2>Origin</h2><p>thrustwasher {escape(package_version())}, GUID {escape(guid)}</p>",
     ]  # fmt: skip
@@ -54,30 +62,32 @@ def page(spec: ModelSpec, *, guid: str, equations: str) -> str:
 
 
 def _section(title: str, found: tuple[Variable, ...], causality: str) -> list[str]:
-    rows = [_row(v) for v in found if v.causality == causality]
-    names = ("name", "unit", "allowed", "start", "meaning")
-    head = "".join(f"<th>{name}</th>" for name in names)
-    return [f"<h2>{title}</h2>", f"<table><tr>{head}</tr>", *rows, "</table>"]
+    shown = [v for v in found if v.causality == causality]
+    if causality == "output":
+        outputs = [(v.name, _unit(v), v.help) for v in shown]
+        return [f"<h2>{title}</h2>", _table(("name", "unit", "meaning"), outputs)]
+    rows = [(v.name, _unit(v), _allowed(v), f"{v.start:g}", v.help) for v in shown]
+    return [f"<h2>{title}</h2>", _table(("name", "unit", "allowed", "start", "meaning"), rows)]
 
 
-def _row(v: Variable) -> str:
-    low = "" if v.low is None else f"{v.low:g}"
-    high = "" if v.high is None else f"{v.high:g}"
-    allowed = f"{low} .. {high}" if low or high else ""
-    if v.type in ("Enumeration", "Boolean"):
-        allowed = v.type_name or v.type
-    start = "" if v.start is None else f"{v.start:g}"
-    cells = (v.name, v.unit, allowed, start, v.help)
-    return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    lines = ["".join(f"<th>{cell}</th>" for cell in head)]
+    lines += ["".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows]
+    return "<table>" + "\n".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
+
+
+def _unit(v: Variable) -> str:
+    return v.unit if v.type == "Real" else v.type_name or v.type
+
+
+def _allowed(v: Variable) -> str:
+    return f"{v.low:g} .. {v.high:g}" if v.low is not None and v.high is not None else ""
 
 
 def _enumerations(spec: ModelSpec) -> str:
-    rows = [
-        f"<tr><td>{name}</td><td>{i.value}</td><td>{escape(i.name)}</td><td>{escape(i.help)}</td></tr>"
-        for name, items in enumerations(spec).items()
-        for i in items
-    ]
-    return "<table>" + "".join(rows) + "</table>"
+    found = enumerations(spec).items()
+    rows = [(name, str(i.value), i.name, i.help) for name, items in found for i in items]
+    return _table(("enumeration", "number", "item", "meaning"), rows)
 
 
 def _wiring(spec: ModelSpec) -> str:
@@ -90,7 +100,10 @@ def _wiring(spec: ModelSpec) -> str:
             "These outputs follow the inputs at once, so that a master with fixed steps sees them "
             f"one step late: {', '.join(through)}."
         )
-    for t in spec.terminals:
-        lines.append(f"Terminal {t.name}: {t.help}.")
     lines.append(f"Suggested step: {spec.step_size:g} s.")
-    return "".join(f"<p>{escape(line)}</p>" for line in lines)
+    plugs = [
+        (t.name, t.kind, ", ".join(f"{member} = {name}" for name, member, _ in t.members), t.help)
+        for t in spec.terminals
+    ]
+    text = "".join(f"<p>{escape(line)}</p>" for line in lines)
+    return text + _table(("terminal", "kind", "members", "meaning"), plugs)

@@ -101,10 +101,10 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance; False (fmi2Discard) after a failure, with everything as it was."""
         expected = self.core.time
+        self.core.advance(current_time, step_size)
         if abs(current_time - expected) > 1e-6 * step_size:
             self.tell(f"step from t = {current_time:g} s, but the last one ended at "
                       f"{expected:g} s; the host's time counts", Fmi2Status.warning)  # fmt: skip
-        self.core.advance(current_time, step_size)
         for event in self.core.events:
             self.tell(event, Fmi2Status.ok, "logEvents")
         effort = self.core.effort

@@ -1,0 +1,83 @@
+"""What an FMU says it can do, it can; what it says it cannot, it refuses."""
+
+import ctypes
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from fmpy import extract, read_model_description
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from lxml import etree
+
+from thrustwasher.fmu.interface import all_specs
+
+NAMES = [spec.name for spec in all_specs()]
+each_model = pytest.mark.parametrize("name", NAMES)
+
+
+@pytest.fixture
+def bare(fmus, tmp_path):
+    """A clutch that is given a logger and nothing else: no allocator, no environment."""
+    path = str(fmus["WetClutch"])
+    described = read_model_description(path)
+    fmu = FMU2Slave(guid=described.guid, unzipDirectory=extract(path, str(tmp_path)),
+                    modelIdentifier="WetClutch")  # fmt: skip
+    callbacks = fmi2CallbackFunctions()
+    callbacks.logger = fmi2CallbackLoggerTYPE(lambda *_: None)
+    fmu.instantiate(callbacks=callbacks)
+    fmu.setupExperiment()
+    fmu.enterInitializationMode()
+    fmu.exitInitializationMode()
+    yield fmu
+    fmu.freeInstance()
+
+
+@each_model
+def test_the_flags_are_these(name, fmus):
+    with zipfile.ZipFile(fmus[name]) as zipped:
+        tree = etree.fromstring(zipped.read("modelDescription.xml"))
+    flags = dict(tree.find("CoSimulation").attrib)
+    assert flags.pop("modelIdentifier") == name
+    true = {flag for flag, said in flags.items() if said == "true"}
+    assert true == {
+        "canHandleVariableCommunicationStepSize",  # test_running: steps may vary
+        "canNotUseMemoryManagementFunctions",  # here: runs without an allocator
+        "canGetAndSetFMUstate", "canSerializeFMUstate",  # test_state, test_models
+    }  # fmt: skip
+    assert {flag for flag, said in flags.items() if said == "false"} == {
+        "needsExecutionTool", "canInterpolateInputs", "canRunAsynchronuously",
+        "canBeInstantiatedOnlyOncePerProcess", "providesDirectionalDerivative",
+    }  # fmt: skip
+    assert flags["maxOutputDerivativeOrder"] == "0"
+
+
+def test_it_runs_without_memory_functions(bare):
+    bare.doStep(0.0, 1e-3)
+    state = bare.getFMUstate()
+    bare.setFMUstate(state)
+    bare.freeFMUstate(state)
+    assert bare.getReal([0]) == [1e-3]
+
+
+def test_what_it_cannot_do_is_not_answered_with_ok(bare):
+    one, real = (ctypes.c_uint * 1)(1), (ctypes.c_double * 1)(1.0)
+    order = (ctypes.c_int * 1)(1)
+    for call in (
+        lambda: bare.fmi2GetDirectionalDerivative(bare.component, one, 1, one, 1, real, real),
+        lambda: bare.fmi2SetRealInputDerivatives(bare.component, one, 1, order, real),
+        lambda: bare.fmi2GetRealOutputDerivatives(bare.component, one, 1, order, real),
+        lambda: bare.fmi2CancelStep(bare.component),
+    ):
+        with pytest.raises(FMICallException):
+            call()
+    bare.doStep(0.0, 1e-3)
+
+
+@each_model
+def test_fmpys_command_line_finds_nothing(name, fmus):
+    command = [Path(sys.executable).parent / "fmpy", "validate", fmus[name]]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout.strip()) == (0, "No problems found."), done.stderr

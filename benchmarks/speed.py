@@ -22,7 +22,7 @@ from thrustwasher.kernels.washer_curve import cold_start
 from thrustwasher.kernels.washer_fields import Point, size_of_work, washer_fields
 from thrustwasher.kernels.washer_film import evaluate_film, film_residual, film_solve
 from thrustwasher.kernels.washer_model import washer_model
-from thrustwasher.models.washer import constants
+from thrustwasher.models.washer_constants import constants
 
 PARAMS = WasherParams()
 POINTS = [

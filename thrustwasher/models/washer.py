@@ -7,7 +7,6 @@ carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +15,10 @@ from ..errors import BranchError, ParameterError, SolveError, Status
 from ..kernels import washer_step as kernel
 from ..kernels.washer_fields import size_of_work
 from ..kernels.washer_memory import Q, size_of_state
-from ..kernels.washer_model import derive_grid, size_of_par
 from ..kernels.washer_newton import ITERATIONS, N_INFO
 from ._buffers import work_array
-from ._params import as_numbers, check_number
+from ._params import check_number
+from .washer_constants import constants
 from .washer_params import SPEC, WasherParams
 from .washer_result import WasherResult
 
@@ -34,33 +33,6 @@ BRANCHES = {"film": 1.0, "contact": 3.0}
 NAMES = {1: "film", 2: "unstable", 3: "contact"}
 LARGEST_GRID = (129, 512)
 N_NUMBERS = N_INFO + kernel.N_FOUND + kernel.N_WALK
-
-
-@lru_cache(maxsize=64)
-def constants(params: WasherParams, grid: tuple[int, int]) -> Array:
-    """Return the kernel's ``par`` for parameters and grid; read only.
-
-    Raises
-    ------
-    ParameterError : the parameters admit no surface or no mesh
-    """
-    par = np.zeros(size_of_par(*grid))
-    numbers = as_numbers(params)
-    par[: len(numbers)] = numbers
-    par[len(numbers)] = 1.0
-    status = Status(derive_grid(par, *grid))
-    if status is Status.BAD_INPUT:
-        raise ParameterError(
-            f"asperity_density x asperity_radius = {params.asperity_density:g} 1/m2 x "
-            f"{params.asperity_radius:g} m leaves no scatter of the summits at roughness = "
-            f"{params.roughness:g} m; raise either, or use asperity_height_law = 'surface'"
-        )
-    if status is not Status.OK:
-        raise ParameterError(
-            "the asperity contact cannot be tabulated for these parameters; check yield_strength, "
-            "youngs_modulus, asperity_radius and asperity_density"
-        )
-    return par
 
 
 def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]:

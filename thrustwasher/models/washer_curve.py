@@ -36,7 +36,8 @@ from ..kernels.washer_newton import N_INFO
 from ..kernels.washer_outputs import MEAN_TEMPERATURE, RATIO, TORQUE, washer_outputs
 from ._buffers import work_array
 from ._params import check_number
-from .washer import ERRORS, check_point, constants, resolve_grid, result_from
+from .washer import ERRORS, check_point, resolve_grid, result_from
+from .washer_constants import constants
 from .washer_params import WasherParams
 from .washer_result import WasherResult
 

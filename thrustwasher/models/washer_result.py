@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Status
+from ..kernels.contact import contact_pressure
 from ..kernels.washer_memory import FIELDS, Q
-from ..kernels.washer_model import washer_model
+from ..kernels.washer_model import WasherModel, washer_model
+from .washer_constants import constants
 from .washer_params import WasherParams
 
 Array = NDArray[np.float64]
@@ -59,8 +61,6 @@ class WasherResult:
 
     def fields(self) -> WasherFields:
         """Return gap, pressures and temperatures over the washer."""
-        from .washer import constants
-
         m = washer_model(constants(self.params, self.grid))
         n_r, n_t = self.grid
         m_t = 3 * n_r - m.i_g
@@ -86,12 +86,9 @@ def film_gap(radius: Array, cos: Array, sin: Array, q: Array) -> Array:
     return np.asarray(q[0] + np.outer(radius, sin * q[2] - cos * q[3]))
 
 
-def contact_field(gap: Array, m: object) -> Array:
+def contact_field(gap: Array, m: WasherModel) -> Array:
     """Return the asperity pressure [Pa] at the gaps of film 1."""
-    from ..kernels.contact import contact_pressure
-
     flat = [
-        contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)[0]  # type: ignore[attr-defined]
-        for h in gap.ravel()
+        contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)[0] for h in gap.ravel()
     ]
     return np.array(flat).reshape(gap.shape)

@@ -62,3 +62,23 @@ def test_the_mesh_knows_both_areas_and_the_full_turn(grid):
     for around in (m.weight_t, m.width_t, m.step_t):
         assert around.sum() == pytest.approx(2.0 * np.pi, rel=1e-14)
     assert m.log_width.sum() == pytest.approx(np.log(RO / RI), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "gear",
+    [
+        0.0156,
+        0.0170,
+        *(
+            pytest.param(x, marks=pytest.mark.xfail(
+                strict=True, reason="always a third of the intervals goes inside the gear"
+            ))
+            for x in (0.0112, 0.0125, 0.0200, 0.0225)
+        ),
+    ],
+)  # fmt: skip
+def test_no_node_counts_negative(gear):
+    """A negative weight makes a heat source a sink and the heat matrix indefinite."""
+    m = bench((10, 32), gear_inner_radius=gear).m
+    assert m.weight1.min() > 0.0
+    assert m.weight2[m.i_g :].min() > 0.0

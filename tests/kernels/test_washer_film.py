@@ -17,7 +17,7 @@ from thrustwasher.reference.thin_wedge import wedge_moment, wedge_pressure
 from washer_setup import BASE, bench, order, tilted  # isort: skip
 
 MU = 0.06
-GRIDS = [(10, 32), (19, 64), (37, 128)]
+GRIDS = [(19, 64), (37, 128), (73, 256)]  # one family: coarse meshes are graded less
 
 
 def at_constant_viscosity(grid, q, pt, **changes):
@@ -64,7 +64,7 @@ def test_parallel_gap_drives_no_flow_at_all():
     assert film_residual(b.m, b.f.p, b.f) == (0.0, 0.0, 0)
 
 
-@pytest.mark.parametrize("grid", GRIDS)
+@pytest.mark.parametrize("grid", [(5, 8), (10, 32), (19, 64)])
 def test_torque_of_a_parallel_film_is_couettes(grid):
     """Spline weights integrate r^3 exactly, on every grid."""
     b = at_constant_viscosity(grid, np.array([1e-5, 2e-5, 0.0, 0.0]), BASE)
@@ -87,7 +87,7 @@ def test_small_tilt_pressure_converges_with_order_two():
         moments.append(abs(moment_about_x(b, p) / wedge_moment(*args) - 1.0))
     assert order(pressures) == pytest.approx([2.0, 2.0], abs=0.2)
     assert order(moments) == pytest.approx([2.0, 2.0], abs=0.2)
-    assert pressures[-1] < 6e-4 and moments[-1] < 6e-4
+    assert pressures[-1] < 2e-4 and moments[-1] < 2e-4
 
 
 def test_a_wide_ring_shows_where_the_faces_are():

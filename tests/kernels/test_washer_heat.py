@@ -67,7 +67,7 @@ def test_an_evenly_heated_stack_is_exact_on_every_grid(grid, split):
 def test_an_annulus_alone_converges_with_order_two():
     """Oil that does not conduct leaves the carrier on its own: Bessel functions."""
     errors = []
-    for grid in ((10, 32), (19, 64), (37, 128)):
+    for grid in ((16, 48), (31, 96)):
         b = bench(grid, heat_split=1.0)
         b = Bench(b.m._replace(oil_conductivity=1e-14), b.f)
         angle = np.arctan2(b.m.sin, b.m.cos)
@@ -77,8 +77,8 @@ def test_an_annulus_alone_converges_with_order_two():
         )
         exact = np.outer(amplitude, np.cos(2.0 * angle))
         errors.append(np.abs(bodies(b)[0] - exact).max() / np.abs(exact).max())
-    assert order(errors) == pytest.approx([2.0, 2.0], abs=0.2)
-    assert errors[-1] < 1e-3
+    assert order(errors) == pytest.approx([2.0], abs=0.15)
+    assert errors[-1] < 1.5e-3
 
 
 @pytest.mark.parametrize("split", [0.5, 0.3])

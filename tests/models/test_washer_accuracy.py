@@ -1,0 +1,113 @@
+"""Accuracy of both grids against grid-converged values, on every kind of operating point.
+
+The converged numbers were worked out on other meshes (up to 129 x 512, extrapolated) than the
+product's; each carries its own uncertainty, far below the tolerances here.
+"""
+
+import itertools
+import math
+
+import pytest
+
+from thrustwasher import WasherParams, load_curve, solve_washer
+
+# load N, speed rad/s, branch; torque N m, film_ratio, temperature degC, fluid load N, gx/gt, gy/gt,
+# friction coefficient
+CONVERGED = {
+    "full film": (300.0, 953.0, "film", 0.2320718, 15.3890, 43.4717, 300.000,
+                  -0.009467, 0.990978, 0.0440443),
+    "transition": (320.0, 136.0, "film", 0.112283, 3.8006, 25.3170, 319.854,
+                   -0.009719, 0.984331, 0.0199780),
+    "boundary": (1361.0, 136.0, "contact", 3.50150, 0.3167, 62.458, 112.371,
+                 -0.005970, 0.839017, 0.146482),
+}  # fmt: skip
+# torque relative, film_ratio, temperature K, fluid load N, tilts over gt
+STATED = {
+    "field": (6e-3, 0.05, 0.1, 1.0, 1e-3),
+    "fine": (1e-3, 0.02, 0.02, 0.3, 2e-4),
+}
+FOLDS = {"film_lost": (775.2, 2.65, 37.06, 0.2787), "film_regained": (441.3, 1.22, 71.9, 1.072)}
+
+
+def solved(name, **choice):
+    load, speed = CONVERGED[name][:2]
+    return solve_washer(WasherParams(), load=load, speed=speed, tilt=0.002, **choice)
+
+
+@pytest.mark.parametrize("name", CONVERGED)
+@pytest.mark.parametrize("fidelity", STATED)
+def test_converged_points_are_met_within_the_stated_error(name, fidelity):
+    _, _, branch, torque, ratio, celsius, fluid, gx, gy, coefficient = CONVERGED[name]
+    d_torque, d_ratio, d_kelvin, d_fluid, d_tilt = STATED[fidelity]
+    r = solved(name, fidelity=fidelity)
+    assert r.branch == branch
+    assert r.friction_torque == pytest.approx(torque, rel=d_torque)
+    assert r.friction_coefficient == pytest.approx(coefficient, rel=d_torque)
+    assert r.film_ratio == pytest.approx(ratio, abs=d_ratio)
+    assert r.temperature - 273.15 == pytest.approx(celsius, abs=d_kelvin)
+    assert r.fluid_load == pytest.approx(fluid, abs=d_fluid)
+    assert r.washer_tilt_x / 0.002 == pytest.approx(gx, abs=d_tilt)
+    assert r.washer_tilt_y / 0.002 == pytest.approx(gy, abs=d_tilt)
+    assert abs(r.friction_torque / torque - 1.0) <= r.error_estimate
+
+
+@pytest.mark.parametrize("name", CONVERGED)
+def test_largest_temperature_is_met_within_a_hundredth_of_its_rise(name):
+    """Maxima converge slowly: 57.241, 27.848, 602.1 degC."""
+    celsius = {"full film": 57.241, "transition": 27.848, "boundary": 602.1}[name]
+    found = solved(name, fidelity="fine").temperature_max - 273.15
+    assert found - 24.0 == pytest.approx(celsius - 24.0, rel=0.01)
+
+
+def test_full_film_torque_goes_to_the_converged_value_with_order_two():
+    """Two meshes of one family: below 16 radial nodes the grading is another."""
+    errors = [
+        abs(solved("full film", grid=grid).friction_torque / CONVERGED["full film"][3] - 1.0)
+        for grid in ((19, 64), (37, 128))
+    ]
+    assert math.log2(errors[0] / errors[1]) > 1.9, errors
+    assert errors[-1] < 5e-5
+
+
+@pytest.mark.parametrize(("fidelity", "tolerance"), [("field", 0.02), ("fine", 0.002)])
+def test_folds_are_where_the_converged_curve_has_them(fidelity, tolerance):
+    curve = load_curve(WasherParams(), speed=545.0, tilt=0.002, fidelity=fidelity)
+    assert [fold.kind for fold in curve.folds] == ["film_lost", "film_regained"]
+    for fold in curve.folds:
+        load, ratio, celsius, torque = FOLDS[fold.kind]
+        assert fold.load == pytest.approx(load, rel=tolerance)
+        assert fold.film_ratio == pytest.approx(ratio, abs=0.05)
+        assert fold.temperature - 273.15 == pytest.approx(celsius, abs=0.1)
+        assert fold.friction_torque == pytest.approx(torque, rel=6e-3)
+
+
+@pytest.mark.parametrize("speed", [953.0, 1367.0])
+def test_default_grid_finds_the_folds_of_the_fine_one(speed):
+    coarse, fine = (
+        load_curve(WasherParams(), speed=speed, tilt=0.002, fidelity=f).folds
+        for f in ("field", "fine")
+    )
+    assert [f.load for f in coarse] == pytest.approx([f.load for f in fine], rel=0.005)
+    assert len(coarse) == 2
+
+
+def test_the_curve_at_136_is_single_valued():
+    for fidelity in STATED:
+        curve = load_curve(WasherParams(), speed=136.0, tilt=0.002, fidelity=fidelity)
+        assert curve.folds == []
+        loads = [p.load for p in curve.points]
+        assert all(b > a for a, b in itertools.pairwise(loads))
+
+
+@pytest.mark.parametrize(("speed", "ratio"), [(136.0, 3.30), (545.0, 3.05), (1367.0, 3.05)])
+def test_friction_is_least_at_a_film_ratio_of_three(speed, ratio):
+    """Where contact begins: 3.03-3.08 at high speed, 3.30 at 136 rad/s."""
+    curve = load_curve(WasherParams(), speed=speed, tilt=0.002)
+    points = [p for p in curve.points if p.film_ratio < 12.0]
+    k = min(range(len(points)), key=lambda i: points[i].friction_coefficient)
+    # vertex of the parabola through three points
+    x = [points[k + i].film_ratio for i in (-1, 0, 1)]
+    y = [points[k + i].friction_coefficient for i in (-1, 0, 1)]
+    d1, d2 = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])
+    vertex = 0.5 * (x[0] + x[1]) - d1 * 0.5 * (x[2] - x[0]) / (d2 - d1)
+    assert vertex == pytest.approx(ratio, abs=0.06)

@@ -1,0 +1,137 @@
+"""The whole curve: its branches, its folds, and what solving at one load says about the same."""
+
+import itertools
+import math
+
+import pytest
+
+from thrustwasher import ParameterError, Status, WasherParams, load_curve, solve_washer
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return load_curve(WasherParams(), speed=545.0, tilt=0.002)
+
+
+def test_points_go_from_thick_to_thin_over_the_whole_range(curve):
+    ratios = [p.film_ratio for p in curve.points]
+    assert all(b < a for a, b in itertools.pairwise(ratios))
+    assert curve.points[0].load <= 20.0 * 1.001 and curve.points[-1].load >= 3000.0
+
+
+def test_branches_follow_each_other_and_meet_at_the_folds(curve):
+    names = [p.branch for p in curve.points]
+    order = [n for i, n in enumerate(names) if i == 0 or n != names[i - 1]]
+    assert order == ["film", "unstable", "contact"]
+    lost, regained = curve.folds
+    assert (lost.kind, regained.kind) == ("film_lost", "film_regained")
+    assert all(p.film_ratio >= lost.film_ratio for p in curve.points if p.branch == "film")
+    assert all(p.film_ratio <= regained.film_ratio for p in curve.points if p.branch == "contact")
+    assert max(p.load for p in curve.points if p.branch == "film") <= lost.load * (1 + 1e-9)
+    assert min(p.load for p in curve.points if p.branch == "contact") >= regained.load * (1 - 1e-9)
+
+
+def test_load_rises_on_stable_branches_and_falls_between(curve):
+    for name, sign in (("film", 1), ("unstable", -1), ("contact", 1)):
+        loads = [p.load for p in curve.points if p.branch == name]
+        assert all(sign * (b - a) > 0.0 for a, b in itertools.pairwise(loads))
+
+
+def test_every_point_is_a_solution(curve):
+    for p in curve.points:
+        assert p.status is Status.OK
+        assert p.fluid_load + p.contact_load == pytest.approx(p.load, rel=1e-6)
+        assert p.temperature_max >= p.temperature >= p.oil_temperature
+        assert p.distress == (p.branch == "contact" or p.temperature - 297.15 > 200.0)
+
+
+def test_solving_at_a_points_load_gives_the_point(curve):
+    for branch in ("film", "contact"):
+        points = [p for p in curve.points if p.branch == branch][1:-1:4]
+        assert len(points) >= 3
+        for p in points:
+            r = solve_washer(WasherParams(), load=p.load, speed=545.0, tilt=0.002, branch=branch)
+            assert r.friction_torque == pytest.approx(p.friction_torque, rel=1e-5)
+            assert r.film_ratio == pytest.approx(p.film_ratio, abs=1e-3)
+
+
+def test_a_point_serves_as_start(curve):
+    p = next(p for p in curve.points if p.branch == "contact" and p.load > 500.0)
+    r = solve_washer(WasherParams(), load=p.load, speed=545.0, tilt=0.002, start=p)
+    assert r.branch == "contact" and r.film_ratio == pytest.approx(p.film_ratio, abs=1e-4)
+
+
+def loads_around_jump(loads, start):
+    """Follow a list of loads from a result; return the loads before and after the jump."""
+    r = start
+    for load in loads:
+        before = r
+        r = solve_washer(WasherParams(), load=load, speed=545.0, tilt=0.002, start=r)
+        if abs(r.film_ratio - before.film_ratio) > 0.5:
+            return before.load, r.load, r
+    raise AssertionError("no jump")
+
+
+def test_stepping_the_load_jumps_at_the_folds_and_the_loop_closes(curve):
+    lost, regained = (fold.load for fold in curve.folds)
+    first = solve_washer(WasherParams(), load=740.0, speed=545.0, tilt=0.002)
+    ups = [740.0 + k for k in range(1, 60)]
+    below, above, r = loads_around_jump(ups, first)
+    assert below <= lost <= above
+    assert r.branch == "contact" and r.distress
+    downs = [500.0, *(470.0 - k for k in range(60))]
+    above, below, r = loads_around_jump(downs, r)
+    assert below <= regained <= above
+    assert r.branch == "film" and not r.distress
+    back = solve_washer(WasherParams(), load=740.0, speed=545.0, tilt=0.002, start=r)
+    assert back.film_ratio == pytest.approx(first.film_ratio, abs=1e-4)
+    assert back.friction_torque == pytest.approx(first.friction_torque, rel=1e-5)
+
+
+@pytest.mark.parametrize("kind", ["film_lost", "film_regained"])
+def test_bisection_in_load_finds_the_fold_of_the_continuation(curve, kind):
+    """Within 0.01 N on the same grid."""
+    fold = next(f for f in curve.folds if f.kind == kind)
+    there, gone = (-1.0, 1.0) if kind == "film_lost" else (1.0, -1.0)
+    branch = "film" if kind == "film_lost" else "contact"
+    for _ in range(12):
+        middle = 0.5 * (there + gone)
+        r = solve_washer(WasherParams(), load=fold.load + middle, speed=545.0, tilt=0.002,
+                         branch=branch, throw=False)  # fmt: skip
+        assert r.status in (Status.OK, Status.NO_BRANCH)
+        if r.status is Status.OK:
+            there = middle
+        else:
+            gone = middle
+    assert abs(there) < 0.01 and abs(gone) < 0.01
+
+
+def test_folds_are_the_same_turning_back():
+    forth, back = (load_curve(WasherParams(), speed=s, tilt=0.002).folds for s in (700.0, -700.0))
+    for a, b in zip(forth, back, strict=True):
+        assert b.load == pytest.approx(a.load, rel=1e-6)
+        assert b.friction_torque == pytest.approx(-a.friction_torque, rel=1e-5)
+
+
+def test_less_film_heat_moves_the_fold_to_higher_loads(curve):
+    loads = [
+        load_curve(WasherParams(film_heat_fraction=x), speed=545.0, tilt=0.002).folds[0].load
+        for x in (0.3, 0.6)
+    ]
+    assert loads[0] > loads[1] > curve.folds[0].load
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"speed": math.nan}, "speed"),
+        ({"tilt": -1.0}, "tilt"),
+        ({"load_min": 0.0}, "load_min"),
+        ({"load_min": 500.0, "load_max": 400.0}, "load_max"),
+        ({"grid": (3, 3)}, "grid"),
+        ({"fidelity": "rough"}, "fidelity"),
+    ],
+)
+def test_bad_input_is_named(change, named):
+    with pytest.raises(ParameterError, match=named):
+        load_curve(WasherParams(), **{"speed": 545.0, "tilt": 0.002, **change})

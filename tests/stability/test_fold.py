@@ -1,0 +1,57 @@
+"""Past the fold and back: what is said, what is kept, and that nothing false is told."""
+
+import pytest
+
+from thrustwasher import BranchError, Status, WasherParams, load_curve
+
+from washer_runs import followed, is_sound, solve  # isort: skip
+
+
+@pytest.fixture(scope="module", params=[545.0, 953.0, 1367.0])
+def folds(request):
+    found = load_curve(WasherParams(), speed=request.param, tilt=0.002).folds
+    return request.param, found[0].load, found[1].load
+
+
+def test_there_is_no_false_distress_up_to_the_fold(folds):
+    """Cold and warm, to 0.1 % of the fold the film is kept."""
+    speed, lost, _ = folds
+    shares = (0.5, 0.8, 0.9, 0.97, 0.99, 0.999)
+    for r in [solve(load=lost * x, speed=speed) for x in shares]:
+        assert is_sound(r) and r.branch == "film" and not r.distress
+    for r in followed([{"load": lost * x, "speed": speed} for x in shares]):
+        assert is_sound(r) and r.branch == "film" and not r.distress
+
+
+def test_beyond_the_fold_distress_is_told(folds):
+    speed, lost, _ = folds
+    for share in (1.001, 1.05, 2.0):
+        r = solve(load=lost * share, speed=speed)
+        assert is_sound(r) and r.branch == "contact" and r.distress
+
+
+def test_a_lost_film_stays_lost_down_to_the_lower_fold(folds):
+    speed, lost, regained = folds
+    loads = [lost * 1.01, lost * 0.99, 0.5 * (lost + regained), regained * 1.01, regained * 1.001]
+    for r in followed([{"load": w, "speed": speed} for w in loads]):
+        assert is_sound(r) and r.branch == "contact" and r.distress
+    r = followed([{"load": w, "speed": speed} for w in (*loads, regained * 0.999)])[-1]
+    assert is_sound(r) and r.branch == "film" and not r.distress
+
+
+def test_beyond_the_fold_it_is_said_not_hidden(folds):
+    speed, lost, regained = folds
+    with pytest.raises(BranchError, match="branch = 'film'"):
+        solve(load=lost * 1.01, speed=speed, branch="film")
+    with pytest.raises(BranchError, match="branch = 'contact'"):
+        solve(load=regained * 0.99, speed=speed, branch="contact")
+    r = solve(load=lost * 1.01, speed=speed, branch="film", throw=False)
+    assert r.status is Status.NO_BRANCH and r.branch == "contact"
+
+
+def test_raising_speed_at_constant_load_crosses_the_same_fold():
+    """A cold solve and a followed one agree on which side of the fold they are."""
+    for speed in range(300, 1500, 150):
+        cold = solve(load=790.0, speed=float(speed))
+        assert is_sound(cold)
+        assert cold.branch == solve(load=790.0, speed=float(-speed)).branch

@@ -1,0 +1,48 @@
+"""An unloaded washer, and one that is let go."""
+
+import numpy as np
+import pytest
+
+from thrustwasher import ParameterError
+from thrustwasher.errors import Status
+from thrustwasher.kernels import washer_step as kernel
+from thrustwasher.models._params import as_numbers
+from thrustwasher.models.washer_params import WasherParams
+
+from washer_runs import followed, is_sound, solve  # isort: skip
+import itertools
+
+
+def test_the_least_load_is_answered():
+    r = solve(load=1.0)
+    assert is_sound(r) and r.branch == "film" and r.film_ratio > 20.0
+
+
+def test_unloading_makes_the_film_thicker_without_end():
+    results = followed([{"load": w} for w in (3000.0, 700.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0)])
+    assert all(is_sound(r) for r in results)
+    film = [r.film_thickness for r in results if r.branch == "film"]
+    assert len(film) >= 6
+    assert all(b > a for a, b in itertools.pairwise(film))
+
+
+def test_no_load_is_refused_in_words_by_the_library():
+    for load in (0.0, -1.0):
+        with pytest.raises(ParameterError, match="load"):
+            solve(load=load)
+
+
+def test_a_washer_in_a_scene_goes_on_when_the_load_is_gone():
+    """The step takes a load below 1 N, even a negative one, as 1 N."""
+    par = np.zeros(kernel.NPAR)
+    par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), 1.0]
+    assert kernel.derive(par) == Status.OK
+    state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
+    out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
+    torques = []
+    for load in (300.0, 20.0, 1.0, 0.0, -30.0, 1.0, 20.0, 300.0):
+        inp = np.array([load, 545.0, 0.002, 297.15])
+        assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) == Status.OK
+        torques.append(out[0])
+    assert torques[2:6] == pytest.approx([torques[2]] * 4, rel=1e-6)
+    assert torques[::-1] == pytest.approx(torques, rel=1e-5)

@@ -32,8 +32,13 @@ def run(arguments: argparse.Namespace) -> int:
     folder = _output.check_folder(arguments.out, "--out")
 
     from ..fmu.build import build
+    from ..fmu.registry import all_specs, find_spec, is_compiled
     from ..fmu.validate import validate
 
+    specs = [find_spec(model) for model in arguments.models] or all_specs()
+    missing = [spec.name for spec in specs if not is_compiled(spec)]
+    if missing and arguments.target == "python":
+        _output.note(f"compiling {', '.join(missing)} first: seconds, the washer a minute or two")
     paths = build(arguments.models or None, target=arguments.target, fmi=arguments.fmi, out=folder)
     findings = [f"{path}: {finding}" for path in paths for finding in validate(path)]
     if arguments.json:

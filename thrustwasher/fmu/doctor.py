@@ -15,7 +15,7 @@ from pathlib import Path
 from ..errors import ParameterError
 from ..kernels._jit import cache_folder, kernel_digest
 from .build import source_folder
-from .registry import all_specs, load_kernel, package_version
+from .registry import all_specs, is_compiled, load_kernel, package_version
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,8 @@ def _kernels() -> str:
     folder = Path(cache_folder())
     number = len(list(folder.rglob("*.nbc"))) if folder.is_dir() else 0
     _writable(str(folder if folder.is_dir() else folder.parent))
-    note = "" if number else "; the first run of each model compiles it: seconds to minutes"
+    missing = ", ".join(spec.name for spec in all_specs() if not is_compiled(spec))
+    note = f"; the first run or build compiles {missing}: seconds to minutes" if missing else ""
     return f"{number} in {folder} (digest of the sources: {kernel_digest()}){note}"
 
 

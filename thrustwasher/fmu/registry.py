@@ -67,6 +67,15 @@ def load_kernel(name: str) -> Kernel:
     return Kernel(k.derive, k.step, *sizes)
 
 
+def is_compiled(spec: ModelSpec) -> bool:
+    """Tell if the model's step is in numba's cache, so that its first call takes no minutes."""
+    stats = getattr(load_kernel(spec.kernel).step, "stats", None)
+    if stats is None:  # runs as plain Python: there is nothing to compile
+        return True
+    name = spec.kernel.rpartition(".")[2]
+    return any(Path(stats.cache_path or "").glob(f"{name}.step-*.nbc"))
+
+
 def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
     """Return (text, place in ``work``) of everything the model's solver counts."""
     found = [(text, *where.split(":")) for text, where in spec.counts]

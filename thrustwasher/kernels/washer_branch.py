@@ -190,7 +190,8 @@ def descend(
     if above and wanted != CONTACT_BRANCH:
         found[BRANCH] = FILM_BRANCH
         return _climb(m, pt, q, f, info, walk)
-    s0, s1, w1 = walk[S], walk[S], walk[W]  # the last two points
+    # the highest point so far (after the film is lost, the lowest), and the place before it
+    s0, s1, w1 = walk[S], walk[S], walk[W]
     upper, lower = math.nan, math.nan  # bracket of the solution above any fold
     lost = False
     for _ in range(400):
@@ -244,7 +245,8 @@ def descend(
         ):  # fmt: skip
             found[MULTIPLICITY] = SINGLE  # the asperities carry: no fold will come
             break
-        s0, s1, w1 = s1, s2, w2
+        if (w2 < w1) == lost:
+            s0, s1, w1 = s1, s2, w2
         if walk[S] < -12.0 * m.sigma1:
             return MAX_ITERATIONS
     if above:  # no contact branch at this load after all

@@ -221,8 +221,17 @@ def find_fold(
             ga = g
         elif attempt == 1:
             gb = g
-            if not ga * gb < 0.0:
-                return MAX_ITERATIONS
+            if not ga * gb < 0.0:  # both folds of a narrow pair lie between: look for one
+                for k in range(1, 8):
+                    b = lower + (upper - lower) * (1.0 - k / 8.0)
+                    if walk_to(m, pt, b, q, f, info, walk) != OK:
+                        return MAX_ITERATIONS
+                    status = exact_slope(m, pt, q, f, info, walk)
+                    gb = walk[SLOPE]
+                    if status != OK or ga * gb < 0.0:
+                        break
+                if not ga * gb < 0.0:
+                    return MAX_ITERATIONS
         elif g * gb < 0.0:
             a, ga, b, gb = b, gb, s, g
         else:

@@ -43,6 +43,7 @@ from .washer_result import WasherResult
 
 Array = NDArray[np.float64]
 FINEST = 0.1  # [sigma] between points near contact
+SHALLOW = 3e-4  # relative drop of the load that makes a fold; solve_washer uses the same
 LABELS = {"film": 1.0, "unstable": 2.0, "contact": 3.0}
 
 
@@ -164,7 +165,8 @@ def load_curve(
 
     Notes
     -----
-    Folds are extrema of the load, located to 1e-5 sigma in film thickness.
+    Folds are extrema of the load, located to 1e-5 sigma in film thickness; a pair whose loads
+    differ by less than 3e-4 counts as none.
 
     Examples
     --------
@@ -181,17 +183,21 @@ def load_curve(
     points: list[WasherResult] = [walker.result(fidelity)]
     folds: list[Fold] = []
     places = [float(walker.walk[S])]  # smoothed film thicknesses
+    top = 0  # the highest point since the film was regained, the lowest since it was lost
     rising = True
     while points[-1].load < load_max or not rising:
         walker.to(step_down(walker.m, walker.walk[S], FINEST))
         places.append(float(walker.walk[S]))
         points.append(walker.result(fidelity))
-        noise = 1e-6 * points[-2].load + 1e-3
-        gain = points[-1].load - points[-2].load
+        gain = points[-1].load - points[top].load
+        noise = SHALLOW * points[top].load + 1e-3
         if gain < -noise if rising else gain > noise:
             rising = not rising
             kind = "film_regained" if rising else "film_lost"
-            folds.append(walker.fold(kind, places[max(-3, -len(places))], places[-1]))
+            folds.append(walker.fold(kind, places[max(0, top - 1)], places[-1]))
+            top = len(points) - 1
+        elif gain > 0.0 if rising else gain < 0.0:
+            top = len(points) - 1
     return LoadCurve(_labelled(points, folds), folds)
 
 

@@ -141,11 +141,6 @@ def test_contact_that_cannot_be_tabulated_is_said():
     assert not contact_table(bad, DENSITY, SIGMA, np.empty(N_TABLE), np.empty(N_CONTACT_WORK))
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=ValueError,
-    reason="int(nan): some table entry is read when compiled",
-)
 def test_no_number_in_no_number_out():
     plain = getattr(contact_pressure, "py_func", contact_pressure)
     assert math.isnan(plain(math.nan, TABLE)[0])

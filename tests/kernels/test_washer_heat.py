@@ -175,10 +175,6 @@ def test_dry_friction_has_its_published_ends_and_its_slope():
     assert dry_friction(bench((5, 8), friction_law="constant").m, 900.0) == (0.15, 0.0)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="1e4 x the conduction around leaves 5 % in the washer, 0.5 % in the carrier",
-)
 @pytest.mark.parametrize("option", ["carrier", "rotating"])
 def test_axisymmetric_bodies_have_even_rings(option):
     """Only the named bodies vary around the circumference; the others to 0.1 %."""

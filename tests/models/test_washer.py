@@ -173,8 +173,7 @@ def test_a_start_from_elsewhere_leads_to_the_same_answer_on_the_branch(change, o
     assert warm.temperature == pytest.approx(cold.temperature, abs=1e-3, rel=1e-6)
 
 
-@pytest.mark.xfail(strict=True, reason="the descent from light load finds no lift to hold on to")
-@pytest.mark.parametrize("tilt", [1e-12, 1e-9])
+@pytest.mark.parametrize("tilt", [1e-12, 1e-9, 1.1e-9, 1e-8])
 def test_a_tilt_next_to_nothing_is_answered(tilt):
     """It is the washer without tilt but for rounding; a tilt that grows from zero passes here."""
     point = {"load": 300.0, "speed": 545.0}
@@ -254,11 +253,7 @@ def test_every_conduction_option_keeps_the_energy(option):
     assert mean == pytest.approx(r.temperature, abs=0.05)
 
 
-@pytest.mark.parametrize(
-    "gear",
-    [0.0112, 0.0125, 0.0200, pytest.param(0.0220, marks=pytest.mark.xfail(
-        strict=True, reason="negative quadrature weights spoil the heat matrix"))],
-)  # fmt: skip
+@pytest.mark.parametrize("gear", [0.0112, 0.0125, 0.0200, 0.0220])
 def test_any_size_of_the_gear_face_is_meshed(gear):
     r = solve({"load": 200.0, "speed": 300.0}, gear_inner_radius=gear)
     assert r.status is Status.OK and r.fluid_load + r.contact_load == pytest.approx(200.0, rel=1e-7)

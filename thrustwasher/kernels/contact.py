@@ -101,8 +101,8 @@ def contact_pressure(d: float, table: NDArray[np.float64]) -> tuple[float, float
 
     Zero beyond d = 14, where the pressure is below 1e-34 Pa; linear with the last slope below -8.
     """
-    if d >= D_MAX:
-        return 0.0, 0.0
+    if not d < D_MAX:
+        return (d if math.isnan(d) else 0.0), 0.0
     x = (d - D_MIN) / STEP
     below = 0.0
     if x < 0.0:

@@ -184,7 +184,8 @@ def descend(
         status = enter_curve(m, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt), q, f, info, walk)
         if status != OK:
             return status
-        if walk[SHARE] < CLEAR_SHARE and walk[SLOPE] < 0.0:
+        clear = walk[SHARE] < CLEAR_SHARE and walk[SLOPE] < 0.0
+        if clear or walk[W] < 1e-2 * pt.load:  # above every fold
             break
     above = walk[W] >= pt.load  # the film branch carries the load above the entry
     if above and wanted != CONTACT_BRANCH:

@@ -65,8 +65,8 @@ class Fields(NamedTuple):
 
 
 def temperatures_of(n_r: int, n_t: int) -> int:
-    """Return the number of temperatures."""
-    return (3 * n_r - max(1, (n_r - 1) // 3)) * n_t
+    """Return the largest number of temperatures, that with the gear as wide as can be."""
+    return (3 * n_r - 1) * n_t
 
 
 def size_of_work(n_r: int, n_t: int, even_split: bool) -> int:

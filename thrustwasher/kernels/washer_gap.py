@@ -24,6 +24,7 @@ FORCE = 0  # (4,) contact forces conjugate to q
 STIFF = 4  # (16,) their slopes
 CONTACT = 20  # contact force of film 1 [N]
 DCONTACT = 21  # (4,) its slope over q
+FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, and its stiffness
 FRICTION = 25  # dry friction coefficient and its slope over the contact force [1/N]
 
 
@@ -77,6 +78,7 @@ def evaluate_gaps(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) 
     s[DCONTACT], s[DCONTACT + 1] = s[STIFF], 0.0
     s[DCONTACT + 2], s[DCONTACT + 3] = s[STIFF + 2], s[STIFF + 3]
     s[FRICTION], s[FRICTION + 1] = dry_friction(m, s[CONTACT])
+    s[FORCE] += FLOAT
     rel = pt.tilt - gy
     for j in range(m.n_t):
         cj, sj = m.cos[j], m.sin[j]

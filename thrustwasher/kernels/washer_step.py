@@ -25,6 +25,7 @@ NWORK = N_HEAD + size_of_work(*FINE_GRID, even_split=False)
 OUTSIDE_VERIFIED, DISTRESS = 1, 3  # errors.Status; a test keeps them equal
 FILM, MIXED, BOUNDARY = 1, 2, 3  # regimes
 REGIME_OUT, DISTRESS_OUT, STATUS_OUT = 0, 1, 2
+LEAST_TILT = 1e-9  # [rad]; less counts as none: a wedge of 0.02 nm has lift of no account
 LEAST_LOAD = 1.0  # [N]; an unloaded washer counts as loaded so much
 
 __all__ = [
@@ -74,7 +75,8 @@ def step(
     if not math.isfinite(inp[0] + inp[1] + inp[2] + inp[3]) or inp[2] < 0.0:
         return BAD_INPUT
     wanted = inp[4] if inp.size > 4 else ANY
-    pt = Point(max(inp[0], LEAST_LOAD), inp[1], inp[2], inp[3])
+    tilt = inp[2] if inp[2] > LEAST_TILT else 0.0
+    pt = Point(max(inp[0], LEAST_LOAD), inp[1], tilt, inp[3])
     a = N_INFO + N_FOUND
     b = a + N_WALK
     info, found = work[:N_INFO], work[N_INFO:a]

@@ -8,6 +8,7 @@ from ..errors import ParameterError
 from ._params import check_ranges, choice, quantity
 from ._spec import ModelSpec, Signal, Terminal
 
+LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
 FRICTION_LAWS = {
     "load": "falls with the logarithm of the total contact force (Jackson & Green Eq 18)",
     "constant": "the constant dry_friction",
@@ -35,19 +36,21 @@ class WasherParams:
     asperity radius and density, the heat split; see docs/theory/washer.md.
     """
 
-    inner_radius: float = quantity(0.0111, "m", 1e-3, 0.5, "inner radius of the washer")
-    outer_radius: float = quantity(0.0227, "m", 2e-3, 1.0, "outer radius of washer and gear face")
-    gear_inner_radius: float = quantity(0.0156, "m", 1e-3, 1.0, "inner radius of the gear face")
+    inner_radius: float = quantity(0.0111, "m", 2e-3, 0.05, "inner radius of the washer")
+    outer_radius: float = quantity(0.0227, "m", 3e-3, 0.06, "outer radius of washer and gear face")
+    gear_inner_radius: float = quantity(0.0156, "m", 2e-3, 0.06, "inner radius of the gear face")
     carrier_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the carrier plate")
     washer_thickness: float = quantity(6.35e-4, "m", 1e-4, 0.02, "thickness of the washer")
     gear_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the gear's web")
-    roughness: float = quantity(5.15e-7, "m", 2e-8, 1e-5, "RMS roughness of every surface")
+    roughness: float = quantity(
+        5.15e-7, "m", LEAST_ROUGHNESS, 1e-5, "RMS roughness of every surface"
+    )
     roughness_carrier: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the carrier (0: roughness)")
     roughness_washer: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the washer (0: roughness)")
     roughness_gear: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the gear face (0: roughness)")
-    youngs_modulus: float = quantity(201e9, "Pa", 1e9, 1e12, "Young's modulus of both surfaces")
+    youngs_modulus: float = quantity(201e9, "Pa", 2e10, 1e12, "Young's modulus of both surfaces")
     poisson_ratio: float = quantity(0.296, "1", 0.0, 0.49, "Poisson's ratio of both surfaces")
-    yield_strength: float = quantity(0.993e9, "Pa", 1e7, 1e11, "yield strength of the softer face")
+    yield_strength: float = quantity(0.993e9, "Pa", 2e8, 1e11, "yield strength of the softer face")
     yield_strain_law: str = choice(
         "young", YIELD_LAWS, "YieldStrainLaw", "modulus that the yield strain refers to"
     )
@@ -56,7 +59,7 @@ class WasherParams:
     asperity_height_law: str = choice(
         "surface", HEIGHT_LAWS, "HeightLaw", "scatter of the asperity heights"
     )
-    conductivity: float = quantity(60.5, "W/(m.K)", 0.1, 500.0, "conductivity of the three bodies")
+    conductivity: float = quantity(60.5, "W/(m.K)", 1.0, 500.0, "conductivity of the three bodies")
     conduction: str = choice("all", CONDUCTION, "Conduction", "bodies with a 2-D temperature field")
     oil_conductivity: float = quantity(0.145, "W/(m.K)", 0.01, 1.0, "conductivity of the oil")
     viscosity_constant: float = quantity(3.545, "1", 1.0, 6.0, "G_o of the Roelands law")
@@ -83,6 +86,13 @@ class WasherParams:
                 f"outer_radius = {self.outer_radius!r} m, allowed: up to 20 x inner_radius "
                 f"({self.inner_radius!r} m)"
             )
+        for name in ("roughness_carrier", "roughness_washer", "roughness_gear"):
+            value = getattr(self, name)
+            if 0.0 < value < LEAST_ROUGHNESS:
+                raise ParameterError(
+                    f"{name} = {value!r} m, allowed: 0 (as roughness) or {LEAST_ROUGHNESS:g} .. "
+                    "1e-05 m"
+                )
         if self.friction_load_min >= self.friction_load_max:
             raise ParameterError(
                 f"friction_load_min = {self.friction_load_min!r} N, allowed: below "

@@ -6,6 +6,7 @@ would go on running the old one. The cache folder is therefore named by a digest
 
 import hashlib
 import os
+import shutil
 import tempfile
 from collections.abc import Callable
 from functools import cache
@@ -16,6 +17,7 @@ import numba
 from numba.core import config
 
 F = TypeVar("F", bound=Callable[..., Any])
+KEPT_VERSIONS = 5
 
 
 @cache
@@ -27,6 +29,13 @@ def kernel_digest() -> str:
     ]
 
 
+def _forget_old(base: str) -> None:
+    """Keep the compiled kernels of the last few versions only (some 10 MB each)."""
+    folders = sorted(Path(base).glob("kernels-*"), key=lambda f: f.stat().st_mtime)
+    for folder in folders[:-KEPT_VERSIONS]:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 @cache
 def cache_folder() -> str:
     """Return the folder for compiled kernels: the user's cache, else a temporary folder."""
@@ -36,6 +45,8 @@ def cache_folder() -> str:
     )
     folder = os.path.join(base, f"kernels-{kernel_digest()}")
     try:
+        if not os.path.isdir(folder):
+            _forget_old(base)
         os.makedirs(folder, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder

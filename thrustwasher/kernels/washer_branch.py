@@ -51,7 +51,7 @@ CLEAR_SHARE = 0.01  # below this share of contact a stable solution is on the fi
 # results of a descent, in an array: branch, multiplicity, loads of the folds found (nan: not met)
 BRANCH, MULTIPLICITY, LOST, REGAINED, N_FOUND = 0, 1, 2, 3, 4
 ENTRY_RATIO = 4.0
-DESCENT = 0.2  # finest step of the descent [sigma]
+DESCENT = 0.28  # finest step of the descent [sigma]
 NOISE = 3e-4  # a load must change by more to count as past a fold; points are good to 1e-4
 
 

@@ -131,6 +131,10 @@ def _lags(m: WasherModel, f: Fields) -> None:
     m_t = 3 * n_r - m.i_g
     n_temp = m_t * n_t
     for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        jb = j - 1 if j > 0 else n_t - 1
+        if f.place[j] < 0.0 and f.place[jn] < 0.0 and f.place[jb] < 0.0:
+            continue  # no full film on either side
         for i in range(n_r):
             k = j * n_r + i
             t, a = j * m_t + i, k * N_SIDES

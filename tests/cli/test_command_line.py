@@ -75,7 +75,7 @@ def test_wrong_input_is_one_line_that_names_it(words, named, capsys, monkeypatch
         (BranchError("no such branch"), 2),
         (EnvironmentProblem("no fmpy"), 2),
         (SolveError("tried\neverything"), 3),
-        (PermissionError(13, "Permission denied", "/root/x"), 2),
+        (PermissionError(13, "Permission denied", "/locked/x"), 2),
         (OSError(28, "No space left on device"), 2),
         (KeyboardInterrupt(), 130),
         (BrokenPipeError(), 141),

@@ -65,3 +65,29 @@ def test_speed_against_a_quadratic_load_solves_its_equation():
                     atol=1e-13, method="DOP853")  # fmt: skip
     assert speed_against_quadratic_load(1.5, *args) == pytest.approx(run.y[0, -1], rel=1e-11)
     assert np.diff([speed_against_quadratic_load(t, *args) for t in (1.0, 2.0, 50.0)]).min() > 0.0
+
+
+def test_a_helical_planet_in_balance_is_tilted_by_a_couple_and_not_pushed_along_its_axis():
+    """Forces of both meshes as vectors: sun at the planet's left, ring at its right, axis z."""
+    torque, sun, planet, planets = 150.0, 0.0239, 0.0144, 3
+    f = planet_forces(torque, sun, planet, HELIX, planets)
+    tangential = torque / (planets * sun)
+    axial = tangential * math.tan(HELIX)
+    sun_mesh = np.array([0.0, tangential, axial])
+    ring_mesh = np.array([0.0, tangential, -axial])
+    force = sun_mesh + ring_mesh
+    moment = np.cross([-planet, 0.0, 0.0], sun_mesh) + np.cross([planet, 0.0, 0.0], ring_mesh)
+    assert force[2] == 0.0
+    assert force[1] == pytest.approx(f.pin_load, rel=1e-13)
+    assert moment == pytest.approx([0.0, f.couple, 0.0], abs=1e-13 * f.couple)
+    assert f.couple == pytest.approx(2.0 * torque * planet / (planets * sun) * math.tan(HELIX),
+                                     rel=1e-13)  # fmt: skip
+    assert f.sun_thrust == pytest.approx(torque / sun * math.tan(HELIX), rel=1e-13)
+    assert f.planet_torque * planets == pytest.approx(torque * planet / sun, rel=1e-13)
+
+
+def test_without_helix_there_is_neither_thrust_nor_couple():
+    helical = planet_forces(150.0, 0.0239, 0.0144, HELIX, 3)
+    spur = planet_forces(150.0, 0.0239, 0.0144, 0.0, 3)
+    assert (spur.axial, spur.couple, spur.sun_thrust) == (0.0, 0.0, 0.0)
+    assert spur.pin_load == helical.pin_load

@@ -13,18 +13,21 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from .errors import BranchError, ParameterError, SolveError, Status
     from .models.clutch import ClutchParams, boundary_friction, solve_clutch
+    from .models.clutch_calibration import Calibration, calibrate
     from .models.washer import WasherParams, WasherResult, solve_washer
     from .models.washer_curve import LoadCurve, load_curve
 
 _HOMES = {
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "models.clutch": ("ClutchParams", "boundary_friction", "solve_clutch"),
+    "models.clutch_calibration": ("Calibration", "calibrate"),
     "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
     "models.washer_curve": ("LoadCurve", "load_curve"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "BranchError",
+    "Calibration",
     "ClutchParams",
     "LoadCurve",
     "ParameterError",
@@ -33,6 +36,7 @@ __all__ = [
     "WasherParams",
     "WasherResult",
     "boundary_friction",
+    "calibrate",
     "load_curve",
     "solve_clutch",
     "solve_washer",

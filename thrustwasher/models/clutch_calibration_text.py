@@ -1,0 +1,106 @@
+"""A calibration in words and as plain data."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .clutch_calibration import Calibration, Estimate
+
+CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
+
+
+def as_dict(found: Calibration) -> dict[str, Any]:
+    """Return the calibration as JSON types; None for infinite and NaN."""
+    load = asdict(found.load_test) | {"is_significant": found.load_test.is_significant}
+    return {
+        "fitted": {e.name: e.value for e in found.estimates},
+        "estimates": [_plain(asdict(e)) for e in found.estimates],
+        "end_frictions": [_plain(asdict(e)) for e in found.end_frictions],
+        "correlation": _plain(found.correlation.tolist()),
+        "confounded": list(found.confounded),
+        "residuals": found.residuals.tolist(),
+        "rms": found.rms,
+        "degrees_of_freedom": found.degrees_of_freedom,
+        "reduced_chi_square": found.reduced_chi_square,
+        "load_test": load,
+        "confidence": found.confidence,
+    }
+
+
+def summary(found: Calibration) -> str:
+    """Return the calibration in sentences and one table."""
+    count, share = len(found.residuals), f"{100 * found.confidence:g} %"
+    lines = [
+        f"{len(found.estimates)} constants fitted to {count} points, rms residual {found.rms:.3g}, "
+        f"{found.degrees_of_freedom} degrees of freedom."
+    ]
+    if found.reduced_chi_square is not None:
+        lines.append(_chi_text(found))
+    lines += [_row(e, share) for e in (*found.estimates, *found.end_frictions)]
+    reasons = dict.fromkeys(e.reason for e in found.estimates if e.reason)
+    for reason in reasons:
+        names = [e.name for e in found.estimates if e.reason == reason]
+        lines.append(f"{', '.join(names)}: {reason}.")
+    lines += [_curved_text(e) for e in found.estimates if _is_curved(e)]
+    lines.append(f"Load: {found.load_test.text}.")
+    lines.append(
+        "Intervals: linearised covariance with "
+        + ("the given errors." if found.reduced_chi_square is not None else "the points' scatter.")
+    )
+    return "\n".join(lines)
+
+
+def _row(e: Estimate, share: str) -> str:
+    unit = "" if e.unit == "1" else f" {e.unit}"
+    if not e.identifiable:
+        return f"  {e.name:18} {e.value:<10.5g}{unit:4}  not told by these points"
+    low, high = e.interval
+    return (
+        f"  {e.name:18} {e.value:<10.5g}{unit:4}  +- {e.standard_error:<9.2g}"
+        f"  {share}: {low:.4g} .. {high:.4g}{unit}"
+    )
+
+
+def _chi_text(found: Calibration) -> str:
+    """Say whether the given errors explain the residuals."""
+    from scipy.stats import chi2
+
+    reduced, freedom = found.reduced_chi_square or 0.0, found.degrees_of_freedom
+    chance = float(chi2.sf(reduced * freedom, freedom))
+    text = f"Reduced chi-square {reduced:.3g}"
+    if chance < 0.01:
+        return (
+            f"{text}: the residuals are larger than friction_error allows; the law does not fit, "
+            "or the errors are too small and so are the intervals."
+        )
+    if chance > 0.99:
+        return text + ": the residuals are smaller than friction_error says; it may be too large."
+    return text + ": the residuals are as large as friction_error says."
+
+
+def _is_curved(e: Estimate) -> bool:
+    if e.profile_interval is None:
+        return False
+    width = e.interval[1] - e.interval[0]
+    return any(
+        abs(a - b) > CURVED * width for a, b in zip(e.interval, e.profile_interval, strict=True)
+    )
+
+
+def _curved_text(e: Estimate) -> str:
+    low, high = e.profile_interval or e.interval
+    return f"{e.name}: the profile interval {low:.4g} .. {high:.4g} differs; trust it more."
+
+
+def _plain(value: Any) -> Any:
+    """Return the same with None for numbers that are not finite."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value

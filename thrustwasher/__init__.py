@@ -1,4 +1,4 @@
-"""Friction units for drivetrain simulation: thrust washer and wet clutch, in Python and as FMUs.
+"""Friction units for drivetrain simulation: thrust washer, wet clutch, gear mesh.
 
 >>> from thrustwasher import WasherParams, solve_washer
 >>> result = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .errors import BranchError, ParameterError, SolveError, Status
     from .models.clutch import ClutchParams, boundary_friction, solve_clutch
     from .models.clutch_calibration import Calibration, calibrate
+    from .models.gearmesh import GearMeshParams, GearMeshResult, solve_gearmesh
     from .models.washer import WasherParams, WasherResult, solve_washer
     from .models.washer_curve import LoadCurve, load_curve
 
@@ -21,6 +22,7 @@ _HOMES = {
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "models.clutch": ("ClutchParams", "boundary_friction", "solve_clutch"),
     "models.clutch_calibration": ("Calibration", "calibrate"),
+    "models.gearmesh": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
     "models.washer_curve": ("LoadCurve", "load_curve"),
 }
@@ -29,6 +31,8 @@ __all__ = [
     "BranchError",
     "Calibration",
     "ClutchParams",
+    "GearMeshParams",
+    "GearMeshResult",
     "LoadCurve",
     "ParameterError",
     "SolveError",
@@ -39,6 +43,7 @@ __all__ = [
     "calibrate",
     "load_curve",
     "solve_clutch",
+    "solve_gearmesh",
     "solve_washer",
 ]
 

@@ -18,7 +18,7 @@ from thrustwasher.fmu.validate import validate
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
 SPECS = [TOY, *all_specs()]
-NAMES = ["ThrustWasher", "WetClutch", "ShiftTransmission"]
+NAMES = ["ThrustWasher", "WetClutch", "GearMesh", "ShiftTransmission"]
 each_spec = pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.name)
 
 

@@ -78,7 +78,9 @@ def test_first_outputs_are_the_same_everywhere_and_status_is_complete(spec):
 
 def test_a_model_is_found_by_key_and_by_fmu_name():
     assert find_spec("washer") is find_spec("ThrustWasher")
-    with pytest.raises(ParameterError, match="ThrustWasher, WetClutch, ShiftTransmission"):
+    with pytest.raises(
+        ParameterError, match="ThrustWasher, WetClutch, GearMesh, ShiftTransmission"
+    ):
         find_spec("Washer")
 
 

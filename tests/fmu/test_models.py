@@ -23,11 +23,12 @@ TYPICAL = {
     "shift_command": (0.0, 1.0), "clutch_torque": (0.0, 300.0), "brake_torque": (0.0, 300.0),
     "washer_torque": (0.0, 3.0), "mesh_torque": (0.0, 3.0),
 }  # fmt: skip
+GEAR = {"load": (-200.0, 200.0), "speed": (-700.0, 700.0), "oil_temperature": (240.0, 440.0)}
 WASHER = {"load": (100.0, 1200.0), "speed": (-700.0, 700.0), "tilt": (1e-3, 3e-3)}
 
 
 def drawn(spec, rng):
-    ranges = TYPICAL | (WASHER if spec.name == "ThrustWasher" else {})
+    ranges = TYPICAL | {"ThrustWasher": WASHER, "GearMesh": GEAR}.get(spec.name, {})
     return [rng.uniform(*ranges[signal.name]) for signal in spec.inputs]
 
 
@@ -118,7 +119,7 @@ STANDINGS = [
     {"initial_engine_speed": 0.0},  # at rest: both may hold
     {"initial_engine_speed": 300.0, "initial_ring_speed": 50.0},  # both slip
 ]
-CASES = {"ThrustWasher": 40, "WetClutch": 100, "ShiftTransmission": 4000}
+CASES = {"ThrustWasher": 40, "WetClutch": 100, "GearMesh": 200, "ShiftTransmission": 4000}
 
 
 @pytest.mark.parametrize("name", NAMES)

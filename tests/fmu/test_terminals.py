@@ -15,6 +15,7 @@ JOINED = [
     ("WetClutch.shaft_capacity", "ShiftTransmission.clutch"),
     ("WetClutch.shaft_capacity", "ShiftTransmission.brake"),
     ("ThrustWasher.shaft", "ShiftTransmission.washer"),
+    ("GearMesh.shaft", "ShiftTransmission.mesh"),
 ]
 
 
@@ -50,6 +51,8 @@ def test_the_plugs_are_these():
         "WetClutch.shaft": {"w", "tau", "load"},
         "WetClutch.shaft_capacity": {"w", "tau", "load"},
         "WetClutch.oil": {"T", "Q_flow"},
+        "GearMesh.shaft": {"w", "tau", "load"},
+        "GearMesh.oil": {"T", "Q_flow"},
         "ShiftTransmission.clutch": {"w", "tau", "load"},
         "ShiftTransmission.brake": {"w", "tau", "load"},
         "ShiftTransmission.mesh": {"w", "tau", "load"},

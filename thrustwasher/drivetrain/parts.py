@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..models import clutch_params, transmission_params, washer_params
+from ..models import clutch_params, gearmesh_params, transmission_params, washer_params
 from ..models._spec import ModelSpec
 
 # Part -> model. A part is in a scene if the scene has a table of its name.
@@ -13,6 +13,7 @@ PARTS: dict[str, ModelSpec] = {
     "clutch": clutch_params.SPEC,
     "brake": clutch_params.SPEC,
     "washer": washer_params.SPEC,
+    "mesh": gearmesh_params.SPEC,
 }
 REQUIRED = ("transmission", "clutch", "brake")
 COMMAND = "shift_command"  # the transmission's input that the scene itself drives

@@ -17,6 +17,7 @@ from ..models._spec import ModelSpec
 MODELS = {
     "washer": "thrustwasher.models.washer_params:SPEC",
     "clutch": "thrustwasher.models.clutch_params:SPEC",
+    "gearmesh": "thrustwasher.models.gearmesh_params:SPEC",
     "transmission": "thrustwasher.models.transmission_params:SPEC",
 }
 

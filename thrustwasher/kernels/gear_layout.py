@@ -1,0 +1,51 @@
+"""Where each number of the gear mesh lies in its arrays."""
+
+# Parameters, in the order of GearMeshParams.
+(
+    P_GEAR_RATIO, P_PINION_TEETH, P_CENTRE_DISTANCE, P_PRESSURE_ANGLE, P_ADDENDUM, P_FACE_WIDTH,
+    P_LOAD_SHARE, P_SURFACE, P_SIGMA_RMS, P_EFFECTIVE_ROUGHNESS, P_MEAN_ROUGHNESS, P_FRICTION_LAW,
+    P_F0, P_CONSTANT_FRICTION, P_STEEL, P_YOUNGS_MODULUS, P_POISSON_RATIO, P_CONDUCTIVITY,
+    P_HEAT_CAPACITY, P_DENSITY, P_THERMAL_EXPANSION, P_OIL_CONDUCTIVITY, P_OIL_HEAT_CAPACITY,
+    P_OIL_DENSITY, P_VISCOSITY_SCALE, P_VISCOSITY_B, P_VISCOSITY_C, P_VISCOSITY_AT,
+    P_FILM_VISCOSITY, P_PRESSURE_VISCOSITY, P_HEAT_PARTITION, P_PARTITION_SHARE, P_TRACTION_LAW,
+    P_LIMITING_TRACTION, P_ASPERITY_GROUP, P_HARDNESS_FACTOR, P_AREA_LAW, P_AREA_RATIO, P_SWITCH,
+    P_ASPERITY_BASE, P_SPEED_SMOOTHING, P_FIDELITY,
+) = range(42)  # fmt: skip
+N_PARAM = 42
+# Constants that derive() adds: geometry per unit of speed and torque, surface, material.
+(
+    D_START, D_SLIDE_ROLL, D_RADIUS, D_LINE, D_V1, D_V2, D_SLIDING, D_ROLLING, D_PITCH_RADIUS,
+    D_LOSS, D_THETA, D_CAPACITY, D_OIL_CAPACITY, D_EFFUSIVITY, D_SIGMA, D_ROUGHNESS, D_MEAN,
+    D_SHARE, D_CONTACT_RATIO,
+) = range(42, 61)  # fmt: skip
+NPAR = 61
+I_LOAD, I_SPEED, I_OIL = range(3)
+NINP = 3
+NSTATE = 1  # unused: the mesh follows its inputs at once
+# What is known of one operating point; the real outputs come first, in their order.
+(
+    F_TORQUE, F_ASPERITY, F_FILM, F_SURFACE, F_STRESS, F_THERMAL, F_MODIFICATION, F_ALLOWABLE,
+    F_FILM_TEMPERATURE, F_FLASH, F_RATIO, F_FRICTION, F_POWER, F_MODIFICATION_1020,
+    F_MODIFICATION_4340, F_ALLOWABLE_1020, F_ALLOWABLE_4340, F_UTILIZATION_1020,
+    F_UTILIZATION_4340, F_LINE_LOAD, F_WIDTH, F_PRESSURE, F_SLIDING, F_VISCOSITY, F_WEIGHT, F_AREA,
+    F_STATUS, F_ITERATIONS,
+) = range(28)  # fmt: skip
+N_FIELD = 28
+NWORK = N_FIELD
+NOUT = 19
+IO_REGIME, IO_STATUS = range(2)
+NIOUT = 2
+
+FILM, MIXED, BOUNDARY = range(1, 4)  # regimes
+OK, OUTSIDE_VERIFIED, HOT, MAX_ITERATIONS, NOT_FINITE, BAD_INPUT = 0, 1, 2, 10, 14, 15
+# Numbers of the enumerations.
+CLOSED = 1  # fidelity
+ROUGH = 1  # surface
+LI_SEIREG, ISO = 1, 2  # friction_law, 3 is constant
+AISI4340 = 1  # steel
+AT_SURFACE = 1  # viscosity_at and film_viscosity, 2 is the inlet
+CONSTANT_SHARE = 1  # heat_partition, 2 follows the speeds
+AMBIENT = 1  # traction_law, 2 is limited
+BOUNDED, FREE = 1, 2  # area_law, 3 is constant
+SMOOTH, SHARP = 1, 2  # switch, 3 is none
+ON_SURFACE = 1  # asperity_base, 2 is the bulk

@@ -11,8 +11,14 @@ PINNED = {
     "ex02_load_curve": 775.2,  # N
     "ex03_clutch": -3.973642530390515,  # N m s/rad: below 0, friction falls with slip
     "ex04_shift": 2.1107904,  # s
+    "ex06_calibrate": 1.9784950022118957,  # m/s
 }
-TOLERANCE = {"ex01_washer": 6e-3, "ex02_load_curve": 0.02, "ex04_shift": 1e-5}
+TOLERANCE = {
+    "ex01_washer": 6e-3,
+    "ex02_load_curve": 0.02,
+    "ex04_shift": 1e-5,
+    "ex06_calibrate": 1e-6,
+}
 
 
 def load(name):

@@ -21,6 +21,7 @@ COMMANDS = (
     "washer",
     "curve",
     "clutch",
+    "calibrate",
     "shift",
     "build",
     "doctor",
@@ -96,7 +97,7 @@ def _dispatch(words: list[str]) -> int:
 
 def _overview() -> _Parser:
     """Return the parser of the bare program, whose help lists the commands."""
-    lines = [f"  {name:8} {import_module(f'.{name}', __name__).HELP}" for name in COMMANDS]
+    lines = [f"  {name:9} {import_module(f'.{name}', __name__).HELP}" for name in COMMANDS]
     parser = _Parser(
         prog="thrustwasher",
         usage="thrustwasher COMMAND [OPTION ...]",

@@ -76,7 +76,8 @@ class Calibration:
     def band(self, slip_speed: ArrayLike) -> tuple[Array, Array]:
         """Return (coefficient, half width of its confidence band) at slip speeds [m/s].
 
-        The half width is infinite where the points do not tell the curve.
+        The half width is infinite where the points do not tell the curve; so it is below the
+        slowest point if the corner at stick_speed may lie there.
         """
         speed = np.abs(np.atleast_1d(np.asarray(slip_speed, float)))
         problem, told = self._problem, self._told
@@ -84,7 +85,10 @@ class Calibration:
         rows = friction_slopes(problem.values(self._best), speed, problem.names)
         if not np.isfinite(told.quantile):
             return curve, np.full(speed.shape, np.inf)
-        return curve, told.quantile * np.array([told.error_of(row) for row in rows])
+        half = told.quantile * np.array([told.error_of(row) for row in rows])
+        if any(e.name == "stick_speed" and not e.identifiable for e in self.estimates):
+            half[speed < problem.speed.min()] = np.inf
+        return curve, half
 
     def as_dict(self) -> dict[str, Any]:
         """Return what JSON can hold; None stands for infinite and for not known."""

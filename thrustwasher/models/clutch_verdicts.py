@@ -82,15 +82,15 @@ def _why_not(
     """Return the reason why the points do not tell a constant, the most tangible one first."""
     name, speed = problem.names[i], problem.speed
     stick, fastest, slowest = problem.values(best)["stick_speed"], speed.max(), speed.min()
-    points, count = len(speed), len(problem.names)
+    few = f"{len(speed)} point{'s' * (len(speed) > 1)} for {len(best)} constants"
     if name in ("shear_floor", "decay_speed", "stick_speed") and fastest <= stick:
         return (
             f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} m/s), "
             "where friction does not change with speed"
         )
     lead = ""
-    if points < count:
-        lead = f"{points} points for {count} constants; "
+    if len(speed) < len(best):
+        lead = f"{few}; "
     elif fastest == slowest:
         lead = f"all points have one slip speed ({fastest:.4g} m/s); "
     elif name == "stick_speed" and slowest >= stick:
@@ -99,8 +99,5 @@ def _why_not(
     if about:
         return lead + combination(problem.names, about[0], problem.scale)
     if not np.isfinite(told.quantile):
-        return (
-            f"{points} points for {count} constants leave no scatter to judge an interval by: "
-            "add points or give friction_error"
-        )
+        return f"{few} leave no scatter to judge an interval by: add points or give friction_error"
     return f"{lead}at this scatter its interval would be +- {half:.2g}"

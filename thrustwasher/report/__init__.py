@@ -5,6 +5,7 @@
 ``washer_plots``   maps of film, pressure and temperature over the washer
 ``curve_plot``     the washer's load curve with its folds
 ``clutch_plot``    friction of a pack against slip speed
+``fit_plot``       measured friction, the law fitted to it, residuals
 ``shift_record``   what the report needs from a finished shift
 ``panels``         single panels over time: speeds, torques, temperatures, films, energy
 ``shift_plots``    the figures made of them

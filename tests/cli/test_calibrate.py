@@ -1,0 +1,134 @@
+"""The calibrate command: tables as people write them, one line for what is wrong in them."""
+
+import json
+
+import numpy as np
+import pytest
+
+from thrustwasher.cli import main
+from thrustwasher.models.clutch_calibration import calibrate
+from thrustwasher.models.clutch_friction import friction_over, friction_radius, law_values
+from thrustwasher.models.clutch_params import ClutchParams
+
+TRUTH = ClutchParams(plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0)
+SLIP = np.linspace(2.0, 160.0, 30)
+FRICTION = friction_over(law_values(TRUTH), SLIP * friction_radius(TRUTH))
+FRICTION = FRICTION + 1e-3 * np.random.default_rng(1).standard_normal(30)
+
+
+def write(path, head, *columns, separator=","):
+    rows = [separator.join(repr(float(x)) for x in row) for row in zip(*columns, strict=True)]
+    path.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+    return str(path)
+
+
+@pytest.fixture
+def table(tmp_path):
+    return write(tmp_path / "rig.csv", "speed,load,friction", SLIP, SLIP * 0 + 1e3, FRICTION)
+
+
+def run(capsys, *words):
+    assert main(["calibrate", *words]) == 0
+    return capsys.readouterr()
+
+
+def test_numbers_are_those_of_the_api(table, capsys):
+    out, err = run(capsys, table, "--json")
+    record = json.loads(out)
+    found = calibrate(ClutchParams(), speed=SLIP, load=1e3, friction=FRICTION)
+    assert err == ""
+    assert record["fitted"]["decay_speed"] == found.params.decay_speed
+    assert record["parameters"]["decay_speed"] == found.params.decay_speed
+    assert record["estimates"][0]["interval"] == list(found.estimates[0].interval)
+    assert record["load"] == [1000.0] * 30 and "wall_time" in record
+
+
+def test_units_in_the_head_are_read_and_other_columns_passed_over(table, tmp_path, capsys):
+    plain = json.loads(run(capsys, table, "--json").out)
+    other = write(
+        tmp_path / "other.csv", "# rig 3\nTime [s];Load [kN];Speed [rpm];friction [%]",
+        SLIP, SLIP * 0 + 1, SLIP * 30 / np.pi, FRICTION * 100, separator=";",
+    )  # fmt: skip
+    record = json.loads(run(capsys, other, "--json").out)
+    assert record["fitted"] == pytest.approx(plain["fitted"], rel=1e-6)
+    assert record["speed"] == pytest.approx(plain["speed"], rel=1e-14)
+
+
+def test_options_reach_the_fit(table, capsys):
+    words = ["--fit", "decay_speed, stick_speed", "--confidence", "90 %", "--set"]
+    record = json.loads(run(capsys, table, *words, "plough_weight=0.2", "--json").out)
+    assert list(record["fitted"]) == ["decay_speed", "stick_speed"]
+    assert (record["confidence"], record["parameters"]["plough_weight"]) == (0.9, 0.2)
+
+
+def test_the_constant_law_is_fitted_by_its_one_constant(table, capsys):
+    record = json.loads(run(capsys, table, "--set", "friction_law=constant", "--json").out)
+    assert record["fitted"] == {"constant_friction": pytest.approx(FRICTION.mean())}
+
+
+def test_sentences_end_with_the_command_that_uses_them(table, capsys):
+    out, _ = run(capsys, table)
+    last = out.splitlines()[-1]
+    assert "4 constants fitted to 30 points" in out
+    words = last.removeprefix("Use it: thrustwasher ").split()
+    assert main([*words, "--load", "1000", "--speed", "60"]) == 0
+
+
+@pytest.mark.parametrize("fastest", [20.0, 160.0])
+def test_a_plot_is_drawn_whatever_the_points_tell(fastest, tmp_path, capsys):
+    kept = fastest >= SLIP
+    load = np.linspace(1e3, 5e3, 30)[kept]
+    data = write(tmp_path / "rig.csv", "speed,load,friction,friction_error", SLIP[kept], load,
+                 FRICTION[kept], load * 0 + 1e-3)  # fmt: skip
+    run(capsys, data, "--plot", str(tmp_path / "fit.png"))
+    assert (tmp_path / "fit.png").read_bytes()[:4] == b"\x89PNG"
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("", ["is empty"]),
+        ("speed,load,friction\n", ["no line of numbers"]),
+        ("speed,load\n1,2\n", ["column friction is missing", "found: speed, load"]),
+        ("speed,load,friction\n1,2\n", ["line 2", "friction is missing"]),
+        ("speed,load,friction\n1,2,0.1\n\n1,x,0.1\n", ["line 4", "load = 'x'", "a number"]),
+        ("speed;load;friction\n1;2;0,1\n", ["line 2", "'0,1'", "decimal sign is a point"]),
+        ("speed,load,friction\n1,2,nan\n", ["line 2", "friction", "finite"]),
+        ("speed [kg],load,friction\n1,2,0.1\n", ["speed", "kg", "rpm"]),
+        ("speed,load,friction,speed\n1,2,0.1,1\n", ["two columns speed"]),
+        ("speed,load,friction\n1,0,0.1\n", ["load[0] = 0 N", "above 0"]),
+        ("speed,load,friction\n1,2,\0\n", ["line 2", "not text"]),
+    ],
+)
+def test_a_wrong_table_is_one_line_that_names_the_place(text, named, tmp_path, capsys):
+    data = tmp_path / "rig.csv"
+    data.write_text(text, encoding="utf-8")
+    assert main(["calibrate", str(data)]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1
+    assert [words for words in named if words not in err] == []
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        ([], "DATA.csv"),
+        (["nowhere.csv"], "nowhere.csv"),
+        (["."], "is a folder"),
+        (["{}", "--fit", "load"], "does not depend on load"),
+        (["{}", "--fit", ","], "fit names nothing"),
+        (["{}", "--confidence", "95"], "confidence = 95.0"),
+        (["{}", "--set", "friction_law=dry"], "friction_law"),
+        (["{}", "--plot", "fit.gif"], "--plot"),
+    ],
+)
+def test_wrong_options_are_one_line(words, named, table, capsys):
+    assert main(["calibrate", *(word.format(table) for word in words)]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1 and named in err
+
+
+def test_a_file_that_is_no_text_is_named(tmp_path, capsys):
+    (tmp_path / "rig.csv").write_bytes(b"\xff\xfe\x00speed")
+    assert main(["calibrate", str(tmp_path / "rig.csv")]) == 2
+    assert "not UTF-8" in capsys.readouterr().err

@@ -1,0 +1,106 @@
+"""Columns of a CSV file, found by their names, in SI units."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from ..errors import ParameterError
+from ..units import parse_quantity
+
+LONGEST = 1_000_000  # lines; a larger file is not a table of measured points
+
+
+def read_columns(
+    path: str, units: Mapping[str, str], optional: tuple[str, ...] = ()
+) -> dict[str, list[float]]:
+    """Return the columns wanted, each a list of numbers in SI units.
+
+    The head names the columns, with the unit of the numbers in brackets: ``speed [rpm]``; without
+    it they are SI. Other columns, empty lines and lines that begin with # are passed over. Comma,
+    semicolon or tab separate; the decimal sign is a point.
+
+    Parameters
+    ----------
+    path : the file
+    units : SI unit of every column by its name
+    optional : names that may be missing
+
+    Raises
+    ------
+    ParameterError
+        With the line and the column, where something is missing or is no number.
+    """
+    lines = _lines(path)
+    if not lines:
+        raise ParameterError(f"{path}: is empty, a line of column names is wanted first")
+    head = lines[0][1]
+    separator = max(",;\t", key=head.count)
+    where = _find(path, next(csv.reader([head], delimiter=separator)), units, optional)
+    columns: dict[str, list[float]] = {name: [] for name in where}
+    for number, line in lines[1:]:
+        cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+        for name, (index, written) in where.items():
+            place = f"{path}, line {number}: {name}"
+            if index >= len(cells) or not cells[index].strip():
+                raise ParameterError(f"{place} is missing")
+            columns[name].append(_number(place, cells[index].strip(), written, units[name]))
+    if len(lines) == 1:
+        raise ParameterError(f"{path}: has column names but no line of numbers")
+    return columns
+
+
+def _lines(path: str) -> list[tuple[int, str]]:
+    """Return the lines that count, with their numbers in the file."""
+    if Path(path).is_dir():
+        raise ParameterError(f"{path}: is a folder, a CSV file is wanted")
+    found = []
+    try:
+        with open(path, encoding="utf-8-sig", newline=None) as stream:
+            for number, line in enumerate(stream, 1):
+                if number > LONGEST:
+                    raise ParameterError(f"{path}: has more than {LONGEST} lines")
+                if "\0" in line:
+                    raise ParameterError(f"{path}, line {number}: is not text")
+                if line.strip(" \t\r\n,;") and not line.lstrip().startswith("#"):
+                    found.append((number, line.rstrip("\r\n")))
+    except UnicodeDecodeError:
+        raise ParameterError(f"{path}: is not UTF-8 text, a CSV file is wanted") from None
+    return found
+
+
+def _find(
+    path: str, head: list[str], units: Mapping[str, str], optional: tuple[str, ...]
+) -> dict[str, tuple[int, str]]:
+    """Return the place and the written unit of every column wanted."""
+    found: dict[str, tuple[int, str]] = {}
+    for index, cell in enumerate(head):
+        match = re.fullmatch(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", cell)
+        name = match[1].lower().replace(" ", "_") if match else ""
+        if match is None or name not in units:
+            continue
+        if name in found:
+            raise ParameterError(f"{path}: has two columns {name}")
+        written = (match[2] or "").strip()
+        written = "" if written in ("-", "1") else written
+        parse_quantity(f"1 {written}", units[name], f"{path}: unit of column {name}")
+        found[name] = (index, written)
+    missing = [name for name in units if name not in found and name not in optional]
+    if missing:
+        names = ", ".join(cell.strip() for cell in head)
+        raise ParameterError(
+            f"{path}: column {missing[0]} is missing; wanted: {', '.join(units)}; found: {names}"
+        )
+    return found
+
+
+def _number(place: str, text: str, written: str, unit: str) -> float:
+    """Return a cell in SI units."""
+    try:
+        float(text)
+    except ValueError:
+        comma = "; the decimal sign is a point" if re.fullmatch(r"[+-]?\d+,\d+", text) else ""
+        raise ParameterError(f"{place} = {text!r}, a number is wanted{comma}") from None
+    return parse_quantity(f"{text} {written}".strip(), unit, place)

@@ -1,0 +1,76 @@
+"""``thrustwasher calibrate``: fit the clutch's friction law to measured friction."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from typing import Any
+
+from ..errors import ParameterError
+from ..models.clutch_params import SPEC
+from ..units import parse_quantity
+from . import _options, _output, _table
+
+HELP = "fit the clutch's friction law to measured friction (CSV: speed, load, friction)"
+UNITS = {"speed": "rad/s", "load": "N", "friction": "1", "friction_error": "1"}
+EXAMPLES = "plough_weight, shear_floor, stick_speed, decay_speed, hardness_ratio, indentation"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument(
+        "data", metavar="DATA.csv", nargs="?",
+        help="columns speed, load, friction and, if known, friction_error (standard deviation); "
+        'a unit may follow in brackets, as in "speed [rpm]"',
+    )  # fmt: skip
+    parser.add_argument(
+        "--fit", metavar="NAMES",
+        help=f"constants to fit, separated by commas, of {EXAMPLES}; default the first four "
+        "(constant_friction under --set friction_law=constant)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--confidence", metavar="P", default="0.95",
+        help="probability of the intervals; above 0, below 1, default 0.95",
+    )  # fmt: skip
+    _options.add_parameters(parser, SPEC)
+    parser.add_argument("--plot", metavar="FILE", help="draw points, fitted curve and residuals")
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of sentences")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Read, fit, then print or draw."""
+    if arguments.parameters:
+        print(_options.parameter_table(SPEC))
+        return 0
+    if arguments.data is None:
+        raise ParameterError("the file with the measured points is missing (DATA.csv)")
+    params = _options.read_parameters(arguments, SPEC)
+    confidence = parse_quantity(arguments.confidence, "1", "confidence")
+    plot = arguments.plot and _output.check_file(arguments.plot, "--plot", _output.PLOT_SUFFIXES)
+    columns: dict[str, Any] = dict(
+        _table.read_columns(arguments.data, UNITS, optional=("friction_error",))
+    )
+
+    from ..models.clutch_calibration import DEFAULT_FIT, calibrate
+
+    names = DEFAULT_FIT if params.friction_law != "constant" else ("constant_friction",)
+    if arguments.fit is not None:
+        names = tuple(name.strip() for name in arguments.fit.split(",") if name.strip())
+    began = time.perf_counter()
+    found = calibrate(params, **columns, fit=names, confidence=confidence)
+    wall_time = time.perf_counter() - began
+    if plot:
+        from ..report.fit_plot import calibration_figure
+
+        with _output.whole_file(plot) as draft:
+            calibration_figure(found, columns).savefig(draft)
+        _output.note(f"wrote {plot}")
+    if arguments.json:
+        inputs = {"data": arguments.data, "fit": names, **columns}
+        pack = {"parameters": _output.parameters_of(found.params)}
+        _output.print_json({**found.as_dict(), **pack, **inputs, "wall_time": wall_time})
+        return 0
+    print(found)
+    settings = " ".join(f"--set {e.name}={e.value:.10g}" for e in found.estimates)
+    print(f"Use it: thrustwasher clutch {settings}")
+    return 0

@@ -46,6 +46,7 @@ _DISPLAY: dict[str, tuple[str, ...]] = {
     "W": ("kW", "W"),
     "J": ("kJ", "J"),
     "J/m2": ("MJ/m2", "kJ/m2", "J/m2"),
+    "W/m2": ("MW/m2", "kW/m2", "W/m2"),
 }
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)

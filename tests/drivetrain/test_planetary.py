@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scene_runs import default_shift, shift, slow_without_jit
+from scene_runs import NO_DRAG, default_shift, shift, slow_without_jit
 
 # Settled film, no drag: ramp -> lock after ramp start [s], at [rad/s]; engine work, load work,
 # kinetic and clutch heat [kJ] until lock-up; per face [MJ/m2].
@@ -11,7 +11,6 @@ EXPECTED = {
     "planetary": (1.649, 98.83, 73.5, 50.3, -22.8, 46.0, 0.59),
     "planetary-slow": (1.831, 98.67, 83.3, 56.5, -23.0, 49.8, 0.63),
 }
-NO_DRAG = {"washer": None, "transmission": {"washers": 0}}
 
 
 @pytest.mark.parametrize("name", list(EXPECTED))

@@ -63,6 +63,14 @@ def test_the_command_is_a_ramp():
     assert scene.command(0.25) == pytest.approx(0.5)
 
 
+def test_the_command_may_run_the_other_way(tmp_path):
+    scene = load_scene(written(tmp_path, "", "shift", "from = 1\nto = 0.5"))
+    assert [scene.command(t) for t in (0.0, 0.25, 9.0)] == [1.0, 0.75, 0.5]
+    assert (scene.engaging, scene.releasing) == ("brake", "clutch")
+    assert load_scene("planetary").engaging == "clutch" and not load_scene("planetary").alone
+    assert load_scene("brake-test").alone
+
+
 def test_the_choice_of_master_reaches_the_transmission():
     scene = load_scene("msl")
     assert scene.parts["transmission"].params.torque_age == 0
@@ -95,6 +103,7 @@ def test_the_choice_of_master_reaches_the_transmission():
         ("", "transmission", "torque_age = 1", r"torque_age cannot be set here"),
         ("", "shift", "begin = 1", r"\[shift\]: there is no 'begin' here"),
         ("", "shift", "duration = -1", r"\[shift\]: duration = -1.0 s, allowed: 0 .."),
+        ("", "shift", "to = 1.5", r"\[shift\]: to = 1.5, allowed: 0 .. 1$"),
         ("step = 0", "clutch", "", r"step = 0.0 s, allowed: 1e-06 .. 1 s"),
         ("stop_time = 0", "clutch", "", r"stop_time = 0.0 s, allowed: start_time \+ 1"),
         ("step = 1e-6\nstop_time = 9", "clutch", "", r"stop_time = 9.0 s, allowed: start_time"),
@@ -121,7 +130,7 @@ def test_what_is_wrong_is_named(tmp_path, top, table, inside, message):
     [
         ("planetry", "scene = 'planetry', allowed: .* did you mean 'planetary'"),
         ("nowhere.toml", r"scene = 'nowhere.toml': cannot be read \(No such file"),
-        ("", "scene = '', allowed: msl"),
+        ("", "scene = '', allowed: brake-test, "),
     ],
 )
 def test_a_missing_scene_is_named(name, message):

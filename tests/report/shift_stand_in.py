@@ -4,10 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from thrustwasher.report.shift_record import Cost, Event, Part, Phase, Record
+from thrustwasher.report.shift_record import Cost, Event, KeyFigure, Part, Phase, Record
+
+UNITS = {"time": "s", "speed": "rad/s", "energy": "J", "area": "J/m2", "power": "W", "thrust": "N",
+         "torque": "N.m", "temperature": "K", "max": "K"}  # fmt: skip
 
 
-def record(washer: bool = True) -> Record:
+def key_figures(values: dict[str, float | None]) -> list[KeyFigure]:
+    """Return figures whose text and unit follow from their names."""
+    return [
+        KeyFigure(name, name.replace("_", " "), UNITS.get(name.split("_")[-1], "1"), value)
+        for name, value in values.items()
+    ]
+
+
+def record(washer: bool = True, mesh: bool = False) -> Record:
     """Return a shift of 2.5 s: pressure ramp 0.1 to 0.4 s, lock-up at 1.75 s."""
     t = np.linspace(0.0, 2.5, 2501)
     command = np.clip((t - 0.1) / 0.3, 0.0, 1.0)
@@ -32,6 +43,7 @@ def record(washer: bool = True) -> Record:
         "transmission.sun_torque": np.where(t < 0.25, 150.0 - reaction, 60.0 + 60 * done**3),
         "transmission.oil_supply_temperature": np.full_like(t, 297.15),
         "clutch.torque_capacity": capacity,
+        "clutch.speed": slip,
         "brake.torque_capacity": 389.0 * (1.0 - command),
         "clutch.temperature": 297.15 + 150.0 * done**0.7,
         "brake.temperature": np.full_like(t, 297.2),
@@ -64,6 +76,19 @@ def record(washer: bool = True) -> Record:
             "washer.distress": ((t > 0.3) & (t < 0.34)).astype(float),
         }
         s["transmission.washer_heat"] = np.cumsum(8 * s["washer.friction_power"] * dt)
+    if mesh:
+        s |= {
+            "mesh.friction_torque": 0.3 * (1.0 - done),
+            "mesh.friction_power": 120.0 * (1.0 - done),
+            "mesh.temperature": 297.15 + 90.0 * (1.0 - done),
+            "mesh.surface_temperature": 297.15 + 30.0 * (1.0 - done),
+            "mesh.film_ratio": 1.2 * (1.0 - done) + 0.01,
+            "mesh.stress_utilization_aisi1020": 1.1 - 0.3 * done,
+            "mesh.stress_utilization_aisi4340": 0.8 - 0.3 * done,
+            "mesh.allowable_ratio_aisi1020": 0.7 + 0.3 * done,
+            "mesh.allowable_ratio_aisi4340": 0.5 + 0.5 * done,
+        }
+        s["transmission.mesh_heat"] = np.cumsum(6 * s["mesh.friction_power"] * dt)
     book = ("load_work", "clutch_heat", "brake_heat", "washer_heat", "mesh_heat")
     kinetic = s["transmission.engine_work"] - sum(s[f"transmission.{k}"] for k in book)
     s["transmission.kinetic_change"] = kinetic
@@ -82,21 +107,28 @@ def record(washer: bool = True) -> Record:
         Part("brake", "WetClutch", {}),
     ]
     parts += [Part("washer", "ThrustWasher", small)] if washer else []
+    parts += [Part("mesh", "GearMesh", {})] if mesh else []
     heat = float(s["transmission.clutch_heat"][-1])
     figures: dict[str, float | None] = {
         "lock_time": 1.75, "lock_speed": 99.0, "release_time": 0.25, "slip_energy": heat,
         "slip_energy_per_area": heat / 0.0786, "peak_power": 49e3, "peak_clutch_torque": 389.0,
         "peak_sun_thrust": 2280.0, "peak_clutch_temperature": 447.15,
-        "peak_brake_temperature": 297.2, "friction_start": 0.04, "friction_middle": 0.05,
-        "friction_lock": 0.11,
+        "lock_after_ramp_start": 1.65, "friction_mean": 0.06,
+        "friction_start": 0.04, "friction_middle": 0.05,
+        "friction_lock": 0.11, "peak_brake_temperature": 297.2,
     }  # fmt: skip
     if washer:
         figures |= {"peak_washer_temperature_max": 322.15, "least_washer_film_ratio": 0.31,
                     "washer_distress_time": 0.04}  # fmt: skip
+    if mesh:
+        figures |= {"peak_flash_temperature": 387.15, "peak_mesh_temperature": 327.15,
+                    "stress_margin_aisi1020": -0.1, "stress_margin_aisi4340": 0.2}  # fmt: skip
     energy = {
         "engine_work": float(s["transmission.engine_work"][-1]), "kinetic": float(kinetic[-1]),
         "load_work": float(s["transmission.load_work"][-1]), "clutch": heat, "brake": 0.0,
-        "washers": float(s["transmission.washer_heat"][-1]), "meshes": 0.0, "residual": 1e-5,
+        "washers": float(s["transmission.washer_heat"][-1]), "residual": 1e-5,
+        "meshes": float(s["transmission.mesh_heat"][-1]),
+        "brake_coupling_difference": 0.0, "brake_coupling_difference_share": 0.0,
         "residual_share": 1.3e-10, "coupling_difference": 9.4, "coupling_difference_share": 2e-4,
     }  # fmt: skip
     return Record(
@@ -114,7 +146,7 @@ def record(washer: bool = True) -> Record:
         events=(Event(0.1, "shift ramp starts"), Event(0.25, "brake lets go of the ring"),
                 Event(1.75, "clutch locks")),
         energy=energy,
-        figures=figures,
+        key_figures=key_figures(figures),
         parts=parts,
         costs=[Cost(part.name, "field", 0.01, 0.001, 2500, 0.05) for part in parts],
         wall_time=0.4,

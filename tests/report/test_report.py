@@ -1,6 +1,7 @@
 """The report says what its record says, in one page that needs nothing else."""
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -8,11 +9,12 @@ import pytest
 import shift_stand_in
 import washer_stand_in
 
-from thrustwasher.report import panels, shift_plots, shift_report, summary, tables
+from thrustwasher.report import film_panels, shift_plots, shift_report, summary, tables
 from thrustwasher.report.clutch_plot import clutch_figure
 from thrustwasher.report.curve_plot import curve_figure
 from thrustwasher.report.extremes import highest, worst_film
 from thrustwasher.report.html import render, save_plots
+from thrustwasher.report.shift_record import KeyFigure, Published
 from thrustwasher.report.washer_moment import Moment
 from thrustwasher.report.washer_plots import field_figure
 
@@ -70,9 +72,9 @@ def test_page_carries_every_chapter_and_the_numbers(record):
     page = shift_report.shift_page(record)
     text = render(page)
     titles = [section.title for section in page.sections]
-    assert titles == ["Speeds", "Torques", "Temperatures", "Film ratios", "The thrust washer",
-                      "Energy", "Key figures", "Time spent", "What was simulated",
-                      "How far to trust it"]  # fmt: skip
+    assert titles == ["Speeds", "Torques", "Temperatures", "Film ratios", "Friction of the clutch",
+                      "The thrust washer", "Energy", "Key figures", "Time spent",
+                      "What was simulated", "How far to trust it"]  # fmt: skip
     for words in ("1.75 s", "99 rad/s", "Thermo-viscous distress", "upper bound", "half the size",
                   "a remark of the run", "Jackson", "roughness_carrier"):  # fmt: skip
         assert words in text
@@ -83,8 +85,6 @@ def test_same_record_gives_the_same_page(record):
 
 
 def test_text_from_a_scene_cannot_become_markup(record):
-    from dataclasses import replace
-
     text = render(shift_report.shift_page(replace(record, title="<script>alert(1)</script>")))
     assert "alert(1)" in text and "<script>alert" not in text
 
@@ -96,10 +96,46 @@ def test_a_scene_without_washer_has_no_word_of_it():
     assert render(page)
 
 
-def test_a_short_shift_is_also_drawn_enlarged(record):
-    from dataclasses import replace
+def replaced(record, **values):
+    """Return the record with other key figures."""
+    figures = [f._replace(value=values.get(f.name, f.value)) for f in record.key_figures]
+    return replace(record, key_figures=figures)
 
-    short = replace(record, figures={**record.figures, "lock_time": 0.2})
+
+def test_a_scene_with_a_mesh_shows_teeth_and_their_stress(record):
+    page = shift_report.shift_page(shift_stand_in.record(washer=False, mesh=True))
+    assert "The gear teeth" in [section.title for section in page.sections]
+    assert "asperities reached 114 °C" in page.summary[2]
+    assert any("endurance limit of AISI 1020: 1.10" in words for words in page.warnings)
+    assert render(page)
+
+
+def test_what_a_source_says_stands_beside_the_run(record):
+    said = [Published("friction_mean", "mean friction", "1", False, 0.053, 0.06),
+            Published("lock_speed", "speed", "rad/s", False, 100.0, None)]  # fmt: skip
+    told = replace(record, published=said, source="somebody's table 2")
+    section = next(s for s in shift_report.shift_page(told).sections if s.anchor == "friction")
+    assert section.texts == ["Published: somebody's table 2."]
+    assert section.tables[0].rows[0] == ("mean friction", "0.053", "0.06", "+13.21%")
+    assert section.tables[0].rows[1][2:] == ("", "")
+
+
+def test_a_brake_alone_is_told_as_a_braking_test(record):
+    energy = {**record.energy, "engine_work": 0.0}
+    figures = [KeyFigure("stopped_inertia", "inertia", "kg.m2", 30.0),
+               KeyFigure("greatest_slip", "slip", "rad/s", 314.159)]  # fmt: skip
+    lone = replace(record, engaging="brake", alone=True, energy=energy,
+                   key_figures=[*record.key_figures, *figures])  # fmt: skip
+    words = summary.sentences(lone)[0]
+    assert "brought 30 kg·m² from 314.2 rad/s (3000 rpm) to rest in 1.65 s" in words
+    text = render(shift_report.shift_page(lone))
+    assert "the engine's work" not in text and "Torque of the brake" in text
+    axis = axes_of(shift_plots.speed_figure(lone))[0]
+    assert "engine (sun)" not in {line.get_label() for line in axis.lines}
+
+
+def test_a_short_shift_is_also_drawn_enlarged(record):
+    short = replaced(record, lock_time=0.2)
     stems = [p.file for s in shift_report.shift_page(short).sections for p in s.plots]
     assert "speeds_enlarged" in stems and "torques_enlarged" in stems
 
@@ -119,10 +155,7 @@ def test_three_sentences_tell_the_shift(record):
 
 
 def test_a_shift_that_does_not_lock_is_said(record):
-    from dataclasses import replace
-
-    figures = {**record.figures, "lock_time": None, "lock_speed": None}
-    slipping = replace(record, figures=figures)
+    slipping = replaced(record, lock_time=None, lock_speed=None)
     assert "still slipping" in summary.sentences(slipping)[0]
     assert "did not lock" in summary.warnings(slipping)[0]
     assert render(shift_report.shift_page(slipping))
@@ -130,8 +163,10 @@ def test_a_shift_that_does_not_lock_is_said(record):
 
 def test_energy_table_adds_up(record):
     rows = tables.energy_table(record).rows
-    joules = [float(row[1].replace("\u2009", "")) for row in rows]
-    assert joules[0] + joules[1] == pytest.approx(sum(joules[2:8]), abs=0.05)
+    joule = {row[0]: float(row[1].replace("\u2009", "")) for row in rows}
+    spent = [v for words, v in joule.items() if words.startswith(("work into", "heat", "residual"))]
+    given = joule["work of the engine"] + joule["kinetic energy given up"]
+    assert given == pytest.approx(sum(spent), abs=0.05)
 
 
 def test_parameters_tell_scene_from_default(record):
@@ -157,6 +192,8 @@ def test_every_axis_carries_its_unit(record):
         shift_plots.speed_figure(record), shift_plots.torque_figure(record),
         shift_plots.temperature_figure(record), shift_plots.film_figure(record),
         shift_plots.washer_figure(record), shift_plots.energy_figure(record),
+        shift_plots.friction_figure(record),
+        shift_plots.stress_figure(shift_stand_in.record(mesh=True)),
         shift_plots.overview_figure(record), curve_figure(washer_stand_in.curve(), POINT),
         field_figure(washer_stand_in.Washer(), POINT),
     ]  # fmt: skip
@@ -171,8 +208,8 @@ def test_film_ratios_below_zero_are_drawn_not_dropped(record):
     record.signals["washer.film_ratio"][:] = -0.5
     axis = axes_of(shift_plots.film_figure(record))[0]
     drawn = [line for line in axis.lines if line.get_label() == "thrust washer"]
-    assert np.all(drawn[0].get_ydata() == panels.LOWEST_RATIO)
-    assert axis.get_ylim()[0] <= panels.LOWEST_RATIO
+    assert np.all(drawn[0].get_ydata() == film_panels.LOWEST_RATIO)
+    assert axis.get_ylim()[0] <= film_panels.LOWEST_RATIO
 
 
 def test_branches_of_the_curve_differ_in_more_than_colour():

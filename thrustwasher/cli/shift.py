@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
         "--scene", metavar="NAME|FILE.toml", default="planetary",
-        help="a built-in scene (planetary, msl, ...) or a TOML file; default planetary",
+        help="a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary",
     )  # fmt: skip
     parser.add_argument(
         "--out", metavar="DIR", default="shift-report",
@@ -64,7 +64,8 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     for text in [*summary.sentences(record), *summary.warnings(record)]:
         print(text)
-    print(f"Energy book: {record.energy['residual_share']:.1e} of the engine's work is missing.")
+    missing = f"{record.energy['residual_share']:.1e} of {summary.whole_name(record)}"
+    print(f"Energy book: {missing} is missing.")
     print(f"Report: {folder / REPORT}")
     return 0
 

@@ -12,12 +12,13 @@
 ================  =================================================================================
 """
 
+from .figure_list import FIGURES, KeyFigure
 from .result import Cost, Event, Phase, ShiftResult
-from .scene import Part, Scene
+from .scene import Part, Published, Scene
 from .scene_file import builtin_scenes, load_scene
 from .shift import run_shift
 
 __all__ = [
-    "Cost", "Event", "Part", "Phase", "Scene", "ShiftResult",
+    "FIGURES", "Cost", "Event", "KeyFigure", "Part", "Phase", "Published", "Scene", "ShiftResult",
     "builtin_scenes", "load_scene", "run_shift",
 ]  # fmt: skip

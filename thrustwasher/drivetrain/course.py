@@ -9,10 +9,11 @@ from ..kernels.clutch_step import HOT_LIMIT
 from .result import Event, Phase
 from .scene import Scene
 
-Signals = dict[str, NDArray[np.float64]]
+Array = NDArray[np.float64]
+Signals = dict[str, Array]
 STANDSTILL = 1.0  # rad/s
 # What a change of a Boolean signal means: (signal, kind and text when it rises, when it falls,
-# signals with the located time; None: known to the communication step only).
+# signals with the located time; None: located here, or known to the communication step only).
 CHANGES = (
     ("transmission.clutch_locked", ("clutch_locked", "clutch locks"),
      ("clutch_released", "clutch breaks away"), "transmission.lock_time", None),
@@ -21,18 +22,21 @@ CHANGES = (
     ("washer.distress", ("film_lost", "washer loses its film"),
      ("film_regained", "washer regains its film"), None, None),
 )  # fmt: skip
+GEARS = {"brake": "first gear", "clutch": "second gear"}  # what holds when a pack is locked
+SLIPPING = {"brake": "braking", "clutch": "engaging"}  # a pack that takes over from no other
 
 
 def turning(signals: Signals) -> NDArray[np.bool_]:
-    """Return where the washer turns; one that stands still has no film to lose."""
+    """Return where the planets turn; washers and teeth that stand still have no film to lose."""
     return np.asarray(np.abs(signals["transmission.washer_speed"]) > STANDSTILL)
 
 
-def events(scene: Scene, time: NDArray[np.float64], signals: Signals) -> list[Event]:
+def events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
     """Return all events in the order of time."""
     found = [Event(scene.shift_start, "ramp_start", "shift ramp starts")]
-    end = scene.shift_start + scene.shift_duration
-    found.append(Event(end, "ramp_end", "shift ramp ends"))
+    if scene.shift_duration > 0.0:
+        end = scene.shift_start + scene.shift_duration
+        found.append(Event(end, "ramp_end", "shift ramp ends"))
     found = [e for e in found if scene.start_time <= e.time <= scene.stop_time]
     for name, up, down, up_time, down_time in CHANGES:
         if name not in signals:
@@ -44,7 +48,10 @@ def events(scene: Scene, time: NDArray[np.float64], signals: Signals) -> list[Ev
             found.append(Event(float(time[0]), "film_lost", "washer has no film at the start"))
         for i in np.flatnonzero(on[1:] != on[:-1]) + 1:
             (kind, text), located = (up, up_time) if on[i] else (down, down_time)
-            found.append(Event(float(signals[located][i] if located else time[i]), kind, text))
+            when = float(signals[located][i] if located else time[i])
+            if kind == "brake_locked":
+                when = _standstill(time, signals, int(i))
+            found.append(Event(when, kind, text))
     for pack in ("clutch", "brake"):
         hot = np.flatnonzero(signals[f"{pack}.temperature"] > HOT_LIMIT)
         if len(hot):
@@ -53,17 +60,43 @@ def events(scene: Scene, time: NDArray[np.float64], signals: Signals) -> list[Ev
     return sorted(found, key=lambda e: e.time)
 
 
-def phases(scene: Scene, found: list[Event]) -> list[Phase]:
-    """Return first gear, torque phase, inertia phase and locked, as far as the run got."""
+def _standstill(time: Array, signals: Signals, i: int) -> float:
+    """Return when the ring came to rest in the step that ends at point ``i``.
+
+    The transmission locates it but does not hand it out. The brake's heat of that step does: slip
+    falls to zero in proportion to time, so heat = torque x slip at the step's start x time / 2.
+    """
+    slip, torque, heat = (
+        signals[f"transmission.brake_{name}"] for name in ("speed", "reaction", "heat")
+    )
+    begin, end = float(time[i - 1]), float(time[i])
+    power = abs(float(slip[i - 1] * torque[i - 1]))
+    if power == 0.0:
+        return end
+    return min(end, begin + 2.0 * float(heat[i] - heat[i - 1]) / power)
+
+
+def phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phase]:
+    """Return gear, torque phase, inertia phase and locked, as far as the run got.
+
+    A pack that takes over from no other has no torque phase: it slips from the ramp on.
+    """
     stop = scene.stop_time
     start = min(max(scene.shift_start, scene.start_time), stop)
-    release = next((e.time for e in found if e.kind == "brake_released" and e.time >= start), stop)
-    lock = next((e.time for e in found if e.kind == "clutch_locked" and e.time >= start), stop)
-    release = min(release, lock)
-    marks = [
-        ("first gear", scene.start_time, start),
-        ("torque phase", start, release),
-        ("inertia phase", release, lock),
-        ("locked", lock, stop),
-    ]
+    pack, other = scene.engaging, scene.releasing
+
+    def first(kind: str) -> float:
+        return next((e.time for e in found if e.kind == kind and e.time >= start), stop)
+
+    lock = first(f"{pack}_locked")
+    release = min(first(f"{other}_released"), lock)
+    if signals[f"transmission.{other}_locked"][0] > 0.5:
+        marks = [
+            (GEARS[other], scene.start_time, start),
+            ("torque phase", start, release),
+            ("inertia phase", release, lock),
+        ]
+    else:
+        marks = [("free", scene.start_time, start), (SLIPPING[pack], start, lock)]
+    marks.append(("locked", lock, stop))
     return [Phase(name, a, b) for name, a, b in marks if b > a]

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from .figure_list import KeyFigure
 from .parts import PARTS
 from .scene import Scene
 
@@ -62,7 +63,7 @@ class ShiftResult:
     events: list[Event]
     phases: list[Phase]
     energy: dict[str, float]
-    figures: dict[str, float | None]
+    key_figures: list[KeyFigure]
     cost: list[Cost]
     wall_time: float
     """[s] of wall clock for all steps, without building and instantiating."""
@@ -71,6 +72,23 @@ class ShiftResult:
     real_time_factor: float
     """Simulated time over wall-clock time."""
     messages: list[str]
+
+    @property
+    def figures(self) -> dict[str, float | None]:
+        """The key figures by name, SI units; None where there is no such thing."""
+        return {figure.name: figure.value for figure in self.key_figures}
+
+    def comparison(self) -> list[dict[str, Any]]:
+        """Return what the scene's source says beside this run: one entry per key figure."""
+        published = self.scene.published
+        if published is None:
+            return []
+        run = {figure.name: figure for figure in self.key_figures}
+        return [
+            {"name": name, "text": run[name].text, "unit": run[name].unit,
+             "difference": run[name].difference, "published": value, "run": run[name].value}
+            for name, value in published.figures.items() if name in run
+        ]  # fmt: skip
 
     def units(self) -> dict[str, str]:
         """Return the unit of every signal."""
@@ -93,7 +111,12 @@ class ShiftResult:
             "oil_temperature": scene.oil_temperature,
             "shift_start": scene.shift_start,
             "shift_duration": scene.shift_duration,
+            "shift_from": scene.shift_from,
+            "shift_to": scene.shift_to,
+            "engaging": scene.engaging,
             **self.figures,
+            **{f"{f.name}_time": f.time for f in self.key_figures if f.time is not None},
+            "published": self.comparison(),
             "energy": self.energy,
             "energy_residual": self.energy["residual"],
             "events": [e._asdict() for e in self.events],

@@ -28,8 +28,19 @@ class Part:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Published:
+    """What a source says about a run of this scene: key figures in SI units, by name."""
+
+    source: str
+    figures: dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Scene:
-    """A shift to be simulated; times in s, temperature in K."""
+    """A shift to be simulated; times in s, temperature in K.
+
+    The shift command goes from ``shift_from`` to ``shift_to``: 0 presses the brake, 1 the clutch.
+    """
 
     name: str
     title: str
@@ -41,15 +52,36 @@ class Scene:
     oil_temperature: float
     shift_start: float
     shift_duration: float
+    shift_from: float = 0.0
+    shift_to: float = 1.0
     parts: dict[str, Part]
+    published: Published | None = None
 
     def command(self, time: float) -> float:
-        """Return the shift command: a ramp from 0 to 1."""
+        """Return the shift command: a ramp between two values."""
         if time <= self.shift_start:
-            return 0.0
+            return self.shift_from
         if time >= self.shift_start + self.shift_duration:
-            return 1.0
-        return (time - self.shift_start) / self.shift_duration
+            return self.shift_to
+        done = (time - self.shift_start) / self.shift_duration
+        return self.shift_from + (self.shift_to - self.shift_from) * done
+
+    @property
+    def engaging(self) -> str:
+        """The pack that the ramp presses."""
+        return "clutch" if self.shift_to >= self.shift_from else "brake"
+
+    @property
+    def releasing(self) -> str:
+        """The pack that the ramp lets go."""
+        return "brake" if self.engaging == "clutch" else "clutch"
+
+    @property
+    def alone(self) -> bool:
+        """True if the engaging pack is all that acts: no engine, no load, no other pack."""
+        gearbox = self.parts["transmission"].params
+        other = getattr(gearbox, f"{self.releasing}_force")
+        return not (gearbox.engine_torque or gearbox.load_torque or other)
 
     def with_options(
         self,

@@ -17,8 +17,9 @@ from ..errors import ParameterError
 from ..models._params import allowed
 from ..models._spec import ModelSpec
 from ..units import parse_quantity
+from .figure_list import FIGURES
 from .parts import PARTS, REQUIRED
-from .scene import STEP_RANGE, Part, Scene
+from .scene import STEP_RANGE, Part, Published, Scene
 
 # Key -> (unit, least, largest); texts have no unit.
 TEXTS = ("title", "description", "base", "master")
@@ -28,7 +29,14 @@ NUMBERS = {
     "step": ("s", *STEP_RANGE),
     "oil_temperature": ("K", 233.15, 473.15),
 }
-SHIFT = {"start": ("s", -1e6, 1e6), "duration": ("s", 0.0, 1e3)}
+SHIFT = {
+    "start": ("s", -1e6, 1e6),
+    "duration": ("s", 0.0, 1e3),
+    "from": ("1", 0.0, 1.0),
+    "to": ("1", 0.0, 1.0),
+}
+SHIFT_DEFAULTS = {"start": 0.0, "duration": 0.0, "from": 0.0, "to": 1.0}
+TABLES = ("shift", "published", *PARTS)
 
 
 def builtin_scenes() -> list[str]:
@@ -106,8 +114,9 @@ def _number(where: str, key: str, value: Any, rule: tuple[str, float, float]) ->
     unit, low, high = rule
     number = _quantity(where, key, value, unit)
     if not low <= number <= high:
+        tail = "" if unit == "1" else f" {unit}"
         raise ParameterError(
-            f"{where}: {key} = {number!r} {unit}, allowed: {low:g} .. {high:g} {unit}"
+            f"{where}: {key} = {number!r}{tail}, allowed: {low:g} .. {high:g}{tail}"
         )
     return number
 
@@ -123,24 +132,19 @@ def _quantity(where: str, key: str, value: Any, unit: str) -> float:
 
 def _scene(name: str, table: dict[str, Any]) -> Scene:
     where = f"scene {name!r}"
-    known = [*TEXTS, *NUMBERS, "shift", *PARTS]
+    known = [*TEXTS, *NUMBERS, *TABLES]
     for key, value in table.items():
         if key not in known:
             raise _unknown(where, key, known)
         if key in TEXTS and not isinstance(value, str):
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a text")
-        if (key == "shift" or key in PARTS) and not isinstance(value, dict):
+        if key in TABLES and not isinstance(value, dict):
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a table [{key}]")
     for key in (*REQUIRED, "shift", "stop_time"):
         if key not in table:
             raise ParameterError(f"{where}: {key!r} is missing")
-    shift = table["shift"]
-    for key in shift:
-        if key not in SHIFT:
-            raise _unknown(f"{where} [shift]", key, list(SHIFT))
     numbers = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
     numbers |= {k: _number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
-    times = {k: _number(f"{where} [shift]", k, shift.get(k, 0.0), SHIFT[k]) for k in SHIFT}
     parts = {}
     for key in PARTS:
         if key in table:
@@ -150,12 +154,38 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
         title=table.get("title", name),
         description=table.get("description", "").strip(),
         master=table.get("master", "gauss-seidel"),
-        shift_start=times["start"],
-        shift_duration=times["duration"],
         parts=parts,
+        published=_published(f"{where} [published]", table.get("published")),
+        **_shift(f"{where} [shift]", table["shift"]),
         **numbers,
     )
     return scene.checked()
+
+
+def _shift(where: str, table: dict[str, Any]) -> dict[str, float]:
+    """Return the ramp of the shift command, as fields of a scene."""
+    for key in table:
+        if key not in SHIFT:
+            raise _unknown(where, key, list(SHIFT))
+    return {
+        f"shift_{key}": _number(where, key, table.get(key, SHIFT_DEFAULTS[key]), rule)
+        for key, rule in SHIFT.items()
+    }
+
+
+def _published(where: str, table: dict[str, Any] | None) -> Published | None:
+    """Return what a source says about this scene."""
+    if table is None:
+        return None
+    values = dict(table)
+    source = values.pop("source", None)
+    if not isinstance(source, str):
+        raise ParameterError(f"{where}: source = {source!r}, allowed: a text")
+    for key in values:
+        if key not in FIGURES:
+            raise _unknown(where, key, ["source", *FIGURES])
+    figures = {k: _quantity(where, k, v, FIGURES[k].unit) for k, v in values.items()}
+    return Published(source=source, figures=figures)
 
 
 RESERVED = {

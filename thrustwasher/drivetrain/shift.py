@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from . import book, course
+from .figures import key_figures
 from .master import MASTERS
 from .parts import links
 from .result import Cost, ShiftResult
@@ -128,9 +129,9 @@ def run_shift(
         time=time,
         signals=signals,
         events=found,
-        phases=course.phases(scene, found),
+        phases=course.phases(scene, signals, found),
         energy=book.energy(signals),
-        figures=book.figures(scene, time, signals, found),
+        key_figures=key_figures(scene, time, signals, found),
         cost=cost,
         wall_time=wall,
         overhead=wall - sum(c.wall_time for c in cost),

@@ -7,10 +7,13 @@
 ``clutch_plot``    friction of a pack against slip speed
 ``fit_plot``       measured friction, the law fitted to it, residuals
 ``shift_record``   what the report needs from a finished shift
-``panels``         single panels over time: speeds, torques, temperatures, films, energy
+``panel_base``     what panels over time share: lines, phases, events
+``panels``         single panels over time: speeds, torques, temperatures
+``film_panels``, ``energy_panels``, ``stress_panels``, ``friction_panels``: the others
 ``shift_plots``    the figures made of them
 ``washer_moment``  the washer solved again at one moment of the shift
 ``extremes``       the worst values of a shift and when they were reached
+``trust``          how far to trust it, in sentences
 ``summary``        what happened, in sentences made from the numbers
 ``tables``         the report's tables as rows of text
 ``shift_report``   all of that as the chapters of a page

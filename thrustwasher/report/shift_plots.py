@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from . import panels
+from . import energy_panels, film_panels, friction_panels, panels, stress_panels
 from .shift_record import Record
 from .style import styled, time_figure
 
@@ -19,8 +19,9 @@ def speed_figure(record: Record) -> Figure:
 
 @styled
 def torque_figure(record: Record) -> Figure:
-    """Return the torques; the small drag of the washers in its own panel."""
-    if record.series("washer.friction_torque") is None:
+    """Return the torques; the small drag at the planets in its own panel."""
+    drag = [record.series(f"{part}.friction_torque") for part in ("washer", "mesh")]
+    if all(torque is None for torque in drag):
         figure, (axis,) = time_figure(4.2)
         panels.draw_torques(axis, record)
         return figure
@@ -42,7 +43,7 @@ def temperature_figure(record: Record) -> Figure:
 def film_figure(record: Record) -> Figure | None:
     """Return the film ratios over regime bands; None without any film."""
     figure, (axis,) = time_figure(4.2)
-    return figure if panels.draw_films(axis, record) else None
+    return figure if film_panels.draw_films(axis, record) else None
 
 
 @styled
@@ -53,16 +54,34 @@ def washer_figure(record: Record) -> Figure | None:
     if load is None or share is None:
         return None
     figure, (axis,) = time_figure(3.4)
-    panels.draw_washer_load(axis, record, load, share)
+    film_panels.draw_washer_load(axis, record, load, share)
     return figure
+
+
+@styled
+def stress_figure(record: Record) -> Figure | None:
+    """Return how near tooth stress comes to its limit; None if the scene has no gear mesh."""
+    if record.series("mesh.stress_utilization_aisi1020") is None:
+        return None
+    figure, axes = time_figure(5.4, 2, (1.7, 1.0))
+    stress_panels.draw_stress(axes[0], record)
+    stress_panels.draw_allowable(axes[1], record)
+    return figure
+
+
+@styled
+def friction_figure(record: Record) -> Figure | None:
+    """Return friction against slip of the pack that engages; None if it is constant."""
+    figure, (axis,) = time_figure(3.8)
+    return figure if friction_panels.draw_friction(axis, record) else None
 
 
 @styled
 def energy_figure(record: Record) -> Figure:
     """Return where the energy went, stacked, and the heat flows."""
     figure, axes = time_figure(6.4, 2, (1.7, 1.0))
-    panels.draw_energy(axes[0], record)
-    panels.draw_heat_flow(axes[1], record)
+    energy_panels.draw_energy(axes[0], record)
+    energy_panels.draw_heat_flow(axes[1], record)
     return figure
 
 
@@ -72,5 +91,5 @@ def overview_figure(record: Record) -> Figure:
     figure, axes = time_figure(8.6, 3, (1.15, 1.15, 1.0))
     panels.draw_speeds(axes[0], record)
     panels.draw_torques(axes[1], record)
-    panels.draw_films(axes[2], record)
+    film_panels.draw_films(axes[2], record)
     return figure

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 Array = np.ndarray[Any, Any]
+PACKS = ("clutch", "brake")
 
 
 class Phase(NamedTuple):
@@ -45,13 +46,41 @@ class Cost(NamedTuple):
     steps: float
 
 
+class KeyFigure(NamedTuple):
+    """A key figure: value in SI units, None where there is none, and the time [s] it belongs to."""
+
+    name: str
+    text: str
+    unit: str
+    value: float | None
+    time: float | None = None
+    difference: bool = False  # of temperatures
+
+
+class Published(NamedTuple):
+    """A key figure as a source gives it, beside this run's."""
+
+    name: str
+    text: str
+    unit: str
+    difference: bool
+    published: float
+    run: float | None
+
+
 @dataclass(frozen=True, kw_only=True)
 class Record:
-    """A finished shift; ``signals`` maps "part.variable" to values at ``time``, SI units."""
+    """A finished shift; ``signals`` maps "part.variable" to values at ``time``, SI units.
+
+    ``engaging`` is the pack that the ramp presses; ``alone`` says that nothing else acts, neither
+    engine nor load nor the other pack.
+    """
 
     name: str
     title: str
     help: str
+    engaging: str = "clutch"
+    alone: bool = False
     ramp_start: float
     oil_temperature: float
     step: float
@@ -61,11 +90,28 @@ class Record:
     phases: Sequence[Phase]
     events: Sequence[Event]
     energy: Mapping[str, float]
-    figures: Mapping[str, float | None]
+    key_figures: Sequence[KeyFigure]
+    published: Sequence[Published] = ()
+    source: str = ""
     parts: Sequence[Part]
     costs: Sequence[Cost]
     wall_time: float
     messages: Sequence[str] = ()
+
+    @property
+    def figures(self) -> dict[str, float | None]:
+        """The key figures by name."""
+        return {figure.name: figure.value for figure in self.key_figures}
+
+    @property
+    def releasing(self) -> str:
+        """The pack that the ramp lets go."""
+        return "brake" if self.engaging == "clutch" else "clutch"
+
+    def presses(self, pack: str) -> bool:
+        """Return whether a pack is pressed at any time of the run."""
+        load = self.series(f"{pack}.load")
+        return load is None or bool(np.any(load > 0.0))
 
     def series(self, name: str) -> Array | None:
         """Return a signal, or None if this run has none of that name."""
@@ -104,6 +150,8 @@ def record_of(result: Any) -> Record:
         name=scene.name,
         title=scene.title,
         help=" ".join(scene.description.split()),
+        engaging=scene.engaging,
+        alone=scene.alone,
         ramp_start=scene.shift_start,
         oil_temperature=scene.oil_temperature,
         step=result.step,
@@ -113,7 +161,9 @@ def record_of(result: Any) -> Record:
         phases=[Phase(*phase) for phase in result.phases],
         events=[Event(event.time, event.text) for event in result.events],
         energy=result.energy,
-        figures=result.figures,
+        key_figures=[KeyFigure(*figure) for figure in result.key_figures],
+        published=[Published(**entry) for entry in result.comparison()],
+        source=scene.published.source if scene.published else "",
         parts=[Part(n, part.spec.name, part.parameters()) for n, part in scene.parts.items()],
         costs=[
             Cost(c.part, c.fidelity, c.instantiate, c.initialize, c.steps, c.wall_time)

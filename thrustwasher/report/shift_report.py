@@ -9,12 +9,15 @@ from .html import Card, Page, Plot, Section
 from .shift_plots import (
     energy_figure,
     film_figure,
+    friction_figure,
     speed_figure,
+    stress_figure,
     temperature_figure,
     torque_figure,
     washer_figure,
 )
 from .shift_record import Record
+from .trust import trust_texts
 from .washer_moment import Moment, solve_moment
 from .washer_plots import field_figure
 
@@ -27,12 +30,12 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
         *_course_sections(record),
         Section(anchor="temperatures", title="Temperatures", plots=[Plot(
             file="temperatures", figure=temperature_figure(record),
-            caption="The brake stays cool: it only lets go."
-            + (" Washer temperatures are quasi-steady, an upper bound during a shift."
-               if record.part("washer") else ""),
+            caption=_temperature_caption(record),
         )]),
         *_film_sections(record),
+        *_friction_sections(record),
         *_washer_sections(record),
+        *_stress_sections(record),
         Section(anchor="energy", title="Energy", tables=[tables.energy_table(record)], plots=[Plot(
             file="energy", figure=energy_figure(record),
             caption="Integrated by the driveline itself inside its steps.",
@@ -45,11 +48,11 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
                    f"{record.master}. All values in SI units."],
             tables=tables.parameter_tables(record),
         ),
-        Section(anchor="trust", title="How far to trust it", texts=_trust(record)),
+        Section(anchor="trust", title="How far to trust it", texts=trust_texts(record)),
     ]  # fmt: skip
     return Page(
         title=record.title,
-        subtitle=f"Scene {record.name}, {record.time[-1]:.4g} s simulated in "
+        subtitle=f"Scene {record.name}, {record.time[-1] - record.time[0]:.4g} s simulated in "
         f"{say(record.wall_time, 's', digits=3)}, {len(record.parts)} FMUs, made by {made_by}",
         summary=summary.sentences(record),
         warnings=summary.warnings(record),
@@ -84,24 +87,39 @@ def _course_sections(record: Record) -> list[Section]:
     ]
 
 
+CARDS = (
+    "lock_time", "lock_after_ramp_start", "lock_speed", "stopped_inertia", "slip_energy",
+    "slip_energy_per_area", "peak_power", "friction_mean", "friction_lock", "{pack}_temperature",
+    "peak_washer_temperature_max", "least_washer_film_ratio", "peak_flash_temperature",
+    "stress_margin_aisi1020",
+)  # fmt: skip
+OF_A_LONE_PACK = ("lock_after_ramp_start", "stopped_inertia", "friction_mean", "friction_lock")
+
+
 def _cards(record: Record) -> list[Card]:
-    """Return the figures at the top."""
-    figures = record.figures
-    cards = []
-    if figures["lock_time"] is not None:
-        cards.append(Card(name="clutch locked", value=f"{figures['lock_time']:.4g} s"))
-    for name, number, unit in (
-        ("engine speed there", figures["lock_speed"], "rad/s"),
-        ("heat in the clutch", figures["slip_energy"], "J"),
-        ("greatest clutch power", figures["peak_power"], "W"),
-        ("clutch interface at most", figures["peak_clutch_temperature"], "K"),
-        ("washer's hottest spot", figures.get("peak_washer_temperature_max"), "K"),
-        ("washer's least film ratio while turning", figures.get("least_washer_film_ratio"), "1"),
-    ):
-        if number is not None:
-            cards.append(Card(name=name, value=say(number, unit, digits=3)))
+    """Return the figures at the top; braking time and friction where a pack acts alone."""
+    hidden = ("lock_time",) if record.alone else OF_A_LONE_PACK
+    names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
+    known = {figure.name: figure for figure in record.key_figures}
+    cards = [
+        Card(name=f.text, value=say(f.value, f.unit, digits=4, difference=f.difference))
+        for name in names if (f := known.get(name)) is not None and f.value is not None
+    ]  # fmt: skip
     share = f"{record.energy['residual_share']:.1e}"
-    return [*cards, Card(name="energy missing, of engine work", value=share)]
+    return [*cards, Card(name=f"energy missing, of {summary.whole_name(record)}", value=share)]
+
+
+def _temperature_caption(record: Record) -> str:
+    """Return what to know about the temperatures of this run."""
+    texts = []
+    other = record.series(f"{record.releasing}.temperature")
+    if record.presses(record.releasing) and other is not None and other.max() - other[0] < 5.0:
+        texts.append(f"The {record.releasing} stays cool: it only lets go.")
+    if record.part("washer"):
+        texts.append("Washer temperatures are quasi-steady, an upper bound during a shift.")
+    if record.part("mesh"):
+        texts.append("Of the teeth: at the start of contact, where they are hottest.")
+    return " ".join(texts)
 
 
 def _film_sections(record: Record) -> list[Section]:
@@ -115,6 +133,36 @@ def _film_sections(record: Record) -> list[Section]:
     )
     plot = Plot(file="film_ratios", figure=figure, caption=caption)
     return [Section(anchor="films", title="Film ratios", plots=[plot])]
+
+
+def _friction_sections(record: Record) -> list[Section]:
+    """Return friction against slip, and what the scene's source says beside this run."""
+    figure, pack = friction_figure(record), record.engaging
+    plots = [] if figure is None else [Plot(
+        file="friction", figure=figure,
+        caption="The mean is torque over time by load, mean radius and faces over time: under "
+        "constant load the harmonic mean over speed, which a braking time measures.",
+    )]  # fmt: skip
+    if not record.published:
+        section = Section(anchor="friction", title=f"Friction of the {pack}", plots=plots)
+        return [section] if plots else []
+    return [Section(
+        anchor="friction", title=f"Friction of the {pack}, published and computed", plots=plots,
+        texts=[f"Published: {record.source}."], tables=[tables.published_table(record)],
+    )]  # fmt: skip
+
+
+def _stress_sections(record: Record) -> list[Section]:
+    """Return how near the teeth come to their endurance limit, if there is a gear mesh."""
+    figure = stress_figure(record)
+    if figure is None:
+        return []
+    caption = (
+        "Above: contact stress and thermal stress together, each over what the steel endures; at "
+        "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
+    )
+    plot = Plot(file="tooth_stress", figure=figure, caption=caption)
+    return [Section(anchor="stress", title="The gear teeth", plots=[plot])]
 
 
 def _washer_sections(record: Record) -> list[Section]:
@@ -158,40 +206,3 @@ def _cost_section(record: Record) -> Section:
     return Section(
         anchor="cost", title="Time spent", texts=[words], tables=[tables.cost_table(record)]
     )
-
-
-def _trust(record: Record) -> list[str]:
-    """Return what the numbers are worth."""
-    book = record.energy
-    texts = [
-        f"Energy: the book closes to {book['residual_share']:.1e} of the engine's work. This is "
-        "the error of the integration inside the driveline.",
-        f"Coupling: the clutch FMU counts {book['coupling_difference_share']:.3%} more or less "
-        "heat than the driveline. Both are right about their own step; the difference is the "
-        f"error of exchanging values only every {say(record.step, 's')} and shrinks with it.",
-    ]
-    if record.part("washer") is not None:
-        texts += _washer_trust(record)
-    texts.append(
-        "Clutch and brake: the oil film between the plates is always settled in this version. "
-        "Squeezing it out takes time and would delay the torque by roughly 0.05 to 0.2 s."
-    )
-    texts += tables.source_texts(record)
-    return [*texts, *(f"The run says: {message}." for message in record.messages)]
-
-
-def _washer_trust(record: Record) -> list[str]:
-    """Return what the washer's numbers are worth."""
-    from ..models.washer_params import SPEC
-
-    part = record.part("washer")
-    given = part.parameters if part else {}
-    rung = str(given.get("fidelity", SPEC.default_fidelity))
-    promise = SPEC.fidelities.get(rung, "")
-    return [
-        f"Washer, fidelity {rung}: {promise}. The washer is quasi-steady, every step is a "
-        "steady state. Real steel needs 0.1 s (washer) to 6 s (carrier) to warm up, so that its "
-        "temperatures during a shift are an upper bound, and its film is rather thicker in truth.",
-        "Washer's size: the published 45 mm washer does not fit a planet of a car-sized set; a "
-        "scene that wants it to fit uses half the size. What is used stands in the parameters.",
-    ]

@@ -10,23 +10,35 @@ from .shift_record import Record
 
 
 def sentences(record: Record) -> list[str]:
-    """Return three sentences: the course, the clutch's heat, the washer or the energy book."""
-    third = _book(record) if worst_film(record) is None else _washer(record)
-    return [_course(record), _clutch(record), third]
+    """Return the course, the heat of the engaging pack, then what sits at the planets or the book.
+
+    Three sentences; a fourth if there are both washers and gear meshes.
+    """
+    planets = [words for words in (_washer(record), _mesh(record)) if words]
+    return [_course(record), _pack(record), *(planets or [_book(record)])]
 
 
 def warnings(record: Record) -> list[str]:
     """Return what a reader must not miss."""
     found = []
-    if record.figures["lock_time"] is None:
-        found.append("The clutch did not lock: the shift is not finished at the end of the run.")
-    distress = record.figures.get("washer_distress_time") or 0.0
+    figures = record.figures
+    if figures["lock_time"] is None:
+        found.append(
+            f"The {record.engaging} did not lock: the shift is not finished at the end of the run."
+        )
+    distress = figures.get("washer_distress_time") or 0.0
     if distress > 0.0:
         found.append(
             f"Thermo-viscous distress: the washers' oil film was lost for "
             f"{say(distress, 's', digits=3)}. Torque and temperatures of that time are those of "
             "the equations; no real film survives there."
         )
+    for steel, words in (("aisi1020", "AISI 1020"), ("aisi4340", "AISI 4340")):
+        margin = figures.get(f"stress_margin_{steel}")
+        if margin is not None and margin < 0.0:
+            found.append(
+                f"Tooth stress beyond the endurance limit of {words}: {1.0 - margin:.2f} of it."
+            )
     found += [f"From {e.time:.4g} s on: {e.text}." for e in record.events if "hotter" in e.text]
     return found
 
@@ -36,28 +48,55 @@ def rpm(speed: float) -> str:
     return f"{speed:.4g} rad/s ({speed * 30.0 / math.pi:.0f} rpm)"
 
 
+def whole_name(record: Record) -> str:
+    """Return what shares of the energy book refer to."""
+    return "the engine's work" if record.energy["engine_work"] else "the kinetic energy"
+
+
 def _course(record: Record) -> str:
-    """Return when the brake let go and the clutch locked."""
+    """Return when the one pack let go and the other locked."""
+    if record.alone:
+        return _stop(record)
     figures, start = record.figures, record.ramp_start
+    pack, other = record.engaging, record.releasing
     speed = record.at("transmission.engine_speed", start) or 0.0
-    words = f"In first gear the engine had reached {rpm(speed)} when, at {start:.4g} s, pressure "
-    words += "began to move from the brake to the clutch"
+    before = record.phases[0].name if record.phases else "the start"
+    words = f"In {before} the engine had reached {rpm(speed)} when, at {start:.4g} s, pressure "
+    words += f"began to move from the {other} to the {pack}"
     release, lock, lock_speed = (
         figures["release_time"], figures["lock_time"], figures["lock_speed"]
     )  # fmt: skip
     if release is not None:
-        words += f"; the brake let go of the ring at {release:.4g} s"
+        object_ = " of the ring" if other == "brake" else ""
+        words += f"; the {other} let go{object_} at {release:.4g} s"
     if lock is None or lock_speed is None:
-        return f"{words}, and the clutch was still slipping at the end."
+        return f"{words}, and the {pack} was still slipping at the end."
     return (
-        f"{words}, and the clutch locked at {lock:.4g} s, {say(lock - start, 's', digits=3)} after "
+        f"{words}, and the {pack} locked at {lock:.4g} s, {say(lock - start, 's', digits=3)} after "
         f"the shift began, with the engine at {rpm(lock_speed)}."
     )
 
 
-def _clutch(record: Record) -> str:
-    """Return the clutch's heat and temperature."""
-    figures, hot = record.figures, highest(record, "clutch.temperature")
+def _stop(record: Record) -> str:
+    """Return how long a pack that acts alone took."""
+    figures, pack, start = record.figures, record.engaging, record.ramp_start
+    words = f"From {start:.4g} s on the {pack} was pressed"
+    taken, speed = figures["lock_after_ramp_start"], figures["greatest_slip"] or 0.0
+    if taken is None:
+        return f"{words}; from {rpm(speed)} it was still slipping at the end."
+    inertia = say(figures.get("stopped_inertia") or 0.0, "kg.m2", digits=3)
+    return (
+        f"{words}; it brought {inertia} from {rpm(speed)} to rest in "
+        f"{say(taken, 's', digits=4)}, with a mean friction coefficient of "
+        f"{figures['friction_mean'] or 0.0:.4f} and {figures['friction_lock'] or 0.0:.4f} just "
+        "before standstill."
+    )
+
+
+def _pack(record: Record) -> str:
+    """Return the heat and temperature of the pack that engages."""
+    pack = record.engaging
+    figures, hot = record.figures, highest(record, f"{pack}.temperature")
     area, power = figures["slip_energy_per_area"] or 0.0, figures["peak_power"] or 0.0
     rise = hot.value - record.oil_temperature if hot else 0.0
     heated = (
@@ -66,15 +105,16 @@ def _clutch(record: Record) -> str:
     )  # fmt: skip
     return (
         f"Slipping turned {say(figures['slip_energy'] or 0.0, 'J', digits=3)} into heat in the "
-        f"clutch ({say(area, 'J/m2', digits=3)} of lining), at most {say(power, 'W', digits=3)} "
+        f"{pack} ({say(area, 'J/m2', digits=3)} of lining), at most {say(power, 'W', digits=3)} "
         f"at once; {heated}."
     )
 
 
 def _washer(record: Record) -> str:
-    """Return how the washers' film fared."""
+    """Return how the washers' film fared; nothing without washers that turn."""
     low, hot = worst_film(record), highest(record, "washer.temperature_max")
-    assert low is not None
+    if low is None:
+        return ""
     if record.figures.get("washer_distress_time"):
         state = "lost their oil film"
     elif low.value >= 3.0:
@@ -91,11 +131,34 @@ def _washer(record: Record) -> str:
     )
 
 
+def _mesh(record: Record) -> str:
+    """Return how hot the teeth became and what stress was left; nothing without gear meshes."""
+    figures = record.figures
+    flash, surface = figures.get("peak_flash_temperature"), figures.get("peak_mesh_temperature")
+    if flash is None or surface is None:
+        return ""
+    margin = figures.get("stress_margin_aisi1020")
+    left = (
+        "" if margin is None
+        else f" and stress came to {1.0 - margin:.0%} of the endurance limit of AISI 1020"
+    )  # fmt: skip
+    return (
+        f"On the gear teeth asperities reached {say(flash, 'K', digits=3)} and the surface below "
+        f"them {say(surface, 'K', digits=3)}{left}; all meshes together took "
+        f"{say(record.energy['meshes'], 'J', digits=3)}."
+    )
+
+
 def _book(record: Record) -> str:
     """Return how well the energy book closes."""
     book = record.energy
+    closes = (
+        f"the energy book closes to {book['residual_share']:.1e} of {whole_name(record)}."
+    )  # fmt: skip
+    if not book["engine_work"]:
+        given = say(abs(book["kinetic"]), "J", digits=3)
+        return f"All of it is kinetic energy, {given}; {closes}"
     return (
         f"The engine did {say(book['engine_work'], 'J', digits=3)} of work, the load took "
-        f"{say(book['load_work'], 'J', digits=3)}; the energy book closes to "
-        f"{book['residual_share']:.1e} of the engine's work."
+        f"{say(book['load_work'], 'J', digits=3)}; {closes}"
     )

@@ -12,7 +12,6 @@ from ..models.clutch_params import SPEC as CLUTCH
 from ..models.transmission_params import SPEC as TRANSMISSION
 from ..models.washer_params import SPEC as WASHER
 from ..units import format_quantity as say
-from .extremes import highest, lowest, worst_film
 from .html import Table
 from .shift_record import Part, Record
 
@@ -20,11 +19,16 @@ SPECS = {spec.name: spec for spec in (TRANSMISSION, CLUTCH, WASHER)}
 
 
 def energy_table(record: Record) -> Table:
-    """Return where every joule went, in joule and percent of the engine's work."""
+    """Return where every joule went, in joule and percent of what came in.
+
+    That is the engine's work or, without engine, the kinetic energy. What the scene has no part for
+    is left out.
+    """
     book = record.energy
-    whole, kinetic = abs(book["engine_work"]), book["kinetic"]
+    engine, kinetic = book["engine_work"], book["kinetic"]
+    whole, name = (abs(engine), "engine work") if engine else (abs(kinetic), "kinetic energy")
     rows = [
-        ("work of the engine", book["engine_work"]),
+        ("work of the engine", engine),
         (f"kinetic energy {'gained' if kinetic > 0.0 else 'given up'}", abs(kinetic)),
         ("work into the load", book["load_work"]),
         ("heat in the clutch", book["clutch"]),
@@ -33,49 +37,36 @@ def energy_table(record: Record) -> Table:
         ("heat in all gear meshes", book["meshes"]),
         ("residual: what the book cannot account for", book["residual"]),
         ("coupling: clutch heat, driveline minus clutch FMU", book["coupling_difference"]),
+        ("coupling: brake heat, driveline minus brake FMU", book["brake_coupling_difference"]),
     ]
     return Table(
-        heads=("", "J", "% of engine work"),
-        rows=[(words, _joule(value), _percent(value, whole)) for words, value in rows],
+        heads=("", "J", f"% of {name}"),
+        rows=[(words, _joule(value), _percent(value, whole)) for words, value in rows
+              if value or words.startswith("residual")],
         numbers=(1, 2),
-    )
+    )  # fmt: skip
 
 
 def key_table(record: Record) -> Table:
     """Return the key figures with the time they belong to."""
-    figures = record.figures
-    rows: list[tuple[str, str, str]] = []
-    for words, name in (("brake lets go", "release_time"), ("clutch locks", "lock_time")):
-        when = figures[name]
-        if when is not None:
-            rows.append((words, "", f"{when:.6g}"))
-    for words, name, unit in (
-        ("engine speed at lock-up", "lock_speed", "rad/s"),
-        ("slip energy, heat in the clutch", "slip_energy", "J"),
-        ("the same per area of lining", "slip_energy_per_area", "J/m2"),
-        ("greatest power in the clutch", "peak_power", "W"),
-        ("greatest torque of the clutch", "peak_clutch_torque", "N.m"),
-        ("greatest thrust of the sun", "peak_sun_thrust", "N"),
-        ("clutch friction coefficient, slip begins", "friction_start", "1"),
-        ("clutch friction coefficient, half the slip", "friction_middle", "1"),
-        ("clutch friction coefficient, before lock-up", "friction_lock", "1"),
-        ("time with the washers' film lost", "washer_distress_time", "s"),
-    ):
-        value = figures.get(name)
-        if value:  # neither None nor zero
-            rows.append((words, say(value, unit, digits=5), ""))
-    for words, found, unit in (
-        ("clutch interface, hottest", highest(record, "clutch.temperature"), "K"),
-        ("brake interface, hottest", highest(record, "brake.temperature"), "K"),
-        ("clutch, least film ratio", lowest(record, "clutch.film_ratio"), "1"),
-        ("washer, greatest load", highest(record, "washer.load"), "N"),
-        ("washer, mean film, hottest", highest(record, "washer.temperature"), "K"),
-        ("washer, hottest spot", highest(record, "washer.temperature_max"), "K"),
-        ("washer, least film ratio while turning", worst_film(record), "1"),
-    ):
-        if found is not None:
-            rows.append((words, say(found.value, unit, digits=5), f"{found.time:.4g}"))
+    rows = [
+        (f.text, say(f.value, f.unit, digits=6 if f.unit == "s" else 5, difference=f.difference),
+         "" if f.time is None else f"{f.time:.4g}")
+        for f in record.key_figures if f.value  # neither None nor zero
+    ]  # fmt: skip
     return Table(heads=("", "value", "at time [s]"), rows=rows, numbers=(1, 2))
+
+
+def published_table(record: Record) -> Table:
+    """Return what the scene's source says beside this run."""
+    rows = []
+    for p in record.published:
+        run = "" if p.run is None else say(p.run, p.unit, digits=5, difference=p.difference)
+        said = say(p.published, p.unit, digits=5, difference=p.difference)
+        off = "" if p.run is None or not p.published else f"{p.run / p.published - 1.0:+.2%}"
+        off = off.replace("-0.00%", "0.00%").replace("+0.00%", "0.00%")
+        rows.append((p.text, said, run, off))
+    return Table(heads=("", "published", "this run", "off by"), rows=rows, numbers=(1, 2, 3))
 
 
 def cost_table(record: Record) -> Table:

@@ -1,0 +1,66 @@
+"""The key figures of a shift, read from its signals."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .figure_list import Found, KeyFigure, assemble
+from .pack_figures import friction_figures, lining_area, pack_figures, peak
+from .planet_figures import mesh_figures, washer_figures
+from .result import Event
+from .scene import Scene
+
+Array = NDArray[np.float64]
+Signals = dict[str, Array]
+
+
+def key_figures(
+    scene: Scene, time: Array, signals: Signals, events: list[Event]
+) -> list[KeyFigure]:
+    """Return the numbers a shift is judged by, SI units; None where there is no such thing."""
+    start, pack, other = scene.shift_start, scene.engaging, scene.releasing
+    lock = next((e.time for e in events if e.kind == f"{pack}_locked" and e.time >= start), None)
+    release = next((e.time for e in events if e.kind == f"{other}_released"), None)
+    found: Found = {
+        "lock_time": (lock, None),
+        "lock_after_ramp_start": (None if lock is None else lock - start, None),
+        "release_time": (release, None),
+        **_slip(scene, time, signals),
+        **friction_figures(scene, time, signals, lock),
+        **pack_figures(scene, "clutch", time, signals),
+        **pack_figures(scene, "brake", time, signals),
+        "peak_sun_thrust": peak(signals["transmission.sun_thrust"], time),
+        **washer_figures(time, signals),
+        **mesh_figures(time, signals),
+    }
+    if not scene.alone:
+        found["lock_speed"] = (_engine_speed(pack, time, signals, lock), None)
+    return assemble(found, pack, other)
+
+
+def _engine_speed(pack: str, time: Array, signals: Signals, lock: float | None) -> float | None:
+    """Return the engine's speed at lock-up; the transmission itself keeps that of the clutch."""
+    if lock is None:
+        return None
+    if pack == "clutch":
+        return float(signals["transmission.lock_speed"][-1])
+    return float(np.interp(lock, time, signals["transmission.engine_speed"]))
+
+
+def _slip(scene: Scene, time: Array, signals: Signals) -> Found:
+    """Return slip, heat and power of the pack that engages."""
+    pack = scene.engaging
+    slip = signals[f"transmission.{pack}_speed"]
+    heat = float(signals[f"transmission.{pack}_heat"][-1])
+    greatest = float(np.max(np.abs(slip)))
+    area = lining_area(scene.parts[pack].params)
+    found: Found = {
+        "greatest_slip": peak(np.abs(slip), time),
+        "slip_energy": (heat, None),
+        "slip_energy_per_area": (heat / area, None),
+        "peak_power": peak(np.abs(signals[f"{pack}.friction_power"]), time),
+    }
+    if scene.alone and greatest > 0.0:
+        found["stopped_inertia"] = (2.0 * heat / greatest**2, None)
+    return found

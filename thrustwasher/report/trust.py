@@ -1,0 +1,71 @@
+"""How far a run is to be trusted, in sentences."""
+
+from __future__ import annotations
+
+from ..units import format_quantity as say
+from . import summary, tables
+from .shift_record import PACKS, Record
+
+
+def trust_texts(record: Record) -> list[str]:
+    """Return what the numbers are worth."""
+    book = record.energy
+    prefix = "" if record.engaging == "clutch" else "brake_"
+    texts = [
+        f"Energy: the book closes to {book['residual_share']:.1e} of "
+        f"{summary.whole_name(record)}. This is the error of the integration inside the driveline.",
+        f"Coupling: the {record.engaging} FMU counts "
+        f"{book[f'{prefix}coupling_difference_share']:.3%} more or less heat than the driveline. "
+        "Both are right about their own step; the difference is the error of exchanging values "
+        f"only every {say(record.step, 's')} and shrinks with it.",
+        *_packs(record),
+    ]
+    if record.part("washer") is not None:
+        texts += _washer(record)
+    if record.part("mesh") is not None:
+        texts.append(_mesh())
+    texts += tables.source_texts(record)
+    return [*texts, *(f"The run says: {message}." for message in record.messages)]
+
+
+def _packs(record: Record) -> list[str]:
+    """Return what the packs' film is worth at their fidelity."""
+    rungs = {part.parameters.get("fidelity") for part in record.parts
+             if part.name in PACKS and record.presses(part.name)}  # fmt: skip
+    if rungs == {"field"}:
+        return [
+            "Clutch and brake: film and interface temperature are states of their own. The film "
+            "is squeezed out of smooth rings with a permeable lining; grooves are one factor. All "
+            "heat goes into the steel plates, so that interface temperatures are rather too high."
+        ]
+    return [
+        "Clutch and brake: the oil film between the plates is always settled at this fidelity. "
+        "Squeezing it out takes time and would delay the torque by roughly 0.05 to 0.2 s."
+    ]
+
+
+def _washer(record: Record) -> list[str]:
+    """Return what the washer's numbers are worth."""
+    from ..models.washer_params import SPEC
+
+    part = record.part("washer")
+    given = part.parameters if part else {}
+    rung = str(given.get("fidelity", SPEC.default_fidelity))
+    promise = SPEC.fidelities.get(rung, "")
+    return [
+        f"Washer, fidelity {rung}: {promise}. The washer is quasi-steady, every step is a "
+        "steady state. Real steel needs 0.1 s (washer) to 6 s (carrier) to warm up, so that its "
+        "temperatures during a shift are an upper bound, and its film is rather thicker in truth.",
+        "Washer's size: the published 45 mm washer does not fit a planet of a car-sized set; a "
+        "scene that wants it to fit uses half the size. What is used stands in the parameters.",
+    ]
+
+
+def _mesh() -> str:
+    """Return what the gear mesh's numbers are worth."""
+    return (
+        "Gear mesh: closed forms at the start of contact, with the whole load on one pair of "
+        "teeth; the bulk of the teeth has the oil's temperature. A helical pair is treated as its "
+        "spur pair in the transverse section, and the ring mesh's loss follows from the sun "
+        "mesh's."
+    )

@@ -11,6 +11,7 @@ from thrustwasher import cli
 from thrustwasher.cli import main
 from thrustwasher.errors import BranchError, EnvironmentProblem, ParameterError, SolveError
 from thrustwasher.models.clutch_params import SPEC as CLUTCH
+from thrustwasher.models.gearmesh_params import SPEC as GEARMESH
 from thrustwasher.models.washer_params import SPEC as WASHER
 
 
@@ -27,7 +28,7 @@ def one_line(capsys):
     ("words", "named"),
     [
         (["frobnicate"], ["frobnicate", "washer", "doctor"]),
-        (["gearmesh", "--power", "7500"], ["gearmesh", "washer"]),
+        (["gearbox", "--power", "7500"], ["gearbox", "gearmesh"]),
         (["--frobnicate"], ["--frobnicate"]),
         (["washer", "--load", "abc"], ["load", "'abc'", "N"]),
         (["washer", "--load", "nan"], ["load", "'nan'", "N"]),
@@ -117,7 +118,9 @@ def test_help_shows_unit_range_and_default_of_every_input(command, spec, capsys)
         assert f"[{s.unit}]; {s.low:g} .. {s.high:g} {s.unit}, default" in text
 
 
-@pytest.mark.parametrize(("command", "spec"), [("washer", WASHER), ("clutch", CLUTCH)])
+@pytest.mark.parametrize(
+    ("command", "spec"), [("washer", WASHER), ("clutch", CLUTCH), ("gearmesh", GEARMESH)]
+)
 def test_parameter_list_is_the_dataclass(command, spec, capsys):
     assert main([command, "--parameters"]) == 0
     lines = capsys.readouterr().out.splitlines()[1:]
@@ -126,9 +129,10 @@ def test_parameter_list_is_the_dataclass(command, spec, capsys):
         assert f.metadata["help"] in line
 
 
-def test_help_needs_no_compiler():
+@pytest.mark.parametrize("command", ["washer", "gearmesh"])
+def test_help_needs_no_compiler(command):
     code = (
-        "import sys; from thrustwasher.cli import main; main(['washer', '--help']);"
+        f"import sys; from thrustwasher.cli import main; main(['{command}', '--help']);"
         "sys.exit(any(m in sys.modules for m in ('numba', 'scipy', 'matplotlib', 'fmpy')))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)

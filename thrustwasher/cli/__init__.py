@@ -22,6 +22,7 @@ COMMANDS = (
     "curve",
     "clutch",
     "calibrate",
+    "gearmesh",
     "shift",
     "build",
     "doctor",

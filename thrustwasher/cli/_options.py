@@ -56,6 +56,11 @@ def add_parameters(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
 
 def read_parameters(arguments: argparse.Namespace, spec: ModelSpec) -> Any:
     """Return the parameter object with every ``--set`` applied; its own checks included."""
+    return spec.params(**read_settings(arguments, spec))
+
+
+def read_settings(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, Any]:
+    """Return the value of every ``--set`` by name of the parameter."""
     metadata = {f.name: f.metadata for f in fields(spec.params)}
     values: dict[str, Any] = {}
     for setting in arguments.settings:
@@ -70,7 +75,7 @@ def read_parameters(arguments: argparse.Namespace, spec: ModelSpec) -> Any:
                 f"thrustwasher {spec.key} --parameters lists them"
             )
         values[name] = _parameter(name, text, metadata[name])
-    return spec.params(**values)
+    return values
 
 
 def parameter_table(spec: ModelSpec) -> str:

@@ -6,6 +6,7 @@
 ``curve_plot``     the washer's load curve with its folds
 ``clutch_plot``    friction of a pack against slip speed
 ``fit_plot``       measured friction, the law fitted to it, residuals
+``gearmesh_plot``  temperatures and stress factors of a gear mesh over its teeth
 ``shift_record``   what the report needs from a finished shift
 ``panel_base``     what panels over time share: lines, phases, events
 ``panels``         single panels over time: speeds, torques, temperatures

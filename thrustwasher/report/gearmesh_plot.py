@@ -1,0 +1,115 @@
+"""Temperatures of a gear mesh and what they leave of its endurance, against tooth number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..units import format_quantity
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, RED, label, new_figure, styled
+
+CELSIUS = 273.15
+SURFACES = ("rough", "fine")
+STEELS = {"aisi1020": ("AISI 1020", BLUE), "aisi4340": ("AISI 4340", RED)}
+DASHES = {"rough": "-", "fine": (0, (4, 2))}
+MARKERS = {"rough": "o", "fine": "s"}
+LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
+Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
+Reading = Callable[[Any], float]
+
+
+@styled
+def gearmesh_figure(
+    teeth: Sequence[int], sweeps: Sweeps, result: Any, here: int, point: Mapping[str, float]
+) -> Figure:
+    """Return temperatures, allowable ratio and modification factor over the pinion's teeth.
+
+    Parameters
+    ----------
+    teeth : numbers of pinion teeth
+    sweeps : for each of SURFACES the gear mesh results at ``teeth``, None where there is none
+    result : the gear mesh result at ``point``, marked at ``here`` teeth
+    point : power [W], speed [rad/s], oil_temperature [K]
+    """
+    figure, axes = new_figure(13.2, 4.3, 1, 3)
+    draw_temperatures(axes[0], teeth, sweeps)
+    draw_ratios(axes[1], teeth, sweeps)
+    draw_factors(axes[2], teeth, sweeps)
+    dot: dict[str, Any] = {"marker": "o", "color": BLACK, "ls": "", "ms": 5.5, "zorder": 6}
+    axes[0].plot([here], [result.asperity_temperature - CELSIUS], **dot)
+    for steel in STEELS:
+        axes[1].plot([here], [getattr(result, f"allowable_ratio_{steel}")], **dot)
+        factor = getattr(result, f"modification_factor_{steel}")
+        if factor > LEAST_FACTOR:
+            axes[2].plot([here], [factor], **dot)
+    figure.suptitle(
+        f"Gear mesh at the start of contact: {format_quantity(point['power'], 'W')}, "
+        f"{format_quantity(point['speed'], 'rad/s')}, oil "
+        f"{format_quantity(point['oil_temperature'], 'K')}; dots: {here} teeth, "
+        f"asperities at {format_quantity(result.asperity_temperature, 'K')}"
+    )
+    return figure
+
+
+def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
+    """Draw surface, film and asperity temperatures; surface and film do not know the roughness."""
+
+    def celsius(name: str) -> Reading:
+        return lambda r: getattr(r, name) - CELSIUS
+
+    rough = sweeps[SURFACES[0]]
+    _line(axes, teeth, rough, celsius("film_temperature"), GREY, "film", ls=":")
+    _line(axes, teeth, rough, celsius("surface_temperature"), BLUE, "surface $T_s$")
+    for surface, colour in zip(SURFACES, (RED, GREEN), strict=True):
+        _line(
+            axes, teeth, sweeps[surface], celsius("asperity_temperature"), colour,
+            f"asperities, {surface} ground", ls=DASHES[surface], marker=MARKERS[surface],
+        )  # fmt: skip
+    label(axes, "Temperatures", "teeth of the pinion [1]", "temperature [°C]")
+    axes.legend(loc="upper right")
+
+
+def draw_ratios(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
+    """Draw 1/sqrt(1 + K): the share of the endurance limit left for the contact stress."""
+    _draw_steels(axes, teeth, sweeps, "allowable_ratio")
+    axes.set_ylim(0.0, 1.04)
+    label(axes, "Contact stress still allowed", "teeth of the pinion [1]",
+          r"allowable ratio $1/\sqrt{1+K}$ [1]")  # fmt: skip
+    axes.legend(loc="lower right")
+
+
+def draw_factors(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
+    """Draw the modification factor K on a logarithmic scale, where it matters."""
+    _draw_steels(axes, teeth, sweeps, "modification_factor", LEAST_FACTOR)
+    axes.axhline(1.0, color=ORANGE, lw=0.9, ls=":")
+    axes.set_yscale("log")
+    axes.set_ylim(bottom=LEAST_FACTOR)
+    axes.yaxis.set_major_formatter("{x:g}")
+    label(axes, "Stress modification factor", "teeth of the pinion [1]", "K [1]")
+
+
+def _draw_steels(
+    axes: Axes, teeth: Sequence[int], sweeps: Sweeps, name: str, least: float = 0.0
+) -> None:
+    """Draw one line for each steel and surface; values up to ``least`` are left out."""
+
+    def read(field: str) -> Reading:
+        return lambda r: float(v) if (v := getattr(r, field)) > least else float("nan")
+
+    for surface in SURFACES:
+        for steel, (words, colour) in STEELS.items():
+            _line(axes, teeth, sweeps[surface], read(f"{name}_{steel}"), colour,
+                  f"{words}, {surface}", ls=DASHES[surface], marker=MARKERS[surface])  # fmt: skip
+
+
+def _line(
+    axes: Axes, teeth: Sequence[int], results: Sequence[Any], read: Reading, colour: str,
+    words: str, **look: Any,
+) -> None:  # fmt: skip
+    """Draw a reading over the teeth, with gaps where there is no result."""
+    values = [float("nan") if r is None else read(r) for r in results]
+    axes.plot(teeth, values, color=colour, label=words, ms=3.2, markevery=4, **look)
+    axes.set_xlim(min(teeth) - 1, max(teeth) + 1)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import time
+from typing import Any
 
-from ..models.clutch_params import SPEC
+from ..models.clutch_params import SPEC, SPEED, ClutchParams
 from . import _options, _output
 
 HELP = "friction torque of a wet clutch or brake pack at one load and slip speed"
@@ -22,7 +23,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add_inputs(parser, SPEC)
     _options.add_parameters(parser, SPEC)
     _options.add_fidelity(parser, SPEC)
-    parser.add_argument("--plot", metavar="FILE", help="draw friction over slip speed")
+    parser.add_argument(
+        "--plot", metavar="FILE", help="draw shear ratio, coefficient and torque over slip"
+    )
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 
 
@@ -41,16 +44,8 @@ def run(arguments: argparse.Namespace) -> int:
     result = solve_clutch(params, **point, fidelity=arguments.fidelity)
     wall_time = time.perf_counter() - began
     if plot:
-        from ..report.clutch_plot import clutch_figure
-
-        fastest = max(2.0 * abs(point["speed"]), 1.0)
-        speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(1, SAMPLES)]
-        sweep = [
-            solve_clutch(params, **{**point, "speed": speed}, fidelity=arguments.fidelity)
-            for speed in speeds
-        ]
         with _output.whole_file(plot) as draft:
-            clutch_figure(speeds, sweep, result, point).savefig(draft)
+            _figure(params, point, result).savefig(draft)
         _output.note(f"wrote {plot}")
     fields = _output.scalars(result)
     if arguments.json:
@@ -67,3 +62,23 @@ def run(arguments: argparse.Namespace) -> int:
     )
     print(f"  {result.status.advice}; {arguments.fidelity}, {wall_time:.3g} s")
     return 0
+
+
+def _figure(params: ClutchParams, point: dict[str, Any], result: Any) -> Any:
+    """Return the plot over slip at the given load and oil temperature."""
+    from ..models.clutch import boundary_friction, solve_clutch
+    from ..models.clutch_friction import friction_radius
+    from ..report.clutch_plot import clutch_figure
+
+    p = params
+    has_shares = p.friction_law != "constant" and result.fidelity != "closed"
+    fall = (p.stick_speed + 2.0 * p.decay_speed) / friction_radius(p) if has_shares else 1.0
+    fastest = min(max(2.0 * abs(point["speed"]), fall), SPEED.high or fall)
+    speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(SAMPLES)]
+    sweep = [
+        solve_clutch(params, **{**point, "speed": speed}, fidelity=result.fidelity)
+        for speed in speeds
+    ]
+    share = (p.indentation, 0.0, p.plough_weight, p.hardness_ratio)
+    ploughing = boundary_friction(*share) if has_shares else None
+    return clutch_figure(speeds, sweep, result, point, ploughing)

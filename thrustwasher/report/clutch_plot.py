@@ -1,44 +1,106 @@
-"""Friction of a wet pack against slip speed."""
+"""Friction of a wet pack against slip: shear ratio, coefficient and torque with their shares."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, RED, label, new_figure, styled
+from .style import BLACK, BLUE, GREY, ORANGE, RED, SKY, label, new_figure, styled
+
+RPM = 30.0 / math.pi
 
 
 @styled
 def clutch_figure(
-    speeds: Sequence[float], sweep: Sequence[Any], result: Any, point: Mapping[str, float]
+    speeds: Sequence[float],
+    sweep: Sequence[Any],
+    result: Any,
+    point: Mapping[str, float],
+    ploughing: float | None = None,
 ) -> Figure:
-    """Return coefficient and torque over slip speed, with the operating point marked.
+    """Return shear ratio, coefficient and torque over slip, with the operating point marked.
 
     Parameters
     ----------
-    speeds : slip speeds [rad/s]
-    sweep : clutch results at these speeds
+    speeds : slip [rad/s], not negative, ascending; at 0 the torque is the static one
+    sweep : clutch results at these slips
     result : the clutch result at ``point``
     point : load [N], speed [rad/s], oil_temperature [K]
+    ploughing : share of the coefficient that does not depend on slip; None where the law has no
+        shares, which leaves out the shear ratio too
     """
-    figure, axes = new_figure(9.6, 4.0, 1, 2)
-    panels = (
-        ("friction_coefficient", "Friction coefficient", "friction coefficient [1]", BLUE),
-        ("friction_torque", "Friction torque of the pack", "friction torque [N·m]", RED),
-    )
-    for axis, (name, title, up, colour) in zip(axes, panels, strict=True):
-        axis.plot(speeds, [getattr(r, name) for r in sweep], color=colour)
-        axis.plot([abs(point["speed"])], [abs(getattr(result, name))], "o", color=BLACK, zorder=5)
-        label(axis, title, "slip speed [rad/s]", up)
-        axis.set_xlim(left=0.0)
-        axis.set_ylim(bottom=0.0)
-        axis.margins(y=0.1)
+    names = ["shear", "friction", "torque"] if ploughing is not None else ["friction", "torque"]
+    figure, _ = new_figure(10.4 if ploughing is not None else 9.6, 4.4)
+    figure.clear()
+    panels = dict(zip(names, figure.subplots(1, len(names)), strict=True))
+    here, friction = abs(point["speed"]), [r.friction_coefficient for r in sweep]
+    capacity = [r.torque_capacity for r in sweep]
+    base = [min(ploughing or 0.0, mu) for mu in friction]
+    parts = [t * b / mu if mu else 0.0 for t, b, mu in zip(capacity, base, friction, strict=True)]
+    if ploughing is not None:
+        panels["shear"].plot(speeds, [r.shear_ratio for r in sweep], color=ORANGE)
+        panels["shear"].plot([here], [result.shear_ratio], "o", color=BLACK, zorder=5)
+        label(panels["shear"], "Shear ratio", "", "shear ratio $s/s_m$ [1]")
+        _draw_shares(panels["friction"], speeds, base, friction)
+        _draw_shares(panels["torque"], speeds, parts, capacity)
+    for name, values, value, colour in (
+        ("friction", friction, result.friction_coefficient, BLUE),
+        ("torque", capacity, result.torque_capacity, RED),
+    ):
+        panels[name].plot(speeds, values, color=colour)
+        panels[name].axhline(values[0], color=BLACK, lw=0.9, ls=":")
+        panels[name].plot([here], [value], "o", color=BLACK, zorder=5)
+    label(panels["friction"], "Friction coefficient", "", "friction coefficient [1]")
+    label(panels["torque"], "Torque of the pack", "", "friction torque, magnitude [N·m]")
+    _name_rest(panels["friction"], f"at rest {friction[0]:.4g}", friction[0])
+    _name_rest(panels["torque"], f"static {format_quantity(capacity[0], 'N.m')}", capacity[0])
+    for axis in panels.values():
+        _scale(axis, speeds[-1])
+    if ploughing is not None:
+        handles, words = panels["friction"].get_legend_handles_labels()
+        figure.legend(handles, words, loc="outside lower center", ncols=2)
     figure.suptitle(
         f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
         f"oil {format_quantity(point['oil_temperature'], 'K')}; "
-        f"dot: {abs(point['speed']):.4g} rad/s, {format_quantity(result.friction_torque, 'N.m')}"
+        f"dot: {here:.4g} rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}"
     )
     return figure
+
+
+def _draw_shares(
+    axis: Axes, speeds: Sequence[float], base: Sequence[float], whole: Sequence[float]
+) -> None:
+    """Fill the ploughing share from zero and the adhesive share on top of it."""
+    axis.fill_between(speeds, 0.0, base, color=GREY, alpha=0.45, lw=0.0, label="ploughing")
+    axis.fill_between(speeds, base, whole, color=SKY, alpha=0.35, lw=0.0, label="adhesion")
+
+
+def _name_rest(axis: Axes, words: str, height: float) -> None:
+    """Write the value at rest on its line, at the right where the curve has fallen."""
+    axis.annotate(
+        words, (1.0, height), (-3, 3), xycoords=axis.get_yaxis_transform(),
+        textcoords="offset points", ha="right", fontsize=8.5, color="#444444",
+    )  # fmt: skip
+
+
+def _scale(axis: Axes, fastest: float) -> None:
+    """Begin both axes at zero, rad/s below and rpm above."""
+    axis.set_xlim(0.0, fastest)
+    axis.set_ylim(0.0, 1.12 * axis.get_ylim()[1])
+    axis.set_xlabel("slip [rad/s]")
+    above = axis.secondary_xaxis("top", functions=(_in_rpm, _from_rpm))
+    above.set_xlabel("slip [rpm]", fontsize=8.5)
+    above.tick_params(labelsize=8)
+
+
+def _in_rpm(slip: Any) -> Any:
+    return slip * RPM
+
+
+def _from_rpm(slip: Any) -> Any:
+    return slip / RPM

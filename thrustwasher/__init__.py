@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .errors import BranchError, ParameterError, SolveError, Status
     from .models.clutch import ClutchParams, boundary_friction, solve_clutch
     from .models.clutch_calibration import Calibration, calibrate
+    from .models.clutch_engagement import Engagement, engage_clutch
     from .models.gearmesh import GearMeshParams, GearMeshResult, solve_gearmesh
     from .models.washer import WasherParams, WasherResult, solve_washer
     from .models.washer_curve import LoadCurve, load_curve
@@ -23,6 +24,7 @@ _HOMES = {
     "models.clutch": ("ClutchParams", "boundary_friction", "solve_clutch"),
     "models.clutch_calibration": ("Calibration", "calibrate"),
     "models.gearmesh": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
+    "models.clutch_engagement": ("Engagement", "engage_clutch"),
     "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
     "models.washer_curve": ("LoadCurve", "load_curve"),
 }
@@ -31,6 +33,7 @@ __all__ = [
     "BranchError",
     "Calibration",
     "ClutchParams",
+    "Engagement",
     "GearMeshParams",
     "GearMeshResult",
     "LoadCurve",
@@ -41,6 +44,7 @@ __all__ = [
     "WasherResult",
     "boundary_friction",
     "calibrate",
+    "engage_clutch",
     "load_curve",
     "solve_clutch",
     "solve_gearmesh",

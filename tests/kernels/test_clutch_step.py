@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.kernels import clutch_step as k
+from thrustwasher.kernels import clutch_layout as k
+from thrustwasher.kernels.clutch_friction import ADHESIVE, BOUNDARY, FILM, MIXED
+from thrustwasher.kernels.clutch_step import step
 from thrustwasher.models.clutch import prepare
 from thrustwasher.models.clutch_params import SPEC, ClutchParams
 
@@ -23,7 +25,7 @@ class Pack:
 
     def step(self, load, speed, dt, oil=297.15):
         inp = np.array([load, speed, oil])
-        return k.step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
+        return step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
 
 
 def test_the_arrays_are_laid_out_as_the_lists_say():
@@ -64,9 +66,9 @@ def test_default_pack_holds_389_n_m_at_rest_and_resists_less_at_speed():
     pack = Pack()
     pack.step(5898.0, 0.0, 0.0)
     assert pack.out[k.O_CAPACITY] == pytest.approx(389.2, abs=0.1)
-    assert pack.out[k.O_TORQUE] == 0.0 and pack.iout[k.IO_REGIME] == k.ADHESIVE
+    assert pack.out[k.O_TORQUE] == 0.0 and pack.iout[k.IO_REGIME] == ADHESIVE
     pack.step(5898.0, 350.0, 0.0)
-    assert pack.out[k.O_CAPACITY] < 0.35 * 389.2 and pack.iout[k.IO_REGIME] == k.BOUNDARY
+    assert pack.out[k.O_CAPACITY] < 0.35 * 389.2 and pack.iout[k.IO_REGIME] == BOUNDARY
 
 
 def test_regimes_follow_the_film():
@@ -75,7 +77,7 @@ def test_regimes_follow_the_film():
     for load in (0.0, 12.0, 200.0, 6000.0):
         pack.step(load, 100.0, 0.0)
         regimes.append(int(pack.iout[k.IO_REGIME]))
-    assert regimes == [k.FILM, k.MIXED, k.MIXED, k.BOUNDARY]
+    assert regimes == [FILM, MIXED, MIXED, BOUNDARY]
 
 
 def test_constant_slip_heats_as_the_closed_form_says_whatever_the_step():
@@ -98,7 +100,7 @@ def test_energy_of_a_falling_slip_converges_with_the_square_of_the_step():
     """Constant torque, slip 100 -> 0 in 1 s: E = T 100/2; read one step after the end."""
     errors = []
     for n in (20, 40, 80):
-        pack = Pack("closed", speed_smoothing=1e-3)
+        pack = Pack("closed", speed_smoothing=1e-3, input_course="linear")
         for i in range(n + 1):
             pack.step(5000.0, 100.0 * (1.0 - (i / n) ** 2), 1.0 / n)
         exact = pack.out[k.O_CAPACITY] * 100.0 * 2.0 / 3.0

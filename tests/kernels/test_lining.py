@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.kernels.lining import height_integrals, pressure_scale, separation
+from thrustwasher.kernels.lining import height_integrals, pressure_scale
+from thrustwasher.kernels.lining_table import area_integrals, contact_integral, separation
 
 
 @pytest.mark.parametrize(
@@ -44,3 +45,32 @@ def test_no_pressure_and_absurd_pressure_have_an_answer():
     assert separation(0.0, 1.0) == (11.0, 0, 0)
     assert separation(1e30, 1.0)[:2] == (-1000.0, 0)
     assert math.isfinite(separation(1e-29, -900.0)[0])
+
+
+@pytest.mark.parametrize("u", [-7.99, -6.3, -2.51, -0.04, 0.5749, 2.2, 4.9, 5.1, 9.0, 13.97])
+def test_the_table_gives_the_integral_and_its_slope(u):
+    mp.mp.dps = 30
+    big = mp.mpf(u)
+
+    def exact(n):
+        return mp.gamma(n + 1) / mp.sqrt(2 * mp.pi) * mp.exp(-big * big / 4) * mp.pcfd(-n - 1, big)
+
+    value, slope = contact_integral(u)
+    assert value == pytest.approx(float(exact(2.5)), rel=1e-10)
+    assert slope == pytest.approx(float(-2.5 * exact(1.5)), rel=1e-8)
+
+
+def test_the_table_ends_in_the_quadrature_below_and_in_nothing_above():
+    assert contact_integral(-8.0 - 1e-12)[0] == pytest.approx(contact_integral(-8.0)[0], rel=1e-10)
+    assert contact_integral(14.0) == (0.0, 0.0) and math.isnan(contact_integral(math.nan)[0])
+
+
+@pytest.mark.parametrize("u", [-30.0, -3.0, 0.0, 0.5749, 1.5, 4.99, 5.01, 8.0, 20.0, 36.0])
+def test_the_area_integrals_are_exact_to_13_digits(u):
+    """F_2 and F_1 from the error function, in arithmetic of 60 digits."""
+    mp.mp.dps = 60
+    big = mp.mpf(u)
+    tail, pdf = mp.erfc(big / mp.sqrt(2)) / 2, mp.npdf(big)
+    second, first = area_integrals(u)
+    assert second == pytest.approx(float((1 + big**2) * tail - big * pdf), rel=2e-13)
+    assert first == pytest.approx(float(pdf - big * tail), rel=1e-13)

@@ -84,6 +84,39 @@ def test_bad_input_is_named(call, message):
         call()
 
 
-def test_no_load_is_an_open_pack():
+def test_no_load_is_an_open_pack_that_drags_by_its_oil_alone():
     r = solve_clutch(PACK, load=0.0, speed=100.0)
-    assert (r.friction_torque, r.regime, r.film_thickness) == (0.0, "film", 8.8e-5)
+    assert (r.contact_torque, r.regime, r.film_thickness) == (0.0, "film", 8.8e-5)
+    assert r.friction_torque == r.viscous_torque > 0.0
+    dry = solve_clutch(PACK, load=0.0, speed=100.0, fidelity="stribeck")
+    assert dry.friction_torque == 0.0
+
+
+@pytest.mark.parametrize("load", [0.0, 500.0, 5898.0])
+@pytest.mark.parametrize("speed", [3.0, -350.0, 2000.0])
+@pytest.mark.parametrize("oil", [250.0, 297.15, 400.0])
+def test_the_steady_temperature_balances_cooling_and_friction(load, speed, oil):
+    r = solve_clutch(PACK, load=load, speed=speed, oil_temperature=oil)
+    area = np.pi * (PACK.outer_radius**2 - PACK.inner_radius**2)
+    cooling = PACK.faces * PACK.heat_transfer * area * (r.temperature - oil)
+    assert cooling == pytest.approx(r.friction_power, rel=1e-9)
+    assert r.friction_torque == pytest.approx(r.contact_torque + r.viscous_torque, rel=1e-15)
+
+
+def test_the_rungs_differ_by_what_they_leave_out():
+    at = {"load": 5898.0, "speed": 50.0}
+    boundary, stribeck, field = (
+        solve_clutch(PACK, **at, fidelity=f) for f in ("boundary", "stribeck", "field")
+    )
+    assert boundary.temperature == 297.15 < stribeck.temperature < field.temperature
+    assert boundary.friction_torque == stribeck.friction_torque == field.contact_torque
+    assert field.viscous_torque > 0.0 == stribeck.viscous_torque
+
+
+def test_a_settled_film_without_shear_is_the_rung_below():
+    still = ClutchParams(film_dynamics=False)
+    at = {"load": 5898.0, "speed": 50.0}
+    assert (
+        solve_clutch(still, **at).friction_torque
+        == solve_clutch(PACK, **at, fidelity="stribeck").friction_torque
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.clutch_step import HOT_LIMIT
+from ..kernels.clutch_layout import HOT_LIMIT
 from .result import Event, Phase
 from .scene import Scene
 

@@ -100,7 +100,7 @@ class Scene:
         return scene.checked()
 
     def checked(self) -> Scene:
-        """Check what concerns several values; hand oil and master on to the transmission."""
+        """Check what concerns several values; hand oil and master on to the parts."""
         where = f"scene {self.name!r}"
         if self.master not in MASTERS:
             options = " or ".join(repr(n) for n in MASTERS)
@@ -120,4 +120,11 @@ class Scene:
             oil_temperature=self.oil_temperature,
             torque_age=MASTERS[self.master].torque_age,
         )
-        return replace(self, parts={**self.parts, "transmission": replace(gearbox, params=params)})
+        parts = {**self.parts, "transmission": replace(gearbox, params=params)}
+        # The transmission looks ahead by itself: packs that say where they are now couple to it
+        # with second order.
+        for name, part in parts.items():
+            if any(f.name == "input_course" for f in fields(part.params)):
+                course = replace(part.params, input_course="linear")
+                parts[name] = replace(part, params=course)
+        return replace(self, parts=parts)

@@ -191,6 +191,7 @@ def _published(where: str, table: dict[str, Any] | None) -> Published | None:
 RESERVED = {
     "oil_temperature": "the scene's own oil_temperature sets it for all parts",
     "torque_age": "the choice of master sets it",
+    "input_course": "in a shift it is linear, as the transmission expects",
 }
 
 

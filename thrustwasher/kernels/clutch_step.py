@@ -1,10 +1,11 @@
 # mypy: disable-error-code="no-any-return"
-"""One co-simulation step of the wet clutch: friction now, heat and energy since the last step.
+"""One co-simulation step of the wet clutch: film, heat and friction of the pack.
 
-Friction follows load and slip at once (the film is settled); memory is the heat. Power is taken as
-piecewise linear between the points at which inputs arrive: a step that begins knows the power now
-and the power one step ago, so the step before is booked by the trapezium rule (second order) and
-the new step in advance with the power held; the next call replaces that advance.
+``input_course`` says what the inputs do inside a step. Held: they stay, the step ends with all
+outputs at its end. Linear: they run straight from one communication point to the next. Then a step
+first brings film and heat from the last point to the present one, whose inputs are known now, gives
+the friction there, and books heat in advance with the present power; the next step replaces that
+advance. This couples with second order to a partner that looks ahead by itself.
 """
 
 import math
@@ -13,106 +14,206 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .boundary import ploughing, shear_ratio
-from .heating import temperature_after
-from .lining import pressure_scale, separation
+from .clutch_constants import derive
+from .clutch_friction import (
+    coefficient_of,
+    contact_share,
+    contact_torque,
+    regime_of,
+    settled_ratio,
+    viscous_torque,
+)
+from .clutch_integrate import engage, surface_temperature
+from .clutch_layout import (
+    BAD_INPUT,
+    BOUNDARY_ONLY,
+    D_AREA,
+    D_DECAY,
+    D_GAIN,
+    D_MODES,
+    D_OPEN_RATIO,
+    D_RADIUS,
+    FIELD,
+    HOT,
+    HOT_LIMIT,
+    I_LOAD,
+    I_OIL,
+    I_SPEED,
+    IO_REGIME,
+    IO_STATUS,
+    LINEAR_COURSE,
+    N_PARAM,
+    NINP,
+    NIOUT,
+    NOT_FINITE,
+    NOUT,
+    NPAR,
+    NSTATE,
+    NWORK,
+    O_CAPACITY,
+    O_COEFFICIENT,
+    O_CONTACT_SHARE,
+    O_CONTACT_TORQUE,
+    O_ENERGY,
+    O_FILM,
+    O_HEAT_FLUX,
+    O_POWER,
+    O_RATIO,
+    O_TEMPERATURE,
+    O_TORQUE,
+    O_VISCOSITY,
+    O_VISCOUS_TORQUE,
+    OK,
+    P_FACES,
+    P_FIDELITY,
+    P_FILM_DYNAMICS,
+    P_INPUT_COURSE,
+    P_ROUGHNESS,
+    P_SPEED_SMOOTHING,
+    P_STARTS_PRESSED,
+    S_DURATION,
+    S_ENERGY,
+    S_FILM,
+    S_HEAT,
+    S_LOAD,
+    S_MODES,
+    S_OIL,
+    S_POWER,
+    S_SHOWN_ENERGY,
+    S_SHOWN_TEMPERATURE,
+    S_SLIP,
+    S_STARTED,
+    S_SUBSTEP,
+    W_NOW,
+    W_PROPOSED,
+    W_REFUSED,
+    W_SUBSTEPS,
+    Y_ENERGY,
+    Y_FILM,
+    Y_HEAT,
+)  # fmt: skip
+from .heating import exponential_weights
+
+__all__ = ["NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "derive", "step"]
 
 Array = NDArray[np.float64]
 
-# Parameters, in the order of ClutchParams.
-(
-    P_INNER_RADIUS, P_OUTER_RADIUS, P_FACES, P_EFFECTIVE_RADIUS, P_FRICTION_LAW,
-    P_CONSTANT_FRICTION, P_INDENTATION, P_PLOUGH_WEIGHT, P_HARDNESS_RATIO, P_SHEAR_FLOOR,
-    P_STICK_SPEED, P_DECAY_SPEED, P_KINK_WIDTH, P_ROUGHNESS, P_CONTACT_MODULUS,
-    P_ASPERITY_DENSITY, P_ASPERITY_RADIUS, P_LINING_THICKNESS, P_PERMEABILITY, P_GROOVE_FACTOR,
-    P_INITIAL_FILM, P_FILM_DYNAMICS, P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT,
-    P_VISCOSITY_SCALE, P_STEEL_THICKNESS, P_STEEL_DENSITY, P_STEEL_HEAT_CAPACITY,
-    P_HEAT_TRANSFER, P_SPEED_SMOOTHING, P_FIDELITY,
-) = range(31)  # fmt: skip
-N_PARAM = 31
-# Constants that derive() adds.
-D_AREA, D_RADIUS, D_PLOUGH, D_ADHESION, D_PRESSURE, D_CAPACITY, D_COOLING = range(31, 38)
-NPAR = 38
-I_LOAD, I_SPEED, I_OIL = range(3)
-NINP = 3
-# State: S_FILM is the film ratio (start of the next search, a state proper once the film moves).
-S_STARTED, S_FILM, S_TEMPERATURE, S_ENERGY = range(4)  # ... at the last point of known power
-S_SHOWN_TEMPERATURE, S_SHOWN_ENERGY, S_POWER, S_OIL, S_DURATION = range(4, 9)
-NSTATE = 9
-NWORK = 1
-(
-    O_TORQUE, O_TEMPERATURE, O_FILM, O_CAPACITY, O_COEFFICIENT, O_RATIO, O_POWER, O_ENERGY,
-) = range(8)  # fmt: skip
-NOUT = 8
-IO_REGIME, IO_STATUS = range(2)
-NIOUT = 2
 
-CLOSED = 1  # fidelity
-CONSTANT_LAW = 2  # friction_law
-FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
-OK, HOT, NOT_FINITE, BAD_INPUT = 0, 2, 14, 15
-HOT_LIMIT = 523.0  # K
-OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open
+@kernel
+def moves_film(par: Array) -> bool:
+    """Tell if film and viscous torque belong to the model."""
+    return par[P_FIDELITY] == FIELD and par[P_FILM_DYNAMICS] != 0.0
 
 
 @kernel
-def derive(par: Array) -> int:
-    """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
-    ri, ro = par[P_INNER_RADIUS], par[P_OUTER_RADIUS]
-    par[D_AREA] = math.pi * (ro * ro - ri * ri)
-    mean = 2.0 * (ro * ro * ro - ri * ri * ri) / (3.0 * (ro * ro - ri * ri))
-    par[D_RADIUS] = par[P_EFFECTIVE_RADIUS] if par[P_EFFECTIVE_RADIUS] > 0.0 else mean
-    x = par[P_INDENTATION]
-    root = math.sqrt((1.0 - x) * (1.0 + x))
-    par[D_PLOUGH] = par[P_PLOUGH_WEIGHT] * ploughing(x)
-    par[D_ADHESION] = 4.0 / (math.pi * par[P_HARDNESS_RATIO]) / (1.0 + root)
-    par[D_PRESSURE] = pressure_scale(
-        par[P_ROUGHNESS], par[P_CONTACT_MODULUS], par[P_ASPERITY_DENSITY], par[P_ASPERITY_RADIUS]
+def load_memory(par: Array, load: float, oil: float, state: Array, work: Array) -> int:
+    """Copy the memory to W_NOW, or set the start: film open or settled, steel as warm as oil."""
+    status = OK
+    if state[S_STARTED] != 0.0:
+        work[np.uintp(W_NOW + Y_FILM)] = state[S_FILM]
+        work[np.uintp(W_NOW + Y_ENERGY)] = state[S_ENERGY]
+        work[np.uintp(W_NOW + Y_HEAT)] = state[S_HEAT]
+        for i in range(int(par[D_MODES])):
+            work[np.uintp(W_NOW + Y_HEAT + 1 + i)] = state[np.uintp(S_MODES + i)]
+        return status
+    ratio = par[D_OPEN_RATIO]
+    if par[P_STARTS_PRESSED] != 0.0:
+        ratio, status, _ = settled_ratio(par, load, 1.0)
+    work[np.uintp(W_NOW + Y_FILM)] = ratio
+    work[np.uintp(W_NOW + Y_ENERGY)] = 0.0
+    work[np.uintp(W_NOW + Y_HEAT)] = oil
+    for i in range(int(par[D_MODES])):
+        work[np.uintp(W_NOW + Y_HEAT + 1 + i)] = 0.0
+    return status
+
+
+@kernel
+def store_memory(par: Array, work: Array, state: Array) -> None:
+    """Copy W_NOW to the memory."""
+    state[S_STARTED] = 1.0
+    state[S_FILM] = work[np.uintp(W_NOW + Y_FILM)]
+    state[S_ENERGY] = work[np.uintp(W_NOW + Y_ENERGY)]
+    state[S_HEAT] = work[np.uintp(W_NOW + Y_HEAT)]
+    for i in range(int(par[D_MODES])):
+        state[np.uintp(S_MODES + i)] = work[np.uintp(W_NOW + Y_HEAT + 1 + i)]
+
+
+@kernel
+def warm_up(
+    par: Array, power_start: float, power_end: float, oil: float, duration: float, work: Array
+) -> None:
+    """Advance heat and energy in W_NOW exactly, under a face's power [W] that changes linearly."""
+    if par[P_FIDELITY] != BOUNDARY_ONLY:
+        for i in range(int(par[D_MODES]) + 1):
+            place = np.uintp(W_NOW + Y_HEAT + i)
+            level = oil if i == 0 else 0.0
+            decay, first, second = exponential_weights(par[np.uintp(D_DECAY + i)] * duration)
+            gain = power_start * first + (power_end - power_start) * second
+            work[place] = (
+                level
+                + (work[place] - level) * decay
+                + (par[np.uintp(D_GAIN + i)] * gain * duration)
+            )
+    work[np.uintp(W_NOW + Y_ENERGY)] += 0.5 * (power_start + power_end) * duration
+
+
+@kernel
+def face_power(par: Array, load: float, slip: float, film: bool, work: Array) -> float:
+    """Return the friction power of a face [W] in the state W_NOW."""
+    temperature = surface_temperature(par, work, W_NOW)
+    if film:
+        u = work[np.uintp(W_NOW + Y_FILM)]
+        contact = contact_torque(par, load, slip, u, temperature)[0]
+        viscous = viscous_torque(par, slip, u, temperature)[0]
+    else:
+        mu, _ = coefficient_of(par, slip, temperature)
+        contact = par[P_FACES] * par[D_RADIUS] * mu * load
+        viscous = 0.0
+    smooth = math.tanh(abs(slip) / par[P_SPEED_SMOOTHING])
+    return abs(slip) * (contact * smooth + viscous) / par[P_FACES]
+
+
+@kernel
+def advance(
+    par: Array, course: tuple[float, float, float, float, float, float], duration: float,
+    power_start: float, first: float, work: Array,
+) -> int:  # fmt: skip
+    """Bring W_NOW through a stretch over which load, slip and oil temperature run straight."""
+    if moves_film(par):
+        return engage(par, course, duration, first, work)
+    status = OK
+    work[np.uintp(W_NOW + Y_FILM)], status, _ = settled_ratio(
+        par, course[3], work[np.uintp(W_NOW + Y_FILM)]
     )
-    half = 0.5 * par[P_STEEL_THICKNESS] * par[D_AREA]
-    par[D_CAPACITY] = half * par[P_STEEL_DENSITY] * par[P_STEEL_HEAT_CAPACITY]
-    par[D_COOLING] = par[P_HEAT_TRANSFER] * par[D_AREA]
-    for i in range(N_PARAM, NPAR):
-        if not math.isfinite(par[np.uintp(i)]):
-            return NOT_FINITE
-    return OK
+    end = face_power(par, course[3], course[4], False, work)
+    held = course[0] == course[3] and course[1] == course[4]
+    warm_up(par, end if held else power_start, end, course[2], duration, work)
+    return status
 
 
 @kernel
-def shear_of(par: Array, slip: float) -> float:
-    """Return the shear ratio s/s_m [-] at a slip [rad/s]."""
-    return shear_ratio(
-        slip * par[D_RADIUS], par[P_SHEAR_FLOOR], par[P_STICK_SPEED], par[P_DECAY_SPEED],
-        par[P_KINK_WIDTH],
-    )  # fmt: skip
-
-
-@kernel
-def coefficient_of(par: Array, slip: float) -> float:
-    """Return the coefficient of friction [-] at a slip [rad/s]."""
-    if par[P_FIDELITY] == CLOSED or par[P_FRICTION_LAW] == CONSTANT_LAW:
-        return par[P_CONSTANT_FRICTION]
-    return par[D_PLOUGH] + par[D_ADHESION] * shear_of(par, slip)
-
-
-@kernel
-def film_ratio_of(par: Array, load: float, guess: float) -> tuple[float, int, int]:
-    """Return (settled film thickness over roughness [-], status, iterations) at a load [N]."""
-    pressure = load / par[D_AREA]
-    if pressure < OPEN_PRESSURE:
-        return par[P_INITIAL_FILM] / par[P_ROUGHNESS], OK, 0
-    u, status, n = separation(pressure / par[D_PRESSURE], guess)
-    return min(u, par[P_INITIAL_FILM] / par[P_ROUGHNESS]), status, n
-
-
-@kernel
-def regime_of(par: Array, ratio: float, slip: float) -> int:
-    """Return the stage of engagement: the film ratio names it, a full shear ratio is adhesion."""
-    if ratio > 3.0:
-        return FILM
-    if ratio >= 1.0:
-        return MIXED
-    return ADHESIVE if abs(slip) * par[D_RADIUS] <= par[P_STICK_SPEED] else BOUNDARY
+def fill_outputs(par: Array, load: float, slip: float, work: Array, out: Array) -> None:
+    """Fill what follows from film and temperature in W_NOW; temperature and energy come later."""
+    film = moves_film(par)
+    u = work[np.uintp(W_NOW + Y_FILM)]
+    temperature = surface_temperature(par, work, W_NOW)
+    mu, _ = coefficient_of(par, slip, temperature)
+    viscous, _, _, eta, _, share = viscous_torque(par, slip, u, temperature)
+    if film:
+        contact = contact_torque(par, load, slip, u, temperature)[0]
+    else:
+        contact, viscous = par[P_FACES] * par[D_RADIUS] * mu * load, 0.0
+        share = contact_share(par, u)[0]
+    dry = contact * math.tanh(slip / par[P_SPEED_SMOOTHING])
+    wet = math.copysign(viscous, slip)
+    out[O_TORQUE] = dry + wet
+    out[O_CONTACT_TORQUE], out[O_VISCOUS_TORQUE] = dry, wet
+    out[O_CAPACITY] = contact + viscous
+    out[O_POWER] = out[O_TORQUE] * slip
+    out[O_HEAT_FLUX] = out[O_POWER] / (par[P_FACES] * par[D_AREA])
+    out[O_COEFFICIENT] = mu
+    out[O_FILM], out[O_RATIO] = u * par[P_ROUGHNESS], u
+    out[O_CONTACT_SHARE], out[O_VISCOSITY] = share, eta
 
 
 @kernel
@@ -126,56 +227,73 @@ def step(
     t: float,
     dt: float,
 ) -> int:
-    """Advance the heat from t to t + dt with the present load and slip, then fill the outputs.
+    """Advance the pack from t to t + dt, then fill the outputs.
 
     Returns 0 or the status of a failure; HOT is advice and stands in ``iout`` only.
     """
     load, slip, oil = inp[I_LOAD], inp[I_SPEED], inp[I_OIL]
     if not (
         math.isfinite(load) and load >= 0.0 and math.isfinite(slip) and math.isfinite(oil)
-        and dt >= 0.0 and oil > 0.0
+        and math.isfinite(dt) and dt >= 0.0 and oil > 0.0
     ):  # fmt: skip
         iout[IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     started = state[S_STARTED] != 0.0
-    ratio, status, _ = film_ratio_of(par, load, state[S_FILM] if started else 1.0)
-    coefficient = coefficient_of(par, slip)
-    capacity = par[P_FACES] * coefficient * load * par[D_RADIUS]
-    torque = capacity * math.tanh(slip / par[P_SPEED_SMOOTHING])
-    power = torque * slip
-
-    temperature = state[S_SHOWN_TEMPERATURE] if started else oil
-    energy = state[S_SHOWN_ENERGY]
-    if dt > 0.0:
-        exact_temperature, exact_energy = oil, 0.0
-        if started:
-            last = state[S_DURATION]
-            exact_temperature = temperature_after(
-                state[S_TEMPERATURE], state[S_OIL], par[D_CAPACITY], par[D_COOLING],
-                state[S_POWER] / par[P_FACES], power / par[P_FACES], last,
-            )  # fmt: skip
-            exact_energy = state[S_ENERGY] + 0.5 * (state[S_POWER] + power) * last
-        temperature = temperature_after(
-            exact_temperature, oil, par[D_CAPACITY], par[D_COOLING],
-            power / par[P_FACES], power / par[P_FACES], dt,
-        )  # fmt: skip
-        # Heat does not come back: where the advance was too large the output waits.
-        energy = max(state[S_SHOWN_ENERGY], exact_energy + power * dt)
-        if status == OK and math.isfinite(temperature) and math.isfinite(energy):
-            state[S_STARTED] = 1.0
-            state[S_FILM] = ratio
-            state[S_TEMPERATURE], state[S_ENERGY] = exact_temperature, exact_energy
-            state[S_SHOWN_TEMPERATURE], state[S_SHOWN_ENERGY] = temperature, energy
-            state[S_POWER], state[S_OIL], state[S_DURATION] = power, oil, dt
-
-    out[O_TORQUE], out[O_TEMPERATURE] = torque, temperature
-    out[O_FILM], out[O_CAPACITY] = ratio * par[P_ROUGHNESS], capacity
-    out[O_COEFFICIENT], out[O_RATIO] = coefficient, ratio
-    out[O_POWER], out[O_ENERGY] = power, energy
-    iout[IO_REGIME] = regime_of(par, ratio, slip)
+    linear = par[P_INPUT_COURSE] == LINEAR_COURSE
+    film = moves_film(par)
+    work[W_SUBSTEPS] = work[W_REFUSED] = 0.0
+    work[W_PROPOSED] = state[S_SUBSTEP]
+    status = load_memory(par, load, oil, state, work)
+    if par[P_FIDELITY] == BOUNDARY_ONLY:
+        work[np.uintp(W_NOW + Y_HEAT)] = oil
+    if linear:
+        if started and status == OK:
+            course = (state[S_LOAD], state[S_SLIP], state[S_OIL], load, slip, oil)
+            status = advance(par, course, state[S_DURATION], state[S_POWER], state[S_SUBSTEP], work)
+    elif dt > 0.0 and status == OK:
+        course = (load, slip, oil, load, slip, oil)
+        status = advance(par, course, dt, 0.0, state[S_SUBSTEP], work)
+    if not film and status == OK:
+        work[np.uintp(W_NOW + Y_FILM)], status, _ = settled_ratio(
+            par, load, work[np.uintp(W_NOW + Y_FILM)]
+        )
+    fill_outputs(par, load, slip, work, out)
+    power = out[O_POWER] / par[P_FACES]
+    temperature = surface_temperature(par, work, W_NOW)
+    energy = par[P_FACES] * work[np.uintp(W_NOW + Y_ENERGY)]
+    keep = dt > 0.0 and status == OK
+    if keep:
+        keep = _is_finite(work, par, out)
+        if not keep:
+            status = NOT_FINITE
+    if keep:
+        store_memory(par, work, state)
+        state[S_LOAD], state[S_SLIP], state[S_OIL] = load, slip, oil
+        state[S_POWER], state[S_DURATION], state[S_SUBSTEP] = power, dt, work[W_PROPOSED]
+    if linear and dt > 0.0:
+        warm_up(par, power, power, oil, dt, work)
+        temperature = surface_temperature(par, work, W_NOW)
+        energy = par[P_FACES] * work[np.uintp(W_NOW + Y_ENERGY)]
+    elif linear and started and par[P_FIDELITY] != BOUNDARY_ONLY:
+        temperature = state[S_SHOWN_TEMPERATURE]
+    # Heat does not come back: where the advance was too large the output waits.
+    energy = max(energy, state[S_SHOWN_ENERGY])
+    if keep:
+        state[S_SHOWN_TEMPERATURE], state[S_SHOWN_ENERGY] = temperature, energy
+    out[O_TEMPERATURE], out[O_ENERGY] = temperature, energy
+    iout[IO_REGIME] = regime_of(par, out[O_RATIO], slip)
     if status == OK:
         for i in range(NOUT):
             if not math.isfinite(out[np.uintp(i)]):
                 status = NOT_FINITE
     iout[IO_STATUS] = HOT if status == OK and temperature > HOT_LIMIT else status
     return status
+
+
+@kernel
+def _is_finite(work: Array, par: Array, out: Array) -> bool:
+    """Tell if the unknowns and the outputs filled so far are numbers."""
+    good = True
+    for i in range(Y_HEAT + 1 + int(par[D_MODES])):
+        good = good and math.isfinite(work[np.uintp(W_NOW + i)])
+    return good and math.isfinite(out[O_POWER])

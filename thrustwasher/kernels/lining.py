@@ -1,4 +1,4 @@
-"""Contact of a rough lining: Greenwood & Tripp's pressure and the separation that carries a load.
+"""Contact of a rough lining: Greenwood & Tripp's integrals over the heights, by quadrature.
 
 F_n(u) = integral over s > u of (s - u)^n pdf(s) ds, pdf the standard normal density.
 """
@@ -14,7 +14,6 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(N_NODES)
 NODES = 0.5 * (_NODES + 1.0)
 WEIGHTS = 0.5 * _WEIGHTS
 REACH = 9.0  # the density is cut where it has fallen by exp(-REACH^2/2) = 3e-18
-MAX_ITERATIONS = 60
 
 
 @kernel
@@ -47,26 +46,3 @@ def pressure_scale(roughness: float, modulus: float, density: float, radius: flo
     return 16.0 * math.sqrt(2.0) * math.pi / 15.0 * group * group * math.sqrt(
         roughness / radius
     ) * modulus  # fmt: skip
-
-
-@kernel
-def separation(pressure_ratio: float, guess: float) -> tuple[float, int, int]:
-    """Return (u, status, iterations) with F_5/2(u) = ``pressure_ratio`` [-].
-
-    Newton on ln F_5/2, which is concave and falling: from any start the second iterate lies on
-    the far side of the root and the rest approach it from there, so no bracket is needed.
-    """
-    if not pressure_ratio > 1e-30:
-        return 11.0, 0, 0
-    goal = math.log(pressure_ratio)
-    u = min(max(guess, -1000.0), 8.0)
-    for n in range(MAX_ITERATIONS):
-        five, three = height_integrals(u)
-        step = (math.log(five) - goal) * five / (2.5 * three)
-        u += step
-        if u < -1000.0:
-            return -1000.0, 0, n + 1
-        if abs(step) < 1e-12 * (1.0 + abs(u)):
-            return u, 0, n + 1
-        u = min(u, 30.0)
-    return u, 10, MAX_ITERATIONS

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import ParameterError, SolveError, Status
-from ..kernels import boundary, clutch_step
+from ..kernels import boundary, clutch_friction, clutch_layout, clutch_steady
 from ._params import as_numbers, check_number
 from ._spec import REGIMES
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
@@ -36,6 +36,12 @@ class ClutchResult:
     """[N m] largest torque the pack holds at this load and slip."""
     friction_power: float
     """[W] heat made in the whole pack."""
+    contact_torque: float
+    """[N m] share of friction_torque that the asperities make."""
+    viscous_torque: float
+    """[N m] share of friction_torque that shear of the oil makes."""
+    contact_share: float
+    """[-] share of the faces' area that is in contact."""
     regime: str
     status: Status
     iterations: int
@@ -99,9 +105,9 @@ def prepare(params: ClutchParams, fidelity: str) -> Any:
     rungs = list(SPEC.fidelities)
     if fidelity not in rungs:
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")
-    par = np.zeros(clutch_step.NPAR)
-    par[: clutch_step.N_PARAM] = [*as_numbers(params), rungs.index(fidelity) + 1]
-    status = Status(clutch_step.derive(par))
+    par = np.zeros(clutch_layout.NPAR)
+    par[: clutch_layout.N_PARAM] = [*as_numbers(params), rungs.index(fidelity) + 1]
+    status = Status(clutch_steady.derive(par))
     if status.is_failure:
         raise ParameterError(f"the clutch parameters cannot be used: {status.advice}")
     return par
@@ -113,7 +119,7 @@ def solve_clutch(
     load: float,
     speed: float,
     oil_temperature: float = 297.15,
-    fidelity: str = "stribeck",
+    fidelity: str = "field",
     start: ClutchResult | None = None,
     throw: bool = True,
 ) -> ClutchResult:
@@ -125,15 +131,22 @@ def solve_clutch(
     load : axial force on the pack [N]
     speed : slip [rad/s], with its sign
     oil_temperature : [K]
-    fidelity : "closed" (constant coefficient) or "stribeck" (coefficient over slip speed)
+    fidelity : "closed" (constant coefficient), "boundary" (coefficient over slip speed, no heat),
+        "stribeck" (with heat) or "field" (with heat and the shear of the settled film)
     start : an earlier result to start the search for the film from
     throw : False returns the best estimate with its status instead of raising SolveError
 
+    Raises
+    ------
+    ParameterError : an argument is out of range; the message names it
+    SolveError : no film or temperature was found
+
     Notes
     -----
-    The temperature is where cooling balances friction. For slip that lasts it soon lies far above
-    what a lining survives: status HOT says so. A shift is over long before; its temperature is
-    that of the time-stepping model.
+    The film is settled (the asperities carry the load; an open pack has its clearance), the
+    temperature is where cooling balances friction. For slip that lasts it soon lies far above
+    what a lining survives: status HOT says so. A shift is over long before; ``engage_clutch``
+    and the FMU give film and temperature over time.
 
     Examples
     --------
@@ -147,33 +160,37 @@ def solve_clutch(
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
     par = prepare(params, fidelity)
-    guess = start.film_ratio if start else 1.0
-    ratio, code, iterations = clutch_step.film_ratio_of(par, load, guess)
-    coefficient = clutch_step.coefficient_of(par, speed)
-    capacity = params.faces * coefficient * load * par[clutch_step.D_RADIUS]
-    torque = math.copysign(capacity, speed) if speed else 0.0
-    power = torque * speed
-    if power > 0.0 and params.heat_transfer == 0.0:
+    heated = speed != 0.0 and (load > 0.0 or fidelity == "field") and fidelity != "boundary"
+    if heated and params.heat_transfer == 0.0:
         raise ParameterError(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
         )
-    rise = power / params.faces / par[clutch_step.D_COOLING] if power else 0.0
-    status = Status(code)
+    ratio, film, turns = clutch_friction.settled_ratio(
+        par, load, start.film_ratio if start else 1.0
+    )
+    temperature, heat, rounds = clutch_steady.steady_temperature(par, load, speed, oil, ratio)
+    contact, viscous, _ = clutch_steady.steady_torques(par, load, speed, ratio, temperature)
+    status = max(Status(film), Status(heat))
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
-    if not status.is_failure and oil + rise > clutch_step.HOT_LIMIT:
+    if not status.is_failure and temperature > clutch_layout.HOT_LIMIT:
         status = Status.HOT
+    sign = math.copysign(1.0, speed) if speed else 0.0
+    torque = sign * (contact + viscous)
     return ClutchResult(
         friction_torque=torque,
-        friction_coefficient=float(coefficient),
-        temperature=float(oil + rise),
+        friction_coefficient=float(clutch_friction.coefficient_of(par, speed, temperature)[0]),
+        temperature=float(temperature),
         film_thickness=float(ratio * params.roughness),
         film_ratio=float(ratio),
-        shear_ratio=float(clutch_step.shear_of(par, speed)),
-        torque_capacity=float(capacity),
-        friction_power=float(power),
-        regime=list(REGIMES)[clutch_step.regime_of(par, ratio, speed) - 1],
+        shear_ratio=float(clutch_friction.shear_of(par, speed, temperature)[0]),
+        torque_capacity=float(contact + viscous),
+        friction_power=float(torque * speed),
+        contact_torque=sign * contact,
+        viscous_torque=sign * viscous,
+        contact_share=float(clutch_friction.contact_share(par, ratio)[0]),
+        regime=list(REGIMES)[clutch_friction.regime_of(par, ratio, speed) - 1],
         status=status,
-        iterations=int(iterations),
+        iterations=int(turns + rounds),
         fidelity=fidelity,
     )

@@ -13,6 +13,11 @@ FRICTION_LAWS = {
     "constant": "the constant coefficient constant_friction",
 }
 
+INPUT_COURSES = {
+    "held": "inputs stay as they are during a step; all outputs are those at its end",
+    "linear": "inputs run straight from point to point; torque is that of the step's start",
+}
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClutchParams:
@@ -34,36 +39,68 @@ class ClutchParams:
     indentation: float = quantity(0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R")
     plough_weight: float = quantity(0.085275, "1", 0.0, 1.0, "weight of the ploughing share")
     hardness_ratio: float = quantity(6.0, "1", 1.0, 20.0, "hardness over shear strength of lining")
+    adhesion_factor: float = quantity(
+        1.0, "1", 0.1, 10.0, "factor on the adhesive share (1: as published; pi/2: full s/p)"
+    )
     shear_floor: float = quantity(0.30, "1", 0.0, 1.0, "shear ratio s/s_m at very high slip speed")
     stick_speed: float = quantity(1.185, "m/s", 0.0, 50.0, "slip speed below which s/s_m is 1")
     decay_speed: float = quantity(2.872, "m/s", 1e-3, 100.0, "decay of s/s_m above stick_speed")
     kink_width: float = quantity(
         0.0, "m/s", 0.0, 1.0, "rounds the kink at stick_speed (0: sharp, as the law says)"
     )
+    shear_temperature_slope: float = quantity(
+        0.0, "1/K", -0.1, 0.1, "relative change of s/s_m per kelvin (0: none, as published)"
+    )
+    reference_temperature: float = quantity(
+        313.15, "K", 233.15, 523.15, "interface temperature the speed law of s/s_m holds at"
+    )
     roughness: float = quantity(8.41e-6, "m", 1e-8, 1e-4, "combined RMS roughness of lining, steel")
     contact_modulus: float = quantity(2.7e7, "Pa", 1e5, 1e11, "contact modulus of the lining")
     asperity_density: float = quantity(7e7, "1/m2", 1e5, 1e12, "lining's asperities per area")
     asperity_radius: float = quantity(8e-4, "m", 1e-7, 1e-2, "radius of the lining's asperities")
-    lining_thickness: float = quantity(
-        1e-3, "m", 0.0, 0.02, "thickness of the permeable lining (moving film only)"
-    )
+    lining_thickness: float = quantity(1e-3, "m", 0.0, 0.02, "thickness of the permeable lining")
     permeability: float = quantity(
-        4e-12, "m2", 0.0, 1e-9, "permeability of the lining (moving film only)"
+        4e-12, "m2", 0.0, 1e-9, "permeability of the lining along its plane"
     )
     groove_factor: float = quantity(
-        1.0, "1", 0.01, 1.0, "share of squeeze resistance the grooves leave (moving film only)"
+        1.0, "1", 0.01, 1.0, "share of squeeze resistance the grooves leave"
     )
     initial_film: float = quantity(8.8e-5, "m", 1e-6, 1e-2, "film thickness of the open pack")
-    film_dynamics: bool = flag(True, "film takes time to squeeze out (rungs with a moving film)")
-    viscosity_constant: float = quantity(3.545, "1", 1.0, 6.0, "G_o of the Roelands law")
+    starts_pressed: bool = flag(False, "film is settled at the start (False: pack starts open)")
+    film_dynamics: bool = flag(
+        True,
+        "field rung: oil takes time to leave and resists shear (False: film settled, no shear)",
+    )
+    shear_heating: bool = flag(
+        False, "field rung: oil between the faces is thinned by its own shear (False: as the faces)"
+    )
+    oil_flow: float = quantity(
+        0.0, "m3/s", 0.0, 1.0, "oil fed to the pack; limits its drag (0: gaps always full)"
+    )
+    oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
+    oil_conductivity: float = quantity(
+        0.145, "W/(m.K)", 0.01, 2.0, "heat conductivity of the oil (shear_heating)"
+    )
+    viscosity_constant: float = quantity(
+        3.545, "1", 0.0, 6.0, "G_o of the Roelands law (0: viscosity is viscosity_scale, constant)"
+    )
     viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
-    viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 1e-2, "scale of the Roelands law")
+    viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 10.0, "scale of the Roelands law")
     steel_thickness: float = quantity(2e-3, "m", 1e-4, 0.1, "thickness of a steel plate")
     steel_density: float = quantity(7850.0, "kg/m3", 500.0, 2e4, "density of the steel plates")
     steel_heat_capacity: float = quantity(475.0, "J/(kg.K)", 50.0, 5e3, "heat capacity of steel")
+    steel_conductivity: float = quantity(
+        50.0, "W/(m.K)", 1.0, 500.0, "heat conductivity of the steel plates"
+    )
+    contact_rise: bool = flag(
+        False, "interface hotter than the plate's mean by conduction (semi-infinite at first)"
+    )
     heat_transfer: float = quantity(1000.0, "W/(m2.K)", 0.0, 1e5, "cooling of a face by the oil")
     speed_smoothing: float = quantity(
         0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
+    )
+    input_course: str = choice(
+        "held", INPUT_COURSES, "InputCourse", "what load and slip do between two steps"
     )
 
     def __post_init__(self) -> None:
@@ -82,6 +119,7 @@ SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two side
 OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
              low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
 _POINT = ("load", "speed")
+_ALL = (*_POINT, "oil_temperature")
 
 SPEC = ModelSpec(
     key="clutch",
@@ -89,28 +127,40 @@ SPEC = ModelSpec(
     help="Wet multi-plate clutch or brake: friction torque, torque capacity, interface temperature",
     params=ClutchParams,
     fidelities={
-        "closed": "constant coefficient of friction",
-        "stribeck": "boundary friction over slip speed, the film always settled",
+        "closed": "constant coefficient of friction, film settled, lumped heat",
+        "boundary": "boundary friction over slip speed, film settled, no heat",
+        "stribeck": "boundary friction over slip speed, film settled, lumped heat",
+        "field": "boundary friction, film that is squeezed out and sheared, lumped heat",
     },
-    default_fidelity="stribeck",
+    default_fidelity="field",
     inputs=(LOAD, SPEED, OIL),
     outputs=(
-        Signal(name="friction_torque", unit="N.m", nominal=100.0, depends=_POINT,
+        Signal(name="friction_torque", unit="N.m", nominal=100.0, depends=_ALL,
                help="friction torque of the pack, sign of the slip, smooth through zero"),
         Signal(name="temperature", unit="K", nominal=300.0, depends=("oil_temperature",),
                help="interface temperature of the steel plates"),
         Signal(name="film_thickness", unit="m", nominal=1e-5, depends=("load",),
                help="separation of the mean surfaces of lining and steel"),
-        Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_POINT, low=0.0,
+        Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_ALL, low=0.0,
                help="largest torque the pack can hold at this load and slip"),
         Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=("speed",),
-               help="coefficient of friction of the contacting faces"),
+               help="coefficient of boundary friction of the contacting faces"),
         Signal(name="film_ratio", unit="1", nominal=1.0, depends=("load",),
                help="film thickness over the combined RMS roughness"),
-        Signal(name="friction_power", unit="W", nominal=1e4, depends=_POINT,
+        Signal(name="friction_power", unit="W", nominal=1e4, depends=_ALL,
                help="heat made by friction, torque times slip"),
         Signal(name="energy", unit="J", nominal=1e4, low=0.0,
                help="heat made by friction since the start"),
+        Signal(name="contact_torque", unit="N.m", nominal=100.0, depends=_POINT,
+               help="share of the friction torque that the asperities make"),
+        Signal(name="viscous_torque", unit="N.m", nominal=10.0, depends=_ALL,
+               help="share of the friction torque that shear of the oil makes"),
+        Signal(name="contact_share", unit="1", nominal=0.1, depends=("load",), low=0.0, high=1.0,
+               help="share of the faces' area in contact"),
+        Signal(name="heat_flux", unit="W/m2", nominal=1e5, depends=_ALL, low=0.0,
+               help="friction power over the area of all faces"),
+        Signal(name="viscosity", unit="Pa.s", nominal=0.05, depends=("oil_temperature",),
+               help="viscosity of the oil at the interface temperature"),
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_POINT,
                help="lubrication regime of the friction faces"),
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",

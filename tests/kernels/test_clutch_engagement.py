@@ -1,0 +1,307 @@
+"""Film and heat of an engaging pack against an independent implicit solution (Radau, 1e-10)."""
+
+import math
+
+import numpy as np
+import pytest
+from clutch_reference import Reference
+from hypothesis import given
+from hypothesis import strategies as st
+
+from thrustwasher import ClutchParams, engage_clutch
+from thrustwasher.kernels import clutch_layout as k
+from thrustwasher.kernels.clutch_friction import shear_thinned
+from thrustwasher.kernels.clutch_rates import pack_rates
+from thrustwasher.kernels.clutch_step import step
+from thrustwasher.models.clutch import prepare
+from thrustwasher.reference.heated_plate import insulated_plate_rise, semi_infinite_rise
+from thrustwasher.reference.squeeze_film import pumped_flow, squeeze_group, squeeze_time
+
+H = 1e-3
+PERMEABILITIES = [0.0, 1e-14, 1e-13, 1e-12, 4e-12]
+
+
+class Pack:
+    """A pack of the moving film with its arrays."""
+
+    def __init__(self, fidelity="field", **params):
+        self.params = ClutchParams(**params)
+        self.par = prepare(self.params, fidelity)
+        self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
+        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+
+    def step(self, load, speed, dt, oil=297.15):
+        inp = np.array([load, speed, oil])
+        return step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
+
+
+@pytest.mark.parametrize("permeability", PERMEABILITIES)
+def test_a_pack_under_sudden_load_follows_the_tight_reference(permeability):
+    """Torque to 1e-6 and temperature to 1e-5 K at every millisecond; a step costs few substeps."""
+    pack = Pack(permeability=permeability)
+    reference = Reference(pack.params, lambda t: 5898.0, lambda t: 350.0)
+    times = np.arange(301) * H
+    film, temperature = reference.solve(times)
+    substeps = 0
+    for n in range(1, len(times)):
+        assert pack.step(5898.0, 350.0, H) == 0
+        exact = reference.torque(times[n], film[n], temperature[n])
+        assert pack.out[k.O_TORQUE] == pytest.approx(exact, rel=1e-6)
+        assert pack.out[k.O_TEMPERATURE] == pytest.approx(temperature[n], abs=1e-5)
+        substeps += pack.work[k.W_SUBSTEPS] + pack.work[k.W_REFUSED]
+    assert substeps < 1.2 * len(times)
+
+
+@pytest.mark.parametrize("permeability", [0.0, 4e-12])
+def test_inputs_that_are_held_are_held(permeability):
+    """A ramp in steps, falling slip in steps: the reference sees the same staircase."""
+    pack = Pack(permeability=permeability)
+    start = [pack.params.initial_film / pack.params.roughness, 297.15]
+    for n in range(60):
+        load, slip = 6000.0 * min(1.0, n / 20), 300.0 - 4.0 * n
+        pack.step(load, slip, H)
+        reference = Reference(pack.params, lambda t, f=load: f, lambda t, w=slip: w)
+        film, temperature = reference.solve(np.array([n * H, (n + 1) * H]), start)
+        start = [film[-1], temperature[-1]]
+        exact = reference.torque(0.0, *start)
+        assert pack.out[k.O_TORQUE] == pytest.approx(exact, rel=1e-6)
+        assert pack.out[k.O_TEMPERATURE] == pytest.approx(start[1], abs=1e-5)
+
+
+@pytest.mark.parametrize("permeability", PERMEABILITIES)
+def test_a_smooth_engagement_follows_the_tight_reference(permeability):
+    """Pressure and slip sampled at 1 ms; 0.1 % where the torque matters (1 % of the largest)."""
+    params = ClutchParams(permeability=permeability)
+    times = np.arange(401) * H
+
+    def load(t):
+        return 5898.0 * (1.0 - math.exp(-t / 0.05))
+
+    def slip(t):
+        return 350.0 * (1.0 - t / 0.42)
+
+    reference = Reference(params, load, slip)
+    film, temperature = reference.solve(times)
+    exact = np.array([reference.torque(*p) for p in zip(times, film, temperature, strict=True)])
+    found = engage_clutch(
+        params, time=times, load=[load(t) for t in times], speed=[slip(t) for t in times]
+    )
+    counts = exact > 0.01 * exact.max()
+    assert found.friction_torque[counts] == pytest.approx(exact[counts], rel=2e-4)
+    assert found.temperature == pytest.approx(temperature, abs=0.01)
+
+
+def test_the_known_course_of_the_check_case():
+    """Constant viscosity, 0.6 MPa with 50 ms: 3 sigma after 51 ms, settled (1 %) after 0.22 s."""
+    params = ClutchParams(viscosity_scale=0.0681, viscosity_constant=0.0)
+    times = np.linspace(0.0, 0.4, 4001)
+    area = math.pi * (0.085**2 - 0.064**2)
+    e = engage_clutch(
+        params, time=times, load=0.6e6 * area * (1.0 - np.exp(-times / 0.05)), speed=1e-3,
+    )  # fmt: skip
+    assert e.film_ratio[-1] == pytest.approx(0.5749, abs=2e-4)
+    assert times[np.argmax(e.film_ratio < 3.0)] == pytest.approx(0.051, abs=1e-3)
+    late = np.abs(e.film_ratio / 0.5749 - 1.0) > 0.01
+    assert times[np.flatnonzero(late)[-1]] == pytest.approx(0.22, abs=0.01)
+
+
+@pytest.mark.parametrize("permeability", [0.0, 4e-12])
+def test_one_long_step_is_many_short_ones(permeability):
+    ends = []
+    for n in (1, 7, 200):
+        pack = Pack(permeability=permeability, contact_rise=True)
+        for _ in range(n):
+            assert pack.step(5898.0, 200.0, 0.2 / n) == 0
+        ends.append([pack.out[k.O_TORQUE], pack.out[k.O_TEMPERATURE], pack.out[k.O_ENERGY]])
+    assert ends[0] == pytest.approx(ends[2], rel=1e-6)
+    assert ends[1] == pytest.approx(ends[2], rel=1e-6)
+
+
+def test_smooth_tight_faces_close_in_the_squeeze_time():
+    """Roughness and contact out of the way: t = 3 pi eta G/(4 F) (1/h^2 - 1/h0^2)."""
+    params = {"roughness": 1e-8, "permeability": 0.0, "initial_film": 8e-5}
+    pack = Pack(**params)
+    eta = 0.0
+    for t_end in (0.01, 0.05):
+        pack = Pack(**params)
+        pack.step(2000.0, 0.0, t_end)
+        eta, film = pack.out[k.O_VISCOSITY], pack.out[k.O_FILM]
+        assert squeeze_time(2000.0, eta, 0.064, 0.085, 8e-5, film) == pytest.approx(t_end, rel=3e-6)
+
+
+@pytest.mark.parametrize("inner", [0.001, 0.03, 0.064, 0.0849, 0.084999])
+def test_the_squeeze_group_keeps_its_digits_in_a_narrow_ring(inner):
+    import mpmath as mp
+
+    from thrustwasher.kernels.squeeze import squeeze_group as kernel_group
+
+    mp.mp.dps = 50
+    a, b = mp.mpf(inner) ** 2, mp.mpf(0.085) ** 2
+    exact = b * b - a * a - 2 * (b - a) ** 2 / mp.log(b / a)
+    assert kernel_group(inner, 0.085) == pytest.approx(float(exact), rel=1e-13)
+    assert squeeze_group(0.064, 0.085) == pytest.approx(9.21157e-7, rel=1e-5)
+
+
+def test_without_cooling_all_heat_stays_in_the_steel():
+    pack = Pack(heat_transfer=0.0, contact_rise=False)
+    for n in range(100):
+        pack.step(60.0 * n, 300.0 - n, H)
+    stored = 8 * pack.par[k.D_CAPACITY] * (pack.state[k.S_HEAT] - 297.15)
+    assert pack.out[k.O_ENERGY] == pytest.approx(stored, rel=1e-11)
+
+
+@pytest.mark.parametrize("fidelity", ["stribeck", "field"])
+def test_the_contact_rise_is_that_of_a_thick_body_at_first_and_of_a_plate_later(fidelity):
+    """Constant flux q: 2 q sqrt(t/(pi k rho c)), later the closed form of an insulated plate."""
+    pack = Pack(
+        fidelity, contact_rise=True, heat_transfer=0.0, friction_law="constant",
+        film_dynamics=False, steel_thickness=4e-3,
+    )  # fmt: skip
+    body = (50.0, 7850.0, 475.0)
+    for n in range(1, 301):
+        pack.step(6000.0, 100.0, H)
+        flux = pack.out[k.O_HEAT_FLUX]
+        rise = pack.out[k.O_TEMPERATURE] - 297.15
+        plate = insulated_plate_rise(flux, n * H, 2e-3, *body)
+        if n >= 2:
+            assert rise == pytest.approx(plate, rel=2e-3)
+        if 2 <= n < 30:
+            assert rise == pytest.approx(semi_infinite_rise(flux, n * H, *body), rel=3e-3)
+
+
+def test_the_plate_without_contact_rise_is_its_mean():
+    warm, hot = Pack(film_dynamics=False), Pack(film_dynamics=False, contact_rise=True)
+    for pack in (warm, hot):
+        for _ in range(20):
+            pack.step(6000.0, 100.0, H)
+    assert hot.state[k.S_HEAT] == pytest.approx(warm.state[k.S_HEAT], rel=1e-12)
+    assert hot.out[k.O_TEMPERATURE] > warm.out[k.O_TEMPERATURE] + 1.0
+
+
+@pytest.mark.parametrize("nahme", [1e-9, 1e-5, 0.3, 8.0, 300.0])
+def test_self_heated_shear_solves_its_energy_balance(nahme):
+    """Rise w in the gap, w'' = -Na s^2 e^w, w = 0 at both faces; speeds match: s int e^w = 1."""
+    from scipy.integrate import solve_bvp
+
+    def rates(z, y, p):
+        heat = np.exp(y[0])
+        return np.array([y[1], -nahme * p[0] ** 2 * heat, p[0] * heat])
+
+    def ends(a, b, p):
+        return np.array([a[0], a[2], b[0], b[2] - 1.0])
+
+    z = np.linspace(0.0, 1.0, 41)
+    guess = np.array([0.0 * z, 0.0 * z, z])
+    found = solve_bvp(
+        rates, ends, z, guess, p=[shear_thinned(nahme)[0]], tol=1e-10, max_nodes=10**5
+    )
+    assert found.success
+    assert shear_thinned(nahme)[0] == pytest.approx(found.p[0], rel=1e-8)
+
+
+def test_shear_heating_eases_the_drag_of_cold_oil():
+    cold, thinned = Pack(), Pack(shear_heating=True)
+    for pack in (cold, thinned):
+        pack.step(0.0, 350.0, 0.0)
+    assert thinned.out[k.O_VISCOUS_TORQUE] < 0.6 * cold.out[k.O_VISCOUS_TORQUE]
+
+
+def test_an_open_pack_drags_less_once_it_pumps_more_oil_than_it_gets():
+    flow = 3e-5
+    fed, full = Pack(oil_flow=flow), Pack()
+    for slip in (20.0, 2000.0):
+        for pack in (fed, full):
+            pack.step(0.0, slip, 0.0)
+        eta = full.out[k.O_VISCOSITY]
+        demand = pumped_flow(850.0, eta, slip, 8.8e-5, 0.064, 0.085)
+        share = min(1.0, flow / 8 / demand)
+        assert fed.out[k.O_TORQUE] == pytest.approx(share * full.out[k.O_TORQUE], rel=1e-12)
+    assert share < 0.5
+
+
+def test_a_pack_opens_with_its_time_constant():
+    pack = Pack(starts_pressed=True)
+    pack.step(6000.0, 0.0, 1e-6)
+    pressed = pack.out[k.O_FILM]
+    pack.step(0.0, 0.0, 0.05)
+    assert pack.out[k.O_FILM] == pytest.approx(8.8e-5 + (pressed - 8.8e-5) / math.e, rel=1e-5)
+    assert pack.out[k.O_CAPACITY] == 0.0
+
+
+def test_a_pack_that_starts_pressed_holds_at_once_and_an_open_one_does_not():
+    pressed, opened = Pack(starts_pressed=True), Pack()
+    for pack in (pressed, opened):
+        pack.step(5898.0, 0.0, 0.0)
+    assert pressed.out[k.O_CAPACITY] == pytest.approx(389.2, abs=0.1)
+    assert opened.out[k.O_CAPACITY] < 1e-12
+
+
+def test_a_settled_film_carries_nothing_and_the_torque_is_boundary_friction():
+    pack = Pack(starts_pressed=True)
+    pack.step(5898.0, 1e-9, 0.1)
+    still = Pack("stribeck")
+    still.step(5898.0, 1e-9, 0.1)
+    assert pack.out[k.O_CAPACITY] == pytest.approx(still.out[k.O_CAPACITY], rel=1e-9)
+
+
+POINTS = st.tuples(
+    st.sampled_from([0.0, 5.0, 9.8, 9.9, 5898.0, 1e6]) | st.floats(0.0, 2e4),
+    st.sampled_from([0.0, 1e-9, -350.0, 5000.0, -5000.0]) | st.floats(-500.0, 500.0),
+    st.floats(233.2, 473.1),
+    st.sampled_from([1e-6, 1e-3, 0.1, 10.0, 1e4]),
+)
+
+
+SLOPES = {
+    "plain": {},
+    "shear heating": {"shear_heating": True},
+    "fed": {"oil_flow": 3e-5},
+    "both": {"shear_heating": True, "oil_flow": 3e-5},
+    "warm shear": {"shear_temperature_slope": 2e-3},
+}
+
+
+@pytest.mark.parametrize("params", SLOPES.values(), ids=SLOPES)
+@pytest.mark.parametrize("u", [-1.0, 0.3, 0.9, 2.5, 8.0, 30.0])
+@pytest.mark.parametrize("load", [100.0, 6000.0])
+def test_the_slopes_are_those_of_the_rates(params, u, load):
+    """Central differences of film rate and power over film ratio and temperature."""
+    pack = Pack(**params)
+    slip, temperature, d = 200.0, 320.0, 1e-5
+    rates = pack_rates(pack.par, load, slip, u, temperature)
+    for (du, dt), places in (((d, 0.0), (1, 4)), ((0.0, 1e2 * d), (2, 5))):
+        up = pack_rates(pack.par, load, slip, u + du, temperature + dt)
+        down = pack_rates(pack.par, load, slip, u - du, temperature - dt)
+        for value, place in zip((0, 3), places, strict=True):
+            slope = (up[value] - down[value]) / (2.0 * (du + dt))
+            scale = abs(rates[value]) * 1e-3
+            assert rates[place] == pytest.approx(slope, rel=2e-6, abs=1e-6 * scale)
+
+
+@given(
+    st.lists(POINTS, min_size=1, max_size=6),
+    st.sampled_from(PERMEABILITIES),
+    st.sampled_from(["held", "linear"]),
+    st.booleans(),
+)
+def test_no_course_of_inputs_breaks_the_pack(points, permeability, course, rise):
+    """Any load, slip, oil and step in the allowed ranges: a finite, passive answer."""
+    pack = Pack(permeability=permeability, input_course=course, contact_rise=rise)
+    heat = 0.0
+    for load, slip, oil, dt in points:
+        assert pack.step(load, slip, dt, oil) == 0
+        assert np.isfinite(pack.out).all() and np.isfinite(pack.state).all()
+        assert pack.out[k.O_TORQUE] * slip >= 0.0
+        assert pack.out[k.O_CAPACITY] >= abs(pack.out[k.O_TORQUE]) * (1.0 - 1e-12)
+        assert pack.out[k.O_ENERGY] >= heat
+        heat = pack.out[k.O_ENERGY]
+
+
+@pytest.mark.parametrize("fidelity", ["boundary", "stribeck", "field"])
+def test_the_mirrored_slip_gives_the_mirrored_torque(fidelity):
+    packs = Pack(fidelity), Pack(fidelity)
+    for n in range(30):
+        for pack, sign in zip(packs, (1.0, -1.0), strict=True):
+            pack.step(200.0 * n, sign * (300.0 - 5.0 * n), H)
+    assert packs[0].out[k.O_TORQUE] == -packs[1].out[k.O_TORQUE] != 0.0
+    assert packs[0].out[k.O_TEMPERATURE] == packs[1].out[k.O_TEMPERATURE]

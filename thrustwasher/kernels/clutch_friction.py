@@ -1,0 +1,191 @@
+# mypy: disable-error-code="no-any-return"
+"""What resists in a pack: boundary friction of the asperities and shear of the oil between them."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._jit import kernel
+from .boundary import shear_ratio
+from .clutch_layout import (
+    CLOSED,
+    CONSTANT_LAW,
+    D_ADHESION,
+    D_AREA,
+    D_CONTACT_AREA,
+    D_DEMAND,
+    D_OPEN_RATIO,
+    D_PLOUGH,
+    D_PRESSURE,
+    D_RADIUS,
+    D_SUPPLY,
+    D_VISCOUS,
+    OK,
+    OPEN_PRESSURE,
+    P_CONSTANT_FRICTION,
+    P_DECAY_SPEED,
+    P_FACES,
+    P_FIDELITY,
+    P_FRICTION_LAW,
+    P_KINK_WIDTH,
+    P_OIL_CONDUCTIVITY,
+    P_REFERENCE_TEMPERATURE,
+    P_SHEAR_FLOOR,
+    P_SHEAR_HEATING,
+    P_SHEAR_TEMPERATURE_SLOPE,
+    P_STICK_SPEED,
+    P_VISCOSITY_CONSTANT,
+    P_VISCOSITY_EXPONENT,
+    P_VISCOSITY_SCALE,
+)
+from .film import mean_gap
+from .lining_table import area_integrals, contact_integral, separation
+from .roelands import viscosity
+
+Array = NDArray[np.float64]
+FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
+
+
+@kernel
+def shear_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
+    """Return the shear ratio s/s_m [-] at a slip [rad/s] and temperature [K], and its slope [1/K].
+
+    The temperature acts by ``shear_temperature_slope`` (0: not at all); the ratio stays in 0 .. 1.
+    """
+    ratio = shear_ratio(
+        slip * par[D_RADIUS], par[P_SHEAR_FLOOR], par[P_STICK_SPEED], par[P_DECAY_SPEED],
+        par[P_KINK_WIDTH],
+    )  # fmt: skip
+    slope = par[P_SHEAR_TEMPERATURE_SLOPE]
+    if slope == 0.0:
+        return ratio, 0.0
+    warm = ratio * (1.0 + slope * (temperature - par[P_REFERENCE_TEMPERATURE]))
+    if warm >= 1.0 or warm <= 0.0:
+        return (1.0 if warm >= 1.0 else 0.0), 0.0
+    return warm, ratio * slope
+
+
+@kernel
+def coefficient_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
+    """Return the coefficient of boundary friction [-] and its slope over temperature [1/K]."""
+    if par[P_FIDELITY] == CLOSED or par[P_FRICTION_LAW] == CONSTANT_LAW:
+        return par[P_CONSTANT_FRICTION], 0.0
+    ratio, slope = shear_of(par, slip, temperature)
+    return par[D_PLOUGH] + par[D_ADHESION] * ratio, par[D_ADHESION] * slope
+
+
+@kernel
+def settled_ratio(par: Array, load: float, guess: float) -> tuple[float, int, int]:
+    """Return (film thickness over roughness where the asperities carry all, status, iterations)."""
+    pressure = load / par[D_AREA]
+    if pressure < OPEN_PRESSURE:
+        return par[D_OPEN_RATIO], OK, 0
+    return separation(pressure / par[D_PRESSURE], guess)
+
+
+@kernel
+def contact_torque(
+    par: Array, load: float, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the asperities at the film ratio ``u``; slopes; pressure.
+
+    (torque, d/du, d/dT [N m/K], contact pressure p_c [Pa], dp_c/du). The asperities never carry
+    more than the load, also where a film that still opens presses them harder.
+    """
+    height, slope = contact_integral(u)
+    pressure, rise = par[D_PRESSURE] * height, par[D_PRESSURE] * slope
+    mu, mu_slope = coefficient_of(par, slip, temperature)
+    lever = par[P_FACES] * par[D_RADIUS]
+    carried = pressure * par[D_AREA]
+    grows = rise * par[D_AREA]
+    if carried > load:
+        carried, grows = load, 0.0
+    return (
+        lever * mu * carried, lever * mu * grows, lever * mu_slope * carried, pressure, rise
+    )  # fmt: skip
+
+
+@kernel
+def contact_share(par: Array, u: float) -> tuple[float, float]:
+    """Return the share of the nominal area in contact [-] and its slope over the film ratio.
+
+    Source: Greenwood & Tripp 1971, pi^2 (N beta sigma)^2 F_2(u), cut at 1: for a soft lining the
+    group is ten times the usual and the formula leaves its range.
+    """
+    second, first = area_integrals(u)
+    share = par[D_CONTACT_AREA] * second
+    if share >= 1.0:
+        return 1.0, 0.0
+    return share, -2.0 * par[D_CONTACT_AREA] * first
+
+
+@kernel
+def shear_thinned(nahme: float) -> tuple[float, float]:
+    """Return shear stress over that of oil as warm as the faces, and its slope in logarithms.
+
+    Couette flow that heats itself between faces of one temperature, viscosity falling as
+    exp(-b T): asinh(a)/(a sqrt(1 + a^2)) with a^2 = Na/8, Na = b eta V^2/k the Nahme number.
+    Source: Gavis & Laurence 1968; derived in docs/theory/clutch.md.
+    """
+    square = 0.125 * nahme
+    if square < 1e-6:
+        return 1.0 - 2.0 / 3.0 * square, -2.0 / 3.0 * square
+    a = math.sqrt(square)
+    root = math.sqrt(1.0 + square)
+    arc = math.log(a + root)
+    return arc / (a * root), 0.5 * (a / (arc * root) - 1.0 - square / (1.0 + square))
+
+
+@kernel
+def viscous_torque(
+    par: Array, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity and its slope.
+
+    (torque, d/du, d/dT, eta [Pa s], d eta/dT, share of the area in contact). Couette flow over
+    the mean gap h_T where there is no contact. With a given oil supply the gap is full up to the
+    slip at which centrifugal force pumps more than is supplied, above it in the proportion of the
+    two.
+    """
+    eta, eta_slope = viscosity(
+        temperature, par[P_VISCOSITY_SCALE], par[P_VISCOSITY_CONSTANT], par[P_VISCOSITY_EXPONENT]
+    )
+    share, share_slope = contact_share(par, u)
+    gap, gap_slope = mean_gap(u, 1.0)
+    full = par[D_VISCOUS] * eta * abs(slip) / gap
+    relative_u = -gap_slope / gap
+    relative_t = eta_slope / eta
+    if par[P_SHEAR_HEATING] != 0.0 and eta_slope < 0.0:
+        thinned, steepness = shear_thinned(
+            -relative_t * eta * (slip * par[D_RADIUS]) * (slip * par[D_RADIUS])
+            / par[P_OIL_CONDUCTIVITY]
+        )  # fmt: skip
+        full *= thinned
+        reduced = 135.0 + temperature - 273.15
+        relative_t += steepness * (relative_t - (par[P_VISCOSITY_EXPONENT] + 1.0) / reduced)
+    if par[D_SUPPLY] > 0.0:
+        demand = par[D_DEMAND] * slip * slip * gap * gap * gap / eta
+        if demand > par[D_SUPPLY]:
+            full *= par[D_SUPPLY] / demand
+            relative_u *= 4.0
+            relative_t += eta_slope / eta
+    torque = full * (1.0 - share)
+    return (
+        torque,
+        torque * relative_u - full * share_slope,
+        torque * relative_t,
+        eta,
+        eta_slope,
+        share,
+    )
+
+
+@kernel
+def regime_of(par: Array, ratio: float, slip: float) -> int:
+    """Return the stage of engagement: the film ratio names it, a full shear ratio is adhesion."""
+    if ratio > 3.0:
+        return FILM
+    if ratio >= 1.0:
+        return MIXED
+    return ADHESIVE if abs(slip) * par[D_RADIUS] <= par[P_STICK_SPEED] else BOUNDARY

@@ -1,0 +1,66 @@
+"""Where the wet clutch keeps its numbers: places in the arrays of parameters, state and work."""
+
+# Parameters, in the order of ClutchParams.
+(
+    P_INNER_RADIUS, P_OUTER_RADIUS, P_FACES, P_EFFECTIVE_RADIUS, P_FRICTION_LAW,
+    P_CONSTANT_FRICTION, P_INDENTATION, P_PLOUGH_WEIGHT, P_HARDNESS_RATIO, P_ADHESION_FACTOR,
+    P_SHEAR_FLOOR, P_STICK_SPEED, P_DECAY_SPEED, P_KINK_WIDTH, P_SHEAR_TEMPERATURE_SLOPE,
+    P_REFERENCE_TEMPERATURE, P_ROUGHNESS, P_CONTACT_MODULUS, P_ASPERITY_DENSITY,
+    P_ASPERITY_RADIUS, P_LINING_THICKNESS, P_PERMEABILITY, P_GROOVE_FACTOR, P_INITIAL_FILM,
+    P_STARTS_PRESSED, P_FILM_DYNAMICS, P_SHEAR_HEATING, P_OIL_FLOW, P_OIL_DENSITY,
+    P_OIL_CONDUCTIVITY, P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE,
+    P_STEEL_THICKNESS, P_STEEL_DENSITY, P_STEEL_HEAT_CAPACITY, P_STEEL_CONDUCTIVITY,
+    P_CONTACT_RISE, P_HEAT_TRANSFER, P_SPEED_SMOOTHING, P_INPUT_COURSE, P_FIDELITY,
+) = range(42)  # fmt: skip
+N_PARAM = 42
+
+N_MODES = 12  # of heat conduction across half a steel plate
+
+# Constants behind them.
+(
+    D_AREA, D_RADIUS, D_PLOUGH, D_ADHESION, D_PRESSURE, D_CONTACT_AREA, D_CAPACITY, D_COOLING,
+    D_CLOSING, D_SEEPAGE, D_VISCOUS, D_DEMAND, D_SUPPLY, D_OPEN_RATIO, D_MODES,
+) = range(N_PARAM, N_PARAM + 15)  # fmt: skip
+D_DECAY = N_PARAM + 15  # decay rate [1/s] of the lumped heat, then of each mode
+D_GAIN = D_DECAY + 1 + N_MODES  # their rise [K/s] per W into a face
+NPAR = D_GAIN + 1 + N_MODES
+
+I_LOAD, I_SPEED, I_OIL = range(3)
+NINP = 3
+
+# Memory. What has to do with a point in time belongs to the last one whose inputs are known.
+(
+    S_STARTED, S_FILM, S_ENERGY, S_HEAT,
+) = range(4)  # fmt: skip
+S_MODES = 4
+(
+    S_SHOWN_TEMPERATURE, S_SHOWN_ENERGY, S_POWER, S_LOAD, S_SLIP, S_OIL, S_DURATION, S_SUBSTEP,
+) = range(S_MODES + N_MODES, S_MODES + N_MODES + 8)  # fmt: skip
+NSTATE = S_MODES + N_MODES + 8
+
+# The unknowns of the moving film: film ratio, energy of a face, lumped temperature, modes.
+Y_FILM, Y_ENERGY, Y_HEAT = range(3)
+NY = 3 + N_MODES
+N_STAGES = 6
+W_NOW, W_TRIAL, W_RATE = 0, NY, 2 * NY
+W_STAGES = 3 * NY
+W_SUBSTEPS = W_STAGES + N_STAGES * NY  # counts: accepted and refused substeps
+W_REFUSED = W_SUBSTEPS + 1
+W_PROPOSED = W_SUBSTEPS + 2  # size [s] the next substep should have
+NWORK = W_SUBSTEPS + 3
+
+(
+    O_TORQUE, O_TEMPERATURE, O_FILM, O_CAPACITY, O_COEFFICIENT, O_RATIO, O_POWER, O_ENERGY,
+    O_CONTACT_TORQUE, O_VISCOUS_TORQUE, O_CONTACT_SHARE, O_HEAT_FLUX, O_VISCOSITY,
+) = range(13)  # fmt: skip
+NOUT = 13
+IO_REGIME, IO_STATUS = range(2)
+NIOUT = 2
+
+CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD = range(1, 5)  # fidelity
+CONSTANT_LAW = 2  # friction_law
+LINEAR_COURSE = 2  # input_course
+OK, HOT, MAX_ITERATIONS, NOT_FINITE, BAD_INPUT = 0, 2, 10, 14, 15
+HOT_LIMIT = 523.0  # K
+OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open
+OPENING_TIME = 0.05  # s

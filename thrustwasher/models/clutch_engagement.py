@@ -1,0 +1,162 @@
+"""An engagement of the wet clutch over time: load and slip are given, torque and heat follow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import ParameterError, SolveError, Status
+from ..kernels import clutch_friction, clutch_integrate, clutch_step
+from ..kernels import clutch_layout as k
+from ._params import check_number
+from ._spec import REGIMES
+from .clutch import prepare
+from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
+
+__all__ = ["Engagement", "engage_clutch"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Engagement:
+    """An engagement at the points ``time``; arrays of one length, SI units."""
+
+    time: Array
+    load: Array
+    speed: Array
+    friction_torque: Array
+    contact_torque: Array
+    viscous_torque: Array
+    torque_capacity: Array
+    temperature: Array
+    film_thickness: Array
+    film_ratio: Array
+    friction_coefficient: Array
+    contact_share: Array
+    friction_power: Array
+    heat_flux: Array
+    energy: Array
+    regime: list[str]
+    status: Status
+    """HOT if the interface passed 523 K, OK otherwise."""
+    substeps: int
+    """Implicit substeps that all intervals together took."""
+    fidelity: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the fields as a dictionary that JSON can hold; status by name."""
+        found = {f.name: getattr(self, f.name) for f in fields(self)}
+        lists = {n: v.tolist() for n, v in found.items() if isinstance(v, np.ndarray)}
+        return found | lists | {"status": self.status.name}
+
+
+def engage_clutch(
+    params: ClutchParams,
+    *,
+    time: ArrayLike,
+    load: ArrayLike,
+    speed: ArrayLike,
+    oil_temperature: float = 297.15,
+    fidelity: str = "field",
+) -> Engagement:
+    """Return film, temperature and torque of a pack whose load and slip are given over time.
+
+    Parameters
+    ----------
+    params : the pack; ``starts_pressed`` says if the film is settled at the first point or open
+    time : (n,) points [s], rising, at least two
+    load : (n,) axial force [N] at the points, or one number; straight in between
+    speed : (n,) slip [rad/s] at the points, or one number; straight in between
+    oil_temperature : [K]; the steel is as warm at the start
+    fidelity : as in ``solve_clutch``
+
+    Raises
+    ------
+    ParameterError : an argument has the wrong shape or range; the message names it
+    SolveError : an interval could not be integrated
+
+    Notes
+    -----
+    Substeps are chosen inside each interval; points need only be as close as the courses of load
+    and slip ask for.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.linspace(0.0, 0.3, 31)
+    >>> e = engage_clutch(ClutchParams(), time=t, load=5898.0 * np.minimum(t / 0.1, 1.0),
+    ...                   speed=100.0)
+    >>> e.regime[0], e.regime[-1]
+    ('film', 'boundary')
+    """
+    points = _course("time", time, "s", -1e9, 1e9)
+    if len(points) < 2 or not (np.diff(points) > 0.0).all():
+        raise ParameterError("time: at least two rising points [s] are wanted")
+    forces = _course("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0, len(points))
+    slips = _course("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
+    oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
+    par, work = prepare(params, fidelity), np.zeros(k.NWORK)
+    out, rows, substeps = np.zeros(k.NOUT), np.empty((len(points), k.NOUT)), 0
+    code = clutch_step.load_memory(par, forces[0], oil, np.zeros(k.NSTATE), work)
+    for i in range(len(points)):
+        if i and code == k.OK:
+            course = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
+            power = out[k.O_POWER] / params.faces
+            dt = points[i] - points[i - 1]
+            code = clutch_step.advance(par, course, dt, power, work[k.W_PROPOSED], work)
+            substeps += int(work[k.W_SUBSTEPS])
+        elif code == k.OK and not clutch_step.moves_film(par):
+            work[k.W_NOW], code, _ = clutch_friction.settled_ratio(par, forces[0], 1.0)
+        if Status(code).is_failure:
+            raise SolveError(
+                f"t = {points[i]:g} s, load = {forces[i]:g} N, speed = {slips[i]:g} rad/s: "
+                f"{Status(code).advice}"
+            )
+        clutch_step.fill_outputs(par, forces[i], slips[i], work, out)
+        out[k.O_TEMPERATURE] = clutch_integrate.surface_temperature(par, work, k.W_NOW)
+        out[k.O_ENERGY] = params.faces * work[k.W_NOW + k.Y_ENERGY]
+        rows[i] = out
+    return _engagement(par, points, forces, slips, rows, substeps, fidelity)
+
+
+def _engagement(
+    par: Array, points: Array, forces: Array, slips: Array, rows: Array, substeps: int, rung: str
+) -> Engagement:
+    names = [s.name for s in SPEC.outputs if s.kind == "real"]
+    kept = {f.name for f in fields(Engagement)}
+    columns = {n: rows[:, i].copy() for i, n in enumerate(names) if n in kept}
+    stages = list(REGIMES)
+    hot = bool((columns["temperature"] > k.HOT_LIMIT).any())
+    return Engagement(
+        time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=rung,
+        regime=[
+            stages[clutch_friction.regime_of(par, u, slip) - 1]
+            for u, slip in zip(columns["film_ratio"], slips, strict=True)
+        ],
+        status=Status.HOT if hot else Status.OK,
+    )  # fmt: skip
+
+
+def _course(
+    name: str, values: ArrayLike, unit: str, low: float, high: float, n: int | None = None
+) -> Array:
+    """Return a checked array; one number stands for ``n`` equal ones."""
+    array = np.asarray(values, float)
+    if n is not None and array.ndim == 0:
+        array = np.full(n, float(array))
+    if array.ndim != 1 or (n is not None and len(array) != n):
+        raise ParameterError(
+            f"{name}: shape {array.shape}, allowed: one number per point"
+            + ("" if n is None else f" ({n})")
+        )
+    bad = ~((array >= low) & (array <= high))
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise ParameterError(
+            f"{name}[{i}] = {float(array[i])!r} {unit}, allowed: {low:g} .. {high:g} {unit}"
+        )
+    return array

@@ -119,6 +119,7 @@ SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two side
 OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
              low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
 _POINT = ("load", "speed")
+_HEAT = ("speed", "oil_temperature")
 _ALL = (*_POINT, "oil_temperature")
 
 SPEC = ModelSpec(
@@ -143,7 +144,7 @@ SPEC = ModelSpec(
                help="separation of the mean surfaces of lining and steel"),
         Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_ALL, low=0.0,
                help="largest torque the pack can hold at this load and slip"),
-        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=("speed",),
+        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=_HEAT,
                help="coefficient of boundary friction of the contacting faces"),
         Signal(name="film_ratio", unit="1", nominal=1.0, depends=("load",),
                help="film thickness over the combined RMS roughness"),
@@ -151,7 +152,7 @@ SPEC = ModelSpec(
                help="heat made by friction, torque times slip"),
         Signal(name="energy", unit="J", nominal=1e4, low=0.0,
                help="heat made by friction since the start"),
-        Signal(name="contact_torque", unit="N.m", nominal=100.0, depends=_POINT,
+        Signal(name="contact_torque", unit="N.m", nominal=100.0, depends=_ALL,
                help="share of the friction torque that the asperities make"),
         Signal(name="viscous_torque", unit="N.m", nominal=10.0, depends=_ALL,
                help="share of the friction torque that shear of the oil makes"),

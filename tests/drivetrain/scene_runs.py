@@ -54,14 +54,20 @@ def instances(scene):
 
 
 def shift(name, *, parts=None, **options):
-    """Run a scene by name; ``parts`` maps a part to changed parameters, or to None to leave it."""
+    """Run a scene by name; ``parts`` maps a part to changed parameters, or to None to leave it.
+
+    A ``fidelity`` among the parameters is the part's rung.
+    """
     scene = load_scene(name).with_options(**options)
     changed = dict(scene.parts)
     for part, values in (parts or {}).items():
         if values is None:
             del changed[part]
         else:
-            changed[part] = replace(changed[part], params=replace(changed[part].params, **values))
+            given = dict(values)
+            rung = given.pop("fidelity", changed[part].fidelity)
+            params = replace(changed[part].params, **given)
+            changed[part] = replace(changed[part], params=params, fidelity=rung)
     scene = replace(scene, parts=changed)
     return run_shift(scene, instances(scene))
 

@@ -12,10 +12,12 @@ EXPECTED = {
     "planetary-slow": (1.831, 98.67, 83.3, 56.5, -23.0, 49.8, 0.63),
 }
 
+SETTLED = {pack: {"fidelity": "stribeck"} for pack in ("clutch", "brake")}
+
 
 @pytest.mark.parametrize("name", list(EXPECTED))
 def test_shifts_without_drag_have_the_expected_magnitudes(name):
-    r = shift(name, parts=NO_DRAG)
+    r = shift(name, parts=SETTLED | NO_DRAG)
     after, speed, engine, load, kinetic, heat, per_area = EXPECTED[name]
     assert r.figures["lock_after_ramp_start"] == pytest.approx(after, abs=6e-4)
     assert r.figures["lock_speed"] == pytest.approx(speed, abs=6e-3)
@@ -27,6 +29,16 @@ def test_shifts_without_drag_have_the_expected_magnitudes(name):
     assert r.figures["slip_energy_per_area"] / 1e6 == pytest.approx(per_area, abs=6e-3)
     assert 0.0 < r.energy["brake"] < 1.0
     assert r.figures["friction_lock"] == pytest.approx(0.11, abs=1e-5)
+
+
+def test_a_moving_film_shifts_sooner_because_its_oil_resists():
+    """Shear of the oil carries a good part of the torque, more so when it is cold."""
+    cold, hot = default_shift(), shift("planetary-hot-oil", parts=NO_DRAG)
+    settled = shift("planetary", parts=SETTLED | NO_DRAG)
+    after = [r.figures["lock_after_ramp_start"] for r in (cold, hot, settled)]
+    assert after == sorted(after) and after[0] < 0.5 * after[2]
+    open_drag = cold.signals["clutch.viscous_torque"][0]
+    assert 2.0 < open_drag < 10.0
 
 
 def test_energy_book_closes_and_coupling_is_tight():

@@ -163,9 +163,9 @@ def test_the_contact_rise_is_that_of_a_thick_body_at_first_and_of_a_plate_later(
         flux = pack.out[k.O_HEAT_FLUX]
         rise = pack.out[k.O_TEMPERATURE] - 297.15
         plate = insulated_plate_rise(flux, n * H, 2e-3, *body)
-        if n >= 2:
+        if n >= 4:  # eight modes resolve a plate of 4 mm from about half a millisecond on
             assert rise == pytest.approx(plate, rel=2e-3)
-        if 2 <= n < 30:
+        if 4 <= n < 30:
             assert rise == pytest.approx(semi_infinite_rise(flux, n * H, *body), rel=3e-3)
 
 

@@ -61,6 +61,7 @@ DRIFT = np.array([0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0])  # weight of the ra
 
 TOLERANCE_FILM = 1e-6  # error of a substep, of film ratio + 1
 TOLERANCE_HEAT = 1e-4  # K
+TOLERANCE_RISE = 1e-3  # K, of the interface when conduction modes are on top
 MAX_SUBSTEPS = 20_000
 LEAST_SHARE = 1e-12  # of the stretch: no smaller substeps
 
@@ -177,7 +178,8 @@ def _substep(
     film = work[np.uintp(last + Y_FILM)] / (
         TOLERANCE_FILM * (1.0 + abs(work[np.uintp(W_TRIAL + Y_FILM)]))
     )
-    return max(abs(film), abs(heat) / TOLERANCE_HEAT)
+    tolerance = TOLERANCE_HEAT if par[D_MODES] == 0.0 else TOLERANCE_RISE
+    return max(abs(film), abs(heat) / tolerance)
 
 
 @kernel

@@ -39,7 +39,13 @@ def reason(found, name):
 
 
 @pytest.mark.parametrize(
-    "changes", [{}, {"kink_width": 0.1}, {"indentation": 0.6, "hardness_ratio": 5.2}]
+    "changes",
+    [
+        {},
+        {"kink_width": 0.1},
+        {"indentation": 0.6, "hardness_ratio": 5.2},
+        {"adhesion_factor": 1.5},
+    ],
 )
 def test_the_law_over_arrays_is_that_of_the_kernels(changes):
     pack = ClutchParams(**changes)

@@ -30,12 +30,19 @@ def test_shares_of_ploughing_and_adhesion_add_up_to_the_curve():
         ("Friction coefficient", [r.friction_coefficient for r in sweep]),
         ("Torque of the pack", [r.torque_capacity for r in sweep]),
     ):
-        ploughing, adhesion = panel(figure, title).collections
-        top = [adhesion.get_paths()[0].vertices[:, 1].max(), values[0]]
-        assert top[0] == pytest.approx(top[1], rel=1e-12)
+        ploughing, adhesion = panel(figure, title).collections[:2]
+        top = adhesion.get_paths()[0].vertices[:, 1].max()
+        assert top == pytest.approx(values[0], rel=1e-12)
         height = ploughing.get_paths()[0].vertices[:, 1].max()
         share = boundary_friction(0.1, 0.0, PACK.plough_weight) / sweep[0].friction_coefficient
         assert height == pytest.approx(share * values[0], rel=1e-12)
+
+
+def test_the_shear_of_the_oil_lies_on_top_where_the_film_resists():
+    figure, sweep, _ = drawn("field")
+    oil = panel(figure, "Torque of the pack").collections[2].get_paths()[0].vertices
+    assert oil[oil[:, 0] == 60.0][:, 1].max() == pytest.approx(sweep[-1].torque_capacity)
+    assert sweep[-1].torque_capacity > 1.0001 * sweep[-1].contact_torque
 
 
 def test_the_static_torque_and_the_point_are_marked():

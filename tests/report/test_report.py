@@ -231,4 +231,4 @@ def test_plots_leave_matplotlib_as_it_was(record):
 
 class Pack:
     friction_coefficient = 0.1
-    friction_torque = torque_capacity = 10.0
+    friction_torque = torque_capacity = contact_torque = 10.0

@@ -76,7 +76,7 @@ def _figure(params: ClutchParams, point: dict[str, Any], result: Any) -> Any:
     fastest = min(max(2.0 * abs(point["speed"]), fall), SPEED.high or fall)
     speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(SAMPLES)]
     sweep = [
-        solve_clutch(params, **{**point, "speed": speed}, fidelity=result.fidelity)
+        solve_clutch(params, **{**point, "speed": speed}, fidelity=result.fidelity, throw=False)
         for speed in speeds
     ]
     share = (p.indentation, 0.0, p.plough_weight, p.hardness_ratio)

@@ -28,7 +28,7 @@ def constants_of(params: ClutchParams) -> tuple[str, ...]:
 
 def law_values(params: ClutchParams) -> dict[str, float]:
     """Return every number the law depends on, by the name of its parameter."""
-    names = (*WANG_CONSTANTS, *CONSTANT_LAW, "kink_width")
+    names = (*WANG_CONSTANTS, *CONSTANT_LAW, "kink_width", "adhesion_factor")
     return {name: float(getattr(params, name)) for name in names}
 
 
@@ -44,7 +44,8 @@ def shares(values: Mapping[str, float]) -> tuple[float, float]:
     """Return (ploughing share P(x) for weight 1, adhesive share D at full shear strength) [-]."""
     x = values["indentation"]
     root = math.sqrt((1.0 - x) * (1.0 + x))
-    return float(ploughing(x)), 4.0 / (math.pi * values["hardness_ratio"] * (1.0 + root))
+    hardness = values["hardness_ratio"] / values["adhesion_factor"]
+    return float(ploughing(x)), 4.0 / (math.pi * hardness * (1.0 + root))
 
 
 def end_frictions(values: Mapping[str, float]) -> tuple[float, float]:
@@ -63,7 +64,8 @@ def friction_over(values: Mapping[str, float], speed: Array, constant: bool = Fa
 
     Notes
     -----
-    Source: Wang, Wei & Wu (2012), Eq 12; the same numbers as the kernels', over arrays.
+    Source: Wang, Wei & Wu (2012), Eq 12; the same numbers as the kernels' at the reference
+    temperature, over arrays.
     """
     if constant:
         return np.full(speed.shape, values["constant_friction"])

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREY, ORANGE, RED, SKY, label, new_figure, styled
+from .style import BLACK, BLUE, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
 
 RPM = 30.0 / math.pi
 
@@ -41,13 +41,17 @@ def clutch_figure(
     here, friction = abs(point["speed"]), [r.friction_coefficient for r in sweep]
     capacity = [r.torque_capacity for r in sweep]
     base = [min(ploughing or 0.0, mu) for mu in friction]
-    parts = [t * b / mu if mu else 0.0 for t, b, mu in zip(capacity, base, friction, strict=True)]
+    contact = [abs(r.contact_torque) for r in sweep]
+    ploughed = [t * b / mu if mu else 0.0 for t, b, mu in zip(contact, base, friction, strict=True)]
     if ploughing is not None:
-        panels["shear"].plot(speeds, [r.shear_ratio for r in sweep], color=ORANGE)
+        panels["shear"].plot(speeds, [r.shear_ratio for r in sweep], color=PURPLE)
         panels["shear"].plot([here], [result.shear_ratio], "o", color=BLACK, zorder=5)
         label(panels["shear"], "Shear ratio", "", "shear ratio $s/s_m$ [1]")
         _draw_shares(panels["friction"], speeds, base, friction)
-        _draw_shares(panels["torque"], speeds, parts, capacity)
+        _draw_shares(panels["torque"], speeds, ploughed, contact)
+        panels["torque"].fill_between(
+            speeds, contact, capacity, color=ORANGE, alpha=0.45, lw=0.0, label="shear of the oil"
+        )
     for name, values, value, colour in (
         ("friction", friction, result.friction_coefficient, BLUE),
         ("torque", capacity, result.torque_capacity, RED),
@@ -62,8 +66,8 @@ def clutch_figure(
     for axis in panels.values():
         _scale(axis, speeds[-1])
     if ploughing is not None:
-        handles, words = panels["friction"].get_legend_handles_labels()
-        figure.legend(handles, words, loc="outside lower center", ncols=2)
+        handles, words = panels["torque"].get_legend_handles_labels()
+        figure.legend(handles, words, loc="outside lower center", ncols=3)
     figure.suptitle(
         f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
         f"oil {format_quantity(point['oil_temperature'], 'K')}; "

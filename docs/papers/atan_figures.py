@@ -30,7 +30,7 @@ from thrustwasher.reference.flash_temperature import (
 )
 from thrustwasher.reference.involute_mesh import Mesh, flanks_at, line_load, start_of_contact
 from thrustwasher.reference.line_contact import compliance, full_width
-from thrustwasher.report.gearmesh_plot import SURFACES, draw_ratios, draw_temperatures
+from thrustwasher.report.gearmesh_plot import draw_ratios, draw_temperatures
 from thrustwasher.report.style import (
     BLACK,
     BLUE,
@@ -77,7 +77,7 @@ def four_panels(preset: str, number: int, draw: Draw, highest: float | None = No
     """Return one of the paper's figures with its panels a to d."""
     figure, panels = new_figure(10.0, 7.4, 2, 2, sharex=True, sharey=True)
     for axes, (letter, viscosity_at, ratio) in zip(panels, PANELS, strict=True):
-        draw(axes, TEETH, {s: sweep(preset, viscosity_at, ratio, s) for s in SURFACES})
+        draw(axes, TEETH, {s: sweep(preset, viscosity_at, ratio, s) for s in ("rough", "fine")})
         axes.set_title(f"{letter}: ratio {ratio:g}, viscosity at the {viscosity_at} temperature")
         axes.get_legend().remove()
         axes.label_outer()

@@ -142,9 +142,34 @@ def test_the_plot_draws_temperatures_and_both_steels():
     figure = gearmesh_figure(teeth, sweeps, solve_gearmesh(params, **point), 20, point)
     labels = [text for axes in figure.axes for text in axes.get_legend_handles_labels()[1]]
     for words in ("surface $T_s$", "asperities, rough ground", "asperities, fine ground",
-                  "AISI 1020, rough", "AISI 4340, fine"):  # fmt: skip
+                  "AISI 1020, rough ground", "AISI 4340, fine ground"):  # fmt: skip
         assert words in labels
     rough = next(line for line in figure.axes[0].lines if "rough" in str(line.get_label()))
     expected = [r.asperity_temperature - 273.15 for r in sweeps["rough"]]
     assert list(rough.get_ydata()) == pytest.approx(expected)
     assert "kW" in figure.get_suptitle() and "°C" in figure.get_suptitle()
+
+
+def test_flanks_of_ones_own_are_drawn_beside_the_two_ground_surfaces():
+    point = {"power": 7500.0, "speed": 180.0, "oil_temperature": 299.85}
+    own = GearMeshParams(gear_ratio=5.0, sigma_rms=1.2e-6, effective_roughness=3e-5)
+    teeth, sweeps = sweep(own, point, "field")
+    assert list(sweeps) == ["rough", "fine", "given"]
+    at_20 = {name: row[teeth.index(20)].asperity_temperature for name, row in sweeps.items()}
+    assert at_20["rough"] > at_20["given"] > at_20["fine"]
+    assert at_20["given"] == solve_gearmesh(own, **point).asperity_temperature
+    plain = sweep(GearMeshParams(gear_ratio=5.0), point, "field")[1]
+    assert list(plain) == ["rough", "fine"]
+    assert plain["rough"] == sweeps["rough"]
+
+
+def test_the_plot_can_be_drawn_of_a_mesh_without_load(tmp_path):
+    target = tmp_path / "idle.png"
+    assert main(["gearmesh", "--power", "0", "--speed", "0", "--plot", str(target)]) == 0
+    assert target.read_bytes()[:4] == b"\x89PNG"
+
+
+def test_help_says_what_each_preset_changes(capsys):
+    assert main(["gearmesh", "--help"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "bounded: the defaults; literal: face_width = 1.0, viscosity_at = inlet" in text

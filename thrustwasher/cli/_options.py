@@ -16,8 +16,11 @@ from ..units import parse_quantity
 _TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 
 
-def add_inputs(parser: argparse.ArgumentParser, spec: ModelSpec, without: str = "") -> None:
-    """Add one option per input of the model, with unit, range and default in its help."""
+def add_inputs(parser: argparse.ArgumentParser, spec: ModelSpec, without: str = "") -> Any:
+    """Add one option per input of the model, with unit, range and default in its help.
+
+    Returns the group of options, for commands that have more inputs than the model.
+    """
     group = parser.add_argument_group("operating point")
     for signal in spec.inputs:
         if signal.name == without:
@@ -28,6 +31,7 @@ def add_inputs(parser: argparse.ArgumentParser, spec: ModelSpec, without: str = 
             option_name(signal.name), dest=signal.name, metavar="QUANTITY", default=usual,
             help=f"{signal.help} [{signal.unit}]; {span}, default {usual:g}",
         )  # fmt: skip
+    return group
 
 
 def read_inputs(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, Any]:
@@ -43,9 +47,12 @@ def read_inputs(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, Any
 def add_parameters(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
     """Add ``--set`` and ``--parameters``."""
     group = parser.add_argument_group("parameters")
+    names = {f.name: f.default for f in fields(spec.params)}
+    first = next(iter(names))
+    example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]:g}"
     group.add_argument(
         "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
-        help="change a parameter, e.g. --set roughness=4e-7; may be repeated",
+        help=f"change a parameter, e.g. --set {example}; may be repeated",
     )  # fmt: skip
     group.add_argument(
         "--parameters",

@@ -14,7 +14,7 @@ from . import _options, _output
 
 HELP = "temperatures, stresses and loss of a gear mesh at one power and speed"
 POWER = 7500.0  # W
-MOST_TEETH = 60
+FEWEST_TEETH, MOST_TEETH = 5, 60
 # Result fields that are no FMU output: unit and meaning.
 EXTRA = {
     "asperity_temperature": ("K", "temperature of the asperities of the flank"),
@@ -37,15 +37,15 @@ PER_STEEL = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_inputs(parser, SPEC, without="load")
-    parser.add_argument(
+    point = _options.add_inputs(parser, SPEC, without="load")
+    point.add_argument(
         "--power", metavar="QUANTITY", default=POWER,
-        help=f"transmitted power [W]; at least 0, default {POWER:g}",
+        help=f"transmitted power, of which the size counts [W]; default {POWER:g}",
     )  # fmt: skip
     _options.add_parameters(parser, SPEC)
     parser.add_argument(
         "--preset", choices=list(PRESETS), default="bounded",
-        help="set of options to start from, --set changes it further; default bounded",
+        help=f"what --set starts from; {_presets()}; default bounded",
     )  # fmt: skip
     _options.add_fidelity(parser, SPEC)
     parser.add_argument(
@@ -94,21 +94,38 @@ def run(arguments: argparse.Namespace) -> int:
 def sweep(
     params: GearMeshParams, point: dict[str, Any], fidelity: str
 ) -> tuple[list[int], dict[str, list[Any]]]:
-    """Return tooth numbers and the results of both surfaces there, None where refused."""
-    from ..models.gearmesh import solve_gearmesh
-    from ..report.gearmesh_plot import SURFACES
+    """Return tooth numbers and the results of each surface there, None where refused.
 
-    def solved(teeth: int, surface: str) -> Any:
+    "rough" and "fine" have the roughness of these surfaces; where the parameters name their own,
+    "given" has that.
+    """
+    from ..models.gearmesh import solve_gearmesh
+
+    def solved(teeth: int, changes: dict[str, Any]) -> Any:
         try:
-            changed = dataclasses.replace(params, pinion_teeth=teeth, surface=surface)
+            changed = dataclasses.replace(params, pinion_teeth=teeth, **changes)
             return solve_gearmesh(changed, **point, fidelity=fidelity)
         except ParameterError:
             return None
 
-    every = range(6, max(MOST_TEETH, params.pinion_teeth) + 1)
-    sweeps = {surface: [solved(n, surface) for n in every] for surface in SURFACES}
-    kept = [i for i in range(len(every)) if any(sweeps[s][i] is not None for s in SURFACES)]
-    return [every[i] for i in kept], {s: [sweeps[s][i] for i in kept] for s in SURFACES}
+    own = ("sigma_rms", "effective_roughness", "mean_roughness")
+    plain = dict.fromkeys(own, 0.0)
+    surfaces = {name: {**plain, "surface": name} for name in ("rough", "fine")}
+    if any(getattr(params, name) for name in own):
+        surfaces["given"] = {}
+    every = range(FEWEST_TEETH, max(MOST_TEETH, params.pinion_teeth) + 1)
+    sweeps = {name: [solved(n, surface) for n in every] for name, surface in surfaces.items()}
+    kept = [i for i in range(len(every)) if any(row[i] is not None for row in sweeps.values())]
+    return [every[i] for i in kept], {n: [row[i] for i in kept] for n, row in sweeps.items()}
+
+
+def _presets() -> str:
+    """Say what each preset changes."""
+    words = []
+    for name, changes in PRESETS.items():
+        settings = ", ".join(f"{key} = {value}" for key, value in changes.items())
+        words.append(f"{name}: {settings or 'the defaults'}")
+    return "; ".join(words)
 
 
 def _rows(result: Any) -> list[tuple[str, str, str]]:

@@ -9,13 +9,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, RED, label, new_figure, styled
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, label, new_figure, styled
 
 CELSIUS = 273.15
-SURFACES = ("rough", "fine")
+# Surface -> words, colour of its asperities, dashes, marker.
+SURFACES: dict[str, tuple[str, str, Any, str]] = {
+    "rough": ("rough ground", RED, "-", "o"),
+    "fine": ("fine ground", GREEN, (0, (4, 2)), "s"),
+    "given": ("these flanks", PURPLE, "-.", "^"),
+}
 STEELS = {"aisi1020": ("AISI 1020", BLUE), "aisi4340": ("AISI 4340", RED)}
-DASHES = {"rough": "-", "fine": (0, (4, 2))}
-MARKERS = {"rough": "o", "fine": "s"}
 LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
 Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
 Reading = Callable[[Any], float]
@@ -30,7 +33,7 @@ def gearmesh_figure(
     Parameters
     ----------
     teeth : numbers of pinion teeth
-    sweeps : for each of SURFACES the gear mesh results at ``teeth``, None where there is none
+    sweeps : for some of SURFACES the gear mesh results at ``teeth``, None where there is none
     result : the gear mesh result at ``point``, marked at ``here`` teeth
     point : power [W], speed [rad/s], oil_temperature [K]
     """
@@ -60,13 +63,14 @@ def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
     def celsius(name: str) -> Reading:
         return lambda r: getattr(r, name) - CELSIUS
 
-    rough = sweeps[SURFACES[0]]
-    _line(axes, teeth, rough, celsius("film_temperature"), GREY, "film", ls=":")
-    _line(axes, teeth, rough, celsius("surface_temperature"), BLUE, "surface $T_s$")
-    for surface, colour in zip(SURFACES, (RED, GREEN), strict=True):
+    first = next(iter(sweeps.values()))
+    _line(axes, teeth, first, celsius("film_temperature"), GREY, "film", ls=":")
+    _line(axes, teeth, first, celsius("surface_temperature"), BLUE, "surface $T_s$")
+    for surface, results in sweeps.items():
+        words, colour, dashes, marker = SURFACES[surface]
         _line(
-            axes, teeth, sweeps[surface], celsius("asperity_temperature"), colour,
-            f"asperities, {surface} ground", ls=DASHES[surface], marker=MARKERS[surface],
+            axes, teeth, results, celsius("asperity_temperature"), colour, f"asperities, {words}",
+            ls=dashes, marker=marker,
         )  # fmt: skip
     label(axes, "Temperatures", "teeth of the pinion [1]", "temperature [°C]")
     axes.legend(loc="upper right")
@@ -99,10 +103,13 @@ def _draw_steels(
     def read(field: str) -> Reading:
         return lambda r: float(v) if (v := getattr(r, field)) > least else float("nan")
 
-    for surface in SURFACES:
-        for steel, (words, colour) in STEELS.items():
-            _line(axes, teeth, sweeps[surface], read(f"{name}_{steel}"), colour,
-                  f"{words}, {surface}", ls=DASHES[surface], marker=MARKERS[surface])  # fmt: skip
+    for surface, results in sweeps.items():
+        words, _, dashes, marker = SURFACES[surface]
+        for steel, (name_of_steel, colour) in STEELS.items():
+            _line(
+                axes, teeth, results, read(f"{name}_{steel}"), colour,
+                f"{name_of_steel}, {words}", ls=dashes, marker=marker,
+            )  # fmt: skip
 
 
 def _line(
@@ -111,5 +118,7 @@ def _line(
 ) -> None:  # fmt: skip
     """Draw a reading over the teeth, with gaps where there is no result."""
     values = [float("nan") if r is None else read(r) for r in results]
-    axes.plot(teeth, values, color=colour, label=words, ms=3.2, markevery=4, **look)
+    axes.plot(
+        teeth, values, color=colour, label=words, ms=3.2, markevery=max(1, len(teeth) // 12), **look
+    )
     axes.set_xlim(min(teeth) - 1, max(teeth) + 1)

@@ -10,7 +10,7 @@ import pytest
 from thrustwasher.drivetrain import load_scene, run_shift
 from thrustwasher.fmu.direct import DirectInstance
 
-NO_DRAG = {"washer": None, "transmission": {"washers": 0}}
+NO_DRAG = {"washer": None, "mesh": None, "transmission": {"washers": 0}}
 slow_without_jit = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="minutes without JIT")
 
 

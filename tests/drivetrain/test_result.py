@@ -33,7 +33,7 @@ def test_everything_but_the_series_is_json():
 
 def test_cost_adds_up():
     r = default_shift()
-    assert [c.steps for c in r.cost] == [2200] * 4
+    assert [c.steps for c in r.cost] == [2200] * 5
     assert sum(c.wall_time for c in r.cost) + r.overhead == pytest.approx(r.wall_time)
     assert r.real_time_factor == pytest.approx(2.2 / r.wall_time)
 
@@ -59,8 +59,9 @@ def test_a_path_that_cannot_be_written_is_named_and_nothing_is_left(tmp_path):
 
 
 def test_messages_say_what_is_left_out():
-    assert any("gear mesh" in m for m in default_shift().messages)
     assert any("upper bound" in m for m in default_shift().messages)
+    bare = shift("planetary", stop_time=0.02, parts={"mesh": None, "washer": None}).messages
+    assert any("gear mesh" in m for m in bare) and any("without drag" in m for m in bare)
 
 
 def test_a_run_with_instances_for_another_master_says_so():

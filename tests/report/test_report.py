@@ -106,7 +106,7 @@ def test_a_scene_with_a_mesh_shows_teeth_and_their_stress(record):
     page = shift_report.shift_page(shift_stand_in.record(washer=False, mesh=True))
     assert "The gear teeth" in [section.title for section in page.sections]
     assert "asperities reached 114 °C" in page.summary[2]
-    assert any("endurance limit of AISI 1020: 1.10" in words for words in page.warnings)
+    assert any("1.10 times what AISI 1020 endures." in words for words in page.warnings)
     assert render(page)
 
 

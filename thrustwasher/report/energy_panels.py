@@ -13,6 +13,7 @@ from .shift_record import PACKS, Record
 from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY, beside, label
 
 Array = np.ndarray[Any, Any]
+LEAST_POWER = 0.1  # [W] the foot of the logarithmic axis
 
 
 def draw_energy(axis: Axes, record: Record) -> None:
@@ -53,13 +54,16 @@ def draw_energy(axis: Axes, record: Record) -> None:
 
 
 def draw_heat_flow(axis: Axes, record: Record) -> None:
-    """Draw the friction power of the packs, of one washer and of one mesh."""
+    """Draw the friction power of the packs, of one washer and of one mesh, by decades."""
     draw_phases(axis, record)
     lines = [(pack, pack, COLOURS[pack]) for pack in PACKS if record.presses(pack)]
     lines += [("washer", "one washer", ORANGE), ("mesh", "one mesh", GREEN)]
     for part, words, colour in lines:
         values = record.series(f"{part}.friction_power")
-        if values is not None:
-            axis.plot(record.time, values / 1e3, color=colour, label=words)
-    label(axis, "Heat flow", "", "power [kW]")
+        if values is not None and np.any(values > LEAST_POWER):
+            shown = np.where(values > LEAST_POWER, values, np.nan)
+            axis.plot(record.time, shown, color=colour, label=words)
+    axis.set_yscale("log")
+    axis.set_ylim(bottom=LEAST_POWER)
+    label(axis, "Heat flow", "", "power [W]")
     beside(axis)

@@ -91,7 +91,6 @@ CARDS = (
     "lock_time", "lock_after_ramp_start", "lock_speed", "stopped_inertia", "slip_energy",
     "slip_energy_per_area", "peak_power", "friction_mean", "friction_lock", "{pack}_temperature",
     "peak_washer_temperature_max", "least_washer_film_ratio", "peak_flash_temperature",
-    "stress_margin_aisi1020",
 )  # fmt: skip
 OF_A_LONE_PACK = ("lock_after_ramp_start", "stopped_inertia", "friction_mean", "friction_lock")
 
@@ -185,7 +184,7 @@ def _washer_sections(record: Record) -> list[Section]:
 
 def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:
     """Return the fields at one moment; the caption says they were solved again."""
-    heading = f"{words}, t = {moment.time:.4g} s"
+    heading = f"{words.partition(':')[0]}, t = {moment.time:.4g} s"
     caption = (
         f"{words}. Solved again at the inputs recorded at {moment.time:.4g} s: film ratio "
         f"{moment.result.film_ratio:.4g}, in the run it was {moment.recorded_film_ratio:.4g}."

@@ -33,12 +33,12 @@ def warnings(record: Record) -> list[str]:
             f"{say(distress, 's', digits=3)}. Torque and temperatures of that time are those of "
             "the equations; no real film survives there."
         )
-    for steel, words in (("aisi1020", "AISI 1020"), ("aisi4340", "AISI 4340")):
-        margin = figures.get(f"stress_margin_{steel}")
-        if margin is not None and margin < 0.0:
-            found.append(
-                f"Tooth stress beyond the endurance limit of {words}: {1.0 - margin:.2f} of it."
-            )
+    over = _stress(record, over=1.0)
+    if over:
+        found.append(
+            f"Tooth stress beyond endurance: {over}. It is the stress of one straight pair of "
+            "teeth that carries the whole load; hardened flanks endure more than these steels."
+        )
     found += [f"From {e.time:.4g} s on: {e.text}." for e in record.events if "hotter" in e.text]
     return found
 
@@ -137,16 +137,23 @@ def _mesh(record: Record) -> str:
     flash, surface = figures.get("peak_flash_temperature"), figures.get("peak_mesh_temperature")
     if flash is None or surface is None:
         return ""
-    margin = figures.get("stress_margin_aisi1020")
-    left = (
-        "" if margin is None
-        else f" and stress came to {1.0 - margin:.0%} of the endurance limit of AISI 1020"
-    )  # fmt: skip
+    stress = _stress(record)
+    left = f", tooth stress at most {stress}" if stress else ""
     return (
         f"On the gear teeth asperities reached {say(flash, 'K', digits=3)} and the surface below "
         f"them {say(surface, 'K', digits=3)}{left}; all meshes together took "
         f"{say(record.energy['meshes'], 'J', digits=3)}."
     )
+
+
+def _stress(record: Record, over: float = 0.0) -> str:
+    """Return the greatest stress over endurance of the steels where it is above ``over``."""
+    found = []
+    for steel, words in (("aisi1020", "AISI 1020"), ("aisi4340", "AISI 4340")):
+        margin = record.figures.get(f"stress_margin_{steel}")
+        if margin is not None and 1.0 - margin > over:
+            found.append(f"{1.0 - margin:.2f} times what {words} endures")
+    return " and ".join(found)
 
 
 def _book(record: Record) -> str:

@@ -9,13 +9,16 @@ from typing import Any
 
 from ..models._spec import ModelSpec
 from ..models.clutch_params import SPEC as CLUTCH
+from ..models.gearmesh_params import SPEC as MESH
 from ..models.transmission_params import SPEC as TRANSMISSION
 from ..models.washer_params import SPEC as WASHER
 from ..units import format_quantity as say
 from .html import Table
 from .shift_record import Part, Record
 
-SPECS = {spec.name: spec for spec in (TRANSMISSION, CLUTCH, WASHER)}
+SPECS = {spec.name: spec for spec in (TRANSMISSION, CLUTCH, WASHER, MESH)}
+
+SAID_TWICE = ("slip_energy_per_area",)  # the pack's own heat per area is the same
 
 
 def energy_table(record: Record) -> Table:
@@ -48,11 +51,13 @@ def energy_table(record: Record) -> Table:
 
 
 def key_table(record: Record) -> Table:
-    """Return the key figures with the time they belong to."""
+    """Return the key figures with the time they belong to; those that say something new."""
     rows = [
-        (f.text, say(f.value, f.unit, digits=6 if f.unit == "s" else 5, difference=f.difference),
+        (f.text,
+         f"{f.value:.6g} s" if f.unit == "s"
+         else say(f.value, f.unit, digits=5, difference=f.difference),
          "" if f.time is None else f"{f.time:.4g}")
-        for f in record.key_figures if f.value  # neither None nor zero
+        for f in record.key_figures if f.value and f.name not in SAID_TWICE
     ]  # fmt: skip
     return Table(heads=("", "value", "at time [s]"), rows=rows, numbers=(1, 2))
 

@@ -64,8 +64,9 @@ def _washer(record: Record) -> list[str]:
 def _mesh() -> str:
     """Return what the gear mesh's numbers are worth."""
     return (
-        "Gear mesh: closed forms at the start of contact, with the whole load on one pair of "
-        "teeth; the bulk of the teeth has the oil's temperature. A helical pair is treated as its "
-        "spur pair in the transverse section, and the ring mesh's loss follows from the sun "
-        "mesh's."
+        "Gear mesh: closed forms at the start of contact; the bulk of the teeth has the oil's "
+        "temperature. A helical pair is taken as a spur pair in its transverse section, one of "
+        "which carries the whole load: helical teeth share it, so that true contact stress is "
+        "lower. The endurance limits are those of two through-hardened steels. The ring mesh's "
+        "loss follows from the sun mesh's."
     )

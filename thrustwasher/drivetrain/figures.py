@@ -35,17 +35,22 @@ def key_figures(
         **mesh_figures(time, signals),
     }
     if not scene.alone:
-        found["lock_speed"] = (_engine_speed(pack, time, signals, lock), None)
+        found["lock_speed"] = (_engine_speed(scene, time, signals, lock), None)
     return assemble(found, pack, other)
 
 
-def _engine_speed(pack: str, time: Array, signals: Signals, lock: float | None) -> float | None:
-    """Return the engine's speed at lock-up; the transmission itself keeps that of the clutch."""
+def _engine_speed(scene: Scene, time: Array, signals: Signals, lock: float | None) -> float | None:
+    """Return the engine's speed at lock-up; the transmission itself keeps that of the clutch.
+
+    When the brake locks, the ring rests and the engine runs at 1 + r times the output.
+    """
     if lock is None:
         return None
-    if pack == "clutch":
+    if scene.engaging == "clutch":
         return float(signals["transmission.lock_speed"][-1])
-    return float(np.interp(lock, time, signals["transmission.engine_speed"]))
+    gearbox = scene.parts["transmission"].params
+    ratio = 1.0 + gearbox.ring_teeth / gearbox.sun_teeth
+    return float(ratio * np.interp(lock, time, signals["transmission.output_speed"]))
 
 
 def _slip(scene: Scene, time: Array, signals: Signals) -> Found:

@@ -118,7 +118,7 @@ def reverse(axes: Axes) -> None:
     """Let speed fall to the right, as in the paper, and mark where adhesion begins."""
     axes.set_xlim(3000.0, 0.0)
     axes.axvline(300.0, color=BLACK, lw=0.8, ls=":")
-    axes.annotate("300 rpm", (300.0, 0.02), (-3, 0), xycoords=axes.get_xaxis_transform(),
+    axes.annotate("300 rpm", (300.0, 0.02), (4, 0), xycoords=axes.get_xaxis_transform(),
                   textcoords="offset points", fontsize=8, color="#444444", ha="left")  # fmt: skip
 
 

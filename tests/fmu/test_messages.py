@@ -137,4 +137,5 @@ def test_every_category_that_is_declared_can_be_heard():
         "ThrustWasher": always | {"logEvents", "logNonlinearSystems"},
         "ShiftTransmission": always | {"logEvents"},
         "WetClutch": always,
+        "GearMesh": always | {"logNonlinearSystems"},
     }

@@ -21,7 +21,6 @@ COMMANDS = (
     "washer",
     "curve",
     "clutch",
-    "engage",
     "calibrate",
     "gearmesh",
     "shift",

@@ -1,7 +1,5 @@
 """Corners rounded to one continuous derivative; exact outside the rounded stretch."""
 
-import math
-
 from ._jit import kernel
 
 
@@ -46,7 +44,5 @@ def soft_most(a: float, b: float, width: float) -> float:
 @kernel
 def smoothstep(z: float) -> float:
     """Return 0 below z = 0, 1 above z = 1 and z^2 (3 - 2 z) between."""
-    if math.isnan(z):
-        return z
     s = min(max(z, 0.0), 1.0)
     return s * s * (3.0 - 2.0 * s)

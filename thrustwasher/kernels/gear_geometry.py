@@ -58,9 +58,9 @@ def _moment(low: float, high: float) -> float:
 def loss_factor(ratio: float, teeth: float, approach: float, recess: float) -> float:
     """Return H_v [-]: the power lost over the power transmitted, for a friction coefficient of 1.
 
-    Mean over the path of contact when the pairs in contact share the load equally. For a contact
-    ratio e = approach + recess from 1 to 2 it is Ohlendorf's pi (M + 1)/(N M) (1 - e + e1^2 +
-    e2^2); the sum over stretches with equal numbers of pairs holds for any e >= 1.
+    Mean over the path of contact when the pairs in contact share the load equally, at any time as
+    many as there are: for a contact ratio e from 1 to 2, with the pitch point where one pair is
+    alone, it is Ohlendorf's pi (M + 1)/(N M) (1 - e + e1^2 + e2^2).
     """
     whole = math.floor(approach + recess)
     more = approach + recess - whole  # stretch of a pitch with one pair more than `whole`

@@ -86,12 +86,13 @@ def surface_temperature(
     T = bulk + factor x stress, ``factor`` [K/Pa]; ``shear`` [Pa] is the stress at the viscosity of
     the bulk, elsewhere shear (mu(T)/mu(bulk))^exponent (0.3 if the film thins with T, 1 if not).
     The right side falls with T: there is exactly one root, between the bulk and the rise without
-    thinning. Newton's method inside that bracket finds it; substitution may swing for ever.
+    thinning. Newton's method inside that bracket finds it, with a bisection wherever it fails to
+    halve its step; substitution may swing for ever.
     """
     cold = max(bulk, LOWEST_OIL) - 273.15 + c
     stress, slope = shear_stress(shear, cap)
     low, high = 0.0, factor * stress
-    rise = 0.0
+    rise, last = 0.0, 2.0 * high
     for n in range(MAX_ITERATIONS):
         warm = cold + rise
         stress, slope = shear_stress(
@@ -103,9 +104,10 @@ def surface_temperature(
         else:
             low = rise
         step = -gap / (1.0 + factor * stress * slope * exponent * b / (warm * warm))
-        if abs(step) <= 1e-13 * (bulk + rise):
-            return bulk + rise + step, stress, 0, n + 1
+        if min(abs(step), high - low) <= 1e-13 * (bulk + rise):
+            return bulk + min(max(rise + step, low), high), stress, 0, n + 1
+        if not low <= rise + step <= high or abs(step) > 0.5 * last:
+            step = 0.5 * (low + high) - rise
         rise += step
-        if not low <= rise <= high:
-            rise = 0.5 * (low + high)
+        last = abs(step)
     return bulk + rise, stress, 10, MAX_ITERATIONS

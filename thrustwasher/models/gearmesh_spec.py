@@ -72,6 +72,7 @@ def gearmesh_spec(params: type[Any]) -> ModelSpec:
                               ("friction_power", "Q_flow", "outflow"))),
         ),
         # Run up under torque, work, coast down through standstill into reverse.
-        course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 120.0, 180.0, 350.0),
-                (0.9, 20.0, 0.0, 350.0), (1.0, -20.0, -30.0, 350.0)),
+        course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 60.0, 120.0, 330.0),
+                (0.9, 20.0, 0.0, 330.0), (1.0, -20.0, -30.0, 330.0)),
+        counts=(("viscosity iterations", "gear_layout:F_ITERATIONS"),),
     )  # fmt: skip

@@ -1,0 +1,86 @@
+"""Involute geometry of the gear mesh: the start of contact, speeds there, loss over the path."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from thrustwasher.kernels import gear_geometry as g
+from thrustwasher.reference import involute_mesh, mesh_loss
+
+PHI = math.radians(20.0)
+PAIRS = [(1, 17), (2, 20), (2, 30), (5, 20), (5, 30), (8, 60)]
+
+
+def mesh(ratio, teeth, angle=PHI, addendum=1.0):
+    return involute_mesh.Mesh(ratio, teeth, 0.254, angle, addendum)
+
+
+def paths(ratio, teeth, angle=PHI, addendum=1.0):
+    shape = float(ratio), float(teeth), angle, addendum
+    return g.path_lengths(*shape, g.start_of_contact(*shape))
+
+
+@pytest.mark.parametrize(("ratio", "teeth"), PAIRS)
+@pytest.mark.parametrize(("angle", "addendum"), [(PHI, 1.0), (math.radians(25.0), 0.8)])
+def test_contact_starts_where_the_gears_tips_cut_the_line_of_action(ratio, teeth, angle, addendum):
+    found = g.start_of_contact(float(ratio), float(teeth), angle, addendum)
+    wanted = involute_mesh.start_of_contact(mesh(ratio, teeth, angle, addendum))
+    assert found == pytest.approx(wanted, rel=1e-12)
+    path = mesh_loss.path_of_contact(mesh(ratio, teeth, angle, addendum))
+    assert paths(ratio, teeth, angle, addendum) == pytest.approx(tuple(path), rel=1e-12)
+
+
+@pytest.mark.parametrize(("ratio", "least"), [(2.0, 14.16), (5.0, 15.74)])
+def test_at_the_least_number_of_teeth_contact_starts_on_the_base_circle(ratio, least):
+    found = g.least_teeth(ratio, PHI, 1.0)
+    assert found == pytest.approx(least, abs=5e-3)
+    assert g.start_of_contact(ratio, found, PHI, 1.0) == pytest.approx(0.0, abs=1e-14)
+    assert found == pytest.approx(involute_mesh.least_pinion_teeth(ratio, PHI), rel=1e-13)
+
+
+@pytest.mark.parametrize(("ratio", "teeth"), PAIRS)
+def test_slide_roll_is_sliding_over_the_mean_rolling_speed(ratio, teeth):
+    start = g.start_of_contact(float(ratio), float(teeth), PHI, 1.0)
+    f = involute_mesh.flanks_at(start, mesh(ratio, teeth), 100.0)
+    wanted = 2.0 * f.sliding / (f.speed_pinion + f.speed_gear)
+    assert g.slide_roll(float(ratio), start) == pytest.approx(wanted, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "teeth", "contact", "loss"),
+    [(2, 20, 1.63519, 0.166065), (5, 30, 1.77232, 0.101196)],
+)
+def test_contact_ratio_and_loss_factor_of_two_pairs(ratio, teeth, contact, loss):
+    approach, recess = paths(ratio, teeth)
+    assert approach + recess == pytest.approx(contact, abs=5e-6)
+    assert g.loss_factor(float(ratio), float(teeth), approach, recess) == pytest.approx(
+        loss, abs=5e-7
+    )
+
+
+@pytest.mark.parametrize(("ratio", "teeth"), PAIRS)
+def test_for_one_or_two_pairs_the_loss_is_ohlendorfs(ratio, teeth):
+    approach, recess = paths(ratio, teeth)
+    found = g.loss_factor(float(ratio), float(teeth), approach, recess)
+    assert found == pytest.approx(mesh_loss.loss_factor(mesh(ratio, teeth)), rel=1e-13)
+    if max(approach, recess) <= 1.0:
+        e = approach + recess
+        front = math.pi * (ratio + 1.0) / (teeth * ratio)
+        assert found == pytest.approx(front * (1 - e + approach**2 + recess**2), rel=1e-13)
+
+
+@given(st.floats(0.3, 3.0), st.floats(0.3, 3.0))
+def test_the_loss_is_the_mean_sliding_of_equally_loaded_pairs_however_many(approach, recess):
+    """Watch one base pitch pass: average over the pairs in contact, then over the phases."""
+    if approach + recess < 1.0:
+        return
+    n = 2000
+    phases = -approach + (np.arange(n) + 0.5) / n
+    pairs = phases[:, None] + np.arange(7)
+    inside = pairs < recess
+    means = (np.abs(pairs) * inside).sum(axis=1) / inside.sum(axis=1)
+    found = g.loss_factor(2.0, 20.0, approach, recess)
+    assert found == pytest.approx(2.0 * math.pi * 3.0 / 40.0 * means.mean(), rel=3e-3)

@@ -1,0 +1,115 @@
+"""Temperature rises of the gear mesh: laws of scale, Atan's printed forms, the viscosity root."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import minimize_scalar
+
+from thrustwasher.kernels import gear_heat as h
+from thrustwasher.reference import film_heating, flash_temperature
+
+B, C = 755.0, 70.0
+NO_CAP = 1e300
+
+
+def root(bulk, rise, exponent, cap=NO_CAP):
+    """Solve with a rise of ``rise`` [K] at the bulk's viscosity."""
+    return h.surface_temperature(bulk, rise, 1.0, cap, exponent, B, C)
+
+
+def test_viscosity_of_the_papers_oil():
+    assert h.oil_viscosity(333.15, 9.7e-5, B, C) == pytest.approx(0.03228646, rel=1e-6)
+    assert h.oil_viscosity(299.85, 9.7e-5, B, C) == pytest.approx(0.2386, abs=5e-5)
+    assert h.oil_viscosity(200.0, 9.7e-5, B, C) == h.oil_viscosity(h.LOWEST_OIL, 9.7e-5, B, C)
+
+
+def test_flash_rise_is_that_of_a_deep_body_heated_for_the_passing_time():
+    heat, width, speed, b = 3e4, 6e-5, 1.4, 13681.0
+    found = h.flash_rise(heat, width, speed, b)
+    assert found == pytest.approx(
+        flash_temperature.deep_body_rise(heat / width, width / speed, b), rel=1e-14
+    )
+
+
+def test_bloks_factor_is_the_peak_under_an_elliptic_heat_source():
+    """A band -1..1 passing a deep body: temperature 2/pi^1.5 int sqrt(1 - u^2)/sqrt(s - u) du."""
+
+    def warmth(s):
+        v, weight = np.polynomial.legendre.leggauss(400)
+        top = math.sqrt(s + 1.0)
+        v, weight = 0.5 * top * (v + 1.0), 0.5 * top * weight  # s - u = v^2
+        return 2.0 / math.pi**1.5 * (2.0 * weight * np.sqrt(1.0 - (s - v**2) ** 2)).sum()
+
+    best = minimize_scalar(lambda s: -warmth(s), bounds=(-0.5, 0.99), method="bounded")
+    assert -best.fun == pytest.approx(h.ELLIPTIC, abs=2e-7)
+
+
+def test_blok_makes_both_flanks_equally_hot():
+    """Even heat: Blok's with factor sqrt(2/pi) is the flash rise of either flank with its share."""
+    v1, v2, f, w, width, b = 1.36, 7.14, 0.09, 9e3, 5.7e-5, 13681.0
+    share = math.sqrt(v1) / (math.sqrt(v1) + math.sqrt(v2))
+    heat = f * w * (v2 - v1)
+    pinion = h.flash_rise(share * heat, width, v1, b)
+    gear = h.flash_rise((1.0 - share) * heat, width, v2, b)
+    assert pinion == pytest.approx(gear, rel=1e-14)
+    even = h.blok_rise(f, w, v1, v2, width, b) * math.sqrt(2.0 / math.pi) / h.ELLIPTIC
+    assert even == pytest.approx(pinion, rel=1e-14)
+
+
+def test_film_and_surface_rises_are_those_printed():
+    speed, width, film = 1.36, 5.7e-5, 3e-6
+    found = h.surface_factor(width, speed, 50.2, 7850.0 * 475.0)
+    assert found == pytest.approx(
+        film_heating.surface_rise(1.0, speed, width, 50.2, 7850.0, 475.0), rel=1e-14
+    )
+    found = h.film_factor(film, width, speed, 50.2, 7850.0 * 475.0, 0.13, 880.0 * 2010.0)
+    wanted = film_heating.film_rise(
+        1.0, speed, width, film, 50.2, 7850.0 * 475.0, 0.13, 880.0 * 2010.0
+    )
+    assert found == pytest.approx(wanted, rel=1e-13)
+
+
+@pytest.mark.parametrize(("exponent", "wanted"), [(1.0, 66.442854), (0.3, 91.748712)])
+def test_viscosity_root_at_40_degc_and_100_k(exponent, wanted):
+    found, _, status, n = root(313.15, 100.0, exponent)
+    assert found - 273.15 == pytest.approx(wanted, abs=5e-7)
+    assert status == 0 and n < 12
+
+
+def test_substitution_swings_for_ever_where_the_root_is_found():
+    """Film frozen, 100 K at 40 degC: the slope at the root is beyond -1."""
+
+    def following(t):
+        return 40.0 + 100.0 * math.exp(B / (t + C) - B / 110.0)
+
+    t = 66.5
+    for _ in range(2000):
+        t = following(t)
+    assert abs(following(t) - t) > 10.0 and abs(following(following(t)) - t) < 1e-6
+    found = root(313.15, 100.0, 1.0)[0] - 273.15
+    assert following(found) == pytest.approx(found, abs=1e-9)
+    assert B * (found - 40.0) / (found + C) ** 2 == pytest.approx(1.072, abs=5e-4)
+
+
+@given(
+    st.floats(233.15, 473.15), st.floats(-12.0, 8.0), st.sampled_from([0.0, 0.3, 1.0]),
+    st.floats(-6.0, 12.0),
+)  # fmt: skip
+def test_the_root_is_bracketed_and_exact_from_freezing_to_absurd(bulk, decades, exponent, cap):
+    rise, cap = 10.0**decades, 10.0**cap
+    t, stress, status, n = root(bulk, rise, exponent, cap)
+    assert status == 0 and n <= 60
+    assert bulk <= t <= bulk + rise * min(1.0, cap) * (1 + 1e-12) + 1e-9
+    assert t - bulk == pytest.approx(rise * stress, rel=1e-9, abs=1e-9)
+    shear = math.exp(exponent * B * (1 / (t - 273.15 + C) - 1 / (bulk - 273.15 + C)))
+    limited = h.shear_stress(shear, cap)[0]
+    assert stress == pytest.approx(limited, rel=1e-9)
+
+
+def test_a_limited_stress_never_passes_its_limit_and_is_untouched_far_below():
+    assert h.shear_stress(1e6, 1e7) == (1e6, 1.0)
+    assert h.shear_stress(1e9, 1e7) == (1e7, 0.0)
+    assert max(h.shear_stress(s, 1e7)[0] for s in np.linspace(8e6, 1.2e7, 50)) <= 1e7

@@ -1,0 +1,137 @@
+"""The gear mesh's step: the common contract of kernels, zero, signs, smoothness."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from thrustwasher.kernels import gear_layout as L
+from thrustwasher.kernels import gear_step as k
+from thrustwasher.models.gearmesh import prepare
+from thrustwasher.models.gearmesh_params import SPEC, GearMeshParams
+
+NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
+
+
+class Mesh:
+    """A mesh with its arrays."""
+
+    def __init__(self, fidelity="field", **params):
+        self.par = prepare(GearMeshParams(**params), fidelity)
+        self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
+        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+
+    def step(self, load, speed, oil=299.85, dt=1e-3):
+        inp = np.array([load, speed, oil])
+        return k.step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
+
+    def outputs(self, *point):
+        assert self.step(*point) == 0
+        return self.out.copy()
+
+    def get(self, name):
+        return float(self.out[NAMES.index(name)])
+
+
+def test_the_arrays_are_laid_out_as_the_lists_say():
+    names = [n[2:].lower() for n in vars(L) if n.startswith("P_")]
+    assert names == [f.name for f in fields(GearMeshParams)] + ["fidelity"]
+    assert [n for n in vars(L) if n.startswith("D_")] and L.D_CONTACT_RATIO == L.NPAR - 1
+    assert k.N_PARAM == len(names) and k.NINP == len(SPEC.inputs)
+    assert (k.NOUT, k.NIOUT) == (len(NAMES), len(SPEC.outputs) - len(NAMES))
+
+
+@pytest.mark.parametrize("fidelity", list(SPEC.fidelities))
+@pytest.mark.parametrize("load", [0.0, 40.0])
+@pytest.mark.parametrize("speed", [0.0, 180.0])
+def test_nothing_is_infinite_at_rest_or_without_load(fidelity, load, speed):
+    mesh = Mesh(fidelity)
+    out = mesh.outputs(load, speed)
+    assert np.isfinite(out).all()
+    if load * speed == 0.0:
+        assert mesh.get("friction_torque") == mesh.get("friction_power") == 0.0
+    if speed == 0.0:
+        assert mesh.get("surface_temperature") == pytest.approx(299.85, abs=1e-3)
+        assert mesh.get("film_temperature") == pytest.approx(299.85, abs=1e-3)
+        assert mesh.iout[k.L.IO_REGIME] == L.BOUNDARY
+
+
+@given(st.floats(-1e5, 1e5), st.floats(-5000.0, 5000.0), st.floats(233.15, 473.15))
+def test_only_the_loss_has_a_sign_and_it_opposes_motion(load, speed, oil):
+    mesh = Mesh()
+    out = mesh.outputs(load, speed, oil)
+    assert np.isfinite(out).all() and out[L.F_POWER] >= 0.0 and out[L.F_TORQUE] * speed >= 0.0
+    assert abs(out[L.F_TORQUE]) <= 0.2 * abs(load)
+    turned = mesh.outputs(load, -speed, oil)
+    assert turned[L.F_TORQUE] == -out[L.F_TORQUE]
+    assert (np.delete(turned, L.F_TORQUE) == np.delete(out, L.F_TORQUE)).all()
+    assert (mesh.outputs(-load, speed, oil) == out).all()
+
+
+def largest_jump(mesh, points):
+    """Return, for each output, the largest jump between neighbouring slopes over its variation."""
+    values = np.array([mesh.outputs(*p) for p in points])
+    steps = np.diff(values, axis=0)
+    spread = np.maximum(np.abs(steps).max(axis=0), 1e-30)
+    return np.abs(np.diff(steps, axis=0)).max(axis=0) / spread
+
+
+@pytest.mark.parametrize(
+    ("line", "changes"),
+    [
+        (lambda s: (0.02 * s, 180.0), {}),
+        (lambda s: (40.0, 0.01 * s), {}),
+        (lambda s: (40.0, 0.5 * s), {}),
+        (lambda s: (0.02 * s, 0.01 * s), {}),
+        (lambda s: (40.0, 150.0 + 60.0 * s), {}),  # film ratio 1.03 .. 1.5
+        (lambda s: (40.0, 250.0 + 100.0 * s), {}),  # through 1.8: the asperities let go
+        (lambda s: (1.0, 100.0 + 50.0 * s), {}),  # film switch and hardness bound together
+        (lambda s: (40.0, 20.0 + 15.0 * s), {"friction_law": "iso"}),
+        (lambda s: (40.0, 180.0 + 150.0 * s), {"traction_law": "limited"}),
+        (lambda s: (40.0, 180.0 + 150.0 * s), {"area_law": "greenwood-williamson"}),
+    ],
+)
+def test_outputs_have_continuous_slopes(line, changes):
+    """A corner would keep its jump however fine the points; here it shrinks with their distance."""
+    mesh = Mesh(**changes)
+    jumps = [largest_jump(mesh, [line(s) for s in np.linspace(-1.0, 1.0, n)]) for n in (801, 6401)]
+    moving = jumps[0] > 1e-6
+    assert moving.any()
+    assert (jumps[1][moving] < 0.3 * jumps[0][moving]).all(), dict(
+        zip(np.array(NAMES)[moving], jumps[1][moving] / jumps[0][moving], strict=True)
+    )
+
+
+def test_the_film_switch_is_passed_in_the_smoothness_test():
+    mesh, ratios = Mesh(), []
+    for load, speed in ((40.0, 90.0), (40.0, 210.0), (40.0, 350.0), (1.0, 50.0), (1.0, 150.0)):
+        mesh.step(load, speed)
+        ratios.append(mesh.get("film_ratio"))
+    assert ratios[0] < 1.0 < ratios[1] < 1.8 < ratios[2]
+    assert ratios[3] < 1.0 and ratios[4] > 1.8
+    # at 1 N m the area ratio meets the hardness bound between those film ratios
+    areas = []
+    for speed in (50.0, 150.0):
+        mesh.step(1.0, speed)
+        areas.append(mesh.work[L.F_AREA] * mesh.work[L.F_PRESSURE] / (2.84 * 1300.94e6))
+    assert areas[0] < 0.9 and areas[1] == pytest.approx(1.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("bad", [(np.nan, 1.0), (1.0, np.inf), (1.0, 1.0, np.nan), (1.0, 1.0, 0.0)])
+def test_bad_input_is_a_status(bad):
+    mesh = Mesh()
+    assert mesh.step(*bad) == L.BAD_INPUT == mesh.iout[L.IO_STATUS]
+    assert mesh.step(40.0, 180.0) == 0
+
+
+def test_advice_is_given_for_hot_films_and_stretched_laws_and_not_in_between():
+    mesh = Mesh()
+    for point, advice in (
+        ((40.0, 180.0, 299.85), L.OK), ((40.0, 180.0, 250.0), L.HOT),
+        ((40.0, 1.0, 250.0), L.OUTSIDE_VERIFIED), ((40.0, 180.0, 430.0), L.OUTSIDE_VERIFIED),
+        ((9e4, 180.0, 330.0), L.OUTSIDE_VERIFIED),
+    ):  # fmt: skip
+        assert mesh.step(*point) == 0
+        assert mesh.iout[L.IO_STATUS] == advice, point

@@ -21,6 +21,7 @@ COMMANDS = (
     "washer",
     "curve",
     "clutch",
+    "engage",
     "calibrate",
     "gearmesh",
     "shift",

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from thrustwasher.kernels import gear_geometry as g
@@ -75,8 +75,7 @@ def test_for_one_or_two_pairs_the_loss_is_ohlendorfs(ratio, teeth):
 @given(st.floats(0.3, 3.0), st.floats(0.3, 3.0))
 def test_the_loss_is_the_mean_sliding_of_equally_loaded_pairs_however_many(approach, recess):
     """Watch one base pitch pass: average over the pairs in contact, then over the phases."""
-    if approach + recess < 1.0:
-        return
+    assume(approach + recess >= 1.0)
     n = 2000
     phases = -approach + (np.arange(n) + 0.5) / n
     pairs = phases[:, None] + np.arange(7)

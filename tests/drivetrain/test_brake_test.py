@@ -7,7 +7,7 @@ import pytest
 from scene_runs import shift
 
 from thrustwasher.drivetrain import load_scene
-from thrustwasher.drivetrain.pack_figures import lining_area, mean_radius
+from thrustwasher.drivetrain.pack_figures import area_of, radius_of
 from thrustwasher.errors import ParameterError
 
 SCENES = {"brake-test": 30.0, "brake-test-sample": 0.036}
@@ -56,10 +56,10 @@ def test_the_momentum_of_sun_and_carrier_is_kept(name):
 def test_force_is_1_mpa_and_the_speed_law_keeps_friction_over_rpm(name):
     scene = load_scene(name)
     brake, default = scene.parts["brake"].params, load_scene("planetary").parts["brake"].params
-    force = 1e6 * lining_area(brake) / brake.faces
+    force = 1e6 * area_of(brake) / brake.faces
     assert scene.parts["transmission"].params.brake_force == pytest.approx(force, rel=1e-6)
     sample = load_scene("brake-test-sample").parts["brake"].params
-    scale = mean_radius(brake) / mean_radius(sample)
+    scale = radius_of(brake) / radius_of(sample)
     assert brake.stick_speed == pytest.approx(default.stick_speed * scale, rel=1e-4)
     assert brake.decay_speed == pytest.approx(default.decay_speed * scale, rel=1e-4)
 
@@ -67,7 +67,7 @@ def test_force_is_1_mpa_and_the_speed_law_keeps_friction_over_rpm(name):
 def test_faces_are_the_nearest_whole_number():
     brake = load_scene("brake-test").parts["brake"].params
     torque = 30.0 * START / 1.2
-    per_face = 0.053 * 1e6 * lining_area(brake) / brake.faces * mean_radius(brake)
+    per_face = 0.053 * 1e6 * area_of(brake) / brake.faces * radius_of(brake)
     assert torque / per_face == pytest.approx(15.3, abs=0.01)
     assert brake.faces == round(torque / per_face)
 
@@ -77,19 +77,31 @@ def test_the_sample_brakes_as_published():
     for said in shift("brake-test-sample").comparison():
         if said["name"] != "stopped_inertia":
             assert said["run"] == pytest.approx(said["published"], rel=5e-3), said["name"]
-    assert figures["lock_after_ramp_start"] == pytest.approx(1.2, abs=2e-3)
+    assert figures["lock_after_ramp_start"] - 0.005 == pytest.approx(1.2, abs=1e-3)
 
 
 def test_the_full_size_pack_brakes_as_long_as_its_faces_say():
     figures = shift("brake-test").figures
-    assert figures["lock_after_ramp_start"] == pytest.approx(1.2 * 15.3 / 15, rel=2e-3)
+    braked = figures["lock_after_ramp_start"] - 0.005  # half of the ramp
+    assert braked == pytest.approx(1.2 * 15.3 / 15, rel=2e-3)
     assert figures["friction_mean"] == pytest.approx(0.053, abs=1e-4)
+
+
+def test_shear_of_cold_oil_shortens_braking_where_the_film_moves():
+    """The published figures are boundary friction; so the scenes take the film as settled."""
+    settled = shift("brake-test-sample")
+    moving = shift("brake-test-sample", parts={"brake": {"fidelity": "field"}})
+    after = [r.figures["lock_after_ramp_start"] for r in (moving, settled)]
+    assert 0.7 < after[0] / after[1] < 0.95
+    assert settled.figures["brake_viscous_share"] == 0.0
+    assert 0.1 < moving.figures["brake_viscous_share"] < 0.4
+    assert moving.energy["brake"] == pytest.approx(settled.energy["brake"], rel=0.01)
 
 
 def test_the_course_is_free_braking_locked():
     r = shift("brake-test")
     assert [p.name for p in r.phases] == ["free", "braking", "locked"]
-    assert [e.kind for e in r.events] == ["ramp_start", "brake_locked"]
+    assert [e.kind for e in r.events] == ["ramp_start", "ramp_end", "brake_locked"]
     assert r.signals["transmission.ring_speed"][-1] == 0.0
     assert "release_time" in r.figures and r.figures["release_time"] is None
 

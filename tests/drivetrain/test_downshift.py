@@ -7,7 +7,7 @@ import pytest
 from scene_runs import NO_DRAG, instances
 
 from thrustwasher.drivetrain import load_scene, run_shift
-from thrustwasher.drivetrain.pack_figures import mean_radius
+from thrustwasher.drivetrain.pack_figures import radius_of
 
 
 @pytest.fixture(scope="module")
@@ -41,5 +41,5 @@ def test_the_brake_is_what_the_figures_are_about(downshift):
 
 def test_mean_friction_is_torque_over_what_presses(downshift):
     params = downshift.scene.parts["brake"].params
-    assert mean_radius(params) == pytest.approx(74.9933e-3, rel=1e-6)
+    assert radius_of(params) == pytest.approx(74.9933e-3, rel=1e-6)
     assert 0.03 < downshift.figures["friction_mean"] < 0.12

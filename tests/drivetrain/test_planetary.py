@@ -17,7 +17,7 @@ SETTLED = {pack: {"fidelity": "stribeck"} for pack in ("clutch", "brake")}
 
 @pytest.mark.parametrize("name", list(EXPECTED))
 def test_shifts_without_drag_have_the_expected_magnitudes(name):
-    r = shift(name, parts=SETTLED | NO_DRAG)
+    r = shift(name, parts=SETTLED | NO_DRAG, stop_time=2.4)
     after, speed, engine, load, kinetic, heat, per_area = EXPECTED[name]
     assert r.figures["lock_after_ramp_start"] == pytest.approx(after, abs=6e-4)
     assert r.figures["lock_speed"] == pytest.approx(speed, abs=6e-3)
@@ -34,7 +34,7 @@ def test_shifts_without_drag_have_the_expected_magnitudes(name):
 def test_a_moving_film_shifts_sooner_because_its_oil_resists():
     """Shear of the oil carries a good part of the torque, more so when it is cold."""
     cold, hot = default_shift(), shift("planetary-hot-oil", parts=NO_DRAG)
-    settled = shift("planetary", parts=SETTLED | NO_DRAG)
+    settled = shift("planetary", parts=SETTLED | NO_DRAG, stop_time=2.2)
     after = [r.figures["lock_after_ramp_start"] for r in (cold, hot, settled)]
     assert after == sorted(after) and after[0] < 0.5 * after[2]
     open_drag = cold.signals["clutch.viscous_torque"][0]
@@ -97,9 +97,9 @@ def test_the_course_has_a_torque_and_an_inertia_phase():
 def test_plain_torque_loop_finds_the_same_shift_at_small_steps():
     """Coupling torque needs steps below 2 w0 J/T = 0.06 ms; it creeps instead of sticking."""
     limit = 2.0 * 0.1 * 0.1157 / 389.0
-    held = {**NO_DRAG, "transmission": {"washers": 0, "coupling": "torque"}}
-    r = shift("planetary", parts=held, step=0.5 * limit)
-    reference = shift("planetary", parts=NO_DRAG)
+    held = {**SETTLED, **NO_DRAG, "transmission": {"washers": 0, "coupling": "torque"}}
+    r = shift("planetary", parts=held, step=0.5 * limit, stop_time=1.9)
+    reference = shift("planetary", parts=SETTLED | NO_DRAG, stop_time=1.9)
     assert r.figures["slip_energy"] == pytest.approx(reference.figures["slip_energy"], rel=2e-3)
     assert abs(r.signals["transmission.clutch_speed"][-1]) < 0.1
     assert r.energy["residual_share"] < 1e-9

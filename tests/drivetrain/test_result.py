@@ -16,7 +16,7 @@ from thrustwasher.models.clutch_params import ClutchParams
 
 def test_every_signal_of_every_part_is_kept():
     r = default_shift()
-    assert len(r.time) == 2201 and r.time[-1] == 2.2
+    assert len(r.time) == 1501 and r.time[-1] == 1.5
     for name, part in r.scene.parts.items():
         for signal in (*part.spec.inputs, *part.spec.outputs):
             assert r.signals[f"{name}.{signal.name}"].shape == r.time.shape
@@ -33,9 +33,9 @@ def test_everything_but_the_series_is_json():
 
 def test_cost_adds_up():
     r = default_shift()
-    assert [c.steps for c in r.cost] == [2200] * 5
+    assert [c.steps for c in r.cost] == [1500] * 5
     assert sum(c.wall_time for c in r.cost) + r.overhead == pytest.approx(r.wall_time)
-    assert r.real_time_factor == pytest.approx(2.2 / r.wall_time)
+    assert r.real_time_factor == pytest.approx(1.5 / r.wall_time)
 
 
 def test_csv_holds_every_number_with_its_unit(tmp_path):

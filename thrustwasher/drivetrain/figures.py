@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .figure_list import Found, KeyFigure, assemble
-from .pack_figures import friction_figures, lining_area, pack_figures, peak
+from .pack_figures import area_of, friction_figures, pack_figures, peak
 from .planet_figures import mesh_figures, washer_figures
 from .result import Event
 from .scene import Scene
@@ -59,7 +59,7 @@ def _slip(scene: Scene, time: Array, signals: Signals) -> Found:
     slip = signals[f"transmission.{pack}_speed"]
     heat = float(signals[f"transmission.{pack}_heat"][-1])
     greatest = float(np.max(np.abs(slip)))
-    area = lining_area(scene.parts[pack].params)
+    area = area_of(scene.parts[pack].params)
     found: Found = {
         "greatest_slip": peak(np.abs(slip), time),
         "slip_energy": (heat, None),

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..models.pack_geometry import lining_area, mean_radius
 from .figure_list import Found
 from .scene import Scene
 
@@ -16,16 +16,14 @@ Signals = dict[str, Array]
 FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
 
 
-def lining_area(params: Any) -> float:
+def area_of(params: Any) -> float:
     """Return the area of all friction faces of a pack [m2]."""
-    return float(params.faces * math.pi * (params.outer_radius**2 - params.inner_radius**2))
+    return lining_area(params.inner_radius, params.outer_radius, params.faces)
 
 
-def mean_radius(params: Any) -> float:
-    """Return the radius friction acts at under even pressure [m], or the one that was set."""
-    outer, inner = params.outer_radius, params.inner_radius
-    even = 2.0 * (outer**3 - inner**3) / (3.0 * (outer**2 - inner**2))
-    return float(params.effective_radius or even)
+def radius_of(params: Any) -> float:
+    """Return the radius friction acts at [m]: the one that was set, or that of even pressure."""
+    return float(params.effective_radius) or mean_radius(params.inner_radius, params.outer_radius)
 
 
 def peak(values: Array, time: Array) -> tuple[float, float]:
@@ -51,7 +49,7 @@ def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Foun
     """
     if not np.any(signals[f"{pack}.load"] > 0.0):
         return {}
-    area = lining_area(scene.parts[pack].params)
+    area = area_of(scene.parts[pack].params)
     found: Found = {
         f"{pack}_heat_per_area": (float(signals[f"transmission.{pack}_heat"][-1]) / area, None),
         f"peak_{pack}_heat_flux": peak(np.abs(signals[f"{pack}.friction_power"]) / area, time),
@@ -110,5 +108,5 @@ def _mean_friction(
     pack, params = scene.engaging, scene.parts[scene.engaging].params
     torque = np.abs(signals[f"transmission.{pack}_reaction"][during])
     load = signals[f"transmission.{pack}_load"][during]
-    pressed = float(np.trapezoid(load, time)) * mean_radius(params) * params.faces
+    pressed = float(np.trapezoid(load, time)) * radius_of(params) * params.faces
     return float(np.trapezoid(torque, time)) / pressed if pressed > 0.0 else None

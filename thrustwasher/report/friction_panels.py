@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..models.pack_geometry import mean_radius
 from .shift_record import Record
 from .style import BLACK, BLUE, GREY, ORANGE, beside, label
 
 Array = np.ndarray[Any, Any]
 RPM = 30.0 / math.pi
+SHOWN = 2.5  # times the largest coefficient of the faces: above, the load is only beginning
+LEAST_LOAD = 1.0  # N
 
 
 def slipping(record: Record) -> Array:
@@ -33,11 +36,10 @@ def draw_friction(axis: Axes, record: Record) -> bool:
         return False
     rpm = np.abs(record.signals[f"{pack}.speed"][where]) * RPM
     axis.plot(rpm, friction[where], color=BLUE, label="faces in contact")
-    torque, able = (record.series(f"{pack}.{n}") for n in ("contact_torque", "friction_torque"))
-    if torque is not None and able is not None:
-        share = np.abs(able[where]) / np.maximum(np.abs(torque[where]), 1e-9)
-        axis.plot(rpm, friction[where] * np.minimum(share, 9.0), color=ORANGE, ls="--",
-                  label="with the oil's friction")  # fmt: skip
+    whole = _with_oil(record, where)
+    if whole is not None:
+        shown = np.where(whole < SHOWN * np.max(friction[where]), whole, np.nan)
+        axis.plot(rpm, shown, color=ORANGE, ls="--", label="torque over load, oil's shear included")
     _draw_published(axis, record)
     axis.set_xlim(float(np.max(rpm)) * 1.02, 0.0)
     axis.set_ylim(bottom=0.0)
@@ -45,6 +47,19 @@ def draw_friction(axis: Axes, record: Record) -> bool:
           "friction coefficient [1]")  # fmt: skip
     beside(axis)
     return True
+
+
+def _with_oil(record: Record, where: Array) -> Array | None:
+    """Return torque over load, mean radius and faces; None if the oil adds nothing of its own."""
+    pack = record.engaging
+    part, torque = record.part(pack), record.series(f"{pack}.friction_torque")
+    oil, load = record.series(f"{pack}.viscous_torque"), record.series(f"{pack}.load")
+    if part is None or torque is None or oil is None or load is None or not np.any(oil[where]):
+        return None
+    p = part.parameters
+    radius = p["effective_radius"] or mean_radius(p["inner_radius"], p["outer_radius"])
+    able = np.maximum(load[where], LEAST_LOAD) * radius * p["faces"]
+    return np.asarray(np.abs(torque[where]) / able)
 
 
 def _draw_published(axis: Axes, record: Record) -> None:

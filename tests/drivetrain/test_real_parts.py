@@ -1,0 +1,68 @@
+"""The default shift with every model of the package in it: washer, mesh and moving films."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scene_runs import slow_without_jit
+
+from thrustwasher.drivetrain import load_scene, run_shift
+from thrustwasher.fmu.direct import DirectInstance
+
+pytestmark = slow_without_jit
+STOP = 0.75  # s: past lock-up
+
+
+@cache
+def real(step=1e-3):
+    """Return the default shift at a step, every part with its own kernels."""
+    scene = load_scene("planetary").with_options(step=step, stop_time=STOP)
+    parts = {
+        name: DirectInstance(part.spec, parameters=part.parameters())
+        for name, part in scene.parts.items()
+    }
+    return run_shift(scene, parts)
+
+
+def test_all_parts_are_there_and_all_end_well():
+    r = real()
+    assert list(r.scene.parts) == ["transmission", "clutch", "brake", "washer", "mesh"]
+    for name in r.scene.parts:
+        assert np.max(r.signals[f"{name}.solver_status"]) == 0.0, name
+    assert all(np.isfinite(values).all() for values in r.signals.values())
+
+
+def test_the_book_closes_and_coupling_is_tight():
+    e = real().energy
+    assert e["residual_share"] <= 1e-6
+    assert e["coupling_difference_share"] <= 1e-3
+    assert e["brake_coupling_difference_share"] <= 1e-3
+    assert min(e[name] for name in ("clutch", "brake", "washers", "meshes")) > 0.0
+
+
+def test_halving_the_step_changes_little():
+    coarse, fine = real().figures, real(5e-4).figures
+    for name in ("slip_energy", "lock_time", "mesh_loss", "slip_energy_per_area"):
+        assert coarse[name] == pytest.approx(fine[name], rel=5e-3), name
+    for name in ("clutch_temperature", "washer_temperature", "flash_temperature",
+                 "mesh_temperature"):  # fmt: skip
+        rise = [f[f"peak_{name}"] - 297.15 for f in (coarse, fine)]
+        assert rise[0] == pytest.approx(rise[1], rel=5e-3), name
+
+
+def test_every_figure_of_washer_mesh_and_packs_is_found():
+    r = real()
+    found = {f.name: f.value for f in r.key_figures}
+    for name in ("clutch_viscous_share", "peak_clutch_heat_flux", "brake_heat_per_area",
+                 "peak_flash_rise", "least_mesh_film_ratio", "stress_margin_aisi1020",
+                 "stress_margin_aisi4340", "least_washer_film_ratio"):  # fmt: skip
+        assert found[name] is not None, name
+    assert found["stress_margin_aisi1020"] < found["stress_margin_aisi4340"]
+    assert found["mesh_loss"] == r.energy["meshes"]
+
+
+def test_the_mesh_runs_at_the_planets_torque_and_speed():
+    s = real().signals
+    assert (s["mesh.load"][1:] == s["transmission.mesh_load"][:-1]).all()
+    assert (s["mesh.speed"][1:] == s["transmission.mesh_speed"][:-1]).all()
+    assert (s["transmission.mesh_torque"][1:] == s["mesh.friction_torque"][1:]).all()

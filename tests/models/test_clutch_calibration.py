@@ -287,6 +287,26 @@ def test_the_fitted_pack_can_be_solved_and_the_result_is_json():
     assert plain["estimates"][0]["standard_error"] is None
 
 
+@pytest.mark.parametrize(
+    ("slip", "mu", "fit"),
+    [
+        (np.zeros(8), 0.1 + 1e-3 * np.arange(8), ("decay_speed", "shear_floor")),
+        (np.array([30.0, 90.0]), np.array([1e-12, 1e-12]), WANG_CONSTANTS),
+        (1e-4 * np.arange(1, 9), np.full(8, 0.1), ("decay_speed", "plough_weight", "indentation")),
+        (np.array([5000.0]), np.array([0.05]), ("decay_speed",)),
+        (np.array([0.0, 0.0, 9.0]), np.array([0.0, 0.0, 0.3]), ("stick_speed", "shear_floor")),
+    ],
+)
+@pytest.mark.parametrize("width", [0.0, 1.0])
+def test_hopeless_questions_get_an_honest_answer(slip, mu, fit, width):
+    pack = ClutchParams(kink_width=width)
+    found = calibrate(pack, speed=slip, load=1e3, friction=mu, fit=fit)
+    for e in found.estimates:
+        assert e.interval[0] <= e.value <= e.interval[1]
+        assert e.identifiable or e.reason
+    assert str(found)
+
+
 GOOD = {"speed": SLIP, "load": LOAD, "friction": EXACT}
 
 

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
 N_STARTS = 4  # best of them, refined
-MAX_EVALUATIONS = 400
+MAX_EVALUATIONS = 250
 ROUGH, FINE = 1e-7, 1e-14  # tolerances while starts compete, and for those that are as good
 AS_GOOD = 1e-4  # relative excess of the sum of squares of a start that is refined further
 AT_BOUND = 1e-5  # of a constant's scale: nearer than this the bound itself is tried
@@ -109,13 +109,12 @@ def best_fit(problem: Problem, first: Array) -> Array:
         is_new = all(np.abs((guess - g) / problem.scale).max() > SAME for g in good)
         if is_new and problem.cost(guess) <= least * (1.0 + AS_GOOD) + 1e6 * noise:
             good.append(guess)
-    found = [f for f in (_refine(problem, g) for g in good) if f is not None]
+    found = [_on_bounds(problem, _polished(problem, guess)) for guess in good]
     if not found:
         raise SolveError(
             f"the friction law could not be fitted from {len(starts)} starting points; fit fewer "
             "constants or start nearer with --set NAME=VALUE"
         )
-    found = [_on_bounds(problem, guess) for guess in found]
     costs = np.array([problem.cost(guess) for guess in found])
     equal = costs <= costs.min() * (1.0 + 1e-9) + noise
     near = [float(np.linalg.norm((guess - first) / problem.scale)) for guess in found]
@@ -241,6 +240,12 @@ def _refine(
         ftol=tolerance, xtol=tolerance, gtol=tolerance,
     )  # fmt: skip
     return np.asarray(found.x) if found.status > 0 and np.isfinite(found.cost) else None
+
+
+def _polished(problem: Problem, guess: Array) -> Array:
+    """Return the optimum to the last digits; the guess itself where a valley is too flat for it."""
+    fine = _refine(problem, guess)
+    return guess if fine is None or problem.cost(fine) > problem.cost(guess) else fine
 
 
 def _on_bounds(problem: Problem, guess: Array) -> Array:

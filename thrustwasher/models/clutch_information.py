@@ -12,6 +12,7 @@ from .clutch_fit import Problem
 Array = NDArray[np.float64]
 
 LOST = 1e-9  # a singular value this small beside the largest is rounding
+VANISHES = 1e-4  # ... and so is one this much smaller beside the friction itself
 LEAKS = 1e-6  # a larger share in a lost direction makes a constant unknown
 NAMED = 0.05  # constants with a smaller share in a direction are not worth a word
 
@@ -73,8 +74,9 @@ def information(
     slopes = problem.slopes(best) * problem.scale
     n, p = slopes.shape
     singular, directions = np.linalg.svd(slopes, full_matrices=True)[1:]
+    size = float(np.linalg.norm(problem.friction * problem.weight))
     singular = np.concatenate([singular, np.zeros(p - len(singular))])
-    singular[singular <= LOST * max(singular[0], 1e-300)] = 0.0
+    singular[singular <= max(LOST * singular[0], LOST * VANISHES * size)] = 0.0
     rank = int(np.count_nonzero(singular))
     freedom = n - rank
     tail = 0.5 + 0.5 * confidence

@@ -225,6 +225,13 @@ def test_constants_not_told_stay_near_those_given():
     assert found.params.plough_weight == pytest.approx(PACK.plough_weight, abs=1e-6)
 
 
+def test_scatter_alone_does_not_move_a_constant_that_is_not_told():
+    slow = SLIP * RADIUS < 1.4
+    found = calibrate(PACK, speed=SLIP[slow], load=1e3, friction=noisy(1)[slow])
+    assert not found["decay_speed"].identifiable
+    assert found.params.decay_speed == pytest.approx(PACK.decay_speed, rel=0.02)
+
+
 def test_a_load_in_the_data_is_found_and_one_that_is_not_there_is_not():
     clean = calibrate(PACK, speed=SLIP, load=LOAD, friction=noisy(5))
     assert clean.load_test.p_value > 0.05 and not clean.load_test.is_significant
@@ -244,6 +251,13 @@ def test_a_load_that_follows_speed_is_not_tested():
     rows = friction_over(law_values(TRUE_PACK), SLIP * RADIUS)
     found = calibrate(TRUE_PACK, speed=SLIP, load=1e4 * rows, friction=noisy(6)).load_test
     assert found.p_value is None and "only together with speed" in found.text
+
+
+def test_a_law_with_temperature_says_where_its_points_stand():
+    warm = ClutchParams(shear_temperature_slope=1e-3, reference_temperature=350.0)
+    found = calibrate(warm, speed=SLIP, load=LOAD, friction=noisy(8))
+    assert "measured at reference_temperature (350 K)" in str(found)
+    assert "Temperature" not in str(calibrate(PACK, speed=SLIP, load=LOAD, friction=noisy(8)))
 
 
 def test_chi_square_judges_the_given_errors():

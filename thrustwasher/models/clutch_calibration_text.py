@@ -46,6 +46,12 @@ def summary(found: Calibration) -> str:
         lines.append(f"{', '.join(names)}: {reason}.")
     lines += [_curved_text(e) for e in found.estimates if _is_curved(e)]
     lines.append(f"Load: {found.load_test.text}.")
+    if found.params.shear_temperature_slope != 0.0:
+        warm = found.params.reference_temperature
+        lines.append(
+            f"Temperature: the points count as measured at reference_temperature ({warm:g} K); "
+            "shear_temperature_slope acts away from it."
+        )
     lines.append(
         "Intervals: linearised covariance with "
         + ("the given errors." if found.reduced_chi_square is not None else "the points' scatter.")

@@ -3,11 +3,16 @@
 import pytest
 
 from thrustwasher.errors import Status
-from thrustwasher.kernels import clutch_step, gear_layout, transmission_layout
+from thrustwasher.kernels import (
+    clutch_friction,
+    clutch_layout,
+    gear_layout,
+    transmission_layout,
+)
 from thrustwasher.models._spec import REGIMES
 
 
-@pytest.mark.parametrize("module", [clutch_step, gear_layout, transmission_layout])
+@pytest.mark.parametrize("module", [clutch_layout, gear_layout, transmission_layout])
 def test_status_numbers_are_those_of_the_enumeration(module):
     found = [n for n in Status.__members__ if hasattr(module, n)]
     assert {"OK", "NOT_FINITE", "BAD_INPUT"} <= set(found)
@@ -15,7 +20,7 @@ def test_status_numbers_are_those_of_the_enumeration(module):
 
 
 def test_regimes_count_from_1_in_the_order_of_the_list():
-    numbers = [getattr(clutch_step, n.upper()) for n in REGIMES]
+    numbers = [getattr(clutch_friction, n.upper()) for n in REGIMES]
     assert numbers == [1, 2, 3, 4]
     mesh = [getattr(gear_layout, n.upper()) for n in REGIMES if n != "adhesive"]
     assert mesh == [1, 2, 3]

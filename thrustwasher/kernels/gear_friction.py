@@ -27,7 +27,7 @@ def li_seireg(film: float, radius: float, f0: float, roughness: float) -> float:
 def iso_mean(
     line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
 ) -> float:
-    """Return the mean coefficient of friction [-] of ISO/TR 14179-2, and no more than ``f0``.
+    """Return the mean coefficient of friction [-] of ISO/TS 6336-20, and no more than ``f0``.
 
     0.06 (w/(v R))^0.2 eta^-0.05 Ra^0.25 in its own units (N/mm, m/s, mm, mPa s, um); here
     ``line_load`` [N/m], ``rolling`` sum of the speeds at the pitch point [m/s], ``radius`` there

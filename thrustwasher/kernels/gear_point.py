@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import gear_layout as L
 from ._jit import kernel
-from .corners import floored, smoothstep
+from .corners import floored, smoothstep, soft_size
 from .gear_contact import film_thickness, hertz_width, surface_stress
 from .gear_friction import iso_mean, li_seireg
 from .gear_heat import (
@@ -187,10 +187,11 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
     bulk, status, iterations = heat_film(par, oil, turning, field)
     friction = friction_coefficient(par, field[L.F_FILM], line_load, turning, bulk)
     v1, v2 = par[L.D_V1] * turning, par[L.D_V2] * turning
+    rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)  # no load, no heat
     if par[L.P_FIDELITY] == L.CLOSED:
-        rise = blok_rise(friction, line_load, v1, v2, width, par[L.D_EFFUSIVITY])
+        rise = blok_rise(friction, rubbing, v1, v2, width, par[L.D_EFFUSIVITY])
     else:
-        heat = par[L.D_SHARE] * friction * line_load * field[L.F_SLIDING]
+        heat = par[L.D_SHARE] * friction * rubbing * field[L.F_SLIDING]
         rise = flash_rise(heat, width, v1, par[L.D_EFFUSIVITY])
     field[L.F_FRICTION], field[L.F_FLASH] = friction, rise
     field[L.F_WEIGHT] = contact_weight(par, field[L.F_RATIO])

@@ -39,7 +39,8 @@ def allowed(meta: Any) -> str:
         return " or ".join(repr(name) for name in meta["options"])
     if meta["kind"] == "boolean":
         return "True or False"
-    return f"{meta['min']:g} .. {meta['max']:g} {meta['unit']}"
+    unit = "" if meta["unit"] == "1" else f" {meta['unit']}"
+    return f"{meta['min']:g} .. {meta['max']:g}{unit}"
 
 
 def check_ranges(params: Any) -> None:

@@ -16,7 +16,7 @@ SURFACES = {
 }
 FRICTION_LAWS = {
     "li-seireg": "falls with film over radius (Atan Eq 4); slide/roll ratio above 0.27 only",
-    "iso": "mean coefficient of ISO/TR 14179-2, at most f0",
+    "iso": "mean coefficient of ISO/TS 6336-20, at most f0",
     "constant": "the constant coefficient constant_friction",
 }
 STEELS = {

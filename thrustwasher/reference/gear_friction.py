@@ -23,7 +23,8 @@ def iso_mean(
     """Return the mean coefficient of a mesh [-], arguments in SI, all at the pitch point.
 
     0.06 (w/(v R))^0.2 eta^-0.05 Ra^0.25 with w in N/mm, the sum v of the surface speeds in m/s, R
-    in mm, eta in mPa s, Ra in um. Source: ISO/TR 13989-1, mineral oil, as it is usually quoted.
+    in mm, eta in mPa s, Ra in um. Source: ISO/TS 6336-20 (before: ISO/TR 13989-1), mineral oil,
+    as it is usually quoted.
     """
     group = (1e-3 * load) / (rolling * 1e3 * radius)
     return float(0.06 * group**0.2 * (1e3 * viscosity) ** -0.05 * (1e6 * roughness) ** 0.25)

@@ -117,6 +117,15 @@ def test_standstill_is_located_inside_the_step():
     assert r.time[last] < exact < r.time[last + 1]
 
 
+def test_figures_of_two_sources_are_not_mixed(tmp_path):
+    path = tmp_path / "mine.toml"
+    table = '[published]\nsource = "my rig"\nlock_after_ramp_start = "1.05 s"\n'
+    path.write_text(f'base = "brake-test-sample"\n{table}', encoding="utf-8")
+    published = load_scene(path).published
+    assert published.source == "my rig"
+    assert published.figures == {"lock_after_ramp_start": 1.05}
+
+
 def test_a_published_figure_that_is_none_is_named(tmp_path):
     path = tmp_path / "mine.toml"
     for line, message in (

@@ -100,6 +100,7 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
     result = dict(base)
     for key, value in top.items():
         both = isinstance(value, dict) and isinstance(result.get(key), dict)
+        both = both and key != "published"  # figures of one source stay together
         result[key] = _overlay(result[key], value) if both else value
     return result
 

@@ -101,7 +101,8 @@ def _cards(record: Record) -> list[Card]:
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
     known = {figure.name: figure for figure in record.key_figures}
     cards = [
-        Card(name=f.text, value=say(f.value, f.unit, digits=4, difference=f.difference))
+        Card(name=f.text, value=f"{f.value:.4g} s" if f.unit == "s"
+             else say(f.value, f.unit, digits=4, difference=f.difference))
         for name in names if (f := known.get(name)) is not None and f.value is not None
     ]  # fmt: skip
     share = f"{record.energy['residual_share']:.1e}"

@@ -137,7 +137,7 @@ def _mesh(record: Record) -> str:
     flash, surface = figures.get("peak_flash_temperature"), figures.get("peak_mesh_temperature")
     if flash is None or surface is None:
         return ""
-    stress = _stress(record)
+    stress = "" if _stress(record, over=1.0) else _stress(record)  # beyond 1 it is a warning
     left = f", tooth stress at most {stress}" if stress else ""
     return (
         f"On the gear teeth asperities reached {say(flash, 'K', digits=3)} and the surface below "

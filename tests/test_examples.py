@@ -13,12 +13,14 @@ PINNED = {
     "ex04_shift": 2.1107904,  # s
     "ex05_gearmesh": 0.6747259775410824,  # of the contact stress allowed without heat
     "ex06_calibrate": 1.9784950022118957,  # m/s
+    "ex07_braking_test": 1.2054398,  # s, ramp of 10 ms included
 }
 TOLERANCE = {
     "ex01_washer": 6e-3,
     "ex02_load_curve": 0.02,
     "ex04_shift": 1e-5,
     "ex06_calibrate": 1e-6,
+    "ex07_braking_test": 1e-7,
 }
 
 

@@ -44,6 +44,26 @@ def test_folder_holds_page_plots_and_series(msl):
         assert sum(1 for _ in rows) == 5001
 
 
+def test_a_braking_test_is_compared_with_its_source(tmp_path, capsys):
+    words = [
+        "shift",
+        "--scene",
+        "brake-test-sample",
+        "--step",
+        "4 ms",
+        "--out",
+        str(tmp_path / "r"),
+    ]
+    assert main([*words, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    said = {entry["name"]: entry for entry in told["published"]}
+    assert said["friction_mean"]["published"] == 0.053
+    assert said["friction_mean"]["run"] == told["friction_mean"] == pytest.approx(0.053, rel=2e-3)
+    assert told["peak_brake_temperature"] > 350.0 and told["peak_brake_temperature_time"] > 1.0
+    page = (tmp_path / "r" / "report.html").read_text("utf-8")
+    assert "published and computed" in page and "engine" not in page.partition("<section")[0]
+
+
 def test_summary_names_lock_and_report(tmp_path, capsys):
     out = tmp_path / "r"
     assert main(["shift", "--scene", "msl", "--step", "4 ms", "--out", str(out)]) == 0

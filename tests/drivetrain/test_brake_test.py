@@ -117,6 +117,11 @@ def test_standstill_is_located_inside_the_step():
     assert r.time[last] < exact < r.time[last + 1]
 
 
+def test_what_is_not_stopped_has_no_inertia():
+    figures = shift("brake-test-sample", stop_time=0.5).figures
+    assert figures["lock_time"] is None and "stopped_inertia" not in figures
+
+
 def test_figures_of_two_sources_are_not_mixed(tmp_path):
     path = tmp_path / "mine.toml"
     table = '[published]\nsource = "my rig"\nlock_after_ramp_start = "1.05 s"\n'

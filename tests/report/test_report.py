@@ -120,6 +120,11 @@ def test_what_a_source_says_stands_beside_the_run(record):
     assert section.tables[0].rows[1][2:] == ("", "")
 
 
+def test_a_shift_that_has_not_begun_is_said(record):
+    words = summary.sentences(replace(record, ramp_start=9.0))[0]
+    assert words.startswith("In first gear") and "ends before the shift begins" in words
+
+
 def test_a_brake_alone_is_told_as_a_braking_test(record):
     energy = {**record.energy, "engine_work": 0.0}
     figures = [KeyFigure("stopped_inertia", "inertia", "kg.m2", 30.0),

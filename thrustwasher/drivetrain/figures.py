@@ -26,7 +26,7 @@ def key_figures(
         "lock_time": (lock, None),
         "lock_after_ramp_start": (None if lock is None else lock - start, None),
         "release_time": (release, None),
-        **_slip(scene, time, signals),
+        **_slip(scene, time, signals, lock),
         **friction_figures(scene, time, signals, lock),
         **pack_figures(scene, "clutch", time, signals),
         **pack_figures(scene, "brake", time, signals),
@@ -53,7 +53,7 @@ def _engine_speed(scene: Scene, time: Array, signals: Signals, lock: float | Non
     return float(ratio * np.interp(lock, time, signals["transmission.output_speed"]))
 
 
-def _slip(scene: Scene, time: Array, signals: Signals) -> Found:
+def _slip(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Found:
     """Return slip, heat and power of the pack that engages."""
     pack = scene.engaging
     slip = signals[f"transmission.{pack}_speed"]
@@ -66,6 +66,6 @@ def _slip(scene: Scene, time: Array, signals: Signals) -> Found:
         "slip_energy_per_area": (heat / area, None),
         "peak_power": peak(np.abs(signals[f"{pack}.friction_power"]), time),
     }
-    if scene.alone and greatest > 0.0:
+    if scene.alone and lock is not None and greatest > 0.0:
         found["stopped_inertia"] = (2.0 * heat / greatest**2, None)
     return found

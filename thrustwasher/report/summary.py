@@ -60,8 +60,11 @@ def _course(record: Record) -> str:
     figures, start = record.figures, record.ramp_start
     pack, other = record.engaging, record.releasing
     speed = record.at("transmission.engine_speed", start) or 0.0
-    before = record.phases[0].name if record.phases else "the start"
-    words = f"In {before} the engine had reached {rpm(speed)} when, at {start:.4g} s, pressure "
+    before = record.phases[0].name if record.phases else ""
+    gear = f"In {before}" if "gear" in before else "With no pack locked"
+    if start > record.time[-1]:
+        return f"{gear} the engine reached {rpm(speed)}; the run ends before the shift begins."
+    words = f"{gear} the engine had reached {rpm(speed)} when, at {start:.4g} s, pressure "
     words += f"began to move from the {other} to the {pack}"
     release, lock, lock_speed = (
         figures["release_time"], figures["lock_time"], figures["lock_speed"]
@@ -72,7 +75,7 @@ def _course(record: Record) -> str:
     if lock is None or lock_speed is None:
         return f"{words}, and the {pack} was still slipping at the end."
     return (
-        f"{words}, and the {pack} locked at {lock:.4g} s, {say(lock - start, 's', digits=3)} after "
+        f"{words}, and the {pack} locked at {lock:.4g} s, {lock - start:.3g} s after "
         f"the shift began, with the engine at {rpm(lock_speed)}."
     )
 
@@ -85,9 +88,11 @@ def _stop(record: Record) -> str:
     if taken is None:
         return f"{words}; from {rpm(speed)} it was still slipping at the end."
     inertia = say(figures.get("stopped_inertia") or 0.0, "kg.m2", digits=3)
+    what = f"brought {inertia} from {rpm(speed)} to rest" if pack == "brake" else (
+        f"ended a slip of {rpm(speed)} between inertias worth {inertia}"
+    )  # fmt: skip
     return (
-        f"{words}; it brought {inertia} from {rpm(speed)} to rest in "
-        f"{say(taken, 's', digits=4)}, with a mean friction coefficient of "
+        f"{words}; it {what} in {taken:.4g} s, with a mean friction coefficient of "
         f"{figures['friction_mean'] or 0.0:.4f} and {figures['friction_lock'] or 0.0:.4f} just "
         "before standstill."
     )
@@ -164,7 +169,7 @@ def _book(record: Record) -> str:
     )  # fmt: skip
     if not book["engine_work"]:
         given = say(abs(book["kinetic"]), "J", digits=3)
-        return f"All of it is kinetic energy, {given}; {closes}"
+        return f"The kinetic energy fell by {given}; {closes}"
     return (
         f"The engine did {say(book['engine_work'], 'J', digits=3)} of work, the load took "
         f"{say(book['load_work'], 'J', digits=3)}; {closes}"

@@ -120,3 +120,26 @@ def test_a_settled_film_without_shear_is_the_rung_below():
         solve_clutch(still, **at).friction_torque
         == solve_clutch(PACK, **at, fidelity="stribeck").friction_torque
     )
+
+
+def test_a_measured_curve_is_followed_and_held_beyond_its_end():
+    rising = ClutchParams.with_table([0.0, 1.0, 5.0], [0.10, 0.11, 0.13], effective_radius=0.1)
+    for slip, mu in ((0.0, 0.10), (5.0, 0.105), (-10.0, 0.11), (30.0, 0.12), (4000.0, 0.13)):
+        r = solve_clutch(rising, load=1000.0, speed=slip, fidelity="boundary")
+        assert r.friction_coefficient == pytest.approx(mu, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("speed", "friction", "message"),
+    [
+        ([0.1, 1.0], [0.1, 0.1], "the first at 0 m/s"),
+        ([0.0], [0.1], r"2 \.\. 6 pairs"),
+        ([], [], "speed: no values"),
+        ([0.0, 1.0], [0.1], "2 and 1 values"),
+        ([0.0, 2.0, 1.0], [0.1, 0.1, 0.1], r"table_speed_2 = 1.0 m/s, allowed: above 2.0 m/s"),
+        ([0.0, 1.0], [0.1, float("nan")], "table_friction_1 = nan"),
+    ],
+)
+def test_a_curve_that_cannot_be_used_is_refused_by_name(speed, friction, message):
+    with pytest.raises(ParameterError, match=message):
+        ClutchParams.with_table(speed, friction)

@@ -352,3 +352,9 @@ GOOD = {"speed": SLIP, "load": LOAD, "friction": EXACT}
 def test_wrong_input_is_named(changes, message):
     with pytest.raises(ParameterError, match=message):
         calibrate(PACK, **{**GOOD, **changes})
+
+
+def test_a_table_has_nothing_to_fit():
+    table = ClutchParams.with_table([0.0, 5.0], [0.12, 0.13])
+    with pytest.raises(ParameterError, match="friction_law = 'table': its points are"):
+        calibrate(table, speed=[1.0, 2.0], load=[1e3, 1e3], friction=[0.1, 0.1])

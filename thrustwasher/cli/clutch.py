@@ -71,7 +71,7 @@ def _figure(params: ClutchParams, point: dict[str, Any], result: Any) -> Any:
     from ..report.clutch_plot import clutch_figure
 
     p = params
-    has_shares = p.friction_law != "constant" and result.fidelity != "closed"
+    has_shares = p.friction_law == "wang" and result.fidelity != "closed"
     fall = (p.stick_speed + 2.0 * p.decay_speed) / friction_radius(p) if has_shares else 1.0
     fastest = min(max(2.0 * abs(point["speed"]), fall), SPEED.high or fall)
     speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(SAMPLES)]

@@ -21,6 +21,7 @@ from .clutch_layout import (
     D_RADIUS,
     D_SUPPLY,
     D_VISCOUS,
+    N_TABLE,
     OK,
     OPEN_PRESSURE,
     P_CONSTANT_FRICTION,
@@ -35,9 +36,13 @@ from .clutch_layout import (
     P_SHEAR_HEATING,
     P_SHEAR_TEMPERATURE_SLOPE,
     P_STICK_SPEED,
+    P_TABLE_FRICTION_0,
+    P_TABLE_FRICTION_1,
+    P_TABLE_SPEED_1,
     P_VISCOSITY_CONSTANT,
     P_VISCOSITY_EXPONENT,
     P_VISCOSITY_SCALE,
+    TABLE_LAW,
 )
 from .film import mean_gap
 from .lining_table import area_integrals, contact_integral, separation
@@ -67,10 +72,28 @@ def shear_of(par: Array, slip: float, temperature: float) -> tuple[float, float]
 
 
 @kernel
+def tabled(par: Array, speed: float) -> float:
+    """Return the coefficient [-] of the table at a slip speed [m/s]: straight between its points.
+
+    Beyond the last point the last value holds. The slope jumps at the points.
+    """
+    low, value = 0.0, par[P_TABLE_FRICTION_0]
+    for k in range(N_TABLE):
+        high = par[np.uintp(P_TABLE_SPEED_1 + 2 * k)]
+        after = par[np.uintp(P_TABLE_FRICTION_1 + 2 * k)]
+        if speed < high:
+            return value + (after - value) * (speed - low) / (high - low)
+        low, value = high, after
+    return value
+
+
+@kernel
 def coefficient_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
     """Return the coefficient of boundary friction [-] and its slope over temperature [1/K]."""
     if par[P_FIDELITY] == CLOSED or par[P_FRICTION_LAW] == CONSTANT_LAW:
         return par[P_CONSTANT_FRICTION], 0.0
+    if par[P_FRICTION_LAW] == TABLE_LAW:
+        return tabled(par, abs(slip) * par[D_RADIUS]), 0.0
     ratio, slope = shear_of(par, slip, temperature)
     return par[D_PLOUGH] + par[D_ADHESION] * ratio, par[D_ADHESION] * slope
 

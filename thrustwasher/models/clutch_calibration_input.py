@@ -34,6 +34,11 @@ def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
     """Return the names to fit, or say which one cannot be."""
     names = (fit,) if isinstance(fit, str) else tuple(fit)
     acting = constants_of(params)
+    if not acting:
+        raise ParameterError(
+            f"friction_law = {params.friction_law!r}: its points are the measurement itself, there "
+            "is nothing to fit; allowed: 'wang' or 'constant'"
+        )
     allowed = f"allowed under friction_law {params.friction_law!r}: {', '.join(acting)}"
     if not names:
         raise ParameterError(f"fit names nothing, {allowed}")

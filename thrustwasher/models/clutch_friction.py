@@ -23,7 +23,8 @@ STEEPEST = 1.0 - 1e-9  # the derivative over the indentation is infinite at 1
 
 def constants_of(params: ClutchParams) -> tuple[str, ...]:
     """Return the names of the constants that act in the pack's friction law."""
-    return CONSTANT_LAW if params.friction_law == "constant" else WANG_CONSTANTS
+    known = {"wang": WANG_CONSTANTS, "constant": CONSTANT_LAW}
+    return known.get(params.friction_law, ())
 
 
 def law_values(params: ClutchParams) -> dict[str, float]:

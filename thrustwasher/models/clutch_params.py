@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from ..errors import ParameterError
 from ._params import check_ranges, choice, count, flag, quantity
@@ -11,12 +13,23 @@ from ._spec import ModelSpec, Signal, Terminal
 FRICTION_LAWS = {
     "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",
     "constant": "the constant coefficient constant_friction",
+    "table": "a measured curve over slip speed: table_friction_0 .. 5 at 0 and table_speed_1 .. 5",
 }
 
 INPUT_COURSES = {
     "held": "inputs stay as they are during a step; all outputs are those at its end",
     "linear": "inputs run straight from point to point; torque is that of the step's start",
 }
+
+N_TABLE = 5
+
+
+def _coefficient(value: float, where: str) -> Any:
+    return quantity(value, "1", 0.0, 2.0, f"coefficient of the table law {where}")
+
+
+def _table_speed(value: float, place: int) -> Any:
+    return quantity(value, "m/s", 0.0, 1e4, f"slip speed of point {place} of the table law")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +49,17 @@ class ClutchParams:
     )
     friction_law: str = choice("wang", FRICTION_LAWS, "ClutchFrictionLaw", "law of dry friction")
     constant_friction: float = quantity(0.12, "1", 0.0, 2.0, "coefficient of the constant law")
+    table_friction_0: float = _coefficient(0.13, "at standstill")
+    table_speed_1: float = _table_speed(0.1, 1)
+    table_friction_1: float = _coefficient(0.12, "at table_speed_1")
+    table_speed_2: float = _table_speed(0.5, 2)
+    table_friction_2: float = _coefficient(0.12, "at table_speed_2")
+    table_speed_3: float = _table_speed(2.0, 3)
+    table_friction_3: float = _coefficient(0.125, "at table_speed_3")
+    table_speed_4: float = _table_speed(8.0, 4)
+    table_friction_4: float = _coefficient(0.13, "at table_speed_4")
+    table_speed_5: float = _table_speed(30.0, 5)
+    table_friction_5: float = _coefficient(0.13, "at table_speed_5 and above")
     indentation: float = quantity(0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R")
     plough_weight: float = quantity(0.085275, "1", 0.0, 1.0, "weight of the ploughing share")
     hardness_ratio: float = quantity(6.0, "1", 1.0, 20.0, "hardness over shear strength of lining")
@@ -110,6 +134,49 @@ class ClutchParams:
                 f"inner_radius = {self.inner_radius!r} m, allowed: below outer_radius "
                 f"({self.outer_radius!r} m)"
             )
+        if self.friction_law == "table":
+            last = 0.0
+            for k in range(1, N_TABLE + 1):
+                speed = getattr(self, f"table_speed_{k}")
+                if not speed > last:
+                    raise ParameterError(
+                        f"table_speed_{k} = {speed!r} m/s, allowed: above {last!r} m/s (the points "
+                        "of the table rise)"
+                    )
+                last = speed
+
+    @classmethod
+    def with_table(
+        cls, speed: Sequence[float], friction: Sequence[float], **others: Any
+    ) -> ClutchParams:
+        """Return parameters whose friction follows a measured curve.
+
+        Parameters
+        ----------
+        speed : 2 to 6 slip speeds [m/s] at the mean radius, rising, the first one 0
+        friction : coefficients [-] at these speeds; straight in between, the last one holds above
+        others : further parameters
+
+        Examples
+        --------
+        >>> ClutchParams.with_table([0.0, 1.0, 10.0], [0.12, 0.11, 0.13]).friction_law
+        'table'
+        """
+        n = len(speed)
+        if len(friction) != n or not 2 <= n <= N_TABLE + 1 or speed[0] != 0.0:
+            raise ParameterError(
+                f"speed, friction: {n} and {len(friction)} values from {speed[0]!r} m/s on, "
+                f"allowed: 2 .. {N_TABLE + 1} pairs, the first at 0 m/s"
+                if n
+                else "speed: no values"
+            )
+        table: dict[str, Any] = {"table_friction_0": friction[0]}
+        for k in range(1, N_TABLE + 1):
+            inside = k < n
+            # points that are not given lie above the last one, at its value
+            table[f"table_speed_{k}"] = speed[k] if inside else speed[-1] + 1.0 + k
+            table[f"table_friction_{k}"] = friction[k] if inside else friction[-1]
+        return cls(friction_law="table", **table, **others)
 
 
 LOAD = Signal(name="load", unit="N", help="axial force that presses the pack together",

@@ -10,6 +10,7 @@ from toy.spec import SPEC as TOY
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError, Status
 from thrustwasher.fmu import archive
 from thrustwasher.fmu.core import Core
+from thrustwasher.fmu.registry import package_version
 from thrustwasher.fmu.slave import Slave
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
@@ -128,7 +129,7 @@ def test_an_fmu_of_another_version_is_refused_with_both_named(toy_fmu, tmp_path)
     digest = slave.split('"')[-4]
     files["resources/slavemodule.txt"] = b"thrustwasher_fmu_old"
     files["resources/thrustwasher_fmu_old.py"] = (
-        slave.replace(digest, "0" * 16).replace('"0.1.0"', '"0.0.9"').encode()
+        slave.replace(digest, "0" * 16).replace(f'"{package_version()}"', '"0.0.9"').encode()
     )
     old = tmp_path / "ToyClutch.fmu"
     old.write_bytes(archive.pack(files))

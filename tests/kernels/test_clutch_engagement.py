@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from clutch_pack import Pack
 from clutch_reference import Reference
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,27 +13,11 @@ from thrustwasher import ClutchParams, engage_clutch
 from thrustwasher.kernels import clutch_layout as k
 from thrustwasher.kernels.clutch_friction import shear_thinned
 from thrustwasher.kernels.clutch_rates import pack_rates
-from thrustwasher.kernels.clutch_step import step
-from thrustwasher.models.clutch import prepare
 from thrustwasher.reference.heated_plate import insulated_plate_rise, semi_infinite_rise
 from thrustwasher.reference.squeeze_film import pumped_flow, squeeze_group, squeeze_time
 
 H = 1e-3
 PERMEABILITIES = [0.0, 1e-14, 1e-13, 1e-12, 4e-12]
-
-
-class Pack:
-    """A pack of the moving film with its arrays."""
-
-    def __init__(self, fidelity="field", **params):
-        self.params = ClutchParams(**params)
-        self.par = prepare(self.params, fidelity)
-        self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
-        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
-
-    def step(self, load, speed, dt, oil=297.15):
-        inp = np.array([load, speed, oil])
-        return step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
 
 
 @pytest.mark.parametrize("permeability", PERMEABILITIES)

@@ -6,44 +6,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from . import clutch_layout as L
 from ._jit import kernel
 from .boundary import shear_ratio
-from .clutch_layout import (
-    CLOSED,
-    CONSTANT_LAW,
-    D_ADHESION,
-    D_AREA,
-    D_CONTACT_AREA,
-    D_DEMAND,
-    D_OPEN_RATIO,
-    D_PLOUGH,
-    D_PRESSURE,
-    D_RADIUS,
-    D_SUPPLY,
-    D_VISCOUS,
-    N_TABLE,
-    OK,
-    OPEN_PRESSURE,
-    P_CONSTANT_FRICTION,
-    P_DECAY_SPEED,
-    P_FACES,
-    P_FIDELITY,
-    P_FRICTION_LAW,
-    P_KINK_WIDTH,
-    P_OIL_CONDUCTIVITY,
-    P_REFERENCE_TEMPERATURE,
-    P_SHEAR_FLOOR,
-    P_SHEAR_HEATING,
-    P_SHEAR_TEMPERATURE_SLOPE,
-    P_STICK_SPEED,
-    P_TABLE_FRICTION_0,
-    P_TABLE_FRICTION_1,
-    P_TABLE_SPEED_1,
-    P_VISCOSITY_CONSTANT,
-    P_VISCOSITY_EXPONENT,
-    P_VISCOSITY_SCALE,
-    TABLE_LAW,
-)
 from .film import mean_gap
 from .lining_table import area_integrals, contact_integral, separation
 from .roelands import viscosity
@@ -59,13 +24,13 @@ def shear_of(par: Array, slip: float, temperature: float) -> tuple[float, float]
     The temperature acts by ``shear_temperature_slope`` (0: not at all); the ratio stays in 0 .. 1.
     """
     ratio = shear_ratio(
-        slip * par[D_RADIUS], par[P_SHEAR_FLOOR], par[P_STICK_SPEED], par[P_DECAY_SPEED],
-        par[P_KINK_WIDTH],
+        slip * par[L.D_RADIUS], par[L.P_SHEAR_FLOOR], par[L.P_STICK_SPEED], par[L.P_DECAY_SPEED],
+        par[L.P_KINK_WIDTH],
     )  # fmt: skip
-    slope = par[P_SHEAR_TEMPERATURE_SLOPE]
+    slope = par[L.P_SHEAR_TEMPERATURE_SLOPE]
     if slope == 0.0:
         return ratio, 0.0
-    warm = ratio * (1.0 + slope * (temperature - par[P_REFERENCE_TEMPERATURE]))
+    warm = ratio * (1.0 + slope * (temperature - par[L.P_REFERENCE_TEMPERATURE]))
     if warm >= 1.0 or warm <= 0.0:
         return (1.0 if warm >= 1.0 else 0.0), 0.0
     return warm, ratio * slope
@@ -77,10 +42,10 @@ def tabled(par: Array, speed: float) -> float:
 
     Beyond the last point the last value holds. The slope jumps at the points.
     """
-    low, value = 0.0, par[P_TABLE_FRICTION_0]
-    for k in range(N_TABLE):
-        high = par[np.uintp(P_TABLE_SPEED_1 + 2 * k)]
-        after = par[np.uintp(P_TABLE_FRICTION_1 + 2 * k)]
+    low, value = 0.0, par[L.P_TABLE_FRICTION_0]
+    for k in range(L.N_TABLE):
+        high = par[np.uintp(L.P_TABLE_SPEED_1 + 2 * k)]
+        after = par[np.uintp(L.P_TABLE_FRICTION_1 + 2 * k)]
         if speed < high:
             return value + (after - value) * (speed - low) / (high - low)
         low, value = high, after
@@ -90,21 +55,21 @@ def tabled(par: Array, speed: float) -> float:
 @kernel
 def coefficient_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
     """Return the coefficient of boundary friction [-] and its slope over temperature [1/K]."""
-    if par[P_FIDELITY] == CLOSED or par[P_FRICTION_LAW] == CONSTANT_LAW:
-        return par[P_CONSTANT_FRICTION], 0.0
-    if par[P_FRICTION_LAW] == TABLE_LAW:
-        return tabled(par, abs(slip) * par[D_RADIUS]), 0.0
+    if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == L.CONSTANT_LAW:
+        return par[L.P_CONSTANT_FRICTION], 0.0
+    if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
+        return tabled(par, abs(slip) * par[L.D_RADIUS]), 0.0
     ratio, slope = shear_of(par, slip, temperature)
-    return par[D_PLOUGH] + par[D_ADHESION] * ratio, par[D_ADHESION] * slope
+    return par[L.D_PLOUGH] + par[L.D_ADHESION] * ratio, par[L.D_ADHESION] * slope
 
 
 @kernel
 def settled_ratio(par: Array, load: float, guess: float) -> tuple[float, int, int]:
     """Return (film thickness over roughness where the asperities carry all, status, iterations)."""
-    pressure = load / par[D_AREA]
-    if pressure < OPEN_PRESSURE:
-        return par[D_OPEN_RATIO], OK, 0
-    return separation(pressure / par[D_PRESSURE], guess)
+    pressure = load / par[L.D_AREA]
+    if pressure < L.OPEN_PRESSURE:
+        return par[L.D_OPEN_RATIO], L.OK, 0
+    return separation(pressure / par[L.D_PRESSURE], guess)
 
 
 @kernel
@@ -117,11 +82,11 @@ def contact_torque(
     more than the load, also where a film that still opens presses them harder.
     """
     height, slope = contact_integral(u)
-    pressure, rise = par[D_PRESSURE] * height, par[D_PRESSURE] * slope
+    pressure, rise = par[L.D_PRESSURE] * height, par[L.D_PRESSURE] * slope
     mu, mu_slope = coefficient_of(par, slip, temperature)
-    lever = par[P_FACES] * par[D_RADIUS]
-    carried = pressure * par[D_AREA]
-    grows = rise * par[D_AREA]
+    lever = par[L.P_FACES] * par[L.D_RADIUS]
+    carried = pressure * par[L.D_AREA]
+    grows = rise * par[L.D_AREA]
     if carried > load:
         carried, grows = load, 0.0
     return (
@@ -137,10 +102,10 @@ def contact_share(par: Array, u: float) -> tuple[float, float]:
     group is ten times the usual and the formula leaves its range.
     """
     second, first = area_integrals(u)
-    share = par[D_CONTACT_AREA] * second
+    share = par[L.D_CONTACT_AREA] * second
     if share >= 1.0:
         return 1.0, 0.0
-    return share, -2.0 * par[D_CONTACT_AREA] * first
+    return share, -2.0 * par[L.D_CONTACT_AREA] * first
 
 
 @kernel
@@ -171,26 +136,25 @@ def viscous_torque(
     slip at which centrifugal force pumps more than is supplied, above it in the proportion of the
     two.
     """
-    eta, eta_slope = viscosity(
-        temperature, par[P_VISCOSITY_SCALE], par[P_VISCOSITY_CONSTANT], par[P_VISCOSITY_EXPONENT]
-    )
+    scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
+    eta, eta_slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
     share, share_slope = contact_share(par, u)
     gap, gap_slope = mean_gap(u, 1.0)
-    full = par[D_VISCOUS] * eta * abs(slip) / gap
+    full = par[L.D_VISCOUS] * eta * abs(slip) / gap
     relative_u = -gap_slope / gap
     relative_t = eta_slope / eta
-    if par[P_SHEAR_HEATING] != 0.0 and eta_slope < 0.0:
+    if par[L.P_SHEAR_HEATING] != 0.0 and eta_slope < 0.0:
         thinned, steepness = shear_thinned(
-            -relative_t * eta * (slip * par[D_RADIUS]) * (slip * par[D_RADIUS])
-            / par[P_OIL_CONDUCTIVITY]
+            -relative_t * eta * (slip * par[L.D_RADIUS]) * (slip * par[L.D_RADIUS])
+            / par[L.P_OIL_CONDUCTIVITY]
         )  # fmt: skip
         full *= thinned
         reduced = 135.0 + temperature - 273.15
-        relative_t += steepness * (relative_t - (par[P_VISCOSITY_EXPONENT] + 1.0) / reduced)
-    if par[D_SUPPLY] > 0.0:
-        demand = par[D_DEMAND] * slip * slip * gap * gap * gap / eta
-        if demand > par[D_SUPPLY]:
-            full *= par[D_SUPPLY] / demand
+        relative_t += steepness * (relative_t - (par[L.P_VISCOSITY_EXPONENT] + 1.0) / reduced)
+    if par[L.D_SUPPLY] > 0.0:
+        demand = par[L.D_DEMAND] * slip * slip * gap * gap * gap / eta
+        if demand > par[L.D_SUPPLY]:
+            full *= par[L.D_SUPPLY] / demand
             relative_u *= 4.0
             relative_t += eta_slope / eta
     torque = full * (1.0 - share)
@@ -211,4 +175,4 @@ def regime_of(par: Array, ratio: float, slip: float) -> int:
         return FILM
     if ratio >= 1.0:
         return MIXED
-    return ADHESIVE if abs(slip) * par[D_RADIUS] <= par[P_STICK_SPEED] else BOUNDARY
+    return ADHESIVE if abs(slip) * par[L.D_RADIUS] <= par[L.P_STICK_SPEED] else BOUNDARY

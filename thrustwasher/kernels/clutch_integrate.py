@@ -12,27 +12,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from . import clutch_layout as L
 from ._jit import kernel
-from .clutch_layout import (
-    D_DECAY,
-    D_GAIN,
-    D_MODES,
-    MAX_ITERATIONS,
-    N_STAGES,
-    NOT_FINITE,
-    NY,
-    OK,
-    W_NOW,
-    W_PROPOSED,
-    W_RATE,
-    W_REFUSED,
-    W_STAGES,
-    W_SUBSTEPS,
-    W_TRIAL,
-    Y_ENERGY,
-    Y_FILM,
-    Y_HEAT,
-)
 from .clutch_rates import pack_rates
 
 Array = NDArray[np.float64]
@@ -69,9 +50,9 @@ LEAST_SHARE = 1e-12  # of the stretch: no smaller substeps
 @kernel
 def surface_temperature(par: Array, y: Array, base: int) -> float:
     """Return the interface temperature [K]: the plate's mean and the modes on top of it."""
-    total = y[np.uintp(base + Y_HEAT)]
-    for i in range(int(par[D_MODES])):
-        total += y[np.uintp(base + Y_HEAT + 1 + i)]
+    total = y[np.uintp(base + L.Y_HEAT)]
+    for i in range(int(par[L.D_MODES])):
+        total += y[np.uintp(base + L.Y_HEAT + 1 + i)]
     return total
 
 
@@ -88,16 +69,16 @@ def _rates(
     slip = course[1] + (course[4] - course[1]) * x
     oil = course[2] + (course[5] - course[2]) * x
     found = pack_rates(
-        par, max(load, 0.0), slip, work[np.uintp(base + Y_FILM)],
+        par, max(load, 0.0), slip, work[np.uintp(base + L.Y_FILM)],
         surface_temperature(par, work, base),
     )  # fmt: skip
-    work[np.uintp(W_RATE + Y_FILM)] = found[0]
-    work[np.uintp(W_RATE + Y_ENERGY)] = found[3]
-    for i in range(int(par[D_MODES]) + 1):
+    work[np.uintp(L.W_RATE + L.Y_FILM)] = found[0]
+    work[np.uintp(L.W_RATE + L.Y_ENERGY)] = found[3]
+    for i in range(int(par[L.D_MODES]) + 1):
         level = oil if i == 0 else 0.0
-        work[np.uintp(W_RATE + Y_HEAT + i)] = par[np.uintp(D_GAIN + i)] * found[3] - par[
-            np.uintp(D_DECAY + i)
-        ] * (work[np.uintp(base + Y_HEAT + i)] - level)
+        work[np.uintp(L.W_RATE + L.Y_HEAT + i)] = par[np.uintp(L.D_GAIN + i)] * found[3] - par[
+            np.uintp(L.D_DECAY + i)
+        ] * (work[np.uintp(base + L.Y_HEAT + i)] - level)
     return found
 
 
@@ -107,28 +88,28 @@ def _solve_stage(
     stage: int,
 ) -> None:  # fmt: skip
     """Turn the right side in the stage's place into its solution of (s - J) U = right side."""
-    n = int(par[D_MODES]) + 1
+    n = int(par[L.D_MODES]) + 1
     total, gain = 0.0, 0.0
     for i in range(n):
-        pivot = s + par[np.uintp(D_DECAY + i)]
-        total += work[np.uintp(stage + Y_HEAT + i)] / pivot
-        gain += par[np.uintp(D_GAIN + i)] / pivot
+        pivot = s + par[np.uintp(L.D_DECAY + i)]
+        total += work[np.uintp(stage + L.Y_HEAT + i)] / pivot
+        gain += par[np.uintp(L.D_GAIN + i)] / pivot
     rate_u, rate_t, power_u, power_t = slopes[1], slopes[2], slopes[4], slopes[5]
     # film (s - f_u) du - f_T D = r;   surface (1 - gain P_T) D - gain P_u du = total
     a, d = s - rate_u, 1.0 - gain * power_t
     determinant = a * d - rate_t * gain * power_u
     if determinant == 0.0:
         determinant = math.nan
-    r = work[np.uintp(stage + Y_FILM)]
+    r = work[np.uintp(stage + L.Y_FILM)]
     film = (r * d + rate_t * total) / determinant
     surface = (a * total + gain * power_u * r) / determinant
     power = power_u * film + power_t * surface
-    work[np.uintp(stage + Y_FILM)] = film
-    work[np.uintp(stage + Y_ENERGY)] = (work[np.uintp(stage + Y_ENERGY)] + power) / s
+    work[np.uintp(stage + L.Y_FILM)] = film
+    work[np.uintp(stage + L.Y_ENERGY)] = (work[np.uintp(stage + L.Y_ENERGY)] + power) / s
     for i in range(n):
-        place = np.uintp(stage + Y_HEAT + i)
-        work[place] = (work[place] + par[np.uintp(D_GAIN + i)] * power) / (
-            s + par[np.uintp(D_DECAY + i)]
+        place = np.uintp(stage + L.Y_HEAT + i)
+        work[place] = (work[place] + par[np.uintp(L.D_GAIN + i)] * power) / (
+            s + par[np.uintp(L.D_DECAY + i)]
         )
 
 
@@ -138,47 +119,47 @@ def _substep(
     duration: float, work: Array,
 ) -> float:  # fmt: skip
     """Fill W_TRIAL with the state a substep later; return its error in units of the tolerance."""
-    n = Y_HEAT + 1 + int(par[D_MODES])
+    n = L.Y_HEAT + 1 + int(par[L.D_MODES])
     h = share * duration
     s = 1.0 / (GAMMA * h)
     moving = course[0] != course[3] or course[1] != course[4] or course[2] != course[5]
-    last = W_STAGES + (N_STAGES - 1) * NY
+    last = L.W_STAGES + (L.N_STAGES - 1) * L.NY
     if moving:  # the drift of the rates is differenced; it goes where the last stage will be
         nudge = 1e-3 * share
-        _rates(par, course, x + nudge, work, W_NOW)
+        _rates(par, course, x + nudge, work, L.W_NOW)
         for i in range(n):
-            work[np.uintp(last + i)] = work[np.uintp(W_RATE + i)]
-    slopes = _rates(par, course, x, work, W_NOW)
+            work[np.uintp(last + i)] = work[np.uintp(L.W_RATE + i)]
+    slopes = _rates(par, course, x, work, L.W_NOW)
     if moving:
         for i in range(n):
             place = np.uintp(last + i)
-            work[place] = (work[place] - work[np.uintp(W_RATE + i)]) / (1e-3 * h)
-    for k in range(N_STAGES):
+            work[place] = (work[place] - work[np.uintp(L.W_RATE + i)]) / (1e-3 * h)
+    for k in range(L.N_STAGES):
         if k > 0:
             for i in range(n):
-                value = work[np.uintp(W_NOW + i)]
+                value = work[np.uintp(L.W_NOW + i)]
                 for j in range(k):
-                    value += A[k, j] * work[np.uintp(W_STAGES + j * NY + i)]
-                work[np.uintp(W_TRIAL + i)] = value
-            _rates(par, course, x + WHEN[k] * share, work, W_TRIAL)
-        stage = W_STAGES + k * NY
+                    value += A[k, j] * work[np.uintp(L.W_STAGES + j * L.NY + i)]
+                work[np.uintp(L.W_TRIAL + i)] = value
+            _rates(par, course, x + WHEN[k] * share, work, L.W_TRIAL)
+        stage = L.W_STAGES + k * L.NY
         for i in range(n):
-            value = work[np.uintp(W_RATE + i)]
+            value = work[np.uintp(L.W_RATE + i)]
             for j in range(k):
-                value += C[k, j] / h * work[np.uintp(W_STAGES + j * NY + i)]
+                value += C[k, j] / h * work[np.uintp(L.W_STAGES + j * L.NY + i)]
             if moving and k < 4:
                 value += DRIFT[k] * h * work[np.uintp(last + i)]
             work[np.uintp(stage + i)] = value
         _solve_stage(par, s, slopes, work, stage)
     heat = 0.0
     for i in range(n):
-        work[np.uintp(W_TRIAL + i)] += work[np.uintp(last + i)]
-        if i >= Y_HEAT:
+        work[np.uintp(L.W_TRIAL + i)] += work[np.uintp(last + i)]
+        if i >= L.Y_HEAT:
             heat += work[np.uintp(last + i)]
-    film = work[np.uintp(last + Y_FILM)] / (
-        TOLERANCE_FILM * (1.0 + abs(work[np.uintp(W_TRIAL + Y_FILM)]))
+    film = work[np.uintp(last + L.Y_FILM)] / (
+        TOLERANCE_FILM * (1.0 + abs(work[np.uintp(L.W_TRIAL + L.Y_FILM)]))
     )
-    tolerance = TOLERANCE_HEAT if par[D_MODES] == 0.0 else TOLERANCE_RISE
+    tolerance = TOLERANCE_HEAT if par[L.D_MODES] == 0.0 else TOLERANCE_RISE
     return max(abs(film), abs(heat) / tolerance)
 
 
@@ -201,10 +182,10 @@ def engage(
     A jump of the rates inside the stretch (the pack opens, a limit is met) shrinks the substeps
     until it is passed; when they reach LEAST_SHARE of the stretch the substep is taken.
     """
-    n = Y_HEAT + 1 + int(par[D_MODES])
+    n = L.Y_HEAT + 1 + int(par[L.D_MODES])
     done, refused = 0.0, 0.0
     share = min(1.0, first / duration) if first > 0.0 else 1.0
-    work[W_PROPOSED] = duration
+    work[L.W_PROPOSED] = duration
     for count in range(MAX_SUBSTEPS):
         remaining = 1.0 - done
         closing = share >= remaining * (1.0 - 1e-9)
@@ -214,22 +195,22 @@ def engage(
         if not math.isfinite(error):
             error = 1e6
             if share <= LEAST_SHARE:
-                return NOT_FINITE
+                return L.NOT_FINITE
         factor = 6.0 if error < 1e-5 else min(6.0, max(0.1, 0.9 / math.sqrt(math.sqrt(error))))
         if error <= 1.0 or share <= LEAST_SHARE:
             for i in range(n):
-                work[np.uintp(W_NOW + i)] = work[np.uintp(W_TRIAL + i)]
+                work[np.uintp(L.W_NOW + i)] = work[np.uintp(L.W_TRIAL + i)]
             done += share
             proposed = share * factor * duration
             if closing:
                 # a stretch's last substep may be a crumb: it says nothing about the next one
-                work[W_PROPOSED] = max(work[W_PROPOSED], proposed) if count > 0 else proposed
-                work[W_SUBSTEPS] = float(count + 1) - refused
-                work[W_REFUSED] = refused
-                return OK
-            work[W_PROPOSED] = proposed
+                work[L.W_PROPOSED] = max(work[L.W_PROPOSED], proposed) if count > 0 else proposed
+                work[L.W_SUBSTEPS] = float(count + 1) - refused
+                work[L.W_REFUSED] = refused
+                return L.OK
+            work[L.W_PROPOSED] = proposed
             share = max(share * factor, LEAST_SHARE)
         else:
             refused += 1.0
             share = max(share * min(factor, 0.9), LEAST_SHARE)
-    return MAX_ITERATIONS
+    return L.MAX_ITERATIONS

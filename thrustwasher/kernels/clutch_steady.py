@@ -4,21 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from . import clutch_layout as L
 from ._jit import kernel
 from .clutch_constants import derive
 from .clutch_friction import coefficient_of, viscous_torque
-from .clutch_layout import (
-    BOUNDARY_ONLY,
-    D_COOLING,
-    D_RADIUS,
-    FIELD,
-    MAX_ITERATIONS,
-    NOT_FINITE,
-    OK,
-    P_FACES,
-    P_FIDELITY,
-    P_FILM_DYNAMICS,
-)
 
 __all__ = ["derive", "steady_temperature", "steady_torques"]
 
@@ -32,8 +21,8 @@ def steady_torques(
 ) -> tuple[float, float, float]:
     """Return (contact torque, viscous torque [N m >= 0], slope of their sum [N m/K])."""
     mu, mu_slope = coefficient_of(par, slip, temperature)
-    lever = par[P_FACES] * par[D_RADIUS] * load
-    if par[P_FIDELITY] != FIELD or par[P_FILM_DYNAMICS] == 0.0:
+    lever = par[L.P_FACES] * par[L.D_RADIUS] * load
+    if par[L.P_FIDELITY] != L.FIELD or par[L.P_FILM_DYNAMICS] == 0.0:
         return lever * mu, 0.0, lever * mu_slope
     viscous, _, slope, _, _, _ = viscous_torque(par, slip, u, temperature)
     return lever * mu, viscous, lever * mu_slope + slope
@@ -49,18 +38,18 @@ def steady_temperature(
     temperature (the oil thins), so there is one root; should the shear ratio be told to rise with
     temperature there may be more, and one of them is found.
     """
-    if par[P_FIDELITY] == BOUNDARY_ONLY or slip == 0.0:
-        return oil, OK, 0
-    scale = abs(slip) / (par[P_FACES] * par[D_COOLING])
+    if par[L.P_FIDELITY] == L.BOUNDARY_ONLY or slip == 0.0:
+        return oil, L.OK, 0
+    scale = abs(slip) / (par[L.P_FACES] * par[L.D_COOLING])
     low, high, bracketed = oil, oil, False
     t = oil
     for n in range(MAX_STEPS):
         contact, viscous, slope = steady_torques(par, load, slip, u, t)
         balanced = oil + scale * (contact + viscous)
         if not balanced < 1e300:
-            return t, NOT_FINITE, n
+            return t, L.NOT_FINITE, n
         if abs(balanced - t) <= 1e-13 * t or (bracketed and high - low <= 4e-16 * high):
-            return t, OK, n + 1
+            return t, L.OK, n + 1
         if balanced > t:
             low = t
             if not bracketed:
@@ -70,4 +59,4 @@ def steady_temperature(
             high, bracketed = t, True
         newton = t - (balanced - t) / (scale * slope - 1.0)
         t = newton if low < newton < high else 0.5 * (low + high)
-    return t, MAX_ITERATIONS, MAX_STEPS
+    return t, L.MAX_ITERATIONS, MAX_STEPS

@@ -13,6 +13,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from . import clutch_layout as L
 from ._jit import kernel
 from .clutch_constants import derive
 from .clutch_friction import (
@@ -24,118 +25,52 @@ from .clutch_friction import (
     viscous_torque,
 )
 from .clutch_integrate import engage, surface_temperature
-from .clutch_layout import (
-    BAD_INPUT,
-    BOUNDARY_ONLY,
-    D_AREA,
-    D_DECAY,
-    D_GAIN,
-    D_MODES,
-    D_OPEN_RATIO,
-    D_RADIUS,
-    FIELD,
-    HOT,
-    HOT_LIMIT,
-    I_LOAD,
-    I_OIL,
-    I_SPEED,
-    IO_REGIME,
-    IO_STATUS,
-    LINEAR_COURSE,
-    N_PARAM,
-    NINP,
-    NIOUT,
-    NOT_FINITE,
-    NOUT,
-    NPAR,
-    NSTATE,
-    NWORK,
-    O_CAPACITY,
-    O_COEFFICIENT,
-    O_CONTACT_SHARE,
-    O_CONTACT_TORQUE,
-    O_ENERGY,
-    O_FILM,
-    O_HEAT_FLUX,
-    O_POWER,
-    O_RATIO,
-    O_TEMPERATURE,
-    O_TORQUE,
-    O_VISCOSITY,
-    O_VISCOUS_TORQUE,
-    OK,
-    P_FACES,
-    P_FIDELITY,
-    P_FILM_DYNAMICS,
-    P_INPUT_COURSE,
-    P_ROUGHNESS,
-    P_SPEED_SMOOTHING,
-    P_STARTS_PRESSED,
-    S_DURATION,
-    S_ENERGY,
-    S_FILM,
-    S_HEAT,
-    S_LOAD,
-    S_MODES,
-    S_OIL,
-    S_POWER,
-    S_SHOWN_ENERGY,
-    S_SHOWN_TEMPERATURE,
-    S_SLIP,
-    S_STARTED,
-    S_SUBSTEP,
-    W_NOW,
-    W_PROPOSED,
-    W_REFUSED,
-    W_SUBSTEPS,
-    Y_ENERGY,
-    Y_FILM,
-    Y_HEAT,
-)  # fmt: skip
 from .heating import exponential_weights
 
 __all__ = ["NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "derive", "step"]
 
 Array = NDArray[np.float64]
+N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
+NOUT, NIOUT = L.NOUT, L.NIOUT
 
 
 @kernel
 def moves_film(par: Array) -> bool:
     """Tell if film and viscous torque belong to the model."""
-    return par[P_FIDELITY] == FIELD and par[P_FILM_DYNAMICS] != 0.0
+    return par[L.P_FIDELITY] == L.FIELD and par[L.P_FILM_DYNAMICS] != 0.0
 
 
 @kernel
 def load_memory(par: Array, load: float, oil: float, state: Array, work: Array) -> int:
     """Copy the memory to W_NOW, or set the start: film open or settled, steel as warm as oil."""
-    status = OK
-    if state[S_STARTED] != 0.0:
-        work[np.uintp(W_NOW + Y_FILM)] = state[S_FILM]
-        work[np.uintp(W_NOW + Y_ENERGY)] = state[S_ENERGY]
-        work[np.uintp(W_NOW + Y_HEAT)] = state[S_HEAT]
-        for i in range(int(par[D_MODES])):
-            work[np.uintp(W_NOW + Y_HEAT + 1 + i)] = state[np.uintp(S_MODES + i)]
+    status = L.OK
+    if state[L.S_STARTED] != 0.0:
+        work[np.uintp(L.W_NOW + L.Y_FILM)] = state[L.S_FILM]
+        work[np.uintp(L.W_NOW + L.Y_ENERGY)] = state[L.S_ENERGY]
+        work[np.uintp(L.W_NOW + L.Y_HEAT)] = state[L.S_HEAT]
+        for i in range(int(par[L.D_MODES])):
+            work[np.uintp(L.W_NOW + L.Y_HEAT + 1 + i)] = state[np.uintp(L.S_MODES + i)]
         return status
-    ratio = par[D_OPEN_RATIO]
-    if par[P_STARTS_PRESSED] != 0.0:
+    ratio = par[L.D_OPEN_RATIO]
+    if par[L.P_STARTS_PRESSED] != 0.0:
         ratio, status, _ = settled_ratio(par, load, 1.0)
-    work[np.uintp(W_NOW + Y_FILM)] = ratio
-    work[np.uintp(W_NOW + Y_ENERGY)] = 0.0
-    work[np.uintp(W_NOW + Y_HEAT)] = oil
-    for i in range(int(par[D_MODES])):
-        work[np.uintp(W_NOW + Y_HEAT + 1 + i)] = 0.0
+    work[np.uintp(L.W_NOW + L.Y_FILM)] = ratio
+    work[np.uintp(L.W_NOW + L.Y_ENERGY)] = 0.0
+    work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
+    for i in range(int(par[L.D_MODES])):
+        work[np.uintp(L.W_NOW + L.Y_HEAT + 1 + i)] = 0.0
     return status
 
 
 @kernel
 def store_memory(par: Array, work: Array, state: Array) -> None:
     """Copy W_NOW to the memory."""
-    state[S_STARTED] = 1.0
-    state[S_FILM] = work[np.uintp(W_NOW + Y_FILM)]
-    state[S_ENERGY] = work[np.uintp(W_NOW + Y_ENERGY)]
-    state[S_HEAT] = work[np.uintp(W_NOW + Y_HEAT)]
-    for i in range(int(par[D_MODES])):
-        state[np.uintp(S_MODES + i)] = work[np.uintp(W_NOW + Y_HEAT + 1 + i)]
+    state[L.S_STARTED] = 1.0
+    state[L.S_FILM] = work[np.uintp(L.W_NOW + L.Y_FILM)]
+    state[L.S_ENERGY] = work[np.uintp(L.W_NOW + L.Y_ENERGY)]
+    state[L.S_HEAT] = work[np.uintp(L.W_NOW + L.Y_HEAT)]
+    for i in range(int(par[L.D_MODES])):
+        state[np.uintp(L.S_MODES + i)] = work[np.uintp(L.W_NOW + L.Y_HEAT + 1 + i)]
 
 
 @kernel
@@ -143,34 +78,34 @@ def warm_up(
     par: Array, power_start: float, power_end: float, oil: float, duration: float, work: Array
 ) -> None:
     """Advance heat and energy in W_NOW exactly, under a face's power [W] that changes linearly."""
-    if par[P_FIDELITY] != BOUNDARY_ONLY:
-        for i in range(int(par[D_MODES]) + 1):
-            place = np.uintp(W_NOW + Y_HEAT + i)
+    if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
+        for i in range(int(par[L.D_MODES]) + 1):
+            place = np.uintp(L.W_NOW + L.Y_HEAT + i)
             level = oil if i == 0 else 0.0
-            decay, first, second = exponential_weights(par[np.uintp(D_DECAY + i)] * duration)
+            decay, first, second = exponential_weights(par[np.uintp(L.D_DECAY + i)] * duration)
             gain = power_start * first + (power_end - power_start) * second
             work[place] = (
                 level
                 + (work[place] - level) * decay
-                + (par[np.uintp(D_GAIN + i)] * gain * duration)
+                + (par[np.uintp(L.D_GAIN + i)] * gain * duration)
             )
-    work[np.uintp(W_NOW + Y_ENERGY)] += 0.5 * (power_start + power_end) * duration
+    work[np.uintp(L.W_NOW + L.Y_ENERGY)] += 0.5 * (power_start + power_end) * duration
 
 
 @kernel
 def face_power(par: Array, load: float, slip: float, film: bool, work: Array) -> float:
     """Return the friction power of a face [W] in the state W_NOW."""
-    temperature = surface_temperature(par, work, W_NOW)
+    temperature = surface_temperature(par, work, L.W_NOW)
     if film:
-        u = work[np.uintp(W_NOW + Y_FILM)]
+        u = work[np.uintp(L.W_NOW + L.Y_FILM)]
         contact = contact_torque(par, load, slip, u, temperature)[0]
         viscous = viscous_torque(par, slip, u, temperature)[0]
     else:
         mu, _ = coefficient_of(par, slip, temperature)
-        contact = par[P_FACES] * par[D_RADIUS] * mu * load
+        contact = par[L.P_FACES] * par[L.D_RADIUS] * mu * load
         viscous = 0.0
-    smooth = math.tanh(abs(slip) / par[P_SPEED_SMOOTHING])
-    return abs(slip) * (contact * smooth + viscous) / par[P_FACES]
+    smooth = math.tanh(abs(slip) / par[L.P_SPEED_SMOOTHING])
+    return abs(slip) * (contact * smooth + viscous) / par[L.P_FACES]
 
 
 @kernel
@@ -181,9 +116,9 @@ def advance(
     """Bring W_NOW through a stretch over which load, slip and oil temperature run straight."""
     if moves_film(par):
         return engage(par, course, duration, first, work)
-    status = OK
-    work[np.uintp(W_NOW + Y_FILM)], status, _ = settled_ratio(
-        par, course[3], work[np.uintp(W_NOW + Y_FILM)]
+    status = L.OK
+    work[np.uintp(L.W_NOW + L.Y_FILM)], status, _ = settled_ratio(
+        par, course[3], work[np.uintp(L.W_NOW + L.Y_FILM)]
     )
     end = face_power(par, course[3], course[4], False, work)
     held = course[0] == course[3] and course[1] == course[4]
@@ -195,25 +130,25 @@ def advance(
 def fill_outputs(par: Array, load: float, slip: float, work: Array, out: Array) -> None:
     """Fill what follows from film and temperature in W_NOW; temperature and energy come later."""
     film = moves_film(par)
-    u = work[np.uintp(W_NOW + Y_FILM)]
-    temperature = surface_temperature(par, work, W_NOW)
+    u = work[np.uintp(L.W_NOW + L.Y_FILM)]
+    temperature = surface_temperature(par, work, L.W_NOW)
     mu, _ = coefficient_of(par, slip, temperature)
     viscous, _, _, eta, _, share = viscous_torque(par, slip, u, temperature)
     if film:
         contact = contact_torque(par, load, slip, u, temperature)[0]
     else:
-        contact, viscous = par[P_FACES] * par[D_RADIUS] * mu * load, 0.0
+        contact, viscous = par[L.P_FACES] * par[L.D_RADIUS] * mu * load, 0.0
         share = contact_share(par, u)[0]
-    dry = contact * math.tanh(slip / par[P_SPEED_SMOOTHING])
+    dry = contact * math.tanh(slip / par[L.P_SPEED_SMOOTHING])
     wet = math.copysign(viscous, slip)
-    out[O_TORQUE] = dry + wet
-    out[O_CONTACT_TORQUE], out[O_VISCOUS_TORQUE] = dry, wet
-    out[O_CAPACITY] = contact + viscous
-    out[O_POWER] = out[O_TORQUE] * slip
-    out[O_HEAT_FLUX] = out[O_POWER] / (par[P_FACES] * par[D_AREA])
-    out[O_COEFFICIENT] = mu
-    out[O_FILM], out[O_RATIO] = u * par[P_ROUGHNESS], u
-    out[O_CONTACT_SHARE], out[O_VISCOSITY] = share, eta
+    out[L.O_TORQUE] = dry + wet
+    out[L.O_CONTACT_TORQUE], out[L.O_VISCOUS_TORQUE] = dry, wet
+    out[L.O_CAPACITY] = contact + viscous
+    out[L.O_POWER] = out[L.O_TORQUE] * slip
+    out[L.O_HEAT_FLUX] = out[L.O_POWER] / (par[L.P_FACES] * par[L.D_AREA])
+    out[L.O_COEFFICIENT] = mu
+    out[L.O_FILM], out[L.O_RATIO] = u * par[L.P_ROUGHNESS], u
+    out[L.O_CONTACT_SHARE], out[L.O_VISCOSITY] = share, eta
 
 
 @kernel
@@ -231,62 +166,64 @@ def step(
 
     Returns 0 or the status of a failure; HOT is advice and stands in ``iout`` only.
     """
-    load, slip, oil = inp[I_LOAD], inp[I_SPEED], inp[I_OIL]
+    load, slip, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
     if not (
         math.isfinite(load) and load >= 0.0 and math.isfinite(slip) and math.isfinite(oil)
         and math.isfinite(dt) and dt >= 0.0 and oil > 0.0
     ):  # fmt: skip
-        iout[IO_STATUS] = BAD_INPUT
-        return BAD_INPUT
-    started = state[S_STARTED] != 0.0
-    linear = par[P_INPUT_COURSE] == LINEAR_COURSE
+        iout[L.IO_STATUS] = L.BAD_INPUT
+        return L.BAD_INPUT
+    started = state[L.S_STARTED] != 0.0
+    linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
     film = moves_film(par)
-    work[W_SUBSTEPS] = work[W_REFUSED] = 0.0
-    work[W_PROPOSED] = state[S_SUBSTEP]
+    work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
+    work[L.W_PROPOSED] = state[L.S_SUBSTEP]
     status = load_memory(par, load, oil, state, work)
-    if par[P_FIDELITY] == BOUNDARY_ONLY:
-        work[np.uintp(W_NOW + Y_HEAT)] = oil
+    if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
+        work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
     if linear:
-        if started and status == OK:
-            course = (state[S_LOAD], state[S_SLIP], state[S_OIL], load, slip, oil)
-            status = advance(par, course, state[S_DURATION], state[S_POWER], state[S_SUBSTEP], work)
-    elif dt > 0.0 and status == OK:
+        if started and status == L.OK:
+            course = (state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil)
+            status = advance(
+                par, course, state[L.S_DURATION], state[L.S_POWER], state[L.S_SUBSTEP], work
+            )
+    elif dt > 0.0 and status == L.OK:
         course = (load, slip, oil, load, slip, oil)
-        status = advance(par, course, dt, 0.0, state[S_SUBSTEP], work)
-    if not film and status == OK:
-        work[np.uintp(W_NOW + Y_FILM)], status, _ = settled_ratio(
-            par, load, work[np.uintp(W_NOW + Y_FILM)]
+        status = advance(par, course, dt, 0.0, state[L.S_SUBSTEP], work)
+    if not film and status == L.OK:
+        work[np.uintp(L.W_NOW + L.Y_FILM)], status, _ = settled_ratio(
+            par, load, work[np.uintp(L.W_NOW + L.Y_FILM)]
         )
     fill_outputs(par, load, slip, work, out)
-    power = out[O_POWER] / par[P_FACES]
-    temperature = surface_temperature(par, work, W_NOW)
-    energy = par[P_FACES] * work[np.uintp(W_NOW + Y_ENERGY)]
-    keep = dt > 0.0 and status == OK
+    power = out[L.O_POWER] / par[L.P_FACES]
+    temperature = surface_temperature(par, work, L.W_NOW)
+    energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
+    keep = dt > 0.0 and status == L.OK
     if keep:
         keep = _is_finite(work, par, out)
         if not keep:
-            status = NOT_FINITE
+            status = L.NOT_FINITE
     if keep:
         store_memory(par, work, state)
-        state[S_LOAD], state[S_SLIP], state[S_OIL] = load, slip, oil
-        state[S_POWER], state[S_DURATION], state[S_SUBSTEP] = power, dt, work[W_PROPOSED]
+        state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL] = load, slip, oil
+        state[L.S_POWER], state[L.S_DURATION], state[L.S_SUBSTEP] = power, dt, work[L.W_PROPOSED]
     if linear and dt > 0.0:
         warm_up(par, power, power, oil, dt, work)
-        temperature = surface_temperature(par, work, W_NOW)
-        energy = par[P_FACES] * work[np.uintp(W_NOW + Y_ENERGY)]
-    elif linear and started and par[P_FIDELITY] != BOUNDARY_ONLY:
-        temperature = state[S_SHOWN_TEMPERATURE]
+        temperature = surface_temperature(par, work, L.W_NOW)
+        energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
+    elif linear and started and par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
+        temperature = state[L.S_SHOWN_TEMPERATURE]
     # Heat does not come back: where the advance was too large the output waits.
-    energy = max(energy, state[S_SHOWN_ENERGY])
+    energy = max(energy, state[L.S_SHOWN_ENERGY])
     if keep:
-        state[S_SHOWN_TEMPERATURE], state[S_SHOWN_ENERGY] = temperature, energy
-    out[O_TEMPERATURE], out[O_ENERGY] = temperature, energy
-    iout[IO_REGIME] = regime_of(par, out[O_RATIO], slip)
-    if status == OK:
-        for i in range(NOUT):
+        state[L.S_SHOWN_TEMPERATURE], state[L.S_SHOWN_ENERGY] = temperature, energy
+    out[L.O_TEMPERATURE], out[L.O_ENERGY] = temperature, energy
+    iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
+    if status == L.OK:
+        for i in range(L.NOUT):
             if not math.isfinite(out[np.uintp(i)]):
-                status = NOT_FINITE
-    iout[IO_STATUS] = HOT if status == OK and temperature > HOT_LIMIT else status
+                status = L.NOT_FINITE
+    iout[L.IO_STATUS] = L.HOT if status == L.OK and temperature > L.HOT_LIMIT else status
     return status
 
 
@@ -294,6 +231,6 @@ def step(
 def _is_finite(work: Array, par: Array, out: Array) -> bool:
     """Tell if the unknowns and the outputs filled so far are numbers."""
     good = True
-    for i in range(Y_HEAT + 1 + int(par[D_MODES])):
-        good = good and math.isfinite(work[np.uintp(W_NOW + i)])
-    return good and math.isfinite(out[O_POWER])
+    for i in range(L.Y_HEAT + 1 + int(par[L.D_MODES])):
+        good = good and math.isfinite(work[np.uintp(L.W_NOW + i)])
+    return good and math.isfinite(out[L.O_POWER])

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from ..errors import ParameterError, SolveError, Status
 from ..kernels import boundary, clutch_friction, clutch_layout, clutch_steady
-from ._params import as_numbers, check_number
+from ._params import check_number
+from ._prepare import filled
 from ._spec import REGIMES
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
 
@@ -102,15 +103,7 @@ def boundary_friction(
 
 def prepare(params: ClutchParams, fidelity: str) -> Any:
     """Return the parameter array of the kernel, constants included."""
-    rungs = list(SPEC.fidelities)
-    if fidelity not in rungs:
-        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")
-    par = np.zeros(clutch_layout.NPAR)
-    par[: clutch_layout.N_PARAM] = [*as_numbers(params), rungs.index(fidelity) + 1]
-    status = Status(clutch_steady.derive(par))
-    if status.is_failure:
-        raise ParameterError(f"the clutch parameters cannot be used: {status.advice}")
-    return par
+    return filled(SPEC, params, fidelity, clutch_layout.NPAR, clutch_steady.derive)
 
 
 def solve_clutch(

@@ -12,7 +12,8 @@ from ..errors import ParameterError, SolveError, Status
 from ..kernels import gear_layout as k
 from ..kernels.gear_constants import derive
 from ..kernels.gear_point import mesh_point
-from ._params import as_numbers, check_number
+from ._params import check_number
+from ._prepare import filled
 from .gearmesh_params import PRESETS, SPEC, GearMeshParams
 from .gearmesh_spec import LOAD, OIL, SPEED
 
@@ -80,15 +81,7 @@ class GearMeshResult:
 
 def prepare(params: GearMeshParams, fidelity: str) -> Any:
     """Return the parameter array of the kernel, constants included."""
-    rungs = list(SPEC.fidelities)
-    if fidelity not in rungs:
-        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")
-    par = np.zeros(k.NPAR)
-    par[: k.N_PARAM] = [*as_numbers(params), rungs.index(fidelity) + 1]
-    status = Status(derive(par))
-    if status.is_failure:
-        raise ParameterError(f"the gear mesh parameters cannot be used: {status.advice}")
-    return par
+    return filled(SPEC, params, fidelity, k.NPAR, derive)
 
 
 def pinion_torque(power: float, speed: float) -> float:

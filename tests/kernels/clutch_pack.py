@@ -1,0 +1,22 @@
+"""A wet pack on the kernels themselves, with its arrays."""
+
+import numpy as np
+
+from thrustwasher.kernels import clutch_layout as k
+from thrustwasher.kernels.clutch_step import step
+from thrustwasher.models.clutch import prepare
+from thrustwasher.models.clutch_params import ClutchParams
+
+
+class Pack:
+    """A pack of one rung; ``work`` starts as NaN, since it may hold anything."""
+
+    def __init__(self, fidelity="field", **params):
+        self.params = ClutchParams(**params)
+        self.par = prepare(self.params, fidelity)
+        self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
+        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+
+    def step(self, load, speed, dt, oil=297.15):
+        inp = np.array([load, speed, oil])
+        return step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)

@@ -1,0 +1,32 @@
+"""From a parameter dataclass to the array a kernel takes."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError, Status
+from ._params import as_numbers
+from ._spec import ModelSpec
+
+Derive = Callable[[NDArray[np.float64]], int]
+
+
+def filled(spec: ModelSpec, params: Any, fidelity: str, size: int, derive: Derive) -> Any:
+    """Return the ``size`` numbers of a kernel's ``par``: parameters, rung, derived constants.
+
+    Raises
+    ------
+    ParameterError : the rung is not one of the model's, or the parameters cannot be used together
+    """
+    rungs = list(spec.fidelities)
+    if fidelity not in rungs:
+        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")
+    numbers = [*as_numbers(params), rungs.index(fidelity) + 1]
+    par = np.zeros(size)
+    par[: len(numbers)] = numbers
+    status = Status(derive(par))
+    if status.is_failure:
+        raise ParameterError(f"the {spec.key} parameters cannot be used: {status.advice}")
+    return par

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from thrustwasher import ClutchParams, engage_clutch
 from thrustwasher.kernels import clutch_layout as k
-from thrustwasher.kernels.clutch_friction import shear_thinned
+from thrustwasher.kernels.clutch_friction import shear_thinned, sheared_share
 from thrustwasher.kernels.clutch_rates import pack_rates
 from thrustwasher.reference.heated_plate import insulated_plate_rise, semi_infinite_rise
 from thrustwasher.reference.squeeze_film import pumped_flow, squeeze_group, squeeze_time
@@ -202,6 +202,42 @@ def test_an_open_pack_drags_less_once_it_pumps_more_oil_than_it_gets():
         share = min(1.0, flow / 8 / demand)
         assert fed.out[k.O_TORQUE] == pytest.approx(share * full.out[k.O_TORQUE], rel=1e-12)
     assert share < 0.5
+
+
+@pytest.mark.parametrize("change", [
+    {"roughness": 1e-7}, {"roughness": 1e-6}, {"asperity_density": 1e5}, {"asperity_density": 2e7},
+    {"contact_modulus": 1e5},
+])  # fmt: skip
+def test_faces_pressed_into_each_other_shear_no_oil(change):
+    """Mean planes overlap: what oil is left fades out instead of exploding as 1/h_T."""
+    pack = Pack(**change)
+    for load in (6000.0, 6e4, 1e6, 0.0):
+        for _ in range(50):
+            assert pack.step(load, 100.0, 0.02) == 0
+        dry = 8 * 0.11 * load * pack.par[k.D_RADIUS]
+        assert pack.out[k.O_VISCOUS_TORQUE] <= max(30.0, dry)
+    assert pack.out[k.O_FILM] == pytest.approx(8.8e-5, rel=1e-3)
+
+
+def test_oil_shear_is_the_published_one_down_to_touching_mean_planes_and_fades_smoothly_below():
+    cdf = {u: 0.5 * math.erfc(-u / math.sqrt(2.0)) for u in (1e-9, 0.0, -1e-6, -1.0, -6.0)}
+    assert sheared_share(cdf[1e-9], 1e-9) == (1.0, 0.0) == sheared_share(cdf[0.0], 0.0)
+    value, slope = sheared_share(cdf[-1e-6], -1e-6)
+    assert value == pytest.approx(1.0, abs=1e-11) and abs(slope) < 1e-5
+    value, slope = sheared_share(cdf[-1.0], -1.0)
+    up, down = (sheared_share(0.5 * math.erfc(-u / math.sqrt(2.0)), u)[0]
+                for u in (-1.0 + 1e-6, -1.0 - 1e-6))  # fmt: skip
+    assert slope == pytest.approx((up - down) / 2e-6 / value, rel=1e-6)
+    assert sheared_share(cdf[-6.0], -6.0)[0] == pytest.approx(12.0 * cdf[-6.0] ** 2, rel=1e-6)
+
+
+def test_an_output_read_between_linear_steps_books_no_heat():
+    pack = Pack(input_course="linear")
+    for _ in range(5):
+        pack.step(3000.0, 200.0, H)
+    heat, warmth = pack.out[k.O_ENERGY], pack.out[k.O_TEMPERATURE]
+    pack.step(9000.0, 400.0, 0.0)
+    assert (pack.out[k.O_ENERGY], pack.out[k.O_TEMPERATURE]) == (heat, warmth)
 
 
 def test_a_pack_opens_with_its_time_constant():

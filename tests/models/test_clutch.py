@@ -113,6 +113,13 @@ def test_the_rungs_differ_by_what_they_leave_out():
     assert field.viscous_torque > 0.0 == stribeck.viscous_torque
 
 
+def test_an_open_pack_has_no_asperity_torque_and_a_crushed_one_says_so():
+    light = solve_clutch(PACK, load=5.0, speed=0.5, oil_temperature=300.0)
+    assert light.contact_torque < 1e-12 < light.viscous_torque
+    crushed = solve_clutch(ClutchParams(roughness=1e-7), load=6000.0, speed=0.01)
+    assert crushed.status.name == "OUTSIDE_VERIFIED" and crushed.film_ratio < -3.0
+
+
 def test_a_settled_film_without_shear_is_the_rung_below():
     still = ClutchParams(film_dynamics=False)
     at = {"load": 5898.0, "speed": 50.0}

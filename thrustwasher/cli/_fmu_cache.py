@@ -34,13 +34,14 @@ def cache_folder() -> Path:
 
 
 def source_digest() -> str:
-    """Return 16 hex digits over the package's sources and the FMUs' own files."""
+    """Return 16 hex digits over version and sources of the package and the FMUs' own files."""
     from ..fmu.build import source_folder
+    from ..fmu.registry import package_version
 
     package = Path(__file__).parents[1]
     files = {p for p in package.rglob("*") if p.suffix in (".py", ".json", ".npz")}
     files |= {p for p in source_folder().rglob("*") if p.suffix in (".py", ".md")}
-    hashed = hashlib.sha256()
+    hashed = hashlib.sha256(package_version().encode())
     for path in sorted(files):
         hashed.update(path.name.encode() + path.read_bytes())
     return hashed.hexdigest()[:16]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from . import clutch_layout as L
 from ._jit import kernel
 from .boundary import shear_ratio
-from .film import mean_gap
+from .film import INV_SQRT2PI, mean_gap
 from .lining_table import area_integrals, contact_integral, separation
 from .roelands import viscosity
 
@@ -126,6 +126,22 @@ def shear_thinned(nahme: float) -> tuple[float, float]:
 
 
 @kernel
+def sheared_share(cdf: float, u: float) -> tuple[float, float]:
+    """Return the share [-] of oil that is sheared where faces overlap, and its log slope over u.
+
+    1 for u >= 0. Below, the mean planes overlap: oil is left in cdf(u) of the area only, under a
+    mean gap h_T/cdf, so shear goes as cdf^2/h_T and vanishes, while 1/h_T alone would explode. The
+    factor 12 cdf^2 - 16 cdf^3 (a smoothstep of 2 cdf) has that limit and a continuous slope at
+    u = 0. Chosen here.
+    """
+    if u >= 0.0:
+        return 1.0, 0.0
+    z = 2.0 * cdf
+    slope = 2.0 * INV_SQRT2PI * math.exp(-0.5 * min(u * u, 900.0))
+    return z * z * (3.0 - 2.0 * z), 6.0 * (1.0 - z) / (z * (3.0 - 2.0 * z)) * slope
+
+
+@kernel
 def viscous_torque(
     par: Array, slip: float, u: float, temperature: float
 ) -> tuple[float, float, float, float, float, float]:
@@ -140,6 +156,7 @@ def viscous_torque(
     eta, eta_slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
     share, share_slope = contact_share(par, u)
     gap, gap_slope = mean_gap(u, 1.0)
+    open_share, open_slope = sheared_share(gap_slope, u)
     full = par[L.D_VISCOUS] * eta * abs(slip) / gap
     relative_u = -gap_slope / gap
     relative_t = eta_slope / eta
@@ -157,6 +174,8 @@ def viscous_torque(
             full *= par[L.D_SUPPLY] / demand
             relative_u *= 4.0
             relative_t += eta_slope / eta
+    full *= open_share
+    relative_u += open_slope
     torque = full * (1.0 - share)
     return (
         torque,

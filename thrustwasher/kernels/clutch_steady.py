@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from . import clutch_layout as L
 from ._jit import kernel
 from .clutch_constants import derive
-from .clutch_friction import coefficient_of, viscous_torque
+from .clutch_friction import coefficient_of, contact_torque, viscous_torque
 
 __all__ = ["derive", "steady_temperature", "steady_torques"]
 
@@ -25,6 +25,9 @@ def steady_torques(
     if par[L.P_FIDELITY] != L.FIELD or par[L.P_FILM_DYNAMICS] == 0.0:
         return lever * mu, 0.0, lever * mu_slope
     viscous, _, slope, _, _, _ = viscous_torque(par, slip, u, temperature)
+    if load < L.OPEN_PRESSURE * par[L.D_AREA]:  # open: the asperities hardly touch
+        touching, _, rise, _, _ = contact_torque(par, load, slip, u, temperature)
+        return touching, viscous, rise + slope
     return lever * mu, viscous, lever * mu_slope + slope
 
 

@@ -164,7 +164,7 @@ def step(
 ) -> int:
     """Advance the pack from t to t + dt, then fill the outputs.
 
-    Returns 0 or the status of a failure; HOT is advice and stands in ``iout`` only.
+    Returns 0 or the status of a failure; advice stands in ``iout`` only.
     """
     load, slip, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
     if not (
@@ -211,8 +211,10 @@ def step(
         warm_up(par, power, power, oil, dt, work)
         temperature = surface_temperature(par, work, L.W_NOW)
         energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
-    elif linear and started and par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
-        temperature = state[L.S_SHOWN_TEMPERATURE]
+    elif linear and started:
+        energy = state[L.S_SHOWN_ENERGY]
+        if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
+            temperature = state[L.S_SHOWN_TEMPERATURE]
     # Heat does not come back: where the advance was too large the output waits.
     energy = max(energy, state[L.S_SHOWN_ENERGY])
     if keep:
@@ -223,7 +225,12 @@ def step(
         for i in range(L.NOUT):
             if not math.isfinite(out[np.uintp(i)]):
                 status = L.NOT_FINITE
-    iout[L.IO_STATUS] = L.HOT if status == L.OK and temperature > L.HOT_LIMIT else status
+    advice = L.OK
+    if out[L.O_RATIO] < L.LEAST_RATIO:
+        advice = L.OUTSIDE_VERIFIED
+    if temperature > L.HOT_LIMIT:
+        advice = L.HOT
+    iout[L.IO_STATUS] = advice if status == L.OK else status
     return status
 
 

@@ -40,7 +40,8 @@ def allowed(meta: Any) -> str:
     if meta["kind"] == "boolean":
         return "True or False"
     unit = "" if meta["unit"] == "1" else f" {meta['unit']}"
-    return f"{meta['min']:g} .. {meta['max']:g}{unit}"
+    whole = ", a whole number" if meta["kind"] == "integer" else ""
+    return f"{meta['min']:g} .. {meta['max']:g}{unit}{whole}"
 
 
 def check_ranges(params: Any) -> None:

@@ -166,6 +166,8 @@ def solve_clutch(
     status = max(Status(film), Status(heat))
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
+    if not status.is_failure and ratio < clutch_layout.LEAST_RATIO:
+        status = Status.OUTSIDE_VERIFIED
     if not status.is_failure and temperature > clutch_layout.HOT_LIMIT:
         status = Status.HOT
     sign = math.copysign(1.0, speed) if speed else 0.0

@@ -18,7 +18,7 @@ FRICTION_LAWS = {
 
 INPUT_COURSES = {
     "held": "inputs stay as they are during a step; all outputs are those at its end",
-    "linear": "inputs run straight from point to point; torque is that of the step's start",
+    "linear": "inputs run straight from point to point; outputs after a step are of its start",
 }
 
 N_TABLE = 5
@@ -186,7 +186,6 @@ SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two side
 OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
              low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
 _POINT = ("load", "speed")
-_HEAT = ("speed", "oil_temperature")
 _ALL = (*_POINT, "oil_temperature")
 
 SPEC = ModelSpec(
@@ -207,13 +206,13 @@ SPEC = ModelSpec(
                help="friction torque of the pack, sign of the slip, smooth through zero"),
         Signal(name="temperature", unit="K", nominal=300.0, depends=("oil_temperature",),
                help="interface temperature of the steel plates"),
-        Signal(name="film_thickness", unit="m", nominal=1e-5, depends=("load",),
+        Signal(name="film_thickness", unit="m", nominal=1e-5, depends=_ALL,
                help="separation of the mean surfaces of lining and steel"),
         Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_ALL, low=0.0,
                help="largest torque the pack can hold at this load and slip"),
-        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=_HEAT,
+        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=_ALL,
                help="coefficient of boundary friction of the contacting faces"),
-        Signal(name="film_ratio", unit="1", nominal=1.0, depends=("load",),
+        Signal(name="film_ratio", unit="1", nominal=1.0, depends=_ALL,
                help="film thickness over the combined RMS roughness"),
         Signal(name="friction_power", unit="W", nominal=1e4, depends=_ALL,
                help="heat made by friction, torque times slip"),
@@ -223,13 +222,13 @@ SPEC = ModelSpec(
                help="share of the friction torque that the asperities make"),
         Signal(name="viscous_torque", unit="N.m", nominal=10.0, depends=_ALL,
                help="share of the friction torque that shear of the oil makes"),
-        Signal(name="contact_share", unit="1", nominal=0.1, depends=("load",), low=0.0, high=1.0,
+        Signal(name="contact_share", unit="1", nominal=0.1, depends=_ALL, low=0.0, high=1.0,
                help="share of the faces' area in contact"),
         Signal(name="heat_flux", unit="W/m2", nominal=1e5, depends=_ALL, low=0.0,
                help="friction power over the area of all faces"),
-        Signal(name="viscosity", unit="Pa.s", nominal=0.05, depends=("oil_temperature",),
+        Signal(name="viscosity", unit="Pa.s", nominal=0.05, depends=_ALL,
                help="viscosity of the oil at the interface temperature"),
-        Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_POINT,
+        Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
                help="lubrication regime of the friction faces"),
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                depends=_POINT, help="how the last solution was obtained"),

@@ -133,8 +133,9 @@ def test_an_fmu_of_another_version_is_refused_with_both_named(toy_fmu, tmp_path)
     )
     old = tmp_path / "ToyClutch.fmu"
     old.write_bytes(archive.pack(files))
-    with pytest.raises(EnvironmentProblem, match=r"0\.0\.9.*pip install thrustwasher==0\.0\.9"):
+    with pytest.raises(EnvironmentProblem, match=r"pip install thrustwasher==0\.0\.9") as refused:
         Instance(old)
+    assert "0.0.9" in str(refused.value) and "EnvironmentProblem(" not in str(refused.value)
 
 
 class Broken(Slave):

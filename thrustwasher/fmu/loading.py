@@ -4,6 +4,7 @@ import ctypes
 import hashlib
 import os
 import platform
+import re
 import shutil
 import sys
 import tempfile
@@ -114,9 +115,16 @@ def instantiate(folder: Path, described: Any, name: str, messages: list[tuple[in
     except Exception as problem:
         fmu.freeLibrary()
         # pythonfmu writes one line on where it was, then the exception
-        why = "; ".join(text.rpartition("\n")[2] for _, text in messages) or str(problem)
+        last = (text.rpartition("\n")[2] for _, text in messages)
+        why = "; ".join(_bare(text) for text in last) or str(problem)
         raise EnvironmentProblem(f"{identifier} cannot be instantiated: {why}") from None
     return fmu
+
+
+def _bare(text: str) -> str:
+    """Return the sentence inside an exception that was written as Name('sentence')."""
+    found = re.fullmatch(r"\w+\((['\"])(.*)\1,?\)", text.strip())
+    return found[2] if found else text
 
 
 def _keep_loaded(dll: Any) -> None:

@@ -1,6 +1,7 @@
 """Film and heat of an engaging pack against an independent implicit solution (Radau, 1e-10)."""
 
 import math
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from clutch_reference import Reference
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher import ClutchParams, engage_clutch
+from thrustwasher import ClutchParams, ParameterError, engage_clutch
 from thrustwasher.kernels import clutch_layout as k
 from thrustwasher.kernels.clutch_friction import shear_thinned, sheared_share
 from thrustwasher.kernels.clutch_rates import pack_rates
@@ -316,6 +317,41 @@ def test_no_course_of_inputs_breaks_the_pack(points, permeability, course, rise)
         assert pack.out[k.O_CAPACITY] >= abs(pack.out[k.O_TORQUE]) * (1.0 - 1e-12)
         assert pack.out[k.O_ENERGY] >= heat
         heat = pack.out[k.O_ENERGY]
+
+
+def random_pack(rng):
+    """A pack of the field rung with many parameters anywhere in their allowed ranges."""
+    given = {}
+    for f in fields(ClutchParams):
+        m = f.metadata
+        if rng.random() < 0.6 or m["kind"] == "enumeration":
+            continue
+        low, high = m["min"], m["max"]
+        if m["kind"] == "real":
+            spread = np.exp(rng.uniform(np.log(max(low, 1e-3 * high)), np.log(high)))
+            value = rng.choice([low, high, spread]) if low >= 0.0 else rng.uniform(low, high)
+            given[f.name] = float(min(max(value, low), high))
+        elif m["kind"] == "integer":
+            given[f.name] = int(rng.integers(low, high + 1))
+        else:
+            given[f.name] = bool(rng.random() < 0.5)
+    try:
+        return Pack(**given)
+    except ParameterError:
+        return random_pack(rng)
+
+
+def test_no_allowed_parameters_break_the_pack():
+    """Corners of the parameters' ranges, wild inputs: answered in all but one of a thousand."""
+    rng, refused, n = np.random.default_rng(7), 0, 0
+    for _ in range(150):
+        pack = random_pack(rng)
+        for _ in range(20):
+            load, slip = rng.choice([0.0, rng.uniform(0.0, 1e6)]), rng.uniform(-5e3, 5e3)
+            status = pack.step(load, slip, 10.0 ** rng.uniform(-6.0, 1.0), rng.uniform(234, 473))
+            assert status in (0, k.MAX_ITERATIONS) and np.isfinite(pack.state).all()
+            refused, n = refused + (status != 0), n + 1
+    assert refused <= n // 1000
 
 
 @pytest.mark.parametrize("fidelity", ["boundary", "stribeck", "field"])

@@ -44,7 +44,8 @@ TOLERANCE_FILM = 1e-6  # error of a substep, of film ratio + 1
 TOLERANCE_HEAT = 1e-4  # K
 TOLERANCE_RISE = 1e-3  # K, of the interface when conduction modes are on top
 MAX_SUBSTEPS = 20_000
-LEAST_SHARE = 1e-12  # of the stretch: no smaller substeps
+LEAST_SHARE = 1e-13  # of the time gone by: no smaller substeps
+FIRST_SHARE = 1e-25  # of the stretch: the same at its start
 
 
 @kernel
@@ -180,7 +181,7 @@ def engage(
     Notes
     -----
     A jump of the rates inside the stretch (the pack opens, a limit is met) shrinks the substeps
-    until it is passed; when they reach LEAST_SHARE of the stretch the substep is taken.
+    until it is passed; when they reach LEAST_SHARE of the time gone by, a substep is taken.
     """
     n = L.Y_HEAT + 1 + int(par[L.D_MODES])
     done, refused = 0.0, 0.0
@@ -188,16 +189,17 @@ def engage(
     work[L.W_PROPOSED] = duration
     for count in range(MAX_SUBSTEPS):
         remaining = 1.0 - done
+        least = LEAST_SHARE * done + FIRST_SHARE
         closing = share >= remaining * (1.0 - 1e-9)
         if closing:
             share = remaining
         error = _substep(par, course, done, share, duration, work)
         if not math.isfinite(error):
             error = 1e6
-            if share <= LEAST_SHARE:
+            if share <= least:
                 return L.NOT_FINITE
         factor = 6.0 if error < 1e-5 else min(6.0, max(0.1, 0.9 / math.sqrt(math.sqrt(error))))
-        if error <= 1.0 or share <= LEAST_SHARE:
+        if error <= 1.0 or share <= least:
             for i in range(n):
                 work[np.uintp(L.W_NOW + i)] = work[np.uintp(L.W_TRIAL + i)]
             done += share
@@ -209,8 +211,8 @@ def engage(
                 work[L.W_REFUSED] = refused
                 return L.OK
             work[L.W_PROPOSED] = proposed
-            share = max(share * factor, LEAST_SHARE)
+            share = max(share * factor, least)
         else:
             refused += 1.0
-            share = max(share * min(factor, 0.9), LEAST_SHARE)
+            share = max(share * min(factor, 0.9), least)
     return L.MAX_ITERATIONS

@@ -9,6 +9,7 @@ from .lining import NODES, REACH, WEIGHTS, height_integrals
 
 U_MIN, U_MAX = -8.0, 14.0
 N_KNOTS = 353
+FAR_BELOW = -30.0
 STEP = (U_MAX - U_MIN) / (N_KNOTS - 1)
 INV_SQRT2 = 0.7071067811865476
 INV_SQRT2PI = 0.3989422804014327
@@ -37,12 +38,20 @@ TABLE = _table()
 def contact_integral(u: float) -> tuple[float, float]:
     """Return F_5/2(u) and dF_5/2/du [-], to about 1e-10; nothing beyond u = 14.
 
-    Quintic Hermite interpolation of ln F_5/2; below the table the quadrature itself.
+    Quintic Hermite interpolation of ln F_5/2; below the table the quadrature, far below the series
+    in 1/u^2 of the mean of (s - u)^2.5 over normal heights.
     """
     if not u < U_MAX:
         return (u if math.isnan(u) else 0.0), 0.0
+    if u < FAR_BELOW:
+        a, square = -u, 1.0 / (u * u)
+        low = a * math.sqrt(a)
+        return (
+            a * low * (1.0 + square * (1.875 - square * (0.1171875 + square * 0.0732421875))),
+            -2.5 * low * (1.0 + square * (0.375 + square * (0.0703125 + square * 0.1025390625))),
+        )
     if u < U_MIN:
-        five, three = height_integrals(max(u, -1000.0))
+        five, three = height_integrals(u)
         return five, -2.5 * three
     x = (u - U_MIN) / STEP
     i = np.uintp(min(int(x), N_KNOTS - 2))
@@ -71,13 +80,11 @@ def separation(pressure_ratio: float, guess: float) -> tuple[float, int, int]:
     if not pressure_ratio > 1e-30:
         return 11.0, 0, 0
     goal = math.log(pressure_ratio)
-    u = min(max(guess, -1000.0), 8.0)
+    u = min(guess, 8.0)
     for n in range(N_TRIES):
         five, slope = contact_integral(u)
         step = (goal - math.log(five)) * five / slope
         u += step
-        if u < -1000.0:
-            return -1000.0, 0, n + 1
         if abs(step) < 1e-12 * (1.0 + abs(u)):
             return u, 0, n + 1
         u = min(u, 13.0)

@@ -54,7 +54,12 @@ class ClutchResult:
 
 
 def _in_range(name: str, values: ArrayLike, low: float, high: float) -> Any:
-    array = np.asarray(values, float)
+    try:
+        array = np.asarray(values, float)
+    except (TypeError, ValueError):
+        raise ParameterError(
+            f"{name} = {values!r}, numbers are wanted, allowed: {low:g} .. {high:g}"
+        ) from None
     bad = ~((array >= low) & (array <= high))
     if bad.any():
         first = float(array[bad].flat[0])

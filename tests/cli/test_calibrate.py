@@ -9,6 +9,7 @@ from thrustwasher.cli import main
 from thrustwasher.models.clutch_calibration import calibrate
 from thrustwasher.models.clutch_friction import friction_over, friction_radius, law_values
 from thrustwasher.models.clutch_params import ClutchParams
+from thrustwasher.report.fit_plot import calibration_figure
 
 TRUTH = ClutchParams(plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0)
 SLIP = np.linspace(2.0, 160.0, 30)
@@ -74,6 +75,38 @@ def test_sentences_end_with_the_command_that_uses_them(table, capsys):
     assert main([*words, "--load", "1000", "--speed", "60"]) == 0
 
 
+def test_empty_cells_at_the_end_of_a_line_do_not_matter(table, tmp_path, capsys):
+    plain = json.loads(run(capsys, table, "--json").out)
+    other = write(tmp_path / "other.csv", "speed,load,friction,", SLIP, SLIP * 0 + 1e3, FRICTION)
+    padded = [line + ",," for line in (tmp_path / "other.csv").read_text().splitlines()]
+    (tmp_path / "other.csv").write_text("\n".join(padded))
+    assert json.loads(run(capsys, other, "--json").out)["fitted"] == plain["fitted"]
+
+
+@pytest.mark.parametrize("words", [[], ["--json"]])
+def test_points_out_of_reach_are_a_warning_and_no_error(words, tmp_path, capsys):
+    data = write(tmp_path / "rig.csv", "speed,load,friction", SLIP, SLIP * 0 + 1e3, FRICTION + 0.3)
+    out, err = run(capsys, data, *words)
+    assert err.startswith("warning: The law cannot reach any of these points")
+    sentences = json.loads(out)["warnings"][0] if words else out.splitlines()[0]
+    assert "plough_weight is stopped by its upper bound 1" in sentences
+    assert 'friction_law = "table"' in sentences
+
+
+def test_what_was_given_beside_the_fit_is_in_the_command_that_uses_it(table, capsys):
+    out, _ = run(capsys, table, "--set", "hardness_ratio=7", "--set", "faces=6")
+    last = out.splitlines()[-1]
+    assert "--set hardness_ratio=7.0" in last and "--set faces=6" in last
+
+
+def test_every_panel_of_the_plot_names_what_it_is_over():
+    columns = {"speed": SLIP, "load": SLIP * 0 + 1e3, "friction": FRICTION}
+    axes = calibration_figure(calibrate(ClutchParams(), **columns), columns).axes
+    assert [axis.get_xlabel() for axis in axes] == [
+        "slip speed [m/s]", "slip speed [m/s]", "load [N]",
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize("fastest", [20.0, 160.0])
 def test_a_plot_is_drawn_whatever_the_points_tell(fastest, tmp_path, capsys):
     kept = fastest >= SLIP
@@ -94,6 +127,12 @@ def test_a_plot_is_drawn_whatever_the_points_tell(fastest, tmp_path, capsys):
         ("speed,load,friction\n1,2,0.1\n\n1,x,0.1\n", ["line 4", "load = 'x'", "a number"]),
         ("speed;load;friction\n1;2;0,1\n", ["line 2", "'0,1'", "decimal sign is a point"]),
         ("speed,load,friction\n1,2,nan\n", ["line 2", "friction", "finite"]),
+        (
+            "speed,load,friction\n1,2,0,1\n",
+            ["line 2", "4 cells, the head names 3", "decimal commas"],
+        ),
+        ("a,speed,load,friction,,\n\n0,1,2,0,1\n", ["line 3", "5 cells, the head names 4"]),
+        ("speed;load;friction\n1;2;0.1;7\n", ["line 2", "4 cells, the head names 3\n"]),
         ("speed [kg],load,friction\n1,2,0.1\n", ["speed", "kg", "rpm"]),
         ("speed,load,friction,speed\n1,2,0.1,1\n", ["two columns speed"]),
         ("speed,load,friction\n1,0,0.1\n", ["load[0] = 0 N", "above 0"]),

@@ -38,10 +38,13 @@ def read_columns(
         raise ParameterError(f"{path}: is empty, a line of column names is wanted first")
     head = lines[0][1]
     separator = max(",;\t", key=head.count)
-    where = _find(path, next(csv.reader([head], delimiter=separator)), units, optional)
+    names = _cells(head, separator)
+    where = _find(path, names, units, optional)
     columns: dict[str, list[float]] = {name: [] for name in where}
     for number, line in lines[1:]:
-        cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+        cells = _cells(line, separator)
+        if len(cells) > len(names):
+            raise ParameterError(_too_long(f"{path}, line {number}", cells, names, separator))
         for name, (index, written) in where.items():
             place = f"{path}, line {number}: {name}"
             if index >= len(cells) or not cells[index].strip():
@@ -69,6 +72,23 @@ def _lines(path: str) -> list[tuple[int, str]]:
     except UnicodeDecodeError:
         raise ParameterError(f"{path}: is not UTF-8 text, a CSV file is wanted") from None
     return found
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    """Return the cells of a line without empty ones at its end, as spreadsheets leave them."""
+    cells = [cell.strip() for cell in next(csv.reader([line], delimiter=separator,
+                                                      skipinitialspace=True))]  # fmt: skip
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
+
+
+def _too_long(place: str, cells: list[str], names: list[str], separator: str) -> str:
+    """Say that a line has more cells than the head has names, and the likely cause."""
+    text = f"{place}: has {len(cells)} cells, the head names {len(names)}"
+    if separator == ",":
+        text += "; if these are decimal commas they shift the columns: the decimal sign is a point"
+    return text
 
 
 def _find(

@@ -59,6 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     found = calibrate(params, **columns, fit=names, confidence=confidence)
     wall_time = time.perf_counter() - began
+    for text in found.warnings:
+        _output.note(f"warning: {text.partition(': ')[0]}")
     if plot:
         from ..report.fit_plot import calibration_figure
 
@@ -71,6 +73,15 @@ def run(arguments: argparse.Namespace) -> int:
         _output.print_json({**found.as_dict(), **pack, **inputs, "wall_time": wall_time})
         return 0
     print(found)
-    settings = " ".join(f"--set {e.name}={e.value:.10g}" for e in found.estimates)
-    print(f"Use it: thrustwasher clutch {settings}")
+    print(f"Use it: thrustwasher clutch {_settings(params, found)}")
     return 0
+
+
+def _settings(given: Any, found: Any) -> str:
+    """Return the options for the fitted constants and for all that was given beside them."""
+    values: dict[str, Any] = {e.name: f"{e.value:.10g}" for e in found.estimates}
+    usual = _output.parameters_of(type(given)())
+    for name, value in _output.parameters_of(given).items():
+        if value != usual[name]:
+            values.setdefault(name, value)
+    return " ".join(f"--set {name}={value}" for name, value in values.items())

@@ -16,6 +16,7 @@ from .clutch_information import Information, information
 from .clutch_load_test import LoadTest, load_test
 from .clutch_params import ClutchParams
 from .clutch_verdicts import Verdict, confounded, verdicts
+from .clutch_warnings import warnings
 
 __all__ = ["Calibration", "Estimate", "calibrate"]
 
@@ -64,6 +65,8 @@ class Calibration:
     reduced_chi_square: float | None
     """None without ``friction_error``."""
     load_test: LoadTest
+    warnings: tuple[str, ...]
+    """Sentences on points that the law cannot follow, the gravest first; empty for a sound fit."""
     confidence: float
     _problem: Problem = field(repr=False)
     _best: Array = field(repr=False)
@@ -136,7 +139,8 @@ def calibrate(
 
     Returns
     -------
-    Calibration : fitted ``params`` and, for every constant, value, interval and verdict
+    Calibration : fitted ``params`` and, for every constant, value, interval and verdict; points
+        that the law cannot follow are no error but ``warnings``
 
     Raises
     ------
@@ -184,6 +188,7 @@ def calibrate(
         degrees_of_freedom=told.freedom,
         reduced_chi_square=chi if friction_error is not None else None,
         load_test=load_test(problem, best, points.load, told, friction_error is not None),
+        warnings=warnings(problem, best, first, judged, friction_error is not None),
         confidence=float(confidence),
         _problem=problem, _best=best, _told=told,
     )  # fmt: skip

@@ -9,13 +9,29 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .clutch_calibration import Calibration, Estimate
 
+NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
 CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
+
+
+def counted(number: int, noun: str) -> str:
+    """Return "1 point" or "2 points"."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def spanned(low: float, high: float) -> str:
+    """Return an interval with enough digits to show its width; "a +- b" if it is very narrow."""
+    width, size = high - low, max(abs(low), abs(high))
+    if not width > NARROW * size:
+        return f"{0.5 * (low + high):.10g} +- {0.5 * width:.2g}"
+    digits = max(4, 2 - math.floor(math.log10(width / size)))
+    return f"{low:.{digits}g} .. {high:.{digits}g}"
 
 
 def as_dict(found: Calibration) -> dict[str, Any]:
     """Return the calibration as JSON types; None for infinite and NaN."""
     load = asdict(found.load_test) | {"is_significant": found.load_test.is_significant}
     return {
+        "warnings": list(found.warnings),
         "fitted": {e.name: e.value for e in found.estimates},
         "estimates": [_plain(asdict(e)) for e in found.estimates],
         "end_frictions": [_plain(asdict(e)) for e in found.end_frictions],
@@ -33,10 +49,11 @@ def as_dict(found: Calibration) -> dict[str, Any]:
 def summary(found: Calibration) -> str:
     """Return the calibration in sentences and one table."""
     count, share = len(found.residuals), f"{100 * found.confidence:g} %"
-    lines = [
-        f"{len(found.estimates)} constants fitted to {count} points, rms residual {found.rms:.3g}, "
-        f"{found.degrees_of_freedom} degrees of freedom."
-    ]
+    lines = [f"WARNING. {text}" for text in found.warnings]
+    lines.append(
+        f"{counted(len(found.estimates), 'constant')} fitted to {counted(count, 'point')}, rms "
+        f"residual {found.rms:.3g}, {counted(found.degrees_of_freedom, 'degree')} of freedom."
+    )
     if found.reduced_chi_square is not None:
         lines.append(_chi_text(found))
     lines += [_row(e, share) for e in (*found.estimates, *found.end_frictions)]
@@ -54,7 +71,8 @@ def summary(found: Calibration) -> str:
         )
     lines.append(
         "Intervals: linearised covariance with "
-        + ("the given errors." if found.reduced_chi_square is not None else "the points' scatter.")
+        + ("the given errors" if found.reduced_chi_square is not None else "the points' scatter")
+        + ("; they suppose a law that can follow the points." if found.warnings else ".")
     )
     return "\n".join(lines)
 
@@ -62,11 +80,11 @@ def summary(found: Calibration) -> str:
 def _row(e: Estimate, share: str) -> str:
     unit = "" if e.unit == "1" else f" {e.unit}"
     if not e.identifiable:
-        return f"  {e.name:18} {e.value:<10.5g}{unit:4}  not told by these points"
-    low, high = e.interval
+        bound = f"at its {e.at_bound} bound; " if e.at_bound else ""
+        return f"  {e.name:18} {e.value:<10.5g}{unit:4}  {bound}not told by these points"
     return (
         f"  {e.name:18} {e.value:<10.5g}{unit:4}  +- {e.standard_error:<9.2g}"
-        f"  {share}: {low:.4g} .. {high:.4g}{unit}"
+        f"  {share}: {spanned(*e.interval)}{unit}"
     )
 
 
@@ -97,8 +115,8 @@ def _is_curved(e: Estimate) -> bool:
 
 
 def _curved_text(e: Estimate) -> str:
-    low, high = e.profile_interval or e.interval
-    return f"{e.name}: the profile interval {low:.4g} .. {high:.4g} differs; trust it more."
+    ends = spanned(*(e.profile_interval or e.interval))
+    return f"{e.name}: the profile interval {ends} differs; trust it more."
 
 
 def _plain(value: Any) -> Any:

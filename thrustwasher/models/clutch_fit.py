@@ -23,6 +23,7 @@ ROUGH, FINE = 1e-7, 1e-14  # tolerances while starts compete, and for those that
 AS_GOOD = 1e-4  # relative excess of the sum of squares of a start that is refined further
 AT_BOUND = 1e-5  # of a constant's scale: nearer than this the bound itself is tried
 SAME = 1e-3  # of a constant's scale: two starts that end as near count once
+PRESSES = 1e-12  # fall of the misfit, beside the points' squares, that puts a constant on its bound
 PROFILE_STEPS = 8
 _LINEAR = ("plough_weight", "shear_floor")
 
@@ -132,7 +133,9 @@ def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation:
     found = [_refine(problem, start, FINE, pull, first) for start in (best, first)]
     reached = [f for f in found if f is not None]
     pulled = [problem.cost(f) + float(np.sum((pull * (f - first)) ** 2)) for f in reached]
-    return _on_bounds_exactly(problem, reached[int(np.argmin(pulled))]) if reached else best
+    if not reached:
+        return best
+    return _pressed(problem, _on_bounds_exactly(problem, reached[int(np.argmin(pulled))]))
 
 
 def profile_end(problem: Problem, best: Array, index: int, end: float, wanted: float) -> float:
@@ -258,6 +261,19 @@ def _on_bounds(problem: Problem, guess: Array) -> Array:
                 if rest is not None and held.cost(rest) <= problem.cost(guess) * (1.0 + 1e-12):
                     guess = np.insert(rest, i, bound)
     return _on_bounds_exactly(problem, guess)
+
+
+def _pressed(problem: Problem, guess: Array) -> Array:
+    """Return the guess with constants put on a bound that only the pull keeps them from."""
+    gain = PRESSES * float(np.sum((problem.friction * problem.weight) ** 2))
+    for i in range(len(guess)):
+        for bound in (problem.low[i], problem.high[i]):
+            on = guess.copy()
+            on[i] = bound
+            near = 0.0 < abs(guess[i] - bound) < SAME * problem.scale[i]
+            if near and problem.cost(on) < problem.cost(guess) - gain:
+                guess = on
+    return guess
 
 
 def _on_bounds_exactly(problem: Problem, guess: Array) -> Array:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .clutch_calibration_text import counted
 from .clutch_fit import Problem
 from .clutch_friction import shares
 from .clutch_information import Information, combination, members
@@ -82,7 +83,7 @@ def _why_not(
     """Return the reason why the points do not tell a constant, the most tangible one first."""
     name, speed = problem.names[i], problem.speed
     stick, fastest, slowest = problem.values(best)["stick_speed"], speed.max(), speed.min()
-    few = f"{len(speed)} point{'s' * (len(speed) > 1)} for {len(best)} constants"
+    few = f"{counted(len(speed), 'point')} for {counted(len(best), 'constant')}"
     if name in ("shear_floor", "decay_speed", "stick_speed") and fastest <= stick:
         return (
             f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} m/s), "
@@ -99,5 +100,5 @@ def _why_not(
     if about:
         return lead + combination(problem.names, about[0], problem.scale)
     if not np.isfinite(told.quantile):
-        return f"{few} leave no scatter to judge an interval by: add points or give friction_error"
+        return f"{few}: no scatter is left to judge by, add points or give friction_error"
     return f"{lead}at this scatter its interval would be +- {half:.2g}"

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from ..models.clutch_calibration_text import counted
 from ..models.clutch_friction import friction_radius
 from ..units import format_quantity
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
@@ -51,7 +52,7 @@ def calibration_figure(found: Any, columns: Mapping[str, Sequence[float]]) -> Fi
     for axis in (middle, right):
         axis.axhline(0.0, color=BLACK, lw=0.9)
         axis.axhspan(-found.rms, found.rms, color=GREY, alpha=0.18, lw=0.0)
-    label(top, "Friction: points and fitted law", "", "friction coefficient [1]")
+    label(top, "Friction: points and fitted law", "slip speed [m/s]", "friction coefficient [1]")
     label(middle, "Residuals over slip speed", "slip speed [m/s]", "measured - fitted [1]")
     label(right, "Residuals over load", "load [N]", "")
     top.legend(loc="upper right", ncols=2)
@@ -119,7 +120,9 @@ def _heading(found: Any) -> str:
     ]
     lost = [e.name for e in found.estimates if not e.identifiable]
     first = ", ".join(words) or "no constant is told by these points"
-    second = f"rms residual {found.rms:.2g}, {len(found.residuals)} points"
+    second = f"rms residual {found.rms:.2g}, {counted(len(found.residuals), 'point')}"
     if lost and told:
         second += f"; not told: {', '.join(lost)}"
+    if found.warnings:
+        second += "; WARNING: the law cannot follow these points"
     return f"{first}\n{second}"

@@ -96,12 +96,19 @@ def boundary_friction(
     >>> round(boundary_friction(0.1, 0.5, 0.5), 8)
     0.07446961
     """
-    arrays = np.broadcast_arrays(
+    given = (
         _in_range("x", x, 1e-300, 1.0),
         _in_range("shear_ratio", shear_ratio, 0.0, 1.0),
         _in_range("plough_weight", plough_weight, 0.0, 1.0),
         _in_range("hardness_ratio", hardness_ratio, 1.0, 20.0),
     )
+    try:
+        arrays = np.broadcast_arrays(*given)
+    except ValueError:
+        shapes = ", ".join(str(a.shape) for a in given)
+        raise ParameterError(
+            f"x, shear_ratio, plough_weight, hardness_ratio: shapes {shapes} do not go together"
+        ) from None
     values = [boundary.friction(*map(float, point)) for point in zip(*map(np.ravel, arrays))]  # noqa: B905 (broadcast: equal lengths)
     return np.array(values).reshape(arrays[0].shape) if arrays[0].ndim else values[0]
 

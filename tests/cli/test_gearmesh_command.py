@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from thrustwasher import GearMeshParams, solve_gearmesh
@@ -146,6 +147,11 @@ def test_the_plot_draws_temperatures_and_both_steels():
         assert words in labels
     rough = next(line for line in figure.axes[0].lines if "rough" in str(line.get_label()))
     expected = [r.asperity_temperature - 273.15 for r in sweeps["rough"]]
+    factors = figure.axes[2]
+    shown = {text.get_text() for text in factors.get_legend().get_texts()}
+    drawn = [line for line in factors.lines if np.any(np.isfinite(line.get_ydata()))]
+    assert shown == {line.get_label() for line in drawn if "AISI" in line.get_label()}
+    assert "AISI 4340, rough ground" in shown
     assert list(rough.get_ydata()) == pytest.approx(expected)
     assert "kW" in figure.get_suptitle() and "°C" in figure.get_suptitle()
 
@@ -172,4 +178,5 @@ def test_the_plot_can_be_drawn_of_a_mesh_without_load(tmp_path):
 def test_help_says_what_each_preset_changes(capsys):
     assert main(["gearmesh", "--help"]) == 0
     text = " ".join(capsys.readouterr().out.split())
+    assert "[W]; -1e9 .. 1e9 W, default 7500" in text
     assert "bounded: the defaults; literal: face_width = 1.0, viscosity_at = inlet" in text

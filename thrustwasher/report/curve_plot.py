@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREY, ORANGE, RED, label, new_figure, styled
+from .style import BLACK, BLUE, GREY, ORANGE, RED, decade_ticks, label, new_figure, styled
 
 CELSIUS = 273.15
 LOWEST_RATIO = 0.1  # film ratios below, even negative ones, leave the logarithmic axis
@@ -51,9 +51,9 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
     axes[0].set_yscale("log")
     axes[0].set_ylim(bottom=LOWEST_RATIO)
     axes[3].set_yscale("log")
-    for axis in (axes[0], axes[3]):
-        axis.yaxis.set_major_formatter("{x:g}")
-    axes[3].yaxis.set_minor_formatter("{x:g}")
+    decade_ticks(axes[0])
+    decade_ticks(axes[3])
+    _say_what_is_cut(axes[0], curve.points)
     for ratio, words in ((3.0, "3: asperities begin to touch"), (1.0, "1: boundary lubrication")):
         axes[0].axhline(ratio, color=ORANGE, lw=0.9, ls=":")
         axes[0].annotate(
@@ -63,6 +63,16 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
     figure.legend(*_legend(axes[0]), loc="outside lower center", ncols=5)
     figure.suptitle(_heading(curve.folds, point))
     return figure
+
+
+def _say_what_is_cut(axis: Axes, points: Sequence[Any]) -> None:
+    """Say how far the film ratio goes on below the axis, if it does."""
+    lowest = min(p.film_ratio for p in points)
+    if lowest < LOWEST_RATIO:
+        axis.annotate(
+            f"not drawn: ratios below {LOWEST_RATIO:g},\nhere down to {lowest:.2g}", (0.0, 0.0),
+            (4, 4), xycoords="axes fraction", textcoords="offset points", fontsize=8, color=RED,
+        )  # fmt: skip
 
 
 def _draw_branches(axis: Axes, points: Sequence[Any], name: str, zero: float) -> None:

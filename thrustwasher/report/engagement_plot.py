@@ -6,7 +6,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from .style import BLACK, BLUE, GREY, ORANGE, RED, SKY, label, new_figure, styled
+from .style import BLACK, BLUE, GREY, ORANGE, RED, SKY, decade_ticks, label, new_figure, styled
 
 CELSIUS = 273.15
 
@@ -30,14 +30,13 @@ def engagement_figure(result: Any) -> Figure:
 
     film.plot(t, result.film_ratio, color=BLUE)
     film.set_yscale("log")
-    film.yaxis.set_major_formatter("{x:g}")
-    film.yaxis.set_minor_formatter("{x:g}")
     for ratio, words in ((3.0, "3: mixed"), (1.0, "1: boundary")):
         film.axhline(ratio, color=ORANGE, lw=0.9, ls=":")
         film.annotate(
             words, (1.0, ratio), (-2, 2), xycoords=film.get_yaxis_transform(),
             textcoords="offset points", ha="right", va="bottom", fontsize=8, color=GREY,
         )  # fmt: skip
+    decade_ticks(film)
     label(film, "Film between the faces", "time [ms]", r"film ratio $h/\sigma$ [1]")
 
     heat.plot(t, result.temperature - CELSIUS, color=RED)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -18,7 +19,8 @@ SURFACES: dict[str, tuple[str, str, Any, str]] = {
     "fine": ("fine ground", GREEN, (0, (4, 2)), "s"),
     "given": ("these flanks", PURPLE, "-.", "^"),
 }
-STEELS = {"aisi1020": ("AISI 1020", BLUE), "aisi4340": ("AISI 4340", RED)}
+# Steel -> words, colour, width: a thin line stays visible on a wide one.
+STEELS = {"aisi1020": ("AISI 1020", BLUE, 3.0), "aisi4340": ("AISI 4340", RED, 1.4)}
 LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
 Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
 Reading = Callable[[Any], float]
@@ -65,13 +67,14 @@ def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
 
     first = next(iter(sweeps.values()))
     _line(axes, teeth, first, celsius("film_temperature"), GREY, "film", ls=":")
-    _line(axes, teeth, first, celsius("surface_temperature"), BLUE, "surface $T_s$")
     for surface, results in sweeps.items():
         words, colour, dashes, marker = SURFACES[surface]
         _line(
             axes, teeth, results, celsius("asperity_temperature"), colour, f"asperities, {words}",
-            ls=dashes, marker=marker,
+            ls=dashes, marker=marker, lw=2.4,
         )  # fmt: skip
+    surface_of = celsius("surface_temperature")
+    _line(axes, teeth, first, surface_of, BLUE, "surface $T_s$", lw=1.1, zorder=4)
     label(axes, "Temperatures", "teeth of the pinion [1]", "temperature [°C]")
     axes.legend(loc="upper right")
 
@@ -93,6 +96,9 @@ def draw_factors(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
     axes.set_ylim(bottom=LEAST_FACTOR)
     axes.yaxis.set_major_formatter("{x:g}")
     label(axes, "Stress modification factor", "teeth of the pinion [1]", "K [1]")
+    shown = [line for line in axes.lines if np.any(np.isfinite(np.asarray(line.get_ydata())))]
+    axes.legend(handles=[line for line in shown if not str(line.get_label()).startswith("_")],
+                loc="upper right", title=f"not drawn: K below {LEAST_FACTOR:g}")  # fmt: skip
 
 
 def _draw_steels(
@@ -105,10 +111,10 @@ def _draw_steels(
 
     for surface, results in sweeps.items():
         words, _, dashes, marker = SURFACES[surface]
-        for steel, (name_of_steel, colour) in STEELS.items():
+        for steel, (name_of_steel, colour, width) in STEELS.items():
             _line(
                 axes, teeth, results, read(f"{name}_{steel}"), colour,
-                f"{name_of_steel}, {words}", ls=dashes, marker=marker,
+                f"{name_of_steel}, {words}", ls=dashes, marker=marker, lw=width,
             )  # fmt: skip
 
 

@@ -64,7 +64,7 @@ def time_figure(
     figure = Figure(figsize=(10.4, height))
     axes = figure.subplots(rows, 1, sharex=True, height_ratios=shares)
     figure.subplots_adjust(
-        left=0.07, right=0.735, top=1.0 - 0.32 / height, bottom=0.5 / height, hspace=0.22
+        left=0.085, right=0.735, top=1.0 - 0.32 / height, bottom=0.5 / height, hspace=0.22
     )
     panels = list(np.atleast_1d(axes).ravel())
     panels[-1].xaxis.set_label_text("time [s]")
@@ -82,3 +82,20 @@ def label(axes: Axes, title: str, across: str, up: str) -> None:
     axes.set_ylabel(up)
     if across:
         axes.set_xlabel(across)
+
+
+TICKS = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), tuple(map(float, range(1, 10))))
+
+
+def decade_ticks(axes: Axes, enough: int = 3) -> None:
+    """Label a logarithmic axis of values sparsely: 1, 3, 10, and more only where few fit."""
+    low, high = sorted(axes.get_ylim())
+    decades = [10.0**n for n in range(int(np.floor(np.log10(low))), int(np.ceil(np.log10(high))))]
+    for steps in TICKS:
+        ticks = [d * s for d in [*decades, 10.0 * decades[-1]] for s in steps]
+        inside = [tick for tick in ticks if low <= tick <= high]
+        if len(inside) >= enough:
+            break
+    axes.set_yticks(inside)
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.minorticks_off()

@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 from dataclasses import fields
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,8 @@ from thrustwasher.errors import BranchError, EnvironmentProblem, ParameterError,
 from thrustwasher.models.clutch_params import SPEC as CLUTCH
 from thrustwasher.models.gearmesh_params import SPEC as GEARMESH
 from thrustwasher.models.washer_params import SPEC as WASHER
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def one_line(capsys):
@@ -127,6 +130,26 @@ def test_parameter_list_is_the_dataclass(command, spec, capsys):
     assert [line.split()[0] for line in lines] == [f.name for f in fields(spec.params)]
     for line, f in zip(lines, fields(spec.params), strict=True):
         assert f.metadata["help"] in line
+
+
+def test_help_of_build_names_every_fmu(capsys):
+    from thrustwasher.fmu.registry import all_specs
+
+    main(["build", "--help"])
+    text = capsys.readouterr().out
+    assert [s.name for s in all_specs() if s.name not in text] == []
+
+
+def test_what_cannot_be_built_sends_nobody_in_a_circle(tmp_path, capsys):
+    for words in (["--fmi", "3"], ["--target", "native"]):
+        assert main(["build", *words, "--out", str(tmp_path)]) == 2
+        assert "use target" not in one_line(capsys)
+
+
+@pytest.mark.skipif(not DOCS.is_dir(), reason="the documents are in the source tree only")
+def test_the_document_knows_every_command():
+    text = (DOCS / "command-line.md").read_text("utf-8")
+    assert [c for c in cli.COMMANDS if f"\n| `{c}` |" not in text] == []
 
 
 @pytest.mark.parametrize("command", ["washer", "gearmesh"])

@@ -86,7 +86,7 @@ def test_slaves_are_short_and_have_no_kernels():
     ("options", "message"),
     [
         ({"target": "native"}, "native target is not part of this version"),
-        ({"fmi": 3}, "use target native"),
+        ({"fmi": 3}, "fmi = 3, allowed: 2; this version builds FMI 2.0 only"),
         ({"target": "wasm"}, "python or native"),
         ({"models": ["Washer"]}, "allowed: ThrustWasher"),
     ],

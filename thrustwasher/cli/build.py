@@ -6,7 +6,7 @@ import argparse
 
 from . import _output
 
-HELP = "build FMUs for co-simulation: ThrustWasher, WetClutch, ShiftTransmission"
+HELP = "build FMUs for co-simulation: ThrustWasher, WetClutch, GearMesh, ShiftTransmission"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,10 +16,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--target",
         choices=["python", "native"],
         default="python",
-        help="python: needs this package on the machine that runs it (default); native: needs "
-        "nothing",
+        help="python: needs this package on the machine that runs it (default); native: not in "
+        "this version",
     )
-    parser.add_argument("--fmi", type=int, choices=[2, 3], default=2, help="FMI version; default 2")
+    parser.add_argument(
+        "--fmi", type=int, choices=[2, 3], default=2, help="FMI version; this version builds 2"
+    )
     parser.add_argument(
         "--out", metavar="DIR", default="dist",
         help="the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",

@@ -13,6 +13,7 @@ HELP = "friction torque of a wet clutch or brake pack at one load and slip speed
 # Result fields that are no FMU output, or mean something else here: unit and meaning.
 EXTRA = {
     "shear_ratio": ("1", "share of the full adhesive shear strength, s/s_m"),
+    "friction_torque": ("N.m", "friction torque of the pack, sign of the slip, 0 without slip"),
     "temperature": ("K", "interface temperature if this slip lasted for ever"),
 }
 SAMPLES = 121

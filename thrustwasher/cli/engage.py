@@ -33,7 +33,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--duration", default="0.5 s", help="time from the start to zero slip [s], default 0.5 s"
     )
     parser.add_argument(
-        "--ramp", default="0.1 s", help="time in which the load rises to its value [s]"
+        "--ramp",
+        default="0.1 s",
+        help="time in which the load rises to its value [s], default 0.1 s",
     )
     parser.add_argument("--step", default="1 ms", help="distance of the points [s], default 1 ms")
     _options.add_parameters(parser, SPEC)

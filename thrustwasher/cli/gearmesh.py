@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     point = _options.add_inputs(parser, SPEC, without="load")
     point.add_argument(
         "--power", metavar="QUANTITY", default=POWER,
-        help=f"transmitted power, of which the size counts [W]; default {POWER:g}",
+        help=f"transmitted power, of which the size counts [W]; -1e9 .. 1e9 W, default {POWER:g}",
     )  # fmt: skip
     _options.add_parameters(parser, SPEC)
     parser.add_argument(

@@ -62,7 +62,7 @@ def _check(target: str, fmi: int) -> None:
     if target not in TARGETS:
         raise ParameterError(f"target = {target!r}, allowed: {' or '.join(TARGETS)}")
     if target == "python" and fmi != 2:
-        raise ParameterError(f"fmi = {fmi!r}, allowed: 2 with target python; use target native")
+        raise ParameterError(f"fmi = {fmi!r}, allowed: 2; this version builds FMI 2.0 only")
     if target == "native":
         raise ParameterError(
             "target = 'native', allowed: python; the native target is not part of this version"

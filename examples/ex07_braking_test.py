@@ -29,9 +29,9 @@ def main() -> float:
             parts={**published.parts, "brake": moving},
         ).checked()
         figures = brake(scene).figures
-        share, taken = figures["brake_viscous_share"], figures["lock_after_ramp_start"]
+        share, taken = figures["brake_viscous_share"], figures["lock_after_half_ramp"]
         print(f"oil {celsius:g} degC: {taken:.3f} s, {share:.0%} of the heat made in the oil")
-    return result.figures["lock_after_ramp_start"]
+    return result.figures["lock_after_half_ramp"]
 
 
 if __name__ == "__main__":

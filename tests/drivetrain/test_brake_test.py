@@ -77,13 +77,12 @@ def test_the_sample_brakes_as_published():
     for said in shift("brake-test-sample").comparison():
         if said["name"] != "stopped_inertia":
             assert said["run"] == pytest.approx(said["published"], rel=5e-3), said["name"]
-    assert figures["lock_after_ramp_start"] - 0.005 == pytest.approx(1.2, abs=1e-3)
+    assert figures["lock_after_half_ramp"] == pytest.approx(1.2, abs=1e-3)
 
 
 def test_the_full_size_pack_brakes_as_long_as_its_faces_say():
     figures = shift("brake-test").figures
-    braked = figures["lock_after_ramp_start"] - 0.005  # half of the ramp
-    assert braked == pytest.approx(1.2 * 15.3 / 15, rel=2e-3)
+    assert figures["lock_after_half_ramp"] == pytest.approx(1.2 * 15.3 / 15, rel=2e-3)
     assert figures["friction_mean"] == pytest.approx(0.053, abs=1e-4)
 
 

@@ -60,6 +60,34 @@ def test_halving_the_step_changes_little(master):
     assert rise[0] == pytest.approx(rise[1], rel=5e-3)
 
 
+def test_least_film_ratios_do_not_hang_on_where_samples_lie():
+    """Film vanishes with speed: counted above a speed, and read at that speed, it is a figure."""
+    coarse, fine = (shift("planetary", step=h) for h in (1e-3, 5e-4))
+    value = coarse.figures["least_mesh_film_ratio"]
+    assert value == pytest.approx(fine.figures["least_mesh_film_ratio"], rel=5e-3)
+    assert value > 1.2 * np.min(coarse.signals["mesh.film_ratio"])
+    assert "above 10 rad/s" in {f.name: f.text for f in coarse.key_figures}["least_mesh_film_ratio"]
+
+
+def test_cold_oil_makes_both_packs_work_against_each_other():
+    r = default_shift()
+    f, s, t = r.figures, r.signals, r.time
+    begin = {k.name: k.time for k in r.key_figures}["tie_up_duration"]
+    end = begin + f["tie_up_duration"]
+    assert 0.1 < begin < f["release_time"] < end == pytest.approx(0.4, abs=1.1e-3)
+    during, torque = (t > begin) & (t < end), s["transmission.brake_reaction"]
+    assert torque[0] < -250.0 and (torque[during] > 0.0).all() and f["tie_up_torque"] > 250.0
+    power = (torque * s["transmission.brake_speed"])[during]
+    assert f["tie_up_heat"] == pytest.approx(np.sum(power) * 1e-3, rel=5e-3)
+    i = np.searchsorted(t, begin)
+    assert s["clutch.viscous_torque"][i] > 0.9 * s["clutch.friction_torque"][i]
+
+
+def test_settled_packs_without_shear_hand_over_cleanly():
+    r = shift("planetary", parts=SETTLED | NO_DRAG, stop_time=0.6)
+    assert r.figures["release_time"] > 0.38 and "tie_up_heat" not in r.figures
+
+
 def test_coupling_difference_shrinks_with_the_square_of_the_step():
     coarse, fine = (shift("planetary", step=h).energy["coupling_difference_share"]
                     for h in (4e-3, 5e-4))  # fmt: skip

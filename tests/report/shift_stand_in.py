@@ -113,7 +113,7 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
         "lock_time": 1.75, "lock_speed": 99.0, "release_time": 0.25, "slip_energy": heat,
         "slip_energy_per_area": heat / 0.0786, "peak_power": 49e3, "peak_clutch_torque": 389.0,
         "peak_sun_thrust": 2280.0, "peak_clutch_temperature": 447.15,
-        "lock_after_ramp_start": 1.65, "friction_mean": 0.06,
+        "lock_after_ramp_start": 1.65, "lock_after_half_ramp": 1.5, "friction_mean": 0.06,
         "friction_start": 0.04, "friction_middle": 0.05,
         "friction_lock": 0.11, "peak_brake_temperature": 297.2,
     }  # fmt: skip

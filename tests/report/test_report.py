@@ -1,5 +1,6 @@
 """The report says what its record says, in one page that needs nothing else."""
 
+import io
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -15,6 +16,8 @@ from thrustwasher.report.curve_plot import curve_figure
 from thrustwasher.report.extremes import highest, worst_film
 from thrustwasher.report.html import render, save_plots
 from thrustwasher.report.shift_record import KeyFigure, Published
+from thrustwasher.report.style import decade_ticks, new_figure
+from thrustwasher.report.trust import trust_texts
 from thrustwasher.report.washer_moment import Moment
 from thrustwasher.report.washer_plots import field_figure
 
@@ -132,7 +135,7 @@ def test_a_brake_alone_is_told_as_a_braking_test(record):
     lone = replace(record, engaging="brake", alone=True, energy=energy,
                    key_figures=[*record.key_figures, *figures])  # fmt: skip
     words = summary.sentences(lone)[0]
-    assert "brought 30 kg·m² from 314.2 rad/s (3000 rpm) to rest in 1.65 s" in words
+    assert "brought 30 kg·m² from 314.2 rad/s (3000 rpm) to rest in 1.5 s, counted from" in words
     text = render(shift_report.shift_page(lone))
     assert "the engine's work" not in text and "Torque of the brake" in text
     axis = axes_of(shift_plots.speed_figure(lone))[0]
@@ -143,6 +146,37 @@ def test_a_short_shift_is_also_drawn_enlarged(record):
     short = replaced(record, lock_time=0.2)
     stems = [p.file for s in shift_report.shift_page(short).sections for p in s.plots]
     assert "speeds_enlarged" in stems and "torques_enlarged" in stems
+
+
+def test_a_tie_up_is_said_with_its_heat_and_its_cause(record):
+    assert not [words for words in summary.warnings(record) if "Tie-up" in words]
+    found = [KeyFigure("tie_up_duration", "", "s", 0.12, 0.28),
+             KeyFigure("tie_up_torque", "", "N.m", 262.0, 0.3),
+             KeyFigure("tie_up_heat", "", "J", 735.0)]  # fmt: skip
+    tied = replace(record, key_figures=[*record.key_figures, *found])
+    (words,) = [words for words in summary.warnings(tied) if "Tie-up" in words]
+    assert "from 0.28 s on" in words and "for 120 ms" in words
+    assert "330 N·m to 262 N·m" in words and "735 J" in words
+    assert "shear" not in words
+    oil = 0.9 * record.signals["clutch.torque_capacity"]
+    record.signals["clutch.viscous_torque"] = oil
+    record.signals["clutch.friction_torque"] = oil / 0.9
+    (words,) = [words for words in summary.warnings(tied) if "Tie-up" in words]
+    assert "90% of its torque at 0.28 s was shear of the oil, supplied at 24 °C" in words
+
+
+def test_the_share_of_oil_shear_is_told_with_what_it_rests_on(record):
+    assert "Shear of the oil" not in " ".join(trust_texts(record))
+    share = KeyFigure("clutch_viscous_share", "", "1", 0.65)
+    told = " ".join(trust_texts(replace(record, parts=[
+        replace_fidelity(part) for part in record.parts
+    ], key_figures=[*record.key_figures, share])))  # fmt: skip
+    assert "65% of the heat in the clutch" in told and "no measurement" in told
+
+
+def replace_fidelity(part):
+    """Return a pack with a moving film; other parts as they are."""
+    return part._replace(parameters={"fidelity": "field"}) if part.model == "WetClutch" else part
 
 
 def test_every_plot_becomes_a_file(record, tmp_path):
@@ -223,6 +257,34 @@ def test_branches_of_the_curve_differ_in_more_than_colour():
     branches = [s for words, s in styles.items() if "stable" in words]
     assert len(branches) == len(set(branches)) == 3
     assert {"film lost", "film regained"} <= set(styles)
+
+
+def test_a_curve_that_leaves_its_panel_says_so():
+    curve = washer_stand_in.curve()
+    thin = replace(curve.points[-1], film_ratio=-0.05)
+    for points, said in ((curve.points, False), ((*curve.points, thin), True)):
+        axis = axes_of(curve_figure(replace(curve, points=points), POINT))[0]
+        assert any("down to -0.05" in text.get_text() for text in axis.texts) == said
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.6, 12.0), (0.018, 0.4), (0.09, 110.0), (1.5, 4.5)])
+def test_ticks_of_a_logarithmic_axis_are_few_and_apart(low, high):
+    _, (axis,) = new_figure(5.0, 3.0)
+    axis.set_yscale("log")
+    axis.set_ylim(low, high)
+    decade_ticks(axis)
+    ticks = axis.get_yticks()
+    assert 3 <= len(ticks) <= 6
+    assert np.min(ticks[1:] / ticks[:-1]) > (high / low) ** 0.08
+
+
+def test_no_label_comes_near_the_edge_of_the_picture(record):
+    """Torques of five digits need the widest tick labels."""
+    record.signals["transmission.clutch_reaction"][:] *= 100.0
+    figure = shift_plots.overview_figure(record)
+    figure.savefig(io.BytesIO())  # labels find their places
+    for axis in axes_of(figure):
+        assert axis.yaxis.label.get_window_extent().x0 > 0.01 * figure.bbox.width
 
 
 def test_plots_leave_matplotlib_as_it_was(record):

@@ -7,6 +7,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+# [rad/s] of a planet on its pin. A film vanishes with speed: its least ratio is looked for above
+# this speed only, else it would be that of the last sample before standstill.
+FILM_SPEED = 10.0
+
 
 class Figure(NamedTuple):
     """What a key figure says; ``difference``: of temperatures, no absolute temperature."""
@@ -34,6 +38,7 @@ FIGURES: dict[str, Figure] = {
     "release_time": Figure("{other} lets go", "s"),
     "lock_time": Figure("{pack} locks", "s"),
     "lock_after_ramp_start": Figure("{pack} locks, after the ramp began", "s"),
+    "lock_after_half_ramp": Figure("{pack} locks, after the middle of the ramp", "s"),
     "lock_speed": Figure("engine speed at lock-up", "rad/s"),
     "greatest_slip": Figure("greatest slip of the {pack}", "rad/s"),
     "slip_energy": Figure("heat in the {pack}", "J"),
@@ -57,17 +62,24 @@ FIGURES: dict[str, Figure] = {
     "peak_brake_torque": Figure("brake, greatest torque", "N.m"),
     "least_brake_film_ratio": Figure("brake, least film ratio", "1"),
     "brake_viscous_share": Figure("brake, share of heat made in the oil", "1"),
+    "tie_up_duration": Figure("both packs against each other, for", "s"),
+    "tie_up_torque": Figure("{other}, greatest torque against the {pack}", "N.m"),
+    "tie_up_heat": Figure("{other}, heat while both work against each other", "J"),
     "peak_sun_thrust": Figure("greatest thrust of the sun", "N"),
     "peak_washer_load": Figure("washer, greatest load", "N"),
     "peak_washer_temperature": Figure("washer, mean film at most", "K"),
     "peak_washer_temperature_max": Figure("washer, hottest spot", "K"),
-    "least_washer_film_ratio": Figure("washer, least film ratio while turning", "1"),
+    "least_washer_film_ratio": Figure(
+        f"washer, least film ratio above {FILM_SPEED:g} rad/s of the planet", "1"
+    ),
     "washer_distress_time": Figure("time with the washers' film lost", "s"),
     "peak_mesh_load": Figure("mesh, greatest torque of a planet", "N.m"),
     "peak_flash_temperature": Figure("mesh, asperities at most", "K"),
     "peak_flash_rise": Figure("mesh, greatest flash rise", "K", True),
     "peak_mesh_temperature": Figure("mesh, tooth surface at most", "K"),
-    "least_mesh_film_ratio": Figure("mesh, least film ratio while turning", "1"),
+    "least_mesh_film_ratio": Figure(
+        f"mesh, least film ratio above {FILM_SPEED:g} rad/s of the planet", "1"
+    ),
     "peak_mesh_stress": Figure("mesh, greatest contact stress", "Pa"),
     "peak_mesh_thermal_stress": Figure("mesh, greatest thermal stress", "Pa"),
     "least_allowable_ratio": Figure("mesh, least allowable ratio of stress", "1"),

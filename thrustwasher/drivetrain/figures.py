@@ -10,6 +10,7 @@ from .pack_figures import area_of, friction_figures, pack_figures, peak
 from .planet_figures import mesh_figures, washer_figures
 from .result import Event
 from .scene import Scene
+from .tie_up import tie_up_figures
 
 Array = NDArray[np.float64]
 Signals = dict[str, Array]
@@ -21,15 +22,18 @@ def key_figures(
     """Return the numbers a shift is judged by, SI units; None where there is no such thing."""
     start, pack, other = scene.shift_start, scene.engaging, scene.releasing
     lock = next((e.time for e in events if e.kind == f"{pack}_locked" and e.time >= start), None)
+    middle = start + 0.5 * scene.shift_duration
     release = next((e.time for e in events if e.kind == f"{other}_released"), None)
     found: Found = {
         "lock_time": (lock, None),
         "lock_after_ramp_start": (None if lock is None else lock - start, None),
+        "lock_after_half_ramp": (None if lock is None else lock - middle, None),
         "release_time": (release, None),
         **_slip(scene, time, signals, lock),
         **friction_figures(scene, time, signals, lock),
         **pack_figures(scene, "clutch", time, signals),
         **pack_figures(scene, "brake", time, signals),
+        **tie_up_figures(scene, time, signals),
         "peak_sun_thrust": peak(signals["transmission.sun_thrust"], time),
         **washer_figures(time, signals),
         **mesh_figures(time, signals),

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .course import turning
-from .figure_list import Found
+from .figure_list import FILM_SPEED, Found
 from .pack_figures import least, peak
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ def washer_figures(time: Array, signals: Signals) -> Found:
         "peak_washer_load": peak(signals["transmission.washer_load"], time),
         "peak_washer_temperature": peak(signals["washer.temperature"], time),
         "peak_washer_temperature_max": peak(signals["washer.temperature_max"], time),
-        "least_washer_film_ratio": least(signals["washer.film_ratio"], time, moving),
+        "least_washer_film_ratio": least_film("washer", time, signals),
         "washer_distress_time": (lost, None),
     }
 
@@ -51,7 +51,7 @@ def mesh_figures(time: Array, signals: Signals) -> Found:
         for name, signal in MESH_PEAKS.items() if signal in signals
     }  # fmt: skip
     if "mesh.film_ratio" in signals:
-        found["least_mesh_film_ratio"] = least(signals["mesh.film_ratio"], time, turning(signals))
+        found["least_mesh_film_ratio"] = least_film("mesh", time, signals)
     if "mesh.allowable_ratio" in signals:
         found["least_allowable_ratio"] = least(signals["mesh.allowable_ratio"], time)
     for steel in STEELS:
@@ -60,3 +60,20 @@ def mesh_figures(time: Array, signals: Signals) -> Found:
             found[f"stress_margin_{steel}"] = least(1.0 - used, time)
     found["mesh_loss"] = (float(signals["transmission.mesh_heat"][-1]), None)
     return found
+
+
+def least_film(part: str, time: Array, signals: Signals) -> tuple[float | None, float | None]:
+    """Return the least film ratio of a part above FILM_SPEED, and its time.
+
+    Where the speed passes FILM_SPEED between two samples the ratio is interpolated to that speed:
+    the figure must not depend on where the samples happen to lie. A film ratio belongs to the speed
+    that the part itself was given.
+    """
+    ratio, speed = signals[f"{part}.film_ratio"], np.abs(signals[f"{part}.speed"])
+    fast = speed >= FILM_SPEED
+    i = np.flatnonzero(fast[1:] != fast[:-1])
+    done = (FILM_SPEED - speed[i]) / (speed[i + 1] - speed[i])
+    ratios, times = (
+        np.concatenate((v[fast], v[i] + done * (v[i + 1] - v[i]))) for v in (ratio, time)
+    )
+    return least(ratios, times) if len(ratios) else (None, None)

@@ -9,6 +9,7 @@ import numpy as np
 from .shift_record import Array, Record
 
 TURNING = 1.0  # [rad/s] a washer slower than this needs no film
+FILM_SPEED = 10.0  # [rad/s] below, film vanishes with speed and its least value says nothing
 
 
 class Extreme(NamedTuple):
@@ -31,11 +32,11 @@ def lowest(record: Record, name: str) -> Extreme | None:
 
 
 def worst_film(record: Record) -> Extreme | None:
-    """Return the washer's least film ratio while it turns; None if there is no such time."""
-    values, speed = record.series("washer.film_ratio"), record.series("transmission.washer_speed")
+    """Return the washer's least film ratio recorded above FILM_SPEED; None without such a time."""
+    values, speed = record.series("washer.film_ratio"), record.series("washer.speed")
     if values is None or speed is None:
         return None
-    turning = np.abs(speed) > TURNING
+    turning = np.abs(speed) >= FILM_SPEED
     if not np.any(turning):
         return None
     return _extreme(record, values, int(np.argmin(np.where(turning, values, np.inf))))

@@ -103,6 +103,10 @@ class Record:
         """The key figures by name."""
         return {figure.name: figure.value for figure in self.key_figures}
 
+    def figure(self, name: str) -> KeyFigure | None:
+        """Return the key figure of that name, or None."""
+        return next((figure for figure in self.key_figures if figure.name == name), None)
+
     @property
     def releasing(self) -> str:
         """The pack that the ramp lets go."""

@@ -88,11 +88,11 @@ def _course_sections(record: Record) -> list[Section]:
 
 
 CARDS = (
-    "lock_time", "lock_after_ramp_start", "lock_speed", "stopped_inertia", "slip_energy",
+    "lock_time", "lock_after_half_ramp", "lock_speed", "stopped_inertia", "slip_energy",
     "slip_energy_per_area", "peak_power", "friction_mean", "friction_lock", "{pack}_temperature",
     "peak_washer_temperature_max", "least_washer_film_ratio", "peak_flash_temperature",
 )  # fmt: skip
-OF_A_LONE_PACK = ("lock_after_ramp_start", "stopped_inertia", "friction_mean", "friction_lock")
+OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "friction_lock")
 
 
 def _cards(record: Record) -> list[Card]:
@@ -114,7 +114,8 @@ def _temperature_caption(record: Record) -> str:
     texts = []
     other = record.series(f"{record.releasing}.temperature")
     if record.presses(record.releasing) and other is not None and other.max() - other[0] < 5.0:
-        texts.append(f"The {record.releasing} stays cool: it only lets go.")
+        taken = say(record.energy[record.releasing], "J", digits=3)
+        texts.append(f"The {record.releasing} stays cool: it takes up {taken}, no more.")
     if record.part("washer"):
         texts.append("Washer temperatures are quasi-steady, an upper bound during a shift.")
     if record.part("mesh"):

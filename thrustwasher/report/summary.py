@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from ..units import format_quantity as say
-from .extremes import highest, worst_film
+from .extremes import highest
 from .shift_record import Record
+from .tie_up import tie_up_text
 
 
 def sentences(record: Record) -> list[str]:
@@ -26,6 +27,7 @@ def warnings(record: Record) -> list[str]:
         found.append(
             f"The {record.engaging} did not lock: the shift is not finished at the end of the run."
         )
+    found += tie_up_text(record)
     distress = figures.get("washer_distress_time") or 0.0
     if distress > 0.0:
         found.append(
@@ -84,7 +86,7 @@ def _stop(record: Record) -> str:
     """Return how long a pack that acts alone took."""
     figures, pack, start = record.figures, record.engaging, record.ramp_start
     words = f"From {start:.4g} s on the {pack} was pressed"
-    taken, speed = figures["lock_after_ramp_start"], figures["greatest_slip"] or 0.0
+    taken, speed = figures["lock_after_half_ramp"], figures["greatest_slip"] or 0.0
     if taken is None:
         return f"{words}; from {rpm(speed)} it was still slipping at the end."
     inertia = say(figures.get("stopped_inertia") or 0.0, "kg.m2", digits=3)
@@ -92,9 +94,9 @@ def _stop(record: Record) -> str:
         f"ended a slip of {rpm(speed)} between inertias worth {inertia}"
     )  # fmt: skip
     return (
-        f"{words}; it {what} in {taken:.4g} s, with a mean friction coefficient of "
-        f"{figures['friction_mean'] or 0.0:.4f} and {figures['friction_lock'] or 0.0:.4f} just "
-        "before standstill."
+        f"{words}; it {what} in {taken:.4g} s, counted from the middle of the ramp, with a mean "
+        f"friction coefficient of {figures['friction_mean'] or 0.0:.4f} and "
+        f"{figures['friction_lock'] or 0.0:.4f} just before standstill."
     )
 
 
@@ -117,8 +119,8 @@ def _pack(record: Record) -> str:
 
 def _washer(record: Record) -> str:
     """Return how the washers' film fared; nothing without washers that turn."""
-    low, hot = worst_film(record), highest(record, "washer.temperature_max")
-    if low is None:
+    low, hot = record.figure("least_washer_film_ratio"), highest(record, "washer.temperature_max")
+    if low is None or low.value is None:
         return ""
     if record.figures.get("washer_distress_time"):
         state = "lost their oil film"
@@ -128,10 +130,11 @@ def _washer(record: Record) -> str:
         state = "ended up partly on their asperities"
     else:
         state = "ended up on their asperities"
+    when = "" if low.time is None else f" at {low.time:.4g} s"
     spot = "" if hot is None else f", their hottest spot was {say(hot.value, 'K', digits=3)}"
     return (
-        f"The thrust washers {state}: the least film ratio while they turned was {low.value:.3g} "
-        f"at {low.time:.4g} s{spot}, and all of them together took "
+        f"The thrust washers {state}: the least film ratio while they turned was {low.value:.3g}"
+        f"{when}{spot}, and all of them together took "
         f"{say(record.energy['washers'], 'J', digits=3)}."
     )
 

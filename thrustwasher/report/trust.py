@@ -30,17 +30,33 @@ def trust_texts(record: Record) -> list[str]:
 
 def _packs(record: Record) -> list[str]:
     """Return what the packs' film is worth at their fidelity."""
+    sheared = _sheared(record)
     rungs = {part.parameters.get("fidelity") for part in record.parts
              if part.name in PACKS and record.presses(part.name)}  # fmt: skip
     if rungs == {"field"}:
         return [
             "Clutch and brake: film and interface temperature are states of their own. The film "
             "is squeezed out of smooth rings with a permeable lining; grooves are one factor. All "
-            "heat goes into the steel plates, so that interface temperatures are rather too high."
+            "heat goes into the steel plates, so that interface temperatures are rather too high.",
+            *sheared,
         ]
     return [
         "Clutch and brake: the oil film between the plates is always settled at this fidelity. "
         "Squeezing it out takes time and would delay the torque by roughly 0.05 to 0.2 s."
+    ]
+
+
+def _sheared(record: Record) -> list[str]:
+    """Return which share of the heat is shear of the oil, and that nobody has measured it."""
+    pack = record.engaging
+    share = record.figures.get(f"{pack}_viscous_share")
+    if not share:
+        return []
+    return [
+        f"Shear of the oil: it makes {share:.0%} of the heat in the {pack} and carries torque from "
+        "the beginning of the ramp, so that it decides how long the shift takes. It follows from "
+        "film thickness, viscosity and the factor for grooves; no measurement of this or a similar "
+        "pack stands behind it."
     ]
 
 

@@ -1,0 +1,54 @@
+/* What a model is, as data: the types of the tables that are generated into model.c. */
+#ifndef THRUSTWASHER_TABLES_H
+#define THRUSTWASHER_TABLES_H
+
+#include <stdint.h>
+
+/* Where an instance is in its life; the bits of Call.modes and Access. */
+enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, ALWAYS = 15 };
+
+enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };
+enum { CAUSE_INDEPENDENT, CAUSE_INPUT, CAUSE_PARAMETER, CAUSE_OUTPUT, N_CAUSES };
+enum { STORE_TIME, STORE_PAR, STORE_INP, STORE_OUT, STORE_IOUT };
+
+/* A variable; its value reference is its place in VARIABLES. */
+typedef struct {
+    const char *name, *unit; /* unit "1": a pure number */
+    double low, high;        /* the allowed range, both ends belong to it */
+    double start;            /* of inputs and parameters */
+    uint32_t depends;        /* outputs: bit i set: input i acts at once, at the same time point */
+    int16_t slot;            /* place in its store */
+    int16_t enumeration;     /* place in ENUMERATIONS, or -1 */
+    uint8_t type, cause, store;
+    uint8_t relative; /* a temperature difference, no temperature */
+} Variable;
+
+typedef struct { int32_t number; const char *name; } Item;
+typedef struct { const char *name; int32_t n; const Item *items; } Enumeration;
+
+/* How a solution was obtained; from FIRST_FAILURE on there is none. */
+typedef struct { int32_t number; const char *name, *advice; } StatusText;
+
+/* A Boolean output whose changes are events: what happens when it becomes true, then false. */
+typedef struct { int32_t slot; const char *on, *off; } Switch;
+
+/* What the solver counts, and where in `work` the number lies. */
+typedef struct { const char *text; int32_t place; } Count;
+
+/* What is said when parameters contradict each other; {names} in braces stand for their values. */
+typedef struct { const char *text; } Rule;
+
+/* A category of messages; declared: this model's description lists it. */
+typedef struct { const char *name; int32_t declared; } Category;
+enum { LOG_WARNING, LOG_ERROR, LOG_SOLVER, LOG_EVENTS, LOG_ALL, N_CATEGORIES };
+
+/* An FMI function: the modes it is allowed in; declined: why it does nothing, else NULL. */
+typedef struct { const char *name; uint32_t modes; const char *declined; } Call;
+
+/* In which modes the values of a causality may be set, and read. */
+typedef struct { uint32_t set, get; } Access;
+
+/* What a mode is called, and the function that leads out of it. */
+typedef struct { uint32_t mode; const char *name, *leave; } ModeText;
+
+#endif

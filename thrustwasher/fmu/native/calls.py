@@ -1,0 +1,130 @@
+"""Which FMI function may be called when: one table, as data, for every target.
+
+The C tables of the native shell and of the Python target's guard are written from it, and the
+tests walk through it: every function in every mode.
+"""
+
+INSTANTIATED, INITIALIZING, STEPPING, TERMINATED = 1, 2, 4, 8
+NEVER = 0
+ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED
+SOLVABLE = INITIALIZING | STEPPING
+
+# What a mode is called in messages, and the function (without "fmi2", "fmi3") that leads out of it.
+MODES = {
+    INSTANTIATED: ("instantiated", "EnterInitializationMode"),
+    INITIALIZING: ("initialization mode", "ExitInitializationMode"),
+    STEPPING: ("step mode", "Terminate"),
+    TERMINATED: ("terminated", "Reset"),
+}
+
+# Causality -> modes in which a value may be set, modes in which it may be read.
+ACCESS = {
+    "independent": (NEVER, ALWAYS),
+    "input": (INSTANTIATED | SOLVABLE, ALWAYS),
+    "parameter": (INSTANTIATED | INITIALIZING, ALWAYS),
+    "output": (NEVER, SOLVABLE | TERMINATED),
+}
+
+_STATE_2 = ("GetFMUstate", "SetFMUstate", "FreeFMUstate", "SerializedFMUstateSize",
+            "SerializeFMUstate", "DeSerializeFMUstate")  # fmt: skip
+_STATE_3 = ("GetFMUState", "SetFMUState", "FreeFMUState", "SerializedFMUStateSize",
+            "SerializeFMUState", "DeserializeFMUState")  # fmt: skip
+_TYPES_2 = ("Real", "Integer", "Boolean", "String")
+_TYPES_3 = ("Float32", "Float64", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64",
+            "UInt64", "Boolean", "String", "Binary", "Clock")  # fmt: skip
+
+
+def _values(types: tuple[str, ...]) -> dict[str, int]:
+    """Return the getters and setters of some types; ``ACCESS`` then looks at each variable."""
+    setting = ACCESS["input"][0] | ACCESS["parameter"][0]
+    return {f"Get{t}": ALWAYS for t in types} | {f"Set{t}": setting for t in types}
+
+
+# Functions with an instance -> modes they are allowed in. The rest of them may be called always.
+_COMMON = {
+    "SetDebugLogging": ALWAYS,
+    "FreeInstance": ALWAYS,
+    "EnterInitializationMode": INSTANTIATED,
+    "ExitInitializationMode": INITIALIZING,
+    "Terminate": STEPPING,
+    "Reset": ALWAYS,
+    "GetDirectionalDerivative": SOLVABLE,
+    "DoStep": STEPPING,
+}
+_STATUS_2 = ("GetStatus", "GetRealStatus", "GetIntegerStatus", "GetBooleanStatus",
+             "GetStringStatus")  # fmt: skip
+
+# Functions that are there, as the standard demands, but only say why they do nothing.
+_INTERPOLATED = "inputs are not interpolated within a step (canInterpolateInputs is false)"
+_NO_OUTPUT_DERIVATIVE = "there are no time derivatives of outputs (maxOutputDerivativeOrder is 0)"
+_NO_EVENTS = "there is no event mode (hasEventMode is false)"
+_NO_CLOCKS = "this model has no clocks"
+_NO_STRUCTURE = "this model has no structural parameters"
+_NO_EXCHANGE = "this FMU is for co-simulation, not for model exchange"
+DECLINED = {
+    2: {
+        "SetRealInputDerivatives": _INTERPOLATED,
+        "GetRealOutputDerivatives": _NO_OUTPUT_DERIVATIVE,
+        "CancelStep": "no step is ever pending (canRunAsynchronuously is false)",
+    },
+    3: {
+        "EnterEventMode": _NO_EVENTS,
+        "EnterStepMode": _NO_EVENTS,
+        "EvaluateDiscreteStates": _NO_EVENTS,
+        "UpdateDiscreteStates": _NO_EVENTS,
+        "EnterConfigurationMode": _NO_STRUCTURE,
+        "ExitConfigurationMode": _NO_STRUCTURE,
+        "GetIntervalDecimal": _NO_CLOCKS,
+        "GetIntervalFraction": _NO_CLOCKS,
+        "GetShiftDecimal": _NO_CLOCKS,
+        "GetShiftFraction": _NO_CLOCKS,
+        "SetIntervalDecimal": _NO_CLOCKS,
+        "SetIntervalFraction": _NO_CLOCKS,
+        "SetShiftDecimal": _NO_CLOCKS,
+        "SetShiftFraction": _NO_CLOCKS,
+        "ActivateModelPartition": _NO_CLOCKS,
+        "EnterContinuousTimeMode": _NO_EXCHANGE,
+        "CompletedIntegratorStep": _NO_EXCHANGE,
+        "SetTime": _NO_EXCHANGE,
+        "SetContinuousStates": _NO_EXCHANGE,
+        "GetContinuousStateDerivatives": _NO_EXCHANGE,
+        "GetEventIndicators": _NO_EXCHANGE,
+        "GetContinuousStates": _NO_EXCHANGE,
+        "GetNominalsOfContinuousStates": _NO_EXCHANGE,
+        "GetNumberOfEventIndicators": _NO_EXCHANGE,
+        "GetNumberOfContinuousStates": _NO_EXCHANGE,
+        "GetOutputDerivatives": _NO_OUTPUT_DERIVATIVE,
+    },
+}
+
+CALLS: dict[int, dict[str, int]] = {
+    2: {
+        **_COMMON,
+        "SetupExperiment": INSTANTIATED,
+        **_values(_TYPES_2),
+        **dict.fromkeys(_STATE_2, ALWAYS),
+        **dict.fromkeys(_STATUS_2, STEPPING | TERMINATED),
+        **dict.fromkeys(DECLINED[2], ALWAYS),
+    },
+    3: {
+        **_COMMON,
+        **_values(_TYPES_3),
+        **dict.fromkeys(_STATE_3, ALWAYS),
+        "GetAdjointDerivative": SOLVABLE,
+        "GetNumberOfVariableDependencies": ALWAYS,
+        "GetVariableDependencies": ALWAYS,
+        **dict.fromkeys(DECLINED[3], ALWAYS),
+    },
+}
+
+# Functions without an instance.
+FREE = {
+    2: ("GetTypesPlatform", "GetVersion", "Instantiate"),
+    3: ("GetVersion", "InstantiateModelExchange", "InstantiateCoSimulation",
+        "InstantiateScheduledExecution"),
+}  # fmt: skip
+
+
+def functions(fmi: int) -> tuple[str, ...]:
+    """Return the names of all functions an FMU of this version exports."""
+    return tuple(f"fmi{fmi}{name}" for name in (*FREE[fmi], *CALLS[fmi]))

@@ -25,9 +25,12 @@ from .clutch_friction import (
     viscous_torque,
 )
 from .clutch_integrate import engage, surface_temperature
+from .clutch_rules import broken_rule
 from .heating import exponential_weights
 
-__all__ = ["NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "derive", "step"]
+__all__ = [
+    "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "broken_rule", "derive", "step",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK

@@ -18,6 +18,15 @@ MEAN_OVER_RMS = 1.0 / math.sqrt(2.0)  # Ra of a flank, 1.6 and 0.4 um, over the 
 
 
 @kernel
+def effective_roughness(par: Array) -> float:
+    """Return Li & Seireg's S [-]: as given, or that of the surface."""
+    given = par[L.P_EFFECTIVE_ROUGHNESS]
+    if given > 0.0:
+        return float(given)
+    return ROUGHNESS_ROUGH if par[L.P_SURFACE] == L.ROUGH else ROUGHNESS_FINE
+
+
+@kernel
 def derive(par: Array) -> int:
     """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
     ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
@@ -44,10 +53,7 @@ def derive(par: Array) -> int:
     rough = par[L.P_SURFACE] == L.ROUGH
     sigma = SIGMA_ROUGH if rough else SIGMA_FINE
     par[L.D_SIGMA] = par[L.P_SIGMA_RMS] if par[L.P_SIGMA_RMS] > 0.0 else sigma
-    effective = ROUGHNESS_ROUGH if rough else ROUGHNESS_FINE
-    if par[L.P_EFFECTIVE_ROUGHNESS] > 0.0:
-        effective = par[L.P_EFFECTIVE_ROUGHNESS]
-    par[L.D_ROUGHNESS] = effective
+    par[L.D_ROUGHNESS] = effective_roughness(par)
     mean = MEAN_OVER_RMS * par[L.D_SIGMA]
     par[L.D_MEAN] = par[L.P_MEAN_ROUGHNESS] if par[L.P_MEAN_ROUGHNESS] > 0.0 else mean
     by_speed = math.sqrt(par[L.D_V1]) / (math.sqrt(par[L.D_V1]) + math.sqrt(par[L.D_V2]))

@@ -10,6 +10,7 @@ from ._jit import kernel
 from .corners import soft_size
 from .gear_constants import derive as derive
 from .gear_point import LEAST_LINE_LOAD, mesh_point
+from .gear_rules import broken_rule as broken_rule
 
 Array = NDArray[np.float64]
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK

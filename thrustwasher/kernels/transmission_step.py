@@ -10,6 +10,7 @@ from . import transmission_layout as L
 from . import transmission_motion as motion
 from ._jit import kernel
 from .transmission_course import is_at_rest, run
+from .transmission_rules import broken_rule as broken_rule
 
 Array = NDArray[np.float64]
 

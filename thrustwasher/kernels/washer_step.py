@@ -13,6 +13,7 @@ from .washer_memory import size_of_state
 from .washer_model import BAD_INPUT, N_PARAM, NOT_FINITE, OK, derive_grid, size_of_par, washer_model
 from .washer_newton import N_INFO
 from .washer_outputs import MEAN_TEMPERATURE, N_ALL, N_REAL, RATIO, washer_outputs
+from .washer_rules import broken_rule as broken_rule
 from .washer_solve import is_distressed, solve
 
 FIELD_GRID = (10, 32)  # radial and circumferential nodes of fidelity "field", number 1

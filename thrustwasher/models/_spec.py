@@ -6,6 +6,8 @@ The FMU variables, the command line's columns and the documentation come from th
 from dataclasses import dataclass
 from typing import Any
 
+from ._rules import Rule as Rule
+
 REGIMES = {
     "film": "film ratio above 3: the oil film carries",
     "mixed": "film ratio 1 to 3: film and asperities share the load",
@@ -61,6 +63,7 @@ class ModelSpec:
     inputs: tuple[Signal, ...]
     outputs: tuple[Signal, ...]  # real outputs fill `out` in order, all others `iout`
     kernel: str  # module below thrustwasher.kernels with derive() and step()
+    rules: tuple[Rule, ...] = ()  # between parameters, in the order of the kernel's broken_rule()
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0
     step_size: float = 1e-3

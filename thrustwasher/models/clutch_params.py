@@ -8,6 +8,7 @@ from typing import Any
 
 from ..errors import ParameterError
 from ._params import check_ranges, choice, count, flag, quantity
+from ._rules import Rule, check_rules
 from ._spec import ModelSpec, Signal, Terminal
 
 FRICTION_LAWS = {
@@ -30,6 +31,18 @@ def _coefficient(value: float, where: str) -> Any:
 
 def _table_speed(value: float, place: int) -> Any:
     return quantity(value, "m/s", 0.0, 1e4, f"slip speed of point {place} of the table law")
+
+
+def _rising(place: int) -> Rule:
+    last = f"{{table_speed_{place - 1}}}" if place > 1 else "0.0"
+    return Rule(f"table_speed_{place} = {{table_speed_{place}}} m/s, allowed: above {last} m/s "
+                "(the points of the table rise)")  # fmt: skip
+
+
+RULES = (
+    Rule("inner_radius = {inner_radius} m, allowed: below outer_radius ({outer_radius} m)"),
+    *(_rising(place) for place in range(1, N_TABLE + 1)),
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,21 +142,9 @@ class ClutchParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        if self.inner_radius >= self.outer_radius:
-            raise ParameterError(
-                f"inner_radius = {self.inner_radius!r} m, allowed: below outer_radius "
-                f"({self.outer_radius!r} m)"
-            )
-        if self.friction_law == "table":
-            last = 0.0
-            for k in range(1, N_TABLE + 1):
-                speed = getattr(self, f"table_speed_{k}")
-                if not speed > last:
-                    raise ParameterError(
-                        f"table_speed_{k} = {speed!r} m/s, allowed: above {last!r} m/s (the points "
-                        "of the table rise)"
-                    )
-                last = speed
+        from ..kernels.clutch_rules import broken_rule
+
+        check_rules(self, RULES, broken_rule)
 
     @classmethod
     def with_table(
@@ -234,6 +235,7 @@ SPEC = ModelSpec(
                depends=_POINT, help="how the last solution was obtained"),
     ),
     kernel="clutch_step",
+    rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.PackFlange",
                  help="Slip speed and load in, friction torque out (coupling torque)",

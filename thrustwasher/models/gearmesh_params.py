@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError
 from ._params import check_ranges, choice, count, quantity
+from ._rules import check_rules
+from .gearmesh_rules import RULES
 from .gearmesh_spec import gearmesh_spec
 
 SURFACES = {
@@ -62,9 +63,6 @@ PRESETS: dict[str, dict[str, Any]] = {
     },
     "iso": {"friction_law": "iso"},
 }  # fmt: skip
-LEAST_EFFECTIVE = 2.143e-5 / 2.873  # the film's term of Eq 4 changes sign there
-LARGEST_EFFECTIVE = 0.0864 / 1372.0  # the film has no effect from there on
-LEAST_SLIDE_ROLL = 0.27
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -151,9 +149,9 @@ class GearMeshParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        _check_geometry(self)
-        if self.friction_law == "li-seireg":
-            _check_li_seireg(self)
+        from ..kernels.gear_rules import broken_rule
+
+        check_rules(self, RULES, broken_rule)
 
     @classmethod
     def preset(cls, name: str, **changes: Any) -> GearMeshParams:
@@ -165,56 +163,6 @@ class GearMeshParams:
         if name not in PRESETS:
             raise ParameterError(f"preset = {name!r}, allowed: {' or '.join(map(repr, PRESETS))}")
         return cls(**(PRESETS[name] | changes))
-
-
-def _check_geometry(p: GearMeshParams) -> None:
-    from ..kernels import gear_geometry as g
-
-    shape = p.gear_ratio, float(p.pinion_teeth), p.pressure_angle, p.addendum
-    start = g.start_of_contact(*shape)
-    if not start > 0.0:
-        least = math.floor(g.least_teeth(p.gear_ratio, p.pressure_angle, p.addendum)) + 1
-        raise ParameterError(
-            f"pinion_teeth = {p.pinion_teeth!r}, allowed: {least} and more for gear_ratio = "
-            f"{p.gear_ratio:g}, pressure_angle = {math.degrees(p.pressure_angle):g} deg, addendum "
-            f"= {p.addendum:g} (with fewer the gear's tips cut below the pinion's involute: "
-            "interference)"
-        )
-    contact = sum(g.path_lengths(*shape, start))
-    if contact < 1.0:
-        raise ParameterError(
-            f"addendum = {p.addendum!r}, allowed: so large that a pair is always in contact; the "
-            f"contact ratio is {contact:.4g}, allowed: 1 and more"
-        )
-
-
-def _check_li_seireg(p: GearMeshParams) -> None:
-    from ..kernels import gear_constants as constants
-    from ..kernels import gear_geometry as g
-
-    usual = constants.ROUGHNESS_ROUGH if p.surface == "rough" else constants.ROUGHNESS_FINE
-    s = p.effective_roughness or usual
-    if not LEAST_EFFECTIVE < s < LARGEST_EFFECTIVE:
-        raise ParameterError(
-            f"effective_roughness = {s!r}, allowed: {LEAST_EFFECTIVE:.4g} .. "
-            f"{LARGEST_EFFECTIVE:.4g} for friction_law = 'li-seireg' (0: that of the surface)"
-        )
-    drop = 0.0864 - 1372.0 * s
-    if p.f0 < drop:
-        raise ParameterError(
-            f"f0 = {p.f0!r}, allowed: {drop:.4g} .. 1 for effective_roughness = {s:g} (below, a "
-            "thick film would have negative friction)"
-        )
-    start = g.start_of_contact(
-        p.gear_ratio, float(p.pinion_teeth), p.pressure_angle, p.addendum
-    )  # fmt: skip
-    slide_roll = g.slide_roll(p.gear_ratio, start)
-    if not slide_roll > LEAST_SLIDE_ROLL:
-        raise ParameterError(
-            f"friction_law = 'li-seireg', allowed: for slide/roll ratios above {LEAST_SLIDE_ROLL} "
-            f"only, here {slide_roll:.4g} at the start of contact (pinion_teeth = "
-            f"{p.pinion_teeth!r}); use friction_law = 'iso'"
-        )
 
 
 SPEC = gearmesh_spec(GearMeshParams)

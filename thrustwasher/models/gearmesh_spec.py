@@ -3,6 +3,7 @@
 from typing import Any
 
 from ._spec import ModelSpec, Signal, Terminal
+from .gearmesh_rules import RULES
 
 LOAD = Signal(name="load", unit="N.m", help="torque on the pinion, its sign does not matter",
               low=-1e5, high=1e5, nominal=40.0, start=0.0)  # fmt: skip
@@ -61,6 +62,7 @@ def gearmesh_spec(params: type[Any]) -> ModelSpec:
         inputs=(LOAD, SPEED, OIL),
         outputs=OUTPUTS,
         kernel="gear_step",
+        rules=RULES,
         terminals=(
             Terminal(name="shaft", kind="thrustwasher.MeshFlange",
                      help="Speed and torque of the pinion in, its friction torque out",

@@ -4,14 +4,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..errors import ParameterError
 from ._params import check_ranges, choice, count, flag, quantity
+from ._rules import Rule, check_rules
 from ._spec import ModelSpec, Signal, Terminal
 
 COUPLING = {
     "capacity": "the packs send the torque they can hold; stick and slip are decided in here",
     "torque": "the packs send their friction torque: the plain loop, limited in step size",
 }
+
+
+def _planet_teeth(p: TransmissionParams) -> str:
+    return (
+        f"planet_teeth = {p.planet_teeth!r}, allowed: half of ring_teeth - sun_teeth, within one "
+        f"tooth (here {0.5 * (p.ring_teeth - p.sun_teeth):g}), or 0"
+    )
+
+
+RULES = (
+    Rule("ring_teeth = {ring_teeth}, allowed: above sun_teeth ({sun_teeth})"),
+    Rule("planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
+         "{sun_teeth}), within one tooth, or 0", _planet_teeth),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,15 +65,9 @@ class TransmissionParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        if self.ring_teeth <= self.sun_teeth:
-            raise ParameterError(
-                f"ring_teeth = {self.ring_teeth!r}, allowed: above sun_teeth ({self.sun_teeth!r})"
-            )
-        if self.planet_teeth and abs(self.ring_teeth - self.sun_teeth - 2 * self.planet_teeth) > 2:
-            raise ParameterError(
-                f"planet_teeth = {self.planet_teeth!r}, allowed: half of ring_teeth - sun_teeth, "
-                f"within one tooth (here {0.5 * (self.ring_teeth - self.sun_teeth):g}), or 0"
-            )
+        from ..kernels.transmission_rules import broken_rule
+
+        check_rules(self, RULES, broken_rule)
 
 
 def _torque(name: str, text: str) -> Signal:
@@ -139,6 +147,7 @@ SPEC = ModelSpec(
     inputs=INPUTS,
     outputs=OUTPUTS,
     kernel="transmission_step",
+    rules=RULES,
     terminals=(
         Terminal(name="clutch", kind="thrustwasher.PackFlange",
                  help="Slip speed and load of the clutch out, its torque in",

@@ -21,19 +21,13 @@ def constants(params: WasherParams, grid: tuple[int, int]) -> Array:
 
     Raises
     ------
-    ParameterError : the parameters admit no surface or no mesh
+    ParameterError : the asperity contact cannot be tabulated
     """
     par = np.zeros(size_of_par(*grid))
     numbers = as_numbers(params)
     par[: len(numbers)] = numbers
     par[len(numbers)] = 1.0
     status = Status(derive_grid(par, *grid))
-    if status is Status.BAD_INPUT:
-        raise ParameterError(
-            f"asperity_density x asperity_radius = {params.asperity_density:g} 1/m2 x "
-            f"{params.asperity_radius:g} m leaves no scatter of the summits at roughness = "
-            f"{params.roughness:g} m; raise either, or use asperity_height_law = 'surface'"
-        )
     if status is not Status.OK:
         raise ParameterError(
             "the asperity contact cannot be tabulated for these parameters; check yield_strength, "

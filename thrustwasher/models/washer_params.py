@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..errors import ParameterError
 from ._params import check_ranges, choice, quantity
+from ._rules import Rule, check_rules
 from ._spec import ModelSpec, Signal, Terminal
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
@@ -26,6 +26,26 @@ CONDUCTION = {
     "carrier": "only in the carrier; washer and gear are axisymmetric (they rotate)",
     "rotating": "only in washer and gear; the carrier is axisymmetric",
 }
+
+
+def _smooth(name: str) -> Rule:
+    bounds = f"{LEAST_ROUGHNESS:g} .. 1e-05 m"
+    return Rule(f"{name} = {{{name}}} m, allowed: 0 (as roughness) or {bounds}")
+
+
+RULES = (
+    Rule("gear_inner_radius = {gear_inner_radius} m, allowed: between inner_radius {inner_radius} "
+         "and outer_radius {outer_radius} m"),
+    Rule("outer_radius = {outer_radius} m, allowed: up to 20 x inner_radius ({inner_radius} m)"),
+    _smooth("roughness_carrier"),
+    _smooth("roughness_washer"),
+    _smooth("roughness_gear"),
+    Rule("friction_load_min = {friction_load_min} N, allowed: below friction_load_max "
+         "({friction_load_max} N)"),
+    Rule("asperity_density x asperity_radius = {asperity_density} 1/m2 x {asperity_radius} m "
+         "leaves no scatter of the summits at roughness = {roughness} m; raise either, or use "
+         "asperity_height_law = 'surface'"),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,28 +96,9 @@ class WasherParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        if not self.inner_radius < self.gear_inner_radius < self.outer_radius:
-            raise ParameterError(
-                f"gear_inner_radius = {self.gear_inner_radius!r} m, allowed: between inner_radius "
-                f"{self.inner_radius!r} and outer_radius {self.outer_radius!r} m"
-            )
-        if self.outer_radius > 20.0 * self.inner_radius:
-            raise ParameterError(
-                f"outer_radius = {self.outer_radius!r} m, allowed: up to 20 x inner_radius "
-                f"({self.inner_radius!r} m)"
-            )
-        for name in ("roughness_carrier", "roughness_washer", "roughness_gear"):
-            value = getattr(self, name)
-            if 0.0 < value < LEAST_ROUGHNESS:
-                raise ParameterError(
-                    f"{name} = {value!r} m, allowed: 0 (as roughness) or {LEAST_ROUGHNESS:g} .. "
-                    "1e-05 m"
-                )
-        if self.friction_load_min >= self.friction_load_max:
-            raise ParameterError(
-                f"friction_load_min = {self.friction_load_min!r} N, allowed: below "
-                f"friction_load_max ({self.friction_load_max!r} N)"
-            )
+        from ..kernels.washer_rules import broken_rule
+
+        check_rules(self, RULES, broken_rule)
 
 
 LOAD = Signal(name="load", unit="N", help="axial load on the washer, pressing gear to carrier",
@@ -147,6 +148,7 @@ SPEC = ModelSpec(
                depends=_ALL, help="how the last solution was obtained"),
     ),
     kernel="washer_step",
+    rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.WasherFlange",
                  help="Slip speed, load and tilt in, friction torque out",

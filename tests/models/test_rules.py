@@ -1,0 +1,111 @@
+"""Rules between parameters: one test in the kernel, one text each, for every surrounding."""
+
+import math
+from dataclasses import fields
+from importlib import import_module
+from string import Formatter
+
+import numpy as np
+import pytest
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.models import clutch_params, gearmesh_params, transmission_params, washer_params
+from thrustwasher.models._params import as_numbers
+
+SPECS = [m.SPEC for m in (washer_params, clutch_params, gearmesh_params, transmission_params)]
+BROKEN = {
+    "washer": (
+        {"gear_inner_radius": 0.01},
+        {"inner_radius": 0.002, "outer_radius": 0.05},
+        {"roughness_carrier": 1e-7},
+        {"roughness_washer": 1e-9},
+        {"roughness_gear": 1.4e-7},
+        {"friction_load_min": 2000.0},
+        {"asperity_height_law": "summit", "asperity_density": 1e9},
+    ),
+    "clutch": (
+        {"inner_radius": 0.085},
+        {"friction_law": "table", "table_speed_1": 0.0},
+        {"friction_law": "table", "table_speed_2": 0.1},
+        {"friction_law": "table", "table_speed_3": 0.2},
+        {"friction_law": "table", "table_speed_4": 1.0},
+        {"friction_law": "table", "table_speed_5": 8.0},
+    ),
+    "gearmesh": (
+        {"pinion_teeth": 14},
+        {"addendum": 0.4},
+        {"effective_roughness": 7e-5},
+        {"f0": 0.02},
+        {"pinion_teeth": 200},
+    ),
+    "transmission": ({"ring_teeth": 30, "planet_teeth": 0}, {"planet_teeth": 20}),
+}
+CASES = [(spec, n, change) for spec in SPECS for n, change in enumerate(BROKEN[spec.key], 1)]
+
+
+def kernel(spec):
+    return import_module(f"thrustwasher.kernels.{spec.kernel}")
+
+
+def numbers(spec, change):
+    """Return the parameters as the kernel takes them, whether they go together or not."""
+    par = np.zeros(kernel(spec).NPAR)
+    good = as_numbers(spec.params())
+    par[: len(good)] = good
+    for place, f in enumerate(fields(spec.params)):
+        if f.name in change:
+            value = change[f.name]
+            if f.metadata["kind"] == "enumeration":
+                value = list(f.metadata["options"]).index(value) + 1
+            par[place] = value
+    return par
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)
+def test_default_parameters_keep_all_rules(spec):
+    assert kernel(spec).broken_rule(numbers(spec, {})) == 0
+    assert len(spec.rules) == len(BROKEN[spec.key])
+
+
+@pytest.mark.parametrize(("spec", "number", "change"), CASES)
+def test_the_kernel_gives_the_number_of_the_broken_rule(spec, number, change):
+    assert kernel(spec).broken_rule(numbers(spec, change)) == number
+
+
+@pytest.mark.parametrize(("spec", "number", "change"), CASES)
+def test_python_refuses_with_the_text_of_that_rule(spec, number, change):
+    rule = spec.rules[number - 1]
+    with pytest.raises(ParameterError) as said:
+        spec.params(**change)
+    first = rule.text.partition(" ")[0]
+    assert str(said.value).startswith(first)
+    if rule.exact is None:
+        values = {f.name: repr(change.get(f.name, f.default)) for f in fields(spec.params)}
+        assert str(said.value) == rule.text.format(**values)
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)
+def test_texts_hold_plain_names_of_parameters_only(spec):
+    known = {f.name for f in fields(spec.params)}
+    for rule in spec.rules:
+        parts = [p[1:] for p in Formatter().parse(rule.text) if p[1] is not None]
+        assert {name for name, _, _ in parts} <= known
+        assert all(not form and not conversion for _, form, conversion in parts)
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)
+def test_rules_and_constants_do_not_read_each_other(spec):
+    """Rules hold before the constants are there, and may be asked again afterwards."""
+    par = numbers(spec, {})
+    par[kernel(spec).N_PARAM :] = math.nan
+    assert kernel(spec).broken_rule(par) == 0
+
+
+def test_limits_in_texts_are_those_of_the_kernels():
+    from thrustwasher.kernels import gear_rules, washer_rules
+
+    assert washer_params.LEAST_ROUGHNESS == washer_rules.LEAST_ROUGHNESS
+    assert f"{washer_rules.LARGEST_SPREAD:g} x" in washer_params.RULES[1].text
+    span = f"{gear_rules.LEAST_EFFECTIVE:.4g} .. {gear_rules.LARGEST_EFFECTIVE:.4g}"
+    assert span in gearmesh_params.RULES[2].text
+    assert f"above {gear_rules.LEAST_SLIDE_ROLL} " in gearmesh_params.RULES[4].text

@@ -21,13 +21,13 @@ TOY_START = {"load": 500.0, "speed": 20.0, "oil_temperature": 310.0}
 @pytest.fixture(scope="session")
 def toy_fmu(tmp_path_factory):
     out = tmp_path_factory.mktemp("dist")
-    return build([TOY.key], out=out, sources=TOY_SLAVES)[0]
+    return build([TOY.key], target="python", out=out, sources=TOY_SLAVES)[0]
 
 
 @pytest.fixture(scope="session")
 def fmus(tmp_path_factory):
-    """Every model of this version, packed."""
-    return {path.stem: path for path in build(out=tmp_path_factory.mktemp("dist"))}
+    """Every model of this version, packed for Python."""
+    return {path.stem: path for path in build(target="python", out=tmp_path_factory.mktemp("dist"))}
 
 
 @pytest.fixture

@@ -10,31 +10,43 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import archive
-from thrustwasher.fmu.build import build, identifier, source_folder
+from thrustwasher.fmu.build import build, source_folder
+from thrustwasher.fmu.identity import identifier
 from thrustwasher.fmu.interface import all_specs
 
 
 def test_building_twice_in_different_folders_gives_the_same_bytes(tmp_path, toy_fmu):
-    again = build([TOY.key], out=tmp_path / "elsewhere", sources=TOY_SLAVES)[0]
+    again = build([TOY.key], target="python", out=tmp_path / "elsewhere", sources=TOY_SLAVES)[0]
     assert again.read_bytes() == toy_fmu.read_bytes()
 
 
 def test_building_in_another_process_gives_the_same_bytes(tmp_path, toy_fmu, run_child):
     code = (
         "import sys; from pathlib import Path; from thrustwasher.fmu.build import build;"
-        "build([sys.argv[1]], out=Path(sys.argv[2]), sources=Path(sys.argv[3]))"
+        "build([sys.argv[1]], target='python', out=Path(sys.argv[2]), sources=Path(sys.argv[3]))"
     )
     run_child(code, TOY.key, tmp_path, TOY_SLAVES)
     again = tmp_path / "python-fmi2" / "ToyClutch.fmu"
     assert again.read_bytes() == toy_fmu.read_bytes()
 
 
-def test_the_guid_follows_the_content():
-    template = (TOY_SLAVES / "toy_clutch" / "slave.py").read_text()
-    guid = identifier(TOY, template, "python", 2)
-    assert guid == identifier(TOY, template, "python", 2)
-    changed = [(template + "#", "python", 2), (template, "native", 2), (template, "native", 3)]
-    assert len({guid, *(identifier(TOY, *case) for case in changed)}) == 4
+def test_the_guid_follows_the_content(tmp_path):
+    folder, shell = tmp_path / "model", tmp_path / "shell"
+    for name in (folder, shell):
+        name.mkdir()
+        (name / "text.c").write_text("one")
+
+    def guid(target="native", fmi=2, tools="numba 1"):
+        return identifier(TOY, folder, shell=shell, target=target, fmi=fmi, tools=tools)
+
+    first = guid()
+    assert first == guid() and len(first) == 32
+    found = {first, guid("python"), guid(fmi=3), guid(tools="numba 2")}
+    for changed in (folder / "text.c", shell / "text.c", shell / "new.h"):
+        changed.write_text("two")
+        found.add(guid())
+    (shell / "note.txt").write_text("not compiled")
+    assert guid() in found and len(found) == 7
 
 
 def test_the_zip_is_sorted_undated_and_has_plain_names(toy_fmu):
@@ -85,9 +97,10 @@ def test_slaves_are_short_and_have_no_kernels():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"target": "native"}, "native target is not part of this version"),
-        ({"fmi": 3}, "fmi = 3, allowed: 2; this version builds FMI 2.0 only"),
-        ({"target": "wasm"}, "python or native"),
+        ({"target": "python", "fmi": 3}, "fmi = 3, allowed: 2 for target python; use --target nat"),
+        ({"target": "python", "platforms": ["win64"]}, "use --target native"),
+        ({"fmi": 1}, "fmi = 1, allowed: 2 or 3"),
+        ({"target": "wasm"}, "native or python"),
         ({"models": ["Washer"]}, "allowed: ThrustWasher"),
     ],
 )

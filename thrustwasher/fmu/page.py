@@ -39,7 +39,9 @@ CHECK = """<p>Simulate the default experiment with the inputs of
 during it) and compare with <code>{model}_out.csv</code> beside it.</p>"""
 
 
-def page(spec: ModelSpec, *, guid: str, equations: str) -> str:
+def page(
+    spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str]
+) -> str:
     """Return the page; ``equations`` is the model's readme, shown as it is."""
     found = variables(spec)
     picture = base64.b64encode(icon(spec.name)).decode("ascii")

@@ -5,8 +5,8 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from ..models._spec import ModelSpec
-from . import xml
 from .direct import DirectInstance
+from .xml_parts import default_experiment, text
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 LAYERED = "http://fmi-standard.org/fmi-ls-manifest"
@@ -39,16 +39,16 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
         "out": ("result", "outputs of the default experiment, a row for each step"),
     }
     for name in files:
-        role, text = told[name.rpartition("_")[2].removesuffix(".csv")]
+        role, meaning = told[name.rpartition("_")[2].removesuffix(".csv")]
         SubElement(root, "Related", {"type": "text/csv", "source": name, "role": role,
-                                     "description": text})  # fmt: skip
-    files["fmi-ls-manifest.xml"] = xml.text(root)
+                                     "description": meaning})  # fmt: skip
+    files["fmi-ls-manifest.xml"] = text(root)
     return {f"{FOLDER}/{name}": content for name, content in files.items()}
 
 
 def reference_run(spec: ModelSpec) -> Rows:
     """Return rows of time and all outputs over the default experiment."""
-    stop, h = xml.default_experiment(spec)
+    stop, h = default_experiment(spec)
     starts = [signal.start or 0.0 for signal in spec.inputs]
     course = np.array(spec.course or [(0.0, *starts)])
     times = h * np.arange(round(stop / h) + 1)

@@ -68,6 +68,11 @@ def load_kernel(name: str) -> Kernel:
     return Kernel(k.derive, k.step, *sizes)
 
 
+def has_derivatives(spec: ModelSpec) -> bool:
+    """Tell if the model's kernels give directional derivatives."""
+    return hasattr(importlib.import_module(_module(spec.kernel)), "sens")
+
+
 def is_compiled(spec: ModelSpec) -> bool:
     """Tell if the model's step is in numba's cache, so that its first call takes no minutes."""
     stats = getattr(load_kernel(spec.kernel).step, "stats", None)

@@ -1,0 +1,44 @@
+"""What only the Python target carries: pythonfmu's library and modules, and the slave."""
+
+from importlib import metadata
+from pathlib import Path
+
+from ..models._spec import ModelSpec
+from .registry import content_digest, package_version
+
+DEPENDENCIES = """This FMU calls Python and the package thrustwasher {version}.
+Install both on the machine that runs it: pip install thrustwasher=={version}
+The library in binaries/ and the modules in resources/pythonfmu are of pythonfmu {pythonfmu}, MIT.
+Linux, x86-64: the importing process must have libpython's symbols loaded, as every Python has.
+Windows, x86-64: python3.dll on PATH and the Visual C++ runtime; not tested.
+"""
+
+
+def python_contents(spec: ModelSpec, folder: Path, *, guid: str) -> dict[str, bytes]:
+    """Return binaries, resources and the list of what the host must have."""
+    module = f"thrustwasher_fmu_{folder.name}_{guid[:8]}"
+    template = (folder / "slave.py").read_text("utf-8")
+    slave = template.replace("@VERSION@", package_version()).replace("@GUID@", guid)
+    slave = slave.replace("@DIGEST@", content_digest(spec))
+    needs = DEPENDENCIES.format(version=package_version(), pythonfmu=metadata.version("pythonfmu"))
+    return {
+        "documentation/externalDependencies.txt": needs.encode(),
+        f"resources/{module}.py": slave.encode(),
+        "resources/slavemodule.txt": module.encode(),
+        **_pythonfmu(spec.name),
+    }
+
+
+def _pythonfmu(model: str) -> dict[str, bytes]:
+    """Return pythonfmu's libraries, renamed to the model, and its modules."""
+    # Not by import: a process that has run an FMU imported the FMU's own, smaller pythonfmu.
+    root = Path(str(metadata.distribution("pythonfmu").locate_file("pythonfmu")))
+    binaries = root / "resources" / "binaries"
+    files = {
+        f"binaries/linux64/{model}.so": binaries / "linux64" / "libpythonfmu-export.so",
+        f"binaries/win64/{model}.dll": binaries / "win64" / "pythonfmu-export.dll",
+    }
+    for module in sorted(root.iterdir(), key=lambda entry: entry.name):
+        if module.name.endswith(".py"):
+            files[f"resources/pythonfmu/{module.name}"] = module
+    return {name: file.read_bytes() for name, file in files.items()}

@@ -23,7 +23,7 @@ def lock_time(step: float, fmus: dict[str, Path]) -> float:
 
 def main() -> float:
     with tempfile.TemporaryDirectory() as folder:
-        paths = build(["WetClutch", "ShiftTransmission"], out=Path(folder))
+        paths = build(["WetClutch", "ShiftTransmission"], target="python", out=Path(folder))
         fmus = {path.stem: path for path in paths}
         for step in (2e-3, 1e-3):
             locked = lock_time(step, fmus)

@@ -5,9 +5,16 @@ from xml.etree.ElementTree import Element, SubElement
 from ..models._spec import ModelSpec
 from . import xml_parts as parts
 from .interface import Variable, enumerations, variables
-from .xml_parts import LOG_CATEGORIES, default_experiment, text
+from .xml_parts import LOG_CATEGORIES, default_experiment, log_categories, text
 
-__all__ = ["CAPABILITIES", "LOG_CATEGORIES", "default_experiment", "description", "text"]
+__all__ = [
+    "CAPABILITIES",
+    "LOG_CATEGORIES",
+    "default_experiment",
+    "description",
+    "log_categories",
+    "text",
+]
 
 # What an import tool may do; every entry is proved by a test.
 CAPABILITIES = {

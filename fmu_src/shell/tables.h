@@ -48,6 +48,9 @@ typedef struct { const char *name; uint32_t modes; const char *declined; } Call;
 /* In which modes the values of a causality may be set, and read. */
 typedef struct { uint32_t set, get; } Access;
 
+/* What a type is called in messages; the place is that of the enum. */
+typedef struct { const char *name; } TypeText;
+
 /* What a mode is called, and the function that leads out of it. */
 typedef struct { uint32_t mode; const char *name, *leave; } ModeText;
 

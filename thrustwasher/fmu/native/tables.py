@@ -13,13 +13,17 @@ from . import calls
 
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
-COMMON = ("life.c", "values.c", "text.c", "state.c", "derivative.c")
+COMMON = ("life.c", "values.c", "text.c", "stories.c", "state.c", "derivative.c")
 PROTOCOL = {
     2: ("fmi2.c", "fmi2_values.c"),
-    3: ("fmi3.c", "fmi3_values.c", "fmi3_declined.c"),
+    3: ("fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c"),
 }
 # The order is that of the enum in tables.h.
 _CATEGORIES = ("logStatusWarning", "logStatusError", "logNonlinearSystems", "logEvents", "logAll")
+_TYPES = {
+    2: ("Real", "Integer", "Boolean", "Enumeration"),
+    3: ("Float64", "Int32", "Boolean", "Enumeration"),
+}
 _CAUSES = ("independent", "input", "parameter", "output")
 
 
@@ -68,6 +72,7 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
         "RULES": ("Rule", [_row(_text(rule)) for rule in rules]),
         "CATEGORIES": ("Category", [
             _row(_text(name), int(name in declared)) for name in _CATEGORIES]),
+        "TYPES": ("TypeText", [_row(_text(name)) for name in _TYPES[fmi]]),
         "ACCESS": ("Access", [_row(*calls.ACCESS[cause]) for cause in _CAUSES]),
         "MODES": ("ModeText", [
             _row(mode, _text(name), _text(f"fmi{fmi}{leave}"))

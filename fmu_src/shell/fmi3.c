@@ -1,0 +1,124 @@
+/* FMI 3.0 co-simulation: life and steps, translated. */
+#include "fmi3_shell.h"
+
+const char *fmi3GetVersion(void) { return fmi3Version; }
+
+static void send_message(const Log *log, int status, const char *category, const char *text) {
+    ((fmi3LogMessageCallback)log->logger)(log->environment, (fmi3Status)status, category, text);
+}
+
+static Log open_log(fmi3String name, fmi3Boolean on, fmi3InstanceEnvironment environment,
+                    fmi3LogMessageCallback logMessage) {
+    Log log = {0};
+    log.send = send_message;
+    log.logger = (void (*)(void))logMessage;
+    log.environment = environment;
+    name_log(&log, name, on);
+    return log;
+}
+
+static fmi3Instance refuse_instance(const Log *log, const char *why) {
+    Text text = {0};
+    add(&text, "%s %s", MODEL_NAME, why);
+    tell(log, BAD, LOG_ERROR, &text);
+    return NULL;
+}
+
+fmi3Instance fmi3InstantiateCoSimulation(
+    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
+    fmi3Boolean visible, fmi3Boolean loggingOn, fmi3Boolean eventModeUsed,
+    fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
+    size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
+    fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
+    (void)resourcePath, (void)visible, (void)earlyReturnAllowed;
+    (void)requiredIntermediateVariables, (void)intermediateUpdate;
+    const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
+    if (eventModeUsed) {
+        return refuse_instance(&log, "has no event mode: eventModeUsed has to be false");
+    }
+    if (nRequiredIntermediateVariables > 0) {
+        return refuse_instance(&log, "has no intermediate updates: "
+                               "nRequiredIntermediateVariables has to be 0");
+    }
+    return instantiate(&log, instantiationToken);
+}
+
+fmi3Instance fmi3InstantiateModelExchange(
+    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
+    fmi3Boolean visible, fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment,
+    fmi3LogMessageCallback logMessage) {
+    (void)instantiationToken, (void)resourcePath, (void)visible;
+    const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
+    return refuse_instance(&log, "is for co-simulation, not for model exchange");
+}
+
+fmi3Instance fmi3InstantiateScheduledExecution(
+    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
+    fmi3Boolean visible, fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment,
+    fmi3LogMessageCallback logMessage, fmi3ClockUpdateCallback clockUpdate,
+    fmi3LockPreemptionCallback lockPreemption, fmi3UnlockPreemptionCallback unlockPreemption) {
+    (void)instantiationToken, (void)resourcePath, (void)visible;
+    (void)clockUpdate, (void)lockPreemption, (void)unlockPreemption;
+    const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
+    return refuse_instance(&log, "is for co-simulation, not for scheduled execution");
+}
+
+void fmi3FreeInstance(fmi3Instance instance) { free_instance(instance); }
+
+fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories,
+                               const fmi3String categories[]) {
+    ENTER(fmi3SetDebugLogging);
+    NEED(fmi3SetDebugLogging, categories, nCategories);
+    return (fmi3Status)choose_categories(m, loggingOn, nCategories, categories);
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined,
+                                       fmi3Float64 tolerance, fmi3Float64 startTime,
+                                       fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
+    (void)toleranceDefined, (void)tolerance; /* the solver's tolerance is that of its tests */
+    (void)stopTimeDefined, (void)stopTime;
+    ENTER(fmi3EnterInitializationMode);
+    if (begin(m, startTime)) return fmi3Error;
+    m->now.mode = INITIALIZING;
+    return fmi3OK;
+}
+
+fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
+    ENTER(fmi3ExitInitializationMode);
+    return (fmi3Status)leave_initialization(m);
+}
+
+fmi3Status fmi3Terminate(fmi3Instance instance) {
+    ENTER(fmi3Terminate);
+    m->now.mode = TERMINATED;
+    return fmi3OK;
+}
+
+fmi3Status fmi3Reset(fmi3Instance instance) {
+    ENTER(fmi3Reset);
+    return (fmi3Status)reset(m);
+}
+
+static void write_flags(fmi3Boolean *event, fmi3Boolean *end, fmi3Boolean *early) {
+    if (event) *event = fmi3False;
+    if (end) *end = fmi3False;
+    if (early) *early = fmi3False;
+}
+
+/* What is pointed to is written in every case: hosts read it after errors too. */
+fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint,
+                      fmi3Float64 communicationStepSize,
+                      fmi3Boolean noSetFMUStatePriorToCurrentPoint,
+                      fmi3Boolean *eventHandlingNeeded, fmi3Boolean *terminateSimulation,
+                      fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
+    (void)noSetFMUStatePriorToCurrentPoint; /* going back is always possible */
+    write_flags(eventHandlingNeeded, terminateSimulation, earlyReturn);
+    if (lastSuccessfulTime) {
+        const Instance *known = instance;
+        *lastSuccessfulTime = known ? known->now.time : currentCommunicationPoint;
+    }
+    ENTER(fmi3DoStep);
+    m->last_step = advance(m, currentCommunicationPoint, communicationStepSize);
+    if (lastSuccessfulTime) *lastSuccessfulTime = m->now.time;
+    return (fmi3Status)m->last_step;
+}

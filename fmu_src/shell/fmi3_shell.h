@@ -1,0 +1,26 @@
+/* What the FMI 3 files share. */
+#ifndef THRUSTWASHER_FMI3_SHELL_H
+#define THRUSTWASHER_FMI3_SHELL_H
+
+#include "fmi3Functions.h"
+#include "shell.h"
+
+/* First line of every function: the instance, if the call is allowed now. */
+#define ENTER(function)                             \
+    Instance *m = enter(instance, CALL_##function); \
+    if (!m) return fmi3Error
+
+/* A pointer the host has to give, for n values. */
+#define NEED(function, pointer, n) \
+    if (is_missing(m, CALL_##function, pointer, n)) return fmi3Error
+
+/* All variables are scalars: as many values as references. */
+#define AS_MANY(function, n, n_values) \
+    if ((n) != (n_values)) return (fmi3Status)uneven(m, CALL_##function, n, n_values)
+
+static inline int uneven(const Instance *m, int call, size_t n, size_t n_values) {
+    return fail(m, "%s: %lu values for %lu scalar variables", CALLS[call].name,
+                (unsigned long)n_values, (unsigned long)n);
+}
+
+#endif

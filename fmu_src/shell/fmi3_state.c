@@ -1,0 +1,69 @@
+/* FMI 3.0 co-simulation: states and derivatives, translated. */
+#include "fmi3_shell.h"
+
+fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
+    ENTER(fmi3GetFMUState);
+    NEED(fmi3GetFMUState, FMUState, 1);
+    return (fmi3Status)get_state(m, FMUState);
+}
+
+fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
+    ENTER(fmi3SetFMUState);
+    return (fmi3Status)set_state(m, FMUState);
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
+    ENTER(fmi3FreeFMUState);
+    return FMUState ? (fmi3Status)free_state(m, FMUState) : fmi3OK;
+}
+
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
+    ENTER(fmi3SerializedFMUStateSize);
+    NEED(fmi3SerializedFMUStateSize, size, 1);
+    return (fmi3Status)state_size(m, FMUState, size);
+}
+
+fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
+                                 fmi3Byte serializedState[], size_t size) {
+    ENTER(fmi3SerializeFMUState);
+    NEED(fmi3SerializeFMUState, serializedState, size);
+    return (fmi3Status)write_state(m, FMUState, serializedState, size);
+}
+
+fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[],
+                                   size_t size, fmi3FMUState *FMUState) {
+    ENTER(fmi3DeserializeFMUState);
+    NEED(fmi3DeserializeFMUState, serializedState, size);
+    NEED(fmi3DeserializeFMUState, FMUState, 1);
+    return (fmi3Status)read_state(m, serializedState, size, FMUState);
+}
+
+fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
+                                        size_t nUnknowns, const fmi3ValueReference knowns[],
+                                        size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
+                                        fmi3Float64 sensitivity[], size_t nSensitivity) {
+    ENTER(fmi3GetDirectionalDerivative);
+    NEED(fmi3GetDirectionalDerivative, unknowns, nUnknowns);
+    NEED(fmi3GetDirectionalDerivative, knowns, nKnowns);
+    NEED(fmi3GetDirectionalDerivative, seed, nSeed);
+    NEED(fmi3GetDirectionalDerivative, sensitivity, nSensitivity);
+    AS_MANY(fmi3GetDirectionalDerivative, nKnowns, nSeed);
+    AS_MANY(fmi3GetDirectionalDerivative, nUnknowns, nSensitivity);
+    const Direction d = {unknowns, knowns, nUnknowns, nKnowns, seed};
+    return (fmi3Status)directional(m, &d, sensitivity);
+}
+
+fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
+                                    size_t nUnknowns, const fmi3ValueReference knowns[],
+                                    size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
+                                    fmi3Float64 sensitivity[], size_t nSensitivity) {
+    ENTER(fmi3GetAdjointDerivative);
+    NEED(fmi3GetAdjointDerivative, unknowns, nUnknowns);
+    NEED(fmi3GetAdjointDerivative, knowns, nKnowns);
+    NEED(fmi3GetAdjointDerivative, seed, nSeed);
+    NEED(fmi3GetAdjointDerivative, sensitivity, nSensitivity);
+    AS_MANY(fmi3GetAdjointDerivative, nUnknowns, nSeed);
+    AS_MANY(fmi3GetAdjointDerivative, nKnowns, nSensitivity);
+    const Direction d = {unknowns, knowns, nUnknowns, nKnowns, seed};
+    return (fmi3Status)adjoint(m, &d, sensitivity);
+}

@@ -1,0 +1,214 @@
+/* The life of an instance: from its start values over initialization to steps. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernel.h"
+#include "shell.h"
+
+/* By the bits: NaN raises no exception here, even where the host has unmasked them. */
+int is_finite(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return (bits & 0x7ff0000000000000u) != 0x7ff0000000000000u;
+}
+
+int reset(Instance *m) {
+    memset(&m->now, 0, sizeof m->now);
+    m->now.mode = INSTANTIATED;
+    m->now.dirty = 1;
+    m->unsolved = m->warned = m->work_fits = m->last_step = 0;
+    for (int i = 0; i < N_VARIABLES; i++) {
+        const Variable *v = &VARIABLES[i];
+        if (v->store == STORE_PAR) m->now.par[v->slot] = v->start;
+        if (v->store == STORE_INP) m->now.inp[v->slot] = v->start;
+    }
+    return GOOD;
+}
+
+/* The host's name is copied: nobody says how long it lives. */
+void name_log(Log *log, const char *name, int on) {
+    strncpy(log->name, name && *name ? name : MODEL_NAME, sizeof log->name - 1);
+    memset(log->on, on != 0, sizeof log->on);
+}
+
+/* The only memory an instance takes; NULL, and the reason in the log, if it cannot be. */
+Instance *instantiate(const Log *log, const char *guid) {
+    Text text = {0};
+    if (!guid || strcmp(guid, GUID) != 0) {
+        add(&text, "%s: the description has the identifier %s, this library %s; they are of "
+            "different builds, use both from one FMU", MODEL_NAME, guid ? guid : "none", GUID);
+        tell(log, BAD, LOG_ERROR, &text);
+        return NULL;
+    }
+    Instance *m = calloc(1, sizeof *m);
+    if (!m) {
+        add(&text, "%s: %lu bytes of memory are wanted and not to be had", MODEL_NAME,
+            (unsigned long)sizeof *m);
+        tell(log, BAD, LOG_ERROR, &text);
+        return NULL;
+    }
+    m->log = *log;
+    reset(m);
+    return m;
+}
+
+void free_instance(void *instance) { free(instance); }
+
+/* The way out of a mode towards the modes a function is allowed in: onward, else a new start. */
+static const char *way(uint32_t mode, uint32_t allowed) {
+    for (int i = 0; i < N_MODES; i++) {
+        if (MODES[i].mode == mode && allowed > mode) return MODES[i].leave;
+    }
+    return MODES[N_MODES - 1].leave;
+}
+
+static const char *mode_name(uint32_t mode) {
+    for (int i = 0; i < N_MODES; i++) {
+        if (MODES[i].mode == mode) return MODES[i].name;
+    }
+    return "unknown";
+}
+
+Instance *enter(void *instance, int call) {
+    Instance *m = instance;
+    const Call *c = &CALLS[call];
+    if (!m) return NULL;
+    if (c->declined) {
+        fail(m, "%s is not offered: %s", c->name, c->declined);
+        return NULL;
+    }
+    if (!(c->modes & m->now.mode)) {
+        fail(m, "%s is not allowed in state %s; call %s first", c->name, mode_name(m->now.mode),
+             way(m->now.mode, c->modes));
+        return NULL;
+    }
+    return m;
+}
+
+int begin(Instance *m, double start_time) {
+    if (!is_finite(start_time)) {
+        Text text = {0};
+        add(&text, "start time = ");
+        add_number(&text, start_time);
+        return fail(m, "%s s, allowed: a finite number", text.text);
+    }
+    m->now.time = start_time;
+    return GOOD;
+}
+
+/* Check the rules between parameters and compute the derived constants. */
+int prepare(Instance *m) {
+    if (m->now.prepared) return GOOD;
+    int32_t failed = m->now.latch;
+    m->now.latch = STATUS_BAD_INPUT;
+#if HAS_RULES
+    int rule = tw_rule(m->now.par);
+    if (rule) {
+        tell_rule(m, rule > 0 && rule <= N_RULES ? RULES[rule - 1].text : "a rule is broken");
+        return BAD;
+    }
+#endif
+    int rc = tw_derive(m->now.par);
+    if (rc < 0 || rc >= FIRST_FAILURE) {
+        return fail(m, "the parameters cannot be used: %s", status_text(rc)->advice);
+    }
+    m->now.prepared = 1;
+    m->now.latch = failed;
+    return GOOD;
+}
+
+static int all_finite(const double *x, int n) {
+    int good = 1;
+    for (int i = 0; i < n; i++) good &= is_finite(x[i]);
+    return good;
+}
+
+/* The kernels leave `state` alone when they fail. It is kept all the same: a solution with a number
+   that is none comes with their OK, and then the state has moved. */
+int solve(Instance *m, double t, double h) {
+    Solution *s = &m->now.solution;
+    memcpy(&m->undo, s, sizeof *s);
+    int rc = tw_step(m->now.par, m->now.inp, s->state, m->work, s->out, s->iout, t, h);
+    if (rc < 0 || (rc < FIRST_FAILURE && !all_finite(s->out, NOUT))) rc = STATUS_NOT_FINITE;
+    m->work_fits = rc < FIRST_FAILURE;
+    if (rc < FIRST_FAILURE) return 0;
+    memcpy(s, &m->undo, sizeof *s);
+    return rc;
+}
+
+/* Bring the outputs up to date, at most once per change. */
+int refresh(Instance *m) {
+    if (!m->now.dirty) return GOOD;
+    if (!m->unsolved) { /* else the same values would fail again */
+        if (prepare(m)) return BAD;
+        m->unsolved = solve(m, m->now.time, 0.0);
+        if (m->unsolved) m->now.latch = m->unsolved;
+    }
+    m->now.dirty = m->unsolved != 0;
+    if (m->unsolved) tell_story(m, m->unsolved, m->now.time, 0.0);
+    return m->unsolved ? BAD : GOOD;
+}
+
+static void note_switches(Instance *m) {
+    for (int i = 0; i < N_SWITCHES; i++) {
+        m->now.seen[i] = m->now.solution.iout[SWITCHES[i].slot];
+    }
+}
+
+/* After a failure the mode stays, so that the host may mend a value and try again. */
+int leave_initialization(Instance *m) {
+    if (prepare(m) || refresh(m)) return BAD;
+    m->now.mode = STEPPING;
+    note_switches(m); /* how a run starts is no event */
+    tell_advice(m);
+    return GOOD;
+}
+
+static int is_step(Instance *m, double t, double h) {
+    if (is_finite(t) && is_finite(h) && is_finite(t + h) && h > 0.0) return 1;
+    Text text = {0};
+    add(&text, "step from t = ");
+    add_number(&text, t);
+    add(&text, " s by ");
+    add_number(&text, h);
+    m->now.latch = STATUS_BAD_INPUT;
+    fail(m, "%s s, allowed: finite, step > 0", text.text);
+    return 0;
+}
+
+/* No step runs while a value is missing, and the message is that of the newest refusal. */
+static int is_complete(Instance *m, double t) {
+    if (!m->now.n_refused) return 1;
+    m->now.latch = STATUS_BAD_INPUT;
+    int newest = 0, any = 0;
+    while (newest < N_VARIABLES && m->now.refused[newest] != 1) newest++;
+    while (!m->now.refused[any]) any++;
+    if (newest < N_VARIABLES) {
+        fail(m, "no step at t = %g s: %s", t, m->refusal);
+    } else {
+        fail(m, "no step at t = %g s: %s was refused before; set it again", t,
+             VARIABLES[any].name);
+    }
+    return 0;
+}
+
+/* Step from t to t + h, or leave everything as it was but for the status that tells why. */
+int advance(Instance *m, double t, double h) {
+    if (!is_step(m, t, h) || !is_complete(m, t) || prepare(m)) return BAD;
+    double expected = m->now.time;
+    int rc = solve(m, t, h);
+    if (rc) {
+        m->now.latch = rc;
+        tell_story(m, rc, t, h);
+        return BAD;
+    }
+    m->now.time = t + h;
+    m->now.dirty = m->now.latch = m->unsolved = 0;
+    if (fabs(t - expected) > 1e-6 * h) tell_late_step(m, t, expected);
+    if (N_SWITCHES > 0) tell_switches(m);
+    note_switches(m);
+    if (N_COUNTS > 0) tell_effort(m);
+    tell_advice(m);
+    return GOOD;
+}

@@ -1,0 +1,122 @@
+/* One running model: memory, checks, lazy outputs, steps. Knows no FMI type and no physics. */
+#ifndef THRUSTWASHER_SHELL_H
+#define THRUSTWASHER_SHELL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "model.h"
+
+#define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* C has no empty arrays */
+#define TEXT_LENGTH 1024
+#define NAME_LENGTH 128
+
+/* What functions return: the numbers are those of fmi2Status and fmi3Status. */
+enum { GOOD = 0, WARNING = 1, BAD = 3 };
+
+/* What a step changes. */
+typedef struct {
+    double state[AT_LEAST_ONE(NSTATE)], out[AT_LEAST_ONE(NOUT)];
+    int32_t iout[AT_LEAST_ONE(NIOUT)];
+} Solution;
+
+/* All that decides what comes next: an FMU state is a copy of it. */
+typedef struct {
+    double par[NPAR], inp[AT_LEAST_ONE(NINP)], time;
+    Solution solution;
+    uint32_t mode;
+    int32_t latch;     /* the failure to be seen in solver_status until something changes */
+    int32_t dirty;     /* the outputs are not those of the present values */
+    int32_t prepared;  /* rules checked and derived constants computed */
+    int32_t n_refused; /* inputs, parameters whose last value was not taken over ... */
+    int32_t seen[N_SWITCHES + 1]; /* Boolean outputs at the last communication point */
+    uint8_t refused[N_VARIABLES]; /* ... 1: by the refusal kept as a text, 2: by an earlier one */
+} Snap;
+
+/* Where messages go. */
+typedef struct Log {
+    void (*send)(const struct Log *log, int status, const char *category, const char *text);
+    void (*logger)(void); /* the host's, whatever its type; may be NULL */
+    void *environment;
+    char name[NAME_LENGTH];
+    uint8_t on[N_CATEGORIES];
+} Log;
+
+typedef struct {
+    Snap now;
+    Solution undo;
+    Log log;
+    int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
+    int32_t warned;    /* the status the host was last told */
+    int32_t work_fits; /* `work` belongs to the present solution */
+    int32_t last_step; /* what the last step returned */
+    char refusal[TEXT_LENGTH];
+    double work[AT_LEAST_ONE(NWORK)]; /* carries nothing between calls */
+} Instance;
+
+/* How a host hands over values: which types of variables, in which form. */
+typedef struct { const char *name; uint32_t takes; int form; } Kind;
+enum { FORM_DOUBLE, FORM_INT32, FORM_INT64, FORM_BYTE, FORM_NONE };
+
+/* life.c */
+void name_log(Log *log, const char *name, int on); /* switched on: every category */
+Instance *instantiate(const Log *log, const char *guid);
+void free_instance(void *instance);
+Instance *enter(void *instance, int call); /* NULL: not allowed now, and said so */
+int begin(Instance *m, double start_time);
+int leave_initialization(Instance *m);
+int reset(Instance *m);
+int prepare(Instance *m);
+int refresh(Instance *m);
+int advance(Instance *m, double t, double h);
+int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
+int is_finite(double x);
+
+/* values.c */
+int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
+               const void *values);
+int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
+               void *values);
+int is_missing(Instance *m, int call, const void *array, size_t n);
+const Variable *find(Instance *m, uint32_t reference);
+double value_of(const Instance *m, const Variable *v);
+int is_inside(const Variable *v, double value);
+
+/* state.c */
+typedef struct State State;
+int get_state(Instance *m, void **state);
+int set_state(Instance *m, void *state);
+int free_state(Instance *m, void **state);
+int state_size(Instance *m, void *state, size_t *size);
+int write_state(Instance *m, void *state, unsigned char *bytes, size_t size);
+int read_state(Instance *m, const unsigned char *bytes, size_t size, void **state);
+
+/* derivative.c; knowns are inputs, unknowns Real outputs */
+typedef struct {
+    const uint32_t *unknowns, *knowns;
+    size_t n_unknowns, n_knowns;
+    const double *seed;
+} Direction;
+int directional(Instance *m, const Direction *d, double *sensitivity);
+int adjoint(Instance *m, const Direction *d, double *sensitivity);
+
+/* text.c: sentences that grow piece by piece, and are cut where the memory ends */
+typedef struct { size_t n; char text[TEXT_LENGTH]; } Text;
+void add(Text *t, const char *format, ...);
+void add_number(Text *t, double value);
+void add_quantity(Text *t, const Variable *v, double value); /* name = number unit */
+void tell(const Log *log, int status, int category, const Text *t);
+int fail(const Instance *m, const char *format, ...); /* says it as an error and returns BAD */
+int choose_categories(Instance *m, int on, size_t n, const char *const names[]);
+
+/* stories.c: what is said about a run */
+void tell_story(const Instance *m, int32_t status, double t, double h);
+void tell_rule(const Instance *m, const char *rule);
+void tell_refusal(Instance *m, const Variable *v, double value);
+void tell_late_step(const Instance *m, double t, double expected);
+void tell_switches(Instance *m);
+void tell_effort(const Instance *m);
+void tell_advice(Instance *m);
+const StatusText *status_text(int32_t status);
+
+#endif

@@ -1,0 +1,178 @@
+/* FMU states: copies of all that decides what comes next, and their bytes. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell.h"
+
+#define FORMAT 1u /* of the bytes; another one is refused */
+#define ORDER 0x01020304u
+
+/* Written in front of the numbers; every field is compared before anything is taken over. */
+typedef struct {
+    char magic[8], guid[64];
+    uint32_t order, format, check, sizes[9];
+} Head;
+
+struct State {
+    Head head;
+    Snap snap;
+};
+
+static void write_head(Head *head) {
+    const uint32_t sizes[9] = {NPAR, NINP, NSTATE, NOUT, NIOUT, N_VARIABLES, N_SWITCHES,
+                               (uint32_t)sizeof(Snap), (uint32_t)sizeof(State)};
+    memset(head, 0, sizeof *head);
+    memcpy(head->magic, "thrustw3", sizeof head->magic);
+    memcpy(head->guid, GUID, sizeof GUID < sizeof head->guid ? sizeof GUID : sizeof head->guid);
+    head->order = ORDER;
+    head->format = FORMAT;
+    memcpy(head->sizes, sizes, sizeof sizes);
+}
+
+/* CRC-32, four bits at a time. */
+static uint32_t checksum(uint32_t crc, const unsigned char *bytes, size_t n) {
+    static const uint32_t table[16] = {
+        0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u,
+        0x4db26158u, 0x5005713cu, 0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,
+        0x9b64c2b0u, 0x86d3d2d4u, 0xa00ae278u, 0xbdbdf21cu};
+    crc = ~crc;
+    for (size_t i = 0; i < n; i++) {
+        crc = table[(crc ^ bytes[i]) & 15u] ^ (crc >> 4);
+        crc = table[(crc ^ (bytes[i] >> 4)) & 15u] ^ (crc >> 4);
+    }
+    return ~crc;
+}
+
+/* Of the numbers and of the head, which has a zero where the result goes. */
+static uint32_t check_of(const State *s) {
+    Head head = s->head;
+    head.check = 0;
+    uint32_t crc = checksum(0, (const unsigned char *)&head, sizeof head);
+    return checksum(crc, (const unsigned char *)&s->snap, sizeof s->snap);
+}
+
+/* The state, if the host's pointer is one of this model and build; else said, and NULL. */
+static State *known(Instance *m, void *state) {
+    State *s = state;
+    Head mine;
+    write_head(&mine);
+    if (!s) {
+        fail(m, "FMU state = none, allowed: one that was got before");
+    } else if (memcmp(s->head.magic, mine.magic, sizeof mine.magic) != 0) {
+        fail(m, "FMU state = a pointer that this FMU has not given");
+    } else if (memcmp(s->head.guid, mine.guid, sizeof mine.guid) != 0) {
+        fail(m, "FMU state of another model or version (%.64s), allowed: %s %s", s->head.guid,
+             MODEL_NAME, GUID);
+    } else {
+        return s;
+    }
+    return NULL;
+}
+
+static State *new_state(Instance *m) {
+    State *s = calloc(1, sizeof *s);
+    if (s) write_head(&s->head);
+    else fail(m, "%lu bytes of memory are wanted and not to be had", (unsigned long)sizeof *s);
+    return s;
+}
+
+/* A state that is there already is written over. */
+int get_state(Instance *m, void **state) {
+    State *s = *state ? known(m, *state) : new_state(m);
+    if (!s) return BAD;
+    memcpy(&s->snap, &m->now, sizeof s->snap);
+    *state = s;
+    return GOOD;
+}
+
+/* What was refused stays so, though the sentence about it is not part of a state. */
+int set_state(Instance *m, void *state) {
+    const State *s = known(m, state);
+    if (!s) return BAD;
+    memcpy(&m->now, &s->snap, sizeof m->now);
+    for (int i = 0; i < N_VARIABLES; i++) m->now.refused[i] = m->now.refused[i] ? 2 : 0;
+    m->unsolved = m->work_fits = 0;
+    return GOOD;
+}
+
+int free_state(Instance *m, void **state) {
+    if (!*state) return GOOD;
+    State *s = known(m, *state);
+    if (!s) return BAD;
+    free(s);
+    *state = NULL;
+    return GOOD;
+}
+
+int state_size(Instance *m, void *state, size_t *size) {
+    if (!known(m, state)) return BAD;
+    *size = sizeof(State);
+    return GOOD;
+}
+
+int write_state(Instance *m, void *state, unsigned char *bytes, size_t size) {
+    State *s = known(m, state);
+    if (!s) return BAD;
+    if (size < sizeof *s) {
+        return fail(m, "room for an FMU state = %lu bytes, allowed: %lu and more",
+                    (unsigned long)size, (unsigned long)sizeof *s);
+    }
+    s->head.check = check_of(s);
+    memcpy(bytes, s, sizeof *s);
+    return GOOD;
+}
+
+/* Numbers that no run of this model leaves behind, though the checksum is right. */
+static int is_sound(const Snap *s) {
+    int refused = 0, good = is_finite(s->time);
+    good &= s->mode == INSTANTIATED || s->mode == INITIALIZING || s->mode == STEPPING
+            || s->mode == TERMINATED;
+    good &= (s->dirty == 0 || s->dirty == 1) && (s->prepared == 0 || s->prepared == 1);
+    good &= s->latch >= 0 && s->latch <= STATUS_BAD_INPUT;
+    for (int i = 0; i < N_VARIABLES; i++) {
+        const Variable *v = &VARIABLES[i];
+        refused += s->refused[i] != 0;
+        good &= s->refused[i] <= 2;
+        if (v->store == STORE_PAR) good &= is_inside(v, s->par[v->slot]);
+        if (v->store == STORE_INP) good &= is_inside(v, s->inp[v->slot]);
+    }
+    for (int i = 0; i < NOUT; i++) good &= is_finite(s->solution.out[i]);
+    return good && refused == s->n_refused;
+}
+
+/* Why bytes are no state of this FMU; NULL if they are one. */
+static const char *reason(const State *s, const Head *mine) {
+    if (memcmp(s->head.magic, mine->magic, sizeof mine->magic) != 0) {
+        return "bytes that no native thrustwasher FMU has written";
+    }
+    if (s->head.order != mine->order) return "bytes of a machine with another byte order";
+    if (s->head.format != mine->format) return "bytes of another version of the format";
+    if (memcmp(s->head.guid, mine->guid, sizeof mine->guid) != 0) {
+        return "bytes of another model or version";
+    }
+    if (memcmp(s->head.sizes, mine->sizes, sizeof mine->sizes) != 0) {
+        return "bytes of another layout";
+    }
+    if (s->head.check != check_of(s)) return "bytes with a wrong checksum; they were changed";
+    return is_sound(&s->snap) ? NULL : "bytes with numbers that no run leaves behind";
+}
+
+int read_state(Instance *m, const unsigned char *bytes, size_t size, void **state) {
+    Head mine;
+    write_head(&mine);
+    if (size != sizeof(State)) {
+        return fail(m, "FMU state = %lu bytes, allowed: %lu; truncated, or of another FMU",
+                    (unsigned long)size, (unsigned long)sizeof(State));
+    }
+    State *s = new_state(m);
+    if (!s) return BAD;
+    memcpy(s, bytes, sizeof *s);
+    const char *why = reason(s, &mine);
+    if (why) {
+        free(s);
+        return fail(m, "FMU state = %s; allowed: those of %s %s", why, MODEL_NAME, GUID);
+    }
+    s->head.check = 0;
+    *state = s;
+    return GOOD;
+}

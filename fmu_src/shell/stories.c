@@ -1,0 +1,196 @@
+/* What is said about a run: where it failed, what was refused, what happened. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell.h"
+
+const StatusText *status_text(int32_t status) {
+    int worst = 0;
+    for (int i = 0; i < N_STATUSES; i++) {
+        if (STATUSES[i].number == status) return &STATUSES[i];
+        if (STATUSES[i].number == STATUS_NOT_FINITE) worst = i;
+    }
+    return &STATUSES[worst]; /* a defect of the kernel */
+}
+
+/* The point in words: the inputs, and the outputs chosen for events. */
+static void add_point(Text *t, const Instance *m, int with_outputs) {
+    static const int shown[] = POINT;
+    for (int i = 0; shown[i] >= 0; i++) {
+        const Variable *v = &VARIABLES[shown[i]];
+        if (v->cause == CAUSE_OUTPUT && !with_outputs) continue;
+        if (i > 0) add(t, ", ");
+        add_quantity(t, v, value_of(m, v));
+    }
+}
+
+void tell_story(const Instance *m, int32_t status, double t, double h) {
+    Text text = {0};
+    add(&text, "%s at t = ", MODEL_NAME);
+    add_number(&text, t);
+    add(&text, " s, ");
+    if (h > 0.0) {
+        add(&text, "step ");
+        add_number(&text, h);
+        add(&text, " s, ");
+    }
+    add_point(&text, m, 0);
+    add(&text, ": %s: %s", status_text(status)->name, status_text(status)->advice);
+    tell(&m->log, BAD, LOG_ERROR, &text);
+}
+
+/* As Python writes a float: the fewest digits that give the same number back. */
+static void add_exact(Text *t, double value) {
+    char digits[40];
+    int n = 0;
+    do {
+        snprintf(digits, sizeof digits, "%.*e", n, value);
+    } while (strtod(digits, NULL) != value && ++n < 17);
+    int exponent = atoi(strchr(digits, 'e') + 1), decimals = n > exponent ? n - exponent : 1;
+    size_t start = t->n;
+    if (exponent < -4 || exponent >= 16) {
+        add(t, "%.*g", n + 1, value);
+    } else {
+        add(t, "%.*f", decimals, value);
+    }
+    for (; start < t->n; start++) {
+        if (t->text[start] == ',') t->text[start] = '.';
+    }
+}
+
+static void add_parameter(Text *t, const Instance *m, const char *name, size_t length) {
+    for (int i = 0; i < N_VARIABLES; i++) {
+        const Variable *v = &VARIABLES[i];
+        if (strlen(v->name) != length || memcmp(v->name, name, length) != 0) continue;
+        double value = value_of(m, v);
+        if (v->type == TYPE_ENUMERATION) {
+            add(t, "'%s'", ENUMERATIONS[v->enumeration].items[(int)value - 1].name);
+        } else if (v->type == TYPE_BOOLEAN) {
+            add(t, value != 0.0 ? "True" : "False");
+        } else if (v->type == TYPE_INTEGER) {
+            add(t, "%d", (int)value);
+        } else {
+            add_exact(t, value);
+        }
+    }
+}
+
+/* The rule's text, with the values of the parameters named in braces. */
+void tell_rule(const Instance *m, const char *rule) {
+    Text text = {0};
+    while (*rule) {
+        const char *open = strchr(rule, '{'), *close = open ? strchr(open, '}') : NULL;
+        if (!close) {
+            add(&text, "%s", rule);
+            break;
+        }
+        add(&text, "%.*s", (int)(open - rule), rule);
+        add_parameter(&text, m, open + 1, (size_t)(close - open - 1));
+        rule = close + 1;
+    }
+    tell(&m->log, BAD, LOG_ERROR, &text);
+}
+
+static void add_allowed(Text *t, const Variable *v) {
+    if (v->enumeration >= 0) {
+        const Enumeration *e = &ENUMERATIONS[v->enumeration];
+        for (int i = 0; i < e->n; i++) {
+            add(t, "%s%d (%s)", i ? ", " : "", (int)e->items[i].number, e->items[i].name);
+        }
+        return;
+    }
+    add_number(t, v->low);
+    add(t, " .. ");
+    add_number(t, v->high);
+    if (strcmp(v->unit, "1") != 0) add(t, " %s", v->unit);
+}
+
+static void add_reason(Text *t, const Variable *v, double value) {
+    add_quantity(t, v, value);
+    add(t, " is outside ");
+    add_allowed(t, v);
+    add(t, "; the value is not taken over.");
+    double kelvin = value + 273.15;
+    if (strcmp(v->unit, "K") == 0 && !v->relative && is_inside(v, kelvin)) {
+        add(t, " Did you mean ");
+        add_number(t, kelvin);
+        add(t, " K (");
+        add_number(t, value);
+        add(t, " degC)?");
+    }
+    if (value == 0.0) add(t, " An input that is not connected reads 0.");
+}
+
+/* Why a value is not taken over; kept, for the steps that will not run without it. */
+void tell_refusal(Instance *m, const Variable *v, double value) {
+    Text text = {0};
+    if (v->cause != CAUSE_INPUT && v->cause != CAUSE_PARAMETER) {
+        add(&text, "%s is an %s variable; it cannot be set", v->name,
+            v->cause == CAUSE_OUTPUT ? "output" : "independent");
+    } else if (!(ACCESS[v->cause].set & m->now.mode)) {
+        add(&text, "%s is a fixed parameter; it can be set before the initialization ends",
+            v->name);
+    } else {
+        add_reason(&text, v, value);
+    }
+    memcpy(m->refusal, text.text, sizeof m->refusal);
+    tell(&m->log, BAD, LOG_ERROR, &text);
+}
+
+void tell_late_step(const Instance *m, double t, double expected) {
+    Text text = {0};
+    add(&text, "step from t = ");
+    add_number(&text, t);
+    add(&text, " s, but the last one ended at ");
+    add_number(&text, expected);
+    add(&text, " s; the host's time counts");
+    tell(&m->log, WARNING, LOG_WARNING, &text);
+}
+
+static void begin_text(Text *t, const Instance *m) {
+    add(t, "%s at t = ", MODEL_NAME);
+    add_number(t, m->now.time);
+}
+
+/* One sentence for each event since the last communication point. */
+void tell_switches(Instance *m) {
+    for (int i = 0; i < N_SWITCHES; i++) {
+        const Switch *s = &SWITCHES[i];
+        int32_t now = m->now.solution.iout[s->slot];
+        if (now == m->now.seen[i]) continue;
+        m->now.seen[i] = now;
+        if (!m->log.on[LOG_EVENTS] && !m->log.on[LOG_ALL]) continue;
+        Text text = {0};
+        begin_text(&text, m);
+        add(&text, " s: %s; ", now ? s->on : s->off);
+        add_point(&text, m, 1);
+        tell(&m->log, GOOD, LOG_EVENTS, &text);
+    }
+}
+
+/* What the last solve took. */
+void tell_effort(const Instance *m) {
+    if (!m->log.on[LOG_SOLVER] && !m->log.on[LOG_ALL]) return;
+    Text text = {0};
+    begin_text(&text, m);
+    add(&text, " s");
+    for (int i = 0; i < N_COUNTS; i++) {
+        add(&text, ", %s: ", COUNTS[i].text);
+        add_number(&text, m->work[COUNTS[i].place]);
+    }
+    tell(&m->log, GOOD, LOG_SOLVER, &text);
+}
+
+/* Warn once when the solution begins to need care. */
+void tell_advice(Instance *m) {
+    int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
+    if (m->now.latch) status = m->now.latch;
+    if (status != m->warned && status > STATUS_OK && status < FIRST_FAILURE) {
+        Text text = {0};
+        begin_text(&text, m);
+        add(&text, " s: %s: %s", status_text(status)->name, status_text(status)->advice);
+        tell(&m->log, WARNING, LOG_WARNING, &text);
+    }
+    m->warned = status;
+}

@@ -1,0 +1,141 @@
+/* Setting and getting values: everything is checked before the first value is taken over. */
+#include <string.h>
+
+#include "shell.h"
+
+/* The value at place i of a host's array; a byte stands for true unless it is 0. */
+static double read_value(const Kind *kind, const void *values, size_t i) {
+    switch (kind->form) {
+    case FORM_DOUBLE: return ((const double *)values)[i];
+    case FORM_INT32: return ((const int32_t *)values)[i];
+    case FORM_INT64: return (double)((const int64_t *)values)[i];
+    case FORM_BYTE: return ((const unsigned char *)values)[i] != 0;
+    default: return 0.0;
+    }
+}
+
+static void write_value(const Kind *kind, void *values, size_t i, double value) {
+    switch (kind->form) {
+    case FORM_DOUBLE: ((double *)values)[i] = value; break;
+    case FORM_INT32: ((int32_t *)values)[i] = (int32_t)value; break;
+    case FORM_INT64: ((int64_t *)values)[i] = (int64_t)value; break;
+    case FORM_BYTE: ((unsigned char *)values)[i] = value != 0.0; break;
+    default: break;
+    }
+}
+
+int is_missing(Instance *m, int call, const void *array, size_t n) {
+    if (array || n == 0) return 0;
+    fail(m, "%s: an array is NULL, %lu values are wanted", CALLS[call].name, (unsigned long)n);
+    return 1;
+}
+
+const Variable *find(Instance *m, uint32_t reference) {
+    if (reference < N_VARIABLES) return &VARIABLES[reference];
+    fail(m, "value reference %lu is unknown in %s", (unsigned long)reference, MODEL_NAME);
+    return NULL;
+}
+
+/* Are all references known and of the kind that is asked for? */
+static int all_fit(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
+                   const void *values) {
+    if (is_missing(m, call, references, n) || is_missing(m, call, values, n)) return 0;
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = find(m, references[i]);
+        if (!v) return 0;
+        if (!(kind->takes >> v->type & 1u)) {
+            fail(m, "%s is of type %s, not %s", v->name, TYPES[v->type].name, kind->name);
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int is_inside(const Variable *v, double value) {
+    return is_finite(value) && v->low <= value && value <= v->high;
+}
+
+double value_of(const Instance *m, const Variable *v) {
+    const Snap *s = &m->now;
+    switch (v->store) {
+    case STORE_PAR: return s->par[v->slot];
+    case STORE_INP: return s->inp[v->slot];
+    case STORE_OUT: return s->solution.out[v->slot];
+    case STORE_IOUT:
+        return s->latch && v->slot == IO_STATUS ? s->latch : s->solution.iout[v->slot];
+    default: return s->time;
+    }
+}
+
+/* Remember that the values of this call are missing: no step until they are set. */
+static void refuse(Instance *m, const uint32_t *references, size_t n) {
+    for (int i = 0; i < N_VARIABLES; i++) {
+        if (m->now.refused[i]) m->now.refused[i] = 2; /* by an earlier call */
+    }
+    for (size_t i = 0; i < n; i++) {
+        uint8_t cause = VARIABLES[references[i]].cause;
+        if (!(ACCESS[cause].set & m->now.mode)) continue;
+        m->now.n_refused += !m->now.refused[references[i]];
+        m->now.refused[references[i]] = 1;
+    }
+}
+
+static void take_over(Instance *m, uint32_t reference, double value) {
+    Snap *s = &m->now;
+    const Variable *v = &VARIABLES[reference];
+    double *place = v->store == STORE_PAR ? &s->par[v->slot] : &s->inp[v->slot];
+    if (*place != value) {
+        *place = value;
+        s->dirty = 1;
+        s->latch = m->unsolved = 0;
+        if (v->store == STORE_PAR) s->prepared = 0;
+    }
+    if (s->n_refused && s->refused[reference]) {
+        s->refused[reference] = 0;
+        if (--s->n_refused == 0) s->latch = 0;
+    }
+}
+
+int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
+               const void *values) {
+    if (!all_fit(m, call, references, n, kind, values)) return BAD;
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = &VARIABLES[references[i]];
+        double value = read_value(kind, values, i);
+        if ((ACCESS[v->cause].set & m->now.mode) && is_inside(v, value)) continue;
+        tell_refusal(m, v, value);
+        m->now.latch = STATUS_BAD_INPUT;
+        refuse(m, references, n);
+        return BAD;
+    }
+    for (size_t i = 0; i < n; i++) take_over(m, references[i], read_value(kind, values, i));
+    return GOOD;
+}
+
+/* Outputs that are out of date are solved first. The status alone is to be had after a failure. */
+static int is_solved(Instance *m, const uint32_t *references, size_t n) {
+    int outputs = 0, others = 0;
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = &VARIABLES[references[i]];
+        outputs += v->cause == CAUSE_OUTPUT;
+        others += v->store != STORE_IOUT || v->slot != IO_STATUS;
+    }
+    if (!outputs || (m->now.latch && !others)) return 1;
+    return refresh(m) == GOOD;
+}
+
+int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
+               void *values) {
+    if (!all_fit(m, call, references, n, kind, values)) return BAD;
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = &VARIABLES[references[i]];
+        if (ACCESS[v->cause].get & m->now.mode) continue;
+        return fail(m, "%s has no value in state %s; call %s first", v->name, MODES[0].name,
+                    MODES[0].leave);
+    }
+    if (m->now.dirty && !is_solved(m, references, n)) return BAD;
+    for (size_t i = 0; i < n; i++) {
+        write_value(kind, values, i, value_of(m, &VARIABLES[references[i]]));
+    }
+    return GOOD;
+}

@@ -36,6 +36,13 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "m2/s": {"m2/s": (1.0, 0.0), "mm2/s": (1e-6, 0.0), "cSt": (1e-6, 0.0)},
 }  # fmt: skip
 
+# Names that occur in unit strings, as exponents of the base units (kg is one of them).
+_BASE: dict[str, dict[str, int]] = {
+    "kg": {"kg": 1}, "m": {"m": 1}, "s": {"s": 1}, "K": {"K": 1}, "rad": {"rad": 1},
+    "N": {"kg": 1, "m": 1, "s": -2}, "Pa": {"kg": 1, "m": -1, "s": -2},
+    "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}, "Hz": {"s": -1},
+}  # fmt: skip
+
 # The unit a person reads, tried in this order: the first whose number is at least 1.
 _DISPLAY: dict[str, tuple[str, ...]] = {
     "m": ("m", "mm", "um"),
@@ -161,3 +168,23 @@ def _wanted(unit: str) -> str:
         return "a finite number, or one in %"
     also = f", or one in {', '.join(others)}" if others else ""
     return f"a finite number in {unit}{also}"
+
+
+def exponents(unit: str) -> dict[str, int]:
+    """Return the base exponents of a unit such as ``W/(m2.K)``.
+
+    >>> exponents("W/(m2.K)")
+    {'kg': 1, 's': -3, 'K': -1}
+    """
+    over, _, under = unit.partition("/")
+    total: dict[str, int] = {}
+    for part, sign in ((over, 1), (under.strip("()"), -1)):
+        for factor in filter(None, part.split(".")):
+            match = re.fullmatch(r"([A-Za-z]+)(\d*)", factor)
+            if factor == "1":
+                continue
+            if not match or match[1] not in _BASE:
+                raise ParameterError(f"unit = {unit!r}, allowed: products of {', '.join(_BASE)}")
+            for name, power in _BASE[match[1]].items():
+                total[name] = total.get(name, 0) + sign * power * int(match[2] or 1)
+    return {name: power for name, power in total.items() if power}

@@ -1,18 +1,12 @@
 """Units as FMI wants them: exponents of the base units, display units, declared types."""
 
-import re
 from dataclasses import dataclass
 from math import pi
 
-from ..errors import ParameterError
+from ..units import exponents
 from .interface import Variable
 
-# Names that occur in unit strings, as exponents of the base units (kg is one of them).
-BASE: dict[str, dict[str, int]] = {
-    "kg": {"kg": 1}, "m": {"m": 1}, "s": {"s": 1}, "K": {"K": 1}, "rad": {"rad": 1},
-    "N": {"kg": 1, "m": 1, "s": -2}, "Pa": {"kg": 1, "m": -1, "s": -2},
-    "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}, "Hz": {"s": -1},
-}  # fmt: skip
+__all__ = ["DISPLAY", "TYPES", "RealType", "declared_type", "display_unit", "exponents"]
 
 # unit -> display units: (name, factor, offset); display value = factor x value + offset
 DISPLAY: dict[str, tuple[tuple[str, float, float], ...]] = {
@@ -59,26 +53,6 @@ TYPES = (
              nominal=0.01),
     RealType(name="Fraction", quantity="Dimensionless", unit="1"),
 )  # fmt: skip
-
-
-def exponents(unit: str) -> dict[str, int]:
-    """Return the base exponents of a unit such as ``W/(m2.K)``.
-
-    >>> exponents("W/(m2.K)")
-    {'kg': 1, 's': -3, 'K': -1}
-    """
-    over, _, under = unit.partition("/")
-    total: dict[str, int] = {}
-    for part, sign in ((over, 1), (under.strip("()"), -1)):
-        for factor in filter(None, part.split(".")):
-            match = re.fullmatch(r"([A-Za-z]+)(\d*)", factor)
-            if factor == "1":
-                continue
-            if not match or match[1] not in BASE:
-                raise ParameterError(f"unit = {unit!r}, allowed: products of {', '.join(BASE)}")
-            for name, power in BASE[match[1]].items():
-                total[name] = total.get(name, 0) + sign * power * int(match[2] or 1)
-    return {name: power for name, power in total.items() if power}
 
 
 def declared_type(v: Variable) -> RealType | None:

@@ -53,7 +53,7 @@ def reference_run(spec: ModelSpec) -> Rows:
     course = np.array(spec.course or [(0.0, *starts)])
     times = h * np.arange(round(stop / h) + 1)
     columns = [np.interp(times, course[:, 0], values) for values in course.T[1:]]
-    points = np.transpose(columns).tolist()
+    points = np.reshape(columns, (len(columns), len(times))).T.tolist()
     with DirectInstance(spec) as model:
         model.initialize(0.0, dict(zip(model.input_names, points[0], strict=True)))
         rows = [[0.0, *_rounded(spec, model.outputs())]]

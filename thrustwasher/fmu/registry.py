@@ -20,6 +20,10 @@ MODELS = {
     "gearmesh": "thrustwasher.models.gearmesh_params:SPEC",
     "transmission": "thrustwasher.models.transmission_params:SPEC",
 }
+# Built when named, not with all: parts that only a system of FMUs needs.
+HELPERS = {
+    "command": "thrustwasher.models.command_params:SPEC",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +43,10 @@ class Kernel:
 
 def find_spec(model: str) -> ModelSpec:
     """Return a model by key ("washer"), by FMU name ("ThrustWasher") or by "module:NAME"."""
-    if model in MODELS or ":" in model:
-        return _load(MODELS.get(model, model))
-    specs = all_specs()
+    places = MODELS | HELPERS
+    if model in places or ":" in model:
+        return _load(places.get(model, model))
+    specs = [_load(place) for place in places.values()]
     for spec in specs:
         if spec.name == model:
             return spec

@@ -68,14 +68,14 @@ def _load(place: str) -> ModelSpec:
 @cache
 def load_kernel(name: str) -> Kernel:
     """Import a kernel module: a name below ``thrustwasher.kernels``, or a dotted name."""
-    k = importlib.import_module(_module(name))
+    k = importlib.import_module(kernel_module(name))
     sizes = (k.N_PARAM, k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT, k.NIOUT)
     return Kernel(k.derive, k.step, *sizes)
 
 
 def has_derivatives(spec: ModelSpec) -> bool:
     """Tell if the model's kernels give directional derivatives."""
-    return hasattr(importlib.import_module(_module(spec.kernel)), "sens")
+    return hasattr(importlib.import_module(kernel_module(spec.kernel)), "sens")
 
 
 def is_compiled(spec: ModelSpec) -> bool:
@@ -91,12 +91,13 @@ def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
     """Return (text, place in ``work``) of everything the model's solver counts."""
     found = [(text, *where.split(":")) for text, where in spec.counts]
     return tuple(
-        (text, int(getattr(importlib.import_module(_module(module)), name)))
+        (text, int(getattr(importlib.import_module(kernel_module(module)), name)))
         for text, module, name in found
     )
 
 
-def _module(kernel: str) -> str:
+def kernel_module(kernel: str) -> str:
+    """Return the dotted name of a kernel module given below ``thrustwasher.kernels`` or dotted."""
     return kernel if "." in kernel else f"thrustwasher.kernels.{kernel}"
 
 
@@ -114,7 +115,7 @@ def package_version() -> str:
 
 def content_digest(spec: ModelSpec) -> str:
     """Return 16 hex digits over everything that decides the numbers: kernels, maps, parameters."""
-    return _content_digest(_module(spec.kernel), spec.params.__module__)
+    return _content_digest(kernel_module(spec.kernel), spec.params.__module__)
 
 
 @cache

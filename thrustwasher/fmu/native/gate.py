@@ -1,0 +1,86 @@
+"""What a kernel may need from the machine it runs on: libm and three memory functions."""
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from ...errors import EnvironmentProblem
+from .symbols import undefined
+
+# The list grows by a reviewed line, never by a pattern. The C standard's names, of doubles.
+ALLOWED = frozenset(
+    """
+    exp log log10 log2 log1p expm1 exp2 pow erf erfc tanh sinh cosh sin cos tan sincos
+    __sincos_stret asin acos atan atan2 sqrt fmod floor ceil cbrt hypot
+    memset memcpy memmove bzero __bzero
+    """.split()
+)
+# Beginning of a symbol -> what is behind it and what to write instead.
+CAUSES = (
+    ("NRT_Allocate", "memory is allocated: pass it as work; copy in a loop, not by slices"),
+    ("NRT_MemInfo_alloc", "an array is allocated: pass it as work"),
+    ("NRT_", "an object that numba counts references of: lists, arrays made in the kernel"),
+    ("numba_attempt_nocopy_reshape", "reshape, or a reduction like np.max: write the loop"),
+    ("numba_gamma", "math.gamma: only lgamma-free formulas, or a series as a kernel"),
+    ("numba_lgamma", "math.lgamma: a series as a kernel"),
+    ("numba_xxdot", "np.dot: write the loop"),
+    ("numba_xx", "np.linalg: use kernels.banded or kernels.dense"),
+    ("numba_ez", "np.linalg: use kernels.banded or kernels.dense"),
+    ("numba_gil", "Python's lock (BLAS, objects): write the loop"),
+    ("numba_", "a helper of numba's run time that no FMU has: write it as a kernel"),
+    ("PyErr_", "raise with a value: return a status"),
+    ("Py", "a Python object (print, strings, lists, raise): numbers in, numbers out"),
+    ("_Py", "a Python object (print, strings, lists, raise): numbers in, numbers out"),
+    ("__svml_", "Intel's vector library: NUMBA_DISABLE_INTEL_SVML=1"),
+    ("___chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
+    ("__chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
+    ("llvm.", "an instruction of one kind of machine"),
+)
+
+
+def check_module(module: Any, kernel: str) -> None:
+    """Stop if an optimised module needs more than is allowed (llvmlite module).
+
+    Raises
+    ------
+    EnvironmentProblem : names the kernel, the symbols, the likely cause and the cure
+    """
+    found = [v.name for v in module.global_variables if v.is_declaration]
+    for function in module.functions:
+        if function.is_declaration and not _is_allowed(function.name):
+            found.append(function.name)
+    _stop(kernel, found)
+
+
+def check_object(code: bytes, kernel: str) -> None:
+    """Stop if an object file refers to more than is allowed: intrinsics become calls late.
+
+    Raises
+    ------
+    EnvironmentProblem : as ``check_module``
+    """
+    _stop(kernel, [name for name in undefined(code) if name not in ALLOWED])
+
+
+def _is_allowed(name: str) -> bool:
+    """Intrinsics pass unless they belong to one kind of machine; those left over become calls."""
+    if name.startswith("llvm."):
+        return not re.match(r"llvm\.(x86|aarch64|arm)\.", name)
+    return name in ALLOWED
+
+
+def cause(symbol: str) -> str:
+    """Return what is behind a symbol and the cure."""
+    for beginning, text in CAUSES:
+        if symbol.startswith(beginning):
+            return text
+    return "not on the list in thrustwasher/fmu/native/gate.py"
+
+
+def _stop(kernel: str, found: Iterable[str]) -> None:
+    symbols = sorted(set(found))
+    if symbols:
+        causes = "; ".join(dict.fromkeys(cause(symbol) for symbol in symbols))
+        raise EnvironmentProblem(
+            f"{kernel} is not self-contained, it needs {', '.join(symbols)} ({causes})"
+        )

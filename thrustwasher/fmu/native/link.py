@@ -1,0 +1,124 @@
+"""From C files and objects to a shared library, for this platform or another."""
+
+import importlib.util
+import platform as this
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+
+from ...errors import EnvironmentProblem
+from .objects import Note, to_stderr
+from .targets import PLATFORMS, Platform
+
+# -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
+COMMON = ("-O2", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
+MISSING = (
+    "native FMUs need a C compiler to be built (not to be run): pip install 'thrustwasher[build]' "
+    "for all platforms, or gcc for this one"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Linker:
+    """A C compiler that links: its command, its version and the platforms it can build for."""
+
+    name: str
+    command: tuple[str, ...]
+    version: str
+    platforms: tuple[str, ...]
+
+    @property
+    def is_cross(self) -> bool:
+        """True for zig, which brings headers and C libraries of every platform."""
+        return self.name == "ziglang"
+
+
+@cache
+def find_linker() -> Linker:
+    """Return zig of the package ziglang, else this machine's gcc or cc.
+
+    Raises
+    ------
+    EnvironmentProblem : there is neither; the message says what to install
+    """
+    if importlib.util.find_spec("ziglang"):
+        command = (sys.executable, "-m", "ziglang", "cc")
+        return Linker("ziglang", command, metadata.version("ziglang"), tuple(PLATFORMS))
+    found = shutil.which("gcc") or shutil.which("cc")
+    own = tuple(p.name for p in PLATFORMS.values() if p.machine == local_machine())
+    if not found or not own:
+        raise EnvironmentProblem(MISSING)
+    shown = subprocess.run([found, "-dumpfullversion"], capture_output=True, text=True)
+    return Linker(Path(found).name, (found,), shown.stdout.strip(), own)
+
+
+def local_machine() -> tuple[str, str]:
+    """Return the system and machine of this computer as ``Platform.machine`` names them."""
+    machine = this.machine()
+    return this.system(), {"amd64": "x86_64", "arm64": "arm64"}.get(machine, machine)
+
+
+def shared_library(
+    files: Mapping[str, str | bytes],
+    *,
+    platform: Platform,
+    name: str,
+    defines: Sequence[str] = (),
+    note: Note = to_stderr,
+) -> bytes:
+    """Compile and link C files and objects to a shared library.
+
+    Parameters
+    ----------
+    files
+        Name -> content of everything: ``.c`` is compiled, ``.o`` linked, headers are found.
+    platform
+        What it is for.
+    name
+        Of the library, without extension; stands inside the file on macOS only.
+    defines
+        Macros, "NAME" or "NAME=VALUE".
+    note
+        Called with a line of progress before anything that takes long.
+
+    Raises
+    ------
+    EnvironmentProblem : no compiler for this platform, or it refuses a file
+    """
+    output = f"{name}.{platform.extension}"
+    flags = ["-shared", *platform.flags]
+    if platform.format == "MachO":
+        flags.append(f"-Wl,-install_name,@rpath/{output}")
+    return build(files, output, [*flags, *(f"-D{d}" for d in defines)], platform, note)
+
+
+def build(
+    files: Mapping[str, str | bytes], output: str, flags: Sequence[str], platform: Platform,
+    note: Note = to_stderr,
+) -> bytes:  # fmt: skip
+    """Run the compiler in a fresh folder with relative paths only; return the file ``output``."""
+    linker = find_linker()
+    if platform.name not in linker.platforms:
+        raise EnvironmentProblem(
+            f"{linker.name} builds for {', '.join(linker.platforms)} only; for {platform.name}: "
+            "pip install 'thrustwasher[build]'"
+        )
+    target = ["-target", platform.zig] if linker.is_cross else []
+    given = sorted(f for f in files if f.endswith((".c", ".o")))
+    command = [*linker.command, *target, *COMMON, *flags, "-o", output, *given, *platform.libraries]
+    with tempfile.TemporaryDirectory() as folder:
+        for file, content in files.items():
+            data = content.encode() if isinstance(content, str) else content
+            (Path(folder) / file).write_bytes(data)
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        if done.returncode:
+            lines = [line for line in done.stderr.splitlines() if "error" in line]
+            first = (lines or done.stderr.splitlines() or ["no message"])[0]
+            raise EnvironmentProblem(f"{linker.name} cannot build {output}: {first}")
+        return (Path(folder) / output).read_bytes()

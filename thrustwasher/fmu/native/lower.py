@@ -1,0 +1,75 @@
+"""From bitcode to an object file for one platform and CPU level.
+
+``python -m ... BITCODE PLATFORM LEVEL KERNEL FILE``; a process of its own uses another core.
+"""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from ...errors import EnvironmentProblem
+from . import gate
+from .targets import PLATFORMS, Level, Platform
+
+
+def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -> bytes:
+    """Return an object file with the entries as ``tw_<entry>_<level>``.
+
+    Raises
+    ------
+    EnvironmentProblem : the kernel needs what an FMU does not have; the message names the symbol
+    """
+    import llvmlite.binding as llvm
+
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    module = llvm.parse_bitcode(bitcode)
+    machine = llvm.Target.from_triple(platform.triple).create_target_machine(
+        cpu=level.cpu, features="", opt=3, reloc="pic", codemodel="default"
+    )
+    module.triple, module.data_layout = platform.triple, str(machine.target_data)
+    for function in module.functions:
+        if function.is_declaration:
+            continue
+        if function.linkage.name == "external":
+            function.name = f"{function.name}_{level.name}"
+        if level.attribute:
+            function.add_function_attribute(level.attribute)
+    _optimise(module, machine, level)
+    gate.check_module(module, kernel)
+    code = bytes(machine.emit_object(module))
+    gate.check_object(code, kernel)
+    return code
+
+
+def _optimise(module: Any, machine: Any, level: Level) -> None:
+    import llvmlite.binding as llvm
+
+    options = llvm.create_pipeline_tuning_options(speed_level=level.speed)
+    options.loop_unrolling = level.unrolling
+    options.loop_vectorization = options.slp_vectorization = level.vectorization
+    if level.inlining is not None:
+        options.inlining_threshold = level.inlining
+    builder = llvm.create_pass_builder(machine, options)
+    passes = builder.getModulePassManager()
+    passes.add_global_dead_code_eliminate_pass()
+    passes.run(module, builder)
+    module.verify()
+
+
+def main(arguments: list[str]) -> int:
+    """Write one object file."""
+    bitcode, name, wanted, kernel, file = arguments
+    platform = PLATFORMS[name]
+    level = next(level for level in platform.levels if level.name == wanted)
+    try:
+        code = object_code(Path(bitcode).read_bytes(), platform, level, kernel)
+    except EnvironmentProblem as problem:
+        print(problem, file=sys.stderr)
+        return 2
+    Path(file).write_bytes(code)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

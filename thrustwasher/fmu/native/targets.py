@@ -1,0 +1,90 @@
+"""The platforms an FMU is built for, and how hard the compiler works for each: data only.
+
+x86-64 binaries hold the kernels twice and choose by the CPU when they run: "v3" (AVX2, 2013 and
+later) and "v2" (SSE4.2, 2009 and later). The other platforms have one level.
+"""
+
+from dataclasses import dataclass
+
+# What numba compiles for -> the CPU it is told. The other platforms' code is made from "v2", which
+# names no instruction that LLVM could not write for another machine.
+DIALECTS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
+
+GLIBC = (2, 17)  # the oldest C library on Linux; every distribution since 2014 is newer
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Level:
+    """One CPU level and how its object is optimised.
+
+    ``speed`` is LLVM's optimisation level, 0 to 3. ``attribute`` is "", "optsize" or "minsize" and
+    goes to every function. ``inlining`` is the inliner's threshold (None: LLVM's own choice).
+    """
+
+    name: str  # ends the names of the entries: tw_step_v3
+    dialect: str
+    cpu: str
+    speed: int = 3
+    attribute: str = ""
+    inlining: int | None = None
+    unrolling: bool = True
+    vectorization: bool = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Platform:
+    """One operating system on one kind of machine."""
+
+    name: str
+    fmi2: str  # folder below binaries/
+    fmi3: str
+    extension: str
+    triple: str  # for LLVM
+    zig: str  # for ziglang
+    machine: tuple[str, str]  # platform.system(), platform.machine() where it runs
+    format: str  # ELF, PE or MachO
+    flags: tuple[str, ...]
+    libraries: tuple[str, ...]
+    levels: tuple[Level, ...]
+
+
+_X86 = (
+    Level(name="v2", dialect="v2", cpu="x86-64-v2"),
+    Level(name="v3", dialect="v3", cpu="x86-64-v3"),
+)
+_ELF = ("-fPIC", "-Wl,-z,defs", "-Wl,--hash-style=gnu")
+_GLIBC = ".".join(map(str, GLIBC))
+
+PLATFORMS = {
+    p.name: p
+    for p in (
+        Platform(
+            name="linux64", fmi2="linux64", fmi3="x86_64-linux", extension="so", format="ELF",
+            triple="x86_64-unknown-linux-gnu", zig=f"x86_64-linux-gnu.{_GLIBC}",
+            machine=("Linux", "x86_64"), flags=_ELF, libraries=("-lm",), levels=_X86,
+        ),
+        Platform(
+            name="win64", fmi2="win64", fmi3="x86_64-windows", extension="dll", format="PE",
+            triple="x86_64-w64-windows-gnu", zig="x86_64-windows-gnu",
+            machine=("Windows", "AMD64"), flags=(), libraries=(), levels=_X86,
+        ),
+        Platform(
+            name="aarch64-linux", fmi2="aarch64-linux", fmi3="aarch64-linux", extension="so",
+            format="ELF", triple="aarch64-unknown-linux-gnu", zig=f"aarch64-linux-gnu.{_GLIBC}",
+            machine=("Linux", "aarch64"), flags=_ELF, libraries=("-lm",),
+            levels=(Level(name="generic", dialect="v2", cpu="generic"),),
+        ),
+        Platform(
+            name="darwin-x86_64", fmi2="darwin64", fmi3="x86_64-darwin", extension="dylib",
+            format="MachO", triple="x86_64-apple-macosx11.0", zig="x86_64-macos.11.0",
+            machine=("Darwin", "x86_64"), flags=("-fPIC",), libraries=("-lm",),
+            levels=(Level(name="v2", dialect="v2", cpu="x86-64-v2"),),
+        ),
+        Platform(
+            name="darwin-arm64", fmi2="darwin64", fmi3="aarch64-darwin", extension="dylib",
+            format="MachO", triple="arm64-apple-macosx11.0", zig="aarch64-macos.11.0",
+            machine=("Darwin", "arm64"), flags=("-fPIC",), libraries=("-lm",),
+            levels=(Level(name="generic", dialect="v2", cpu="apple-m1"),),
+        ),
+    )
+}  # fmt: skip

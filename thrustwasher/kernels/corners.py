@@ -1,6 +1,14 @@
 """Corners rounded to one continuous derivative; exact outside the rounded stretch."""
 
+import math
+
 from ._jit import kernel
+
+
+@kernel
+def sign_of(x: float) -> float:
+    """Return the slope of |x|: -1 or 1, and 0, the middle of both, at x = 0."""
+    return 0.0 if x == 0.0 else math.copysign(1.0, x)
 
 
 @kernel
@@ -14,10 +22,23 @@ def floored(x: float, floor: float) -> float:
 
 
 @kernel
+def floored_slope(x: float, floor: float) -> float:
+    """Return the slope of ``floored`` over x."""
+    return sign_of(x) if abs(x) >= 2.0 * floor else 0.5 * x / floor
+
+
+@kernel
 def soft_size(x: float, width: float) -> float:
     """Return |x| with its corner rounded over |x| < ``width``; 0 with slope 0 at x = 0."""
     s = abs(x) / width
     return abs(x) if s >= 1.0 else width * s * s * (2.0 - s)
+
+
+@kernel
+def soft_size_slope(x: float, width: float) -> float:
+    """Return the slope of ``soft_size`` over x."""
+    s = abs(x) / width
+    return sign_of(x) if s >= 1.0 else x / width * (4.0 - 3.0 * s)
 
 
 @kernel
@@ -42,7 +63,21 @@ def soft_most(a: float, b: float, width: float) -> float:
 
 
 @kernel
+def soft_most_slope(a: float, b: float, width: float) -> float:
+    """Return the slope of ``soft_most`` over a."""
+    _, slope = soft_least(-a, -b, width)
+    return slope
+
+
+@kernel
 def smoothstep(z: float) -> float:
     """Return 0 below z = 0, 1 above z = 1 and z^2 (3 - 2 z) between."""
     s = min(max(z, 0.0), 1.0)
     return s * s * (3.0 - 2.0 * s)
+
+
+@kernel
+def smoothstep_slope(z: float) -> float:
+    """Return the slope of ``smoothstep`` over z."""
+    s = min(max(z, 0.0), 1.0)
+    return 6.0 * s * (1.0 - s)

@@ -24,10 +24,29 @@ def li_seireg(film: float, radius: float, f0: float, roughness: float) -> float:
 
 
 @kernel
+def li_seireg_slope(film: float, radius: float, f0: float, roughness: float) -> float:
+    """Return the slope of ``li_seireg`` over the logarithm of the film."""
+    depth = min(film / radius / (2.873 * roughness - 2.143e-5), 700.0)
+    return -(0.0864 - 1372.0 * roughness) * math.exp(-depth) * depth
+
+
+@kernel
 def iso_mean(
     line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
 ) -> float:
+    """Return the mean coefficient of friction [-] of ``iso_and_slope``."""
+    friction, _ = iso_and_slope(line_load, rolling, radius, viscosity, roughness, f0)
+    return friction
+
+
+@kernel
+def iso_and_slope(
+    line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
+) -> tuple[float, float]:
     """Return the mean coefficient of friction [-] of ISO/TS 6336-20, and no more than ``f0``.
+
+    The second number is its slope over the logarithm of the unbounded value, which goes with the
+    power 0.2 of load over speed and -0.05 of the viscosity.
 
     0.06 (w/(v R))^0.2 eta^-0.05 Ra^0.25 in its own units (N/mm, m/s, mm, mPa s, um); here
     ``line_load`` [N/m], ``rolling`` sum of the speeds at the pitch point [m/s], ``radius`` there
@@ -39,6 +58,6 @@ def iso_mean(
         0.2 * math.log(load) - 0.05 * math.log(1e3 * viscosity) + 0.25 * math.log(1e6 * roughness)
     )
     if f0 <= 0.0:
-        return 0.0
-    bounded, _ = soft_least(mu, f0, 0.1 * f0)
-    return bounded
+        return 0.0, 0.0
+    bounded, slope = soft_least(mu, f0, 0.1 * f0)
+    return bounded, slope * mu

@@ -81,7 +81,18 @@ def shear_stress(shear: float, cap: float) -> tuple[float, float]:
 def surface_temperature(
     bulk: float, factor: float, shear: float, cap: float, exponent: float, b: float, c: float
 ) -> tuple[float, float, int, int]:
-    """Return (T [K], stress [Pa], status, iterations): the flank heated by oil of viscosity mu(T).
+    """Return (T [K], stress [Pa], status, iterations) of ``heated_flank``."""
+    found, stress, _, status, iterations = heated_flank(bulk, factor, shear, cap, exponent, b, c)
+    return found, stress, status, iterations
+
+
+@kernel
+def heated_flank(
+    bulk: float, factor: float, shear: float, cap: float, exponent: float, b: float, c: float
+) -> tuple[float, float, float, int, int]:
+    """Return T [K] of the flank heated by oil of viscosity mu(T), and the stress in the oil [Pa].
+
+    With them the log slope of the stress over the uncapped one, status and iterations.
 
     T = bulk + factor x stress, ``factor`` [K/Pa]; ``shear`` [Pa] is the stress at the viscosity of
     the bulk, elsewhere shear (mu(T)/mu(bulk))^exponent (0.3 if the film thins with T, 1 if not).
@@ -105,9 +116,9 @@ def surface_temperature(
             low = rise
         step = -gap / (1.0 + factor * stress * slope * exponent * b / (warm * warm))
         if min(abs(step), high - low) <= 1e-13 * (bulk + rise):
-            return bulk + min(max(rise + step, low), high), stress, 0, n + 1
+            return bulk + min(max(rise + step, low), high), stress, slope, 0, n + 1
         if not low <= rise + step <= high or abs(step) > 0.5 * last:
             step = 0.5 * (low + high) - rise
         rise += step
         last = abs(step)
-    return bulk + rise, stress, 10, MAX_ITERATIONS
+    return bulk + rise, stress, slope, 10, MAX_ITERATIONS

@@ -14,17 +14,17 @@ from . import gear_layout as L
 from ._jit import kernel
 from .corners import floored, smoothstep, soft_size
 from .gear_contact import film_thickness, hertz_width, surface_stress
-from .gear_friction import iso_mean, li_seireg
+from .gear_friction import iso_and_slope, li_seireg, li_seireg_slope
 from .gear_heat import (
     blok_rise,
     film_factor,
     flash_rise,
+    heated_flank,
     oil_viscosity,
     surface_factor,
-    surface_temperature,
 )
 from .gear_stress import modification, thermal_stress, utilization
-from .rough_area import LARGEST_RATIO, area_ratio, bounded_ratio
+from .rough_area import LARGEST_RATIO, area_and_slope, bounded_ratio
 
 Array = NDArray[np.float64]
 
@@ -42,15 +42,21 @@ HOTTEST_ASPERITY = 1000.0  # K; steel has softened
 @kernel
 def friction_coefficient(
     par: Array, film: float, line_load: float, speed: float, viscosity: float
-) -> float:
-    """Return the coefficient of friction [-]; ``speed`` of the pinion [rad/s] above 0."""
+) -> tuple[float, float]:
+    """Return the coefficient of friction [-]; ``speed`` of the pinion [rad/s] above 0.
+
+    The second number is its slope over the logarithm of what it follows: the film with Li &
+    Seireg's law, ISO's unbounded value with that of ISO.
+    """
     if par[L.P_FIDELITY] != L.CLOSED:
         if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
-            return li_seireg(film, par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS])
+            radius, f0, roughness = par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS]
+            slope = li_seireg_slope(film, radius, f0, roughness)
+            return li_seireg(film, radius, f0, roughness), slope
         if par[L.P_FRICTION_LAW] == L.ISO:
             rolling, radius = par[L.D_ROLLING] * speed, par[L.D_PITCH_RADIUS]
-            return iso_mean(line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0])
-    return par[L.P_CONSTANT_FRICTION]
+            return iso_and_slope(line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0])
+    return par[L.P_CONSTANT_FRICTION], 0.0
 
 
 @kernel
@@ -64,8 +70,20 @@ def contact_weight(par: Array, film_ratio: float) -> float:
 
 
 @kernel
-def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[float, int, int]:
-    """Fill film, surface and film temperature; return (viscosity of the bulk, status, iterations).
+def viscosity_follows(par: Array) -> tuple[bool, bool, float]:
+    """Return if the shear, then the film too, follows the flank's temperature; power of both.
+
+    The power is that of the viscosity in the shear stress: 0.3 where the film thins with it.
+    """
+    warm = par[L.P_VISCOSITY_AT] == L.AT_SURFACE and par[L.P_FIDELITY] != L.CLOSED
+    thins = warm and par[L.P_FILM_VISCOSITY] == L.AT_SURFACE
+    exponent = (0.3 if thins else 1.0) if warm else 0.0
+    return warm, thins, exponent
+
+
+@kernel
+def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, int]:
+    """Fill film, surface and film temperature, viscosities; return (status, iterations).
 
     ``field`` holds line load, width and pressure already.
     """
@@ -82,10 +100,8 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[float
         cap = par[L.P_LIMITING_TRACTION] * pressure
     taken = par[L.D_SHARE] * sliding * width  # heat into the pinion per stress, [m2/s]
     factor = taken * surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
-    warm = par[L.P_VISCOSITY_AT] == L.AT_SURFACE and par[L.P_FIDELITY] != L.CLOSED
-    thins = warm and par[L.P_FILM_VISCOSITY] == L.AT_SURFACE
-    exponent = (0.3 if thins else 1.0) if warm else 0.0
-    surface, stress, status, iterations = surface_temperature(
+    warm, thins, exponent = viscosity_follows(par)
+    surface, stress, slope, status, iterations = heated_flank(
         oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
     )
     viscosity = bulk
@@ -97,11 +113,14 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[float
         film *= math.exp(0.7 * math.log(viscosity / bulk))
     field[L.F_VISCOSITY], field[L.F_FILM], field[L.F_SURFACE] = viscosity, film, surface
     field[L.F_RATIO] = film / par[L.D_SIGMA]
-    field[L.F_FILM_TEMPERATURE] = surface + taken * stress * film_factor(
+    field[L.F_BULK_VISCOSITY], field[L.F_STRESS_SLOPE] = bulk, slope
+    field[L.F_SURFACE_RISE] = factor * stress
+    field[L.F_FILM_RISE] = taken * stress * film_factor(
         film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
         par[L.D_OIL_CAPACITY],
     )  # fmt: skip
-    return bulk, status, iterations
+    field[L.F_FILM_TEMPERATURE] = surface + field[L.F_FILM_RISE]
+    return status, iterations
 
 
 @kernel
@@ -126,9 +145,10 @@ def asperity_temperature(
 def stress_asperities(par: Array, oil: float, field: Array) -> None:
     """Fill what the asperity temperature brings: area ratio, stress, both steels' endurance."""
     if par[L.P_AREA_LAW] == L.BOUNDED or par[L.P_AREA_LAW] == L.FREE:
-        ratio = area_ratio(field[L.F_RATIO], par[L.P_ASPERITY_GROUP])
+        ratio, slope = area_and_slope(field[L.F_RATIO], par[L.P_ASPERITY_GROUP])
     else:
-        ratio = min(par[L.P_AREA_RATIO], LARGEST_RATIO)
+        ratio, slope = min(par[L.P_AREA_RATIO], LARGEST_RATIO), 0.0
+    field[L.F_FREE_AREA], field[L.F_FREE_AREA_SLOPE] = ratio, slope
     factor, mechanical = par[L.P_HARDNESS_FACTOR], field[L.F_STRESS]
     modulus, poisson = par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO]
     expansion = par[L.P_THERMAL_EXPANSION]
@@ -184,8 +204,11 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
     )
     field[L.F_STRESS] = surface_stress(line_load, par[L.D_RADIUS], par[L.P_YOUNGS_MODULUS])
     field[L.F_SLIDING] = par[L.D_SLIDING] * turning
-    bulk, status, iterations = heat_film(par, oil, turning, field)
-    friction = friction_coefficient(par, field[L.F_FILM], line_load, turning, bulk)
+    status, iterations = heat_film(par, oil, turning, field)
+    friction, slope = friction_coefficient(
+        par, field[L.F_FILM], line_load, turning, field[L.F_BULK_VISCOSITY]
+    )
+    field[L.F_FRICTION_SLOPE] = slope
     v1, v2 = par[L.D_V1] * turning, par[L.D_V2] * turning
     rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)  # no load, no heat
     if par[L.P_FIDELITY] == L.CLOSED:

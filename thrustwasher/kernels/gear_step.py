@@ -11,6 +11,7 @@ from .corners import soft_size
 from .gear_constants import derive as derive
 from .gear_point import LEAST_LINE_LOAD, mesh_point
 from .gear_rules import broken_rule as broken_rule
+from .gear_sens import sens as sens
 
 Array = NDArray[np.float64]
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
@@ -51,6 +52,7 @@ def step(
     # The loss grows from zero load with a continuous slope, over twice the least line load.
     pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
     smooth_sign = math.tanh(speed / par[L.P_SPEED_SMOOTHING])
+    work[L.F_SMOOTH_SIGN] = smooth_sign
     work[L.F_TORQUE] = work[L.F_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
     work[L.F_POWER] = work[L.F_TORQUE] * speed
     iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])

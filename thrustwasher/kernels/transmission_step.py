@@ -11,12 +11,13 @@ from . import transmission_motion as motion
 from ._jit import kernel
 from .transmission_course import is_at_rest, run
 from .transmission_rules import broken_rule as broken_rule
+from .transmission_sens import LEAST_WASHER_LOAD
+from .transmission_sens import sens as sens
 
 Array = NDArray[np.float64]
 
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
-LEAST_WASHER_LOAD = 1.0  # N
 derive = motion.derive
 
 

@@ -1,0 +1,115 @@
+"""The gear mesh's derivatives over its inputs: against differences, at every law and corner."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from thrustwasher.kernels import gear_step as k
+from thrustwasher.models.gearmesh import prepare
+from thrustwasher.models.gearmesh_params import SPEC, GearMeshParams
+
+from slopes import Unit, disagreement  # isort: skip
+
+NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
+DEPENDS = np.array([[i.name in s.depends for i in SPEC.inputs] for s in SPEC.outputs[: k.NOUT]])
+CHOICES = {
+    f.name: list(f.metadata["options"])
+    for f in fields(GearMeshParams)
+    if f.metadata["kind"] == "enumeration"
+}
+# What is made of the asperities' rise over the oil: lost in the oil's 300 K if it is minute.
+OF_THE_RISE = [i for i, n in enumerate(NAMES) if n.startswith(("thermal", "modification"))]
+
+
+def mesh(fidelity="field", **changes):
+    return Unit(k, prepare(GearMeshParams(**changes), fidelity))
+
+
+def random_mesh(rng):
+    changes = {name: str(rng.choice(options)) for name, options in CHOICES.items()}
+    return mesh(str(rng.choice(list(SPEC.fidelities))), **changes)
+
+
+def random_point(rng):
+    load = 10.0 ** rng.uniform(-3.0, 5.0) * rng.choice([-1.0, 1.0])
+    speed = 10.0 ** rng.uniform(-5.0, 3.6) * rng.choice([-1.0, 1.0])
+    return np.array([load, speed, rng.uniform(240.0, 470.0)])
+
+
+def scale_at(point):
+    return [abs(point[0]) + 1e-3, abs(point[1]) + 1e-4, 100.0]
+
+
+def compared(unit, point):
+    worst = disagreement(unit, point, scale_at(point))
+    if unit.step(point)[NAMES.index("temperature")] - point[2] < 0.1:
+        worst[OF_THE_RISE] = 0.0
+    return worst
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_derivatives_are_those_of_differences_under_any_laws(seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(25):
+        unit, point = random_mesh(rng), random_point(rng)
+        assert compared(unit, point).max() < 1e-6
+
+
+@pytest.mark.parametrize("fidelity", SPEC.fidelities)
+@pytest.mark.parametrize("friction_law", CHOICES["friction_law"])
+@pytest.mark.parametrize("point", [(0.0, 0.0), (0.0, 180.0), (40.0, 0.0), (-40.0, 1e-4)])
+def test_derivatives_hold_at_rest_and_without_load(fidelity, friction_law, point):
+    unit = mesh(fidelity, friction_law=friction_law)
+    assert compared(unit, np.array([*point, 299.85])).max() < 1e-6
+
+
+def test_only_listed_inputs_count():
+    rng = np.random.default_rng(50)
+    for _ in range(50):
+        found = random_mesh(rng).gradient(random_point(rng))
+        assert (found[~DEPENDS] == 0.0).all()
+
+
+def test_every_listed_pair_is_seen_somewhere():
+    rng = np.random.default_rng(51)
+    seen = np.zeros_like(DEPENDS)
+    for _ in range(50):
+        seen |= random_mesh(rng).gradient(random_point(rng)) != 0.0
+    assert (seen == DEPENDS).all()
+
+
+def test_the_derivative_is_linear_in_its_direction():
+    rng = np.random.default_rng(52)
+    for _ in range(20):
+        unit, point = random_mesh(rng), random_point(rng)
+        columns, seed = unit.gradient(point), rng.standard_normal(3)
+        parts = columns * seed
+        whole = unit.sens(point, seed)
+        assert (np.abs(whole - parts.sum(1)) <= 1e-12 * np.abs(parts).sum(1)).all()
+
+
+def test_speeding_up_backwards_is_the_mirror_image():
+    """Torque is odd in the speed, all else even; the sign of the load never matters."""
+    rng = np.random.default_rng(53)
+    odd = np.array([-1.0 if n == "friction_torque" else 1.0 for n in NAMES])[:, None]
+    for _ in range(20):
+        unit, point = random_mesh(rng), random_point(rng)
+        here = unit.gradient(point)
+        assert (unit.gradient(point * [1, -1, 1]) == odd * here * [1, -1, 1]).all()
+        assert (unit.gradient(point * [-1, 1, 1]) == here * [-1, 1, 1]).all()
+
+
+def test_rising_friction_torque_has_the_slope_of_the_smoothed_sign():
+    unit = mesh("closed")
+    at_rest = unit.gradient([40.0, 0.0, 300.0])[NAMES.index("friction_torque")]
+    fast = unit.step([40.0, 500.0, 300.0])[NAMES.index("friction_torque")]
+    assert at_rest[1] == pytest.approx(fast / 0.1, rel=1e-12)
+
+
+def test_what_is_no_number_is_refused():
+    unit = mesh()
+    unit.step([40.0, 180.0, 300.0])
+    dout = np.zeros(k.NOUT)
+    inp, seed = np.array([40.0, 180.0, 300.0]), np.array([1.0, np.nan, 0.0])
+    assert k.sens(unit.par, inp, unit.state, unit.work, seed, dout) == 14

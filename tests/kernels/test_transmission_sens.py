@@ -1,0 +1,147 @@
+"""The transmission's derivatives over its inputs: against differences, in every pair of modes."""
+
+import numpy as np
+import pytest
+
+from thrustwasher.kernels import transmission_layout as L
+from thrustwasher.kernels import transmission_step as k
+from thrustwasher.models._params import as_numbers
+from thrustwasher.models.transmission_params import COUPLING, SPEC, TransmissionParams
+
+from slopes import Unit, disagreement  # isort: skip
+
+NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
+DEPENDS = np.array([[i.name in s.depends for i in SPEC.inputs] for s in SPEC.outputs[: k.NOUT]])
+
+
+def gearbox(**params):
+    par = np.zeros(k.NPAR)
+    par[: k.N_PARAM] = [*as_numbers(TransmissionParams(**params)), 1.0]
+    assert k.derive(par) == 0
+    return Unit(k, par)
+
+
+def random_box(rng):
+    return gearbox(
+        coupling=str(rng.choice(list(COUPLING))),
+        capacity_extrapolation=bool(rng.integers(2)),
+        torque_age=int(rng.integers(3)),
+        ring_inertia=float(rng.choice([0.0, 0.01, 0.3])),
+        initial_engine_speed=float(rng.choice([0.0, 350.0, -100.0])),
+        initial_ring_speed=float(rng.choice([0.0, 100.0, -50.0])),
+        helix_angle=float(rng.choice([0.0, 0.35])),
+    )
+
+
+def random_point(rng):
+    """Return torques weak and strong, none of them 0, and a command."""
+    packs = 10.0 ** rng.uniform(0.0, 3.5, 2) * rng.choice([1.0, 1.0, 1.0, -1.0], 2)
+    drag = 10.0 ** rng.uniform(-3.0, 0.5, 2) * rng.choice([-1.0, 1.0], 2)
+    return np.array([*packs, *drag, rng.uniform(0.1, 0.9)])
+
+
+def modes(unit):
+    return unit.work[L.W_CLUTCH_MODE], unit.work[L.W_BRAKE_MODE]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_derivatives_are_those_of_differences_wherever_a_shift_may_be(seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(20):
+        unit = random_box(rng)
+        for _ in range(int(rng.integers(0, 4))):
+            held = random_point(rng)
+            for i in range(int(rng.integers(1, 30))):
+                unit.step(held, t=1e-2 * i, dt=1e-2)
+        point = random_point(rng)
+        assert disagreement(unit, point, 0.1 * np.abs(point)).max() < 1e-6
+
+
+def stuck_box(clutch, brake):
+    """Return a gearbox at rest or turning, and a point where the packs named stick."""
+    start = {} if brake else {"initial_ring_speed": 350.0}
+    if clutch and brake:
+        start["initial_engine_speed"] = 0.0
+    unit = gearbox(**start)
+    return unit, np.array([900.0 if clutch else 30.0, 900.0 if brake else 30.0, 0.05, -0.2, 0.5])
+
+
+@pytest.mark.parametrize(("clutch", "brake"), [(1, 0), (0, 1), (1, 1)])
+def test_derivatives_hold_where_packs_stick(clutch, brake):
+    unit, point = stuck_box(clutch, brake)
+    found = unit.gradient(point)
+    assert [m == 0.0 for m in modes(unit)] == [bool(clutch), bool(brake)]
+    assert disagreement(unit, point, 0.1 * point).max() < 1e-6
+    held = [NAMES.index("clutch_reaction"), NAMES.index("brake_reaction")]
+    for pack, sticks in enumerate((clutch, brake)):
+        if sticks:  # more capacity changes nothing
+            assert (found[held, pack] == 0.0).all()
+        else:
+            assert abs(found[held[pack], pack]) == 1.0
+
+
+def helped_box():
+    """Return a gearbox and a point where the planets' drag helps the clutch to stick."""
+    unit = gearbox(initial_ring_speed=350.0)
+    wanted = unit.step([900.0, 30.0, 2.0, 5.0, 0.5])[NAMES.index("clutch_reaction")]
+    return unit, np.array([wanted - 1.0, 30.0, 2.0, 5.0, 0.5])
+
+
+def test_drag_that_helps_a_stuck_clutch_leaves_it_its_capacity():
+    unit, point = helped_box()
+    found = unit.gradient(point)
+    assert modes(unit)[0] == 0.0
+    assert unit.out[NAMES.index("clutch_reaction")] == point[0]
+    assert found[NAMES.index("clutch_reaction")].tolist() == [1.0, 0.0, 0.0, 0.0, 0.0]
+    assert disagreement(unit, point, 0.01 * point).max() < 1e-6
+
+
+def test_only_listed_inputs_count_and_all_of_them():
+    rng = np.random.default_rng(40)
+    seen = np.zeros_like(DEPENDS)
+    for _ in range(60):
+        unit = random_box(rng)
+        if rng.integers(2):
+            unit.step(random_point(rng), dt=1e-2)
+        found = unit.gradient(random_point(rng))
+        assert (found[~DEPENDS] == 0.0).all()
+        seen |= found != 0.0
+    for unit, point in (stuck_box(0, 1), stuck_box(1, 0), helped_box()):
+        seen |= unit.gradient(point) != 0.0
+    assert (seen == DEPENDS).all()
+
+
+def test_the_derivative_is_linear_in_its_direction():
+    rng = np.random.default_rng(41)
+    for _ in range(20):
+        unit, point, seed = random_box(rng), random_point(rng), rng.standard_normal(5)
+        parts = unit.gradient(point) * seed
+        wrong = np.abs(unit.sens(point, seed) - parts.sum(1))
+        assert (wrong <= 1e-12 * np.abs(parts).sum(1)).all()
+
+
+def test_turning_backwards_is_the_mirror_image():
+    """With engine and speeds reversed torques change sign, their derivatives over sizes too."""
+    odd = ("sun_torque", "drag_torque", "clutch_reaction", "brake_reaction")
+    point = np.array([120.0, 90.0, 0.05, 0.2, 0.5])
+    forward = gearbox(initial_ring_speed=40.0).gradient(point)
+    backward = gearbox(
+        initial_ring_speed=-40.0, initial_engine_speed=-350.0, engine_torque=-150.0
+    ).gradient(point)
+    signs = np.array([-1.0 if n in odd else 1.0 for n in NAMES])[:, None]
+    assert backward == pytest.approx(signs * forward, rel=1e-12)
+
+
+def test_a_corner_counts_as_flat():
+    """Without drag or capacity the size of a torque may only grow: no slope is given there."""
+    found = gearbox(initial_ring_speed=40.0).gradient([0.0, 0.0, 0.0, 0.0, 0.5])
+    assert (found[:, :4] == 0.0).all() and found[NAMES.index("clutch_load"), 4] == 5898.0
+
+
+def test_older_torques_look_further_ahead():
+    """Extrapolated by their age, changed capacities count 1 + age times."""
+    for age in (0, 1, 2):
+        unit = gearbox(initial_ring_speed=40.0, torque_age=age)
+        unit.step([50.0, 40.0, 0.0, 0.0, 0.5], dt=1e-3)
+        found = unit.gradient([60.0, 45.0, 0.0, 0.0, 0.5])
+        assert abs(found[NAMES.index("clutch_reaction"), 0]) == 1.0 + age

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernel.h"
+#include "dispatch.h"
 #include "shell.h"
 
 /* By the bits: NaN raises no exception here, even where the host has unmasked them. */
@@ -90,7 +90,7 @@ int begin(Instance *m, double start_time) {
     if (!is_finite(start_time)) {
         Text text = {0};
         add(&text, "start time = ");
-        add_number(&text, start_time);
+        add_exact(&text, start_time);
         return fail(m, "%s s, allowed: a finite number", text.text);
     }
     m->now.time = start_time;
@@ -169,9 +169,9 @@ static int is_step(Instance *m, double t, double h) {
     if (is_finite(t) && is_finite(h) && is_finite(t + h) && h > 0.0) return 1;
     Text text = {0};
     add(&text, "step from t = ");
-    add_number(&text, t);
+    add_exact(&text, t);
     add(&text, " s by ");
-    add_number(&text, h);
+    add_exact(&text, h);
     m->now.latch = STATUS_BAD_INPUT;
     fail(m, "%s s, allowed: finite, step > 0", text.text);
     return 0;

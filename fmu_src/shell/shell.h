@@ -104,6 +104,7 @@ int adjoint(Instance *m, const Direction *d, double *sensitivity);
 typedef struct { size_t n; char text[TEXT_LENGTH]; } Text;
 void add(Text *t, const char *format, ...);
 void add_number(Text *t, double value);
+void add_exact(Text *t, double value);
 void add_quantity(Text *t, const Variable *v, double value); /* name = number unit */
 void tell(const Log *log, int status, int category, const Text *t);
 int fail(const Instance *m, const char *format, ...); /* says it as an error and returns BAD */

@@ -1,6 +1,4 @@
 /* What is said about a run: where it failed, what was refused, what happened. */
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "shell.h"
@@ -38,25 +36,6 @@ void tell_story(const Instance *m, int32_t status, double t, double h) {
     add_point(&text, m, 0);
     add(&text, ": %s: %s", status_text(status)->name, status_text(status)->advice);
     tell(&m->log, BAD, LOG_ERROR, &text);
-}
-
-/* As Python writes a float: the fewest digits that give the same number back. */
-static void add_exact(Text *t, double value) {
-    char digits[40];
-    int n = 0;
-    do {
-        snprintf(digits, sizeof digits, "%.*e", n, value);
-    } while (strtod(digits, NULL) != value && ++n < 17);
-    int exponent = atoi(strchr(digits, 'e') + 1), decimals = n > exponent ? n - exponent : 1;
-    size_t start = t->n;
-    if (exponent < -4 || exponent >= 16) {
-        add(t, "%.*g", n + 1, value);
-    } else {
-        add(t, "%.*f", decimals, value);
-    }
-    for (; start < t->n; start++) {
-        if (t->text[start] == ',') t->text[start] = '.';
-    }
 }
 
 static void add_parameter(Text *t, const Instance *m, const char *name, size_t length) {

@@ -1,6 +1,7 @@
 /* Sentences, and where they go. */
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "shell.h"
@@ -18,7 +19,14 @@ void add(Text *t, const char *format, ...) {
     va_end(values);
 }
 
-/* Numbers look the same everywhere: no sign of NaN, no decimal comma of the host's language. */
+/* A decimal comma of the host's language becomes a point. */
+static void write_points(Text *t, size_t start) {
+    for (; start < t->n; start++) {
+        if (t->text[start] == ',') t->text[start] = '.';
+    }
+}
+
+/* Six digits, and the same everywhere: NaN has no sign. */
 void add_number(Text *t, double value) {
     size_t start = t->n;
     if (value != value) {
@@ -26,9 +34,28 @@ void add_number(Text *t, double value) {
         return;
     }
     add(t, "%g", value);
-    for (; start < t->n; start++) {
-        if (t->text[start] == ',') t->text[start] = '.';
+    write_points(t, start);
+}
+
+/* As Python writes a float: the fewest digits that give the same number back. */
+void add_exact(Text *t, double value) {
+    char digits[40];
+    int n = 0;
+    if (!is_finite(value)) {
+        add_number(t, value);
+        return;
     }
+    do {
+        snprintf(digits, sizeof digits, "%.*e", n, value);
+    } while (strtod(digits, NULL) != value && ++n < 17);
+    int exponent = atoi(strchr(digits, 'e') + 1), decimals = n > exponent ? n - exponent : 1;
+    size_t start = t->n;
+    if (exponent < -4 || exponent >= 16) {
+        add(t, "%.*g", n + 1, value);
+    } else {
+        add(t, "%.*f", decimals, value);
+    }
+    write_points(t, start);
 }
 
 void add_quantity(Text *t, const Variable *v, double value) {

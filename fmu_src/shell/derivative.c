@@ -1,7 +1,7 @@
 /* Derivatives of outputs with respect to inputs, from the model's own equations. */
 #include <string.h>
 
-#include "dispatch.h"
+#include "kernel.h"
 #include "shell.h"
 
 static int are_known(Instance *m, const uint32_t *references, size_t n, int cause) {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dispatch.h"
+#include "kernel.h"
 #include "shell.h"
 
 /* By the bits: NaN raises no exception here, even where the host has unmasked them. */

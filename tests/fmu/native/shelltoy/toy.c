@@ -1,7 +1,7 @@
 /* kernel.py once more, so that the shell can be tested without the compiled kernels. */
 #include <math.h>
 
-#include "dispatch.h"
+#include "kernel.h"
 
 int tw_rule(const double *par)
 {
@@ -16,7 +16,7 @@ int tw_derive(double *par)
     return par[3] == 13.0 ? 14 : 0;
 }
 
-int tw_step(const double *par, const double *inp, double *state, double *work, double *out,
+int tw_step(double *par, double *inp, double *state, double *work, double *out,
             int32_t *iout, double t, double dt)
 {
     double load = inp[0], speed = inp[1], rise = state[0], energy = state[1];
@@ -51,7 +51,7 @@ int tw_step(const double *par, const double *inp, double *state, double *work, d
     return 0;
 }
 
-int tw_sens(const double *par, const double *inp, double *state, double *work, const double *seed,
+int tw_sens(double *par, double *inp, double *state, double *work, double *seed,
             double *dout)
 {
     double ratio = 1.0 + inp[0] / 1000.0;

@@ -1,0 +1,13 @@
+/* The model's entries as plain C; each returns the number of a Status, or below 0 for a defect. */
+#ifndef THRUSTWASHER_KERNEL_H
+#define THRUSTWASHER_KERNEL_H
+
+#include <stdint.h>
+
+int tw_derive(double *par);
+int tw_rule(const double *par); /* 0, or the place (from 1) of the first broken rule in RULES */
+int tw_step(double *par, double *inp, double *state, double *work, double *out, int32_t *iout,
+            double t, double dt);
+int tw_sens(double *par, double *inp, double *state, double *work, double *seed, double *dout);
+
+#endif

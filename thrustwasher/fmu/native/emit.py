@@ -1,9 +1,9 @@
 """A model's kernel entries as one self-contained LLVM module: ``python -m ... KERNEL FILE``.
 
-Runs in a process of its own, since numba reads the CPU and its optimisation level once, when it is
-imported. numba makes of each entry a C callback around a compiled function. The callback holds all
-that needs Python (lock, exceptions) and falls away here; what stays takes numbers and needs
-libm at most. The bitcode is not optimised: that is done for each platform (``lower.py``).
+Runs in a process of its own, since numba reads its settings once, when it is imported. numba makes
+of each entry a C callback around a compiled function. The callback holds all that needs Python
+(lock, exceptions) and falls away here; what stays takes numbers and needs libm at most. The bitcode
+is not optimised and names no CPU's instructions: ``lower.py`` makes each platform's object of it.
 """
 
 import importlib
@@ -18,9 +18,9 @@ from types import ModuleType
 from typing import Any
 
 from ...errors import EnvironmentProblem
-from .targets import DIALECTS
 
 ENTRIES = {"derive": "derive", "broken_rule": "rule", "step": "step", "sens": "sens"}
+SAID = 2  # exit status: the last line on stderr is the message for the user
 # Reference counts of arrays. The caller owns all memory, there is nothing to count.
 _COUNTING = re.compile(
     r"^define linkonce_odr void @(NRT_incref|NRT_decref)\([^\n]*\{\n.*?^\}\n", re.M | re.S
@@ -28,15 +28,16 @@ _COUNTING = re.compile(
 _NOTHING = r"define internal void @\1(ptr %p) alwaysinline {\n  ret void\n}\n"
 
 
-def environment(dialect: str, cache: str) -> dict[str, str]:
+def environment(cache: str) -> dict[str, str]:
     """Return the environment numba has to find, nothing of the caller's settings of numba.
 
-    The cache folder has to be empty: numba's cache does not see the optimisation level or edits
-    of called functions, and would hand out what another setting had made.
+    Without a name of the CPU numba would write for this machine's. The cache folder has to be
+    empty: numba's cache does not see the optimisation level or edits of called functions, and would
+    hand out what another setting had made.
     """
     own = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     return own | {
-        "NUMBA_CPU_NAME": DIALECTS[dialect], "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0",
+        "NUMBA_CPU_NAME": "x86-64-v2", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0",
         "NUMBA_DISABLE_INTEL_SVML": "1", "NUMBA_CACHE_DIR": cache,
     }  # fmt: skip
 
@@ -139,7 +140,7 @@ def _hide(whole: Any, names: list[str]) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Write the bitcode of a kernel module for the CPU that the environment names."""
+    """Write the bitcode of a kernel module."""
     import llvmlite.binding as llvm
 
     name, file = arguments
@@ -149,7 +150,7 @@ def main(arguments: list[str]) -> int:
         whole = module(importlib.import_module(name), print)
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
-        return 2
+        return SAID
     Path(file).write_bytes(whole.as_bitcode())
     return 0
 

@@ -34,6 +34,7 @@ CAUSES = (
     ("__svml_", "Intel's vector library: NUMBA_DISABLE_INTEL_SVML=1"),
     ("___chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
     ("__chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
+    ("inttoptr", "an address of the building process: a Python object or a ctypes function"),
     ("llvm.", "an instruction of one kind of machine"),
 )
 
@@ -46,6 +47,8 @@ def check_module(module: Any, kernel: str) -> None:
     EnvironmentProblem : names the kernel, the symbols, the likely cause and the cure
     """
     found = [v.name for v in module.global_variables if v.is_declaration]
+    if re.search(r"inttoptr \(i64 \d", str(module)):  # of an object of the compiling process
+        found.append("inttoptr")
     for function in module.functions:
         if function.is_declaration and not _is_allowed(function.name):
             found.append(function.name)

@@ -1,6 +1,6 @@
 """The shared library inside a native FMU."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib import metadata
 from pathlib import Path
 
@@ -8,9 +8,9 @@ from ...errors import ParameterError
 from ...models._spec import ModelSpec
 from ..build import source_folder
 from ..registry import kernel_module
-from . import link, tables
+from . import calls, link, linked, tables
 from .objects import Note, objects, to_stderr
-from .targets import PLATFORMS, Platform
+from .targets import GLIBC, PLATFORMS, Platform
 
 
 def library(
@@ -41,20 +41,29 @@ def library(
     target = PLATFORMS[platform]
     files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi)}
     files |= tables.sources(spec, fmi=fmi, guid=guid)
-    return link_kernel(files, kernel_module(spec.kernel), target, spec.name, note)
+    exports = calls.functions(fmi)
+    return link_kernel(files, kernel_module(spec.kernel), target, spec.name, exports, note)
 
 
 def link_kernel(
-    files: Mapping[str, str | bytes], kernel: str, platform: Platform, name: str, note: Note
+    files: Mapping[str, str | bytes],
+    kernel: str,
+    platform: Platform,
+    name: str,
+    exports: Iterable[str],
+    note: Note = to_stderr,
 ) -> bytes:
-    """Return C files linked with the dispatch to a kernel's objects."""
+    """Return C files linked with the dispatch to a kernel's objects, checked for what it needs."""
     code = objects(kernel, [platform], note)
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
     levels = platform.levels
     defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
-    return link.shared_library(
+    made = link.shared_library(
         {**files, **dispatch(), **parts}, platform=platform, name=name, defines=defines, note=note
     )
+    glibc = GLIBC if link.find_linker().is_cross else None
+    linked.check(made, exports=exports, glibc=glibc)
+    return made
 
 
 def shell(fmi: int) -> dict[str, bytes]:

@@ -18,6 +18,7 @@ from .targets import PLATFORMS, Platform
 
 # -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
 COMMON = ("-O2", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
+PATIENCE = 6.0  # seconds; a build that takes longer is the first one for its platform
 MISSING = (
     "native FMUs need a C compiler to be built (not to be run): pip install 'thrustwasher[build]' "
     "for all platforms, or gcc for this one"
@@ -116,9 +117,28 @@ def build(
         for file, content in files.items():
             data = content.encode() if isinstance(content, str) else content
             (Path(folder) / file).write_bytes(data)
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-        if done.returncode:
-            lines = [line for line in done.stderr.splitlines() if "error" in line]
-            first = (lines or done.stderr.splitlines() or ["no message"])[0]
+        code, said = _run(command, folder, platform, linker, note)
+        if code:
+            lines = [line for line in said.splitlines() if "error" in line]
+            first = (lines or said.splitlines() or ["no message"])[0]
             raise EnvironmentProblem(f"{linker.name} cannot build {output}: {first}")
         return (Path(folder) / output).read_bytes()
+
+
+def _run(
+    command: Sequence[str], folder: str, platform: Platform, linker: Linker, note: Note
+) -> tuple[int, str]:
+    """Return the exit status and what was said; do not let minutes pass in silence."""
+    with subprocess.Popen(
+        command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    ) as process:
+        try:
+            said, _ = process.communicate(timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            if linker.is_cross:
+                note(
+                    f"ziglang compiles its C library for {platform.name}: some minutes, once on "
+                    "this machine"
+                )
+            said, _ = process.communicate()
+        return process.returncode, said

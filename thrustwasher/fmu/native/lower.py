@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import EnvironmentProblem
-from . import gate
+from . import emit, gate
 from .targets import PLATFORMS, Level, Platform
 
 
@@ -66,7 +66,7 @@ def main(arguments: list[str]) -> int:
         code = object_code(Path(bitcode).read_bytes(), platform, level, kernel)
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
-        return 2
+        return emit.SAID
     Path(file).write_bytes(code)
     return 0
 

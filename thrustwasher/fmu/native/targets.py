@@ -6,10 +6,6 @@ later) and "v2" (SSE4.2, 2009 and later). The other platforms have one level.
 
 from dataclasses import dataclass
 
-# What numba compiles for -> the CPU it is told. The other platforms' code is made from "v2", which
-# names no instruction that LLVM could not write for another machine.
-DIALECTS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
-
 GLIBC = (2, 17)  # the oldest C library on Linux; every distribution since 2014 is newer
 
 
@@ -22,7 +18,6 @@ class Level:
     """
 
     name: str  # ends the names of the entries: tw_step_v3
-    dialect: str
     cpu: str
     speed: int = 3
     attribute: str = ""
@@ -49,8 +44,8 @@ class Platform:
 
 
 _X86 = (
-    Level(name="v2", dialect="v2", cpu="x86-64-v2"),
-    Level(name="v3", dialect="v3", cpu="x86-64-v3"),
+    Level(name="v2", cpu="x86-64-v2"),
+    Level(name="v3", cpu="x86-64-v3"),
 )
 _ELF = ("-fPIC", "-Wl,-z,defs", "-Wl,--hash-style=gnu")
 _GLIBC = ".".join(map(str, GLIBC))
@@ -72,19 +67,19 @@ PLATFORMS = {
             name="aarch64-linux", fmi2="aarch64-linux", fmi3="aarch64-linux", extension="so",
             format="ELF", triple="aarch64-unknown-linux-gnu", zig=f"aarch64-linux-gnu.{_GLIBC}",
             machine=("Linux", "aarch64"), flags=_ELF, libraries=("-lm",),
-            levels=(Level(name="generic", dialect="v2", cpu="generic"),),
+            levels=(Level(name="generic", cpu="generic"),),
         ),
         Platform(
             name="darwin-x86_64", fmi2="darwin64", fmi3="x86_64-darwin", extension="dylib",
             format="MachO", triple="x86_64-apple-macosx11.0", zig="x86_64-macos.11.0",
             machine=("Darwin", "x86_64"), flags=("-fPIC",), libraries=("-lm",),
-            levels=(Level(name="v2", dialect="v2", cpu="x86-64-v2"),),
+            levels=(Level(name="v2", cpu="x86-64-v2"),),
         ),
         Platform(
             name="darwin-arm64", fmi2="darwin64", fmi3="aarch64-darwin", extension="dylib",
             format="MachO", triple="arm64-apple-macosx11.0", zig="aarch64-macos.11.0",
             machine=("Darwin", "arm64"), flags=("-fPIC",), libraries=("-lm",),
-            levels=(Level(name="generic", dialect="v2", cpu="apple-m1"),),
+            levels=(Level(name="generic", cpu="apple-m1"),),
         ),
     )
 }  # fmt: skip

@@ -167,5 +167,5 @@ int main(int argc, char **argv)
             continue;
         value_command(name, *m);
     }
-    return fflush(stdout) ? 1 : 0; /* the library stays: its names are wanted in reports */
+    return dlclose(library) || fflush(stdout) ? 1 : 0;
 }

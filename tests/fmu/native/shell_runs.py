@@ -1,7 +1,9 @@
 """Builds of the shell around the toy written in C, and the C host that runs scripts on them."""
 
+import platform
 import shutil
 import subprocess
+import sys
 import tempfile
 from dataclasses import dataclass, field
 from functools import cache
@@ -14,6 +16,8 @@ from shelltoy.spec import SPEC as TOY
 from thrustwasher.fmu.build import source_folder
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.native import tables
+from thrustwasher.fmu.native.library import library as native_library
+from thrustwasher.fmu.registry import find_spec
 
 HERE = Path(__file__).parent
 GUID = "0123456789abcdef0123456789abcdef"
@@ -21,6 +25,10 @@ SANITIZED = ("-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 STRICT = ("-Wall", "-Wextra", "-Werror", "-ffp-contract=off")
 _folder = tempfile.TemporaryDirectory(prefix="shell")
 gcc = shutil.which("gcc")
+needs_linux = pytest.mark.skipif(
+    sys.platform != "linux" or platform.machine() != "x86_64" or not gcc,
+    reason="needs Linux on x86-64 and gcc (Debian package gcc)",
+)
 needs_gcc = pytest.mark.skipif(not gcc, reason="needs gcc (Debian package gcc)")
 LETTERS = {"Real": "real", "Integer": "whole", "Boolean": "boolean", "Enumeration": "enumeration"}
 
@@ -35,10 +43,10 @@ def _compile(*arguments) -> None:
 
 
 @cache
-def toy_library(fmi: int, flags: tuple[str, ...] = ("-O2",)) -> Path:
+def toy_library(fmi: int, flags: tuple[str, ...] = ("-O2",), guid: str = GUID) -> Path:
     """Return the shell linked with the toy's C functions."""
     folder = Path(tempfile.mkdtemp(dir=_folder.name))
-    for name, text in tables.sources(TOY, fmi=fmi, guid=GUID).items():
+    for name, text in tables.sources(TOY, fmi=fmi, guid=guid).items():
         (folder / name).write_text(text)
     shell = source_folder() / "shell"
     files = [shell / name for name in tables.shell_files(fmi)]
@@ -55,6 +63,24 @@ def host(fmi: int, flags: tuple[str, ...] = ("-O1",)) -> Path:
     program = Path(tempfile.mkdtemp(dir=_folder.name)) / "host"
     files = [HERE / name for name in ("script.c", "script_state.c", f"host{fmi}.c")]
     _compile("-std=gnu99", *STRICT, *flags, "-I", headers(), *files, "-o", program, "-ldl")
+    return program
+
+
+@cache
+def model_library(model: str, fmi: int) -> Path:
+    """Return the library of a model of this package for this machine."""
+    spec = find_spec(model)
+    library = Path(tempfile.mkdtemp(dir=_folder.name)) / f"{spec.name}.so"
+    library.write_bytes(native_library(spec, fmi=fmi, guid=GUID, platform="linux64"))
+    return library
+
+
+@cache
+def threads() -> Path:
+    """Return the program that runs many instances at once."""
+    program = Path(tempfile.mkdtemp(dir=_folder.name)) / "threads"
+    _compile("-std=gnu99", "-O1", *STRICT, "-I", headers(), HERE / "threads.c", "-o", program,
+             "-ldl", "-lm", "-lpthread")  # fmt: skip
     return program
 
 

@@ -1,0 +1,99 @@
+"""Derivatives: of the present point, of listed pairs only, and without a trace."""
+
+import math
+
+import pytest
+from shell_runs import BEGUN, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
+
+pytestmark = needs_gcc
+both = pytest.mark.parametrize("fmi", [2, 3])
+LOAD, SPEED, OIL = (ref(n) for n in ("load", "speed", "oil_temperature"))
+TORQUE, TEMPERATURE, ENERGY = (ref(n) for n in ("friction_torque", "temperature", "energy"))
+POINT = putting(load=300.0, speed=0.7, oil_temperature=320.0)
+
+
+def slopes():
+    """Return the torque's derivatives with respect to load and speed, at POINT."""
+    factor, coefficient, tanh = 0.5 * 0.15 * 2.0, 0.05 + 0.001 * 0.7, math.tanh(0.7)
+    by_load = factor * coefficient * tanh
+    return by_load, factor * 300.0 * (0.001 * tanh + coefficient * (1.0 - tanh**2))
+
+
+@both
+def test_they_are_those_of_the_model_for_one_input_and_for_several(fmi):
+    by_load, by_speed = slopes()
+    one = last(fmi, BEGUN + POINT + f"derive {TORQUE} {SPEED} 1\n").values[0]
+    assert one == pytest.approx(by_speed, rel=1e-14)
+    several = f"derive {TORQUE} {SPEED} -2 {LOAD} 3 {LOAD} 1 {OIL} 9\n"
+    wanted = 4.0 * by_load - 2.0 * by_speed
+    assert last(fmi, BEGUN + POINT + several).values[0] == pytest.approx(wanted, rel=1e-14)
+
+
+@both
+def test_pairs_that_are_not_listed_are_zero(fmi):
+    for unknown, known in ((ENERGY, LOAD), (TEMPERATURE, SPEED), (TORQUE, OIL)):
+        assert last(fmi, BEGUN + POINT + f"derive {unknown} {known} 1\n").values == [0.0]
+
+
+@both
+def test_they_belong_to_the_present_point_whatever_was_solved_before(fmi):
+    ask = f"derive {TORQUE} {LOAD} 1\n"
+    step = POINT + "step 0 1e-3\n"
+    elsewhere = putting(load=1.0, speed=-5.0) + "step 1e-3 1e-3\n"
+    failed = putting(load=9500.0) + "step 1e-3 1e-3\n" + putting(load=300.0)
+    for before in (POINT, step, step + "save 0\n" + elsewhere + "restore 0\n", step + failed):
+        found = last(fmi, BEGUN + before + ask).values[0]
+        assert found == pytest.approx(slopes()[0], rel=1e-14)
+    assert last(fmi, MADE + "enter 0\n" + POINT + ask).values[0] == found
+
+
+@both
+def test_asking_for_them_changes_nothing_that_follows(fmi):
+    asked = f"derive {TORQUE} {LOAD} 1\nderive {TORQUE} {SPEED} 1\n"
+    outputs = taking(["friction_torque", "temperature", "energy", "steps"])
+    found = []
+    for extra in ("", asked):
+        script = BEGUN + "".join(
+            putting(load=100.0 * i) + extra + f"step {i * 1e-3!r} 1e-3\n" + extra + outputs
+            for i in range(20)
+        )
+        replies = run(fmi, toy_library(fmi), script)
+        assert all(r.status == 0 for r in replies)
+        found.append([r.values for r in replies if len(r.values) != 1 or r.values[0] % 1.0 == 0.0])
+    assert [v for v in found[0] if len(v) == 3] == [v for v in found[1] if len(v) == 3]
+
+
+@both
+def test_at_a_fold_there_is_none_and_the_instance_lives_on(fmi):
+    script = BEGUN + putting(load=5000.0) + f"derive {TORQUE} {LOAD} 1\n"
+    reply = last(fmi, script)
+    assert reply.status == 3 and "at the fold: SINGULAR" in reply.messages[-1]
+    assert last(fmi, script + "step 0 1e-3\n").status == 0
+
+
+@both
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [(f"{LOAD} {LOAD} 1", "load: derivatives are of real outputs"),
+     (f"{TORQUE} {ENERGY} 1", "energy: derivatives are of real outputs"),
+     (f"{ref('regime')} {LOAD} 1", "regime: derivatives are of real outputs"),
+     (f"{TORQUE} {ref('inner_radius')} 1", "inner_radius: derivatives are of real outputs"),
+     (f"{TORQUE} 99 1", "value reference 99 is unknown"),
+     (f"{TORQUE} {LOAD} nan", "seed of the derivative is not finite")],
+)  # fmt: skip
+def test_what_has_no_derivative_is_named(fmi, question, text):
+    reply = last(fmi, BEGUN + POINT + f"derive {question}\n")
+    assert reply.status == 3 and text in reply.messages[-1]
+
+
+def test_the_adjoint_ones_of_fmi_3_are_the_same_numbers_transposed():
+    by_load, by_speed = slopes()
+    reply = last(3, BEGUN + POINT + f"adjoint {LOAD} {TORQUE} 2\n")
+    assert reply.values[0] == pytest.approx(2.0 * by_load, rel=1e-14)
+    film = ref("film_ratio")
+    both_of = last(3, BEGUN + POINT + f"adjoint {LOAD} {TORQUE} 2 {film} 1 {ENERGY} 5\n").values[0]
+    alone = last(3, BEGUN + POINT + f"derive {film} {LOAD} 1\n").values[0]
+    assert both_of == pytest.approx(2.0 * by_load + alone, rel=1e-13)
+    assert last(3, BEGUN + POINT + f"adjoint {SPEED} {TORQUE} 1\n").values[0] == pytest.approx(
+        by_speed, rel=1e-14
+    )

@@ -1,0 +1,93 @@
+"""The models' own libraries: the same bits and words as the Python core, bare in a C host."""
+
+import math
+import random
+
+import pytest
+from shell_runs import GUID, MADE, model_library, needs_linux, run, taking
+from twin import Twin
+
+from thrustwasher.fmu.interface import variables
+from thrustwasher.fmu.registry import find_spec
+
+pytestmark = needs_linux
+CHEAP = ["clutch", "gearmesh", "transmission", "command"]
+H = 1e-3
+
+
+def jump(spec, rng):
+    """Return inputs anywhere in the ranges, mostly of the size met in use."""
+    point = {}
+    for s in spec.inputs:
+        reach = (s.low, s.high) if rng.random() < 0.1 else (
+            max(s.low, -2.0 * (s.nominal or 1.0)), min(s.high, 2.0 * (s.nominal or 1.0))
+        )  # fmt: skip
+        point[s.name] = rng.uniform(*sorted(reach))
+    return point
+
+
+def vary_parameters(twin, rng):
+    """Set some parameters a little off their start, and the fidelity."""
+    found = [v for v in variables(twin.spec) if v.causality == "parameter"]
+    values = {}
+    for v in rng.sample(found, min(5, len(found))):
+        if v.type == "Real" and v.low <= v.start * 1.01 <= v.high:
+            values[v.name] = v.start * 1.01
+    twin.put(**values, fidelity=rng.randint(1, len(twin.spec.fidelities)))
+
+
+def run_of(spec, seed, n):
+    """Return a twin that has asked for a run with everything that happens to instances."""
+    twin, rng = Twin(spec, GUID), random.Random(seed)
+    for part in range(3):
+        vary_parameters(twin, rng)
+        twin.begin(0.5 * part)
+        twin.put(**jump(spec, rng))
+        twin.leave()
+        for i in range(n // 3):
+            if spec.inputs and i % 10 == 3:
+                twin.put(**{**jump(spec, rng), spec.inputs[0].name: math.nan})
+                twin.step(0.5 * part + i * H, H)
+            twin.put(**jump(spec, rng))
+            if i % 4 == 0:
+                twin.take()  # readings between setting and stepping change nothing that follows
+            twin.step(0.5 * part + i * H, H)
+            twin.take()
+            if i == 20:
+                twin.save(0)
+            if i == 40:
+                twin.restore(0)
+        twin.reset()
+    return twin
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("model", CHEAP)
+def test_300_steps_are_the_cores_to_the_bit(model, fmi):
+    twin = run_of(find_spec(model), 7, 300)
+    replies = run(fmi, model_library(model, fmi), twin.script)
+    twin.check(replies)
+
+
+@pytest.mark.slow
+def test_the_washers_steps_are_the_cores_to_the_bit():
+    twin = run_of(find_spec("washer"), 7, 30)
+    twin.check(run(2, model_library("washer", 2), twin.script))
+
+
+@pytest.mark.parametrize("model", CHEAP)
+def test_a_fresh_process_goes_on_to_the_bit(model, tmp_path):
+    spec, rng = find_spec(model), random.Random(3)
+    library, file = model_library(model, 2), tmp_path / "state"
+    twin = Twin(spec, GUID)
+    for i in range(30):
+        twin.put(**jump(spec, rng))
+        twin.step(i * H, H)
+    lines = twin.script.splitlines(keepends=True)[1:]
+    outputs = taking([s.name for s in spec.outputs], spec)
+    before, after = "".join(lines[:20]), "".join(line + outputs for line in lines[20:])
+    begun = MADE + "enter 0\nleave\n"
+    whole = run(2, library, begun + before + after)
+    run(2, library, begun + before + f"save 0\nwrite 0 {file}\n")
+    fresh = run(2, library, MADE + f"read 0 {file}\nrestore 0\n" + after)
+    assert [r.values for r in fresh if r.values] == [r.values for r in whole if r.values]

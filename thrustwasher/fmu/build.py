@@ -23,6 +23,7 @@ def build(
     sources: Path | None = None,
     platforms: Sequence[str] | None = None,
     note: Note | None = None,
+    local: bool = False,
 ) -> list[Path]:
     """Build FMUs and return their paths, ``out/<target>-fmi<N>/<Model>.fmu``.
 
@@ -44,6 +45,8 @@ def build(
         "darwin-arm64"); None: all that the compiler found on this machine can do.
     note
         Is called with one sentence before each step that takes time.
+    local
+        For use on this machine only: compiled for its processor alone, without reference results.
 
     Raises
     ------
@@ -55,11 +58,16 @@ def build(
     _check(target, fmi, platforms)
     specs = [find_spec(model) for model in models] if models else all_specs()
     say = note or (lambda sentence: None)
-    places = native_contents.chosen(platforms, say) if target == "native" else ()
+    places: Sequence[str] = ()
+    if target == "native":
+        wanted = [native_contents.this_machine()[0]] if local else platforms
+        places = native_contents.chosen(wanted, say)
     paths = []
     for spec in specs:
         folder = model_folder(spec, sources or source_folder())
-        files = contents(spec, folder, target=target, fmi=fmi, platforms=places, note=say)
+        files = contents(
+            spec, folder, target=target, fmi=fmi, platforms=places, note=say, local=local
+        )
         path = Path(out) / f"{target}-fmi{fmi}" / f"{spec.name}.fmu"
         archive.write(path, archive.pack(files))
         paths.append(path)
@@ -89,8 +97,9 @@ def source_folder() -> Path:
 
 
 def contents(
-    spec: ModelSpec, folder: Path, *, target: str, fmi: int, platforms: Sequence[str], note: Note
-) -> dict[str, bytes]:
+    spec: ModelSpec, folder: Path, *, target: str, fmi: int, platforms: Sequence[str], note: Note,
+    local: bool = False,
+) -> dict[str, bytes]:  # fmt: skip
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
     native = target == "native"
     tools = native_contents.tools() if native else ""
@@ -98,12 +107,14 @@ def contents(
     guid = identifier(spec, folder, shell=shell, target=target, fmi=fmi, tools=tools)
     if native:
         own = native_contents.native_contents(
-            spec, fmi=fmi, guid=guid, platforms=platforms, note=note
-        )
+            spec, fmi=fmi, guid=guid, platforms=platforms, note=note,
+            level=native_contents.this_machine()[1] if local else None,
+        )  # fmt: skip
     else:
         own = python_contents.python_contents(spec, folder, guid=guid)
-    note(f"{spec.name}: reference results and documents")
+    note(f"{spec.name}: {'documents' if local else 'reference results and documents'}")
     shared = common_contents(
-        spec, target=target, fmi=fmi, guid=guid, equations=readme(folder), platforms=platforms
-    )
+        spec, target=target, fmi=fmi, guid=guid, equations=readme(folder), platforms=platforms,
+        reference=not local,
+    )  # fmt: skip
     return shared | own

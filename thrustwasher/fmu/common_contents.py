@@ -15,9 +15,13 @@ from .xml_parts import text
 
 
 def common_contents(
-    spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str]
-) -> dict[str, bytes]:
-    """Return the files that describe an FMU; only FMI 2 tools look for ``model.png``."""
+    spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str],
+    reference: bool = True,
+) -> dict[str, bytes]:  # fmt: skip
+    """Return the files that describe an FMU; only FMI 2 tools look for ``model.png``.
+
+    Without ``reference`` the model need not run, and so not be compiled for this Python.
+    """
     derivatives = target == "native" and has_derivatives(spec)
     written = (xml if fmi == 2 else xml3).description(spec, guid=guid, derivatives=derivatives)
     picture = icon(spec.name)
@@ -29,7 +33,7 @@ def common_contents(
         "terminalsAndIcons/terminalsAndIcons.xml": text(terminals_and_icons(spec)),
         "documentation/index.html": told.encode(),
         **licences(target, platforms),
-        **reference_files(spec),
+        **(reference_files(spec) if reference else {}),
     }
 
 

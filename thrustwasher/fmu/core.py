@@ -231,6 +231,11 @@ class Core:
         self.state[:], self.out[:], self.iout[:] = state, out, iout
         return int(rc)
 
+    def solve_aside(self) -> None:
+        """Let ``work`` belong to the present point; outputs and memory stay as they are."""
+        out, iout = self.out.copy(), self.iout.copy()
+        self._step(self.par, self.inp, self.state, self.work, out, iout, self.time, 0.0)
+
     def _story(self, rc: int, where: str) -> str:
         point = self._point(show=())
         return f"{self.spec.name} at {where}, {point}: {Status(rc).name}: {Status(rc).advice}"

@@ -5,10 +5,13 @@ from collections.abc import Mapping, Sequence
 from time import perf_counter
 from typing import Any, Self
 
-from ..errors import ParameterError
+import numpy as np
+
+from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ..models._spec import ModelSpec
 from .core import Core, Mode
 from .interface import enumerations, variables
+from .registry import find_derivatives
 from .snapshot import from_bytes
 
 
@@ -88,6 +91,31 @@ class DirectInstance:
         known = {v.name: v for v in self.core.variables}
         found = [known.get(name) or unknown(name, list(known)) for name in names]
         return [float(self.core.get([v.reference], v.type)[0]) for v in found]
+
+    def directional_derivative(
+        self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
+    ) -> list[float]:
+        """Return how real outputs change along a direction of the inputs, memory held."""
+        sens = find_derivatives(self.spec)
+        if sens is None:
+            raise SolveError(f"{self.spec.name} has no derivatives")
+        core = self.core
+        along, slopes = np.zeros_like(core.inp), np.zeros_like(core.out)
+        for name, value in zip(knowns, seed, strict=True):
+            along[self._slot(name, "input")] += value
+        places = [self._slot(name, "output") for name in unknowns]
+        core.refresh()
+        # What a derivative starts from lies in `work`, which any other solve may have overwritten.
+        core.solve_aside()
+        rc = sens(core.par, core.inp, core.state, core.work, along, slopes)
+        if rc >= FIRST_FAILURE:
+            raise SolveError(f"{self.spec.name} has no derivative here: {Status(rc).advice}")
+        return [float(slopes[place]) for place in places]
+
+    def _slot(self, name: str, causality: str) -> int:
+        known = {v.name: v for v in self.core.variables if v.causality == causality}
+        v = known.get(name) or unknown(name, list(known))
+        return int(v.slot)
 
     def get_state(self) -> Any:
         """Return the complete state."""

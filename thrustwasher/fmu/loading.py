@@ -13,13 +13,23 @@ import zipfile
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..errors import EnvironmentProblem, ParameterError
 
 KEPT = 20  # unpacked FMUs
 IN_USE = 86400.0  # s; a folder used within this time may be open in another process
-WARNING = 1  # fmi2Warning; what is above carries the reason of a failure
+WARNING = 1  # of both FMI versions; what is above carries the reason of a failure
+# Arguments behind "..." lie where named ones would: everywhere but on Apple's ARM.
+VARIADIC_AS_USUAL = (sys.platform, platform.machine()) != ("darwin", "arm64")
+
+
+class Message(NamedTuple):
+    """What an FMU said."""
+
+    status: int
+    category: str
+    text: str
 
 
 def unpack(path: str | os.PathLike[str]) -> Path:
@@ -85,21 +95,19 @@ def description(folder: Path) -> Any:
     return read_model_description(str(folder), validate=False)
 
 
-def instantiate(folder: Path, described: Any, name: str, messages: list[tuple[int, str]]) -> Any:
-    """Instantiate; what the FMU logs is appended to ``messages`` as (status, text)."""
-    from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions
-    from fmpy.fmi2 import defaultCallbacks as default
-    from fmpy.fmi2 import fmi2CallbackLoggerTYPE as logger_type
-
-    def log(_: Any, _name: bytes, status: int, _category: bytes, message: bytes) -> None:
-        if status >= WARNING:
-            messages.append((status, message.decode("utf-8", "replace")))
+def instantiate(folder: Path, described: Any, name: str, messages: list[Message]) -> Any:
+    """Load and instantiate; what the FMU logs is appended to ``messages``."""
+    third = described.fmiVersion.startswith("3")
+    from fmpy.fmi2 import FMU2Slave
+    from fmpy.fmi3 import FMU3Slave
 
     identifier = described.coSimulation.modelIdentifier
     before = os.getcwd()
     try:
-        fmu = FMU2Slave(instanceName=name, guid=described.guid, unzipDirectory=str(folder),
-                        modelIdentifier=identifier)  # fmt: skip
+        fmu = (FMU3Slave if third else FMU2Slave)(
+            instanceName=name, guid=described.guid, unzipDirectory=str(folder),
+            modelIdentifier=identifier,
+        )  # fmt: skip
     except Exception as problem:  # FMPy has no type of its own for a library that does not load
         raise EnvironmentProblem(
             f"{identifier} cannot be loaded on {platform.system()} {platform.machine()}: {problem}"
@@ -107,18 +115,55 @@ def instantiate(folder: Path, described: Any, name: str, messages: list[tuple[in
     finally:
         os.chdir(before)
     _keep_loaded(fmu.dll)
-    callbacks = fmi2CallbackFunctions()
-    callbacks.logger = logger_type(log)
-    callbacks.allocateMemory, callbacks.freeMemory = default.allocateMemory, default.freeMemory
     try:
-        fmu.instantiate(callbacks=callbacks, loggingOn=True)
+        (_begin3 if third else _begin2)(fmu, messages)
     except Exception as problem:
         fmu.freeLibrary()
         # pythonfmu writes one line on where it was, then the exception
-        last = (text.rpartition("\n")[2] for _, text in messages)
+        last = (m.text.rpartition("\n")[2] for m in messages if m.status >= WARNING)
         why = "; ".join(_bare(text) for text in last) or str(problem)
         raise EnvironmentProblem(f"{identifier} cannot be instantiated: {why}") from None
     return fmu
+
+
+def _begin2(fmu: Any, messages: list[Message]) -> None:
+    """Instantiate after FMI 2; the logger's text is a format, for us with at most one string."""
+    from fmpy.fmi2 import defaultCallbacks as default
+    from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+
+    callbacks = fmi2CallbackFunctions()
+    callbacks.allocateMemory, callbacks.freeMemory = default.allocateMemory, default.freeMemory
+    if VARIADIC_AS_USUAL:
+
+        def log(_: Any, _name: bytes, status: int, category: bytes, text: bytes, more: int) -> None:
+            told = ctypes.string_at(more) if text == b"%s" and more else text
+            _keep(messages, status, category, told)
+
+        pointers = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_char_p
+        logger = ctypes.CFUNCTYPE(None, *pointers, ctypes.c_void_p)(log)
+        callbacks.logger = ctypes.cast(logger, fmi2CallbackLoggerTYPE)
+    else:
+        from fmpy.logging import addLoggerProxy
+
+        logger = fmi2CallbackLoggerTYPE(lambda _e, _n, *told: _keep(messages, *told))
+        callbacks.logger = logger
+        addLoggerProxy(ctypes.byref(callbacks))  # it knows one logger per process: the last
+    fmu.kept_logger = logger  # alive as long as the FMU
+    fmu.instantiate(callbacks=callbacks, loggingOn=True)
+
+
+def _begin3(fmu: Any, messages: list[Message]) -> None:
+    """Instantiate after FMI 3, where the logger gets a plain text."""
+
+    def log(_: Any, status: int, category: bytes, text: bytes) -> None:
+        _keep(messages, status, category, text)
+
+    fmu.instantiate(loggingOn=True, logMessage=log)
+
+
+def _keep(messages: list[Message], status: int, category: bytes | None, text: bytes | None) -> None:
+    told = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
+    messages.append(Message(status, *told))
 
 
 def _bare(text: str) -> str:

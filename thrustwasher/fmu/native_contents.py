@@ -40,6 +40,13 @@ def chosen(platforms: Sequence[str] | None, note: Note) -> tuple[str, ...]:
     return tuple(name for name in platforms_known if name in platforms)
 
 
+def this_machine() -> tuple[str, str]:
+    """Return the names of this machine's platform and of the CPU level that suits it best."""
+    here = _native("here")
+    platform = here.this_platform()
+    return platform.name, here.this_level(platform).name
+
+
 def tools() -> str:
     """Return names and versions of everything that compiles or links."""
     packages = ("numba", "llvmlite", "fmpy")
@@ -48,15 +55,16 @@ def tools() -> str:
 
 
 def native_contents(
-    spec: ModelSpec, *, fmi: int, guid: str, platforms: Sequence[str], note: Note
-) -> dict[str, bytes]:
+    spec: ModelSpec, *, fmi: int, guid: str, platforms: Sequence[str], note: Note,
+    level: str | None = None,
+) -> dict[str, bytes]:  # fmt: skip
     """Return the libraries, each at its place; the two of macOS share one file in FMI 2."""
     library, known = _native("library").library, _native("targets").PLATFORMS
     found: dict[str, list[bytes]] = {}
     for name in platforms:
         note(f"{spec.name}: {name}")
         path = _place(known[name], fmi, spec.name)
-        made = library(spec, fmi=fmi, guid=guid, platform=name)
+        made = library(spec, fmi=fmi, guid=guid, platform=name, level=level)
         found.setdefault(path, []).append(made)
     return {path: parts[0] if len(parts) == 1 else universal(parts)
             for path, parts in found.items()}  # fmt: skip

@@ -75,7 +75,12 @@ def load_kernel(name: str) -> Kernel:
 
 def has_derivatives(spec: ModelSpec) -> bool:
     """Tell if the model's kernels give directional derivatives."""
-    return hasattr(importlib.import_module(kernel_module(spec.kernel)), "sens")
+    return find_derivatives(spec) is not None
+
+
+def find_derivatives(spec: ModelSpec) -> Callable[..., int] | None:
+    """Return ``sens(par, inp, state, work, seed, dout)`` of a model, None if it has none."""
+    return getattr(importlib.import_module(kernel_module(spec.kernel)), "sens", None)
 
 
 def is_compiled(spec: ModelSpec) -> bool:

@@ -6,7 +6,6 @@ does not see which of the two it drives. Inputs and outputs go in the order of `
 the working directory while it loads.
 """
 
-import ctypes
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -15,36 +14,16 @@ from typing import Any, Self
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .direct import DirectInstance, number, unknown
-from .loading import WARNING, description, instantiate, unpack
+from .loading import WARNING, Message, description, instantiate, unpack
+from .protocol import Direction, Fmi2, Fmi3, Protocol, Table
 
 __all__ = ["DirectInstance", "Instance", "unpack"]
 
-TYPES = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolean": "Boolean"}
-C_TYPES: dict[str, Any] = {
-    "Real": ctypes.c_double, "Integer": ctypes.c_int, "Boolean": ctypes.c_int,
-}  # fmt: skip
-
-
-class _Group:
-    """Variables of one FMI type that travel in one call; the C arrays are made once."""
-
-    def __init__(self, kind: str, references: Sequence[int], places: Sequence[int]) -> None:
-        self.kind, self.places, self.n = kind, places, len(references)
-        self.references = (ctypes.c_uint * self.n)(*references)
-        self.values = (C_TYPES[kind] * self.n)()
-
-
-def _groups(found: Sequence[Any]) -> list[_Group]:
-    groups = []
-    for kind in C_TYPES:
-        places = [i for i, v in enumerate(found) if TYPES[v.type] == kind]
-        if places:
-            groups.append(_Group(kind, [found[i].valueReference for i in places], places))
-    return groups
+WORDS = {2: "discarded", 3: "error", 4: "fatal: the FMU cannot go on"}
 
 
 class Instance:
-    """An instantiated FMI 2.0 co-simulation FMU.
+    """An instantiated co-simulation FMU of FMI 2.0 or 3.0.
 
     Parameters
     ----------
@@ -56,7 +35,9 @@ class Instance:
         Instance name that messages carry.
 
     A call that fails raises: ParameterError for a value that is not taken over, SolveError for a
-    step or solution that failed, with the FMU's own message.
+    step or solution that failed, with the FMU's own message; after a failed step the FMU is where
+    it was before. ``warnings`` keeps the texts of warnings, ``notes`` what else the FMU sent, as
+    (status, category, text), for categories switched on with ``log``.
     """
 
     def __init__(
@@ -74,21 +55,24 @@ class Instance:
         folder = unpack(path)
         self.description = description(folder)
         self._by_name = {v.name: v for v in self.description.modelVariables}
-        chosen = {
-            c: [v for v in self.description.modelVariables if v.causality == c]
-            for c in ("input", "output")
-        }
-        self.input_names = [v.name for v in chosen["input"]]
-        self.output_names = [v.name for v in chosen["output"]]
-        self._inputs, self._outputs = _groups(chosen["input"]), _groups(chosen["output"])
-        self._status = next((v for v in chosen["output"] if v.name == "solver_status"), None)
-        self._messages: list[tuple[int, str]] = []
+        listed = self.description.modelVariables
+        inputs, outputs = ([v for v in listed if v.causality == c] for c in ("input", "output"))
+        self.input_names = [v.name for v in inputs]
+        self.output_names = [v.name for v in outputs]
+        self._status = next((v for v in outputs if v.name == "solver_status"), None)
+        self._messages: list[Message] = []
         self.warnings: list[str] = []
+        self.notes: list[Message] = []
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
         self._fmu: Any = instantiate(folder, self.description, name or self.path.stem,
-                                      self._messages)  # fmt: skip
+                                     self._messages)  # fmt: skip
+        version = Fmi3 if self.description.fmiVersion.startswith("3") else Fmi2
+        self._protocol: Protocol = version(self._fmu)
+        self._inputs, self._outputs = (Table(self._protocol, vs) for vs in (inputs, outputs))
+        self._directions: dict[tuple[tuple[str, ...], tuple[str, ...]], Direction] = {}
         self._parameters = dict(parameters or {})
         try:
+            self.log(False)
             self._set_named(self._parameters, "parameter")
         except BaseException:
             self.close()
@@ -106,8 +90,7 @@ class Instance:
     ) -> None:
         """Set the inputs at the start and solve there."""
         start = perf_counter()
-        self._call(self._fmu.setupExperiment, None, start_time)
-        self._call(self._fmu.enterInitializationMode)
+        self._call(self._protocol.begin, start_time)
         self._set_named(inputs or {}, "input")
         self._call(self._fmu.exitInitializationMode)
         self._check_status()
@@ -121,10 +104,8 @@ class Instance:
                 f"inputs = {len(values)} values, allowed: {len(self.input_names)} "
                 f"({', '.join(self.input_names)})"
             )
-        for group in self._inputs:
-            for i, place in enumerate(group.places):
-                group.values[i] = values[place] if group.kind == "Real" else int(values[place])
-            self._call_group("Set", group)
+        self._inputs.fill(values)
+        self._put(self._inputs)
         self.wall_time += perf_counter() - start
 
     def step(self, t: float, h: float) -> None:
@@ -132,51 +113,68 @@ class Instance:
         start = perf_counter()
         self.calls += 1
         try:
-            self._call(self._fmu.fmi2DoStep, self._fmu.component, t, h, 0)
+            self._judge(self._protocol.step(t, h), "step")
         finally:
             self.wall_time += perf_counter() - start
 
     def outputs(self) -> list[float]:
         """Return all outputs."""
         start = perf_counter()
-        values = [0.0] * len(self.output_names)
-        for group in self._outputs:
-            self._call_group("Get", group)
-            for place, value in zip(group.places, group.values, strict=True):
-                values[place] = float(value)
+        values = self._fetch(self._outputs)
         self.wall_time += perf_counter() - start
         return values
 
     def get(self, names: Sequence[str]) -> list[float]:
         """Return variables by name."""
         found = [self._by_name.get(name) or unknown(name, list(self._by_name)) for name in names]
-        values = [0.0] * len(names)
-        for group in _groups(found):
-            self._call_group("Get", group)
-            for place, value in zip(group.places, group.values, strict=True):
-                values[place] = float(value)
-        return values
+        return self._fetch(Table(self._protocol, found))
+
+    def directional_derivative(
+        self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
+    ) -> list[float]:
+        """Return how real outputs change along a direction of the inputs, memory held.
+
+        Parameters
+        ----------
+        unknowns, knowns
+            Names of outputs and of inputs.
+        seed
+            The direction: one number per input.
+        """
+        start = perf_counter()
+        asked = tuple(unknowns), tuple(knowns)
+        direction = self._directions.get(asked)
+        if direction is None:
+            found = ([self._named(n, c) for n in names]
+                     for names, c in zip(asked, ("output", "input"), strict=True))  # fmt: skip
+            direction = self._directions[asked] = Direction(self._protocol, *found)
+        if len(seed) != len(knowns):
+            raise ParameterError(f"seed = {len(seed)} values, allowed: {len(knowns)}")
+        direction.seed[:] = list(seed)
+        self._judge(direction.get(), "directional derivative")
+        self.wall_time += perf_counter() - start
+        return direction.slope[:]
 
     def get_state(self) -> Any:
         """Return a handle of the complete state; give it back with ``free_state``."""
-        return self._call(self._fmu.getFMUstate)
+        return self._call(self._fmu.getFMUState)
 
     def set_state(self, state: Any) -> None:
         """Go back to a state."""
-        self._call(self._fmu.setFMUstate, state)
+        self._call(self._fmu.setFMUState, state)
 
     def free_state(self, state: Any) -> None:
         """Give a state back."""
-        self._call(self._fmu.freeFMUstate, state)
+        self._call(self._fmu.freeFMUState, state)
 
     def serialize(self, state: Any) -> bytes:
         """Return a state as bytes."""
-        data: bytes = self._call(self._fmu.serializeFMUstate, state)
+        data: bytes = self._call(self._fmu.serializeFMUState, state)
         return data
 
     def deserialize(self, data: bytes) -> Any:
         """Return a handle of the state in bytes of ``serialize``."""
-        return self._call(self._fmu.deSerializeFMUstate, data)
+        return self._call(self._fmu.deserializeFMUState, data)
 
     def reset(self) -> None:
         """Go back to the start values and the parameters given at construction."""
@@ -189,24 +187,52 @@ class Instance:
         if fmu is not None:
             fmu.freeInstance()
 
+    def log(self, on: bool = True, categories: Sequence[str] = ()) -> None:
+        """Choose what goes to ``notes`` beside failures and warnings; none named: everything."""
+        known = [c.name for c in self.description.logCategories]
+        strange = [c for c in categories if c not in known]
+        if strange:
+            raise ParameterError(f"category = {strange[0]!r}, allowed: {', '.join(known)}")
+        always = [name for name in known if name.startswith("logStatus")]
+        wanted = [*always, *(categories or known)] if on else always
+        self._call(self._fmu.setDebugLogging, True, list(dict.fromkeys(wanted)))
+
+    def _named(self, name: str, causality: str) -> Any:
+        v = self._by_name.get(name)
+        if v is None or v.causality != causality:
+            listed = self.description.modelVariables
+            unknown(name, [v.name for v in listed if v.causality == causality])
+        return v
+
     def _set_named(self, values: Mapping[str, Any], causality: str) -> None:
-        allowed = [v.name for v in self.description.modelVariables if v.causality == causality]
         for name, value in values.items():
-            v = self._by_name[name] if name in allowed else unknown(name, allowed)
+            v = self._named(name, causality)
             items = v.declaredType.items if v.type == "Enumeration" else ()
             given = number(name, value, {i.name: int(i.value) for i in items or ()})
-            group = _Group(TYPES[v.type], [v.valueReference], [0])
-            if group.kind != "Real" and given != int(given):
+            one = Table(self._protocol, [v])
+            if one.groups[0].whole and given != int(given):
                 raise ParameterError(f"{name} = {given!r}, allowed: a whole number")
-            group.values[0] = given if group.kind == "Real" else int(given)
-            self._call_group("Set", group)
+            one.fill([given])
+            self._put(one)
 
-    def _call_group(self, verb: str, group: _Group) -> None:
-        call = getattr(self._fmu, f"fmi2{verb}{group.kind}")
-        self._call(call, self._fmu.component, group.references, group.n, group.values)
+    def _put(self, table: Table) -> None:
+        for group in table.groups:
+            self._judge(group.set(), "setting a value", ParameterError)
+
+    def _fetch(self, table: Table) -> list[float]:
+        for group in table.groups:
+            self._judge(group.get(), "reading a value")
+        return table.read()
+
+    def _judge(self, status: int, what: str, kind: type[Exception] = SolveError) -> None:
+        """Turn a bad status or a logged error into an exception with the FMU's message."""
+        if status > WARNING or self._messages:
+            failed = status > WARNING
+            word = WORDS.get(status, f"status {status}")
+            self._raise_messages(f"{self.path.stem}: {what}: {word}" if failed else "", kind)
 
     def _call(self, function: Callable[..., Any], *args: Any) -> Any:
-        """Call the FMU; a bad status or a logged error becomes an exception with its message."""
+        """Call FMPy, which raises at a bad status, and judge as above."""
         failed = ""
         result = None
         try:
@@ -217,29 +243,28 @@ class Instance:
             self._raise_messages(failed)
         return result
 
-    def _raise_messages(self, failed: str) -> None:
+    def _raise_messages(self, failed: str, kind: type[Exception] = SolveError) -> None:
         messages, self._messages[:] = list(self._messages), []
-        errors = [text for status, text in messages if status > WARNING]
-        self.warnings += [text for status, text in messages if status == WARNING]
+        errors = [m.text for m in messages if m.status > WARNING]
+        self.warnings += [m.text for m in messages if m.status == WARNING]
+        self.notes += [m for m in messages if m.status < WARNING]
         if not (failed or errors):
             return
         status = self._read_status()
         text = "; ".join(errors) or failed
         if not errors and status:
             text += f"; {status.name}: {status.advice}"
-        raise (ParameterError if status == Status.BAD_INPUT else SolveError)(text)
+        raise (ParameterError if status == Status.BAD_INPUT else kind)(text)
 
     def _read_status(self) -> Status:
         """Read solver_status plainly, so that reading it cannot fail in turn."""
         if self._status is None:
             return Status.OK
         said = len(self._messages)
-        try:
-            return Status(self._fmu.getInteger([self._status.valueReference])[0])
-        except self._call_failure:
-            return Status.NOT_FINITE
-        finally:
-            del self._messages[said:]
+        one = Table(self._protocol, [self._status])
+        failed = any(group.get() > WARNING for group in one.groups)
+        del self._messages[said:]
+        return Status.NOT_FINITE if failed else Status(int(one.read()[0]))
 
     def _check_status(self) -> None:
         status = self._read_status()

@@ -1,6 +1,7 @@
 """The shared library inside a native FMU."""
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
 
@@ -14,8 +15,9 @@ from .targets import GLIBC, PLATFORMS, Platform
 
 
 def library(
-    spec: ModelSpec, *, fmi: int, guid: str, platform: str, note: Note = to_stderr
-) -> bytes:
+    spec: ModelSpec, *, fmi: int, guid: str, platform: str, level: str | None = None,
+    note: Note = to_stderr,
+) -> bytes:  # fmt: skip
     """Return the shared library of a model for one platform.
 
     Parameters
@@ -28,6 +30,8 @@ def library(
         Compiled in: a description of another build is refused.
     platform
         A key of ``targets.PLATFORMS``.
+    level
+        The one CPU level of the platform to compile for; None: all, chosen by the CPU at run time.
     note
         Called with a line of progress before anything that takes long.
 
@@ -39,6 +43,8 @@ def library(
     if platform not in PLATFORMS:
         raise ParameterError(f"platform = {platform!r}, allowed: {' or '.join(PLATFORMS)}")
     target = PLATFORMS[platform]
+    if level:
+        target = replace(target, levels=tuple(x for x in target.levels if x.name == level))
     files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi)}
     files |= tables.sources(spec, fmi=fmi, guid=guid)
     exports = calls.functions(fmi)

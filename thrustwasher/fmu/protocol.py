@@ -1,0 +1,160 @@
+"""The two FMI versions as one face: how values travel, what a step is, where a state lies.
+
+Calls that every step makes go to the library directly, with arrays made once; the rest goes
+through FMPy. FMPy has declared the argument types of all functions when it loaded the library.
+"""
+
+import ctypes
+from collections.abc import Callable, Sequence
+from operator import itemgetter
+from typing import Any, ClassVar
+
+
+class Protocol:
+    """What both versions share; a version names its types and spells its calls."""
+
+    prefix = ""
+    types: ClassVar[dict[str, tuple[str, Any]]] = {}  # of a variable -> (name in calls, C type)
+    lengths = 0  # times the number of values is handed over beside the values
+
+    def __init__(self, fmu: Any) -> None:
+        self.fmu = fmu
+
+    def begin(self, start_time: float) -> None:
+        """Enter initialization at a time."""
+        raise NotImplementedError
+
+    def step(self, t: float, h: float) -> int:
+        """Advance and return the status."""
+        raise NotImplementedError
+
+    def function(self, name: str) -> Callable[..., int]:
+        """Return a function of the library; it returns the status as a number."""
+        found: Callable[..., int] = getattr(self.fmu.dll, f"{self.prefix}{name}")
+        return found
+
+
+class Fmi2(Protocol):
+    """FMI 2.0 co-simulation."""
+
+    prefix = "fmi2"
+    types: ClassVar = {
+        "Real": ("Real", ctypes.c_double), "Integer": ("Integer", ctypes.c_int),
+        "Enumeration": ("Integer", ctypes.c_int), "Boolean": ("Boolean", ctypes.c_int),
+    }  # fmt: skip
+
+    def __init__(self, fmu: Any) -> None:
+        super().__init__(fmu)
+        self._do_step = self.function("DoStep")
+
+    def begin(self, start_time: float) -> None:
+        """Enter initialization at a time."""
+        self.fmu.setupExperiment(startTime=start_time)
+        self.fmu.enterInitializationMode()
+
+    def step(self, t: float, h: float) -> int:
+        """Advance and return the status."""
+        return self._do_step(self.fmu.component, t, h, 0)
+
+
+class Fmi3(Protocol):
+    """FMI 3.0 co-simulation, without event mode and early return."""
+
+    prefix = "fmi3"
+    types: ClassVar = {
+        "Float64": ("Float64", ctypes.c_double), "Int32": ("Int32", ctypes.c_int32),
+        "Enumeration": ("Int64", ctypes.c_int64), "Boolean": ("Boolean", ctypes.c_bool),
+    }  # fmt: skip
+    lengths = 1
+
+    def __init__(self, fmu: Any) -> None:
+        super().__init__(fmu)
+        self._do_step = self.function("DoStep")
+        self._told = (ctypes.c_bool(), ctypes.c_bool(), ctypes.c_bool(), ctypes.c_double())
+        self._pointers = tuple(ctypes.byref(x) for x in self._told)
+
+    def begin(self, start_time: float) -> None:
+        """Enter initialization at a time."""
+        self.fmu.enterInitializationMode(startTime=start_time)
+
+    def step(self, t: float, h: float) -> int:
+        """Advance and return the status."""
+        return self._do_step(self.fmu.component, t, h, False, *self._pointers)
+
+
+def _references(found: Sequence[Any]) -> Any:
+    return (ctypes.c_uint * len(found))(*(v.valueReference for v in found))
+
+
+class Group:
+    """Variables of one type that travel in one call."""
+
+    def __init__(self, protocol: Protocol, found: Sequence[Any], places: Sequence[int]) -> None:
+        kind, c_type = protocol.types[found[places[0]].type]
+        n = len(places)
+        references = _references([found[i] for i in places])
+        self.places = list(places)
+        self.values = (c_type * n)()
+        self.whole = c_type is not ctypes.c_double
+        self._arguments = (
+            protocol.fmu.component, references, n, self.values, *(n,) * protocol.lengths
+        )  # fmt: skip
+        self._set, self._get = (protocol.function(f"{verb}{kind}") for verb in ("Set", "Get"))
+
+    def set(self) -> int:
+        """Hand the values over and return the status."""
+        return self._set(*self._arguments)
+
+    def get(self) -> int:
+        """Fetch the values and return the status."""
+        return self._get(*self._arguments)
+
+
+class Table:
+    """A list of variables in any mix of types, read and written as floats in its order."""
+
+    def __init__(self, protocol: Protocol, found: Sequence[Any]) -> None:
+        self.n = len(found)
+        kinds = dict.fromkeys(protocol.types[v.type][0] for v in found)
+        self.groups = [
+            Group(
+                protocol, found, [i for i, v in enumerate(found) if protocol.types[v.type][0] == k]
+            )
+            for k in kinds
+        ]
+        travelling = [place for group in self.groups for place in group.places]
+        back = [travelling.index(i) for i in range(self.n)]
+        in_order = back == list(range(self.n)) or self.n < 2
+        self._order: Callable[[list[float]], Any] = list if in_order else itemgetter(*back)
+
+    def fill(self, values: Sequence[float]) -> None:
+        """Put values into the arrays; whole numbers lose what is behind the point."""
+        for group in self.groups:
+            chosen = [values[i] for i in group.places]
+            group.values[:] = [int(x) for x in chosen] if group.whole else chosen
+
+    def read(self) -> list[float]:
+        """Return the values in the arrays."""
+        travelling: list[float] = []
+        for group in self.groups:
+            values = group.values[:]
+            travelling += map(float, values) if group.whole else values
+        return list(self._order(travelling))
+
+
+class Direction:
+    """Derivatives of some outputs along a direction of some inputs; the arrays are made once."""
+
+    def __init__(self, protocol: Protocol, unknowns: Sequence[Any], knowns: Sequence[Any]) -> None:
+        self.seed = (ctypes.c_double * len(knowns))()
+        self.slope = (ctypes.c_double * len(unknowns))()
+        self._call = protocol.function("GetDirectionalDerivative")
+        n_unknown, n_known = len(unknowns), len(knowns)
+        self._arguments = (
+            protocol.fmu.component, _references(unknowns), n_unknown, _references(knowns), n_known,
+            self.seed, *(n_known,) * protocol.lengths, self.slope, *(n_unknown,) * protocol.lengths,
+        )  # fmt: skip
+
+    def get(self) -> int:
+        """Compute the derivatives and return the status."""
+        return self._call(*self._arguments)

@@ -1,9 +1,10 @@
 /* FMI 2.0 co-simulation: values, states and derivatives, translated. */
 #include "fmi2_shell.h"
 
-static const Kind REAL = {"Real", 1u << TYPE_REAL, FORM_DOUBLE};
-static const Kind INTEGER = {"Integer", 1u << TYPE_INTEGER | 1u << TYPE_ENUMERATION, FORM_INT32};
-static const Kind BOOLEAN = {"Boolean", 1u << TYPE_BOOLEAN, FORM_INT32};
+static const Kind REAL = {"Real", TYPE_BIT(TYPE_REAL), FORM_DOUBLE};
+static const Kind INTEGER = {"Integer", TYPE_BIT(TYPE_INTEGER) | TYPE_BIT(TYPE_ENUMERATION),
+                             FORM_INT32};
+static const Kind BOOLEAN = {"Boolean", TYPE_BIT(TYPE_BOOLEAN), FORM_INT32};
 static const Kind STRING = {"String", 0, FORM_NONE};
 
 #define VALUES(Name, type, kind)                                                                  \

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "model.h"
 
@@ -70,7 +71,13 @@ int prepare(Instance *m);
 int refresh(Instance *m);
 int advance(Instance *m, double t, double h);
 int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
-int is_finite(double x);
+
+/* By the bits: NaN raises no exception here, even where the host has unmasked them. */
+static inline int is_finite(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits << 1 < (uint64_t)0x7ff << 53;
+}
 
 /* values.c */
 int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
@@ -79,8 +86,22 @@ int get_values(Instance *m, int call, const uint32_t *references, size_t n, cons
                void *values);
 int is_missing(Instance *m, int call, const void *array, size_t n);
 const Variable *find(Instance *m, uint32_t reference);
-double value_of(const Instance *m, const Variable *v);
-int is_inside(const Variable *v, double value);
+
+static inline double value_of(const Instance *m, const Variable *v) {
+    const Snap *s = &m->now;
+    switch (v->store) {
+    case STORE_OUT: return s->solution.out[v->slot];
+    case STORE_INP: return s->inp[v->slot];
+    case STORE_PAR: return s->par[v->slot];
+    case STORE_IOUT:
+        return s->latch && v->slot == IO_STATUS ? s->latch : s->solution.iout[v->slot];
+    default: return s->time;
+    }
+}
+
+static inline int is_inside(const Variable *v, double value) {
+    return is_finite(value) && v->low <= value && value <= v->high;
+}
 
 /* state.c */
 typedef struct State State;

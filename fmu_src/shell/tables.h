@@ -9,6 +9,8 @@ enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, ALWAYS 
 
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };
 enum { CAUSE_INDEPENDENT, CAUSE_INPUT, CAUSE_PARAMETER, CAUSE_OUTPUT, N_CAUSES };
+#define TYPE_BIT(type) (1u << (type))
+#define CAUSE_BIT(cause) (16u << (cause))
 enum { STORE_TIME, STORE_PAR, STORE_INP, STORE_OUT, STORE_IOUT };
 
 /* A variable; its value reference is its place in VARIABLES. */
@@ -21,6 +23,7 @@ typedef struct {
     int16_t enumeration;     /* place in ENUMERATIONS, or -1 */
     uint8_t type, cause, store;
     uint8_t relative; /* a temperature difference, no temperature */
+    uint8_t bits;     /* TYPE_BIT of the type and CAUSE_BIT of the causality */
 } Variable;
 
 typedef struct { int32_t number; const char *name; } Item;

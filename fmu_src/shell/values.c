@@ -4,14 +4,11 @@
 #include "shell.h"
 
 /* The value at place i of a host's array; a byte stands for true unless it is 0. */
-static double read_value(const Kind *kind, const void *values, size_t i) {
-    switch (kind->form) {
-    case FORM_DOUBLE: return ((const double *)values)[i];
-    case FORM_INT32: return ((const int32_t *)values)[i];
-    case FORM_INT64: return (double)((const int64_t *)values)[i];
-    case FORM_BYTE: return ((const unsigned char *)values)[i] != 0;
-    default: return 0.0;
-    }
+static inline double read_value(int form, const void *values, size_t i) {
+    if (form == FORM_DOUBLE) return ((const double *)values)[i];
+    if (form == FORM_INT32) return ((const int32_t *)values)[i];
+    if (form == FORM_INT64) return (double)((const int64_t *)values)[i];
+    return form == FORM_BYTE && ((const unsigned char *)values)[i] != 0;
 }
 
 static void write_value(const Kind *kind, void *values, size_t i, double value) {
@@ -36,35 +33,25 @@ const Variable *find(Instance *m, uint32_t reference) {
     return NULL;
 }
 
-/* Are all references known and of the kind that is asked for? */
+static int misfit(Instance *m, uint32_t reference, const Kind *kind) {
+    const Variable *v = find(m, reference);
+    if (v) fail(m, "%s is of type %s, not %s", v->name, TYPES[v->type].name, kind->name);
+    return 0;
+}
+
+/* Are all references known and of the kind that is asked for? Collects what they are, as bits. */
 static int all_fit(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
-                   const void *values) {
+                   const void *values, uint32_t *found) {
+    const uint32_t takes = kind->takes;
+    uint32_t bits = 0;
     if (is_missing(m, call, references, n) || is_missing(m, call, values, n)) return 0;
     for (size_t i = 0; i < n; i++) {
-        const Variable *v = find(m, references[i]);
-        if (!v) return 0;
-        if (!(kind->takes >> v->type & 1u)) {
-            fail(m, "%s is of type %s, not %s", v->name, TYPES[v->type].name, kind->name);
-            return 0;
-        }
+        const uint32_t r = references[i];
+        if (r >= N_VARIABLES || !(takes & VARIABLES[r].bits)) return misfit(m, r, kind);
+        bits |= VARIABLES[r].bits;
     }
+    *found = bits;
     return 1;
-}
-
-int is_inside(const Variable *v, double value) {
-    return is_finite(value) && v->low <= value && value <= v->high;
-}
-
-double value_of(const Instance *m, const Variable *v) {
-    const Snap *s = &m->now;
-    switch (v->store) {
-    case STORE_PAR: return s->par[v->slot];
-    case STORE_INP: return s->inp[v->slot];
-    case STORE_OUT: return s->solution.out[v->slot];
-    case STORE_IOUT:
-        return s->latch && v->slot == IO_STATUS ? s->latch : s->solution.iout[v->slot];
-    default: return s->time;
-    }
 }
 
 /* Remember that the values of this call are missing: no step until they are set. */
@@ -98,42 +85,54 @@ static void take_over(Instance *m, uint32_t reference, double value) {
 
 int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
                const void *values) {
-    if (!all_fit(m, call, references, n, kind, values)) return BAD;
+    uint32_t found = 0;
+    if (!all_fit(m, call, references, n, kind, values, &found)) return BAD;
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &VARIABLES[references[i]];
-        double value = read_value(kind, values, i);
+        double value = read_value(kind->form, values, i);
         if ((ACCESS[v->cause].set & m->now.mode) && is_inside(v, value)) continue;
         tell_refusal(m, v, value);
         m->now.latch = STATUS_BAD_INPUT;
         refuse(m, references, n);
         return BAD;
     }
-    for (size_t i = 0; i < n; i++) take_over(m, references[i], read_value(kind, values, i));
+    for (size_t i = 0; i < n; i++) take_over(m, references[i], read_value(kind->form, values, i));
     return GOOD;
 }
 
-/* Outputs that are out of date are solved first. The status alone is to be had after a failure. */
-static int is_solved(Instance *m, const uint32_t *references, size_t n) {
-    int outputs = 0, others = 0;
+/* After a failure the status alone is to be had. */
+static int are_status(const uint32_t *references, size_t n) {
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &VARIABLES[references[i]];
-        outputs += v->cause == CAUSE_OUTPUT;
-        others += v->store != STORE_IOUT || v->slot != IO_STATUS;
+        if (v->store != STORE_IOUT || v->slot != IO_STATUS) return 0;
     }
-    if (!outputs || (m->now.latch && !others)) return 1;
+    return 1;
+}
+
+/* Outputs exist from the initialization on; those that are out of date are solved first. */
+static int are_solved(Instance *m, const uint32_t *references, size_t n) {
+    if (!(ACCESS[CAUSE_OUTPUT].get & m->now.mode)) {
+        size_t i = 0;
+        while (VARIABLES[references[i]].cause != CAUSE_OUTPUT) i++;
+        fail(m, "%s has no value in state %s; call %s first", VARIABLES[references[i]].name,
+             MODES[0].name, MODES[0].leave);
+        return 0;
+    }
+    if (!m->now.dirty || (m->now.latch && are_status(references, n))) return 1;
     return refresh(m) == GOOD;
 }
 
 int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
                void *values) {
-    if (!all_fit(m, call, references, n, kind, values)) return BAD;
-    for (size_t i = 0; i < n; i++) {
-        const Variable *v = &VARIABLES[references[i]];
-        if (ACCESS[v->cause].get & m->now.mode) continue;
-        return fail(m, "%s has no value in state %s; call %s first", v->name, MODES[0].name,
-                    MODES[0].leave);
+    uint32_t found = 0;
+    if (!all_fit(m, call, references, n, kind, values, &found)) return BAD;
+    if (found & CAUSE_BIT(CAUSE_OUTPUT) && !are_solved(m, references, n)) return BAD;
+    if (found == (TYPE_BIT(TYPE_REAL) | CAUSE_BIT(CAUSE_OUTPUT))) { /* the usual call */
+        const double *out = m->now.solution.out;
+        double *place = values;
+        for (size_t i = 0; i < n; i++) place[i] = out[VARIABLES[references[i]].slot];
+        return GOOD;
     }
-    if (m->now.dirty && !is_solved(m, references, n)) return BAD;
     for (size_t i = 0; i < n; i++) {
         write_value(kind, values, i, value_of(m, &VARIABLES[references[i]]));
     }

@@ -86,7 +86,10 @@ int take(void *m, Type type, const uint32_t *references, size_t n, double *value
 int state_get(void *m, void **state) { return GetFMUstate(m, state); }
 int state_set(void *m, void *state) { return SetFMUstate(m, state); }
 int state_free(void *m, void **state) { return FreeFMUstate(m, state); }
-int state_size(void *m, void *state, size_t *size) { return SerializedFMUstateSize(m, state, size); }
+int state_size(void *m, void *state, size_t *size)
+{
+    return SerializedFMUstateSize(m, state, size);
+}
 int state_write(void *m, void *state, void *bytes, size_t size)
 {
     return SerializeFMUstate(m, state, bytes, size);

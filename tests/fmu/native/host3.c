@@ -109,7 +109,10 @@ int take(void *m, Type type, const uint32_t *references, size_t n, double *value
 int state_get(void *m, void **state) { return GetFMUState(m, state); }
 int state_set(void *m, void *state) { return SetFMUState(m, state); }
 int state_free(void *m, void **state) { return FreeFMUState(m, state); }
-int state_size(void *m, void *state, size_t *size) { return SerializedFMUStateSize(m, state, size); }
+int state_size(void *m, void *state, size_t *size)
+{
+    return SerializedFMUStateSize(m, state, size);
+}
 int state_write(void *m, void *state, void *bytes, size_t size)
 {
     return SerializeFMUState(m, state, bytes, size);

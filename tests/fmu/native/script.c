@@ -1,5 +1,5 @@
 /* A host that is no Python: runs the commands of standard input on an FMU's library.
-   Each command answers "= STATUS values..."; messages come before it as "! STATUS CATEGORY TEXT". */
+   Each command answers "= STATUS values..."; before it come messages, "! STATUS CATEGORY TEXT". */
 #include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>

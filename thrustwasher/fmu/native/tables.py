@@ -86,12 +86,13 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
 
 
 def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
+    kind, cause = v.type.upper(), v.causality.upper()
     depends = sum(1 << inputs.index(name) for name in v.depends)
     return _row(
         _text(v.name), _text(v.unit), *map(_number, v.bounds), _number(v.start or 0.0),
         f"0x{depends:x}u", v.slot, names.index(v.type_name) if v.type_name else -1,
-        f"TYPE_{v.type.upper()}", f"CAUSE_{v.causality.upper()}", f"STORE_{v.store.upper()}",
-        int(v.relative),
+        f"TYPE_{kind}", f"CAUSE_{cause}", f"STORE_{v.store.upper()}",
+        int(v.relative), f"TYPE_BIT(TYPE_{kind}) | CAUSE_BIT(CAUSE_{cause})",
     )  # fmt: skip
 
 

@@ -1,0 +1,88 @@
+"""Native FMUs in a C host: instantiation, steps, and what the protocol takes of them; medians.
+
+Run as ``python benchmarks/native.py``, with names of models for some of them. Needs Linux and gcc.
+The protocol's share is timed on a library with the model's own tables and a step that does nothing.
+"""
+
+import argparse
+import subprocess
+import tempfile
+from importlib import metadata
+from pathlib import Path
+
+from thrustwasher.fmu.interface import variables
+from thrustwasher.fmu.native import link, tables
+from thrustwasher.fmu.native.library import headers as fmi_headers
+from thrustwasher.fmu.native.library import library, shell
+from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.fmu.registry import all_specs, find_spec
+from thrustwasher.models._spec import ModelSpec
+
+GUID = "benchmark"
+STEPS = {"washer": 20, "clutch": 2000, "gearmesh": 1000, "transmission": 2000}
+EMPTY_STEPS = 100_000
+POINTS = {"washer": (300.0, 545.0, 2e-3, 297.15), "clutch": (5000.0, 100.0, 320.0)}
+EMPTY = """#include "kernel.h"
+int tw_derive(double *par) { (void)par; return 0; }
+int tw_rule(const double *par) { (void)par; return 0; }
+int tw_step(double *par, double *inp, double *state, double *work, double *out, int32_t *iout,
+            double t, double dt) {
+    (void)par, (void)inp, (void)state, (void)work, (void)out, (void)iout, (void)t, (void)dt;
+    return 0;
+}
+int tw_sens(double *par, double *inp, double *state, double *work, double *seed, double *dout) {
+    (void)par, (void)inp, (void)state, (void)work, (void)seed, (void)dout;
+    return 0;
+}
+"""
+
+
+def headers() -> Path:
+    return Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
+
+
+def empty_library(spec: ModelSpec) -> bytes:
+    """Return a library of the shell with this model's tables and a step that does nothing."""
+    files: dict[str, str | bytes] = {**shell(2), **fmi_headers(2), "empty.c": EMPTY}
+    files |= tables.sources(spec, fmi=2, guid=GUID)
+    return link.shared_library(files, platform=PLATFORMS["linux64"], name="empty")
+
+
+def timed(program: Path, made: Path, spec: ModelSpec, n: int) -> tuple[float, float, int]:
+    """Return seconds to instantiate and initialize, seconds a step, and how often it failed."""
+    found = variables(spec)
+    starts = [v.start or 0.0 for v in found if v.causality == "input"]
+    point = POINTS.get(spec.key, starts)
+    inputs = [v.reference for v in found if v.causality == "input"]
+    outputs = [v.reference for v in found if v.causality == "output" and v.type == "Real"]
+    words = [len(inputs), *(x for pair in zip(inputs, point, strict=True) for x in pair)]
+    words += [len(outputs), *outputs]
+    done = subprocess.run([program, made, GUID, str(n)], input=" ".join(map(str, words)), env={},
+                          check=True, capture_output=True, text=True)  # fmt: skip
+    birth, step, bad = done.stdout.split()
+    return float(birth), float(step), int(bad)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("models", nargs="*", help="models to time (default: all)")
+    names = parser.parse_args().models
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        program = folder / "native"
+        source = Path(__file__).with_suffix(".c")
+        subprocess.run(["gcc", "-std=gnu99", "-O2", "-I", headers(), source, "-o", program, "-ldl"],
+                       check=True)  # fmt: skip
+        print(f"{'model':18}{'make + init [ms]':>18}{'step [us]':>12}{'protocol [us]':>15}")
+        for spec in [find_spec(name) for name in names] or all_specs():
+            made = folder / f"{spec.name}.so"
+            made.write_bytes(library(spec, fmi=2, guid=GUID, platform="linux64"))
+            birth, step, bad = timed(program, made, spec, STEPS.get(spec.key, 2000))
+            made.write_bytes(empty_library(spec))
+            _, protocol, _ = timed(program, made, spec, EMPTY_STEPS)
+            print(f"{spec.name:18}{1e3 * birth:18.3f}{1e6 * step:12.3f}{1e6 * protocol:15.4f}"
+                  + (f"  {bad} failures" if bad else ""))  # fmt: skip
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""The generated tables: complete, exact, and C whatever stands in a sentence."""
+
+import re
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+from shell_runs import GUID, MADE, needs_gcc, run, taking, toy_library
+from shelltoy.spec import SPEC as TOY
+
+from thrustwasher.fmu.interface import variables
+from thrustwasher.fmu.native import calls, tables
+from thrustwasher.fmu.registry import all_specs
+
+HEADERS = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
+EXCHANGE_ONLY = {  # functions of FMI 2.0 that co-simulation has not
+    "EnterEventMode", "NewDiscreteStates", "EnterContinuousTimeMode", "CompletedIntegratorStep",
+    "SetTime", "SetContinuousStates", "GetDerivatives", "GetEventIndicators",
+    "GetContinuousStates", "GetNominalsOfContinuousStates",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("fmi", "number"), [(2, 34), (3, 75)])
+def test_the_table_of_calls_has_every_function_of_the_standard(fmi, number):
+    text = (HEADERS / f"fmi{fmi}Functions.h").read_text("utf-8", "replace")
+    standard = set(re.findall(rf"FMI{fmi}_Export \w+\s+(fmi{fmi}\w+);", text))
+    if fmi == 2:
+        standard -= {f"fmi2{name}" for name in EXCHANGE_ONLY}
+    assert set(calls.functions(fmi)) == standard and len(standard) == number
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_the_same_model_gives_the_same_tables_and_another_guid_others(fmi):
+    made = [tables.sources(TOY, fmi=fmi, guid=guid) for guid in (GUID, GUID, "other")]
+    assert made[0] == made[1] != made[2]
+
+
+def test_every_name_in_a_rule_is_a_parameter_and_every_file_is_there():
+    for spec in all_specs():
+        known = {v.name for v in variables(spec) if v.causality == "parameter"}
+        for rule in spec.rules:
+            assert set(re.findall(r"\{(\w+)\}", rule.text)) <= known, rule.text
+    shell = Path(tables.__file__).parents[3] / "fmu_src" / "shell"
+    for fmi in (2, 3):
+        assert all((shell / name).is_file() for name in tables.shell_files(fmi))
+
+
+def test_sentences_become_c_whatever_they_hold():
+    assert tables._text('a "b" \\ ??) 20 °C') == '"a \\042b\\042 \\134 \\077\\077) 20 \\302\\260C"'
+    assert tables._text(None) == "0"
+
+
+@needs_gcc
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_numbers_reach_c_to_the_bit(fmi):
+    found = [v for v in variables(TOY) if v.causality in ("input", "parameter")]
+    replies = run(fmi, toy_library(fmi), MADE + taking([v.name for v in found]))
+    got = sorted(x for r in replies for x in r.values)
+    assert got == sorted(v.start for v in found)

@@ -4,6 +4,7 @@ import ctypes
 
 import pytest
 from fmpy import extract, read_model_description
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 from thrustwasher.errors import Status
@@ -120,14 +121,16 @@ def test_a_category_can_be_chosen(listen):
     washer.begin(load=300.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
     washer.only("logStatusError")
     washer.fmu.doStep(0.0, H)
-    washer.set(load=float("nan"))
+    with pytest.raises(FMICallException):
+        washer.set(load=float("nan"))
     assert {kind for _, kind, _ in washer.said} == {"logStatusError"}
 
 
-def test_without_logging_nothing_is_said(listen):
+def test_without_logging_only_errors_and_warnings_are_said(listen):
     clutch = listen("WetClutch", logging=False)
-    clutch.begin(load=float("nan"))
-    assert clutch.said == []
+    with pytest.raises(FMICallException):
+        clutch.begin(load=float("nan"))
+    assert [(status, kind) for status, kind, _ in clutch.said] == [(ERROR, "logStatusError")]
 
 
 def test_every_category_that_is_declared_can_be_heard():

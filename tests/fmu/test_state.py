@@ -7,7 +7,7 @@ from conftest import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.snapshot import HEADER, from_bytes
+from thrustwasher.fmu.snapshot import HEADER
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 H = 1e-3
@@ -62,11 +62,12 @@ def test_a_state_keeps_unread_inputs_and_the_time(instance):
     assert instance.get(["load", "speed", "time"]) == [1.0, 2.0, 19 * H + H]
 
 
-def test_serialized_bytes_carry_the_run_to_another_process(instance, toy_fmu, tmp_path, run_child):
-    state = instance.get_state()
+def test_serialized_bytes_carry_the_run_to_another_process(toy, toy_fmu, tmp_path, run_child):
+    run(toy, 0, 20)
+    state = toy.get_state()
     file = tmp_path / "state.bin"
-    file.write_bytes(instance.serialize(state))
-    expected = run(instance, 20, 40)
+    file.write_bytes(toy.serialize(state))
+    expected = run(toy, 20, 40)
     assert run_child(CONTINUE, toy_fmu, file) == str(expected)
 
 
@@ -94,27 +95,20 @@ def test_bytes_are_the_same_for_the_same_state(instance):
 def damaged(data):
     flipped = bytearray(data)
     flipped[HEADER.size + 3] ^= 1
-    foreign = bytearray(data)
-    foreign[16:32] = b"0" * 16
     return {
         "empty": b"", "short": data[:40], "truncated": data[:-1], "longer": data + b"0",
-        "flipped": bytes(flipped), "foreign": bytes(foreign), "text": b"{}" * 200,
+        "flipped": bytes(flipped), "text": b"{}" * 200,
     }  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", ["empty", "short", "truncated", "longer", "flipped", "text"])
-def test_damaged_bytes_are_refused_and_the_run_goes_on(kind, toy, direct_toy):
-    data = damaged(direct_toy.serialize(direct_toy.get_state()))[kind]
-    with pytest.raises(ParameterError, match="FMU state"):
-        from_bytes(data)
-    before = toy.outputs()
-    state = toy.deserialize(data)
-    with pytest.raises(ParameterError, match="FMU state"):
-        toy.set_state(state)
-    toy.set_inputs([501.0, 20.0, 310.0])
-    toy.set_inputs([500.0, 20.0, 310.0])
-    assert toy.outputs() == before
-    toy.step(0.0, H)
+def test_damaged_bytes_are_refused_and_the_run_goes_on(kind, instance):
+    data = damaged(instance.serialize(instance.get_state()))[kind]
+    before = instance.outputs()
+    with pytest.raises((ParameterError, SolveError), match="FMU state"):
+        instance.deserialize(data)
+    assert instance.outputs() == before
+    instance.step(0.02, H)
 
 
 def test_a_state_of_another_model_is_refused(direct_toy):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ..errors import EnvironmentProblem, ParameterError
 from ..models._spec import ModelSpec
-from . import archive, native_contents, python_contents
+from . import archive, guard, native_contents, python_contents
 from .common_contents import common_contents, readme
 from .identity import identifier, model_folder
 from .interface import all_specs, find_spec
@@ -102,7 +102,7 @@ def contents(
 ) -> dict[str, bytes]:  # fmt: skip
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
     native = target == "native"
-    tools = native_contents.tools() if native else ""
+    tools = native_contents.tools() if native else guard.compiler()
     shell = source_folder() / "shell"
     guid = identifier(spec, folder, shell=shell, target=target, fmi=fmi, tools=tools)
     if native:

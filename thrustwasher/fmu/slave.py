@@ -2,9 +2,10 @@
 
 What shapes it: an exception that leaves a callback makes pythonfmu drop references twice, and the
 second one on an instance ends the process. Therefore no callback ever raises, not even for Ctrl-C.
-A callback other than ``do_step`` cannot report failure at all; so a failure is logged, latched in
-``solver_status``, and the next step is refused until it is cured. ``__init__`` may raise: the
-instantiation then returns NULL.
+A callback other than ``do_step`` cannot report failure at all; so a failure is logged as an error,
+latched in ``solver_status``, and the next step is refused until it is cured. The guard, the C
+library in front of pythonfmu's, turns a logged error into fmi2Error; where there is no guard, on
+Windows, the latch alone must do. ``__init__`` may raise: the instantiation then returns NULL.
 """
 
 import _ctypes
@@ -29,6 +30,12 @@ from .snapshot import Snapshot, from_bytes
 from .xml import LOG_CATEGORIES, description
 
 _at_exit: set[str] = set()  # libraries that release their pointer when the process ends
+
+
+class Refused(EnvironmentProblem):
+    """Why there is no instance; pythonfmu shows ``repr``, so that it is the sentence itself."""
+
+    __repr__ = EnvironmentProblem.__str__
 
 
 def _safe(callback: Callable[..., Any]) -> Callable[..., Any]:
@@ -56,11 +63,13 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         super().__init__(**kwargs)
         _forget_repeated_path(self.resources)
         spec = find_spec(self.model)
-        _settle_library(self.resources, spec.name)
+        self.guarded = _is_guarded(self.resources)
+        if not self.guarded:
+            _settle_library(self.resources, spec.name)
         if type(self).digest != content_digest(spec):
             theirs, ours = type(self).version, package_version()
             cure = "" if theirs == ours else f"pip install thrustwasher=={theirs}, or "
-            problem = EnvironmentProblem(
+            problem = Refused(
                 f"{spec.name}: this FMU was built with thrustwasher {theirs} (content "
                 f"{type(self).digest}), this Python has {ours} (content {content_digest(spec)}): "
                 f"{cure}build the FMU again"
@@ -91,9 +100,11 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     @_safe
     def exit_initialization_mode(self) -> None:
         """Check the rules between parameters and solve the start point."""
-        self.core.mode = Mode.STEPPING
+        if not self.guarded:  # the host cannot be told of a failure and will go on to steps
+            self.core.mode = Mode.STEPPING
         self.core.prepare()
         self.core.refresh()
+        self.core.mode = Mode.STEPPING
         self.core.note_switches()  # how a run starts is no event
         self._warn()
 
@@ -196,7 +207,9 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
 
     def tell(self, text: str, status: Any, category: str | None = None) -> None:
         """Queue a message; FMI gives # and % in texts a meaning, so they are not used."""
-        self.log(text.replace("#", "no. ").replace("%", " percent"), status, category)
+        text = text.replace("#", "no. ").replace("%", " percent")
+        # a file's name may hold what is no UTF-8, and pythonfmu does not survive such a text
+        self.log(text.encode("utf-8", "replace").decode("utf-8"), status, category)
 
     def report(self, problem: BaseException) -> None:
         """Log a failure in one sentence; a defect also with its traceback."""
@@ -230,8 +243,14 @@ def _forget_repeated_path(folder: str | None) -> None:
         sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != folder]
 
 
+def _is_guarded(folder: str | None) -> bool:
+    """Tell if the guard is in front of pythonfmu's library, which then has another name."""
+    binaries = Path(folder or "").parent / "binaries" / "linux64"
+    return sys.platform == "linux" and (binaries / "impl.so").is_file()
+
+
 def _settle_library(folder: str | None, model: str) -> None:
-    """Release pythonfmu's global pointer once, before the library's destructors do so twice.
+    """Without a guard: release pythonfmu's global pointer before its destructors do so twice.
 
     They run when the library is unloaded or the process ends, and release the pointer again if it
     is still set: "corrupted double-linked list". In a Python host the pointer has nothing left to

@@ -101,6 +101,19 @@ def _unknown_numba(what: str) -> EnvironmentProblem:
     )
 
 
+def spare_machine_code() -> None:
+    """Keep numba from compiling each function for this process too: a third of the time.
+
+    Not public in numba: where the two methods are missing it only takes longer.
+    """
+    from numba.core import codegen
+
+    library: Any = getattr(codegen, "JITCodeLibrary", None)
+    if hasattr(library, "_finalize_specific") and hasattr(library, "_ensure_finalized"):
+        library._finalize_specific = lambda self: None
+        library.get_pointer_to_function = lambda self, name: self._ensure_finalized() or 1
+
+
 def module(kernel: ModuleType, say: Callable[[str], None]) -> Any:
     """Return one module with all entries, external and hidden; everything else is internal."""
     import llvmlite.binding as llvm
@@ -146,6 +159,7 @@ def main(arguments: list[str]) -> int:
     name, file = arguments
     warnings.filterwarnings("ignore", message=r"[\s\S]*Cannot cache compiled function")
     llvm.initialize_all_targets()
+    spare_machine_code()
     try:
         whole = module(importlib.import_module(name), print)
     except EnvironmentProblem as problem:

@@ -17,7 +17,7 @@ from .objects import Note, to_stderr
 from .targets import PLATFORMS, Platform
 
 # -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
-COMMON = ("-O2", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
+COMMON = ("-Os", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
 PATIENCE = 6.0  # seconds; a build that takes longer is the first one for its platform
 MISSING = (
     "native FMUs need a C compiler to be built (not to be run): pip install 'thrustwasher[build]' "

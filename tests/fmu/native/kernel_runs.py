@@ -1,0 +1,105 @@
+"""The same steps by the JIT and by compiled libraries."""
+
+import ctypes
+import importlib
+import tempfile
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from thrustwasher.fmu.interface import variables
+from thrustwasher.fmu.native import library, tables
+from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.fmu.registry import all_specs, find_spec, kernel_module, load_kernel
+
+HERE = Path(__file__).parent
+EXPORTS = ("probe_derive", "probe_rule", "probe_step", "probe_sens")
+MODELS = [spec.key for spec in all_specs()]
+_folder = tempfile.TemporaryDirectory(prefix="probe")
+
+
+@cache
+def probe(model: str, level: str) -> ctypes.CDLL:
+    """Return the compiled kernels of one CPU level for this machine, without the shell."""
+    spec = find_spec(model)
+    linux = PLATFORMS["linux64"]
+    platform = replace(linux, levels=tuple(one for one in linux.levels if one.name == level))
+    files = {**tables.sources(spec, fmi=2, guid="0"), "probe.c": (HERE / "probe.c").read_bytes()}
+    name = f"{model}_{level}"
+    made = library.link_kernel(files, kernel_module(spec.kernel), platform, name, EXPORTS)
+    path = Path(_folder.name) / f"{name}.so"
+    path.write_bytes(made)
+    return ctypes.CDLL(str(path))
+
+
+class Jit:
+    """The entries as Python calls them."""
+
+    def __init__(self, model: str) -> None:
+        spec = find_spec(model)
+        self.sizes = load_kernel(spec.kernel)
+        self.module = importlib.import_module(kernel_module(spec.kernel))
+
+    def call(self, entry: str, *given):
+        return getattr(self.module, entry)(*given)
+
+
+class Native(Jit):
+    """The same entries in a compiled library."""
+
+    def __init__(self, model: str, level: str) -> None:
+        super().__init__(model)
+        self.library = probe(model, level)
+
+    def call(self, entry: str, *given):
+        function = getattr(self.library, f"probe_{entry.replace('broken_', '')}")
+        return function(*[ctypes.c_double(v) if isinstance(v, float) else
+                          ctypes.c_void_p(v.ctypes.data) for v in given])  # fmt: skip
+
+
+class Run:
+    """One instance: parameters at their start values, memory empty."""
+
+    def __init__(self, entries: Jit) -> None:
+        self.entries, k = entries, entries.sizes
+        self.par, self.state, self.work = np.zeros(k.n_par), np.zeros(k.n_state), np.zeros(k.n_work)
+        self.out, self.iout = np.zeros(k.n_out), np.zeros(k.n_iout, np.int32)
+
+    def start(self, values) -> int:
+        self.par[: len(values)] = values
+        return self.entries.call("derive", self.par)
+
+    def step(self, inputs, t: float, dt: float) -> int:
+        inp = np.array(inputs, dtype=float)
+        return self.entries.call(
+            "step", self.par, inp, self.state, self.work, self.out, self.iout, t, dt
+        )
+
+    def memory(self) -> list[bytes]:
+        """Everything a step writes that counts, to the bit."""
+        return [part.tobytes() for part in (self.par, self.state, self.out, self.iout)]
+
+
+def parameters(model: str) -> list[float]:
+    """Return the start values of all parameters, the fidelity last."""
+    return [v.start for v in variables(find_spec(model)) if v.causality == "parameter"]
+
+
+def course(model: str, steps: int) -> tuple[np.ndarray, float]:
+    """Return inputs (steps, n) along the model's reference run, and the step size [s]."""
+    spec = find_spec(model)
+    rows = np.array(spec.course or [(0.0, *(s.start for s in spec.inputs))])
+    dt = spec.stop_time / steps
+    times = dt * np.arange(1, steps + 1)
+    return np.column_stack([np.interp(times, rows[:, 0], row) for row in rows.T[1:]]), dt
+
+
+def anything(model: str, steps: int) -> np.ndarray:
+    """Return inputs (steps, n) from all over their ranges, at random but always the same."""
+    spec = find_spec(model)
+    low = np.array([-1e3 if s.low is None else s.low for s in spec.inputs])
+    high = np.array([1e3 if s.high is None else s.high for s in spec.inputs])
+    share = np.random.default_rng(7).random((steps, len(spec.inputs)))
+    return low + (high - low) * share**2

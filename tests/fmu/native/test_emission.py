@@ -1,0 +1,118 @@
+"""Compiled ahead of time, the kernels give the numbers of the JIT to the last bit."""
+
+import platform
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from kernel_runs import MODELS, Jit, Native, Run, anything, course, parameters
+
+from thrustwasher.fmu.registry import find_spec
+
+pytestmark = pytest.mark.skipif(
+    sys.platform != "linux" or platform.machine() != "x86_64",
+    reason="compares libraries for Linux on x86-64 with the JIT on the same machine",
+)
+LEVELS = ["v2", "v3"]
+both = pytest.mark.parametrize("level", LEVELS)
+every = pytest.mark.parametrize("model", MODELS)
+STEPS, TRIES = 300, 60
+
+
+def has_v3() -> bool:
+    with open("/proc/cpuinfo") as file:
+        return " avx2 " in file.read()
+
+
+def pair(model, level):
+    if level == "v3" and not has_v3():
+        pytest.skip("this CPU has no AVX2")
+    runs = Run(Jit(model)), Run(Native(model, level))
+    assert [run.start(parameters(model)) for run in runs] == [0, 0]
+    return runs
+
+
+@both
+@every
+def test_a_reference_run_is_equal_to_the_bit(model, level):
+    jit, native = pair(model, level)
+    rows, dt = course(model, STEPS)
+    for i, row in enumerate(rows):
+        status = [run.step(row, i * dt, dt) for run in (jit, native)]
+        assert status[0] == status[1] == 0
+        assert jit.memory() == native.memory(), i
+
+
+@both
+@every
+def test_inputs_from_all_over_are_equal_to_the_bit_failures_too(model, level):
+    jit, native = pair(model, level)
+    t, (_, dt) = 0.0, course(model, STEPS)
+    for i, row in enumerate(anything(model, TRIES)):
+        for h in (0.0, dt):
+            status = [run.step(row, t, h) for run in (jit, native)]
+            assert status[0] == status[1] >= 0
+            assert jit.memory() == native.memory(), (i, h)
+        t += dt
+
+
+@every
+def test_a_contradiction_between_parameters_has_the_same_number(model):
+    jit, native = pair(model, "v2")
+    numbers = np.array(parameters(model))
+    found = set()
+    for place in range(len(numbers)):
+        for factor in (0.0, 0.5, 2.0, -1.0):
+            par = jit.par.copy()
+            par[place] *= factor
+            rules = {run.entries.call("broken_rule", par) for run in (jit, native)}
+            assert len(rules) == 1
+            found |= rules
+    assert found <= set(range(len(find_spec(model).rules) + 1)) and len(found) > 1
+
+
+@both
+@every
+def test_derivatives_are_equal_to_the_bit(model, level):
+    jit, native = pair(model, level)
+    if not hasattr(jit.entries.module, "sens"):
+        pytest.skip("this model has no derivatives")
+    rows, dt = course(model, 20)
+    for i, row in enumerate(rows):
+        answers = []
+        for run in (jit, native):
+            assert run.step(row, i * dt, dt) == run.step(row, (i + 1) * dt, 0.0) == 0
+            for k in range(len(row)):
+                seed, dout = np.eye(len(row))[k], np.zeros(len(run.out))
+                status = run.entries.call("sens", run.par, row.copy(), run.state, run.work, seed,
+                                          dout)  # fmt: skip
+                answers.append((k, status, dout.tobytes()))
+        assert answers[: len(row)] == answers[len(row) :]
+
+
+HARSH = """
+import ctypes, sys
+sys.path[:0] = {path!r}
+from kernel_runs import Native, Run, course, parameters
+libm = ctypes.CDLL("libm.so.6")
+run = Run(Native("gearmesh", "v2"))
+run.start(parameters("gearmesh"))
+rows, dt = course("gearmesh", 3)
+def results():
+    return [(run.step(row, 0.0, dt), run.memory())[1] for row in rows]
+plain = results()
+UPWARD, ALL = 0x800, 0x3D
+assert libm.fesetround(UPWARD) == 0
+libm.feenableexcept(ALL)
+assert results() == plain
+assert libm.fegetround() == UPWARD and libm.fegetexcept() == ALL
+print("same")
+"""
+
+
+def test_the_hosts_rounding_and_traps_neither_act_nor_change():
+    done = subprocess.run(
+        [sys.executable, "-c", HARSH.format(path=sys.path)], capture_output=True, text=True
+    )
+    assert done.stdout == "same\n", done.stderr

@@ -68,13 +68,8 @@ def run_shift(
     asked = scene.with_options(step=step, master=master)
     messages = _remarks(scene, asked)
     scene = asked
-    missing = [name for name in scene.parts if name not in instances]
-    if missing:
-        raise ParameterError(f"instances: {', '.join(missing)} missing, the scene has them")
-    parts = {n: ConnectedPart(n, p.spec, instances[n]) for n, p in scene.parts.items()}
-    coupling = scene.parts["transmission"].params.coupling
-    system = System(parts, links(coupling, set(parts)))
-
+    system = connected(scene, instances)
+    parts = system.parts
     span = scene.stop_time - scene.start_time
     n = max(1, round(span / scene.step))
     h = span / n
@@ -82,7 +77,6 @@ def run_shift(
         messages.append(f"the step is {h:.9g} s so that {n} steps end at the stop time")
     time = scene.start_time + h * np.arange(n + 1, dtype=np.float64)
     recorders = [_Recorder(part, n + 1) for part in parts.values()]
-    system.set_command(scene.command(scene.start_time))
     system.initialize(scene.start_time)
     for recorder in recorders:
         recorder.keep(0)
@@ -138,6 +132,18 @@ def run_shift(
         real_time_factor=span / wall,
         messages=messages,
     )
+
+
+def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
+    """Return the parts of a scene wired up, with the command of the start; not yet initialized."""
+    missing = [name for name in scene.parts if name not in instances]
+    if missing:
+        raise ParameterError(f"instances: {', '.join(missing)} missing, the scene has them")
+    parts = {n: ConnectedPart(n, p.spec, instances[n]) for n, p in scene.parts.items()}
+    coupling = scene.parts["transmission"].params.coupling
+    system = System(parts, links(coupling, set(parts)))
+    system.set_command(scene.command(scene.start_time))
+    return system
 
 
 def _remarks(made_for: Scene, scene: Scene) -> list[str]:

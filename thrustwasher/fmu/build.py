@@ -57,7 +57,7 @@ def build(
     """
     _check(target, fmi, platforms)
     specs = [find_spec(model) for model in models] if models else all_specs()
-    say = note or (lambda sentence: None)
+    say = note or _silent
     places: Sequence[str] = ()
     if target == "native":
         wanted = [native_contents.this_machine()[0]] if local else platforms
@@ -72,6 +72,28 @@ def build(
         archive.write(path, archive.pack(files))
         paths.append(path)
     return paths
+
+
+def pack_native(
+    spec: ModelSpec, *, platforms: Sequence[str] | None = None, note: Note | None = None
+) -> bytes:
+    """Return a native FMU of FMI 2 of any model, also of one with defaults of its own.
+
+    It has no reference results: those of a model with its usual defaults are in the usual FMU.
+    ``platforms`` and ``note`` are those of ``build``.
+    """
+    say = note or _silent
+    places = native_contents.chosen(platforms, say)
+    folder = model_folder(spec, source_folder())
+    return archive.pack(
+        contents(
+            spec, folder, target="native", fmi=2, platforms=places, note=say, reference=False
+        )
+    )  # fmt: skip
+
+
+def _silent(sentence: str) -> None:
+    """Say nothing."""
 
 
 def _check(target: str, fmi: int, platforms: Sequence[str] | None) -> None:
@@ -98,7 +120,7 @@ def source_folder() -> Path:
 
 def contents(
     spec: ModelSpec, folder: Path, *, target: str, fmi: int, platforms: Sequence[str], note: Note,
-    local: bool = False,
+    local: bool = False, reference: bool = True,
 ) -> dict[str, bytes]:  # fmt: skip
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
     native = target == "native"
@@ -112,9 +134,10 @@ def contents(
         )  # fmt: skip
     else:
         own = python_contents.python_contents(spec, folder, guid=guid)
-    note(f"{spec.name}: {'documents' if local else 'reference results and documents'}")
+    reference = reference and not local
+    note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     shared = common_contents(
         spec, target=target, fmi=fmi, guid=guid, equations=readme(folder), platforms=platforms,
-        reference=not local,
+        reference=reference,
     )  # fmt: skip
     return shared | own

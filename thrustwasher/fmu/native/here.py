@@ -1,7 +1,13 @@
 """Which platform this very machine is, and the fastest code its processor runs."""
 
+from collections.abc import Iterable
+from dataclasses import replace
+
 from ...errors import EnvironmentProblem
+from ...models._spec import ModelSpec
+from ..registry import kernel_module
 from .link import local_machine
+from .objects import Note, prepare, to_stderr
 from .targets import PLATFORMS, Level, Platform
 
 # What a processor must have for a level beyond the first one of its platform.
@@ -30,3 +36,10 @@ def this_level(platform: Platform) -> Level:
     has = binding.get_host_cpu_features()
     able = [x for x in platform.levels if all(has.get(f, False) for f in FEATURES.get(x.name, ()))]
     return able[-1]
+
+
+def compile_models(specs: Iterable[ModelSpec], note: Note = to_stderr) -> None:
+    """Compile models for this processor, side by side; ``library`` finds the results."""
+    platform = this_platform()
+    one = replace(platform, levels=(this_level(platform),))
+    prepare([kernel_module(spec.kernel) for spec in specs], [one], note)

@@ -1,0 +1,138 @@
+"""A shift as an SSP package: valid, complete, and the same run under another master."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scene_runs import instances as direct_instances
+from scene_runs import slow_without_jit
+from ssp_master import NS, components, connections, description, run, values
+
+from thrustwasher.drivetrain import builtin_scenes, load_scene, run_shift, ssp
+from thrustwasher.fmu import archive
+from thrustwasher.fmu.direct import DirectInstance
+
+SCENES = builtin_scenes()
+FIGURES = ("lock_time", "lock_speed", "clutch_heat", "brake_heat", "engine_speed")
+
+
+def planned(name, starts=None):
+    return ssp.plan(ssp.prepared(load_scene(name)), starts or {})
+
+
+def packed(system):
+    return archive.pack(ssp.files(system, tool="thrustwasher", date="2026-01-01T00:00:00Z"))
+
+
+def schema(name):
+    import fmpy.ssp
+    from lxml import etree
+
+    return etree.XMLSchema(file=str(Path(fmpy.ssp.__file__).parent / "schema" / name))
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("file", ["SystemStructure.ssd", "Parts.ssd"])
+def test_the_description_is_valid(name, file):
+    from lxml import etree
+
+    made = ssp.files(planned(name), tool="thrustwasher", date="2026-01-01T00:00:00Z")
+    root = etree.fromstring(made[file])
+    whole, inline = (schema(f"SystemStructure{n}.xsd") for n in ("Description", "ParameterValues"))
+    assert whole.validate(root), whole.error_log
+    sets = root.findall(".//ssv:ParameterSet", NS)
+    assert len(sets) == (len(planned(name).components) if file == "SystemStructure.ssd" else 0)
+    for found in sets:
+        alone = etree.fromstring(etree.tostring(found))
+        assert inline.validate(alone), inline.error_log
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_parameter_of_the_scene_stands_in_the_package(name):
+    scene = ssp.prepared(load_scene(name))
+    found = components(description(packed(planned(name))))
+    assert set(found) == {"command", *scene.parts}
+    for part, given in scene.parts.items():
+        told = values(found[part])
+        assert {k: told[k] for k in given.parameters()} == given.parameters()
+        assert {s.name for s in given.spec.inputs} <= set(told)
+        if part != "transmission":
+            assert told["oil_temperature"] == scene.oil_temperature
+    assert values(found["command"])["lead"] == scene.step
+    assert values(found["transmission"])["torque_age"] == 1
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("file", ["SystemStructure.ssd", "Parts.ssd"])
+def test_connections_join_connectors_of_one_kind_and_unit(name, file):
+    root = description(packed(planned(name)), file)
+    system = root.find("ssd:System", NS)
+    places = {None: system, **components(root)}
+    found = {
+        (part, c.get("name")): (c.get("kind"), c[0].tag, c[0].get("unit"))
+        for part, element in places.items()
+        for c in element.findall("ssd:Connectors/ssd:Connector", NS)
+    }
+    fed = set()
+    for source, output, target, into in connections(root):
+        a, b = found[source, output], found[target, into]
+        assert a[1:] == b[1:] and a[0] == "output"
+        assert b[0] == ("input" if target else "output")
+        fed.add((target, into))
+    inputs = {key for key, (kind, *_) in found.items() if kind == "input"}
+    assert inputs <= fed and not any(name == "oil_temperature" for _, name in found)
+    units = {u.get("name") for u in root.findall("ssd:Units/ssc:Unit", NS)}
+    assert {unit for *_, unit in found.values() if unit} <= units
+    assert all(p.get("unit") in units for p in root.iter(f"{{{NS['ssv']}}}Real"))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_enumerations_are_listed_with_their_items(name):
+    root = description(packed(planned(name)))
+    listed = {
+        e.get("name"): {i.get("name") for i in e}
+        for e in root.findall("ssd:Enumerations/ssc:Enumeration", NS)
+    }
+    used = list(root.iter(f"{{{NS['ssv']}}}Enumeration"))
+    assert used and all(v.get("value") in listed[v.get("name")] for v in used)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_defaults_of_the_parts_are_the_scenes(name):
+    """A master that ignores the values in the package runs the same scene."""
+    for part in planned(name).components:
+        with DirectInstance(part.spec) as plain:
+            given = DirectInstance(part.spec, parameters=part.parameters)
+            assert plain.get(list(part.parameters)) == given.get(list(part.parameters))
+            assert {s.name: s.start for s in part.spec.inputs} == part.starts
+
+
+def test_the_page_names_parts_step_and_delay():
+    page = ssp.files(planned("planetary"), tool="thrustwasher 9", date="2026-01-01T00:00:00Z")
+    text = page["documentation/index.html"].decode()
+    for word in ("0.001 s", "torque_age", "WetClutch", "washer_temperature_max", "Parts.ssd"):
+        assert word in text
+    assert "http" not in text and "<script" not in text
+
+
+def test_the_package_has_the_same_bytes_for_the_same_scene():
+    assert packed(planned("msl")) == packed(planned("msl"))
+
+
+@slow_without_jit
+@pytest.mark.parametrize(
+    "name", ["msl", "brake-test", pytest.param("brake-test-sample", marks=pytest.mark.slow)]
+)
+def test_another_master_runs_the_same_shift(name):
+    """Only what stands in the package is used: defaults, connections, start values."""
+    scene = ssp.prepared(load_scene(name))
+    system = ssp.plan(scene, ssp.start_values(scene, direct_instances(scene)))
+    root = description(packed(system))
+    rows = run(root, {part.name: DirectInstance(part.spec) for part in system.components})
+    own = run_shift(scene, direct_instances(scene)).signals
+    for figure in FIGURES:
+        theirs = np.array([row[f"transmission.{figure}"] for row in rows])
+        assert theirs == pytest.approx(own[f"transmission.{figure}"][1:], rel=1e-9, abs=1e-9)
+    for pack in ("clutch", "brake"):
+        theirs = np.array([row[f"{pack}.temperature"] for row in rows])
+        assert theirs == pytest.approx(own[f"{pack}.temperature"][1:], rel=1e-9)

@@ -141,9 +141,14 @@ def test_help_of_build_names_every_fmu(capsys):
 
 
 def test_what_cannot_be_built_sends_nobody_in_a_circle(tmp_path, capsys):
-    for words in (["--fmi", "3"], ["--target", "native"]):
+    for words, named in (
+        (["--target", "python", "--fmi", "3"], "native"),
+        (["--target", "python", "--platforms", "all"], "native"),
+        (["--platforms", "linux64,amiga"], "'amiga'"),
+        (["--target", "stone"], "stone"),
+    ):
         assert main(["build", *words, "--out", str(tmp_path)]) == 2
-        assert "use target" not in one_line(capsys)
+        assert named in one_line(capsys)
 
 
 @pytest.mark.skipif(not DOCS.is_dir(), reason="the documents are in the source tree only")

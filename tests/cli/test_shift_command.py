@@ -9,11 +9,13 @@ from pathlib import Path
 import pytest
 
 from thrustwasher.cli import main
+from thrustwasher.cli._fmu_cache import fmu_paths
 
 
 @pytest.fixture(scope="module")
 def msl(tmp_path_factory):
-    """Run the scene with a known answer once."""
+    """Run the scene with a known answer once, with FMUs that are there already."""
+    fmu_paths(["ShiftTransmission", "WetClutch"])
     folder = tmp_path_factory.mktemp("shift") / "report"
     words = ["shift", "--scene", "msl", "--out", str(folder), "--json"]
     done = subprocess.run(
@@ -98,14 +100,20 @@ def test_files_that_were_there_stay(tmp_path, capsys):
         (["--master", "magic"], ["master", "magic", "jacobi"]),
         (["--step", "1 h"], ["step", "'1 h'", "ms"]),
         (["--step", "10 s"], ["step", "10", "s"]),
-        (["--fmu", "native"], ["native", "python"]),
+        (["--fmu", "stone"], ["stone", "native", "python"]),
+        (["--platforms", "linux64"], ["--platforms", "--ssp"]),
+        (["--ssp", "shift.zip"], ["shift.zip", ".ssp"]),
+        (["--ssp", "/proc/none/x.ssp"], ["--ssp", "/proc/none"]),
+        (["--ssp", "x.ssp", "--fmu", "python"], ["--fmu python", "native"]),
+        (["--ssp", "x.ssp", "--master", "gauss-seidel"], ["gauss-seidel", "parallel"]),
+        (["--ssp", "x.ssp", "--platforms", "linux64,amiga"], ["amiga", "win64", "local"]),
         (["--out", "file"], ["file", "folder"]),
     ],
 )
 def test_wrong_words_are_refused_before_any_work(words, named, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("file").write_text("x")
-    monkeypatch.setattr("thrustwasher.cli.shift._simulate", lambda _: pytest.fail("it began"))
+    monkeypatch.setattr("thrustwasher.cli.shift._simulate", lambda *_: pytest.fail("it began"))
     assert main(["shift", *words]) == 2
     out, err = capsys.readouterr()
     assert out == "" and err.count("\n") == 1

@@ -4,44 +4,103 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import tempfile
+import time
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
+from ..errors import EnvironmentProblem
+from ._output import note
 
-def fmu_paths(models: Iterable[str]) -> dict[str, Path]:
-    """Return the FMU of each model, building those that are not there yet."""
+KEPT = 3  # versions
+IN_USE = 86400.0  # s; a version used within this time may be needed by another process
+TEXTS = (".py", ".json", ".npz", ".md", ".c", ".h")
+
+
+def fmu_paths(models: Iterable[str], target: str | None = None) -> dict[str, Path]:
+    """Return the FMU of each model for this machine, building those that are not there yet.
+
+    Without a target: native, or what Python can do if nothing here links a library.
+    """
+    wanted = list(dict.fromkeys(models))
+    if target != "python":
+        try:
+            return _present(wanted, "native")
+        except EnvironmentProblem as problem:
+            if target:
+                raise
+            note(f"{problem}; going on with Python FMUs")
+    return _present(wanted, "python")
+
+
+def _present(models: list[str], target: str) -> dict[str, Path]:
+    """Return the FMUs of one target; build what is missing, the slow part side by side."""
     from ..fmu.build import build
 
-    folder = cache_folder()
-    paths: dict[str, Path] = {}
-    for model in dict.fromkeys(models):
-        known = folder / "python-fmi2" / f"{model}.fmu"
-        paths[model] = known if known.is_file() else build([model], target="python", out=folder)[0]
+    folder = cache_folder(target)
+    paths = {model: folder / f"{target}-fmi2" / f"{model}.fmu" for model in models}
+    missing = [model for model, path in paths.items() if not path.is_file()]
+    if missing:
+        began = time.perf_counter()
+        _compile(missing, target)
+        build(missing, target=target, out=folder, local=True)
+        note(f"built {', '.join(missing)} in {time.perf_counter() - began:.0f} s")
+        prune(folder.parent)
+    with suppress(OSError):
+        os.utime(folder)
     return paths
 
 
-def cache_folder() -> Path:
+def _compile(models: list[str], target: str) -> None:
+    """Compile what is not compiled yet, and say so: it is what takes long on a new machine."""
+    from ..fmu.registry import find_spec, is_compiled
+
+    specs = [find_spec(model) for model in models]
+    if target == "native":
+        from ..fmu.native.here import compile_models
+
+        compile_models(specs, note)
+        return
+    slow = [spec.name for spec in specs if not is_compiled(spec)]
+    if slow:
+        note(f"the first run compiles {', '.join(slow)}: seconds, the washer a minute or two")
+
+
+def cache_folder(target: str) -> Path:
     """Return the folder of the FMUs of this very source: the user's cache, else a temporary one."""
     base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    folder = Path(base) / "thrustwasher" / "built" / source_digest()
+    digest = source_digest(target)
+    folder = Path(base) / "thrustwasher" / "built" / digest
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except OSError:
-        return Path(tempfile.gettempdir()) / f"thrustwasher-built-{source_digest()}"
+        return Path(tempfile.gettempdir()) / "thrustwasher-built" / digest
 
 
-def source_digest() -> str:
-    """Return 16 hex digits over version and sources of the package and the FMUs' own files."""
+def source_digest(target: str) -> str:
+    """Return 16 hex digits over version, sources, compilers and, if native, the processor."""
     from ..fmu.build import source_folder
+    from ..fmu.native_contents import this_machine, tools
     from ..fmu.registry import package_version
 
-    package = Path(__file__).parents[1]
-    files = {p for p in package.rglob("*") if p.suffix in (".py", ".json", ".npz")}
-    files |= {p for p in source_folder().rglob("*") if p.suffix in (".py", ".md")}
-    hashed = hashlib.sha256(package_version().encode())
-    for path in sorted(files):
-        hashed.update(path.name.encode() + path.read_bytes())
+    made_for = f"{tools()} {this_machine()}" if target == "native" else "python"
+    hashed = hashlib.sha256(f"{package_version()} {made_for}".encode())
+    for root in (Path(__file__).parents[1], source_folder()):
+        for path in sorted(p for p in root.rglob("*") if p.suffix in TEXTS):
+            hashed.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
     return hashed.hexdigest()[:16]
+
+
+def prune(home: Path) -> None:
+    """Remove versions that were not used for a day, except the ``KEPT`` used last."""
+    used = []
+    for folder in home.iterdir():
+        with suppress(OSError):  # another process prunes too
+            used.append((folder.stat().st_mtime, folder))
+    for last, folder in sorted(used, reverse=True)[KEPT:]:
+        if time.time() - last > IN_USE:
+            shutil.rmtree(folder, ignore_errors=True)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import time
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -34,24 +35,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--master", metavar="NAME", help="gauss-seidel or jacobi, if not the scene's"
     )
     parser.add_argument(
-        "--fmu", choices=["python", "native"], default="python",
-        help="kind of FMU; this version builds the python kind",
+        "--fmu", choices=["native", "python"],
+        help="kind of FMU; default native, or python if nothing here compiles",
+    )  # fmt: skip
+    parser.add_argument(
+        "--ssp", metavar="FILE.ssp",
+        help="write the shift as an SSP package for other tools, instead of running it",
+    )  # fmt: skip
+    parser.add_argument(
+        "--platforms", metavar="LIST",
+        help="of the package's FMUs: names with commas, all, or local; default: all that can be "
+        "linked here",
     )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object with every number")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
-    if arguments.fmu == "native":
-        raise ParameterError("fmu = 'native', allowed in this version: 'python'")
     from ..drivetrain import load_scene
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     scene = load_scene(arguments.scene).with_options(step=step, master=arguments.master)
+    if arguments.ssp:
+        from ._ssp import export
+
+        return export(arguments, scene)
+    if arguments.platforms:
+        raise ParameterError("--platforms: for a package only (--ssp FILE.ssp)")
     folder = _output.check_folder(arguments.out, "--out")
 
     began = time.perf_counter()
-    result = _simulate(scene)
+    result = _simulate(scene, arguments.fmu)
     from ..report import summary
     from ..report.shift_record import record_of
 
@@ -70,21 +84,28 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _simulate(scene: Any) -> Any:
+def _simulate(scene: Any, target: str | None) -> Any:
     """Return the finished shift; the FMUs are built, loaded and freed here."""
     from ..drivetrain import run_shift
+
+    with loaded(scene, target) as instances:
+        return run_shift(scene, instances, progress=progress_bar(scene.name))
+
+
+@contextmanager
+def loaded(scene: Any, target: str | None) -> Iterator[dict[str, Any]]:
+    """Give an FMU instance for every part of a scene."""
     from ..fmu.stepper import Instance
     from ._fmu_cache import fmu_paths
 
-    paths = fmu_paths(part.spec.name for part in scene.parts.values())
-    with ExitStack() as loaded:
-        instances = {
-            name: loaded.enter_context(
+    paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
+    with ExitStack() as alive:
+        yield {
+            name: alive.enter_context(
                 Instance(paths[part.spec.name], parameters=part.parameters(), name=name)
             )
             for name, part in scene.parts.items()
         }
-        return run_shift(scene, instances, progress=progress_bar(scene.name))
 
 
 def _write(record: Any, result: Any, folder: Path) -> None:

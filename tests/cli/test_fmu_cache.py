@@ -1,0 +1,101 @@
+"""FMUs for this machine: built once per version, never stale, with or without a compiler."""
+
+import os
+import time
+import zipfile
+
+import pytest
+
+from thrustwasher.cli import _fmu_cache, main
+from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.fmu.native import here, link
+
+PART = "CommandSource"
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """Give an empty cache for FMUs; compiled kernels stay where they are."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return tmp_path / "thrustwasher" / "built"
+
+
+@pytest.fixture
+def no_linker(monkeypatch):
+    def find_linker():
+        raise EnvironmentProblem("pip install something")
+
+    monkeypatch.setattr(link, "find_linker", find_linker)
+
+
+@pytest.fixture
+def linker():
+    try:
+        return link.find_linker()
+    except EnvironmentProblem as problem:
+        pytest.skip(str(problem))
+
+
+def test_the_second_call_builds_nothing(cache, linker, capsys):
+    first = _fmu_cache.fmu_paths([PART])
+    assert f"built {PART} in" in capsys.readouterr().err
+    changed = first[PART].stat().st_mtime_ns
+    assert _fmu_cache.fmu_paths([PART]) == first
+    assert first[PART].stat().st_mtime_ns == changed
+    assert capsys.readouterr() == ("", "")
+
+
+def test_it_holds_this_machine_only_and_no_reference_results(cache, linker):
+    path = _fmu_cache.fmu_paths([PART], "native")[PART]
+    with zipfile.ZipFile(path) as fmu:
+        names = fmu.namelist()
+    libraries = [n for n in names if n.startswith("binaries/")]
+    assert [n.split("/")[1] for n in libraries] == [here.this_platform().fmi2]
+    assert [n for n in names if n.endswith("_out.csv")] == []
+
+
+def test_without_a_compiler_it_says_what_to_install_and_goes_on(cache, no_linker, capsys):
+    path = _fmu_cache.fmu_paths([PART])[PART]
+    assert "pip install something; going on with Python FMUs\n" in capsys.readouterr().err
+    assert path.parent.name == "python-fmi2" and path.is_file()
+    with pytest.raises(EnvironmentProblem, match="pip install"):
+        _fmu_cache.fmu_paths([PART], "native")
+
+
+def test_build_without_a_compiler_says_so_too(no_linker, tmp_path, capsys):
+    assert main(["build", PART, "--out", str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    assert "python-fmi2" in out and "building Python FMUs" in err
+    for words in (["--target", "native"], ["--fmi", "3"]):
+        assert main(["build", PART, *words, "--out", str(tmp_path)]) == 2
+        assert "pip install something" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("changed", ["tools", "this_machine"])
+def test_another_compiler_or_processor_is_another_version(changed, linker, monkeypatch):
+    before = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
+    monkeypatch.setattr(f"thrustwasher.fmu.native_contents.{changed}", lambda: "other")
+    after = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
+    assert after[0] != before[0] and after[1] == before[1]
+
+
+def test_any_source_counts(tmp_path, monkeypatch):
+    (tmp_path / "shell").mkdir()
+    monkeypatch.setattr("thrustwasher.fmu.build.source_folder", lambda: tmp_path)
+    seen = set()
+    for name in ("slave.py", "readme.md", "shell/life.c", "shell/shell.h"):
+        (tmp_path / name).write_text("x")
+        seen.add(_fmu_cache.source_digest("python"))
+    (tmp_path / "shell/life.c").write_text("y")
+    seen.add(_fmu_cache.source_digest("python"))
+    assert len(seen) == 5
+
+
+def test_old_versions_go_after_a_day(tmp_path):
+    now = time.time()
+    for i, age in enumerate([0, 1, 2, 3, 2e5, 3e5]):
+        folder = tmp_path / str(i)
+        folder.mkdir()
+        os.utime(folder, (now - age, now - age))
+    _fmu_cache.prune(tmp_path)
+    assert sorted(f.name for f in tmp_path.iterdir()) == ["0", "1", "2", "3"]

@@ -1,0 +1,94 @@
+"""A package from the command line, run by FMPy's own SSP simulator."""
+
+import json
+import zipfile
+
+import pytest
+
+from thrustwasher.cli import main
+from thrustwasher.drivetrain import load_scene
+from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.fmu.native import link
+
+pytest.importorskip("lxml", reason="FMPy reads SSP with lxml")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def linker():
+    try:
+        return link.find_linker()
+    except EnvironmentProblem as problem:
+        pytest.skip(str(problem))
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    """Export a scene by name."""
+
+    def export(name):
+        path = tmp_path_factory.mktemp("ssp") / f"{name}.ssp"
+        words = ["shift", "--scene", name, "--ssp", str(path), "--platforms", "local"]
+        assert main(words) == 0
+        return path
+
+    return export
+
+
+def simulated(path, scene):
+    """Run with what FMPy does by itself: no values handed over, connectors start at zero."""
+    from fmpy.ssp.simulation import simulate_ssp
+
+    stop = scene.stop_time - 0.5 * scene.step  # FMPy adds up steps
+    return simulate_ssp(
+        str(path), start_time=scene.start_time, stop_time=stop, step_size=scene.step
+    )
+
+
+def own(name, tmp_path, capsys):
+    capsys.readouterr()
+    words = ["shift", "--scene", name, "--master", "jacobi", "--out", str(tmp_path / "r")]
+    assert main([*words, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_a_shift_from_rest_is_the_same_in_fmpy(package, tmp_path, capsys):
+    """What FMPy sends in its first step does nothing here, so all that follows is equal."""
+    path, scene = package("msl"), load_scene("msl")
+    assert capsys.readouterr().out == f"{path}\n"
+    rows, told = simulated(path, scene), own("msl", tmp_path, capsys)
+    assert len(rows) == 5000
+    assert rows["lock_time"][-1] == pytest.approx(told["lock_time"], rel=1e-12)
+    assert rows["lock_speed"][-1] == pytest.approx(told["lock_speed"], rel=1e-11)
+    heat = rows["clutch_heat"][-1]
+    assert heat == pytest.approx(told["energy"]["clutch"], rel=1e-11)
+    peak = rows["clutch_temperature"].max()
+    assert peak == pytest.approx(told["peak_clutch_temperature"], rel=1e-11)
+
+
+def test_the_package_is_whole(package):
+    with zipfile.ZipFile(package("msl")) as archive:
+        assert archive.testzip() is None
+        assert sorted(archive.namelist()) == [
+            "Parts.ssd", "SystemStructure.ssd", "documentation/index.html", "resources/brake.fmu",
+            "resources/clutch.fmu", "resources/command.fmu", "resources/transmission.fmu",
+        ]  # fmt: skip
+
+
+def test_json_names_the_files(tmp_path, capsys):
+    path = tmp_path / "x.ssp"
+    words = ["shift", "--scene", "msl", "--ssp", str(path), "--platforms", "local", "--json"]
+    assert main(words) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["ssp"] == str(path) and "resources/clutch.fmu" in told["files"]
+
+
+@pytest.mark.slow
+def test_an_upshift_differs_by_what_fmpy_sends_first(package, tmp_path, capsys):
+    """Two steps without the holding brake: the clutch locks a step earlier, the heat stays."""
+    rows = simulated(package("planetary"), load_scene("planetary"))
+    told = own("planetary", tmp_path, capsys)
+    assert rows["lock_time"][-1] == pytest.approx(told["lock_time"], abs=1.5e-3)
+    assert rows["clutch_heat"][-1] == pytest.approx(told["energy"]["clutch"], rel=3e-3)
+    for part in ("clutch", "mesh"):
+        peak = rows[f"{part}_temperature"].max()
+        assert peak == pytest.approx(told[f"peak_{part}_temperature"], abs=0.5)

@@ -8,6 +8,8 @@ from conftest import HERE
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import doctor
+from thrustwasher.fmu.native import link
+from thrustwasher.fmu.native.targets import PLATFORMS
 from thrustwasher.kernels._jit import kernel_digest
 
 
@@ -43,6 +45,27 @@ def test_a_platform_without_library_is_a_finding(monkeypatch):
         doctor._binary()
 
 
+def test_native_platforms_are_listed_with_what_can_be_done_here():
+    checks = found()
+    assert "builds for linux64" in checks["native FMUs, compiler"].text
+    for name in PLATFORMS:
+        text = checks[f"native FMUs, {name}"].text
+        assert text.startswith(("is built; runs here", "is built; cannot be tried here", "is not"))
+    assert checks["native FMUs, linux64"].text == "is built; runs here as it is"
+
+
+def test_no_compiler_is_a_finding_with_what_to_install(monkeypatch):
+    monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(link.shutil, "which", lambda name: None)
+    link.find_linker.cache_clear()
+    check = doctor._look("x", doctor._compiler)
+    monkeypatch.undo()
+    link.find_linker.cache_clear()
+    assert (
+        not check.ok and "pip install 'thrustwasher[build]'" in check.text and "gcc" in check.text
+    )
+
+
 def script(*arguments):
     command = [sys.executable, HERE.parents[1] / "build_fmu.py", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
@@ -51,11 +74,11 @@ def script(*arguments):
 def test_the_build_script_builds_and_prints_paths(tmp_path):
     done = script("WetClutch", "--out", tmp_path)
     path = tmp_path / "python-fmi2" / "WetClutch.fmu"
-    assert (done.returncode, done.stdout, done.stderr) == (0, f"{path}\n", "")
+    assert (done.returncode, done.stdout) == (0, f"{path}\n"), done.stderr
     assert path.is_file()
 
 
-@pytest.mark.parametrize("wrong", [["--target", "native"], ["--fmi", "3"], ["Clutch"]])
+@pytest.mark.parametrize("wrong", [["--target", "python", "--fmi", "3"], ["Clutch"]])
 def test_the_build_script_says_what_is_wrong_in_one_line(wrong, tmp_path):
     done = script(*wrong, "--out", tmp_path)
     assert done.returncode == 2 and done.stdout == ""

@@ -3,7 +3,6 @@
 import importlib
 import os
 import platform
-import shutil
 import sys
 import sysconfig
 import tempfile
@@ -12,9 +11,12 @@ from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 
-from ..errors import ParameterError
+from ..errors import EnvironmentProblem, ParameterError
 from ..kernels._jit import cache_folder, kernel_digest
 from .build import source_folder
+from .native import emulate
+from .native.link import find_linker
+from .native.targets import PLATFORMS
 from .registry import all_specs, is_compiled, load_kernel, package_version
 
 
@@ -39,7 +41,8 @@ def diagnose() -> list[Check]:
         ("slave files", lambda: str(source_folder())),
         ("Python FMU, this process", _binary),
         ("Python FMU, C hosts", _shared_library),
-        ("C compiler (optional)", _compiler),
+        ("native FMUs, compiler", _compiler),
+        *((f"native FMUs, {name}", _platform(name)) for name in PLATFORMS),
         ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
     ]
     return [_look(name, look) for name, look in looks]
@@ -115,7 +118,21 @@ def _shared_library() -> str:
 
 
 def _compiler() -> str:
-    found = shutil.which("gcc") or shutil.which("cc")
-    if not found:
-        raise ParameterError("no gcc or cc; not needed for Python FMUs")
-    return found
+    linker = find_linker()
+    text = f"{linker.name} {linker.version}, builds for {', '.join(linker.platforms)}"
+    return text if linker.is_cross else f"{text}; for all platforms: pip install ziglang"
+
+
+def _platform(name: str) -> Callable[[], str]:
+    """Say if a platform's FMUs can be built here, and tried out."""
+
+    def look() -> str:
+        if name not in find_linker().platforms:
+            raise EnvironmentProblem("is not built here: pip install ziglang")
+        try:
+            before = emulate.command(PLATFORMS[name])
+        except EnvironmentProblem as problem:
+            return f"is built; cannot be tried here: {problem}"
+        return f"is built; runs here {'with ' + before[0] if before else 'as it is'}"
+
+    return look

@@ -13,12 +13,13 @@ from importlib import metadata
 from pathlib import Path
 
 from ...errors import EnvironmentProblem
+from ...kernels._jit import cache_folder
 from .objects import Note, to_stderr
 from .targets import PLATFORMS, Platform
 
 # -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
 COMMON = ("-Os", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
-PATIENCE = 6.0  # seconds; a build that takes longer is the first one for its platform
+SHORT, LONG = 6.0, 60.0  # seconds until something is said, at the first build and at later ones
 MISSING = (
     "native FMUs need a C compiler to be built (not to be run): pip install 'thrustwasher[build]' "
     "for all platforms, or gcc for this one"
@@ -129,16 +130,19 @@ def _run(
     command: Sequence[str], folder: str, platform: Platform, linker: Linker, note: Note
 ) -> tuple[int, str]:
     """Return the exit status and what was said; do not let minutes pass in silence."""
+    known = Path(cache_folder()).parent / f"{linker.name}-{linker.version}-{platform.name}"
     with subprocess.Popen(
         command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     ) as process:
         try:
-            said, _ = process.communicate(timeout=PATIENCE)
+            said, _ = process.communicate(timeout=LONG if known.exists() else SHORT)
         except subprocess.TimeoutExpired:
-            if linker.is_cross:
-                note(
-                    f"ziglang compiles its C library for {platform.name}: some minutes, once on "
-                    "this machine"
-                )
+            note(
+                f"{linker.name} takes long for {platform.name}: the first time on a machine it "
+                "compiles its C library, some minutes"
+            )
             said, _ = process.communicate()
+        if process.returncode == 0:
+            known.parent.mkdir(parents=True, exist_ok=True)
+            known.touch()
         return process.returncode, said

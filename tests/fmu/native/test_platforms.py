@@ -1,0 +1,121 @@
+"""FMUs for other platforms, run by emulators: the JIT's numbers within what libm leaves open."""
+
+import os
+import struct
+import subprocess
+from functools import cache
+
+import numpy as np
+import pytest
+from kernel_runs import HERE, MODELS, Jit, Run, course, parameters
+
+from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.fmu.interface import variables
+from thrustwasher.fmu.native import emulate, library, link
+from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.fmu.registry import find_spec
+
+GUID = "0123456789abcdef0123456789abcdef"
+STEPS = 20
+# The C libraries differ in the last bit of exp, log and pow; a step is well conditioned.
+SAME = 1e-11
+every = pytest.mark.parametrize("model", MODELS)
+
+
+def emulator(ask, *given):
+    """Return the command before a program, or skip and say which package is missing."""
+    try:
+        return ask(*given)
+    except EnvironmentProblem as problem:
+        pytest.skip(str(problem))
+
+
+@cache
+def built(platform: str) -> tuple[bytes, str]:
+    """Return the C host for a platform, and its ending."""
+    target = PLATFORMS[platform]
+    windows = target.format == "PE"
+    name = "driver.exe" if windows else "driver"
+    files = {"driver.c": (HERE / "driver.c").read_bytes(), **library.headers(2)}
+    return link.build(files, name, [] if windows else ["-ldl"], target), name
+
+
+def stepped(model: str, platform: str, before, folder) -> np.ndarray:
+    """Return the real outputs (steps, n) of the library on a platform."""
+    if platform not in link.find_linker().platforms:
+        pytest.skip(f"{link.find_linker().name} does not build for {platform}: pip install ziglang")
+    spec, target = find_spec(model), PLATFORMS[platform]
+    found = variables(spec)
+    inputs = [v.reference for v in found if v.causality == "input"]
+    outputs = [v.reference for v in found if v.store == "out"]
+    rows, dt = course(model, STEPS)
+    head = struct.pack("<3i", len(inputs), len(outputs), len(rows))
+    references = np.array([*inputs, *outputs], "<u4").tobytes()
+    (folder / "in.bin").write_bytes(head + references + struct.pack("<d", dt) + rows.tobytes())
+    file = f"{spec.name}.{target.extension}"
+    made = library.library(spec, fmi=2, guid=GUID, platform=platform)
+    (folder / file).write_bytes(made)
+    program, name = built(platform)
+    (folder / name).write_bytes(program)
+    (folder / name).chmod(0o755)
+    command = [*before, f"./{name}", f"./{file}", GUID, spec.name, "in.bin", "out.bin"]
+    wine = {"WINEPREFIX": os.environ.get("WINEPREFIX", str(folder / "wine")), "WINEDEBUG": "-all"}
+    done = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, env={**os.environ, **wine}, timeout=600
+    )
+    assert done.returncode == 0, done.stderr
+    return np.fromfile(folder / "out.bin").reshape(len(rows), len(outputs))
+
+
+def expected(model: str) -> np.ndarray:
+    run = Run(Jit(model))
+    run.start(parameters(model))
+    rows, dt = course(model, STEPS)
+    found = []
+    for i, row in enumerate(rows):
+        assert run.step(row, i * dt, dt) == 0
+        found.append(run.out.copy())
+    return np.array(found)
+
+
+@pytest.fixture(scope="module")
+def wine_prefix(tmp_path_factory):
+    """One folder for wine's first start, which takes seconds."""
+    folder = tmp_path_factory.mktemp("wine")
+    before = os.environ.get("WINEPREFIX")
+    os.environ["WINEPREFIX"] = str(folder)
+    yield
+    os.environ.pop("WINEPREFIX")
+    if before:
+        os.environ["WINEPREFIX"] = before
+
+
+def assert_close(found, wanted):
+    size = np.abs(wanted).max(axis=0)
+    worst = (np.abs(found - wanted).max(axis=0) / np.where(size == 0.0, 1.0, size)).max()
+    assert worst < SAME, worst
+
+
+@every
+def test_windows_steps_as_the_jit_does(model, tmp_path, wine_prefix):
+    before = emulator(emulate.command, PLATFORMS["win64"])
+    assert_close(stepped(model, "win64", before, tmp_path), expected(model))
+
+
+@every
+def test_arm_linux_steps_as_the_jit_does(model, tmp_path):
+    before = emulator(emulate.command, PLATFORMS["aarch64-linux"])
+    assert_close(stepped(model, "aarch64-linux", before, tmp_path), expected(model))
+
+
+@every
+def test_an_old_processor_takes_the_other_code_and_steps_as_the_jit_does(model, tmp_path):
+    before = emulator(emulate.old_processor)
+    assert_close(stepped(model, "linux64", before, tmp_path), expected(model))
+
+
+@every
+def test_this_machine_steps_to_the_bit(model, tmp_path):
+    """The host's way through the shell changes no bit, whatever it is compiled with."""
+    before = emulator(emulate.command, PLATFORMS["linux64"])
+    assert stepped(model, "linux64", before, tmp_path).tobytes() == expected(model).tobytes()

@@ -1,0 +1,176 @@
+"""What a built library needs and shows, and that the same sources give the same bytes."""
+
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from kernel_runs import MODELS
+
+from thrustwasher.errors import EnvironmentProblem, ParameterError
+from thrustwasher.fmu.native import calls, emit, gate, key, library, link, linked, objects
+from thrustwasher.fmu.native.targets import GLIBC, PLATFORMS
+from thrustwasher.fmu.registry import find_spec, kernel_module
+
+GUID = "0123456789abcdef0123456789abcdef"
+TOY = Path(__file__).parents[1] / "toy"
+
+
+def made(platform, fmi=2, model="gearmesh", guid=GUID):
+    if platform not in link.find_linker().platforms:
+        pytest.skip(f"{link.find_linker().name} does not build for {platform}: pip install ziglang")
+    return library.library(find_spec(model), fmi=fmi, guid=guid, platform=platform)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else(platform, fmi):
+    found = linked.read(made(platform, fmi))
+    assert found.format == PLATFORMS[platform].format
+    assert set(calls.functions(fmi)) == found.exports - {"__dso_handle", "_mh_dylib_header"}
+    names = {name.lower() for name in found.needed}
+    assert names <= {"libc.so.6", "libm.so.6", "kernel32.dll", "/usr/lib/libsystem.b.dylib"} | {
+        name for name in names if name.startswith("api-ms-win-crt-")
+    }
+    if link.find_linker().is_cross:
+        assert all(linked._number(version) <= GLIBC for version in found.versions)
+
+
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_building_again_elsewhere_gives_the_same_bytes(platform):
+    assert made(platform) == made(platform)  # each time in a fresh folder
+
+
+def test_the_identity_is_inside():
+    assert GUID.encode() in made("linux64") and b"f" * 32 in made("linux64", guid="f" * 32)
+
+
+def test_no_path_of_this_machine_is_inside():
+    for platform in link.find_linker().platforms:
+        code = made(platform)
+        for path in (str(Path(library.__file__).parents[3]), str(Path.home()), "/tmp/"):
+            assert path.encode() not in code, (platform, path)
+
+
+def test_what_is_too_much_in_a_library_is_named():
+    code, names = made("linux64"), calls.functions(2)
+    with pytest.raises(EnvironmentProblem, match="it exports fmi2"):
+        linked.check(code, exports=names[1:], glibc=None)
+    with pytest.raises(EnvironmentProblem, match="it does not export fmi2Dream"):
+        linked.check(code, exports=[*names, "fmi2Dream"], glibc=None)
+    with pytest.raises(EnvironmentProblem, match=r"it needs GLIBC_2\."):
+        linked.check(code, exports=names, glibc=(2, 0))
+
+
+def test_another_platform_is_refused_by_name():
+    with pytest.raises(ParameterError, match="platform = 'dos', allowed: linux64 or win64"):
+        library.library(find_spec("gearmesh"), fmi=2, guid=GUID, platform="dos")
+
+
+@pytest.fixture
+def without_zig(monkeypatch):
+    """A machine without the package ziglang."""
+    monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
+    link.find_linker.cache_clear()
+    yield monkeypatch
+    monkeypatch.undo()
+    link.find_linker.cache_clear()
+
+
+def test_without_ziglang_the_local_compiler_builds_for_this_platform_only(without_zig):
+    if not shutil.which("gcc") or link.local_machine() != ("Linux", "x86_64"):
+        pytest.skip("needs gcc (Debian package gcc) on Linux, x86-64")
+    assert link.find_linker().platforms == ("linux64",)
+    code = link.shared_library({"a.c": "int a = 1;"}, platform=PLATFORMS["linux64"], name="a")
+    assert linked.read(code).format == "ELF"
+    with pytest.raises(EnvironmentProblem, match=r"builds for linux64 only; for win64: pip"):
+        link.shared_library({"a.c": ""}, platform=PLATFORMS["win64"], name="a")
+
+
+def test_without_any_compiler_one_line_says_what_to_install(without_zig):
+    without_zig.setattr(link.shutil, "which", lambda name: None)
+    with pytest.raises(EnvironmentProblem, match=r"pip install 'thrustwasher\[build\]'") as caught:
+        link.find_linker()
+    assert "\n" not in str(caught.value)
+
+
+def test_what_the_compiler_refuses_is_said_in_one_line():
+    with pytest.raises(EnvironmentProblem, match=r"cannot build a\.so: a\.c:1:.*error") as caught:
+        link.shared_library({"a.c": "int a = ;"}, platform=PLATFORMS["linux64"], name="a")
+    assert "\n" not in str(caught.value)
+
+
+def test_the_first_build_of_a_platform_does_not_pass_in_silence(monkeypatch, tmp_path):
+    monkeypatch.setattr(link, "cache_folder", lambda: str(tmp_path / "kernels"))
+    monkeypatch.setattr(link, "SHORT", 0.0)
+    said = []
+    for _ in range(2):
+        link.shared_library({"a.c": "int a;"}, platform=PLATFORMS["linux64"], name="a",
+                            note=said.append)  # fmt: skip
+    assert len(said) == 1 and "linux64" in said[0] and "minutes" in said[0]
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_code_is_kept_under_all_that_a_kernel_imports(model):
+    kernel = kernel_module(find_spec(model).kernel)
+    found = key.sources(kernel)
+    run = subprocess.run(
+        [sys.executable, "-c", f"import sys, {kernel}\nprint(*sys.modules)"],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    imported = {m for m in run.stdout.split() if m.startswith("thrustwasher.kernels.")}
+    assert imported == set(found)
+
+
+def test_an_edit_of_an_imported_kernel_gives_another_key(monkeypatch):
+    before = key.key("thrustwasher.kernels.gear_step")
+    assert before == key.key("thrustwasher.kernels.gear_step")
+    sources = key.sources("thrustwasher.kernels.gear_step")
+    edited = sources | {"thrustwasher.kernels.corners": b"# edited"}
+    monkeypatch.setattr(key, "sources", lambda kernel: edited)
+    assert key.key("thrustwasher.kernels.gear_step") != before
+
+
+def test_other_compiler_settings_make_another_object():
+    linux = PLATFORMS["linux64"]
+    level = linux.levels[0]
+    assert objects._file(linux, level) != objects._file(linux, replace(level, speed=1))
+
+
+def emitted(folder, cpu):
+    """Return (bitcode's object for v3, messages) of the toy kernel, from a folder of its own."""
+    folder.mkdir()
+    shutil.copytree(TOY, folder / "toy")
+    surroundings = emit.environment(str(folder / "numba"))
+    surroundings["NUMBA_CPU_NAME"] = cpu
+    surroundings["PYTHONPATH"] = f"{folder}:{Path(library.__file__).parents[3]}"
+    for module, *given in (
+        ("emit", "toy.kernel", "toy.bc"),
+        ("lower", "toy.bc", "linux64", "v3", "toy.step", "toy.o"),
+    ):
+        command = [sys.executable, "-m", f"thrustwasher.fmu.native.{module}", *given]
+        subprocess.run(command, cwd=folder, env=surroundings, check=True, timeout=300)
+    return (folder / "toy.o").read_bytes()
+
+
+def test_objects_are_equal_whatever_the_folder_and_whatever_cpu_numba_was_told(tmp_path):
+    """One emission serves all levels: before optimisation numba's output names no CPU."""
+    code = emitted(tmp_path / "here", "x86-64-v2")
+    assert code == emitted(tmp_path / "elsewhere", "x86-64-v3")
+    gate.check_object(code, "toy.step")
+
+
+def test_numba_with_another_convention_is_refused_plainly():
+    class Made:
+        native_name = "other.name"
+
+        def inspect_llvm(self):
+            return ""
+
+    with pytest.raises(EnvironmentProblem, match=r"is not known to the native build: a callback"):
+        emit.function_in(Made())
+    Made.native_name = "cfunc.step"
+    with pytest.raises(EnvironmentProblem, match="0 definitions of NRT_incref"):
+        emit.function_in(Made())

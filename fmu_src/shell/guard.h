@@ -58,8 +58,9 @@ int guard_symbol(void *in, const char *name, void *target);
 typedef struct { char library[TEXT], program[TEXT], version[16]; } Found;
 /* The shared library of the Python that `python3` starts, that program, its version; or why not. */
 int guard_ask_python(Found *found, char *why);
-/* Tell the interpreter which program it is, so that it finds that one's packages. */
-void guard_name_program(const char *program);
+/* Tell the interpreter, before it starts, which program it is, so that it finds that one's packages
+   ("": its own choice), and that names are UTF-8. */
+void guard_prepare(const char *program);
 /* Try in a child process if the interpreter starts: where it cannot, it ends the process. */
 int guard_try_python(char *why);
 

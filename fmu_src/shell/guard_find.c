@@ -91,9 +91,12 @@ int guard_ask_python(Found *found, char *why) {
     return *lines[0] != '\0';
 }
 
-void guard_name_program(const char *program) {
+void guard_prepare(const char *program) {
+    int *utf8_mode;
     void (*set_name)(const wchar_t *);
     wchar_t *(*decode)(const char *, size_t *);
+    /* a bare environment means ASCII, and a folder with an umlaut would not be found */
+    if (guard_symbol(NULL, "Py_UTF8Mode", &utf8_mode)) *utf8_mode = 1;
     int known = guard_symbol(NULL, "Py_SetProgramName", &set_name) &&
                 guard_symbol(NULL, "Py_DecodeLocale", &decode);
     wchar_t *wide = known && *program ? decode(program, NULL) : NULL;

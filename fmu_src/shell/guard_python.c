@@ -108,8 +108,9 @@ static int open_python(char *why) {
     }
     name_library();
     if (python.is_initialized()) return 1;
-    if (!strncmp(guard_version(), found.version, strlen(found.version)))
-        guard_name_program(found.program);
+    if (!*found.version) guard_ask_python(&found, reason);
+    int same = !strncmp(guard_version(), found.version, strlen(found.version));
+    guard_prepare(same ? found.program : "");
     return guard_try_python(why);
 }
 

@@ -20,7 +20,12 @@
 #define MEMBER(name) fmi2##name##TYPE *name;
 
 enum { MOST = 64 };
-typedef struct { CALLS(MEMBER) char guid[64], resources[4096]; fmi2Component c; } Fmu;
+typedef struct {
+    CALLS(MEMBER)
+    void *library;
+    char guid[64], resources[4096];
+    fmi2Component c;
+} Fmu;
 static Fmu fmus[8], *f = fmus;
 static fmi2FMUstate states[8];
 static fmi2Byte bytes[1 << 20];
@@ -40,18 +45,19 @@ static unsigned long whole(int i) { return i < n_words ? strtoul(words[i], NULL,
 static const char *word(int i) { return i < n_words && strcmp(words[i], "-") ? words[i] : NULL; }
 
 static int load(void) { /* LIBRARY GUID RESOURCES, into the slot in use */
-    void *library = dlopen(words[1], RTLD_NOW | RTLD_LOCAL);
-    if (!library) {
+    f->library = dlopen(words[1], RTLD_NOW | RTLD_LOCAL);
+    if (!f->library) {
         printf("%s\n", dlerror());
         return 9;
     }
-#define TAKE(name) *(void **)&f->name = dlsym(library, "fmi2" #name);
+#define TAKE(name) *(void **)&f->name = dlsym(f->library, "fmi2" #name);
     CALLS(TAKE)
     snprintf(f->guid, sizeof f->guid, "%s", words[2]);
     snprintf(f->resources, sizeof f->resources, "%s", words[3]);
     return 0;
 }
 
+static int unload(void) { return dlclose(f->library); }
 static int use(void) { return f = &fmus[whole(1)], 0; }
 static int version(void) { return strcmp(f->GetVersion(), "2.0"); }
 
@@ -72,7 +78,12 @@ static int initialize(void) {
 }
 
 static int interrupt(void) { return raise(SIGINT); }
-static int release(void) { return f->FreeInstance(f->c), f->c = NULL, 0; }
+static int release(void) { /* its states go with it */
+    f->FreeInstance(f->c);
+    f->c = NULL;
+    memset(states, 0, sizeof states);
+    return 0;
+}
 static int setup(void) { return f->SetupExperiment(f->c, 0, 0.0, number(1), 0, 0.0); }
 static int enter(void) { return f->EnterInitializationMode(f->c); }
 static int leave(void) { return f->ExitInitializationMode(f->c); }
@@ -201,7 +212,7 @@ static const struct { const char *name; int (*call)(void); } COMMANDS[] = {
     ENTRY(cancel) ENTRY(steps) ENTRY(set_real) ENTRY(get_real) ENTRY(set_integer)
     ENTRY(get_integer) ENTRY(set_boolean) ENTRY(get_boolean) ENTRY(nulls) ENTRY(last)
     ENTRY(derivative) ENTRY(get_state) ENTRY(set_state) ENTRY(free_state) ENTRY(to_bytes)
-    ENTRY(from_bytes) ENTRY(flip) ENTRY(cycles) ENTRY(threads) ENTRY(interrupt)
+    ENTRY(from_bytes) ENTRY(flip) ENTRY(cycles) ENTRY(threads) ENTRY(interrupt) ENTRY(unload)
 };
 
 int main(void) {

@@ -1,14 +1,15 @@
 """A host that is no Python runs the Python FMUs as they are: same numbers, clean ends."""
 
+import shutil
 import signal
 
 import pytest
-from c_host import LIBPYTHON, needs_host, talk
+from c_host import LIBPYTHON, load, needs_host, talk
 from conftest import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.interface import all_specs, variables
-from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.fmu.stepper import DirectInstance, unpack
 
 pytestmark = needs_host
 SET = "set_real " + " ".join(f"{i} {value}" for i, value in enumerate(TOY_START.values(), 1))
@@ -62,6 +63,15 @@ def test_without_its_python_there_is_no_instance_but_a_message(environment, part
 def test_processes_end_cleanly_whether_instances_are_freed_or_not(toy_fmu):
     for i in range(4):
         assert clean(talk(toy_fmu, *BEGUN, "steps 0 3", *["release"] * (i % 2)))
+
+
+def test_a_library_can_be_unloaded_and_loaded_again(toy_fmu, tmp_path):
+    copy = tmp_path / "copy"  # as tools do that unpack again for every run
+    shutil.copytree(unpack(toy_fmu), copy)
+    other = load(toy_fmu).replace(str(unpack(toy_fmu)), str(copy))
+    life = [*BEGUN, "steps 0 3", "release", "unload"]
+    said = talk(toy_fmu, *life, load(toy_fmu), *life, other, *life, load(toy_fmu), *life)
+    assert clean(said) and said["unload"] == [0] * 4
 
 
 def test_ctrl_c_still_ends_a_host_that_runs_an_fmu(toy_fmu):

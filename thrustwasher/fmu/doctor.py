@@ -111,10 +111,10 @@ def _shared_library() -> str:
     library = os.path.join(folder, name)
     if sys.platform == "linux" and not (".so" in name and os.path.exists(library)):
         raise ParameterError(
-            "this Python has no shared libpython; a host that is no Python cannot load the FMUs; "
-            "use a Python built with --enable-shared"
+            "this Python has no shared libpython; a host that is no Python cannot run Python FMUs "
+            "with it; use a Python built with --enable-shared, or native FMUs"
         )
-    return f"such a host must load {library} first (LD_PRELOAD)"
+    return f"with this Python first on PATH, or FMU_LIBPYTHON={library}"
 
 
 def _compiler() -> str:

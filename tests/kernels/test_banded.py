@@ -10,6 +10,7 @@ from thrustwasher.kernels.banded import (
     cholesky_solve_many,
     lu,
     lu_solve,
+    mirror,
 )  # fmt: skip
 from thrustwasher.kernels.dense import dense_solve
 
@@ -48,8 +49,9 @@ def rows(a, band):
 @pytest.mark.parametrize(("n", "band"), SHAPES)
 def test_cholesky_solves_as_lapack_does(n, band):
     a, b = random_band(n, band, symmetric=True)
-    store = lower(a, band)
+    store = np.append(lower(a, band), np.zeros(n * (band + 1)))
     assert cholesky(store, n, band)
+    mirror(store, n, band)
     one = b[:, 0].copy()
     cholesky_solve(store, one, n, band)
     many = b.ravel().copy()

@@ -23,7 +23,7 @@ GRIDS = [(19, 64), (37, 128), (73, 256)]  # one family: coarse meshes are graded
 def at_constant_viscosity(grid, q, pt, **changes):
     b = bench(grid, **changes)
     evaluate_gaps(b.m, pt, q, b.f)
-    b.f.mu[:], b.f.dmu[:] = MU, 0.0
+    b.f.mu[:], b.f.dmu[:], b.f.fluidity[:] = MU, 0.0, 1.0 / MU
     evaluate_film(b.m, pt, q, b.f)
     return b
 
@@ -163,6 +163,7 @@ def test_solution_is_full_or_cavitated_everywhere(surfaces, ratio):
     rng = np.random.default_rng(7)
     evaluate_gaps(b.m, BASE, q, b.f)
     b.f.mu[:] = MU * rng.uniform(0.3, 1.0, b.f.mu.size)
+    b.f.fluidity[:] = 1.0 / b.f.mu
     evaluate_film(b.m, BASE, q, b.f)
     p = solve_with_cavitation(b)
     flow = independent_flows(b, q, BASE, p)
@@ -182,7 +183,7 @@ def test_a_rough_moving_surface_weakens_the_wedge():
         b = bench((10, 32), roughness_carrier=carrier, roughness_washer=washer)
         q = tilted(b.m, 3.0)
         evaluate_gaps(b.m, BASE, q, b.f)
-        b.f.mu[:] = MU
+        b.f.mu[:], b.f.fluidity[:] = MU, 1.0 / MU
         evaluate_film(b.m, BASE, q, b.f)
         loads[name] = (np.outer(b.m.weight1, b.m.weight_t) * solve_with_cavitation(b)).sum()
     assert loads["washer"] < 0.99 * loads["even"] < 0.98 * loads["carrier"]
@@ -274,7 +275,7 @@ def test_speed_and_wedge_mirror_each_other():
         q = tilted(b.m, 5.0, gx=gx)
         pt = Point(300.0, speed, 0.002, 297.15)
         evaluate_gaps(b.m, pt, q, b.f)
-        b.f.mu[:] = MU
+        b.f.mu[:], b.f.fluidity[:] = MU, 1.0 / MU
         evaluate_film(b.m, pt, q, b.f)
         pressures.append(solve_with_cavitation(b).copy())
     mirrored = np.roll(pressures[1][:, ::-1], 1, axis=1)

@@ -59,9 +59,9 @@ def balances(b, pt, q):
 
 def converged(mode, target, b, pt, ratio=6.0, tolerance=1e-9, limit=60.0):
     q, info = np.zeros(4), np.zeros(N_INFO)
-    cold_start(b.m, pt, ratio, q, b.f)
+    cold_start(b.whole, pt, ratio, q)
     settle(b.m, pt, q, b.f)
-    status = newton(b.m, pt, mode, target, q, b.f, NO_FLOOR, tolerance, limit, info)
+    status = newton(b.whole, pt, mode, target, q, NO_FLOOR, tolerance, limit, info)
     return q, info, status
 
 
@@ -122,10 +122,10 @@ def test_load_slope_is_the_slope_of_the_curve():
         target = (5.0 + step) * b.m.sigma1
         q, info, status = converged(FILM, target, b, BASE, ratio=5.0, tolerance=1e-12, limit=30.0)
         assert status in (OK, MAX_ITERATIONS) and info[RESIDUAL] < 1e-10
-        assert smooth_film(b.m, q) == pytest.approx(target, rel=1e-10)
+        assert smooth_film(b.whole, q) == pytest.approx(target, rel=1e-10)
         if step == 0.0:
             b.f.tag[0] = 0.0  # heat slopes made at the point itself
-            newton(b.m, BASE, FILM, target, q, b.f, NO_FLOOR, 1e-9, 10.0, info)
+            newton(b.whole, BASE, FILM, target, q, NO_FLOOR, 1e-9, 10.0, info)
             told = info[LOAD_SLOPE]
         loads.append(info[REACHED_LOAD])
     assert told == pytest.approx((loads[1] - loads[2]) / (2e-3 * b.m.sigma1), rel=1e-4)
@@ -141,7 +141,7 @@ def test_convergence_is_quadratic_with_a_fresh_factor():
     q, residuals = start[0].copy(), []
     for _ in range(5):
         b.f.tag[0] = 0.0
-        newton(b.m, pt, LOAD, 300.0, q, b.f, NO_FLOOR, 1e-16, 1.0, info)
+        newton(b.whole, pt, LOAD, 300.0, q, NO_FLOOR, 1e-16, 1.0, info)
         residuals.append(info[RESIDUAL])
     logs = np.log(residuals[:4])
     assert residuals[3] < 1e-9
@@ -184,7 +184,7 @@ def test_a_start_that_is_no_number_is_a_failure(name):
     b = bench(GRID)
     q, info, _ = converged(LOAD, 300.0, b, BASE)
     {"q": q, "temp": b.f.temp, "p": b.f.p}[name][1] = np.nan
-    status = newton(b.m, BASE, LOAD, 300.0, q, b.f, NO_FLOOR, 1e-9, 10.0, info)
+    status = newton(b.whole, BASE, LOAD, 300.0, q, NO_FLOOR, 1e-9, 10.0, info)
     assert status in (NOT_FINITE, SINGULAR, MAX_ITERATIONS)
 
 
@@ -199,8 +199,8 @@ def test_newton_starts_from_a_thick_film():
     b = bench(GRID)
     q, info = np.zeros(4), np.zeros(N_INFO)
     pt = Point(300.0, 953.0, 0.002, 297.15)
-    cold_start(b.m, pt, 15.0, q, b.f)
-    assert newton(b.m, pt, LOAD, 300.0, q, b.f, NO_FLOOR, 1e-9, 40.0, info) == OK
+    cold_start(b.whole, pt, 15.0, q)
+    assert newton(b.whole, pt, LOAD, 300.0, q, NO_FLOOR, 1e-9, 40.0, info) == OK
 
 
 def test_pressure_told_is_the_pressure_kept():

@@ -4,11 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from thrustwasher.kernels import washer_fields as fields
 from thrustwasher.kernels.banded import N_SIDES
 from thrustwasher.kernels.washer_fields import Fields, Point, size_of_work, washer_fields
 from thrustwasher.kernels.washer_film import film_residual, film_solve
 from thrustwasher.kernels.washer_heat import solve_heat
-from thrustwasher.kernels.washer_model import WasherModel, washer_model
+from thrustwasher.kernels.washer_model import MESH, N_PARAM, N_RADIAL, WasherModel, washer_model
 from thrustwasher.kernels.washer_newton import evaluate, make_factor
 from thrustwasher.models.washer import constants
 from thrustwasher.models.washer_params import WasherParams
@@ -17,6 +18,7 @@ from thrustwasher.models.washer_params import WasherParams
 class Bench(NamedTuple):
     m: WasherModel
     f: Fields
+    whole: fields.Bench | None = None  # par and work, as the solver takes them
 
     def node(self, name):
         """Return a nodal array of ``f`` as (n_r, n_theta) view."""
@@ -29,17 +31,22 @@ class Bench(NamedTuple):
 
 def bench(grid=(10, 32), **changes):
     """Return model and work arrays; everything starts at zero."""
-    m = washer_model(constants(WasherParams(**changes), grid).copy())
-    f = washer_fields(m, np.zeros(size_of_work(*grid, even_split=False)))
-    return Bench(m, f)
+    par = constants(WasherParams(**changes), grid).copy()
+    work = np.zeros(size_of_work(*grid))
+    m = washer_model(par)
+    return Bench(m, washer_fields(m, work), fields.Bench(par, work))
 
 
 def full_gear(grid, **changes):
     """Return a bench whose gear is as large as the washer."""
-    m = bench(grid, **changes).m._replace(i_g=0)
-    m = m._replace(weight2=m.weight1)
-    room = 2 * size_of_work(*grid, even_split=False)
-    return Bench(m, washer_fields(m, np.zeros(room)))
+    par = constants(WasherParams(**changes), grid).copy()
+    n_r, radial = grid[0], par[MESH : MESH + N_RADIAL * grid[0]].reshape(N_RADIAL, grid[0])
+    par[N_PARAM + 2] = 0.0  # the radial node where the gear begins
+    radial[4], radial[6] = radial[3], radial[2]  # weights and widths
+    assert n_r == int(par[N_PARAM])
+    work = np.zeros(2 * size_of_work(*grid))
+    m = washer_model(par)
+    return Bench(m, washer_fields(m, work), fields.Bench(par, work))
 
 
 def tilted(m, ratio, gy=0.00197, gx=-1.9e-5, second=3.0, tilt=0.002):

@@ -59,32 +59,66 @@ def cholesky(a: NDArray[np.float64], n: int, band: int) -> bool:
 
 
 @kernel
-def cholesky_solve(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
-    """Replace the right side ``b`` (n,) by the solution, given the factor of `cholesky`."""
+def mirror(a: NDArray[np.float64], n: int, band: int) -> None:
+    """Write the factor in ``a[: n w]``, w = band + 1, once more behind it: by rows, last row first.
+
+    The way back of a solve is then the way forth with everything reversed, along memory.
+    """
     w = band + 1
     for j in range(n):
-        end = min(band, n - 1 - j)
+        row = n - 1 - j
+        to = (n + j) * w
+        for k in range(min(band, row) + 1):
+            a[np.uintp(to + k)] = a[np.uintp((row - k) * w + k)]
+
+
+@kernel
+def _forth(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
+    """Solve with the lower factor ``a`` (by columns) in place of ``b``.
+
+    Columns go in fours, which takes ``b`` through the registers a quarter as often.
+    """
+    w = band + 1
+    full = (n - 3 - band) // 4 * 4 if band >= 4 and n > band + 3 else 0
+    for j in range(0, full, 4):
+        c0 = j * w
+        c1, c2, c3 = c0 + w, c0 + 2 * w, c0 + 3 * w
+        x0 = b[j] / a[c0]
+        x1 = (b[j + 1] - x0 * a[c0 + 1]) / a[c1]
+        x2 = (b[j + 2] - x0 * a[c0 + 2] - x1 * a[c1 + 1]) / a[c2]
+        x3 = (b[j + 3] - x0 * a[c0 + 3] - x1 * a[c1 + 2] - x2 * a[c2 + 1]) / a[c3]
+        b[j], b[j + 1], b[j + 2], b[j + 3] = x0, x1, x2, x3
+        for k in range(4, w):
+            b[np.uintp(j + k)] -= (x0 * a[np.uintp(c0 + k)] + x1 * a[np.uintp(c1 + k - 1)]) + (
+                x2 * a[np.uintp(c2 + k - 2)] + x3 * a[np.uintp(c3 + k - 3)]
+            )
+        b[j + w] -= x1 * a[c1 + band] + x2 * a[c2 + band - 1] + x3 * a[c3 + band - 2]
+        b[j + w + 1] -= x2 * a[c2 + band] + x3 * a[c3 + band - 1]
+        b[j + w + 2] -= x3 * a[c3 + band]
+    for j in range(full, n):
         c = j * w
         x = b[j] / a[c]
         b[j] = x
-        for k in range(1, end + 1):
+        for k in range(1, min(band, n - 1 - j) + 1):
             b[np.uintp(j + k)] -= x * a[np.uintp(c + k)]
-    for j in range(n - 1, -1, -1):
-        end = min(band, n - 1 - j)
-        c = j * w
-        # four sums at a time: one alone waits for each addition
-        s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
-        k = 1
-        while k + 3 <= end:
-            s0 += a[np.uintp(c + k)] * b[np.uintp(j + k)]
-            s1 += a[np.uintp(c + k + 1)] * b[np.uintp(j + k + 1)]
-            s2 += a[np.uintp(c + k + 2)] * b[np.uintp(j + k + 2)]
-            s3 += a[np.uintp(c + k + 3)] * b[np.uintp(j + k + 3)]
-            k += 4
-        while k <= end:
-            s0 += a[np.uintp(c + k)] * b[np.uintp(j + k)]
-            k += 1
-        b[j] = (b[j] - ((s0 + s1) + (s2 + s3))) / a[c]
+
+
+@kernel
+def _reverse(b: NDArray[np.float64], n: int) -> None:
+    for k in range(n // 2):
+        x = b[np.uintp(k)]
+        b[np.uintp(k)] = b[np.uintp(n - 1 - k)]
+        b[np.uintp(n - 1 - k)] = x
+
+
+@kernel
+def cholesky_solve(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
+    """Replace the right side ``b`` (n,) by the solution; ``a`` is of `cholesky` and `mirror`."""
+    size = n * (band + 1)
+    _forth(a, b, n, band)
+    _reverse(b, n)
+    _forth(a[size:], b, n, band)
+    _reverse(b, n)
 
 
 @kernel

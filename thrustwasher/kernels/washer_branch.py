@@ -19,6 +19,7 @@ from .washer_curve import (
     S,
     W,
     cold_start,
+    contact_force,
     enter_curve,
     find_fold,
     recall,
@@ -26,9 +27,8 @@ from .washer_curve import (
     walk_down,
     walk_to,
 )  # fmt: skip
-from .washer_fields import Fields, Point
-from .washer_gap import CONTACT
-from .washer_model import WasherModel
+from .washer_fields import Bench, Point, forget_factor
+from .washer_model import SIGMA1, washer_model
 from .washer_newton import (
     FILM,
     LOAD,
@@ -56,11 +56,12 @@ NOISE = 3e-4  # a load must change by more to count as past a fold; points are g
 
 
 @kernel
-def first_guess(m: WasherModel, pt: Point) -> float:
+def first_guess(b: Bench, pt: Point) -> float:
     """Return a film ratio to start from: narrow ring, film heated at its mean gap.
 
     The factors 0.8 and 0.4 were fitted to solutions from 50 to 1367 rad/s: 15 % off at the median.
     """
+    m = washer_model(b.par)
     width = m.outer_radius - m.inner_radius
     mean = 0.5 * (m.outer_radius + m.inner_radius)
     mu, dmu = viscosity(
@@ -85,25 +86,26 @@ def first_guess(m: WasherModel, pt: Point) -> float:
 
 @kernel
 def _settle(
-    m: WasherModel, pt: Point, upper: float, lower: float, q: NDArray[np.float64], f: Fields,
+    b: Bench, pt: Point, upper: float, lower: float, q: NDArray[np.float64],
     info: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve for the load between two film thicknesses [m] that bracket it on a stable stretch.
 
     ``upper`` carries less than the load, ``lower`` at least the load.
     """
+    sigma = b.par[SIGMA1]
     for _ in range(60):
-        remember(q, f, 1.0)
-        status = newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, TOLERANCE, 15.0, info)
-        s = smooth_film(m, q)
-        margin = 1e-6 * m.sigma1 + 1e-3 * (upper - lower)
+        remember(b, q, 1.0)
+        status = newton(b, pt, LOAD, pt.load, q, NO_FLOOR, TOLERANCE, 15.0, info)
+        s = smooth_film(b, q)
+        margin = 1e-6 * sigma + 1e-3 * (upper - lower)
         if status == OK and lower - margin <= s <= upper + margin:
             return OK
-        recall(q, f, 1.0)
-        f.tag[0] = 0.0
-        if upper - lower < 1e-7 * m.sigma1:  # on the fold itself: the load is met to rounding
+        recall(b, q, 1.0)
+        forget_factor(b)
+        if upper - lower < 1e-7 * sigma:  # on the fold itself: the load is met to rounding
             return OK if abs(walk[W] / pt.load - 1.0) < 1e-6 else MAX_ITERATIONS
-        status = walk_to(m, pt, 0.5 * (upper + lower), q, f, info, walk)
+        status = walk_to(b, pt, 0.5 * (upper + lower), q, info, walk)
         if status != OK:
             return status
         if walk[W] < pt.load:
@@ -115,17 +117,17 @@ def _settle(
 
 @kernel
 def _climb(
-    m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    b: Bench, pt: Point, q: NDArray[np.float64], info: NDArray[np.float64],
     walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Settle above the walker, which carries more than the load with a thick film."""
     lower = walk[S]
     for _ in range(60):
-        status = walk_to(m, pt, 1.25 * walk[S], q, f, info, walk)
+        status = walk_to(b, pt, 1.25 * walk[S], q, info, walk)
         if status != OK:
             return status
         if walk[W] < pt.load:
-            return _settle(m, pt, walk[S], lower, q, f, info, walk)
+            return _settle(b, pt, walk[S], lower, q, info, walk)
         lower = walk[S]
     return MAX_ITERATIONS
 
@@ -138,38 +140,39 @@ def _near(value: float, load: float) -> bool:
 
 @inlined
 def _contact_side(
-    m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    b: Bench, pt: Point, q: NDArray[np.float64], info: NDArray[np.float64],
     walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve for the load below the walker, which has passed every fold above the load.
 
     One solution is left, so any way to it will do: first from a washer pressed on, then by walking.
     """
-    remember(q, f, 1.0)
+    sigma = b.par[SIGMA1]
+    remember(b, q, 1.0)
     for attempt in range(2):
         ratio = 0.8 - 0.6 * attempt
-        if ratio * m.sigma1 < walk[S]:
-            cold_start(m, pt, ratio, q, f)
-            status = newton(m, pt, FILM, ratio * m.sigma1, q, f, NO_FLOOR, 1e-2, 20.0, info)
+        if ratio * sigma < walk[S]:
+            cold_start(b, pt, ratio, q)
+            status = newton(b, pt, FILM, ratio * sigma, q, NO_FLOOR, 1e-2, 20.0, info)
             if status == OK:
-                status = newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, TOLERANCE, 20.0, info)
-            if status == OK and smooth_film(m, q) <= walk[S]:
+                status = newton(b, pt, LOAD, pt.load, q, NO_FLOOR, TOLERANCE, 20.0, info)
+            if status == OK and smooth_film(b, q) <= walk[S]:
                 return OK
-    recall(q, f, 1.0)
-    f.tag[0] = 0.0
+    recall(b, q, 1.0)
+    forget_factor(b)
     for _ in range(200):
         upper, before = walk[S], walk[W]
-        status = walk_down(m, pt, DESCENT, q, f, info, walk)
+        status = walk_down(b, pt, DESCENT, q, info, walk)
         if status != OK:
             return status
         if before < pt.load <= walk[W]:
-            return _settle(m, pt, upper, walk[S], q, f, info, walk)
+            return _settle(b, pt, upper, walk[S], q, info, walk)
     return MAX_ITERATIONS
 
 
 @kernel
 def descend(
-    m: WasherModel, pt: Point, wanted: float, q: NDArray[np.float64], f: Fields,
+    b: Bench, pt: Point, wanted: float, q: NDArray[np.float64],
     info: NDArray[np.float64], found: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve for the load on the wanted branch by a descent from light load; return a status.
@@ -181,7 +184,7 @@ def descend(
     found[LOST], found[REGAINED] = math.nan, math.nan
     walk[ACCURACY] = 1e-4
     for attempt in range(3):
-        status = enter_curve(m, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt), q, f, info, walk)
+        status = enter_curve(b, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt), q, info, walk)
         if status != OK:
             return status
         clear = walk[SHARE] < CLEAR_SHARE and walk[SLOPE] < 0.0
@@ -190,13 +193,13 @@ def descend(
     above = walk[W] >= pt.load  # the film branch carries the load above the entry
     if above and wanted != CONTACT_BRANCH:
         found[BRANCH] = FILM_BRANCH
-        return _climb(m, pt, q, f, info, walk)
+        return _climb(b, pt, q, info, walk)
     # the highest point so far (after the film is lost, the lowest), and the place before it
     s0, s1, w1 = walk[S], walk[S], walk[W]
     upper, lower = math.nan, math.nan  # bracket of the solution above any fold
     lost = False
     for _ in range(400):
-        status = walk_down(m, pt, DESCENT, q, f, info, walk)
+        status = walk_down(b, pt, DESCENT, q, info, walk)
         if status != OK:
             return status
         s2, w2 = walk[S], walk[W]
@@ -206,29 +209,29 @@ def descend(
             found[MULTIPLICITY] = MULTIPLE
             found[LOST] = w1
             if not has_film and _near(w1, pt.load):
-                remember(q, f, 2.0)
-                status = find_fold(m, pt, s0, s2, q, f, info, walk)
+                remember(b, q, 2.0)
+                status = find_fold(b, pt, s0, s2, q, info, walk)
                 if status != OK:
                     return status
                 found[LOST] = walk[W]
                 if walk[W] >= pt.load:
                     upper, lower, has_film = s0, walk[S], True
-                    remember(q, f, 2.0)
+                    remember(b, q, 2.0)
                 else:
-                    recall(q, f, 2.0)
-                    f.tag[0] = 0.0
+                    recall(b, q, 2.0)
+                    forget_factor(b)
                     walk[S], walk[W] = s2, w2
             if has_film and wanted != CONTACT_BRANCH:
                 break
             if not has_film:  # beyond the fold: one solution only, on the contact branch
                 found[BRANCH] = CONTACT_BRANCH
-                status = _contact_side(m, pt, q, f, info, walk)
+                status = _contact_side(b, pt, q, info, walk)
                 return NO_BRANCH if status == OK and wanted == FILM_BRANCH else status
         elif lost and w2 > w1 * (1.0 + NOISE):
             # film regained between s0 and s2; the contact branch is wanted
             found[REGAINED] = w1
             if _near(w1, pt.load):
-                status = find_fold(m, pt, s0, s2, q, f, info, walk)
+                status = find_fold(b, pt, s0, s2, q, info, walk)
                 if status != OK:
                     return status
                 found[REGAINED] = walk[W]
@@ -236,33 +239,33 @@ def descend(
                 break  # no solution on the contact branch
             found[BRANCH] = CONTACT_BRANCH
             if w2 >= pt.load:  # the step has passed the solution already
-                return _settle(m, pt, walk[S] if walk[S] > s2 else s1, s2, q, f, info, walk)
-            return _contact_side(m, pt, q, f, info, walk)
+                return _settle(b, pt, walk[S] if walk[S] > s2 else s1, s2, q, info, walk)
+            return _contact_side(b, pt, q, info, walk)
         elif not lost and not has_film and w2 >= pt.load:
             upper, lower = s1, s2
-            remember(q, f, 2.0)
+            remember(b, q, 2.0)
         if not lost and (above or not math.isnan(upper)) and (
-            walk[SHARE] > 0.9 or walk[S] < 0.5 * m.sigma1
+            walk[SHARE] > 0.9 or walk[S] < 0.5 * b.par[SIGMA1]
         ):  # fmt: skip
             found[MULTIPLICITY] = SINGLE  # the asperities carry: no fold will come
             break
         if (w2 < w1) == lost:
             s0, s1, w1 = s1, s2, w2
-        if walk[S] < -12.0 * m.sigma1:
+        if walk[S] < -12.0 * b.par[SIGMA1]:
             return MAX_ITERATIONS
     if above:  # no contact branch at this load after all
-        status = enter_curve(m, pt, ENTRY_RATIO, q, f, info, walk)
+        status = enter_curve(b, pt, ENTRY_RATIO, q, info, walk)
         if status == OK:
-            status = _climb(m, pt, q, f, info, walk)
+            status = _climb(b, pt, q, info, walk)
         found[BRANCH] = FILM_BRANCH
         return NO_BRANCH if status == OK else status
     if math.isnan(upper):
         return MAX_ITERATIONS
-    recall(q, f, 2.0)
-    f.tag[0] = 0.0
+    recall(b, q, 2.0)
+    forget_factor(b)
     walk[S], walk[W] = lower, pt.load
-    status = _settle(m, pt, upper, lower, q, f, info, walk)
-    thick = film_ratio(m, q) >= FILM_RATIO
+    status = _settle(b, pt, upper, lower, q, info, walk)
+    thick = film_ratio(b, q) >= FILM_RATIO
     single = found[MULTIPLICITY] == SINGLE
     found[BRANCH] = FILM_BRANCH if thick or not single else CONTACT_BRANCH
     if status == OK and wanted != ANY and found[BRANCH] != wanted:
@@ -272,28 +275,26 @@ def descend(
 
 @inlined
 def solve_cold(
-    m: WasherModel, pt: Point, wanted: float, q: NDArray[np.float64], f: Fields,
+    b: Bench, pt: Point, wanted: float, q: NDArray[np.float64],
     info: NDArray[np.float64], found: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve from nothing: Newton from a guess if that lands on a clear film, else a descent."""
     found[BRANCH], found[MULTIPLICITY] = 0.0, 0.0
     found[LOST], found[REGAINED] = math.nan, math.nan
     if wanted != CONTACT_BRANCH:
-        cold_start(m, pt, first_guess(m, pt), q, f)
-        status = newton(m, pt, LOAD, pt.load, q, f, 2.4, TOLERANCE, 40.0, info)
-        if status == OK and is_clear_film(m, q, f, info):
+        cold_start(b, pt, first_guess(b, pt), q)
+        status = newton(b, pt, LOAD, pt.load, q, 2.4, TOLERANCE, 40.0, info)
+        if status == OK and is_clear_film(b, q, info):
             found[BRANCH] = FILM_BRANCH
             return OK
-    return descend(m, pt, wanted, q, f, info, found, walk)
+    return descend(b, pt, wanted, q, info, found, walk)
 
 
 @kernel
-def is_clear_film(
-    m: WasherModel, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64]
-) -> bool:
+def is_clear_film(b: Bench, q: NDArray[np.float64], info: NDArray[np.float64]) -> bool:
     """Tell if the present solution is stable, thicker than 3 sigma and carried by the film."""
     return (
         info[LOAD_SLOPE] < 0.0
-        and film_ratio(m, q) >= FILM_RATIO
-        and f.small[CONTACT] < CLEAR_SHARE * info[REACHED_LOAD]
+        and film_ratio(b, q) >= FILM_RATIO
+        and contact_force(b) < CLEAR_SHARE * info[REACHED_LOAD]
     )

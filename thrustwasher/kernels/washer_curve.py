@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from ._jit import inlined, kernel
 from .banded import N_SIDES
-from .washer_fields import Fields, Point
+from .washer_fields import Bench, Fields, Point, forget_factor, washer_fields
 from .washer_film import film_residual, film_solve
 from .washer_gap import CONTACT, FORCE, STIFF, evaluate_gaps
-from .washer_model import WasherModel
+from .washer_model import SIGMA1, WasherModel, washer_model
 from .washer_newton import (
     FILM,
     LOAD_SLOPE,
@@ -35,8 +35,9 @@ S, W, SLOPE, SHARE, ACCURACY, N_WALK = 0, 1, 2, 3, 4, 8
 
 
 @kernel
-def remember(q: NDArray[np.float64], f: Fields, slot: float) -> None:
+def remember(b: Bench, q: NDArray[np.float64], slot: float) -> None:
     """Keep the present solution in a slot of ``f.keep``."""
+    f = washer_fields(washer_model(b.par), b.work)
     n_temp, n = f.temp.size, f.p.size
     base = int(slot) * (4 + n_temp + n)
     for k in range(4):
@@ -48,8 +49,9 @@ def remember(q: NDArray[np.float64], f: Fields, slot: float) -> None:
 
 
 @kernel
-def recall(q: NDArray[np.float64], f: Fields, slot: float) -> None:
+def recall(b: Bench, q: NDArray[np.float64], slot: float) -> None:
     """Take a solution back from a slot of ``f.keep``."""
+    f = washer_fields(washer_model(b.par), b.work)
     n_temp, n = f.temp.size, f.p.size
     base = int(slot) * (4 + n_temp + n)
     for k in range(4):
@@ -82,12 +84,14 @@ def _press_gear(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) ->
 
 
 @kernel
-def cold_start(m: WasherModel, pt: Point, ratio: float, q: NDArray[np.float64], f: Fields) -> None:
+def cold_start(b: Bench, pt: Point, ratio: float, q: NDArray[np.float64]) -> None:
     """Place washer and gear for a film of ``ratio`` sigma, everything at oil temperature.
 
     The pressure is that of these gaps: from no pressure at all a film without contact would show
     Newton's method no stiffness.
     """
+    m = washer_model(b.par)
+    f = washer_fields(m, b.work)
     q[3] = (0.99 if ratio > 3.0 else 0.95) * pt.tilt
     q[2] = 0.0
     q[0] = q[3] * m.outer_radius + ratio * m.sigma1
@@ -97,7 +101,7 @@ def cold_start(m: WasherModel, pt: Point, ratio: float, q: NDArray[np.float64], 
         f.dtemp[np.uintp(k)] = 0.0
     for k in range(f.p.size):
         f.p[np.uintp(k)] = 0.0
-    f.tag[0] = 0.0
+    forget_factor(b)
     evaluate(m, pt, q, f)
     for _ in range(6):
         error, p_max, _size = film_residual(m, f.p, f)
@@ -109,89 +113,103 @@ def cold_start(m: WasherModel, pt: Point, ratio: float, q: NDArray[np.float64], 
 
 
 @kernel
+def contact_force(b: Bench) -> float:
+    """Return the force on the asperities of film 1 [N] as last evaluated."""
+    f = washer_fields(washer_model(b.par), b.work)
+    return float(f.small[CONTACT])
+
+
+@kernel
 def note(
-    m: WasherModel, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
-    walk: NDArray[np.float64],
-) -> None:  # fmt: skip
+    b: Bench, q: NDArray[np.float64], info: NDArray[np.float64], walk: NDArray[np.float64]
+) -> None:
     """Write where the walker stands."""
-    walk[S], walk[W], walk[SLOPE] = smooth_film(m, q), info[REACHED_LOAD], info[LOAD_SLOPE]
-    walk[SHARE] = f.small[CONTACT] / max(info[REACHED_LOAD], 1e-12)
+    walk[S], walk[W], walk[SLOPE] = smooth_film(b, q), info[REACHED_LOAD], info[LOAD_SLOPE]
+    walk[SHARE] = contact_force(b) / max(info[REACHED_LOAD], 1e-12)
 
 
 @kernel
 def enter_curve(
-    m: WasherModel, pt: Point, ratio: float, q: NDArray[np.float64], f: Fields,
+    b: Bench, pt: Point, ratio: float, q: NDArray[np.float64],
     info: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve at a film of ``ratio`` sigma from nothing; thicker films are tried if that fails."""
+    sigma = b.par[SIGMA1]
     status = MAX_ITERATIONS
     for attempt in range(6):
         wanted = ratio * (1.0 + 0.5 * attempt)
-        cold_start(m, pt, wanted, q, f)
-        status = newton(m, pt, FILM, wanted * m.sigma1, q, f, NO_FLOOR, walk[ACCURACY], 40.0, info)
+        cold_start(b, pt, wanted, q)
+        status = newton(b, pt, FILM, wanted * sigma, q, NO_FLOOR, walk[ACCURACY], 40.0, info)
         if status == OK:
-            note(m, q, f, info, walk)
+            note(b, q, info, walk)
             return OK
     return status
 
 
 @kernel
+def _along(b: Bench, step: float, q: NDArray[np.float64]) -> None:
+    """Move the positions along the tangent of the curve by ``step`` [m] of film thickness."""
+    f = washer_fields(washer_model(b.par), b.work)
+    for k in range(4):
+        q[k] += f.small[TANGENT + k] * step
+
+
+@kernel
 def walk_to(
-    m: WasherModel, pt: Point, target: float, q: NDArray[np.float64], f: Fields,
+    b: Bench, pt: Point, target: float, q: NDArray[np.float64],
     info: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve at the smoothed film thickness ``target`` [m], in smaller steps if need be."""
     for _ in range(60):
         step = target - walk[S]
-        if abs(step) < 1e-9 * m.sigma1:
+        if abs(step) < 1e-9 * b.par[SIGMA1]:
             return OK
         for _half in range(12):
-            remember(q, f, 0.0)
+            remember(b, q, 0.0)
             wanted = target if abs(step - (target - walk[S])) == 0.0 else walk[S] + step
-            for k in range(4):  # along the tangent
-                q[k] += f.small[TANGENT + k] * step
-            status = newton(m, pt, FILM, wanted, q, f, NO_FLOOR, walk[ACCURACY], 12.0, info)
+            _along(b, step, q)
+            status = newton(b, pt, FILM, wanted, q, NO_FLOOR, walk[ACCURACY], 12.0, info)
             if status == OK and info[REACHED_LOAD] > 0.0:
                 break
-            recall(q, f, 0.0)
-            f.tag[0] = 0.0
+            recall(b, q, 0.0)
+            forget_factor(b)
             step *= 0.4
         else:
             return MAX_ITERATIONS
-        note(m, q, f, info, walk)
+        note(b, q, info, walk)
     return MAX_ITERATIONS
 
 
 @inlined
 def exact_slope(
-    m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
+    b: Bench, pt: Point, q: NDArray[np.float64], info: NDArray[np.float64],
     walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve again where the walker stands, with heat factors made on the spot."""
-    f.tag[0] = 0.0
-    status = newton(m, pt, FILM, smooth_film(m, q), q, f, NO_FLOOR, 1e-7, 20.0, info)
-    note(m, q, f, info, walk)
+    forget_factor(b)
+    status = newton(b, pt, FILM, smooth_film(b, q), q, NO_FLOOR, 1e-7, 20.0, info)
+    note(b, q, info, walk)
     return status
 
 
 @kernel
-def step_down(m: WasherModel, s: float, finest: float) -> float:
+def step_down(sigma: float, s: float, finest: float) -> float:
     """Return the next film thickness [m]: a tenth less, near contact ``finest`` sigma less."""
-    return s - max(finest * m.sigma1, 0.12 * (s - 2.5 * m.sigma1))
+    return s - max(finest * sigma, 0.12 * (s - 2.5 * sigma))
 
 
 @inlined
 def walk_down(
-    m: WasherModel, pt: Point, finest: float, q: NDArray[np.float64], f: Fields,
+    b: Bench, pt: Point, finest: float, q: NDArray[np.float64],
     info: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Take one step to a thinner film; return a status."""
-    return walk_to(m, pt, step_down(m, walk[S], finest), q, f, info, walk)
+    return walk_to(b, pt, step_down(b.par[SIGMA1], walk[S], finest), q, info, walk)
 
 
 @kernel
 def find_fold(
-    m: WasherModel, pt: Point, upper: float, lower: float, q: NDArray[np.float64], f: Fields,
+    b: Bench, pt: Point, upper: float, lower: float, q: NDArray[np.float64],
     info: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Walk to the film thickness between two [m] at which the load has an extremum.
@@ -200,20 +218,21 @@ def find_fold(
     fold; the walker ends on it. Slopes need a heat factor made at the point itself: one from a
     little way off finds the fold 0.1 sigma away.
     """
-    a, b = upper, lower
+    sigma = b.par[SIGMA1]
+    one, two = upper, lower
     ga, gb = 0.0, 0.0
     for attempt in range(40):
         if attempt == 0:
-            s = a
+            s = one
         elif attempt == 1:
-            s = b
+            s = two
         else:
-            s = (a * gb - b * ga) / (gb - ga)
-            if not min(a, b) < s < max(a, b):
-                s = 0.5 * (a + b)
-        if walk_to(m, pt, s, q, f, info, walk) != OK:
+            s = (one * gb - two * ga) / (gb - ga)
+            if not min(one, two) < s < max(one, two):
+                s = 0.5 * (one + two)
+        if walk_to(b, pt, s, q, info, walk) != OK:
             return MAX_ITERATIONS
-        status = exact_slope(m, pt, q, f, info, walk)
+        status = exact_slope(b, pt, q, info, walk)
         if status != OK:
             return status
         g = walk[SLOPE]
@@ -223,20 +242,20 @@ def find_fold(
             gb = g
             if not ga * gb < 0.0:  # both folds of a narrow pair lie between: look for one
                 for k in range(1, 8):
-                    b = lower + (upper - lower) * (1.0 - k / 8.0)
-                    if walk_to(m, pt, b, q, f, info, walk) != OK:
+                    two = lower + (upper - lower) * (1.0 - k / 8.0)
+                    if walk_to(b, pt, two, q, info, walk) != OK:
                         return MAX_ITERATIONS
-                    status = exact_slope(m, pt, q, f, info, walk)
+                    status = exact_slope(b, pt, q, info, walk)
                     gb = walk[SLOPE]
                     if status != OK or ga * gb < 0.0:
                         break
                 if not ga * gb < 0.0:
                     return MAX_ITERATIONS
         elif g * gb < 0.0:
-            a, ga, b, gb = b, gb, s, g
+            one, ga, two, gb = two, gb, s, g
         else:
             ga *= 0.5
-            b, gb = s, g
-        if attempt > 1 and (abs(a - b) < 1e-5 * m.sigma1 or abs(g) * m.sigma1 < 1e-6 * walk[W]):
+            two, gb = s, g
+        if attempt > 1 and (abs(one - two) < 1e-5 * sigma or abs(g) * sigma < 1e-6 * walk[W]):
             return OK
     return OK if math.isfinite(walk[W]) else MAX_ITERATIONS

@@ -27,6 +27,17 @@ class Point(NamedTuple):
     oil_temperature: float  # [K]
 
 
+class Bench(NamedTuple):
+    """Where a washer is solved: parameters and work, whole.
+
+    Passed down in place of model and fields wherever their many arrays are not needed by name:
+    each costs seven words in every call.
+    """
+
+    par: NDArray[np.float64]
+    work: NDArray[np.float64]  # what ``washer_fields`` names
+
+
 class Fields(NamedTuple):
     """All work of a solve; contents mean nothing between calls but for the tagged heat factor."""
 
@@ -44,6 +55,7 @@ class Fields(NamedTuple):
     dpc2: NDArray[np.float64]
     mu: NDArray[np.float64]  # (n,) viscosity and its slope
     dmu: NDArray[np.float64]
+    fluidity: NDArray[np.float64]  # (n,) 1/viscosity
     ct: NDArray[np.float64]  # (n,) conductance j..j+1 over fluidity sum, slope over h
     dct: NDArray[np.float64]
     cr: NDArray[np.float64]  # (n,) conductance i..i+1 over fluidity sum, slope over h
@@ -61,7 +73,7 @@ class Fields(NamedTuple):
     heat: NDArray[np.float64]  # (n_temp,) residual of the heat equations [W]
     dtemp: NDArray[np.float64]  # (n_temp,) T step at fixed positions
     spare: NDArray[np.float64]  # (n_temp,) permuted right side
-    keep: NDArray[np.float64]  # (N_KEEP (4 + n_temp + n),) remembered solutions
+    keep: NDArray[np.float64]  # (N_KEEP (4 + n_temp + n),) remembered solutions; of washer_sens too
 
 
 def temperatures_of(n_r: int, n_t: int) -> int:
@@ -69,13 +81,19 @@ def temperatures_of(n_r: int, n_t: int) -> int:
     return (3 * n_r - 1) * n_t
 
 
-def size_of_work(n_r: int, n_t: int, even_split: bool) -> int:
-    """Return the length of ``work`` for a grid; an uneven heat split needs the wider band."""
+def size_of_work(n_r: int, n_t: int) -> int:
+    """Return the length of ``work`` for a grid; the heat factor needs most of it."""
     n, n_temp = n_r * n_t, temperatures_of(n_r, n_t)
-    width = 2 * n_temp // n_t + 1 if even_split else 4 * n_temp // n_t + 1
+    width = 4 * n_temp // n_t + 2
     film = (2 * n_r + 1) * n
     kept = N_KEEP * (4 + n_temp + n)
-    return N_TAG + 1 + n_temp * (width + 9) + N_SMALL + n_t + 42 * n + film + kept
+    return N_TAG + 1 + n_temp * (width + 9) + N_SMALL + n_t + 43 * n + film + kept
+
+
+@kernel
+def forget_factor(b: Bench) -> None:
+    """Have the heat factor made anew before it is used again."""
+    b.work[0] = 0.0
 
 
 @kernel
@@ -84,12 +102,12 @@ def washer_fields(m: WasherModel, work: NDArray[np.float64]) -> Fields:
     n_r, n_t = m.n_r, m.n_t
     n, m_t = n_r * n_t, 3 * n_r - m.i_g
     n_temp = m_t * n_t
-    width = 2 * m_t + 1 if m.heat_split == 0.5 else 4 * m_t + 1
+    width = 4 * m_t + 2  # Cholesky's factor twice, or one of LU
     a0 = N_TAG + 1 + n_temp
     a1 = a0 + n_temp * width
     a2 = a1 + 4 * n_temp
     a3 = a2 + N_SMALL
-    b = a3 + 17 * n
+    b = a3 + 18 * n
     c = b + n_t
     d = c + (2 * n_r + 1) * n
     e = d + 24 * n
@@ -105,7 +123,7 @@ def washer_fields(m: WasherModel, work: NDArray[np.float64]) -> Fields:
         work[a3 + 9 * n : a3 + 10 * n], work[a3 + 10 * n : a3 + 11 * n],
         work[a3 + 11 * n : a3 + 12 * n], work[a3 + 12 * n : a3 + 13 * n],
         work[a3 + 13 * n : a3 + 14 * n], work[a3 + 14 * n : a3 + 15 * n],
-        work[a3 + 15 * n : a3 + 16 * n], work[a3 + 16 * n : b],
+        work[a3 + 15 * n : a3 + 16 * n], work[a3 + 16 * n : a3 + 17 * n], work[a3 + 17 * n : b],
         work[b:c], work[c:d], work[d : d + 8 * n],
         work[d + 8 * n : d + 16 * n], work[d + 16 * n : e], work[e:g], work[g:k],
         work[k : k + n_temp], work[k + n_temp : k + 2 * n_temp],

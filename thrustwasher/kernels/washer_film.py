@@ -68,11 +68,11 @@ def film_residual(m: WasherModel, p: NDArray[np.float64], f: Fields) -> tuple[fl
             k = np.uintp(j * n_r + i)
             kn, kb = np.uintp(jn * n_r + i), np.uintp(jb * n_r + i)
             up, down = np.uintp(j * n_r + i + 1), np.uintp(j * n_r + i - 1)
-            here = 1.0 / f.mu[k]
-            c_n = f.ct[k] * (here + 1.0 / f.mu[kn])
-            c_b = f.ct[kb] * (here + 1.0 / f.mu[kb])
-            c_u = f.cr[k] * (here + 1.0 / f.mu[up])
-            c_d = f.cr[down] * (here + 1.0 / f.mu[down])
+            here = f.fluidity[k]
+            c_n = f.ct[k] * (here + f.fluidity[kn])
+            c_b = f.ct[kb] * (here + f.fluidity[kb])
+            c_u = f.cr[k] * (here + f.fluidity[up])
+            c_d = f.cr[down] * (here + f.fluidity[down])
             diagonal = c_n + c_b + c_u + c_d
             flow = (
                 diagonal * p[k] - c_n * p[kn] - c_b * p[kb] - c_u * p[up] - c_d * p[down]
@@ -138,7 +138,7 @@ def _lags(m: WasherModel, f: Fields) -> None:
         for i in range(n_r):
             k = j * n_r + i
             t, a = j * m_t + i, k * N_SIDES
-            scale = -0.5 * f.dmu[k] / (f.mu[k] * f.mu[k])  # half: mean of carrier and washer
+            scale = -0.5 * f.dmu[k] * f.fluidity[k] * f.fluidity[k]  # mean of carrier, washer
             f.lag[np.uintp(a)] = scale * (f.dtemp[np.uintp(t)] + f.dtemp[np.uintp(t + n_r)])
             for s in range(1, 5):
                 b = (s - 1) * n_temp + t
@@ -148,10 +148,9 @@ def _lags(m: WasherModel, f: Fields) -> None:
 
 
 @kernel
-def _assemble(m: WasherModel, p: NDArray[np.float64], f: Fields, band: int) -> None:
-    """Fill the film's matrix and the right sides."""
+def _right_sides(m: WasherModel, p: NDArray[np.float64], f: Fields) -> None:
+    """Fill the film's right sides, node by node."""
     n_r, n_t = m.n_r, m.n_t
-    rows = n_r - 2
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         jb = j - 1 if j > 0 else n_t - 1
@@ -161,7 +160,7 @@ def _assemble(m: WasherModel, p: NDArray[np.float64], f: Fields, band: int) -> N
         for i in range(1, n_r - 1):
             k, o = j * n_r + i, jn * n_r + i
             drop = p[k] - p[o]
-            fluid = 1.0 / f.mu[k] + 1.0 / f.mu[o]
+            fluid = f.fluidity[k] + f.fluidity[o]
             _face(f, k, o, f.ct[k], drop, f.dct[k] * fluid * drop + f.dwedge[k],
                   m.r[i] * m.cos_face[j], m.r[i] * m.sin_face[j])  # fmt: skip
         if not used:
@@ -169,9 +168,28 @@ def _assemble(m: WasherModel, p: NDArray[np.float64], f: Fields, band: int) -> N
         for i in range(n_r - 1):
             k = j * n_r + i
             drop = p[k] - p[k + 1]
-            fluid = 1.0 / f.mu[k] + 1.0 / f.mu[k + 1]
+            fluid = f.fluidity[k] + f.fluidity[k + 1]
             _face(f, k, k + 1, f.cr[k], drop, f.dcr[k] * fluid * drop,
                   m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j])  # fmt: skip
+        for i in range(1, n_r - 1):
+            k = j * n_r + i
+            f.film_rhs[k * N_SIDES] -= f.wet[k] * (f.wedge[k] - f.wedge[jb * n_r + i])
+
+
+@kernel
+def film_factor(m: WasherModel, f: Fields) -> bool:
+    """Assemble the film's matrix in ``f.film`` and factor it; return False if a pivot fails."""
+    n_r, n_t = m.n_r, m.n_t
+    rows = n_r - 2
+    band = band_of_film(m, f)
+    size = size_of_film(m, f)
+    for k in range(size * (band + 1)):
+        f.film[np.uintp(k)] = 0.0
+    for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        jb = j - 1 if j > 0 else n_t - 1
+        if not f.place[j] >= 0.0:
+            continue
         for i in range(1, n_r - 1):
             k = j * n_r + i
             row = int(f.place[j]) * rows + i - 1
@@ -179,18 +197,34 @@ def _assemble(m: WasherModel, p: NDArray[np.float64], f: Fields, band: int) -> N
                 f.film[row * (band + 1)] = 1.0
                 continue
             kn, kb = jn * n_r + i, jb * n_r + i
-            here = 1.0 / f.mu[k]
-            c_n = f.ct[k] * (here + 1.0 / f.mu[kn])
-            c_b = f.ct[kb] * (here + 1.0 / f.mu[kb])
-            c_u = f.cr[k] * (here + 1.0 / f.mu[k + 1])
-            c_d = f.cr[k - 1] * (here + 1.0 / f.mu[k - 1])
+            here = f.fluidity[k]
+            c_n = f.ct[k] * (here + f.fluidity[kn])
+            c_b = f.ct[kb] * (here + f.fluidity[kb])
+            c_u = f.cr[k] * (here + f.fluidity[k + 1])
+            c_d = f.cr[k - 1] * (here + f.fluidity[k - 1])
             f.film[row * (band + 1)] = c_n + c_b + c_u + c_d
-            f.film_rhs[k * N_SIDES] -= f.wedge[k] - f.wedge[kb]
             if i + 1 < n_r - 1 and f.wet[k + 1] == 1.0:
                 f.film[row * (band + 1) + 1] = -c_u
             if f.wet[kn] == 1.0:
                 col = int(f.place[jn]) * rows + i - 1
                 f.film[min(row, col) * (band + 1) + abs(row - col)] -= c_n
+    return size == 0 or cholesky(f.film, size, band)
+
+
+@kernel
+def band_of_film(m: WasherModel, f: Fields) -> int:
+    """Return the half band width of the film's system."""
+    return (m.n_r - 2) * (1 if f.small[RING] == 0.0 else 2)
+
+
+@kernel
+def size_of_film(m: WasherModel, f: Fields) -> int:
+    """Return the number of unknowns of the film's system: columns with a full node."""
+    size = 0
+    for j in range(m.n_t):
+        if f.place[j] >= 0.0:
+            size += m.n_r - 2
+    return size
 
 
 @kernel
@@ -204,17 +238,10 @@ def film_solve(m: WasherModel, p: NDArray[np.float64], f: Fields) -> bool:
     """
     n_r, n_t = m.n_r, m.n_t
     n, rows = n_r * n_t, n_r - 2
-    band = rows if f.small[RING] == 0.0 else 2 * rows
-    size = 0
-    for j in range(n_t):
-        if f.place[j] >= 0.0:
-            size += rows
     for k in range(N_SIDES * n):
         f.film_rhs[np.uintp(k)] = 0.0
-    for k in range(size * (band + 1)):
-        f.film[np.uintp(k)] = 0.0
     _lags(m, f)
-    _assemble(m, p, f, band)
+    _right_sides(m, p, f)
     for j in range(n_t):
         if f.place[j] >= 0.0:
             row = int(f.place[j]) * rows - 1
@@ -224,10 +251,9 @@ def film_solve(m: WasherModel, p: NDArray[np.float64], f: Fields) -> bool:
                     f.sides[np.uintp((row + i) * N_SIDES + s)] = (
                         f.film_rhs[np.uintp(k * N_SIDES + s)] * f.wet[k]
                     )
-    if size > 0:
-        if not cholesky(f.film, size, band):
-            return False
-        cholesky_solve_many(f.film, f.sides, size, band)
+    if not film_factor(m, f):
+        return False
+    cholesky_solve_many(f.film, f.sides, size_of_film(m, f), band_of_film(m, f))
     for j in range(n_t):
         row = int(f.place[j]) * rows - 1
         for i in range(n_r):

@@ -26,6 +26,7 @@ CONTACT = 20  # contact force of film 1 [N]
 DCONTACT = 21  # (4,) its slope over q
 FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, and its stiffness
 FRICTION = 25  # dry friction coefficient and its slope over the contact force [1/N]
+TANGENT_READY = 27  # 1 if washer_tangent has been through since the last evaluation
 
 
 @kernel
@@ -49,7 +50,7 @@ def dry_friction(m: WasherModel, contact_load: float) -> tuple[float, float]:
 def evaluate_gaps(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> None:
     """Fill gaps, contact pressures and their sums in ``f`` at the positions ``q``."""
     s = f.small
-    for place in range(FRICTION + 2):
+    for place in range(TANGENT_READY + 1):
         s[place] = 0.0
     z_w, z_g, gx, gy = q[0], q[1], q[2], q[3]
     for j in range(m.n_t):
@@ -127,3 +128,4 @@ def evaluate_viscosity(m: WasherModel, pt: Point, f: Fields) -> None:
                 m.viscosity_constant,
                 m.viscosity_exponent,
             )
+            f.fluidity[k] = 1.0 / f.mu[k]

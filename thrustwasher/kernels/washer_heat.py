@@ -12,15 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .banded import cholesky, cholesky_solve, lu, lu_solve
+from .banded import cholesky, cholesky_solve, lu, lu_solve, mirror
 from .washer_fields import Fields, Point
 from .washer_gap import DCONTACT, FRICTION
 from .washer_model import WasherModel
 
 
 @kernel
-def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields) -> float:
-    """Fill ``f.heat`` [W], heat leaving each node less heat made; return the heat made [W]."""
+def conduct(
+    m: WasherModel, temp: NDArray[np.float64], f: Fields, heat: NDArray[np.float64]
+) -> None:
+    """Fill ``heat`` [W], what leaves each node by conduction at temperatures ``temp``."""
     n_r, n_t, i_g = m.n_r, m.n_t, m.i_g
     m_t = 3 * n_r - i_g
     kc = m.conductivity * m.carrier_thickness
@@ -28,11 +30,9 @@ def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Field
     kg = m.conductivity * m.gear_thickness
     far_c, far_g = m.conductivity / m.carrier_thickness, m.conductivity / m.gear_thickness
     half = m.washer_thickness / (2.0 * m.conductivity)
-    omega = abs(pt.speed)
-    friction = f.small[FRICTION]
-    made = 0.0
+    per_oil = 1.0 / m.oil_conductivity
     for node in range(m_t * n_t):
-        f.heat[np.uintp(node)] = 0.0
+        heat[np.uintp(node)] = 0.0
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         c0, n0 = j * m_t, jn * m_t
@@ -40,44 +40,66 @@ def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Field
             k = np.uintp(j * n_r + i)
             ic, iw = np.uintp(c0 + i), np.uintp(c0 + n_r + i)
             w1 = m.weight1[i] * m.weight_t[j]
-            v = omega * m.r[i]
-            q = m.film_heat_fraction * f.mu[k] * v * v / f.ht[k] + friction * f.pc[k] * v
-            made += w1 * q
-            across = w1 * (temp[ic] - temp[iw]) / (f.ht[k] / m.oil_conductivity + half)
-            f.heat[ic] += across + w1 * far_c * temp[ic] - m.heat_split * w1 * q
-            f.heat[iw] -= across + (1.0 - m.heat_split) * w1 * q
+            across = w1 * (temp[ic] - temp[iw]) / (f.ht[k] * per_oil + half)
+            heat[ic] += across + w1 * far_c * temp[ic]
+            heat[iw] -= across
             # to the next column
-            g = m.log_width[i] / m.step_t[j]
+            g = m.log_width[i] * m.per_step[j]
             flow = kc * m.carrier_spread * g * (temp[ic] - temp[np.uintp(n0 + i)])
-            f.heat[ic] += flow
-            f.heat[np.uintp(n0 + i)] -= flow
+            heat[ic] += flow
+            heat[np.uintp(n0 + i)] -= flow
             flow = kw * m.rotating_spread * g * (temp[iw] - temp[np.uintp(n0 + n_r + i)])
-            f.heat[iw] += flow
-            f.heat[np.uintp(n0 + n_r + i)] -= flow
+            heat[iw] += flow
+            heat[np.uintp(n0 + n_r + i)] -= flow
             if i + 1 < n_r:  # to the next radius
-                g = m.r_face[i] * m.width_t[j] / (m.r[i + 1] - m.r[i])
+                g = m.along[i] * m.width_t[j]
                 flow = kc * g * (temp[ic] - temp[ic + np.uintp(1)])
-                f.heat[ic] += flow
-                f.heat[ic + np.uintp(1)] -= flow
+                heat[ic] += flow
+                heat[ic + np.uintp(1)] -= flow
                 flow = kw * g * (temp[iw] - temp[iw + np.uintp(1)])
-                f.heat[iw] += flow
-                f.heat[iw + np.uintp(1)] -= flow
+                heat[iw] += flow
+                heat[iw + np.uintp(1)] -= flow
             if i >= i_g:
                 ig = np.uintp(c0 + 2 * n_r + i - i_g)
                 ign = np.uintp(n0 + 2 * n_r + i - i_g)
                 w2 = m.weight2[i] * m.weight_t[j]
-                across = w2 * (temp[iw] - temp[ig]) / (f.ht2[k] / m.oil_conductivity + half)
-                f.heat[iw] += across
-                f.heat[ig] += w2 * far_g * temp[ig] - across
-                width = np.log(m.r_face[i] / m.r[i]) if i == i_g else m.log_width[i]
-                flow = kg * m.rotating_spread * width / m.step_t[j] * (temp[ig] - temp[ign])
-                f.heat[ig] += flow
-                f.heat[ign] -= flow
+                across = w2 * (temp[iw] - temp[ig]) / (f.ht2[k] * per_oil + half)
+                heat[iw] += across
+                heat[ig] += w2 * far_g * temp[ig] - across
+                flow = (
+                    kg
+                    * m.rotating_spread
+                    * m.gear_width[i]
+                    * m.per_step[j]
+                    * (temp[ig] - temp[ign])
+                )
+                heat[ig] += flow
+                heat[ign] -= flow
                 if i + 1 < n_r:
-                    g = m.r_face[i] * m.width_t[j] / (m.r[i + 1] - m.r[i])
+                    g = m.along[i] * m.width_t[j]
                     flow = kg * g * (temp[ig] - temp[ig + np.uintp(1)])
-                    f.heat[ig] += flow
-                    f.heat[ig + np.uintp(1)] -= flow
+                    heat[ig] += flow
+                    heat[ig + np.uintp(1)] -= flow
+
+
+@kernel
+def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields) -> float:
+    """Fill ``f.heat`` [W], heat leaving each node less heat made; return the heat made [W]."""
+    n_r, m_t = m.n_r, 3 * m.n_r - m.i_g
+    omega = abs(pt.speed)
+    friction = f.small[FRICTION]
+    conduct(m, temp, f, f.heat)
+    made = 0.0
+    for j in range(m.n_t):
+        for i in range(n_r):
+            k = np.uintp(j * n_r + i)
+            ic = np.uintp(j * m_t + i)
+            v = omega * m.r[i]
+            q = m.film_heat_fraction * f.mu[k] * v * v / f.ht[k] + friction * f.pc[k] * v
+            q *= m.weight1[i] * m.weight_t[j]
+            made += q
+            f.heat[ic] -= m.heat_split * q
+            f.heat[ic + np.uintp(n_r)] -= (1.0 - m.heat_split) * q
     return made
 
 
@@ -120,13 +142,14 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
     band = 2 * m_t
     symmetric = m.heat_split == 0.5
     a = f.factor
-    for k in range(a.size):
+    for k in range(m_t * n_t * (band + 1 if symmetric else 2 * band + 1)):
         a[np.uintp(k)] = 0.0
     kc = m.conductivity * m.carrier_thickness
     kw = m.conductivity * m.washer_thickness
     kg = m.conductivity * m.gear_thickness
     far_c, far_g = m.conductivity / m.carrier_thickness, m.conductivity / m.gear_thickness
     half = m.washer_thickness / (2.0 * m.conductivity)
+    per_oil = 1.0 / m.oil_conductivity
     omega = abs(pt.speed)
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
@@ -136,7 +159,7 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
             ic, iw = c0 + i, c0 + n_r + i
             w1 = m.weight1[i] * m.weight_t[j]
             v = omega * m.r[i]
-            _link(a, band, symmetric, ic, iw, w1 / (f.ht[k] / m.oil_conductivity + half))
+            _link(a, band, symmetric, ic, iw, w1 / (f.ht[k] * per_oil + half))
             _add(a, band, symmetric, ic, ic, w1 * far_c)
             # the film's heat falls with either temperature
             s = -0.5 * w1 * m.film_heat_fraction * f.dmu[k] * v * v / f.ht[k]
@@ -144,25 +167,34 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
             _add(a, band, symmetric, ic, iw, m.heat_split * s)
             _add(a, band, symmetric, iw, ic, (1.0 - m.heat_split) * s)
             _add(a, band, symmetric, iw, iw, (1.0 - m.heat_split) * s)
-            g = m.log_width[i] / m.step_t[j]
+            g = m.log_width[i] * m.per_step[j]
             _link(a, band, symmetric, ic, n0 + i, kc * m.carrier_spread * g)
             _link(a, band, symmetric, iw, n0 + n_r + i, kw * m.rotating_spread * g)
             along = 0.0
             if i + 1 < n_r:
-                along = m.r_face[i] * m.width_t[j] / (m.r[i + 1] - m.r[i])
+                along = m.along[i] * m.width_t[j]
                 _link(a, band, symmetric, ic, ic + 1, kc * along)
                 _link(a, band, symmetric, iw, iw + 1, kw * along)
             if i >= i_g:
                 ig, ign = c0 + 2 * n_r + i - i_g, n0 + 2 * n_r + i - i_g
                 w2 = m.weight2[i] * m.weight_t[j]
-                _link(a, band, symmetric, iw, ig, w2 / (f.ht2[k] / m.oil_conductivity + half))
+                _link(a, band, symmetric, iw, ig, w2 / (f.ht2[k] * per_oil + half))
                 _add(a, band, symmetric, ig, ig, w2 * far_g)
-                width = np.log(m.r_face[i] / m.r[i]) if i == i_g else m.log_width[i]
-                _link(a, band, symmetric, ig, ign, kg * m.rotating_spread * width / m.step_t[j])
+                _link(
+                    a,
+                    band,
+                    symmetric,
+                    ig,
+                    ign,
+                    kg * m.rotating_spread * m.gear_width[i] * m.per_step[j],
+                )
                 if i + 1 < n_r:
                     _link(a, band, symmetric, ig, ig + 1, kg * along)
     if symmetric:
-        return cholesky(a, m_t * n_t, band)
+        if not cholesky(a, m_t * n_t, band):
+            return False
+        mirror(a, m_t * n_t, band)
+        return True
     return lu(a, m_t * n_t, band)
 
 
@@ -191,6 +223,7 @@ def heat_slopes(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields)
     m_t = 3 * n_r - i_g
     n_temp = m_t * n_t
     half = m.washer_thickness / (2.0 * m.conductivity)
+    per_oil = 1.0 / m.oil_conductivity
     omega = abs(pt.speed)
     friction, dfriction = f.small[FRICTION], f.small[FRICTION + 1]
     for k in range(4 * n_temp):
@@ -203,8 +236,8 @@ def heat_slopes(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields)
             x, y = m.r[i] * m.cos[j], m.r[i] * m.sin[j]
             w1 = m.weight1[i] * m.weight_t[j]
             v = omega * m.r[i]
-            res = f.ht[k] / m.oil_conductivity + half
-            dacross = -w1 * (temp[ic] - temp[iw]) / (res * res) * f.dht[k] / m.oil_conductivity
+            res = f.ht[k] * per_oil + half
+            dacross = -w1 * (temp[ic] - temp[iw]) / (res * res) * f.dht[k] * per_oil
             dq = w1 * (
                 friction * f.dpc[k] * v
                 - m.film_heat_fraction * f.mu[k] * v * v / (f.ht[k] * f.ht[k]) * f.dht[k]
@@ -227,8 +260,8 @@ def heat_slopes(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields)
             if i >= i_g:
                 ig = j * m_t + 2 * n_r + i - i_g
                 w2 = m.weight2[i] * m.weight_t[j]
-                res = f.ht2[k] / m.oil_conductivity + half
-                d = -w2 * (temp[iw] - temp[ig]) / (res * res) * f.dht2[k] / m.oil_conductivity
+                res = f.ht2[k] * per_oil + half
+                d = -w2 * (temp[iw] - temp[ig]) / (res * res) * f.dht2[k] * per_oil
                 for s in range(4):
                     h = 1.0
                     if s == 0:

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .washer_fields import N_TAG, Fields, Point, temperatures_of
+from .washer_fields import N_TAG, Bench, Fields, Point, temperatures_of, washer_fields
 from .washer_gap import evaluate_gaps, evaluate_viscosity
-from .washer_model import N_PARAM, WasherModel
+from .washer_model import N_PARAM, washer_model
 from .washer_newton import make_factor
 
 VALID, BRANCH_NOW, MULTIPLICITY_NOW = 0, 1, 2
@@ -49,11 +49,11 @@ def _belongs(par: NDArray[np.float64], state: NDArray[np.float64], f: Fields) ->
 
 
 @kernel
-def recall_state(
-    par: NDArray[np.float64], m: WasherModel, state: NDArray[np.float64],
-    q: NDArray[np.float64], f: Fields,
-) -> None:  # fmt: skip
-    """Take the remembered solution and its heat factor into ``q`` and ``f``."""
+def recall_state(b: Bench, state: NDArray[np.float64], q: NDArray[np.float64]) -> None:
+    """Take the remembered solution and its heat factor into ``q`` and the work."""
+    par = b.par
+    m = washer_model(par)
+    f = washer_fields(m, b.work)
     n_temp, n = f.temp.size, f.p.size
     base = FIELDS + n_temp + n
     if state[FACTOR_VALID] != 1.0:
@@ -84,11 +84,9 @@ def own_factor(par: NDArray[np.float64], f: Fields) -> None:
 
 
 @kernel
-def remember_state(
-    par: NDArray[np.float64], pt: Point, q: NDArray[np.float64], f: Fields,
-    state: NDArray[np.float64],
-) -> None:  # fmt: skip
+def remember_state(b: Bench, pt: Point, q: NDArray[np.float64], state: NDArray[np.float64]) -> None:
     """Write the present solution and where its heat factor was made into ``state``."""
+    f = washer_fields(washer_model(b.par), b.work)
     n_temp, n = f.temp.size, f.p.size
     base = FIELDS + n_temp + n
     state[VALID] = 1.0
@@ -100,7 +98,7 @@ def remember_state(
         state[np.uintp(FIELDS + k)] = f.temp[np.uintp(k)]
     for k in range(n):
         state[np.uintp(FIELDS + n_temp + k)] = f.p[np.uintp(k)]
-    own_factor(par, f)
+    own_factor(b.par, f)
     state[FACTOR_VALID] = f.tag[0]
     state[FACTOR_SPEED], state[FACTOR_TILT] = f.tag[1], f.tag[2]
     state[FACTOR_OIL] = f.tag[7]

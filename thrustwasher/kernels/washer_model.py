@@ -19,10 +19,11 @@ from .spline import spline_weights
 
 N_PARAM = 32  # 31 fields of WasherParams, then the fidelity
 N_SCALAR = 16
+OUTER_RADIUS, SIGMA1, SIGMA2 = 1, N_PARAM + 3, N_PARAM + 4  # places in `par`
 TABLES = N_PARAM + N_SCALAR
 MESH = TABLES + 2 * N_TABLE
-N_RADIAL = 5  # arrays over the radial nodes
-N_AROUND = 7  # arrays over the angles
+N_RADIAL = 7  # arrays over the radial nodes
+N_AROUND = 8  # arrays over the angles
 COARSE_GRADING, FINE_GRADING = 1.6, 2.0  # best below and from FINE_FROM radial nodes
 FINE_FROM = 16
 ANGULAR_GRADING = 0.3
@@ -70,6 +71,8 @@ class WasherModel(NamedTuple):
     log_width: NDArray[np.float64]  # (n_r,) ln(outer/inner face)
     weight1: NDArray[np.float64]  # (n_r,) spline weights x r over ri..ro [m^2]
     weight2: NDArray[np.float64]  # (n_r,) the same over rig..ro, zero inside
+    along: NDArray[np.float64]  # (n_r,) outer face over the distance to the next node; last 0
+    gear_width: NDArray[np.float64]  # (n_r,) log_width, from rig outwards only
     cos: NDArray[np.float64]  # (n_t,) at nodes
     sin: NDArray[np.float64]
     cos_face: NDArray[np.float64]  # (n_t,) at the face between j and j + 1
@@ -77,6 +80,7 @@ class WasherModel(NamedTuple):
     weight_t: NDArray[np.float64]  # (n_t,) trapezoid weights [rad]
     width_t: NDArray[np.float64]  # (n_t,) cell widths [rad]
     step_t: NDArray[np.float64]  # (n_t,) from j to j + 1 [rad]
+    per_step: NDArray[np.float64]  # (n_t,) its reciprocal
 
 
 @kernel
@@ -136,6 +140,9 @@ def _mesh(par: NDArray[np.float64], n_r: int, n_t: int, i_g: int) -> bool:
     for i in range(n_r):
         face[i] = 0.5 * (r[i] + r[i + 1]) if i + 1 < n_r else ro
         log_width[i] = math.log(face[i] / (face[i - 1] if i > 0 else ri))
+    for i in range(n_r):
+        par[base + 5 * n_r + i] = face[i] / (r[i + 1] - r[i]) if i + 1 < n_r else 0.0
+        par[base + 6 * n_r + i] = math.log(face[i] / r[i]) if i == i_g else log_width[i]
     around = base + N_RADIAL * n_r
     scratch = par[around + N_AROUND * n_t :]
     good = spline_weights(r, weight1, n_r, scratch)
@@ -164,6 +171,7 @@ def _mesh(par: NDArray[np.float64], n_r: int, n_t: int, i_g: int) -> bool:
         par[k + 4 * n_t] = step * (1.0 - c * math.cos(s))
         par[k + 5 * n_t] = half - (s_before - c * math.sin(s_before))
         par[k + 6 * n_t] = step - c * (math.sin(s + step) - math.sin(s))
+        par[k + 7 * n_t] = 1.0 / par[k + 6 * n_t]
     return good
 
 
@@ -221,7 +229,9 @@ def washer_model(par: NDArray[np.float64]) -> WasherModel:
         par[TABLES : TABLES + N_TABLE], par[TABLES + N_TABLE : MESH],
         par[m : m + n_r], par[m + n_r : m + 2 * n_r], par[m + 2 * n_r : m + 3 * n_r],
         par[m + 3 * n_r : m + 4 * n_r], par[m + 4 * n_r : m + 5 * n_r],
+        par[m + 5 * n_r : m + 6 * n_r], par[m + 6 * n_r : m + 7 * n_r],
         par[a : a + n_t], par[a + n_t : a + 2 * n_t], par[a + 2 * n_t : a + 3 * n_t],
         par[a + 3 * n_t : a + 4 * n_t], par[a + 4 * n_t : a + 5 * n_t],
         par[a + 5 * n_t : a + 6 * n_t], par[a + 6 * n_t : a + 7 * n_t],
+        par[a + 7 * n_t : a + 8 * n_t],
     )  # fmt: skip

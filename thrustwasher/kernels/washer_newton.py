@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from ._jit import kernel
 from .banded import N_SIDES
 from .dense import dense_solve
-from .washer_fields import N_TAG, Fields, Point
+from .washer_fields import N_TAG, Bench, Fields, Point, washer_fields
 from .washer_film import evaluate_film, film_residual, film_solve
 from .washer_gap import FORCE, STIFF, evaluate_gaps, evaluate_viscosity
 from .washer_heat import factor_heat, heat_residual, heat_slopes, solve_heat
-from .washer_model import WasherModel
+from .washer_model import OUTER_RADIUS, SIGMA1, WasherModel, washer_model
 
 OK, MAX_ITERATIONS, SINGULAR, NOT_FINITE = 0, 10, 11, 14  # errors.Status; a test keeps them equal
 # modes and counts are floats: numba would compile anew for each integer constant
@@ -34,22 +34,24 @@ SYSTEM = 52  # (16,) scratch
 RIGHT = 68  # (8,) scratch
 TANGENT = 76  # (4,) dq/ds along the curve of solutions
 # places in `info`; iterations and factorings add up over the calls of one solve
-ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT, N_INFO = 0, 1, 2, 3, 4, 5, 8
+ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT = 0, 1, 2, 3, 4, 5
+ARRIVED, SCANNED, N_INFO = 6, 7, 8  # of a solve with memory: warm, after a descent
 
 
 @kernel
-def smooth_film(m: WasherModel, q: NDArray[np.float64]) -> float:
+def smooth_film(b: Bench, q: NDArray[np.float64]) -> float:
     """Return the smoothed least film thickness s [m] that mode FILM prescribes."""
-    e = 0.05 * m.sigma1
-    reach = m.outer_radius * m.outer_radius * (q[2] * q[2] + q[3] * q[3])
+    ro = b.par[OUTER_RADIUS]
+    e = 0.05 * b.par[SIGMA1]
+    reach = ro * ro * (q[2] * q[2] + q[3] * q[3])
     return float(q[0] - math.sqrt(reach + e * e))
 
 
 @kernel
-def film_ratio(m: WasherModel, q: NDArray[np.float64]) -> float:
+def film_ratio(b: Bench, q: NDArray[np.float64]) -> float:
     """Return the least film thickness over the disc in sigma."""
     tilt = math.sqrt(q[2] * q[2] + q[3] * q[3])
-    return float((q[0] - m.outer_radius * tilt) / m.sigma1)
+    return float((q[0] - b.par[OUTER_RADIUS] * tilt) / b.par[SIGMA1])
 
 
 @kernel
@@ -70,6 +72,14 @@ def make_factor(
     for k in range(n):
         f.tag[np.uintp(N_TAG + k)] = temp[np.uintp(k)]
     return True
+
+
+@kernel
+def factor_here(b: Bench, pt: Point, q: NDArray[np.float64]) -> bool:
+    """Make the heat factor at the present solution; gaps are already evaluated."""
+    m = washer_model(b.par)
+    f = washer_fields(m, b.work)
+    return make_factor(m, pt, q, f.temp, f)
 
 
 @kernel
@@ -181,13 +191,13 @@ def evaluate(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> fl
 
 @kernel
 def newton(
-    m: WasherModel, pt: Point, mode: float, target: float, q: NDArray[np.float64], f: Fields,
-    floor: float, tolerance: float, max_iterations: float, info: NDArray[np.float64],
+    b: Bench, pt: Point, mode: float, target: float, q: NDArray[np.float64], floor: float,
+    tolerance: float, max_iterations: float, info: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve for positions ``q``, temperatures ``f.temp`` and pressures ``f.p``; return a status.
 
-    The heat factor and slopes in ``f`` serve as long as each iteration gains a digit (chord); set
-    ``f.tag[0] = 0`` to have them made anew. Film, contacts and the system of four are always exact.
+    The heat factor and its slopes serve as long as each iteration gains a digit (chord), unless
+    ``forget_factor`` was called. Film, contacts and the system of four are always exact.
 
     Parameters
     ----------
@@ -199,6 +209,8 @@ def newton(
     info : (N_INFO,) iterations and factorings are added to; out: residual, load reached [N],
         dload/ds [N/m], heat made [W]
     """
+    m = washer_model(b.par)
+    f = washer_fields(m, b.work)
     n_temp = f.temp.size
     s = f.small
     before = math.inf
@@ -214,7 +226,7 @@ def newton(
         if mode == LOAD:
             error = max(error, abs(reached - target) / load)
         else:
-            error = max(error, abs(smooth_film(m, q) - target) / m.sigma1)
+            error = max(error, abs(smooth_film(b, q) - target) / m.sigma1)
         scale = max(p_max, 1e-6 * load / (m.outer_radius * m.outer_radius))
         error = max(error, pressure_error / scale)
         lost = 0.0
@@ -228,7 +240,7 @@ def newton(
             return OK
         if iteration == int(max_iterations):
             break
-        if film_ratio(m, q) < floor:
+        if film_ratio(b, q) < floor:
             break
         if error > 0.1 * before or f.tag[0] != 1.0:
             if not make_factor(m, pt, q, f.temp, f):

@@ -9,7 +9,6 @@ from ._jit import kernel
 from .washer_fields import Fields, Point
 from .washer_gap import CONTACT, FRICTION
 from .washer_model import WasherModel
-from .washer_newton import film_ratio
 
 # real outputs, in the order of the model's list, then what only Python shows
 TORQUE, MEAN_TEMPERATURE, FILM_THICKNESS, MAX_TEMPERATURE, RATIO = 0, 1, 2, 3, 4
@@ -46,7 +45,8 @@ def washer_outputs(
     out[TORQUE] = torque
     out[MEAN_TEMPERATURE] = pt.oil_temperature + mean / area
     out[MAX_TEMPERATURE] = pt.oil_temperature + max(hottest, mean / area)
-    out[RATIO] = film_ratio(m, q)
+    tilt = math.sqrt(q[2] * q[2] + q[3] * q[3])
+    out[RATIO] = (q[0] - m.outer_radius * tilt) / m.sigma1
     out[FILM_THICKNESS] = out[RATIO] * m.sigma1
     out[FLUID_LOAD], out[CONTACT_LOAD] = fluid, f.small[CONTACT]
     out[FLUID_SHARE] = fluid / (fluid + f.small[CONTACT])

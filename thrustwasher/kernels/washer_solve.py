@@ -18,7 +18,7 @@ from .washer_branch import (
     is_clear_film,
     solve_cold,
 )  # fmt: skip
-from .washer_fields import Fields, Point
+from .washer_fields import Bench, Point, forget_factor
 from .washer_memory import (
     BRANCH_NOW,
     MULTIPLICITY_NOW,
@@ -30,8 +30,9 @@ from .washer_memory import (
     recall_state,
     remember_state,
 )  # fmt: skip
-from .washer_model import WasherModel
+from .washer_model import SIGMA1
 from .washer_newton import (
+    ARRIVED,
     FACTORED,
     ITERATIONS,
     LOAD,
@@ -39,8 +40,9 @@ from .washer_newton import (
     NO_FLOOR,
     OK,
     REACHED_LOAD,
+    SCANNED,
+    factor_here,
     film_ratio,
-    make_factor,
     newton,
 )  # fmt: skip
 
@@ -61,38 +63,37 @@ def _scan_holds(pt: Point, state: NDArray[np.float64]) -> bool:
 
 @inlined
 def _warm(
-    m: WasherModel, pt: Point, wanted: float, state: NDArray[np.float64], q: NDArray[np.float64],
-    f: Fields, info: NDArray[np.float64], found: NDArray[np.float64],
+    b: Bench, pt: Point, wanted: float, state: NDArray[np.float64], q: NDArray[np.float64],
+    info: NDArray[np.float64], found: NDArray[np.float64],
 ) -> bool:  # fmt: skip
     """Solve from the remembered solution; return True if it arrived on the remembered branch."""
     branch = state[BRANCH_NOW]
     if branch == 0.0 or (wanted != ANY and wanted != branch):
         return False
-    if newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, WARM_TOLERANCE, 12.0, info) != OK:
+    if newton(b, pt, LOAD, pt.load, q, NO_FLOOR, WARM_TOLERANCE, 12.0, info) != OK:
         return False
     found[BRANCH], found[MULTIPLICITY] = branch, state[MULTIPLICITY_NOW]
-    if branch == FILM_BRANCH and is_clear_film(m, q, f, info):
+    if branch == FILM_BRANCH and is_clear_film(b, q, info):
         return True
-    ratio = film_ratio(m, q)
+    ratio = film_ratio(b, q)
     if abs(ratio - state[RATIO_THEN]) > CONTINUOUS or not _scan_holds(pt, state):
         return False
-    if info[LOAD_SLOPE] * m.sigma1 > -0.3 * info[REACHED_LOAD]:
+    if info[LOAD_SLOPE] * b.par[SIGMA1] > -0.3 * info[REACHED_LOAD]:
         # a fold may be near: the slope is needed with a heat factor made here
-        f.tag[0] = 0.0
-        if newton(m, pt, LOAD, pt.load, q, f, NO_FLOOR, WARM_TOLERANCE, 12.0, info) != OK:
+        forget_factor(b)
+        if newton(b, pt, LOAD, pt.load, q, NO_FLOOR, WARM_TOLERANCE, 12.0, info) != OK:
             return False
-        if not info[LOAD_SLOPE] < 0.0 or abs(film_ratio(m, q) - ratio) > 0.5 * CONTINUOUS:
+        if not info[LOAD_SLOPE] < 0.0 or abs(film_ratio(b, q) - ratio) > 0.5 * CONTINUOUS:
             return False
     if found[MULTIPLICITY] == SINGLE:
-        found[BRANCH] = FILM_BRANCH if film_ratio(m, q) >= FILM_RATIO else CONTACT_BRANCH
+        found[BRANCH] = FILM_BRANCH if film_ratio(b, q) >= FILM_RATIO else CONTACT_BRANCH
     return True
 
 
 @inlined
 def solve(
-    par: NDArray[np.float64], m: WasherModel, pt: Point, wanted: float, keep: bool,
-    state: NDArray[np.float64], q: NDArray[np.float64], f: Fields, info: NDArray[np.float64],
-    found: NDArray[np.float64], walk: NDArray[np.float64],
+    b: Bench, pt: Point, wanted: float, state: NDArray[np.float64], q: NDArray[np.float64],
+    info: NDArray[np.float64], found: NDArray[np.float64], walk: NDArray[np.float64],
 ) -> int:  # fmt: skip
     """Solve at ``pt``; return a status. The solution is in ``q`` and ``f``, evaluated.
 
@@ -100,7 +101,6 @@ def solve(
     ----------
     wanted : ANY (the remembered branch while it exists, else the other; without memory the film
         branch up to its fold), FILM_BRANCH or CONTACT_BRANCH
-    keep : write the solution to ``state`` (also that of the other branch if NO_BRANCH)
     found : out, branch and multiplicity (see washer_branch)
     """
     info[ITERATIONS], info[FACTORED] = 0.0, 0.0
@@ -108,30 +108,39 @@ def solve(
     arrived = False
     status = OK
     if state[VALID] == 1.0:
-        recall_state(par, m, state, q, f)
-        arrived = _warm(m, pt, wanted, state, q, f, info, found)
+        recall_state(b, state, q)
+        arrived = _warm(b, pt, wanted, state, q, info, found)
         if not arrived:
             before = state[BRANCH_NOW]
             if wanted == ANY and before == CONTACT_BRANCH:
-                status = descend(m, pt, CONTACT_BRANCH, q, f, info, found, walk)
+                status = descend(b, pt, CONTACT_BRANCH, q, info, found, walk)
                 if status == NO_BRANCH:
                     status = OK
                 scanned = True
     if not arrived and not scanned:
-        status = solve_cold(m, pt, wanted, q, f, info, found, walk)
+        status = solve_cold(b, pt, wanted, q, info, found, walk)
         scanned = found[MULTIPLICITY] != 0.0
-    if keep and (status == OK or status == NO_BRANCH):
-        if not arrived:  # a factor made here makes the next, warm solve quick
-            make_factor(m, pt, q, f.temp, f)
-        remember_state(par, pt, q, f, state)
-        state[BRANCH_NOW], state[MULTIPLICITY_NOW] = found[BRANCH], found[MULTIPLICITY]
-        state[RATIO_THEN] = film_ratio(m, q)
-        if scanned:
-            state[SCAN_SPEED], state[SCAN_TILT] = pt.speed, pt.tilt
-            state[SCAN_OIL] = pt.oil_temperature
-        elif not arrived:
-            state[SCAN_TILT] = -1.0
+    info[ARRIVED] = 1.0 if arrived else 0.0
+    info[SCANNED] = 1.0 if scanned else 0.0
     return status
+
+
+@inlined
+def keep_solution(
+    b: Bench, pt: Point, q: NDArray[np.float64], info: NDArray[np.float64],
+    found: NDArray[np.float64], state: NDArray[np.float64],
+) -> None:  # fmt: skip
+    """Write what ``solve`` has found to ``state``."""
+    if info[ARRIVED] == 0.0:  # a factor made here makes the next, warm solve quick
+        factor_here(b, pt, q)
+    remember_state(b, pt, q, state)
+    state[BRANCH_NOW], state[MULTIPLICITY_NOW] = found[BRANCH], found[MULTIPLICITY]
+    state[RATIO_THEN] = film_ratio(b, q)
+    if info[SCANNED] != 0.0:
+        state[SCAN_SPEED], state[SCAN_TILT] = pt.speed, pt.tilt
+        state[SCAN_OIL] = pt.oil_temperature
+    elif info[ARRIVED] == 0.0:
+        state[SCAN_TILT] = -1.0
 
 
 @kernel

@@ -152,9 +152,7 @@ def _solve(
     nodes: tuple[int, int], wanted: float, start: WasherResult | None,
 ) -> WasherResult:  # fmt: skip
     par = constants(params, nodes)
-    even = params.heat_split == 0.5
-    size = kernel.N_HEAD + size_of_work(*nodes, even_split=even)
-    work = work_array(("washer", nodes, even), size)
+    work = work_array(("washer", nodes), kernel.N_HEAD + size_of_work(*nodes))
     if start is not None and start.grid == nodes and start.params == params:
         state = start._state.copy()
     else:

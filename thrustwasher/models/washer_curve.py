@@ -20,7 +20,7 @@ from ..kernels.washer_curve import (
     step_down,
     walk_to,
 )  # fmt: skip
-from ..kernels.washer_fields import Point, size_of_work, washer_fields
+from ..kernels.washer_fields import Bench, Point, size_of_work, washer_fields
 from ..kernels.washer_memory import (
     BRANCH_NOW,
     MULTIPLICITY_NOW,
@@ -72,11 +72,10 @@ class _Walker:
     def __init__(self, params: WasherParams, point: Point, nodes: tuple[int, int]) -> None:
         self.params, self.pt, self.nodes = params, point, nodes
         self.par = constants(params, nodes)
-        even = params.heat_split == 0.5
-        size = kernel.N_HEAD + size_of_work(*nodes, even_split=even)
-        self.work = work_array(("washer", nodes, even), size)
+        self.work = work_array(("washer", nodes), kernel.N_HEAD + size_of_work(*nodes))
         self.m = washer_model(self.par)
-        self.f = washer_fields(self.m, self.work[kernel.N_HEAD :])
+        self.bench = Bench(self.par, self.work[kernel.N_HEAD :])
+        self.f = washer_fields(self.m, self.bench.work)
         a = N_INFO + kernel.N_FOUND
         b = a + N_WALK
         self.info, self.walk = self.work[:N_INFO], self.work[a:b]
@@ -95,21 +94,19 @@ class _Walker:
 
     def enter(self, load: float) -> None:
         """Go to where the washer carries less than ``load`` [N]."""
-        self._check(
-            enter_curve(self.m, self.pt, 6.0, self.q, self.f, self.info, self.walk), "entry"
-        )
+        self._check(enter_curve(self.bench, self.pt, 6.0, self.q, self.info, self.walk), "entry")
         while self.walk[W] > load and self.walk[S] < 1e3 * self.m.sigma1:
             self.to(1.25 * self.walk[S])
 
     def to(self, s: float) -> None:
         """Walk to a film thickness [m]."""
-        self._check(walk_to(self.m, self.pt, s, self.q, self.f, self.info, self.walk), "walking")
+        self._check(walk_to(self.bench, self.pt, s, self.q, self.info, self.walk), "walking")
 
     def fold(self, kind: str, upper: float, lower: float) -> Fold:
         """Locate a fold between two film thicknesses and come back."""
         kept = [a.copy() for a in (self.q, self.f.temp, self.f.p, self.walk)]
         self._check(
-            find_fold(self.m, self.pt, upper, lower, self.q, self.f, self.info, self.walk), kind
+            find_fold(self.bench, self.pt, upper, lower, self.q, self.info, self.walk), kind
         )
         load = float(self.walk[W])
         out = self.outputs()
@@ -129,7 +126,7 @@ class _Walker:
         pt = self.pt._replace(load=float(self.walk[W]))
         self.outputs()
         state = np.zeros(size_of_state(*self.nodes))
-        remember_state(self.par, pt, self.q, self.f, state)
+        remember_state(self.bench, pt, self.q, state)
         state[RATIO_THEN] = self.out[RATIO]
         state[SCAN_SPEED], state[SCAN_TILT], state[SCAN_OIL] = pt.speed, pt.tilt, pt.oil_temperature
         point = (pt.load, pt.speed, pt.tilt, pt.oil_temperature)
@@ -186,7 +183,7 @@ def load_curve(
     top = 0  # the highest point since the film was regained, the lowest since it was lost
     rising = True
     while points[-1].load < load_max or not rising:
-        walker.to(step_down(walker.m, walker.walk[S], FINEST))
+        walker.to(step_down(walker.m.sigma1, walker.walk[S], FINEST))
         places.append(float(walker.walk[S]))
         points.append(walker.result(fidelity))
         gain = points[-1].load - points[top].load

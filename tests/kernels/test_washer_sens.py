@@ -1,0 +1,175 @@
+"""Directional derivatives of the washer against differences of solutions converged to rounding."""
+
+import numpy as np
+import pytest
+
+from thrustwasher.kernels import washer_step as k
+from thrustwasher.kernels.washer_fields import Bench, Point, forget_factor, washer_fields
+from thrustwasher.kernels.washer_model import washer_model
+from thrustwasher.kernels.washer_newton import LOAD, NO_FLOOR, newton
+from thrustwasher.kernels.washer_outputs import washer_outputs
+from thrustwasher.models._prepare import filled
+from thrustwasher.models.washer_params import SPEC, WasherParams
+
+HEAD, OUT = k.N_HEAD, k.N_INFO + k.N_FOUND + k.N_WALK
+OK, SINGULAR = 0, 11
+NAMES = ("friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
+         "fluid_load_share", "friction_coefficient", "friction_power")  # fmt: skip
+STEPS = (1e-3, 1e-3, 2e-3)  # of load, speed, tilt, relative
+
+
+class Washer:
+    """Arrays of one washer; every solution is converged as far as rounding allows."""
+
+    def __init__(self, **changes):
+        self.par = filled(SPEC, WasherParams(**changes), "field", k.NPAR, k.derive).copy()
+        self.state, self.work = np.zeros(k.NSTATE), np.zeros(k.NWORK)
+        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+
+    def step(self, inp):
+        self.inp = np.array(inp, float)
+        return k.step(self.par, self.inp, self.state, self.work, self.out, self.iout, 0.0, 1e-3)
+
+    def polish(self, inp, keep_factor=False):
+        """Converge the solution in ``work`` at ``inp``; return the real outputs."""
+        bench, m = Bench(self.par, self.work[HEAD:]), washer_model(self.par)
+        f = washer_fields(m, bench.work)
+        factor = [a.copy() for a in (f.tag, f.factor, f.sens)]
+        q, pt = self.work[HEAD - 4 : HEAD], Point(*inp)
+        for _ in range(3):
+            forget_factor(bench)
+            newton(bench, pt, LOAD, pt.load, q, NO_FLOOR, 1e-14, 2.0, self.work[: k.N_INFO])
+        if keep_factor:
+            f.tag[:], f.factor[:], f.sens[:] = factor
+        out = self.work[OUT : OUT + k.N_ALL]
+        washer_outputs(m, pt, q, f, out)
+        return out[: k.NOUT].copy()
+
+    def differences(self, inp, i):
+        """Return central differences over input ``i``, extrapolated twice."""
+        kept, step = self.work.copy(), STEPS[i] * abs(inp[i]) if i < 3 else 0.5
+
+        def at(change):
+            moved = np.array(inp, float)
+            moved[i] += change
+            self.work[:] = kept
+            return self.polish(moved)
+
+        d1, d2, d3 = ((at(h) - at(-h)) / (2 * h) for h in (step, step / 2, step / 4))
+        self.work[:] = kept
+        return (16 * (4 * d3 - d2) / 3 - (4 * d2 - d1) / 3) / 15
+
+    def sens(self, inp, seed):
+        dout = np.full(k.NOUT, np.nan)
+        return k.sens(self.par, np.array(inp, float), self.state, self.work, seed, dout), dout
+
+
+POINTS = {
+    "thick film": (172.0, -1131.7, 0.002, 296.0),
+    "film": (466.0, 698.0, 0.0014, 315.0),
+    "mixed": (407.0, 1197.0, 0.0009, 396.0),
+    "mixed, no fold near": (251.0, -448.8, 0.0017, 383.0),
+    "boundary": (1155.0, -456.5, 0.0024, 368.0),
+    "distressed": (1722.0, 926.0, 0.0022, 319.0),
+}
+
+
+@pytest.mark.parametrize("factor", ["made here", "made before"])
+@pytest.mark.parametrize("place", POINTS)
+def test_derivatives_agree_with_differences_of_converged_solutions(place, factor):
+    inp = np.array(POINTS[place])
+    washer = Washer()
+    if factor == "made before":  # by steps of some percent, as in a run
+        for share in ((1.06, 1.02), (1.03, 0.99), (0.98, 1.005)):
+            assert washer.step(inp * [share[0], share[1], 1.0, 1.0]) == OK
+    assert washer.step(inp) == OK
+    washer.polish(inp, keep_factor=True)
+    scale = np.abs(washer.work[OUT : OUT + k.NOUT])
+    for i, seed in enumerate(np.eye(4)):
+        status, dout = washer.sens(inp, seed)
+        assert status == OK
+        expected = washer.differences(inp, i)
+        # a slope counts as nothing where 1 % of the input would not move 1e-5 of the output
+        floor = 1e-3 * scale / abs(inp[i])
+        error = np.abs(dout - expected) / np.maximum(np.abs(expected), floor)
+        assert error.max() < 1e-6, (NAMES[int(error.argmax())], i)
+
+
+@pytest.mark.parametrize("changes", [{"heat_split": 0.7}, {"friction_law": "constant"}])
+def test_derivatives_hold_for_other_parameters(changes):
+    washer, inp = Washer(**changes), np.array((600.0, 700.0, 0.0012, 320.0))
+    assert washer.step(inp) == OK
+    washer.polish(inp, keep_factor=True)
+    for i, seed in enumerate(np.eye(4)):
+        status, dout = washer.sens(inp, seed)
+        assert status == OK
+        expected = washer.differences(inp, i)
+        np.testing.assert_allclose(dout[:3], expected[:3], rtol=1e-6)
+
+
+def test_the_derivative_is_linear_in_its_seed():
+    washer, inp = Washer(), np.array(POINTS["film"])
+    washer.step(inp)
+    washer.polish(inp)
+    weights = np.array([2.0, -0.3, 1e-4, 0.7])
+    parts = sum(w * washer.sens(inp, e)[1] for w, e in zip(weights, np.eye(4), strict=True))
+    np.testing.assert_allclose(washer.sens(inp, weights)[1], parts, rtol=1e-9)
+
+
+def test_a_derivative_leaves_the_next_step_as_it_was():
+    inp = np.array(POINTS["mixed"])
+    one, two = Washer(), Washer()
+    for washer in (one, two):
+        washer.step(inp * [1.02, 1.0, 1.0, 1.0])
+        washer.step(inp)
+    for seed in np.eye(4):
+        assert two.sens(inp, seed)[0] == OK
+    for washer in (one, two):
+        washer.step(inp * [0.99, 1.0, 1.0, 1.0])
+    assert np.array_equal(one.out, two.out)
+    assert np.array_equal(one.state, two.state)
+
+
+def test_torque_is_odd_and_the_film_even_in_speed():
+    slopes = []
+    for speed in (700.0, -700.0):
+        washer, inp = Washer(), np.array((466.0, speed, 0.0014, 315.0))
+        washer.step(inp)
+        washer.polish(inp)
+        slopes.append(washer.sens(inp, np.array([0.0, 1.0, 0.0, 0.0]))[1])
+    np.testing.assert_allclose(slopes[0][0], slopes[1][0], rtol=1e-8)
+    np.testing.assert_allclose(slopes[0][2], -slopes[1][2], rtol=1e-8)
+
+
+def test_at_a_fold_there_is_no_derivative():
+    washer = Washer()
+    speed, tilt, oil = 545.0, 0.002, 297.15
+    low, high = 700.0, 900.0  # the film is lost between
+    for _ in range(60):
+        load = 0.5 * (low + high)
+        trial = Washer()
+        trial.step((load, speed, tilt, oil))
+        low, high = (low, load) if trial.iout[k.DISTRESS_OUT] else (load, high)
+    washer.step((low, speed, tilt, oil))
+    near = washer.sens((low, speed, tilt, oil), np.array([1.0, 0.0, 0.0, 0.0]))
+    away = Washer()
+    away.step((0.9 * low, speed, tilt, oil))
+    clear = away.sens((0.9 * low, speed, tilt, oil), np.array([1.0, 0.0, 0.0, 0.0]))
+    assert clear[0] == OK
+    assert near[0] == SINGULAR or abs(near[1][2]) > 100.0 * abs(clear[1][2])
+
+
+def test_held_inputs_have_no_derivative():
+    washer, inp = Washer(), np.array((0.5, 300.0, 0.0, 300.0))
+    assert washer.step(inp) == OK
+    for i in (0, 2):
+        status, dout = washer.sens(inp, np.eye(4)[i])
+        assert status == OK
+        assert not dout.any()
+
+
+def test_at_rest_with_contact_the_torque_has_no_slope_over_the_speed():
+    washer, inp = Washer(), np.array((500.0, 0.0, 0.002, 300.0))
+    assert washer.step(inp) == OK
+    assert washer.sens(inp, np.array([0.0, 1.0, 0.0, 0.0]))[0] == SINGULAR
+    assert washer.sens(inp, np.array([1.0, 0.0, 0.0, 0.0]))[0] == OK

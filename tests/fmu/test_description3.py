@@ -89,10 +89,10 @@ def test_the_flags_are_these(spec):
     assert flags.pop("maxOutputDerivativeOrder") == "0"
     assert {flag for flag, said in flags.items() if said == "true"} == {
         "canHandleVariableCommunicationStepSize", "canGetAndSetFMUState", "canSerializeFMUState",
-        "providesDirectionalDerivatives",
+        "providesDirectionalDerivatives", "providesAdjointDerivatives",
     }  # fmt: skip
     assert {flag for flag, said in flags.items() if said == "false"} == {
-        "needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess", "providesAdjointDerivatives",
+        "needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess",
         "providesIntermediateUpdate", "mightReturnEarlyFromDoStep", "hasEventMode",
         "canReturnEarlyAfterIntermediateUpdate",
     }  # fmt: skip

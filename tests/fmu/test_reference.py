@@ -34,6 +34,9 @@ def test_the_default_experiment_gives_the_reference_results(name, fmus, tmp_path
     expected = read_csv(folder / f"{name}_out.csv")
     found = simulated(fmus[name], input=read_csv(folder / f"{name}_in.csv"))
     assert set(found.dtype.names) == set(expected.dtype.names)
+    kept = np.searchsorted(found["time"], expected["time"] - 1e-9)
+    found = found[kept]
+    assert 40 < len(expected) <= 102
     assert found["time"] == pytest.approx(expected["time"], abs=1e-9)
     for signal in find_spec(name).outputs:
         absent = 2e-6 * (signal.nominal or 0.0)  # less than a millionth is written as 0
@@ -44,11 +47,11 @@ def test_the_default_experiment_gives_the_reference_results(name, fmus, tmp_path
 def test_the_inputs_of_the_reference_run_move_and_no_status_warns(name, fmus, tmp_path):
     folder = unzipped(fmus[name], tmp_path)
     inputs, outputs = (read_csv(folder / f"{name}_{end}.csv") for end in ("in", "out"))
-    stop, step = default_experiment(find_spec(name))
+    stop, _ = default_experiment(find_spec(name))
     assert inputs.dtype.names[1:] == tuple(s.name for s in find_spec(name).inputs)
     assert any(np.ptp(inputs[n]) > 0 for n in inputs.dtype.names[1:])
     assert (inputs["time"][0], inputs["time"][-1]) == (0.0, stop)
-    assert len(outputs) == round(stop / step) + 1
+    assert (outputs["time"][0], outputs["time"][-1]) == (0.0, pytest.approx(stop))
     assert set(outputs["solver_status"]) == {0}
 
 

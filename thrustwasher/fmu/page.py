@@ -4,78 +4,73 @@ import base64
 from collections.abc import Sequence
 from html import escape
 
+from ..errors import Status
 from ..models._spec import ModelSpec
+from . import page_text as said
+from .accuracy import CARDS, NOTE
+from .curve import curve
 from .icon import icon
 from .interface import Variable, enumerations, variables
+from .markup import markup
 from .reference import FOLDER
 from .registry import package_version
+from .tags import table
+from .wiring import wiring
 
-STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60em;margin:2em auto;padding:0 1em;
-color:#263242}table{border-collapse:collapse;width:100%;margin:1em 0}
-td:nth-child(3){min-width:7em}
-th,td{border:1px solid #c4ccd4;padding:.25em .5em;text-align:left;vertical-align:top}
-th{background:#eef1f4}code,pre{background:#f4f6f8}pre{padding:1em;overflow:auto}"""
-
-NEEDS = """<p>This FMU runs in Python: the importing process must be, or find, a Python with the
-package <code>thrustwasher</code> of version {version}
-(<code>pip install thrustwasher=={version}</code>). Another version is refused at instantiation with
-a message that names both. The first run on a machine compiles the model, which takes seconds to
-minutes; later runs load the result.</p>"""
-
-FAILS = """<ul>
-<li>A value outside its range, or NaN, is not taken over: the old value stays, the message names
-variable, value, unit and range, <code>solver_status</code> shows BAD_INPUT, and the next step is
-refused until a good value is set.</li>
-<li>A step without a solution leaves every value as it was before the step.
-<code>solver_status</code> and the message say why. The call returns fmi2Discard: the library this
-target is built on cannot return fmi2Error. Treat it as a failed step, not as the end of the run.
-A step with better input works again.</li>
-<li>The complete state can be saved, restored and serialized.</li>
-<li>Values read after setting an input, without a step, are those at the new input.</li>
-</ul>"""
-
-CHECK = """<p>Simulate the default experiment with the inputs of
-<code>{folder}/{model}_in.csv</code> (linear between the rows, those at the beginning of a step hold
-during it) and compare with <code>{model}_out.csv</code> beside it.</p>"""
+Parts = list[str]
 
 
 def page(
     spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str]
 ) -> str:
-    """Return the page; ``equations`` is the model's readme, shown as it is."""
+    """Return the page; ``equations`` is the model's readme, its first line the title."""
     found = variables(spec)
-    picture = base64.b64encode(icon(spec.name)).decode("ascii")
     parts = [
-        f"<h1>{escape(spec.name)}</h1><p>{escape(spec.help)}.</p>",
-        f'<p><img alt="icon" width="200" height="200" src="data:image/png;base64,{picture}"></p>',
-        "<h2>What it needs</h2>", NEEDS.format(version=escape(package_version())),
-        *_section("Inputs", found, "input"), *_section("Outputs", found, "output"),
-        "<h2>How to wire it</h2>", _wiring(spec),
-        *_section("Parameters", found, "parameter"),
+        *_head(spec), *_needs(target, platforms),
+        "<h2>Inputs</h2>", _variables(found, "input"),
+        "<h2>Outputs</h2>", _outputs(found),
+        "<h2>How to wire it</h2>", wiring(spec),
+        "<h2>Parameters</h2>", _variables(found, "parameter"),
         "<h2>Enumerations</h2>", _enumerations(spec),
-        "<h2>When something goes wrong</h2>", FAILS,
-        "<h2>To check an installation</h2>", CHECK.format(folder=FOLDER, model=spec.name),
-        f"<h2>Equations</h2><pre>{escape(equations)}</pre>",
-        f"<h2>Origin</h2><p>thrustwasher {escape(package_version())}, GUID {escape(guid)}</p>",
+        "<h2>When something goes wrong</h2>", said.FAILS[target], _statuses(),
+        "<h2>To check an installation</h2>", said.CHECK.format(folder=FOLDER, model=spec.name),
+        *_accuracy(spec), "<h2>Equations and validity</h2>", _equations(equations),
+        *_origin(target, fmi, guid),
     ]  # fmt: skip
-    title = f"<title>{escape(spec.name)}</title><style>{STYLE}</style>"
+    title = f"<title>{escape(spec.name)}</title><style>{said.STYLE}</style>"
     head = f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{title}</head>'
     return head + "<body>\n" + "\n".join(parts) + "\n</body></html>\n"
 
 
-def _section(title: str, found: tuple[Variable, ...], causality: str) -> list[str]:
+def _head(spec: ModelSpec) -> Parts:
+    picture = base64.b64encode(icon(spec.name)).decode("ascii")
+    return [
+        f"<h1>{escape(spec.name)}</h1><p>{escape(spec.help)}.</p>",
+        f'<p><img alt="icon" width="120" height="120" src="data:image/png;base64,{picture}"></p>',
+        curve(spec),
+    ]
+
+
+def _needs(target: str, platforms: Sequence[str]) -> Parts:
+    needs = said.NEEDS[target].format(
+        version=escape(package_version()), platforms=escape(", ".join(platforms))
+    )
+    hosts = table(("host", "state"), said.HOSTS[target])
+    unsigned = said.UNSIGNED if target == "native" else ""
+    return ["<h2>What it needs</h2>", needs, "<h2>Tested on, not tested on</h2>", hosts, unsigned]
+
+
+def _variables(found: tuple[Variable, ...], causality: str) -> str:
     shown = [v for v in found if v.causality == causality]
-    if causality == "output":
-        outputs = [(v.name, _unit(v), v.help) for v in shown]
-        return [f"<h2>{title}</h2>", _table(("name", "unit", "meaning"), outputs)]
     rows = [(v.name, _unit(v), _allowed(v), f"{v.start:g}", v.help) for v in shown]
-    return [f"<h2>{title}</h2>", _table(("name", "unit", "allowed", "start", "meaning"), rows)]
+    return (
+        "<p>None.</p>" if not rows else table(("name", "unit", "allowed", "start", "meaning"), rows)
+    )
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = ["".join(f"<th>{cell}</th>" for cell in head)]
-    lines += ["".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows]
-    return "<table>" + "\n".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
+def _outputs(found: tuple[Variable, ...]) -> str:
+    outputs = [(v.name, _unit(v), v.help) for v in found if v.causality == "output"]
+    return table(("name", "unit", "meaning"), outputs)
 
 
 def _unit(v: Variable) -> str:
@@ -89,23 +84,37 @@ def _allowed(v: Variable) -> str:
 def _enumerations(spec: ModelSpec) -> str:
     found = enumerations(spec).items()
     rows = [(name, str(i.value), i.name, i.help) for name, items in found for i in items]
-    return _table(("enumeration", "number", "item", "meaning"), rows)
+    return table(("enumeration", "number", "item", "meaning"), rows)
 
 
-def _wiring(spec: ModelSpec) -> str:
-    through = [s.name for s in spec.outputs if s.depends]
-    lines = [
-        "All values are SI. Outputs are valid after the initialization and at the end of each step."
+def _statuses() -> str:
+    rows = [
+        (str(int(s)), s.name, "failure" if s.is_failure else "advice" if s else "-", s.advice)
+        for s in sorted(Status)
     ]
-    if through:
-        lines.append(
-            "These outputs follow the inputs at once, so that a master with fixed steps sees them "
-            f"one step late: {', '.join(through)}."
-        )
-    lines.append(f"Suggested step: {spec.step_size:g} s.")
-    plugs = [
-        (t.name, t.kind, ", ".join(f"{member} = {name}" for name, member, _ in t.members), t.help)
-        for t in spec.terminals
+    head = ("solver_status", "name", "kind", "what it means, what to do")
+    told = "<p>Advice comes with a solution and one warning; a failure with an error.</p>"
+    return told + table(head, rows)
+
+
+def _accuracy(spec: ModelSpec) -> Parts:
+    card = CARDS.get(spec.name)
+    if not card:
+        return []
+    rows = [(m.quantity, m.against, m.worst) for m in card]
+    head = ("quantity", "measured against", "largest difference")
+    return ["<h2>Accuracy</h2>", table(head, rows), f"<p>{escape(NOTE)}</p>"]
+
+
+def _equations(readme: str) -> str:
+    title, _, rest = readme.partition("\n")
+    return markup(rest if title.startswith("# ") else readme, level=2)
+
+
+def _origin(target: str, fmi: int, guid: str) -> Parts:
+    version = escape(package_version())
+    return [
+        "<h2>Origin</h2>",
+        f"<p>thrustwasher {version}, target {target}, FMI {fmi}.0 co-simulation, GUID {guid}. "
+        "Licences of everything inside: the folder licenses beside this page.</p>",
     ]
-    text = "".join(f"<p>{escape(line)}</p>" for line in lines)
-    return text + _table(("terminal", "kind", "members", "meaning"), plugs)

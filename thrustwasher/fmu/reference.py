@@ -17,6 +17,7 @@ ROOT = {
     "fmi-ls:fmi-ls-description": "Layered Standard providing information on related files "
     "included in an FMU.",
 }
+ROWS = 100  # of the results, about: a row for each step would be half of the FMU
 Rows = list[list[float]]
 
 
@@ -24,19 +25,21 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
     """Run the default experiment with the model's kernels and return the files that tell of it.
 
     The inputs of a step are those of ``<Model>_in.csv`` at its beginning, linear between the rows;
-    a row of ``<Model>_out.csv`` holds the outputs at its time, the end of a step. Written are what
-    processors agree on: nine digits, and 0 for less than a millionth of the nominal value.
+    a row of ``<Model>_out.csv`` holds the outputs at its time, the end of a step; about a hundred
+    rows are kept. Written are what processors agree on: nine digits, and 0 for less than a
+    millionth of the nominal value.
     """
     files = {}
     if spec.course:
         names = [signal.name for signal in spec.inputs]
-        files[f"{spec.name}_in.csv"] = table(names, [list(row) for row in spec.course])
+        files[f"{spec.name}_in.csv"] = table(names, input_rows(spec))
     names = [signal.name for signal in spec.outputs]
-    files[f"{spec.name}_out.csv"] = table(names, reference_run(spec))
+    rows = reference_run(spec)
+    files[f"{spec.name}_out.csv"] = table(names, rows[:: max(1, len(rows) // ROWS)])
     root = Element("fmiReferences", ROOT)
     told = {
         "in": ("testcase", "inputs of the default experiment, linear between the rows"),
-        "out": ("result", "outputs of the default experiment, a row for each step"),
+        "out": ("result", "outputs of the default experiment, at the ends of some of its steps"),
     }
     for name in files:
         role, meaning = told[name.rpartition("_")[2].removesuffix(".csv")]
@@ -46,21 +49,30 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
     return {f"{FOLDER}/{name}": content for name, content in files.items()}
 
 
-def reference_run(spec: ModelSpec) -> Rows:
-    """Return rows of time and all outputs over the default experiment."""
-    stop, h = default_experiment(spec)
+def input_rows(spec: ModelSpec) -> Rows:
+    """Return rows of time and all inputs, linear between; one row where no input moves."""
     starts = [signal.start or 0.0 for signal in spec.inputs]
-    course = np.array(spec.course or [(0.0, *starts)])
+    return [list(row) for row in spec.course] or [[0.0, *starts]]
+
+
+def reference_run(spec: ModelSpec, *, rounded: bool = True) -> Rows:
+    """Return rows of time and all outputs over the default experiment.
+
+    ``rounded``: numbers of less than a millionth of the nominal value become 0.
+    """
+    stop, h = default_experiment(spec)
+    course = np.array(input_rows(spec))
     times = h * np.arange(round(stop / h) + 1)
     columns = [np.interp(times, course[:, 0], values) for values in course.T[1:]]
     points = np.reshape(columns, (len(columns), len(times))).T.tolist()
+    shown = _rounded if rounded else lambda spec, values: values
     with DirectInstance(spec) as model:
         model.initialize(0.0, dict(zip(model.input_names, points[0], strict=True)))
-        rows = [[0.0, *_rounded(spec, model.outputs())]]
+        rows = [[0.0, *shown(spec, model.outputs())]]
         for i, point in enumerate(points[:-1]):
             model.set_inputs(point)
             model.step(i * h, h)
-            rows.append([(i + 1) * h, *_rounded(spec, model.outputs())])
+            rows.append([(i + 1) * h, *shown(spec, model.outputs())])
     return rows
 
 
@@ -69,7 +81,8 @@ def _rounded(spec: ModelSpec, values: list[float]) -> list[float]:
     return [0.0 if abs(x) < 1e-6 * (signal.nominal or 0.0) else x for signal, x in pairs]
 
 
-def table(names: list[str], rows: Rows) -> bytes:
+def table(names: list[str], rows: Rows, digits: int = 9) -> bytes:
     """Return comma-separated values, time first."""
     head = ",".join(f'"{name}"' for name in ("time", *names))
-    return "\n".join([head, *(",".join(f"{x:.9g}" for x in row) for row in rows), ""]).encode()
+    lines = [",".join(f"{x:.{digits}g}" for x in row) for row in rows]
+    return "\n".join([head, *lines, ""]).encode()

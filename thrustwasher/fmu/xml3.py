@@ -12,8 +12,6 @@ CAPABILITIES = {
     "canBeInstantiatedOnlyOncePerProcess": "false",
     "canGetAndSetFMUState": "true",
     "canSerializeFMUState": "true",
-    "providesDirectionalDerivatives": "false",
-    "providesAdjointDerivatives": "false",
     "canHandleVariableCommunicationStepSize": "true",
     "maxOutputDerivativeOrder": "0",
     "providesIntermediateUpdate": "false",
@@ -21,18 +19,19 @@ CAPABILITIES = {
     "canReturnEarlyAfterIntermediateUpdate": "false",
     "hasEventMode": "false",
 }
+DERIVATIVES = ("providesDirectionalDerivatives", "providesAdjointDerivatives")
 # Enumerations are read and written as 64-bit integers, whole numbers as 32-bit ones.
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 SECTIONS = {"outputs": "Output", "initial": "InitialUnknown"}
 
 
 def description(spec: ModelSpec, *, guid: str, derivatives: bool = False) -> Element:
-    """Return the model description; ``derivatives``: the binary has directional ones."""
+    """Return the model description; ``derivatives``: the binary has derivatives."""
     root = Element("fmiModelDescription", {
         "fmiVersion": "3.0", "instantiationToken": guid, **parts.head(spec),
     })  # fmt: skip
-    flags = CAPABILITIES | {"providesDirectionalDerivatives": str(derivatives).lower()}
-    SubElement(root, "CoSimulation", {"modelIdentifier": spec.name, **flags})
+    given = dict.fromkeys(DERIVATIVES, str(derivatives).lower())
+    SubElement(root, "CoSimulation", {"modelIdentifier": spec.name, **CAPABILITIES, **given})
     found = variables(spec)
     parts.add_units(root, found)
     _types(root, spec, found)

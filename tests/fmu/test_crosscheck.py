@@ -42,7 +42,7 @@ def test_the_folders_are_those_of_the_rules(written):
 def test_fmpy_gets_the_reference_within_the_tolerance(written):
     _, _, places = written
     folder = places[0]
-    options = dict(csv.reader((folder / f"{NAME}_ref.opt").open()))
+    options = dict(csv.reader((folder / f"{NAME}_ref.opt").read_text().splitlines()))
     expected = read_csv(folder / f"{NAME}_ref.csv")
     messages = []
     found = simulate_fmu(
@@ -61,7 +61,7 @@ def test_fmpy_gets_the_reference_within_the_tolerance(written):
 
 def test_the_options_are_those_of_the_default_experiment(written):
     _, _, places = written
-    options = dict(csv.reader((places[0] / f"{NAME}_ref.opt").open()))
+    options = dict(csv.reader((places[0] / f"{NAME}_ref.opt").read_text().splitlines()))
     experiment = read_model_description(str(places[0] / f"{NAME}.fmu")).defaultExperiment
     assert {k: float(v) for k, v in options.items()} == {
         "StartTime": float(experiment.startTime), "StopTime": float(experiment.stopTime),

@@ -105,7 +105,8 @@ def test_the_figures_of_the_card_stand_in_the_document(name):
     text = ACCURACY.read_text("utf-8")
     for row in CARDS[name]:
         for figure in row.worst.split(" / "):
-            assert re.search(rf"(?<![\d.]){re.escape(figure)}(?![\d])", text), figure
+            number = re.escape(figure.split()[0])  # in the document one unit may serve several
+            assert re.search(rf"(?<![\d.]){number}(?![\d])", text), figure
 
 
 def test_every_model_has_a_card_and_a_curve_of_its_own():

@@ -97,6 +97,7 @@ def slope(spec: ModelSpec, point: dict[str, float]) -> float:
         model.initialize(0.0, point)
         torques = []
         for end in (-WIDTH, WIDTH):
-            model.set_inputs(list((point | {"speed": point["speed"] + end}).values()))
+            moved = point | {"speed": point["speed"] + end}
+            model.set_inputs([moved[name] for name in model.input_names])
             torques += model.get(["friction_torque"])
     return (torques[1] - torques[0]) / (2.0 * WIDTH)

@@ -138,6 +138,6 @@ def contents(
     note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     shared = common_contents(
         spec, target=target, fmi=fmi, guid=guid, equations=readme(folder), platforms=platforms,
-        reference=reference,
+        runs=reference,
     )  # fmt: skip
     return shared | own

@@ -16,16 +16,18 @@ from .xml_parts import text
 
 def common_contents(
     spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str],
-    reference: bool = True,
+    runs: bool = True,
 ) -> dict[str, bytes]:  # fmt: skip
     """Return the files that describe an FMU; only FMI 2 tools look for ``model.png``.
 
-    Without ``reference`` the model need not run, and so not be compiled for this Python.
+    Unless it ``runs``, the model need not be compiled for this Python: the page has no curve then,
+    and there are no reference results.
     """
     derivatives = target == "native" and has_derivatives(spec)
     written = (xml if fmi == 2 else xml3).description(spec, guid=guid, derivatives=derivatives)
     picture = icon(spec.name)
-    told = page(spec, target=target, fmi=fmi, guid=guid, equations=equations, platforms=platforms)
+    told = page(spec, target=target, fmi=fmi, guid=guid, equations=equations, platforms=platforms,
+                runs=runs)  # fmt: skip
     return {
         "modelDescription.xml": text(written),
         **({"model.png": picture} if fmi == 2 else {}),
@@ -33,7 +35,7 @@ def common_contents(
         "terminalsAndIcons/terminalsAndIcons.xml": text(terminals_and_icons(spec)),
         "documentation/index.html": told.encode(),
         **licences(target, platforms),
-        **(reference_files(spec) if reference else {}),
+        **(reference_files(spec) if runs else {}),
     }
 
 

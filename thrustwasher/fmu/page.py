@@ -21,15 +21,20 @@ Parts = list[str]
 
 
 def page(
-    spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str]
-) -> str:
-    """Return the page; ``equations`` is the model's readme, its first line the title."""
+    spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str],
+    runs: bool = True,
+) -> str:  # fmt: skip
+    """Return the page.
+
+    ``equations`` is the model's readme, its first line the title. With ``runs`` = False the model
+    is not run for it, and need not be compiled for this Python: no curve, no slope.
+    """
     found = variables(spec)
     parts = [
-        *_head(spec), *_needs(target, platforms),
+        *_head(spec), curve(spec) if runs else "", *_needs(target, platforms),
         "<h2>Inputs</h2>", _variables(found, "input"),
         "<h2>Outputs</h2>", _outputs(found),
-        "<h2>How to wire it</h2>", wiring(spec),
+        "<h2>How to wire it</h2>", wiring(spec, runs=runs),
         "<h2>Parameters</h2>", _variables(found, "parameter"),
         "<h2>Enumerations</h2>", _enumerations(spec),
         "<h2>When something goes wrong</h2>", said.FAILS[target], _statuses(),
@@ -47,7 +52,6 @@ def _head(spec: ModelSpec) -> Parts:
     return [
         f"<h1>{escape(spec.name)}</h1><p>{escape(spec.help)}.</p>",
         f'<p><img alt="icon" width="120" height="120" src="data:image/png;base64,{picture}"></p>',
-        curve(spec),
     ]
 
 

@@ -53,14 +53,17 @@ cures it. A linearly implicit master that uses the directional derivatives (nati
 limit.</p>"""
 
 
-def wiring(spec: ModelSpec) -> str:
-    """Return advice, feedthrough, the limit of explicit coupling and the terminals as HTML."""
+def wiring(spec: ModelSpec, *, runs: bool = True) -> str:
+    """Return advice, feedthrough, the limit of explicit coupling and the terminals as HTML.
+
+    The limit names the model's own slope if the model ``runs`` for it.
+    """
     lines = [*GENERAL, f"Suggested step: {spec.step_size:g} s.", *ADVICE.get(spec.name, ())]
     plugs = [
         (t.name, t.kind, ", ".join(f"{member} = {name}" for name, member, _ in t.members), t.help)
         for t in spec.terminals
     ]
-    parts = [list_of(lines), _feedthrough(spec), _limit(spec)]
+    parts = [list_of(lines), _feedthrough(spec), _limit(spec, runs)]
     if plugs:
         parts.append(table(("terminal", "kind", "members", "meaning"), plugs))
     return "\n".join(filter(None, parts))
@@ -78,10 +81,12 @@ def _feedthrough(spec: ModelSpec) -> str:
     )
 
 
-def _limit(spec: ModelSpec) -> str:
+def _limit(spec: ModelSpec, runs: bool) -> str:
     inputs, outputs = ({s.name: s for s in side} for side in (spec.inputs, spec.outputs))
     if "speed" not in inputs or "friction_torque" not in outputs:
         return ""
+    if not runs:
+        return LIMIT.format(slope="")
     point = {s.name: s.start or s.nominal or 0.0 for s in spec.inputs}
     said = [
         f"{slope(spec, point | {'speed': v}):.1e} at {v:g} rad/s" for v in (0.0, point["speed"])

@@ -1,0 +1,193 @@
+"""Native FMUs: what lies inside, what checkers say, that building repeats, how large they are."""
+
+import subprocess
+import sys
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import read_model_description, simulate_fmu
+from fmpy.util import read_csv
+from lxml import etree
+
+from thrustwasher.errors import EnvironmentProblem, ParameterError
+from thrustwasher.fmu import native_contents
+from thrustwasher.fmu.build import build
+from thrustwasher.fmu.interface import all_specs, find_spec
+from thrustwasher.fmu.native.link import find_linker
+from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.fmu.reference import FOLDER
+from thrustwasher.fmu.registry import has_derivatives
+from thrustwasher.fmu.validate import validate
+
+SMALL = "GearMesh"
+LARGEST = 300_000  # bytes of an FMU with the libraries of every platform
+NAMES = [spec.name for spec in all_specs()]
+TOOLS = Path(sys.executable).parent
+
+
+def linkable():
+    try:
+        return find_linker().platforms
+    except EnvironmentProblem:
+        return ()
+
+
+pytestmark = pytest.mark.skipif(
+    "linux64" not in linkable(), reason="no C compiler for Linux: pip install ziglang, or gcc"
+)
+everywhere = pytest.mark.skipif(
+    len(linkable()) < len(PLATFORMS), reason="pip install ziglang to link for every platform"
+)
+each_fmi = pytest.mark.parametrize("fmi", [2, 3])
+
+
+@pytest.fixture(scope="module")
+def packed(tmp_path_factory):
+    """Return a function: the FMU of a model for Linux, made once."""
+    made, out = {}, tmp_path_factory.mktemp("dist")
+
+    def make(name, fmi):
+        if (name, fmi) not in made:
+            (made[name, fmi],) = build([name], fmi=fmi, out=out, platforms=["linux64"])
+        return made[name, fmi]
+
+    return make
+
+
+@pytest.fixture(scope="module", params=[2, 3])
+def whole(request, tmp_path_factory):
+    """A small model for every platform: FMI version, contents, sentences said while building."""
+    said = []
+    (path,) = build(
+        [SMALL], fmi=request.param, out=tmp_path_factory.mktemp("dist"), note=said.append
+    )
+    with zipfile.ZipFile(path) as zipped:
+        return request.param, {n: zipped.read(n) for n in zipped.namelist()}, said
+
+
+@pytest.mark.parametrize("name", NAMES)
+@each_fmi
+def test_checkers_find_nothing(name, fmi, packed):
+    fmu = packed(name, fmi)
+    assert validate(fmu) == []
+    done = subprocess.run([TOOLS / "fmpy", "validate", fmu], capture_output=True, text=True)
+    assert (done.returncode, done.stdout.strip()) == (0, "No problems found."), done.stderr
+    command = [TOOLS / "fmutool", "-input", fmu, "-check"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    said = done.stdout + done.stderr
+    assert f"seems to be compliant with FMI-{fmi}.0" in said
+    assert not [line for line in said.splitlines() if line.startswith(("ERROR", "WARN", "CRIT"))]
+
+
+@pytest.mark.parametrize("name", NAMES)
+@each_fmi
+def test_the_default_experiment_gives_the_reference_results(name, fmi, packed, tmp_path):
+    with zipfile.ZipFile(packed(name, fmi)) as zipped:
+        zipped.extractall(tmp_path)
+    expected = read_csv(tmp_path / FOLDER / f"{name}_out.csv")
+    given = tmp_path / FOLDER / f"{name}_in.csv"
+    found = simulate_fmu(
+        str(packed(name, fmi)), output=expected.dtype.names[1:],
+        input=read_csv(given) if given.is_file() else None,
+    )  # fmt: skip
+    found = found[np.searchsorted(found["time"], expected["time"] - 1e-9)]
+    assert found["time"] == pytest.approx(expected["time"], abs=1e-9)
+    for signal in find_spec(name).outputs:
+        absent = 2e-6 * (signal.nominal or 0.0)  # less than a millionth is written as 0
+        assert found[signal.name] == pytest.approx(expected[signal.name], rel=1e-8, abs=absent)
+
+
+@everywhere
+def test_every_platform_has_its_library_at_its_place(whole):
+    fmi, files, said = whole
+    folders = {"linux64": "so", "win64": "dll", "aarch64-linux": "so", "darwin64": "dylib"}
+    if fmi == 3:
+        folders = {"x86_64-linux": "so", "x86_64-windows": "dll", "aarch64-linux": "so",
+                   "x86_64-darwin": "dylib", "aarch64-darwin": "dylib"}  # fmt: skip
+    expected = {f"binaries/{folder}/{SMALL}.{ending}" for folder, ending in folders.items()}
+    assert {name for name in files if name.startswith("binaries/")} == expected
+    starts = {"so": b"\x7fELF", "dll": b"MZ", "dylib": b"\xcf\xfa\xed\xfe"}
+    if fmi == 2:
+        starts["dylib"] = b"\xca\xfe\xba\xbe\0\0\0\2"  # both processors in one file
+    for name in expected:
+        assert files[name].startswith(starts[name.rpartition(".")[2]]), name
+    assert [s for s in said if s.startswith(SMALL) and s.split()[-1] in PLATFORMS]
+
+
+@everywhere
+def test_everything_a_user_looks_for_is_inside_and_nothing_else(whole):
+    fmi, files, _ = whole
+    tree = etree.fromstring(files["modelDescription.xml"])
+    guid = tree.get("guid" if fmi == 2 else "instantiationToken")
+    page = files["documentation/index.html"].decode()
+    assert guid in page and f"FMI {fmi}.0" in page and ", ".join(PLATFORMS) in page
+    for name, content in files.items():
+        if name.startswith("binaries/"):
+            assert guid.encode() in content, name
+            assert b"/tmp/" not in content and b"/root/" not in content, name
+        if name.startswith("documentation/licenses/"):
+            assert len(content.strip()) > 200
+    assert ("model.png" in files) == (fmi == 2)
+    assert {n.split("/")[0] for n in files} - {"model.png"} == {
+        "modelDescription.xml", "binaries", "documentation", "terminalsAndIcons", "extra",
+    }  # fmt: skip
+    assert not [n for n in files if n.endswith((".py", ".o", ".pdb", ".lib"))]
+
+
+def test_the_description_says_derivatives_where_the_kernels_have_them(packed):
+    for name in NAMES:
+        two, three = (read_model_description(str(packed(name, fmi))) for fmi in (2, 3))
+        said = two.coSimulation.providesDirectionalDerivative
+        assert said == three.coSimulation.providesDirectionalDerivatives
+        assert said == has_derivatives(find_spec(name))
+        assert two.guid != three.guid
+
+
+@each_fmi
+def test_building_again_elsewhere_gives_the_same_bytes(fmi, tmp_path, packed, run_child):
+    code = (
+        "import sys; from pathlib import Path; from thrustwasher.fmu.build import build;"
+        "build(['CommandSource'], fmi=int(sys.argv[2]), out=Path(sys.argv[1]),"
+        "      platforms=['linux64'])"
+    )
+    run_child(code, tmp_path, fmi)
+    again = tmp_path / f"native-fmi{fmi}" / "CommandSource.fmu"
+    assert again.read_bytes() == packed("CommandSource", fmi).read_bytes()
+
+
+@everywhere
+def test_building_for_every_platform_repeats(tmp_path):
+    one, two = (
+        build(["CommandSource"], out=tmp_path / folder)[0].read_bytes() for folder in ("a", "b/c")
+    )
+    assert one == two
+
+
+def test_without_zig_there_is_this_platform_alone_and_it_is_said(monkeypatch):
+    alone = replace(find_linker(), name="gcc", platforms=("linux64",))
+    monkeypatch.setattr(native_contents, "find_linker", lambda: alone)
+    said = []
+    assert native_contents.chosen(None, said.append) == ("linux64",)
+    assert len(said) == 1 and "linux64 only" in said[0] and "ziglang" in said[0]
+    with pytest.raises(
+        ParameterError, match=r"platform = 'win64', allowed here: linux64; for .* zig"
+    ):
+        native_contents.chosen(["win64"], said.append)
+
+
+def test_an_unknown_platform_is_refused(tmp_path):
+    with pytest.raises(ParameterError, match="platform = 'amiga', allowed: linux64, win64"):
+        build([SMALL], out=tmp_path, platforms=["amiga"])
+    assert list(tmp_path.iterdir()) == []
+
+
+@everywhere
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NAMES)
+@each_fmi
+def test_an_fmu_for_every_platform_is_small(name, fmi, tmp_path):
+    (path,) = build([name], fmi=fmi, out=tmp_path)
+    assert path.stat().st_size <= LARGEST

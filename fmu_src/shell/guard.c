@@ -80,10 +80,10 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
     g->mode = INSTANTIATED;
     if (g->name && fits(g, type, guid, why) && (g->inner = guard_start(g, why))) return g;
     if (!*why)
-        snprintf(why, TEXT, "the slave does not start in Python %.*s (%.1000s); put the Python "
-                 "that has the package thrustwasher first on PATH, or set FMU_LIBPYTHON; see "
-                 "documentation/externalDependencies.txt", (int)strcspn(guard_version(), " "),
-                 guard_version(), guard_library());
+        snprintf(why, TEXT, "the message before says why; this is Python %.*s%s",
+                 (int)strcspn(guard_version(), " "), guard_version(),
+                 guard_embeds() ? " started for this FMU: that of python3 on PATH, or the one "
+                 "FMU_LIBPYTHON names" : "");
     guard_say(g, fmi2Error, LOG_ERROR, "%s cannot be instantiated: %s", MODEL_NAME, why);
     forget(g);
     return NULL;

@@ -48,6 +48,8 @@ extern Pythonfmu guard_inner;
 fmi2Component guard_start(const Guard *g, char *why);
 /* Have a lasting thread state of Python in this thread; 0 if Python has ended. */
 int guard_pin(void);
+/* Is Python in this process only for FMUs? */
+int guard_embeds(void);
 /* The Python that runs, for messages: its version and the file it is in. */
 const char *guard_version(void);
 const char *guard_library(void);

@@ -42,6 +42,7 @@ int guard_symbol(void *in, const char *name, void *target) {
     return found != NULL;
 }
 
+int guard_embeds(void) { return thrustwasher_shared.embedded; }
 const char *guard_library(void) { return library; }
 const char *guard_version(void) { return python.version ? python.version() : ""; }
 
@@ -49,7 +50,7 @@ const char *guard_version(void) { return python.version ? python.version() : "";
    In a Python host that started it, every thread that matters has one. */
 int guard_pin(void) {
     if (!ready || !python.is_initialized()) return 0;
-    if (thrustwasher_shared.embedded && !python.this_thread()) {
+    if (guard_embeds() && !python.this_thread()) {
         python.ensure();
         pthread_setspecific(own_state, python.save_thread());
     }

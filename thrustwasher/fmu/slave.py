@@ -74,8 +74,8 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
                 f"{type(self).digest}), this Python has {ours} (content {content_digest(spec)}): "
                 f"{cure}build the FMU again"
             )
-            # pythonfmu drops this message if the host has not switched logging on
-            logging.getLogger("thrustwasher").error("%s", problem)
+            if not self.guarded:  # pythonfmu drops messages unless the host has logging on
+                logging.getLogger("thrustwasher").error("%s", problem)
             raise problem
         self.core = Core(spec)
         self.warned = 0
@@ -110,7 +110,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
 
     @_safe
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance; False (fmi2Discard) after a failure, with everything as it was."""
+        """Advance; False after a failure, with everything as it was."""
         expected = self.core.time
         self.core.advance(current_time, step_size)
         if abs(current_time - expected) > 1e-6 * step_size:

@@ -9,6 +9,7 @@ from ..models._spec import ModelSpec
 from . import archive
 from .build import Note, build
 from .interface import all_specs, find_spec
+from .native_contents import chosen
 from .reference import input_rows, reference_run, table
 from .registry import package_version
 from .xml_parts import default_experiment
@@ -65,17 +66,22 @@ def write_cross_check(
     if fmi not in FOLDERS:
         raise ParameterError(f"fmi = {fmi!r}, allowed: 2 or 3")
     specs = [find_spec(model) for model in models] if models else all_specs()
+    folders = {f: p for f, p in FOLDERS[fmi].items() if p in chosen(None, _silent)}
     written = []
     for spec in specs:
-        with tempfile.TemporaryDirectory() as folder:
-            (fmu,) = build([spec.key], fmi=fmi, out=Path(folder), note=note)
+        with tempfile.TemporaryDirectory() as temporary:
+            (fmu,) = build([spec.key], fmi=fmi, out=Path(temporary), note=note)
             files = {fmu.name: fmu.read_bytes(), **reference(spec)}
-        for folder, platform in FOLDERS[fmi].items():
+        for folder, platform in folders.items():
             place = out / "fmus" / f"{fmi}.0" / "cs" / folder / TOOL / package_version() / spec.name
             for name, content in {**files, "README.md": _readme(spec, fmi, platform)}.items():
                 archive.write(place / name, content)
             written.append(place)
     return written
+
+
+def _silent(sentence: str) -> None:
+    """Say nothing."""
 
 
 def reference(spec: ModelSpec) -> dict[str, bytes]:

@@ -11,6 +11,7 @@ from .native.targets import PLATFORMS, Platform
 from .universal import universal
 
 Note = Callable[[str], None]
+CURE = "pip install 'thrustwasher[build]'"
 
 
 def chosen(platforms: Sequence[str] | None, note: Note) -> tuple[str, ...]:
@@ -18,15 +19,14 @@ def chosen(platforms: Sequence[str] | None, note: Note) -> tuple[str, ...]:
     possible = find_linker().platforms
     if platforms is None:
         if len(possible) < len(PLATFORMS):
-            note(f"building for {', '.join(possible)} only: for all platforms pip install ziglang")
+            note(f"building for {', '.join(possible)} only; for all platforms: {CURE}")
         return possible
     for name in platforms:
         if name not in PLATFORMS:
             raise ParameterError(f"platform = {name!r}, allowed: {', '.join(PLATFORMS)}")
         if name not in possible:
             raise ParameterError(
-                f"platform = {name!r}, allowed here: {', '.join(possible)}; for the others pip "
-                "install ziglang"
+                f"platform = {name!r}, allowed here: {', '.join(possible)}; for the others: {CURE}"
             )
     return tuple(name for name in PLATFORMS if name in platforms)
 

@@ -69,4 +69,4 @@ HOSTS = {
 }
 UNSIGNED = """<p>The libraries are not signed: a virus scanner or Windows itself may block a file
 that came from the internet. Unblock the FMU in its properties before you unpack or import it, or
-build it yourself from the sources: the same version gives the same bytes.</p>"""
+build it yourself from the sources: the same version and compilers give the same bytes.</p>"""

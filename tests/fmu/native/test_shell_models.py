@@ -1,14 +1,17 @@
 """The models' own libraries: the same bits and words as the Python core, bare in a C host."""
 
+import importlib
 import math
 import random
 
+import numpy as np
 import pytest
 from shell_runs import GUID, MADE, model_library, needs_linux, run, taking
 from twin import Twin
 
+from thrustwasher.errors import SolveError
 from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.registry import find_spec, kernel_module
 
 pytestmark = needs_linux
 CHEAP = ["clutch", "gearmesh", "transmission", "command"]
@@ -91,3 +94,39 @@ def test_a_fresh_process_goes_on_to_the_bit(model, tmp_path):
     run(2, library, begun + before + f"save 0\nwrite 0 {file}\n")
     fresh = run(2, library, MADE + f"read 0 {file}\nrestore 0\n" + after)
     assert [r.values for r in fresh if r.values] == [r.values for r in whole if r.values]
+
+
+@pytest.mark.parametrize("model", ["clutch", "gearmesh", "transmission"])
+def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model):
+    spec, rng = find_spec(model), random.Random(11)
+    kernel = importlib.import_module(kernel_module(spec.kernel))
+    if not hasattr(kernel, "sens"):
+        pytest.skip(f"the kernel of {model} has no derivatives")
+    twin = Twin(spec, GUID)
+    outputs = [v for v in variables(spec) if v.store == "out" and v.depends]
+    inputs = [v for v in variables(spec) if v.causality == "input"]
+
+    def slope(unknown, seed):
+        core = twin.core
+        core.refresh()
+        dout = np.zeros(kernel.NOUT)
+        status = kernel.sens(core.par, core.inp, core.state, core.work, np.array(seed), dout)
+        if status >= 10:
+            raise SolveError(status)
+        return [float(dout[unknown.slot])]
+
+    def ask():
+        for unknown in outputs:
+            known = rng.choice([v for v in inputs if v.name in unknown.depends])
+            seed = [float(v is known) for v in inputs]
+            twin._ask(f"derive {unknown.reference} {known.reference} 1",
+                      lambda u=unknown, s=seed: slope(u, s))  # fmt: skip
+
+    twin.begin()
+    twin.leave()
+    for i in range(40):
+        twin.put(**jump(spec, rng))
+        ask()
+        twin.step(i * H, H)
+        ask()
+    twin.check(run(2, model_library(model, 2), twin.script), words=False)

@@ -7,7 +7,7 @@ from typing import Any
 from ...errors import FIRST_FAILURE, Status
 from ...models._spec import ModelSpec
 from ..interface import Variable, enumerations, variables
-from ..registry import count_places, load_kernel
+from ..registry import count_places, kernel_module, load_kernel
 from ..xml import LOG_CATEGORIES, log_categories
 from . import calls
 
@@ -125,8 +125,7 @@ def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, li
 
 
 def _has(spec: ModelSpec, entry: str) -> bool:
-    name = spec.kernel if "." in spec.kernel else f"thrustwasher.kernels.{spec.kernel}"
-    return hasattr(importlib.import_module(name), entry)
+    return hasattr(importlib.import_module(kernel_module(spec.kernel)), entry)
 
 
 def _tables(lists: dict[str, tuple[str, list[str]]]) -> str:

@@ -5,6 +5,7 @@ pythonfmu's library alone and says so in documentation/externalDependencies.txt.
 """
 
 from dataclasses import replace
+from importlib import metadata
 
 from ..errors import EnvironmentProblem
 from ..models._spec import ModelSpec
@@ -21,7 +22,7 @@ _LIBRARIES = ("-ldl", "-lpthread")  # of their own until glibc 2.34
 
 
 def guard_library(spec: ModelSpec, *, guid: str) -> bytes | None:
-    """Return the guard of a model for Linux on x86-64; None if there is no C compiler.
+    """Return the guard of a model for Linux on x86-64; None if there is no compiler for it.
 
     Parameters
     ----------
@@ -44,11 +45,12 @@ def guard_library(spec: ModelSpec, *, guid: str) -> bytes | None:
 
 
 def compiler() -> str:
-    """Return name and version of the C compiler that can build the guard, "" if there is none."""
+    """Return name and version of what can build the guard, "" if something is missing."""
     try:
         from .native.link import find_linker
 
-        found = find_linker()
+        found, headers = find_linker(), metadata.version("fmpy")
     except (ImportError, EnvironmentProblem):
         return ""
-    return f"{found.name} {found.version}" if "linux64" in found.platforms else ""
+    known = "linux64" in found.platforms
+    return f"{found.name} {found.version}, fmpy {headers}" if known else ""

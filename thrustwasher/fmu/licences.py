@@ -6,6 +6,7 @@ from importlib import metadata
 from pathlib import Path
 
 from ..errors import EnvironmentProblem
+from .guard import compiler
 
 PLACE = "documentation/licenses"
 SUMMARY = """Parts of this FMU and their licences; the full texts are beside this file.
@@ -25,16 +26,18 @@ NATIVE = {
 ZIG = {"start-up code of zig": ("zig.txt", "MIT", "in every library")}
 MINGW = {"start-up code of mingw-w64": ("mingw-w64.txt", "ZPL-2.1 and others", "in win64")}
 PYTHON = {
-    "slave": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
+    "slave and guard": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
     "library and modules of pythonfmu": ("pythonfmu.txt", "MIT", "binaries, resources"),
 }
+GUARD = ("FMI headers", "code from LLVM and compiler-rt")  # of these it has something too
 
 
 def licences(target: str, platforms: Sequence[str] = ()) -> dict[str, bytes]:
     """Return the notices of everything in an FMU, by path; none is empty."""
-    parts = dict(PYTHON)
+    zig = ZIG if _has("ziglang") else {}
+    inside = {part: NATIVE[part] for part in GUARD} | zig if compiler() else {}
+    parts = PYTHON | {part: (*given[:2], "in the guard") for part, given in inside.items()}
     if target == "native":
-        zig = ZIG if _has("ziglang") else {}
         mingw = MINGW if "win64" in platforms else {}
         parts = NATIVE | zig | mingw
     files = {name: _text(name) for name, _, _ in parts.values()}

@@ -37,12 +37,17 @@ bit.</li>
 changes what follows.</li>
 </ul>""",
     "python": """<ul>
-<li>A value outside its range, or NaN, is not taken over: the old value stays, the message names
-variable, value, unit and range, <code>solver_status</code> shows BAD_INPUT, and the next step is
-refused until a good value is set.</li>
-<li>A step without a solution leaves every value as it was before the step.
-<code>solver_status</code> and the message say why. Treat it as a failed step, whether the call
-returns an error or Discard, not as the end of the run. A step with better input works again.</li>
+<li>A value outside its range, NaN, infinity or an unknown reference: the call returns an error and
+takes nothing over. The message names variable, value, unit and range, <code>solver_status</code>
+shows BAD_INPUT, and the next step is refused until a good value is set.</li>
+<li>A step without a solution leaves every value as it was before the step and returns an error (not
+Discard). <code>solver_status</code> and the message say why. A step with better input works
+again.</li>
+<li>Where no Python with the package is found, there is no instance, and the message says what to
+do.</li>
+<li>On Windows, or when this file was built without a C compiler (see externalDependencies.txt), the
+library that returns these errors is missing: only a step can fail there, and returns Discard. Look
+at <code>solver_status</code>.</li>
 <li>The complete state can be saved, restored and serialized.</li>
 <li>Values read after setting an input, without a step, are those at the new input.</li>
 </ul>""",

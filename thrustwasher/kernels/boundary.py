@@ -51,7 +51,16 @@ def friction(x: float, shear_ratio: float, plough_weight: float, hardness_ratio:
 def shear_ratio(
     speed: float, floor: float, stick_speed: float, decay_speed: float, kink_width: float
 ) -> float:
-    """Return the shear ratio s/s_m [-] at the slip speed [m/s] at the mean radius.
+    """Return the shear ratio s/s_m [-] of ``shear_and_slope`` at a slip speed [m/s]."""
+    ratio, _ = shear_and_slope(abs(speed), floor, stick_speed, decay_speed, kink_width)
+    return ratio
+
+
+@kernel
+def shear_and_slope(
+    speed: float, floor: float, stick_speed: float, decay_speed: float, kink_width: float
+) -> tuple[float, float]:
+    """Return the shear ratio s/s_m [-] at the slip speed [m/s >= 0] at the mean radius; its slope.
 
     It is 1 up to ``stick_speed`` and falls exponentially towards ``floor`` above. With
     ``kink_width`` > 0 the corner is rounded by a softplus of that width.
@@ -61,11 +70,13 @@ def shear_ratio(
     Source: the prose of Wang, Wei & Wu (2012); the figure is lost and the constants are chosen
     so that the harmonic mean of the friction over 0..3000 rpm is the paper's 0.053.
     """
-    beyond = abs(speed) - stick_speed
+    beyond, rise = speed - stick_speed, 1.0
     if kink_width > 0.0:
         u = beyond / kink_width
         if u < 30.0:
-            beyond = kink_width * math.log1p(math.exp(max(u, -700.0)))
+            growth = math.exp(max(u, -700.0))
+            beyond, rise = kink_width * math.log1p(growth), growth / (1.0 + growth)
     elif beyond < 0.0:
-        beyond = 0.0
-    return floor + (1.0 - floor) * math.exp(-min(beyond / decay_speed, 700.0))
+        beyond, rise = 0.0, 0.0
+    decay = math.exp(-min(beyond / decay_speed, 700.0))
+    return floor + (1.0 - floor) * decay, -(1.0 - floor) * decay * rise / decay_speed

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from . import clutch_layout as L
 from ._jit import kernel
-from .boundary import shear_ratio
+from .boundary import shear_and_slope
 from .film import INV_SQRT2PI, mean_gap
-from .lining_table import area_integrals, contact_integral, separation
+from .lining_table import area_integrals, contact_integral, separation_and_slope
 from .roelands import viscosity
 
 Array = NDArray[np.float64]
@@ -19,57 +19,88 @@ FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
 
 @kernel
 def shear_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
-    """Return the shear ratio s/s_m [-] at a slip [rad/s] and temperature [K], and its slope [1/K].
-
-    The temperature acts by ``shear_temperature_slope`` (0: not at all); the ratio stays in 0 .. 1.
-    """
-    ratio = shear_ratio(
-        slip * par[L.D_RADIUS], par[L.P_SHEAR_FLOOR], par[L.P_STICK_SPEED], par[L.P_DECAY_SPEED],
-        par[L.P_KINK_WIDTH],
-    )  # fmt: skip
-    slope = par[L.P_SHEAR_TEMPERATURE_SLOPE]
-    if slope == 0.0:
-        return ratio, 0.0
-    warm = ratio * (1.0 + slope * (temperature - par[L.P_REFERENCE_TEMPERATURE]))
-    if warm >= 1.0 or warm <= 0.0:
-        return (1.0 if warm >= 1.0 else 0.0), 0.0
-    return warm, ratio * slope
+    """Return the shear ratio s/s_m [-] and its slope [1/K] of ``shear_slopes``."""
+    ratio, slope, _ = shear_slopes(par, slip, temperature)
+    return ratio, slope
 
 
 @kernel
-def tabled(par: Array, speed: float) -> float:
-    """Return the coefficient [-] of the table at a slip speed [m/s]: straight between its points.
+def shear_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
+    """Return the shear ratio s/s_m [-] and its slopes over temperature [1/K] and |slip| [s/rad].
 
-    Beyond the last point the last value holds. The slope jumps at the points.
+    The temperature acts by ``shear_temperature_slope`` (0: not at all); the ratio stays in 0 .. 1.
+    """
+    ratio, steepness = shear_and_slope(
+        abs(slip) * par[L.D_RADIUS], par[L.P_SHEAR_FLOOR], par[L.P_STICK_SPEED],
+        par[L.P_DECAY_SPEED], par[L.P_KINK_WIDTH],
+    )  # fmt: skip
+    steepness *= par[L.D_RADIUS]
+    slope = par[L.P_SHEAR_TEMPERATURE_SLOPE]
+    if slope == 0.0:
+        return ratio, 0.0, steepness
+    factor = 1.0 + slope * (temperature - par[L.P_REFERENCE_TEMPERATURE])
+    warm = ratio * factor
+    if warm >= 1.0 or warm <= 0.0:
+        return (1.0 if warm >= 1.0 else 0.0), 0.0, 0.0
+    return warm, ratio * slope, factor * steepness
+
+
+@kernel
+def tabled(par: Array, speed: float) -> tuple[float, float]:
+    """Return the coefficient [-] of the table at a slip speed [m/s], and its slope [s/m].
+
+    Straight between the points; beyond the last one its value holds. The slope jumps at the points:
+    there it is that above.
     """
     low, value = 0.0, par[L.P_TABLE_FRICTION_0]
     for k in range(L.N_TABLE):
         high = par[np.uintp(L.P_TABLE_SPEED_1 + 2 * k)]
         after = par[np.uintp(L.P_TABLE_FRICTION_1 + 2 * k)]
         if speed < high:
-            return value + (after - value) * (speed - low) / (high - low)
+            rise, width = after - value, high - low
+            return value + rise * (speed - low) / width, rise / width
         low, value = high, after
-    return value
+    return value, 0.0
 
 
 @kernel
 def coefficient_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
     """Return the coefficient of boundary friction [-] and its slope over temperature [1/K]."""
+    mu, slope, _ = coefficient_slopes(par, slip, temperature)
+    return mu, slope
+
+
+@kernel
+def coefficient_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
+    """Return the coefficient of boundary friction [-], its slopes over temperature and |slip|."""
     if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == L.CONSTANT_LAW:
-        return par[L.P_CONSTANT_FRICTION], 0.0
+        return par[L.P_CONSTANT_FRICTION], 0.0, 0.0
     if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
-        return tabled(par, abs(slip) * par[L.D_RADIUS]), 0.0
-    ratio, slope = shear_of(par, slip, temperature)
-    return par[L.D_PLOUGH] + par[L.D_ADHESION] * ratio, par[L.D_ADHESION] * slope
+        mu, steepness = tabled(par, abs(slip) * par[L.D_RADIUS])
+        return mu, 0.0, steepness * par[L.D_RADIUS]
+    ratio, slope, steepness = shear_slopes(par, slip, temperature)
+    adhesion = par[L.D_ADHESION]
+    return par[L.D_PLOUGH] + adhesion * ratio, adhesion * slope, adhesion * steepness
 
 
 @kernel
 def settled_ratio(par: Array, load: float, guess: float) -> tuple[float, int, int]:
     """Return (film thickness over roughness where the asperities carry all, status, iterations)."""
+    ratio, _, status, iterations = settled_slope(par, load, guess)
+    return ratio, status, iterations
+
+
+@kernel
+def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, int, int]:
+    """Return the film ratio where the asperities carry all, its slope over the load [1/N].
+
+    With them status and number of iterations. A pack pressed less than OPEN_PRESSURE is open.
+    """
     pressure = load / par[L.D_AREA]
     if pressure < L.OPEN_PRESSURE:
-        return par[L.D_OPEN_RATIO], L.OK, 0
-    return separation(pressure / par[L.D_PRESSURE], guess)
+        return par[L.D_OPEN_RATIO], 0.0, L.OK, 0
+    ratio, slope, status, iterations = separation_and_slope(pressure / par[L.D_PRESSURE], guess)
+    return ratio, slope / load, status, iterations
 
 
 @kernel
@@ -78,19 +109,35 @@ def contact_torque(
 ) -> tuple[float, float, float, float, float]:
     """Return the torque [N m >= 0] of the asperities at the film ratio ``u``; slopes; pressure.
 
-    (torque, d/du, d/dT [N m/K], contact pressure p_c [Pa], dp_c/du). The asperities never carry
-    more than the load, also where a film that still opens presses them harder.
+    (torque, d/du, d/dT [N m/K], contact pressure p_c [Pa], dp_c/du) of ``contact_slopes``.
+    """
+    torque, by_film, by_heat, _, _, pressure, rise = contact_slopes(
+        par, load, slip, u, temperature
+    )  # fmt: skip
+    return torque, by_film, by_heat, pressure, rise
+
+
+@kernel
+def contact_slopes(
+    par: Array, load: float, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the asperities at the film ratio ``u``; slopes; pressure.
+
+    (torque, d/du, d/dT [N m/K], d/d|slip|, d/dload, contact pressure p_c [Pa], dp_c/du). The
+    asperities never carry more than the load, also where a film that still opens presses them
+    harder.
     """
     height, slope = contact_integral(u)
     pressure, rise = par[L.D_PRESSURE] * height, par[L.D_PRESSURE] * slope
-    mu, mu_slope = coefficient_of(par, slip, temperature)
+    mu, mu_slope, mu_slip = coefficient_slopes(par, slip, temperature)
     lever = par[L.P_FACES] * par[L.D_RADIUS]
     carried = pressure * par[L.D_AREA]
-    grows = rise * par[L.D_AREA]
+    grows, presses = rise * par[L.D_AREA], 0.0
     if carried > load:
-        carried, grows = load, 0.0
+        carried, grows, presses = load, 0.0, 1.0
     return (
-        lever * mu * carried, lever * mu * grows, lever * mu_slope * carried, pressure, rise
+        lever * mu * carried, lever * mu * grows, lever * mu_slope * carried,
+        lever * mu_slip * carried, lever * mu * presses, pressure, rise,
     )  # fmt: skip
 
 
@@ -147,10 +194,24 @@ def viscous_torque(
 ) -> tuple[float, float, float, float, float, float]:
     """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity and its slope.
 
-    (torque, d/du, d/dT, eta [Pa s], d eta/dT, share of the area in contact). Couette flow over
-    the mean gap h_T where there is no contact. With a given oil supply the gap is full up to the
-    slip at which centrifugal force pumps more than is supplied, above it in the proportion of the
-    two.
+    (torque, d/du, d/dT, eta [Pa s], d eta/dT, share of the area in contact) of ``viscous_slopes``.
+    """
+    torque, by_film, by_heat, _, eta, eta_slope, share, _ = viscous_slopes(
+        par, slip, u, temperature
+    )  # fmt: skip
+    return torque, by_film, by_heat, eta, eta_slope, share
+
+
+@kernel
+def viscous_slopes(
+    par: Array, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity; contact share.
+
+    (torque, d/du, d/dT, d/d|slip|, eta [Pa s], d eta/dT, share of the area in contact, its d/du).
+    Couette flow over the mean gap h_T where there is no contact. With a given oil supply the gap
+    is full up to the slip at which centrifugal force pumps more than is supplied, above it in the
+    proportion of the two.
     """
     scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
     eta, eta_slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
@@ -158,6 +219,7 @@ def viscous_torque(
     gap, gap_slope = mean_gap(u, 1.0)
     open_share, open_slope = sheared_share(gap_slope, u)
     full = par[L.D_VISCOUS] * eta * abs(slip) / gap
+    power = 1.0  # of |slip| in the torque
     relative_u = -gap_slope / gap
     relative_t = eta_slope / eta
     if par[L.P_SHEAR_HEATING] != 0.0 and eta_slope < 0.0:
@@ -166,24 +228,32 @@ def viscous_torque(
             / par[L.P_OIL_CONDUCTIVITY]
         )  # fmt: skip
         full *= thinned
+        power += 2.0 * steepness
         reduced = 135.0 + temperature - 273.15
         relative_t += steepness * (relative_t - (par[L.P_VISCOSITY_EXPONENT] + 1.0) / reduced)
     if par[L.D_SUPPLY] > 0.0:
         demand = par[L.D_DEMAND] * slip * slip * gap * gap * gap / eta
         if demand > par[L.D_SUPPLY]:
             full *= par[L.D_SUPPLY] / demand
+            power -= 2.0
             relative_u *= 4.0
             relative_t += eta_slope / eta
     full *= open_share
     relative_u += open_slope
     torque = full * (1.0 - share)
+    if slip != 0.0:
+        by_slip = power * torque / abs(slip)
+    else:
+        by_slip = par[L.D_VISCOUS] * eta / gap * open_share * (1.0 - share)
     return (
         torque,
         torque * relative_u - full * share_slope,
         torque * relative_t,
+        by_slip,
         eta,
         eta_slope,
         share,
+        share_slope,
     )
 
 

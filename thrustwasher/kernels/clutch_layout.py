@@ -50,7 +50,22 @@ W_STAGES = 3 * NY
 W_SUBSTEPS = W_STAGES + N_STAGES * NY  # counts: accepted and refused substeps
 W_REFUSED = W_SUBSTEPS + 1
 W_PROPOSED = W_SUBSTEPS + 2  # size [s] the next substep should have
-NWORK = W_SUBSTEPS + 3
+W_DURATION = W_SUBSTEPS + 3  # the step [s] that all this belongs to
+# Slopes behind the outputs shown: of both torques (>= 0) over load, |slip|, film ratio, interface
+# temperature; of the other outputs; film ratio over the load where it settles with it.
+(
+    W_CONTACT, W_CONTACT_LOAD, W_CONTACT_SLIP, W_CONTACT_FILM, W_CONTACT_HEAT,
+    W_VISCOUS, W_VISCOUS_SLIP, W_VISCOUS_FILM, W_VISCOUS_HEAT,
+    W_FRICTION_SLIP, W_FRICTION_HEAT, W_SHARE_FILM, W_VISCOSITY_HEAT, W_SMOOTH, W_SETTLED_LOAD,
+) = range(W_SUBSTEPS + 4, W_SUBSTEPS + 19)  # fmt: skip
+# Slopes at each stage of the last substep, then where the drift of the rates was read: of the film
+# rate over film ratio and temperature, of the power over both; of rate, power over the load; of the
+# power over the slip.
+W_KEPT, N_KEPT = W_SUBSTEPS + 19, 7
+W_VARIED = W_KEPT + (N_STAGES + 1) * N_KEPT  # changes of the unknowns with the inputs
+W_VARIED_DRIFT = W_VARIED + NY
+W_VARIED_STAGES = W_VARIED + 2 * NY
+NWORK = W_VARIED_STAGES + N_STAGES * NY
 
 (
     O_TORQUE, O_TEMPERATURE, O_FILM, O_CAPACITY, O_COEFFICIENT, O_RATIO, O_POWER, O_ENERGY,

@@ -72,23 +72,32 @@ def contact_integral(u: float) -> tuple[float, float]:
 
 @kernel
 def separation(pressure_ratio: float, guess: float) -> tuple[float, int, int]:
-    """Return (u, status, iterations) with F_5/2(u) = ``pressure_ratio`` [-].
+    """Return (u, status, iterations) of ``separation_and_slope``."""
+    u, _, status, iterations = separation_and_slope(pressure_ratio, guess)
+    return u, status, iterations
 
-    Newton on ln F_5/2, which is concave and falling: from any start the second iterate lies on
-    the far side of the root and the rest approach it from there, so no bracket is needed.
+
+@kernel
+def separation_and_slope(pressure_ratio: float, guess: float) -> tuple[float, float, int, int]:
+    """Return u with F_5/2(u) = ``pressure_ratio`` [-], and its slope over that ratio's logarithm.
+
+    With them status and number of iterations. Newton on ln F_5/2, which is concave and falling:
+    from any start the second iterate lies on the far side of the root and the rest approach it
+    from there, so no bracket is needed.
     """
     if not pressure_ratio > 1e-30:
-        return 11.0, 0, 0
+        return 11.0, 0.0, 0, 0
     goal = math.log(pressure_ratio)
-    u = min(guess, 8.0)
+    u, per = min(guess, 8.0), 0.0
     for n in range(N_TRIES):
         five, slope = contact_integral(u)
-        step = (goal - math.log(five)) * five / slope
+        per = five / slope
+        step = (goal - math.log(five)) * per
         u += step
         if abs(step) < 1e-12 * (1.0 + abs(u)):
-            return u, 0, n + 1
+            return u, per, 0, n + 1
         u = min(u, 13.0)
-    return u, MAX_ITERATIONS, N_TRIES
+    return u, per, MAX_ITERATIONS, N_TRIES
 
 
 @kernel

@@ -76,12 +76,20 @@ def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> Non
 
 
 @kernel
-def keep(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
+def kinetic_start(par: Array, state: Array, dt: float) -> float:
+    """Return the kinetic energy at the start [J]; -1 before any step: that of now."""
+    if state[L.S_STARTED] != 0.0:
+        return float(state[L.S_KINETIC_START])
+    if dt == 0.0:
+        return -1.0
+    sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
+    return float(motion.kinetic_energy(par, sun, (sun + r * ring) / (1.0 + r)))
+
+
+@kernel
+def keep(inp: Array, state: Array, work: Array, start: float, dt: float) -> None:
     """Take the result of a step over into the memory."""
-    if state[L.S_STARTED] == 0.0:
-        sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
-        start = motion.kinetic_energy(par, sun, (sun + r * ring) / (1.0 + r))
-        state[L.S_KINETIC_START] = start
+    state[L.S_KINETIC_START] = start
     state[L.S_STARTED] = 1.0
     for i in range(L.N_Y):
         state[np.uintp(L.S_Y + i)] = work[np.uintp(L.W_Y + i)]
@@ -130,10 +138,14 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
 
 
 @kernel
-def show_energy(par: Array, state: Array, work: Array, out: Array) -> None:
-    """Fill the energy book; the residual is what the entries leave unexplained."""
+def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
+    """Fill the energy book, kinetic energy at the ``start`` [J] given; negative: that of now.
+
+    The residual is what the entries leave unexplained.
+    """
     kinetic = motion.kinetic_energy(par, work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER])
-    start = state[L.S_KINETIC_START] if state[L.S_STARTED] != 0.0 else kinetic
+    if start < 0.0:
+        start = kinetic
     out[L.O_ENGINE_WORK] = work[L.W_Y + L.Y_ENGINE]
     out[L.O_LOAD_WORK] = work[L.W_Y + L.Y_LOAD]
     out[L.O_KINETIC_ENERGY], out[L.O_KINETIC_CHANGE] = kinetic, kinetic - start
@@ -167,26 +179,39 @@ def step(
         if not math.isfinite(inp[np.uintp(i)]):
             iout[L.IO_STATUS] = L.BAD_INPUT
             return L.BAD_INPUT
-    if not (math.isfinite(t) and dt >= 0.0 and 0.0 <= inp[L.I_COMMAND] <= 1.0):
+    if not (
+        math.isfinite(t) and math.isfinite(dt) and dt >= 0.0 and 0.0 <= inp[L.I_COMMAND] <= 1.0
+    ):
         iout[L.IO_STATUS] = L.BAD_INPUT
         return L.BAD_INPUT
     begin(par, inp, state, work)
     receive(par, inp, state, work, dt)
     status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
-    if status == L.OK and dt > 0.0:
-        for i in range(L.N_Y):
-            if not math.isfinite(work[np.uintp(L.W_Y + i)]):
-                status = L.NOT_FINITE
-        if status == L.OK:
-            keep(par, inp, state, work, dt)
+    start = kinetic_start(par, state, dt)
     show_motion(par, inp, work, out, dt)
-    show_energy(par, state, work, out)
-    for i in range(L.NOUT):
-        if status == L.OK and not math.isfinite(out[np.uintp(i)]):
-            status = L.NOT_FINITE
+    show_energy(par, start, work, out)
+    if status == L.OK and not _is_finite(work, out, dt):
+        status = L.NOT_FINITE
+    if status == L.OK and dt > 0.0:
+        keep(inp, state, work, start, dt)
     clutch_holds = motion.clutch_capacity(work, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0
     iout[L.IO_EVENTS] = int(work[L.W_EVENTS + 3])
     iout[L.IO_STATUS] = L.STALLED if status == L.OK and is_at_rest(par, work) else status
     return status
+
+
+@kernel
+def _is_finite(work: Array, out: Array, dt: float) -> bool:
+    """Tell if what the memory takes over and all outputs are numbers."""
+    good = math.isfinite(dt)
+    for i in range(L.N_Y):
+        good = good and math.isfinite(work[np.uintp(L.W_Y + i)])
+    for i in range(4):
+        good = good and math.isfinite(work[np.uintp(L.W_EVENTS + i)])
+    good = good and math.isfinite(motion.clutch_capacity(work, dt))
+    good = good and math.isfinite(motion.brake_capacity(work, dt))
+    for i in range(L.NOUT):
+        good = good and math.isfinite(out[np.uintp(i)])
+    return good

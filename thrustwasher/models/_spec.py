@@ -62,7 +62,7 @@ class ModelSpec:
     default_fidelity: str
     inputs: tuple[Signal, ...]
     outputs: tuple[Signal, ...]  # real outputs fill `out` in order, all others `iout`
-    kernel: str  # module below thrustwasher.kernels with derive() and step()
+    kernel: str  # module below thrustwasher.kernels with derive(), step() and so on
     rules: tuple[Rule, ...] = ()  # between parameters, in the order of the kernel's broken_rule()
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0

@@ -1,0 +1,64 @@
+"""A step that fails leaves the memory as it was, to the bit; one that succeeds holds numbers."""
+
+import numpy as np
+import pytest
+
+from thrustwasher.errors import Status
+from thrustwasher.kernels import clutch_step, gear_step, transmission_step
+from thrustwasher.models import clutch_params, gearmesh_params, transmission_params
+from thrustwasher.models._prepare import filled
+
+HOSTILE = [
+    0.0, -0.0, 1.0, -1.0, 1e-320, 1e-30, 1e6, -1e6, 1e30, 1e150, -1e150, 1e300, -1e300,
+    np.inf, -np.inf, np.nan,
+]  # fmt: skip
+CASES = [
+    (clutch_step, clutch_params.SPEC, {}, "field"),
+    (clutch_step, clutch_params.SPEC, {"input_course": "linear"}, "field"),
+    (clutch_step, clutch_params.SPEC, {"input_course": "linear", "contact_rise": True}, "field"),
+    (clutch_step, clutch_params.SPEC, {"input_course": "linear"}, "stribeck"),
+    (clutch_step, clutch_params.SPEC, {"starts_pressed": True}, "boundary"),
+    (clutch_step, clutch_params.SPEC, {}, "closed"),
+    (gear_step, gearmesh_params.SPEC, {}, "field"),
+    (gear_step, gearmesh_params.SPEC, {"friction_law": "iso"}, "closed"),
+    (transmission_step, transmission_params.SPEC, {}, "rigid"),
+    (transmission_step, transmission_params.SPEC, {"torque_age": 2}, "rigid"),
+    (transmission_step, transmission_params.SPEC, {"coupling": "torque"}, "rigid"),
+]
+
+
+def good_inputs(spec, rng):
+    """Return inputs in their ranges, closer to their start than to the ends."""
+    return np.array([
+        np.clip(s.start + rng.uniform(-1.0, 1.0) * s.nominal, s.low, s.high) for s in spec.inputs
+    ])  # fmt: skip
+
+
+@pytest.mark.parametrize(("k", "spec", "changes", "fidelity"), CASES)
+def test_what_fails_leaves_no_trace(k, spec, changes, fidelity):
+    rng = np.random.default_rng(7)
+    par = filled(spec, spec.params(**changes), fidelity, k.NPAR, k.derive)
+    work, out, iout = np.zeros(k.NWORK), np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+    failures = set()
+    for _ in range(25):
+        state = np.zeros(k.NSTATE)
+        for _ in range(int(rng.integers(0, 4))):
+            assert k.step(par, good_inputs(spec, rng), state, work, out, iout, 0.0, 1e-3) == 0
+        for _ in range(15):
+            inp, time = good_inputs(spec, rng), [0.0, float(rng.choice([1e-3, 1e-3, 0.0]))]
+            for place in rng.integers(0, len(inp) + 2, int(rng.integers(1, 3))).tolist():
+                value = float(rng.choice(HOSTILE))
+                if place < len(inp):
+                    inp[place] = value
+                else:
+                    time[place - len(inp)] = value
+            before = state.tobytes()
+            status = k.step(par, inp, state, work, out, iout, *time)
+            if status or time[1] == 0.0:
+                assert state.tobytes() == before, (Status(status).name, inp, time)
+            else:
+                assert np.isfinite(state).all() and np.isfinite(out).all(), (inp, time)
+            if status:
+                failures.add(Status(status).name)
+            assert status == 0 or status >= 10
+    assert "BAD_INPUT" in failures

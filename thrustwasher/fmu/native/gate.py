@@ -7,12 +7,14 @@ from typing import Any
 from ...errors import EnvironmentProblem
 from .symbols import undefined
 
-# The list grows by a reviewed line, never by a pattern. The C standard's names, of doubles.
+# The list grows by a reviewed line, never by a pattern. The C standard's names, of doubles; and the
+# stack probe of Windows for frames above 4 kB, which the linker puts into the library itself.
 ALLOWED = frozenset(
     """
     exp log log10 log2 log1p expm1 exp2 pow erf erfc tanh sinh cosh sin cos tan sincos
     __sincos_stret asin acos atan atan2 sqrt fmod floor ceil cbrt hypot
     memset memcpy memmove bzero __bzero
+    ___chkstk_ms
     """.split()
 )
 # Beginning of a symbol -> what is behind it and what to write instead.
@@ -35,7 +37,6 @@ CAUSES = (
     ("Py", "a Python object: numbers in, numbers out"),
     ("_Py", "a Python object: numbers in, numbers out"),
     ("__svml_", "Intel's vector library: NUMBA_DISABLE_INTEL_SVML=1"),
-    ("___chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
     ("__chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
     ("inttoptr", "an address of the building process, of a Python object or ctypes function"),
     ("llvm.", "an instruction of one kind of machine"),

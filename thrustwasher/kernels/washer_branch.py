@@ -37,6 +37,7 @@ from .washer_newton import (
     NO_FLOOR,
     OK,
     REACHED_LOAD,
+    evaluate_here,
     film_ratio,
     newton,
     smooth_film,
@@ -104,6 +105,7 @@ def _settle(
         recall(b, q, 1.0)
         forget_factor(b)
         if upper - lower < 1e-7 * sigma:  # on the fold itself: the load is met to rounding
+            evaluate_here(b, pt, q)
             return OK if abs(walk[W] / pt.load - 1.0) < 1e-6 else MAX_ITERATIONS
         status = walk_to(b, pt, 0.5 * (upper + lower), q, info, walk)
         if status != OK:

@@ -190,6 +190,15 @@ def evaluate(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> fl
 
 
 @kernel
+def evaluate_here(b: Bench, pt: Point, q: NDArray[np.float64]) -> None:
+    """Evaluate everything at a solution that was taken back."""
+    m = washer_model(b.par)
+    f = washer_fields(m, b.work)
+    evaluate(m, pt, q, f)
+    film_residual(m, f.p, f)
+
+
+@kernel
 def newton(
     b: Bench, pt: Point, mode: float, target: float, q: NDArray[np.float64], floor: float,
     tolerance: float, max_iterations: float, info: NDArray[np.float64],

@@ -1,9 +1,10 @@
 """What a built library needs and shows, and that the same sources give the same bytes."""
 
+import json
 import shutil
 import subprocess
 import sys
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -146,9 +147,10 @@ def emitted(folder, cpu):
     surroundings = emit.environment(str(folder / "numba"))
     surroundings["NUMBA_CPU_NAME"] = cpu
     surroundings["PYTHONPATH"] = f"{folder}:{Path(library.__file__).parents[3]}"
+    v3 = PLATFORMS["linux64"].levels[1]
     for module, *given in (
         ("emit", "toy.kernel", "toy.bc"),
-        ("lower", "toy.bc", "linux64", "v3", "toy.step", "toy.o"),
+        ("lower", "toy.bc", "linux64", json.dumps(asdict(v3)), "toy.step", "toy.o"),
     ):
         command = [sys.executable, "-m", f"thrustwasher.fmu.native.{module}", *given]
         subprocess.run(command, cwd=folder, env=surroundings, check=True, timeout=300)

@@ -1,8 +1,10 @@
 """From bitcode to an object file for one platform and CPU level.
 
-``python -m ... BITCODE PLATFORM LEVEL KERNEL FILE``; a process of its own uses another core.
+``python -m ... BITCODE PLATFORM LEVEL KERNEL FILE``, the level as JSON; a process of its own uses
+another core.
 """
 
+import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -33,7 +35,9 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
             continue
         if function.linkage.name == "external":
             function.name = f"{function.name}_{level.name}"
-        if level.attribute:
+        if level.attribute and any(f"kernels{len(m)}{m}" in function.name for m in level.quick):
+            function.add_function_attribute("noinline")
+        elif level.attribute:
             function.add_function_attribute(level.attribute)
     _optimise(module, machine, level)
     gate.check_module(module, kernel)
@@ -59,11 +63,10 @@ def _optimise(module: Any, machine: Any, level: Level) -> None:
 
 def main(arguments: list[str]) -> int:
     """Write one object file."""
-    bitcode, name, wanted, kernel, file = arguments
-    platform = PLATFORMS[name]
-    level = next(level for level in platform.levels if level.name == wanted)
+    bitcode, platform, level, kernel, file = arguments
+    settings = Level(**json.loads(level))
     try:
-        code = object_code(Path(bitcode).read_bytes(), platform, level, kernel)
+        code = object_code(Path(bitcode).read_bytes(), PLATFORMS[platform], settings, kernel)
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
         return emit.SAID

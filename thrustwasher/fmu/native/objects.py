@@ -1,5 +1,6 @@
 """A model's object files for each platform, made when first wanted and kept in the user's cache."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -9,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -56,7 +58,7 @@ def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) 
             note(f"compiling {name} ahead of time: seconds, the washer a minute or two")
             bitcode.parent.mkdir(parents=True, exist_ok=True)
             _make(bitcode, "emit", kernel)
-        _side_by_side(_make, [(paths[w], "lower", str(bitcode), *w, name) for w in missing])
+        _side_by_side(_lower, [(paths[w], bitcode, *wanted[w], name) for w in missing])
         note(f"compiled {name} in {time.perf_counter() - start:.0f} s")
     return {which: path.read_bytes() for which, path in paths.items()}
 
@@ -81,6 +83,10 @@ def _file(platform: Platform, level: Level) -> str:
     return f"{platform.name}-{key('', platform.triple, level)}-{level.name}.o"
 
 
+def _lower(path: Path, bitcode: Path, platform: Platform, level: Level, name: str) -> None:
+    _make(path, "lower", str(bitcode), platform.name, json.dumps(asdict(level)), name)
+
+
 def _make(path: Path, module: str, *arguments: str) -> None:
     """Run a module of this package in a process of its own, which writes one file."""
     with _at_once, tempfile.TemporaryDirectory() as folder:
@@ -92,7 +98,9 @@ def _make(path: Path, module: str, *arguments: str) -> None:
         if done.returncode:
             lines = done.stderr.strip().splitlines() or [f"it ended with {done.returncode}"]
             said = done.returncode == emit.SAID
-            raise EnvironmentProblem(lines[-1] if said else f"{' '.join(arguments)}: {lines[-1]}")
+            raise EnvironmentProblem(
+                lines[-1] if said else f"compiling {arguments[0]}: {lines[-1]}"
+            )
         archive.write(path, part.read_bytes())
 
 

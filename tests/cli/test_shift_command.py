@@ -10,12 +10,13 @@ import pytest
 
 from thrustwasher.cli import main
 from thrustwasher.cli._fmu_cache import fmu_paths
+from thrustwasher.cli.build import chosen_target
 
 
 @pytest.fixture(scope="module")
 def msl(tmp_path_factory):
     """Run the scene with a known answer once, with FMUs that are there already."""
-    fmu_paths(["ShiftTransmission", "WetClutch"])
+    fmu_paths(["ShiftTransmission", "WetClutch"], chosen_target(None))
     folder = tmp_path_factory.mktemp("shift") / "report"
     words = ["shift", "--scene", "msl", "--out", str(folder), "--json"]
     done = subprocess.run(

@@ -11,7 +11,6 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
-from ..errors import EnvironmentProblem
 from ._output import note
 
 KEPT = 3  # versions
@@ -19,24 +18,8 @@ IN_USE = 86400.0  # s; a version used within this time may be needed by another 
 TEXTS = (".py", ".json", ".npz", ".md", ".c", ".h")
 
 
-def fmu_paths(models: Iterable[str], target: str | None = None) -> dict[str, Path]:
-    """Return the FMU of each model for this machine, building those that are not there yet.
-
-    Without a target: native, or what Python can do if nothing here links a library.
-    """
-    wanted = list(dict.fromkeys(models))
-    if target != "python":
-        try:
-            return _present(wanted, "native")
-        except EnvironmentProblem as problem:
-            if target:
-                raise
-            note(f"{problem}; going on with Python FMUs")
-    return _present(wanted, "python")
-
-
-def _present(models: list[str], target: str) -> dict[str, Path]:
-    """Return the FMUs of one target; build what is missing, the slow part side by side."""
+def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
+    """Return the FMU of each model for this machine, building those that are not there yet."""
     from ..fmu.build import build
 
     folder = cache_folder(target)

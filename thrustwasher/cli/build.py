@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from ..errors import EnvironmentProblem, ParameterError
 from . import _output
@@ -36,12 +37,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--out", metavar="DIR", default="dist",
         help="the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
     )  # fmt: skip
+    parser.add_argument(
+        "--cross-check", metavar="DIR",
+        help="write native FMUs with reference results below DIR as the FMI cross-check wants "
+        "them, instead of to --out",
+    )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object with the paths")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Build, then name the files."""
-    folder = _output.check_folder(arguments.out, "--out")
+    option = "--cross-check" if arguments.cross_check else "--out"
+    folder = _output.check_folder(arguments.cross_check or arguments.out, option)
 
     from ..fmu.build import build
     from ..fmu.registry import find_spec
@@ -49,6 +56,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     for model in arguments.models:
         find_spec(model)
+    if arguments.cross_check:
+        return _cross_check(arguments, folder)
     target = chosen_target(arguments.target, arguments.fmi)
     platforms = chosen_platforms(arguments.platforms, target)
     paths = build(
@@ -66,6 +75,27 @@ def run(arguments: argparse.Namespace) -> int:
     return 3 if findings else 0
 
 
+def _cross_check(arguments: argparse.Namespace, folder: Path) -> int:
+    """Write the cross-check's folders and name them."""
+    for option in ("target", "platforms"):
+        given = getattr(arguments, option)
+        if given and given != "native":
+            raise ParameterError(
+                f"--{option} {given}: the cross-check takes native FMUs, all platforms"
+            )
+    from ..fmu.crosscheck import write_cross_check
+    from ..fmu.native.link import find_linker
+
+    find_linker()
+    places = write_cross_check(arguments.models or None, folder, arguments.fmi, _output.note)
+    if arguments.json:
+        _output.print_json({"folders": [str(place) for place in places]})
+    else:
+        for place in places:
+            print(place)
+    return 0
+
+
 def chosen_target(target: str | None, fmi: int = 2) -> str:
     """Return the target asked for, else native, else what needs no compiler."""
     if target:
@@ -77,7 +107,7 @@ def chosen_target(target: str | None, fmi: int = 2) -> str:
     except EnvironmentProblem as problem:
         if fmi != 2:
             raise
-        _output.note(f"{problem}; building Python FMUs")
+        _output.note(f"{problem}; going on with Python FMUs")
         return "python"
     return "native"
 

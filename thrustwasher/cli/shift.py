@@ -13,6 +13,8 @@ from ..errors import ParameterError
 from ..units import parse_quantity
 from . import _output
 from ._progress import progress_bar
+from ._warm_up import compiled_for_report
+from .build import chosen_target
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 REPORT, TABLE, OVERVIEW = "report.html", "shift.csv", "overview.png"
@@ -64,8 +66,10 @@ def run(arguments: argparse.Namespace) -> int:
         raise ParameterError("--platforms: for a package only (--ssp FILE.ssp)")
     folder = _output.check_folder(arguments.out, "--out")
 
+    target = chosen_target(arguments.fmu)
     began = time.perf_counter()
-    result = _simulate(scene, arguments.fmu)
+    with compiled_for_report(scene, target):
+        result = _simulate(scene, target)
     from ..report import summary
     from ..report.shift_record import record_of
 
@@ -84,7 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _simulate(scene: Any, target: str | None) -> Any:
+def _simulate(scene: Any, target: str) -> Any:
     """Return the finished shift; the FMUs are built, loaded and freed here."""
     from ..drivetrain import run_shift
 
@@ -93,7 +97,7 @@ def _simulate(scene: Any, target: str | None) -> Any:
 
 
 @contextmanager
-def loaded(scene: Any, target: str | None) -> Iterator[dict[str, Any]]:
+def loaded(scene: Any, target: str) -> Iterator[dict[str, Any]]:
     """Give an FMU instance for every part of a scene."""
     from ..fmu.stepper import Instance
     from ._fmu_cache import fmu_paths

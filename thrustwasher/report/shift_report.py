@@ -201,7 +201,7 @@ def _cost_section(record: Record) -> Section:
     words = (
         f"{say(record.wall_time, 's', digits=3)} for {say(span, 's')} of shift, "
         f"{span / record.wall_time:.2g} simulated seconds a second, without building and "
-        "loading the FMUs. Python FMUs through FMPy; the time of a step includes setting inputs "
+        "loading the FMUs. FMUs through FMPy; the time of a step includes setting inputs "
         "and reading outputs."
     )
     return Section(

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from ...errors import EnvironmentProblem
 from ...models._spec import ModelSpec
-from ..registry import kernel_module
+from ..registry import kernel_module, load_kernel
 from .link import local_machine
 from .objects import Note, prepare, to_stderr
 from .targets import PLATFORMS, Level, Platform
@@ -42,4 +42,6 @@ def compile_models(specs: Iterable[ModelSpec], note: Note = to_stderr) -> None:
     """Compile models for this processor, side by side; ``library`` finds the results."""
     platform = this_platform()
     one = replace(platform, levels=(this_level(platform),))
-    prepare([kernel_module(spec.kernel) for spec in specs], [one], note)
+    # The model with the most memory has the most code; begun last it would run alone at the end.
+    largest_first = sorted(specs, key=lambda spec: -load_kernel(spec.kernel).n_work)
+    prepare([kernel_module(spec.kernel) for spec in largest_first], [one], note)

@@ -87,5 +87,5 @@ def test_a_variable_that_is_only_declared_is_refused():
 
 
 def test_an_unknown_kind_of_object_is_said():
-    with pytest.raises(EnvironmentProblem, match="unknown kind"):
+    with pytest.raises(EnvironmentProblem, match="neither ELF"):
         symbols.undefined(b"garbage that is no object file")

@@ -19,6 +19,12 @@ GUID = "0123456789abcdef0123456789abcdef"
 TOY = Path(__file__).parents[1] / "toy"
 
 
+# The first library for a platform takes ziglang a minute.
+each_platform = pytest.mark.parametrize(
+    "platform", ["linux64", *(pytest.param(p, marks=pytest.mark.slow) for p in list(PLATFORMS)[1:])]
+)
+
+
 def made(platform, fmi=2, model="gearmesh", guid=GUID):
     if platform not in link.find_linker().platforms:
         pytest.skip(f"{link.find_linker().name} does not build for {platform}: pip install ziglang")
@@ -26,7 +32,7 @@ def made(platform, fmi=2, model="gearmesh", guid=GUID):
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("platform", PLATFORMS)
+@each_platform
 def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else(platform, fmi):
     found = linked.read(made(platform, fmi))
     assert found.format == PLATFORMS[platform].format
@@ -39,7 +45,7 @@ def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else
         assert all(linked._number(version) <= GLIBC for version in found.versions)
 
 
-@pytest.mark.parametrize("platform", PLATFORMS)
+@each_platform
 def test_building_again_elsewhere_gives_the_same_bytes(platform):
     assert made(platform) == made(platform)  # each time in a fresh folder
 
@@ -48,6 +54,7 @@ def test_the_identity_is_inside():
     assert GUID.encode() in made("linux64") and b"f" * 32 in made("linux64", guid="f" * 32)
 
 
+@pytest.mark.slow
 def test_no_path_of_this_machine_is_inside():
     for platform in link.find_linker().platforms:
         code = made(platform)

@@ -19,7 +19,9 @@ GUID = "0123456789abcdef0123456789abcdef"
 STEPS = 20
 # The C libraries differ in the last bit of exp, log and pow; a step is well conditioned.
 SAME = 1e-11
-every = pytest.mark.parametrize("model", MODELS)
+every = pytest.mark.parametrize(
+    "model", [pytest.param(m, marks=pytest.mark.slow) if m == "washer" else m for m in MODELS]
+)
 
 
 def emulator(ask, *given):

@@ -72,7 +72,7 @@ def script(*arguments):
 
 
 def test_the_build_script_builds_and_prints_paths(tmp_path):
-    done = script("WetClutch", "--out", tmp_path)
+    done = script("WetClutch", "--target", "python", "--out", tmp_path)
     path = tmp_path / "python-fmi2" / "WetClutch.fmu"
     assert (done.returncode, done.stdout) == (0, f"{path}\n"), done.stderr
     assert path.is_file()

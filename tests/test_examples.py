@@ -14,7 +14,7 @@ PINNED = {
     "ex05_gearmesh": 0.6747259775410824,  # of the contact stress allowed without heat
     "ex06_calibrate": 1.9784950022118957,  # m/s
     "ex07_braking_test": 1.2004398,  # s, from the middle of the ramp
-    "ex08_native_washer": 775.2,  # N, the fold of ex02
+    "ex08_native_washer": 773.03,  # N, the fold of ex02 as the default mesh has it
     "ex09_package": 2.1107706965,  # s
 }
 TOLERANCE = {
@@ -23,7 +23,7 @@ TOLERANCE = {
     "ex04_shift": 1e-5,
     "ex06_calibrate": 1e-6,
     "ex07_braking_test": 1e-7,
-    "ex08_native_washer": 1e-3,
+    "ex08_native_washer": 3e-4,
     "ex09_package": 1e-9,
 }
 NATIVE = ("ex08_native_washer", "ex09_package")

@@ -1,0 +1,1 @@
+"""What the package ships and reads back: cards of verified errors, maps."""

@@ -1,12 +1,12 @@
 """Sequential master: friction parts first, then the transmission with their fresh torques."""
 
+from .moves import Move, Pull, Step
 from .system import System
 
 
-def advance(system: System, t: float, h: float) -> None:
-    """Carry all parts from ``t`` to ``t + h``."""
-    for part in system.friction_parts:
-        part.pull()
-        part.step(t, h)
-    system.transmission.pull()
-    system.transmission.step(t, h)
+def schedule(system: System) -> list[Move]:
+    """Return the moves of one communication step."""
+    return [
+        move for part in (*system.friction_parts, system.transmission)
+        for move in (Pull(part), Step(part))
+    ]  # fmt: skip

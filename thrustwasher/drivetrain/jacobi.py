@@ -1,11 +1,10 @@
 """Parallel master: all parts step with the outputs of the last communication point."""
 
+from .moves import Move, Pull, Step
 from .system import System
 
 
-def advance(system: System, t: float, h: float) -> None:
-    """Carry all parts from ``t`` to ``t + h``."""
-    for part in system.parts.values():
-        part.pull()
-    for part in system.parts.values():
-        part.step(t, h)
+def schedule(system: System) -> list[Move]:
+    """Return the moves of one communication step."""
+    parts = list(system.parts.values())
+    return [*map(Pull, parts), *map(Step, parts)]

@@ -1,7 +1,7 @@
 """Co-simulation masters: who steps when, with which inputs.
 
-A master is a function that carries all parts over one communication step. A new one is a new file
-and a line in ``MASTERS``.
+A master is a function that lists the moves of one communication step. A new one is a new file and a
+line in ``MASTERS``.
 """
 
 from __future__ import annotations
@@ -10,13 +10,14 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from . import gauss_seidel, jacobi
+from .moves import Move
 from .system import System
 
 
 class Master(NamedTuple):
     """One way to step a system."""
 
-    advance: Callable[[System, float, float], None]
+    schedule: Callable[[System], list[Move]]
     torque_age: int
     """How many steps the torques that the transmission receives are old."""
     help: str
@@ -24,7 +25,9 @@ class Master(NamedTuple):
 
 MASTERS: dict[str, Master] = {
     "gauss-seidel": Master(
-        gauss_seidel.advance, 0, "friction parts first, the transmission with fresh torques"
+        gauss_seidel.schedule, 0, "friction parts first, the transmission with fresh torques"
     ),
-    "jacobi": Master(jacobi.advance, 1, "all parts step at once with the inputs of the last point"),
+    "jacobi": Master(
+        jacobi.schedule, 1, "all parts step at once with the inputs of the last point"
+    ),
 }

@@ -11,35 +11,16 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, Status
 from . import book, course
 from .figures import key_figures
+from .loop import Loop, PythonLoop, Run
 from .master import MASTERS
 from .parts import links
+from .recorder import Recorder
 from .result import Cost, ShiftResult
 from .scene import Scene
 from .system import ConnectedPart, Stepping, System
 
 Progress = Callable[[int, int], None]
-
-
-class _Recorder:
-    """Rows for all inputs and outputs of one part, allocated once."""
-
-    def __init__(self, part: ConnectedPart, n: int) -> None:
-        self.part = part
-        self.inputs = np.empty((n, len(part.input_names)))
-        self.outputs = np.empty((n, len(part.output_names)))
-
-    def keep(self, i: int) -> None:
-        """Copy the present values to row ``i``."""
-        self.inputs[i] = self.part.inputs
-        self.outputs[i] = self.part.outputs
-
-    def signals(self) -> dict[str, NDArray[np.float64]]:
-        """Return the columns by name."""
-        name = self.part.name
-        columns = {f"{name}.{n}": self.inputs[:, i] for i, n in enumerate(self.part.input_names)}
-        return columns | {
-            f"{name}.{n}": self.outputs[:, i] for i, n in enumerate(self.part.output_names)
-        }
+STRETCH = 0.02  # s between two looks at the progress, at least
 
 
 def run_shift(
@@ -49,6 +30,7 @@ def run_shift(
     step: float | None = None,
     master: str | None = None,
     progress: Progress | None = None,
+    compiled: bool | None = None,
 ) -> ShiftResult:
     """Simulate a shift with living instances and return everything about it.
 
@@ -59,7 +41,9 @@ def run_shift(
     instances : one per part of the scene, made with ``scene.parts[name].parameters()``; they are
         neither closed nor reset here
     step, master : other values than the scene's
-    progress : called as ``progress(done, total)`` about a hundred times
+    progress : called as ``progress(done, total)`` a hundred times at most, and at the end
+    compiled : step the instances in one compiled function; default: if all of them are FMUs. The
+        numbers are the same to the bit
 
     Raises
     ------
@@ -76,29 +60,20 @@ def run_shift(
     if abs(h / scene.step - 1.0) > 1e-9:
         messages.append(f"the step is {h:.9g} s so that {n} steps end at the stop time")
     time = scene.start_time + h * np.arange(n + 1, dtype=np.float64)
-    recorders = [_Recorder(part, n + 1) for part in parts.values()]
+    recorder = Recorder(system, n + 1)
     system.initialize(scene.start_time)
-    for recorder in recorders:
-        recorder.keep(0)
+    recorder.keep(0)
     spent_before = {name: p.instance.wall_time for name, p in parts.items()}
     calls_before = {name: p.instance.calls for name, p in parts.items()}
 
-    advance = MASTERS[scene.master].advance
-    every = max(1, n // 100)
+    commands = np.array([scene.command(t) for t in time.tolist()])
+    run = Run(system, MASTERS[scene.master].schedule(system), time, h, commands, recorder)
+    loop = loop_for(run, compiled)
     begin = perf_counter()
-    for i in range(n):
-        t = float(time[i])
-        system.set_command(scene.command(float(time[i + 1])))
-        advance(system, t, h)
-        for recorder in recorders:
-            recorder.keep(i + 1)
-        if progress is not None and ((i + 1) % every == 0 or i + 1 == n):
-            progress(i + 1, n)
+    _drive(loop, n, progress)
     wall = perf_counter() - begin
 
-    signals: dict[str, NDArray[np.float64]] = {}
-    for recorder in recorders:
-        signals |= recorder.signals()
+    signals = recorder.signals()
     found = course.events(scene, time, signals)
     messages += _advice(time, signals)
     cost = []
@@ -132,6 +107,35 @@ def run_shift(
         real_time_factor=span / wall,
         messages=messages,
     )
+
+
+def _drive(loop: Loop, n: int, progress: Progress | None) -> None:
+    """Carry the run to its end in stretches that a person at a terminal does not notice."""
+    done, stretch = 0, max(1, n // 100)
+    while done < n:
+        begin = perf_counter()
+        i, done = done, min(done + stretch, n)
+        loop.advance(i, done)
+        if progress is not None:
+            progress(done, n)
+        if perf_counter() - begin < STRETCH:
+            stretch *= 2
+
+
+def loop_for(run: Run, compiled: bool | None) -> Loop:
+    """Return the compiled loop where it can run, else the one in Python."""
+    if compiled is False:
+        return PythonLoop(run)
+    from .program import CompiledLoop, can_compile
+
+    if can_compile(run):
+        return CompiledLoop(run)
+    if compiled:
+        raise ParameterError(
+            "compiled = True, allowed: with FMUs for all parts, on a 64-bit machine where numba "
+            "compiles"
+        )
+    return PythonLoop(run)
 
 
 def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:

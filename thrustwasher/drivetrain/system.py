@@ -91,10 +91,10 @@ class ConnectedPart:
             self.instance.step(t, h)
             self.outputs = self.instance.outputs()
         except (ParameterError, SolveError) as problem:
-            raise _renamed(problem, self.name, t) from problem
+            raise renamed(problem, self.name, t) from problem
 
 
-def _renamed(problem: Exception, part: str, time: float) -> SolveError:
+def renamed(problem: Exception, part: str, time: float) -> SolveError:
     """Return the same problem with part and time in front."""
     return SolveError(f"{part} at t = {time:g} s: {problem}")
 
@@ -105,7 +105,7 @@ def _named(part: str, time: float) -> Iterator[None]:
     try:
         yield
     except (ParameterError, SolveError) as problem:
-        raise _renamed(problem, part, time) from problem
+        raise renamed(problem, part, time) from problem
 
 
 class System:

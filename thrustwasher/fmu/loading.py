@@ -32,6 +32,14 @@ class Message(NamedTuple):
     text: str
 
 
+class Messages(list[Message]):
+    """What an FMU said and nobody has looked at yet; ``said`` is 1 once there was something."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.said = ctypes.c_int64(0)
+
+
 def unpack(path: str | os.PathLike[str]) -> Path:
     """Unpack an FMU once per content into the user's cache and return the folder."""
     file = Path(path)
@@ -95,7 +103,7 @@ def description(folder: Path) -> Any:
     return read_model_description(str(folder), validate=False)
 
 
-def instantiate(folder: Path, described: Any, name: str, messages: list[Message]) -> Any:
+def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> Any:
     """Load and instantiate; what the FMU logs is appended to ``messages``."""
     third = described.fmiVersion.startswith("3")
     from fmpy.fmi2 import FMU2Slave
@@ -126,7 +134,7 @@ def instantiate(folder: Path, described: Any, name: str, messages: list[Message]
     return fmu
 
 
-def _begin2(fmu: Any, messages: list[Message]) -> None:
+def _begin2(fmu: Any, messages: Messages) -> None:
     """Instantiate after FMI 2; the logger's text is a format, for us with at most one string."""
     from fmpy.fmi2 import defaultCallbacks as default
     from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
@@ -152,7 +160,7 @@ def _begin2(fmu: Any, messages: list[Message]) -> None:
     fmu.instantiate(callbacks=callbacks, loggingOn=True)
 
 
-def _begin3(fmu: Any, messages: list[Message]) -> None:
+def _begin3(fmu: Any, messages: Messages) -> None:
     """Instantiate after FMI 3, where the logger gets a plain text."""
 
     def log(_: Any, status: int, category: bytes, text: bytes) -> None:
@@ -161,9 +169,10 @@ def _begin3(fmu: Any, messages: list[Message]) -> None:
     fmu.instantiate(loggingOn=True, logMessage=log)
 
 
-def _keep(messages: list[Message], status: int, category: bytes | None, text: bytes | None) -> None:
+def _keep(messages: Messages, status: int, category: bytes | None, text: bytes | None) -> None:
     told = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
     messages.append(Message(status, *told))
+    messages.said.value = 1
 
 
 def _bare(text: str) -> str:

@@ -92,22 +92,23 @@ class Group:
     def __init__(self, protocol: Protocol, found: Sequence[Any], places: Sequence[int]) -> None:
         kind, c_type = protocol.types[found[places[0]].type]
         n = len(places)
-        references = _references([found[i] for i in places])
+        self.references = _references([found[i] for i in places])
         self.places = list(places)
         self.values = (c_type * n)()
         self.whole = c_type is not ctypes.c_double
         self._arguments = (
-            protocol.fmu.component, references, n, self.values, *(n,) * protocol.lengths
+            protocol.fmu.component, self.references, n, self.values, *(n,) * protocol.lengths
         )  # fmt: skip
-        self._set, self._get = (protocol.function(f"{verb}{kind}") for verb in ("Set", "Get"))
+        self.set_function = protocol.function(f"Set{kind}")
+        self.get_function = protocol.function(f"Get{kind}")
 
     def set(self) -> int:
         """Hand the values over and return the status."""
-        return self._set(*self._arguments)
+        return self.set_function(*self._arguments)
 
     def get(self) -> int:
         """Fetch the values and return the status."""
-        return self._get(*self._arguments)
+        return self.get_function(*self._arguments)
 
 
 class Table:

@@ -14,11 +14,18 @@ from typing import Any, Self
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .direct import DirectInstance, number, unknown
-from .loading import WARNING, Message, description, instantiate, unpack
+from .loading import WARNING, Message, Messages, description, instantiate, unpack
+from .machine import Machine, machine_of
 from .protocol import Direction, Fmi2, Fmi3, Protocol, Table
 
 __all__ = ["DirectInstance", "Instance", "unpack"]
 
+# What a call of a step is called when it fails, and what is raised then.
+STAGES: dict[str, tuple[str, type[Exception]]] = {
+    "set": ("setting a value", ParameterError),
+    "step": ("step", SolveError),
+    "get": ("reading a value", SolveError),
+}
 WORDS = {2: "discarded", 3: "error", 4: "fatal: the FMU cannot go on"}
 
 
@@ -60,7 +67,7 @@ class Instance:
         self.input_names = [v.name for v in inputs]
         self.output_names = [v.name for v in outputs]
         self._status = next((v for v in outputs if v.name == "solver_status"), None)
-        self._messages: list[Message] = []
+        self._messages = Messages()
         self.warnings: list[str] = []
         self.notes: list[Message] = []
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
@@ -113,7 +120,7 @@ class Instance:
         start = perf_counter()
         self.calls += 1
         try:
-            self._judge(self._protocol.step(t, h), "step")
+            self._judge(self._protocol.step(t, h), *STAGES["step"])
         finally:
             self.wall_time += perf_counter() - start
 
@@ -154,6 +161,17 @@ class Instance:
         self._judge(direction.get(), "directional derivative")
         self.wall_time += perf_counter() - start
         return direction.slope[:]
+
+    def machine(self) -> Machine:
+        """Return the addresses of all that a step needs; valid until ``close``."""
+        said = self._messages.said
+        said.value = 0
+        return machine_of(self._protocol, self._inputs, self._outputs, said)
+
+    def judge(self, stage: str, status: int) -> None:
+        """Raise what a call made past this object would have raised: "set", "step" or "get"."""
+        self._messages.said.value = 0
+        self._judge(status, *STAGES[stage])
 
     def get_state(self) -> Any:
         """Return a handle of the complete state; give it back with ``free_state``."""
@@ -217,11 +235,11 @@ class Instance:
 
     def _put(self, table: Table) -> None:
         for group in table.groups:
-            self._judge(group.set(), "setting a value", ParameterError)
+            self._judge(group.set(), *STAGES["set"])
 
     def _fetch(self, table: Table) -> list[float]:
         for group in table.groups:
-            self._judge(group.get(), "reading a value")
+            self._judge(group.get(), *STAGES["get"])
         return table.read()
 
     def _judge(self, status: int, what: str, kind: type[Exception] = SolveError) -> None:

@@ -1,0 +1,54 @@
+"""The loop over communication points, in Python; any instance can be stepped so."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .moves import Move, Step
+from .recorder import Recorder
+from .system import System
+
+
+class Run(NamedTuple):
+    """What a loop works on."""
+
+    system: System
+    schedule: list[Move]
+    time: NDArray[np.float64]
+    h: float
+    commands: NDArray[np.float64]
+    """The shift command at each time."""
+    recorder: Recorder
+
+
+class Loop(Protocol):
+    """A way to carry a run from one communication point to another."""
+
+    def advance(self, i: int, stop: int) -> None:
+        """Step from point ``i`` to point ``stop`` and record every point on the way.
+
+        ParameterError or SolveError names the part and the time where it failed.
+        """
+
+
+class PythonLoop:
+    """Steps the parts one call after another."""
+
+    def __init__(self, run: Run) -> None:
+        self.run = run
+
+    def advance(self, i: int, stop: int) -> None:
+        """Step from point ``i`` to point ``stop``."""
+        system, schedule, time, h, commands, recorder = self.run
+        for k in range(i, stop):
+            t = float(time[k])
+            system.set_command(float(commands[k + 1]))
+            for move in schedule:
+                if isinstance(move, Step):
+                    move.part.step(t, h)
+                else:
+                    move.part.pull()
+            recorder.keep(k + 1)

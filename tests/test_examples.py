@@ -18,6 +18,7 @@ PINNED = {
     "ex07_braking_test": 1.2004398,  # s, from the middle of the ramp
     "ex08_native_washer": 773.03,  # N, the fold of ex02 as the default mesh has it
     "ex09_package": 2.1107706965,  # s
+    "ex10_sweep": 760.0,  # N, the last step of 20 N below the fold of ex08
 }
 TOLERANCE = {
     "ex01_washer": 6e-3,

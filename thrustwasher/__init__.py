@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from .models.gearmesh import GearMeshParams, GearMeshResult, solve_gearmesh
     from .models.washer import WasherParams, WasherResult, solve_washer
     from .models.washer_curve import LoadCurve, load_curve
+    from .sweep.run import run_sweep
+    from .sweep.table import SweepTable
 
 _HOMES = {
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
@@ -27,6 +29,8 @@ _HOMES = {
     "models.clutch_engagement": ("Engagement", "engage_clutch"),
     "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
     "models.washer_curve": ("LoadCurve", "load_curve"),
+    "sweep.run": ("run_sweep",),
+    "sweep.table": ("SweepTable",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
@@ -40,12 +44,14 @@ __all__ = [
     "ParameterError",
     "SolveError",
     "Status",
+    "SweepTable",
     "WasherParams",
     "WasherResult",
     "boundary_friction",
     "calibrate",
     "engage_clutch",
     "load_curve",
+    "run_sweep",
     "solve_clutch",
     "solve_gearmesh",
     "solve_washer",

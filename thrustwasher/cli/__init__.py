@@ -25,6 +25,7 @@ COMMANDS = (
     "calibrate",
     "gearmesh",
     "shift",
+    "sweep",
     "build",
     "doctor",
 )

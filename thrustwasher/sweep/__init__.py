@@ -1,1 +1,12 @@
-"""Many operating points at once: grids of inputs and parameters, in parallel, resumable."""
+"""Many operating points at once: on all cores or on a cluster, resumable, one table at the end.
+
+===========  =====================================================================================
+``axes``     what is varied: texts such as ``50:1850:50`` into values
+``plan``     the rows in their order, cut into lines that are solved one point after the other
+``rows``     solves lines; runs in the workers
+``pools``    where the workers are: processes here, or a Dask cluster
+``journal``  finished lines on disk, so that a stopped sweep goes on
+``table``    the rows as columns, as CSV or Parquet
+``run``      ``run_sweep``, which ties these together
+===========  =====================================================================================
+"""

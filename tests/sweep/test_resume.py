@@ -1,0 +1,159 @@
+"""A stopped sweep goes on; another one is refused; files are whole or not there."""
+
+import csv
+import math
+
+import numpy as np
+import pytest
+
+from thrustwasher import ParameterError, run_sweep
+from thrustwasher.sweep import run as runs
+from thrustwasher.sweep.rows import solve_task
+from thrustwasher.sweep.run import journal_of
+
+OVER = {"load": "10:200:10", "speed": "50:300:50"}
+
+
+class Stop(Exception):
+    pass
+
+
+def stopping_after(n):
+    def progress(done, total):
+        if done >= n:
+            raise Stop
+
+    return progress
+
+
+def stopped(out, over=OVER, after=60):
+    with pytest.raises(Stop):
+        run_sweep("gearmesh", over, out=out, workers=1, progress=stopping_after(after))
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """Count the points that are solved."""
+    counts = []
+
+    def counting(task):
+        counts.append(len(task.inputs))
+        return solve_task(task)
+
+    monkeypatch.setattr(runs, "solve_task", counting)
+    return counts
+
+
+def test_a_stopped_sweep_goes_on_and_ends_as_if_never_stopped(tmp_path, solved):
+    run_sweep("gearmesh", OVER, out=tmp_path / "whole.csv", workers=1)
+    out = tmp_path / "stopped.csv"
+    stopped(out)
+    assert journal_of(out).exists() and not out.exists()
+    solved.clear()
+    run_sweep("gearmesh", OVER, out=out, workers=1)
+    assert sum(solved) == 120 - 60
+    assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["stopped.csv", "whole.csv"]
+
+
+@pytest.mark.parametrize("cut", [1, 30])
+def test_a_journal_that_was_cut_off_loses_its_last_block_only(tmp_path, solved, cut):
+    out = tmp_path / "map.csv"
+    stopped(out)
+    journal = journal_of(out)
+    journal.write_bytes(journal.read_bytes()[:-cut])
+    solved.clear()
+    run_sweep("gearmesh", OVER, out=out, workers=1)
+    assert sum(solved) == 120 - 40
+
+
+def test_a_damaged_block_is_solved_again(tmp_path):
+    out = tmp_path / "map.csv"
+    run_sweep("gearmesh", OVER, out=tmp_path / "whole.csv", workers=1)
+    stopped(out)
+    data = bytearray(journal_of(out).read_bytes())
+    data[-7] ^= 0xFF
+    journal_of(out).write_bytes(data)
+    run_sweep("gearmesh", OVER, out=out, workers=1)
+    assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("changed", "says"),
+    [
+        ({"over": {**OVER, "speed": "50:300:25"}}, "speed"),
+        ({"at": {"oil_temperature": 320.0}}, "oil_temperature"),
+        ({"at": {"steel": "AISI1020"}}, "parameters"),
+        ({"fidelity": "closed"}, "fidelity"),
+    ],
+)
+def test_another_sweep_is_refused_and_what_differs_is_named(tmp_path, changed, says):
+    out = tmp_path / "map.csv"
+    stopped(out)
+    before = journal_of(out).read_bytes()
+    with pytest.raises(ParameterError) as caught:
+        run_sweep("gearmesh", **{"over": OVER, "out": out, "workers": 1, **changed})
+    assert says in str(caught.value) and "another sweep" in str(caught.value)
+    assert journal_of(out).read_bytes() == before
+
+
+def test_a_foreign_file_in_the_journals_place_is_refused(tmp_path):
+    out = tmp_path / "map.csv"
+    journal_of(out).write_text("my notes\nmore\n")
+    with pytest.raises(ParameterError, match="no journal"):
+        run_sweep("gearmesh", OVER, out=out, workers=1)
+    assert journal_of(out).read_text() == "my notes\nmore\n"
+
+
+def test_a_journal_that_another_run_writes_is_refused(tmp_path):
+    pytest.importorskip("fcntl")
+    out = tmp_path / "map.csv"
+
+    def second(done, total):
+        if done:
+            with pytest.raises(ParameterError, match="another run"):
+                run_sweep("gearmesh", OVER, out=out, workers=1)
+            raise Stop
+
+    with pytest.raises(Stop):
+        run_sweep("gearmesh", OVER, out=out, workers=1, progress=second)
+
+
+def test_csv_has_units_in_its_head_full_precision_and_empty_cells_for_failures(tmp_path):
+    out = tmp_path / "map.csv"
+    table = run_sweep("gearmesh", {"speed": [0.0, 100.0]}, at={"power": 1e4}, out=out, workers=1)
+    with out.open(newline="") as stream:
+        head, failed, good = csv.reader(stream)
+    assert head[:4] == ["power [W]", "load [N.m]", "speed [rad/s]", "oil_temperature [K]"]
+    assert head[-1] == "status" and "friction_coefficient" in head
+    cells = dict(zip(head, failed, strict=True))
+    assert cells["status"] == "BAD_INPUT" and cells["friction_torque [N.m]"] == ""
+    assert float(good[head.index("friction_torque [N.m]")]) == table["friction_torque"][1]
+
+
+def test_parquet_holds_the_same_numbers_and_null_for_failures(tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    out = tmp_path / "map.parquet"
+    over = {"speed": [0.0, 100.0, 200.0]}
+    table = run_sweep("gearmesh", over, at={"power": 1e4}, out=out, workers=1)
+    read = parquet.read_table(out)
+    assert read.column_names == list(table.columns)
+    assert read.schema.field("load").metadata == {b"unit": b"N.m"}
+    for name in ("friction_torque", "film_ratio"):
+        first, *rest = read[name].to_pylist()
+        assert first is None and rest == table[name][1:].tolist()
+    assert read["status"].to_pylist() == table["status"].tolist()
+
+
+def test_rows_do_not_depend_on_how_they_are_cut_into_tasks(monkeypatch):
+    over = {"load": "100:900:100", "speed": [400.0, 545.0, 700.0]}
+    one = run_sweep("washer", over, workers=1)
+    monkeypatch.setattr(runs, "TASK_POINTS", 1)
+    two = run_sweep("washer", over, workers=1)
+    for name in one.columns:
+        assert np.array_equal(one[name], two[name])
+
+
+def test_nan_never_comes_with_ok():
+    table = run_sweep("gearmesh", {"load": [0.0, 1e-9, 1e5], "speed": [0.0, 1e-9, 5000.0]})
+    assert not any(math.isnan(t) for t in table["friction_torque"][table["status"] == "OK"])

@@ -1,0 +1,116 @@
+"""Each row is what a single solve gives; the order of rows; points that fail."""
+
+import numpy as np
+import pytest
+
+from thrustwasher import (
+    ClutchParams,
+    GearMeshParams,
+    ParameterError,
+    WasherParams,
+    run_sweep,
+    solve_clutch,
+    solve_gearmesh,
+    solve_washer,
+)
+
+UP = "200:1200:200"
+
+
+def test_a_line_is_a_chain_of_warm_washers():
+    table = run_sweep("washer", {"load": UP}, at={"speed": 545.0}, workers=1)
+    result = None
+    for load, torque, status in zip(table["load"], table["friction_torque"], table["status"],
+                                    strict=True):  # fmt: skip
+        result = solve_washer(WasherParams(), load=load, speed=545.0, tilt=2e-3, start=result)
+        assert torque == pytest.approx(result.friction_torque, rel=1e-9)
+        assert status == ("DISTRESS" if result.distress else "OK")
+
+
+def test_a_line_up_and_down_is_a_hysteresis_loop():
+    loads = "200:900:100,800:200:-100"
+    table = run_sweep("washer", {"load": loads}, at={"speed": 545.0}, workers=1)
+    torque, lost = table["friction_torque"], table["distress"]
+    at_700 = np.flatnonzero(table["load"] == 700.0)
+    assert lost[at_700].tolist() == [False, True]  # film_lost lies at 775 N, film_regained lower
+    assert torque[at_700[1]] > 2.0 * torque[at_700[0]]
+    assert not lost[-1] and torque[-1] == pytest.approx(torque[0], rel=1e-5)
+
+
+def test_inputs_run_faster_than_parameters_in_the_order_given():
+    table = run_sweep(
+        "gearmesh",
+        {"pinion_teeth": [30, 40], "speed": [100.0, 200.0, 300.0], "load": [10.0, 20.0]},
+    )
+    assert table["speed"].tolist() == [100.0, 200.0, 300.0] * 4
+    assert table["load"].tolist() == [10.0, 10.0, 10.0, 20.0, 20.0, 20.0] * 2
+    assert table["pinion_teeth"].tolist() == [30] * 6 + [40] * 6
+
+
+def test_gear_mesh_rows_are_single_solves():
+    table = run_sweep("gearmesh", {"power": [5e3, 1e4]}, at={"speed": 180.0, "steel": "AISI1020"})
+    one = solve_gearmesh(GearMeshParams(steel="AISI1020"), power=1e4, speed=180.0)
+    assert table["load"][1] == pytest.approx(1e4 / 180.0)
+    assert table["thermal_stress"][1] == pytest.approx(one.thermal_stress, rel=1e-12)
+    assert table["friction_torque"][1] == pytest.approx(one.friction_torque, rel=1e-9)
+
+
+def test_clutch_rows_are_single_solves():
+    table = run_sweep("clutch", {"load": [1e3, 5e3], "speed": [20.0]}, params=ClutchParams())
+    one = solve_clutch(ClutchParams(), load=5e3, speed=20.0)
+    assert table["friction_torque"][1] == pytest.approx(one.friction_torque, rel=1e-9)
+    assert (table["regime"][1], table["status"][1]) == (one.regime, one.status.name)
+
+
+def test_a_power_without_speed_is_a_failed_row_not_a_missing_one():
+    table = run_sweep("gearmesh", {"speed": [-100.0, 0.0, 100.0]}, at={"power": 1e4})
+    assert table["status"].tolist() == ["OK", "BAD_INPUT", "OK"]
+    assert np.isnan(table["friction_torque"][1]) and table["regime"][1] == ""
+    assert table.failures == {"BAD_INPUT": 1}
+    assert table["friction_torque"][0] == -table["friction_torque"][2]
+
+
+def test_parameters_that_contradict_each_other_are_failed_rows():
+    table = run_sweep("washer", {"gear_inner_radius": [0.005, 0.0156]}, workers=1)
+    assert table["status"].tolist() == ["BAD_INPUT", "OK"]
+
+
+def test_parameters_that_contradict_each_other_everywhere_are_an_error():
+    with pytest.raises(ParameterError, match="gear_inner_radius"):
+        run_sweep("washer", {"load": "100:200:100"}, at={"gear_inner_radius": 0.005})
+
+
+def test_points_stand_alone_unless_they_share_a_line():
+    speeds, loads = [545.0] * 3, [700.0, 1200.0, 700.0]
+    apart = run_sweep("washer", points={"load": loads, "speed": speeds}, workers=1)
+    assert apart["distress"].tolist() == [False, True, False]
+    assert apart["friction_torque"][0] == apart["friction_torque"][2]
+    walked = run_sweep(
+        "washer", points={"load": loads, "speed": speeds, "line": [7, 7, 7]}, workers=1
+    )
+    assert walked["distress"].tolist() == [False, True, True]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"model": "gearbox", "over": {"load": [1.0]}}, "washer, clutch, gearmesh"),
+        ({"model": "washer"}, "nothing is varied"),
+        ({"model": "washer", "over": {"load": [1.0]}, "fidelity": "best"}, "'field'"),
+        ({"model": "washer", "over": {"load": [1.0]}, "at": {"load": 2.0}}, "twice"),
+        ({"model": "washer", "over": {"load": [1.0]}, "points": {"load": [1.0]}}, "without axes"),
+        ({"model": "washer", "points": {"load": [1.0, 2.0], "speed": [1.0]}}, "one length"),
+        ({"model": "washer", "points": {"load": []}}, "one length"),
+        ({"model": "washer", "over": {"load": [1.0]}, "at": {"tilt": "1e-3,2e-3"}}, "one value"),
+        ({"model": "washer", "over": {"load": [1.0]}, "params": ClutchParams()}, "WasherParams"),
+        ({"model": "washer", "over": {"load": [1.0]}, "workers": 0}, "workers = 0"),
+        ({"model": "washer", "over": {"load": "0:1e4:n2000", "speed": "0:2000:n2000"}}, "up to"),
+        ({"model": "gearmesh", "over": {"power": [1.0]}, "at": {"load": 1.0}}, "instead of load"),
+        ({"model": "washer", "over": {"power": [1.0]}}, "'power'"),
+        ({"model": "washer", "over": {"load": [1.0]}, "out": "x.txt"}, ".csv or .parquet"),
+    ],
+)
+def test_wrong_arguments_are_named(arguments, says):
+    with pytest.raises(ParameterError) as caught:
+        run_sweep(**arguments)
+    assert says in str(caught.value)

@@ -1,0 +1,142 @@
+"""Processes and clusters: the same rows, nothing lost or doubled, no matter who dies."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from thrustwasher import run_sweep
+from thrustwasher.errors import EnvironmentProblem, ParameterError
+from thrustwasher.sweep.run import journal_of
+
+OVER = {"load": "1 kN:9 kN:n20", "speed": "5:300:n100"}
+
+
+def same(one, two):
+    return all(np.array_equal(one[name], two[name]) for name in one.columns)
+
+
+def count_blocks(monkeypatch):
+    """Collect the first rows of all blocks that are taken in."""
+    from thrustwasher.sweep.journal import Journal
+
+    firsts, append = [], Journal.append
+
+    def counting(self, first, numbers, flags):
+        firsts.append((first, len(numbers)))
+        append(self, first, numbers, flags)
+
+    monkeypatch.setattr(Journal, "append", counting)
+    return firsts
+
+
+def once_each(firsts, n):
+    rows = [row for first, size in firsts for row in range(first, first + size)]
+    return sorted(rows) == list(range(n))
+
+
+def test_two_processes_give_the_rows_of_one(tmp_path):
+    out = tmp_path / "map.csv"
+    two = run_sweep("clutch", OVER, workers=2, out=out)
+    assert same(two, run_sweep("clutch", OVER, workers=1))
+    assert not journal_of(out).exists()
+
+
+def test_a_process_that_is_killed_costs_nothing_but_time(tmp_path, monkeypatch):
+    import multiprocessing
+
+    firsts = count_blocks(monkeypatch)
+    killed = []
+
+    def kill_one(done, total):
+        children = multiprocessing.active_children()
+        if done > 200 and not killed and children:
+            os.kill(children[0].pid, signal.SIGKILL)
+            killed.append(children[0].pid)
+
+    table = run_sweep("clutch", OVER, workers=2, out=tmp_path / "map.csv", progress=kill_one)
+    assert killed and once_each(firsts, len(table))
+    assert same(table, run_sweep("clutch", OVER, workers=1))
+
+
+def test_ctrl_c_leaves_a_state_that_the_same_command_goes_on_from(tmp_path):
+    out = tmp_path / "map.csv"
+    words = [sys.executable, "-m", "thrustwasher", "sweep", "clutch", "--over", "load [kN]=1:9:n60",
+             "--over", "speed=5:300:n1500", "--workers", "2", "--out", str(out)]  # fmt: skip
+    process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    journal = journal_of(out)
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline:
+        if journal.exists() and journal.stat().st_size > 30_000:
+            break
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=30)
+    assert (process.returncode, said.splitlines()[-1]) == (130, "thrustwasher sweep: stopped")
+    assert "Traceback" not in said and not out.exists()
+    seen = []
+    over = {"load [kN]": "1:9:n60", "speed": "5:300:n1500"}
+    with pytest.raises(KeyboardInterrupt):
+
+        def stop(done, total):
+            seen.append(done)
+            raise KeyboardInterrupt
+
+        run_sweep("clutch", over, workers=1, out=out, progress=stop)
+    assert 0 < seen[0] < 90_000
+
+
+def test_a_script_without_a_guard_is_told_so(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from thrustwasher import run_sweep\n"
+        "run_sweep('gearmesh', {'load': '1:100:1', 'speed': '1:100:1'}, workers=2)\n"
+    )
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=60)
+    assert done.returncode != 0
+    assert 'if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+
+
+def test_a_cluster_that_does_not_answer_is_named(monkeypatch):
+    pytest.importorskip("distributed")
+    from thrustwasher.sweep import pools
+
+    monkeypatch.setattr(pools, "ANSWER_TIME", "1s")
+    for address in ("tcp://127.0.0.1:1", "nonsense"):
+        with pytest.raises(EnvironmentProblem, match="does not answer"):
+            run_sweep("gearmesh", {"load": [1.0]}, cluster=address)
+
+
+def test_workers_and_cluster_exclude_each_other():
+    with pytest.raises(ParameterError, match="one of them"):
+        run_sweep("gearmesh", {"load": [1.0]}, workers=2, cluster="tcp://127.0.0.1:1")
+
+
+@pytest.mark.slow
+def test_a_cluster_that_loses_a_worker_loses_no_point(tmp_path, monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    firsts = count_blocks(monkeypatch)
+    over = {"load": "1 kN:9 kN:n20", "speed": "5:300:n1000"}
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster:
+        with distributed.Client(cluster) as client:
+            pids = client.run(os.getpid)
+        killed = threading.Event()
+
+        def kill_one(done, total):
+            if done > 0.2 * total and not killed.is_set():
+                os.kill(next(iter(pids.values())), signal.SIGKILL)
+                killed.set()
+
+        table = run_sweep(
+            "clutch", over, cluster=cluster.scheduler_address, out=tmp_path / "map.csv",
+            progress=kill_one,
+        )  # fmt: skip
+    assert killed.is_set() and once_each(firsts, len(table))
+    assert same(table, run_sweep("clutch", over, workers=1))

@@ -1,0 +1,159 @@
+"""``thrustwasher sweep``: a model over all combinations of inputs and parameters."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+from ..errors import ParameterError, SolveError
+from ..models._spec import ModelSpec
+from ..sweep.axes import places, split_setting
+from ..sweep.plan import SPECS, load_spec
+from . import _output
+from ._options import option_name
+from ._progress import time_left
+from ._table import read_columns
+
+HELP = "solve a model over ranges of inputs and parameters, on all cores or on a cluster"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("model", metavar="MODEL", help=", ".join(SPECS))
+    parser.add_argument(
+        "--over", metavar="NAME=VALUES", action="append", default=[],
+        help="vary an input or parameter: load=50:1850:50 (start:stop:step), load=20:1850:x40 (40 "
+        'values, equal ratios; n40: even), speed=136,545, "oil_temperature [degC]=24,80"; may be '
+        "repeated, the first input runs fastest",
+    )  # fmt: skip
+    parser.add_argument(
+        "--points", metavar="FILE.csv", help="instead of --over, a file with a point in every line"
+    )
+    parser.add_argument(
+        "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
+        help="hold an input or parameter at a value, e.g. --set roughness=4e-7; may be repeated",
+    )  # fmt: skip
+    inputs = parser.add_argument_group("inputs that are held (as with --set)")
+    for name, units in _inputs().items():
+        inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
+    parser.add_argument("--fidelity", help="rung of the model; its command's --help lists them")
+    parser.add_argument(
+        "--out", metavar="FILE",
+        help="table to write, .csv or .parquet; stopped, the same command goes on. Without: CSV "
+        "to standard output",
+    )  # fmt: skip
+    parser.add_argument("--workers", metavar="N", help="processes; default: one per core, 1: none")
+    parser.add_argument(
+        "--cluster", metavar="ADDRESS", help="Dask scheduler, e.g. tcp://10.0.0.1:8786, instead"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Sweep, then write the table and say how it went."""
+    spec = load_spec(arguments.model)
+    at = _held(arguments, spec)
+    out = None
+    if arguments.out:
+        out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
+    points = _points(arguments.points, spec) if arguments.points else None
+
+    from ..sweep.run import run_sweep
+    from ..sweep.table import write_csv
+
+    began = time.perf_counter()
+    table = run_sweep(
+        spec.key, _axes(arguments.over), at=at, points=points, fidelity=arguments.fidelity, out=out,
+        workers=_workers(arguments.workers), cluster=arguments.cluster,
+        progress=_progress(spec),
+    )  # fmt: skip
+    if not out:
+        write_csv(table, sys.stdout)
+    failed = ", ".join(f"{n} {name}" for name, n in table.failures.items())
+    _output.note(
+        (f"wrote {out}: " if out else "")
+        + f"{len(table)} points in {time.perf_counter() - began:.3g} s"
+        + (f", failed: {failed}" if failed else "")
+    )
+    if sum(table.failures.values()) == len(table):
+        raise SolveError(f"no point has a solution ({failed}); narrow the ranges")
+    return 0
+
+
+def _axes(settings: list[str]) -> dict[str, str]:
+    """Return the values of every ``--over`` by name."""
+    axes: dict[str, str] = {}
+    for setting in settings:
+        name, values = split_setting(setting, "--over")
+        if name in axes:
+            raise ParameterError(f"--over {setting}: {name} is given twice")
+        axes[name] = values
+    return axes
+
+
+def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
+    """Return what ``--set`` and the inputs' options hold, by name."""
+    held: dict[str, str] = {}
+    known = places(spec)
+    for name in _inputs():
+        value = getattr(arguments, name)
+        if value is not None:
+            if name not in known:
+                raise ParameterError(f"{option_name(name)}: is no input of {spec.name}")
+            held[name] = value
+    for setting in arguments.settings:
+        name, value = split_setting(setting, "--set")
+        if name in held:
+            raise ParameterError(f"--set {setting}: {name} is given twice")
+        held[name] = value
+    return held
+
+
+def _points(path: str, spec: ModelSpec) -> dict[str, Any]:
+    """Return the columns of a file of points; any of the model's names may be a column."""
+    known = places(spec)
+    units = {p.name: p.unit for p in known.values() if p.kind in ("real", "integer")}
+    columns: dict[str, Any] = dict(read_columns(path, {**units, "line": "1"}, (*units, "line")))
+    if not set(columns) - {"line"}:
+        inputs = ", ".join(p.name for p in known.values() if p.is_input)
+        raise ParameterError(f"{path}: no column is an input or parameter, wanted: {inputs}")
+    return columns
+
+
+def _workers(text: str | None) -> int | None:
+    """Return the number of processes asked for."""
+    if text is None:
+        return None
+    if not text.strip().isdecimal() or len(text) > 6:
+        raise ParameterError(f"--workers {text}: allowed: a whole number from 1 on")
+    return int(text)
+
+
+def _inputs() -> dict[str, str]:
+    """Return the inputs of all models with the units that they have there."""
+    found: dict[str, dict[str, None]] = {}
+    for model in SPECS:
+        for place in places(load_spec(model)).values():
+            if place.is_input:
+                found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
+    return {name: ", ".join(units) for name, units in found.items()}
+
+
+def _progress(spec: ModelSpec) -> Callable[[int, int], None]:
+    """Return what shows the progress; on a new machine it explains the wait first."""
+    show = time_left(f"sweep {spec.key}:")
+    told = spec.key == "clutch"  # compiled in seconds
+
+    def progress(done: int, total: int) -> None:
+        nonlocal told
+        if not told and done < total:
+            from ..fmu.registry import is_compiled
+
+            if not is_compiled(spec):
+                _output.note(f"compiling the kernels of the {spec.key}, once on this machine")
+        told = True
+        show(done, total)
+
+    return progress

@@ -1,0 +1,213 @@
+"""What a sweep varies: ``load=50:1850:50`` becomes a name, a unit and values."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
+from typing import Any
+
+from ..errors import ParameterError
+from ..models._params import allowed
+from ..models._spec import ModelSpec, Signal
+from ..units import parse_quantity
+
+MOST_POINTS = 2_000_000
+# The gear mesh is loaded by a torque; a power in its place is turned into one, row by row.
+POWER = Signal(name="power", unit="W", help="transmitted power instead of the torque",
+               low=-1e9, high=1e9)  # fmt: skip
+_TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
+
+
+@dataclass(frozen=True)
+class Place:
+    """An input or a parameter that can be varied."""
+
+    name: str
+    unit: str
+    kind: str
+    is_input: bool
+    low: float
+    high: float
+    relative: bool
+    options: tuple[str, ...] = ()
+
+    def allowed(self) -> str:
+        """Say the range in words."""
+        return allowed({"kind": self.kind, "unit": self.unit, "min": self.low, "max": self.high,
+                        "options": self.options})  # fmt: skip
+
+    def check(self, value: Any) -> float | int | bool | str:
+        """Return a value given in Python, or raise ParameterError naming what is allowed."""
+        if self.kind == "enumeration":
+            if value not in self.options:
+                raise ParameterError(f"{self.name} = {value!r}, allowed: {self.allowed()}")
+            return str(value)
+        if self.kind == "boolean":
+            if value not in (0, 1):
+                raise ParameterError(f"{self.name} = {value!r}, allowed: {self.allowed()}")
+            return bool(value)
+        number = parse_quantity(
+            value if isinstance(value, str) else float(value), self.unit, self.name,
+            difference=self.relative,
+        )  # fmt: skip
+        whole = self.kind != "integer" or number == int(number)
+        if not self.low <= number <= self.high or not whole:
+            unit = "" if self.unit == "1" else f" {self.unit}"
+            raise ParameterError(f"{self.name} = {number!r}{unit}, allowed: {self.allowed()}")
+        return int(number) if self.kind == "integer" else number
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One thing that is varied, with its values in the order of the sweep."""
+
+    place: Place
+    values: tuple[Any, ...]
+
+
+def places(spec: ModelSpec) -> dict[str, Place]:
+    """Return everything of a model that a sweep may vary or hold, by name."""
+    signals = (*spec.inputs, POWER) if spec.key == "gearmesh" else spec.inputs
+    found = {
+        s.name: Place(
+            s.name, s.unit, "real", True, -math.inf if s.low is None else s.low,
+            math.inf if s.high is None else s.high, s.relative,
+        )
+        for s in signals
+    }  # fmt: skip
+    for f in fields(spec.params):
+        m = f.metadata
+        options = tuple(m.get("options", ()))
+        found[f.name] = Place(
+            f.name, m["unit"], m["kind"], False, m["min"], m["max"], bool(m.get("relative")),
+            options,
+        )  # fmt: skip
+    return found
+
+
+def find_place(name: str, known: dict[str, Place], spec: ModelSpec) -> Place:
+    """Return the place of that name, or raise ParameterError with the nearest names."""
+    if name not in known:
+        near = difflib.get_close_matches(name, known, n=1)
+        hint = f"did you mean {near[0]}? " if near else ""
+        inputs = ", ".join(p.name for p in known.values() if p.is_input)
+        raise ParameterError(
+            f"{spec.name} has neither an input nor a parameter {name!r}; {hint}inputs: {inputs}; "
+            f"thrustwasher {spec.key} --parameters lists the parameters"
+        )
+    return known[name]
+
+
+def split_setting(text: str, option: str) -> tuple[str, str]:
+    """Return name and values of ``NAME=VALUES`` or ``NAME [UNIT]=VALUES``."""
+    name, equals, values = (part.strip() for part in text.partition("="))
+    if not name or not equals or not values:
+        raise ParameterError(
+            f"{option} {text}: allowed: NAME=VALUES, e.g. load=50:1850:50 or speed=136,545"
+        )
+    return name, values
+
+
+def read_axis(
+    name: str, values: str | Iterable[Any], known: dict[str, Place], spec: ModelSpec
+) -> Axis:
+    """Return the axis that a name (a unit for bare numbers in brackets behind it) and values make.
+
+    Parameters
+    ----------
+    name : "load", or "load [kN]"
+    values : a text as in ``parse_values``, or numbers (texts for enumerations)
+
+    Raises
+    ------
+    ParameterError : unknown name, wrong unit, value out of range, no value, too many values
+    """
+    match = re.fullmatch(r"([^\[\]]*?)\s*(?:\[([^\[\]]*)\])?", name)
+    if match is None:
+        raise ParameterError(
+            f"{name!r}: allowed: the name of an input or parameter, or NAME [UNIT]"
+        )
+    place = find_place(match[1].replace("-", "_"), known, spec)
+    if isinstance(values, str):
+        found = parse_values(values, place, (match[2] or "").strip())
+    else:
+        items = [values] if isinstance(values, int | float) else list(values)
+        found = [place.check(v) for v in items]
+    if not found:
+        raise ParameterError(f"{place.name}: no value is given")
+    return Axis(place, tuple(found))
+
+
+def parse_values(text: str, place: Place, written: str = "") -> list[Any]:
+    """Return the values of a text: single ones and ranges, separated by commas.
+
+    ``start:stop:step`` goes on as long as it is not past ``stop``; ``start:stop:n40`` has 40 values
+    with equal differences, ``start:stop:x40`` 40 with equal ratios. Numbers may have units; a bare
+    one is SI, or in ``written``.
+
+    Examples
+    --------
+    >>> from thrustwasher.models.clutch_params import SPEC
+    >>> parse_values("1:2:0.5, 8", places(SPEC)["load"])
+    [1.0, 1.5, 2.0, 8.0]
+    >>> parse_values("1 kN:100 kN:x3", places(SPEC)["load"])
+    [1000.0, 10000.0, 100000.0]
+    """
+    values: list[Any] = []
+    for item in (part.strip() for part in text.split(",")):
+        if place.kind == "boolean" and item.lower() in _TRUE + _FALSE:
+            values.append(item.lower() in _TRUE)
+        elif place.kind in ("boolean", "enumeration") or ":" not in item:
+            values.append(place.check(_with_unit(item, written)))
+        else:
+            values += _range(item, place, written)
+        if len(values) > MOST_POINTS:
+            raise ParameterError(f"{place.name} = {text}: more than {MOST_POINTS} values")
+    return values
+
+
+def _with_unit(item: str, written: str) -> str:
+    """Return the text with the unit that bare numbers of this axis have."""
+    bare = re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", item)
+    return f"{item} {written}" if written and bare else item
+
+
+def _range(item: str, place: Place, written: str) -> list[Any]:
+    """Return the values of ``start:stop:step``, ``start:stop:n40`` or ``start:stop:x40``."""
+    where = f"{place.name} = {item}"
+    parts = [part.strip() for part in item.split(":")]
+    if len(parts) != 3:
+        raise ParameterError(
+            f"{where}, allowed: start:stop:step, start:stop:n40 (40 values, even) or "
+            "start:stop:x40 (40 values, equal ratios)"
+        )
+    start, stop = (float(place.check(_with_unit(p, written))) for p in parts[:2])
+    counted = re.fullmatch(r"([nx])(\d{1,8})", parts[2])
+    if counted:
+        return [place.check(v) for v in _counted(where, start, stop, counted[1], int(counted[2]))]
+    step = parse_quantity(_with_unit(parts[2], written), place.unit, place.name, difference=True)
+    if step == 0.0 or (stop - start) / step < 0.0:
+        raise ParameterError(f"{where}, allowed: a step that leads from start to stop")
+    n = (stop - start) / step
+    if n >= MOST_POINTS:
+        raise ParameterError(f"{where}: more than {MOST_POINTS} values")
+    last = math.floor(n + 1e-9)
+    values = [start + step * i for i in range(last + 1)]
+    if abs(n - last) < 1e-9:
+        values[-1] = stop  # not a rounding error beside it
+    return [place.check(v) for v in values]
+
+
+def _counted(where: str, start: float, stop: float, kind: str, n: int) -> list[float]:
+    """Return ``n`` values with equal differences or ratios, both ends among them."""
+    if not 2 <= n <= MOST_POINTS:
+        raise ParameterError(f"{where}, allowed: 2 .. {MOST_POINTS} values")
+    shares = [i / (n - 1) for i in range(n)]
+    if kind == "n":
+        return [*(start + (stop - start) * share for share in shares[:-1]), stop]
+    if start * stop <= 0.0:
+        raise ParameterError(f"{where}, allowed: two numbers of one sign, not zero, for x{n}")
+    return [*(start * (stop / start) ** share for share in shares[:-1]), stop]

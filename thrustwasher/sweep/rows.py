@@ -1,0 +1,121 @@
+"""Solve lines of operating points; this is what runs in the workers.
+
+A line starts without memory and is walked row by row: each point is solved warm from the one
+before it. Where several solutions exist the walk stays on its branch while that exists, as a
+loaded washer does: going up in load the film is kept to its fold, coming down again it is
+regained at the other one. A point that fails leaves the memory as it was.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import lru_cache
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import FIRST_FAILURE, ParameterError, Status
+from ..models._prepare import filled
+from ..models._spec import REGIMES, ModelSpec, Signal
+from .plan import load_spec
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class Task:
+    """Some consecutive lines, complete with all that a worker needs to know."""
+
+    model: str
+    fidelity: str
+    first_row: int
+    inputs: Array  # (n, n_inputs)
+    starts: tuple[int, ...]  # of the lines, from 0, and the end
+    params: tuple[Any, ...]  # of each line; None: broken rule
+
+
+def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
+    """Return the real outputs of a row, and the whole-number ones with the status last."""
+    real = tuple(s for s in spec.outputs if s.kind == "real")
+    if spec.key == "clutch":  # slipping for ever: the heat has no end, and no share of it is shown
+        from ..models.clutch import ClutchResult
+
+        known = {f.name for f in fields(ClutchResult)}
+        real = tuple(s for s in real if s.name in known)
+    whole = [s for s in spec.outputs if s.kind != "real"]
+    whole.sort(key=lambda s: s.type == "SolverStatus")  # it is the last of them already
+    return real, tuple(whole)
+
+
+def solve_task(task: Task) -> tuple[Array, Flags]:
+    """Return the real and the whole-number outputs of the rows; NaN where a row failed."""
+    spec = load_spec(task.model)
+    real, whole = output_signals(spec)
+    numbers = np.empty((len(task.inputs), len(real)))
+    flags = np.zeros((len(task.inputs), len(whole)), np.int32)
+    walk = _walk_clutch if spec.key == "clutch" else _walk_kernel
+    for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
+        if params is None:
+            flags[a:b, -1] = Status.BAD_INPUT
+        else:
+            try:
+                walk(spec, params, task.fidelity, task.inputs[a:b], numbers[a:b], flags[a:b])
+            except ParameterError:  # parameters that only the kernel's constants refuse
+                flags[a:b, -1] = Status.BAD_INPUT
+    numbers[flags[:, -1] >= FIRST_FAILURE] = np.nan
+    return numbers, flags
+
+
+def _walk_kernel(
+    spec: ModelSpec, params: Any, fidelity: str, inputs: Array, numbers: Array, flags: Flags
+) -> None:
+    """Fill the rows of one line by steps of the model's kernel."""
+    kernel = _kernel(spec.kernel)
+    step, work, state = kernel.step, _work(spec.kernel), np.zeros(kernel.NSTATE)
+    par = _constants(spec.key, fidelity, params)
+    for point, row, flag in zip(inputs, numbers, flags, strict=True):
+        status = step(par, point, state, work, row, flag, 0.0, 1.0)
+        if status >= FIRST_FAILURE:
+            flag[-1] = status
+
+
+def _walk_clutch(
+    spec: ModelSpec, params: Any, fidelity: str, inputs: Array, numbers: Array, flags: Flags
+) -> None:
+    """Fill the rows of one line with the steady state of a pack that slips."""
+    from ..models.clutch import solve_clutch
+
+    regimes = {name: i for i, name in enumerate(REGIMES, 1)}
+    names = [s.name for s in output_signals(spec)[0]]
+    result = None
+    for point, row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
+        load, speed, oil = point
+        result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil,
+                              fidelity=fidelity, start=result, throw=False)  # fmt: skip
+        row[:] = [getattr(result, name) for name in names]
+        flag[0], flag[-1] = regimes[result.regime], result.status
+        if result.status.is_failure:
+            result = None
+
+
+def _kernel(name: str) -> Any:
+    return import_module(f"thrustwasher.kernels.{name}")
+
+
+@lru_cache(maxsize=4)
+def _work(name: str) -> Array:
+    """Return this worker's work array of a kernel."""
+    work: Array = np.zeros(_kernel(name).NWORK)
+    return work
+
+
+@lru_cache(maxsize=64)
+def _constants(model: str, fidelity: str, params: Any) -> Array:
+    """Return the kernel's ``par``; many lines share their parameters."""
+    spec = load_spec(model)
+    kernel = _kernel(spec.kernel)
+    par: Array = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
+    return par

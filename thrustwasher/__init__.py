@@ -12,6 +12,7 @@ __version__ = "0.3.0"
 
 if TYPE_CHECKING:
     from .errors import BranchError, ParameterError, SolveError, Status
+    from .fidelity.choose import Choice, choose
     from .models.clutch import ClutchParams, boundary_friction, solve_clutch
     from .models.clutch_calibration import Calibration, calibrate
     from .models.clutch_engagement import Engagement, engage_clutch
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from .sweep.table import SweepTable
 
 _HOMES = {
+    "fidelity.choose": ("Choice", "choose"),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "models.clutch": ("ClutchParams", "boundary_friction", "solve_clutch"),
     "models.clutch_calibration": ("Calibration", "calibrate"),
@@ -36,6 +38,7 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "BranchError",
     "Calibration",
+    "Choice",
     "ClutchParams",
     "Engagement",
     "GearMeshParams",
@@ -49,6 +52,7 @@ __all__ = [
     "WasherResult",
     "boundary_friction",
     "calibrate",
+    "choose",
     "engage_clutch",
     "load_curve",
     "run_sweep",

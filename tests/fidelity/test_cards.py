@@ -1,0 +1,174 @@
+"""Cards are read strictly, speak for their own kernels and parameters, and never stop a solve."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from synthetic import BOX, ENVELOPE, card, errors
+
+from thrustwasher import ParameterError, WasherParams
+from thrustwasher.store import cards, digests
+from thrustwasher.store.card_parts import Cells
+from thrustwasher.store.sources import files_of
+
+POINT = {"load": 100.0, "speed": 500.0, "tilt": 2e-3, "oil_temperature": 300.0}
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A folder of own cards; the package's are out of sight."""
+    monkeypatch.setattr(cards, "card_folders", lambda: [tmp_path])
+    cards.forget()
+    yield tmp_path
+    cards.forget()
+
+
+def written(path, edit):
+    """Write a good card after an edit of its JSON."""
+    raw = json.loads(card().as_json())
+    edit(raw)
+    path.write_text(json.dumps(raw))
+    return path
+
+
+def test_a_card_comes_back_from_its_file_as_it_was(tmp_path):
+    made = card(chart="film", branch="film")
+    (tmp_path / "x.json").write_text(made.as_json())
+    assert cards.read_card(tmp_path / "x.json") == made
+
+
+@pytest.mark.parametrize(
+    ("edit", "said"),
+    [
+        (lambda c: c.pop("cost"), "'cost' is missing"),
+        (lambda c: c.update(colour="red"), "'colour' is not known"),
+        (lambda c: c["cost"].pop("build_s"), "cost: key 'build_s' is missing"),
+        (lambda c: c["errors"]["temperature"].update(more=1), "temperature: key 'more'"),
+        (lambda c: c["cost"].update(build_s="long"), "build_s: a number is wanted"),
+        (lambda c: c["held_out"].update(n=3.5), "n: a whole number is wanted"),
+        (lambda c: c["held_out"].update(n=True), "n: a whole number is wanted"),
+        (lambda c: c.update(schema=2), "schema = 2"),
+        (lambda c: c["cells"].update(edges=[[1, 2], [2, 1]]), "rising edges"),
+        (lambda c: c["errors"]["temperature"].update(worst=[[1.0]]), "2 x 2 cells"),
+        (lambda c: c["errors"]["temperature"].update(kind="odd"), "kind = 'odd'"),
+        (lambda c: c["errors"]["temperature"].update(rms=[[1, 1], [1, -1]]), "from 0 on"),
+        (lambda c: c["cost"].update(count=float("nan")), "NaN is no number"),
+    ],
+)
+def test_a_wrong_card_is_refused_with_file_and_key(tmp_path, edit, said):
+    with pytest.raises(ParameterError, match=r"bad\.json") as refusal:
+        cards.read_card(written(tmp_path / "bad.json", edit))
+    assert said in str(refusal.value)
+
+
+def test_broken_files_are_refused_with_a_reason_and_the_others_are_read(folder):
+    (folder / "washer-field.json").write_text(card().as_json())
+    (folder / "washer-fine.json").write_text("{ not JSON")
+    (folder / "washer-closed.json").write_bytes(b"\xff\xfe\x00")
+    assert [c.fidelity for c in cards.load_cards("washer")] == ["field"]
+    assert set(cards.refused_files()) == {"washer-fine.json", "washer-closed.json"}
+    assert cards.error_estimate("washer", "field", WasherParams(), POINT) == 1.5 * 5e-3
+    assert cards.error_estimate("washer", "fine", WasherParams(), POINT) is None
+
+
+def test_a_card_for_other_parameters_does_not_speak(folder):
+    (folder / "washer-field.json").write_text(card().as_json())
+    other = replace(WasherParams(), dry_friction=0.2)
+    assert cards.load_cards("washer", other) == []
+    assert cards.error_estimate("washer", "field", other, POINT) is None
+    assert "other parameters" in card().stale(other)
+
+
+def test_a_card_for_other_kernels_is_stale_and_says_how_to_renew(folder):
+    old = replace(card(), kernels=replace(card().kernels, sha256="0" * 64))
+    assert "python -m thrustwasher.fidelity.verify washer field" in old.stale(WasherParams())
+    (folder / "washer-field.json").write_text(old.as_json())
+    assert cards.error_estimate("washer", "field", WasherParams(), POINT) is None
+
+
+def test_a_card_whose_list_of_files_is_not_the_closure_is_stale():
+    files = card().kernels.files[1:]
+    short = cards.kernel_digest(files)
+    assert card(kernels=replace(card().kernels, files=files, sha256=short)).stale()
+
+
+def test_a_card_whose_map_has_gone_is_stale():
+    assert "maps/x.twm" in card(built=True).stale()
+
+
+def test_a_fresh_card_is_not_stale():
+    assert card().stale(WasherParams()) is None
+
+
+def test_only_what_a_rung_imports_makes_its_card_stale():
+    files = set(files_of("washer", "field"))
+    assert {"washer_newton.py", "contact.py", "banded.py", "washer_step.py"} <= files
+    assert not {f for f in files if f.startswith(("clutch", "gear", "transmission"))}
+
+
+def test_line_ends_do_not_change_a_digest(tmp_path, monkeypatch):
+    monkeypatch.setattr(digests, "KERNELS", tmp_path)
+    found = []
+    for ends in (b"\n", b"\r\n"):
+        (tmp_path / "a.py").write_bytes(b"x = 1" + ends)
+        digests._file_digest.cache_clear()
+        found.append(digests.kernel_digest(["a.py"]))
+    digests._file_digest.cache_clear()
+    assert found[0] == found[1]
+
+
+def test_equal_parameters_have_equal_digests():
+    one, other = WasherParams(dry_friction=0.15), WasherParams()
+    assert digests.params_digest(one) == digests.params_digest(other)
+    assert digests.params_digest(replace(one, dry_friction=0.16)) != digests.params_digest(other)
+
+
+def test_the_error_is_that_of_the_cell_and_none_outside():
+    made = card(worst=[[1e-3, 2e-3], [3e-3, 4e-3]])
+    assert made.error_of("friction_torque", POINT) == 2e-3
+    assert made.error_of("friction_torque", {**POINT, "speed": -500.0}) == 2e-3
+    assert made.error_of("friction_torque", {**POINT, "load": 2000.0}) == 4e-3
+    assert made.error_of("friction_torque", {**POINT, "load": 19.0}) is None
+    assert made.error_of("friction_torque", {**POINT, "tilt": 4e-3}) is None
+    assert made.error_of("heat", POINT) is None
+
+
+def test_a_cell_with_few_points_takes_the_worst_of_its_neighbours():
+    few = errors([[1e-3, 2e-3], [3e-3, 9e-3]], n=[[29, 75], [75, 75]])
+    made = card(errors={"friction_torque": few})
+    assert made.error_of("friction_torque", {**POINT, "speed": 60.0}) == 9e-3
+    assert made.error_of("friction_torque", POINT) == 2e-3
+
+
+def test_a_cell_without_points_near_it_promises_nothing():
+    made = card(worst=None, n=0)
+    assert made.error_of("friction_torque", POINT) is None
+
+
+def test_an_estimate_is_never_below_the_uncertainty_of_the_reference(folder):
+    (folder / "washer-field.json").write_text(card(worst=1e-6, uncertainty=1e-4).as_json())
+    found = cards.error_estimate("washer", "field", WasherParams(), POINT)
+    assert found == pytest.approx(1.5e-4)
+
+
+def test_a_branch_asks_its_own_card(folder):
+    for branch, worst in (("film", 1e-3), ("contact", 4e-3)):
+        made = card(chart=branch, branch=branch, worst=worst)
+        (folder / f"{made.name}.json").write_text(made.as_json())
+    params = WasherParams()
+    assert cards.error_estimate("washer", "field", params, POINT, branch="film") == 1.5e-3
+    assert cards.error_estimate("washer", "field", params, POINT, branch="contact") == 6e-3
+    assert cards.error_estimate("washer", "field", params, POINT) == 6e-3
+
+
+def test_cells_touched_by_an_interval():
+    cells = Cells(("load", "speed"), ((1.0, 2.0, 4.0), (0.0, 1.0)), ((0,), (0,)))
+    assert list(cells.touched(0, 1.0, 1.5)) == [0]
+    assert list(cells.touched(0, 1.0, 2.0)) == [0]
+    assert list(cells.touched(0, 2.0, 2.0)) == [0, 1]
+    assert list(cells.touched(0, 1.9, 2.1)) == [0, 1]
+    assert list(cells.touched(0, 5.0, 6.0)) == []
+
+
+def test_the_box_of_the_other_tests_lies_inside_their_envelope():
+    assert all(ENVELOPE[k].min <= lo <= hi <= ENVELOPE[k].max for k, (lo, hi) in BOX.items())

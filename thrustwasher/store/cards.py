@@ -1,0 +1,255 @@
+"""Cards: the verified error and the cost of one rung, chart and parameter set.
+
+A card is a JSON file that ``python -m thrustwasher.fidelity.verify`` writes. It speaks for the
+kernels and the parameters it was made with and for its envelope only; one that no longer fits is
+refused with the command that renews it. A file that cannot be read is refused too: a solve never
+stops because of a card.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from .card_parts import (
+    Axis,
+    Cells,
+    Cost,
+    Errors,
+    Fold,
+    HeldOut,
+    Machine,
+    Origin,
+    ParameterSet,
+    Reference,
+    Sources,
+    worst_near,
+)  # fmt: skip
+from .digests import DATA, closure, kernel_digest, params_digest
+from .sources import files_of
+from .strict import build
+
+__all__ = [
+    "Card", "closure", "error_estimate", "fresh_cards", "kernel_digest", "load_cards",
+    "params_digest", "read_card", "refused_files",
+]  # fmt: skip
+
+SCHEMA = 1
+SAFETY = 1.5  # between a cell's worst held-out point and what is promised
+FOLDER = "THRUSTWASHER_CARDS"  # environment: one more folder with cards, for own parameter sets
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """What is known of one rung's error in one box of inputs; the fields are the file's keys."""
+
+    schema: int
+    model: str
+    fidelity: str
+    chart: str | None
+    branch: str | None
+    fold: Fold | None
+    params: ParameterSet
+    kernels: Sources
+    package: Origin
+    made: str
+    envelope: dict[str, Axis]
+    errors: dict[str, Errors]
+    cells: Cells
+    held_out: HeldOut
+    reference: Reference
+    cost: Cost
+    machine: Machine
+
+    def __post_init__(self) -> None:
+        wrong = _contradiction(self)
+        if wrong:
+            raise ParameterError(wrong)
+
+    @property
+    def name(self) -> str:
+        """The file's name without its ending."""
+        parts = [self.model, self.fidelity, self.chart, self.params.name]
+        return "-".join(p for p in parts if p and p != "default")
+
+    def covers(self, point: Mapping[str, float]) -> bool:
+        """Tell if a point (all inputs, SI) lies inside the envelope; only sizes count."""
+        return all(
+            name in point and axis.min <= _size(axis, point[name]) <= axis.max
+            for name, axis in self.envelope.items()
+        )
+
+    def error_of(self, quantity: str, point: Mapping[str, float]) -> float | None:
+        """Return the worst error of a point's cell, or None outside the envelope."""
+        if quantity not in self.errors or not self.covers(point):
+            return None
+        place = [
+            self.cells.index(k, _size(self.envelope[name], point[name]))
+            for k, name in enumerate(self.cells.axes)
+        ]
+        if place[0] is None or place[1] is None:
+            return None
+        return worst_near(self.errors[quantity], place[0], place[1])
+
+    def stale(self, params: Any = None) -> str | None:
+        """Return why the card does not hold here, with the command that renews it, or None.
+
+        Without ``params`` only the kernels are looked at.
+        """
+        renew = f"renew it: python -m thrustwasher.fidelity.verify {self.model} {self.fidelity}"
+        if params is not None and params_digest(params) != self.params.sha256:
+            return f"made for other parameters ({self.params.name}); {renew}"
+        built = [name for name in self.kernels.files if "/" in name]
+        try:
+            if tuple(sorted([*files_of(self.model, self.fidelity), *built])) != tuple(
+                sorted(self.kernels.files)
+            ):
+                return f"the kernels are made of other files since {self.made}; {renew}"
+            if kernel_digest(self.kernels.files) != self.kernels.sha256:
+                return f"the kernels have changed since {self.made}; {renew}"
+        except (KeyError, OSError) as error:
+            return f"a source is not there ({error}); {renew}"
+        return None
+
+    @property
+    def is_built(self) -> bool:
+        """True if what has to be built before the first call is shipped beside the card."""
+        return any("/" in name for name in self.kernels.files)
+
+    def as_json(self) -> str:
+        """Return the text of the card's file."""
+        text = json.dumps(asdict(self), indent=1, allow_nan=False)
+        innermost = re.compile(r"\[\s+([^][{}]*?)\s+\]")  # rows of numbers on one line each
+        return innermost.sub(lambda m: f"[{' '.join(m[1].split())}]", text) + "\n"
+
+
+def _size(axis: Axis, value: float) -> float:
+    """Return the size of an input where the card knows sizes only: parts are odd or even in it."""
+    return abs(value) if axis.min >= 0.0 else value
+
+
+def _contradiction(card: Card) -> str | None:
+    """Return what in a card does not go together, or None."""
+    if card.schema != SCHEMA:
+        return f"schema = {card.schema}, this version reads {SCHEMA}"
+    if len(card.cells.axes) != 2 or len(card.cells.edges) != 2:
+        return "cells: two axes with their edges are wanted"
+    for name, axis in card.envelope.items():
+        if axis.scale not in ("log", "linear", "fixed") or not axis.min <= axis.max:
+            return f"envelope: {name}: min <= max and a scale log, linear or fixed are wanted"
+    for name, edges in zip(card.cells.axes, card.cells.edges, strict=True):
+        if name not in card.envelope or len(edges) < 2 or list(edges) != sorted(set(edges)):
+            return f"cells: {name}: an input of the envelope with rising edges is wanted"
+    shape = [len(edges) - 1 for edges in card.cells.edges]
+    tables = [("cells: outside", card.cells.outside)]
+    for name, e in card.errors.items():
+        if e.kind not in ("relative", "absolute"):
+            return f"errors: {name}: kind = {e.kind!r}, allowed: relative or absolute"
+        tables += [(f"errors: {name}: {what}", getattr(e, what)) for what in ("worst", "rms", "n")]
+    for where, table in tables:
+        if [len(table), *{len(row) for row in table}] != shape:
+            return f"{where}: {shape[0]} x {shape[1]} cells are wanted"
+        if any(v is not None and not 0.0 <= v < math.inf for row in table for v in row):
+            return f"{where}: numbers from 0 on are wanted"
+    return None
+
+
+def read_card(path: Path) -> Card:
+    """Return the card in a file.
+
+    Raises
+    ------
+    ParameterError : not JSON, a key missing, unknown or of another type; file and key are named
+    """
+    try:
+        raw = json.loads(path.read_text("utf-8"), parse_constant=_no_number)
+    except (OSError, ValueError) as error:
+        raise ParameterError(f"{path.name}: cannot be read ({error})") from None
+    try:
+        return build(Card, raw, path.name)
+    except ParameterError as error:
+        text = str(error)
+        raise ParameterError(text if path.name in text else f"{path.name}: {text}") from None
+
+
+def _no_number(text: str) -> float:
+    raise ValueError(f"{text} is no number")
+
+
+def card_folders() -> list[Path]:
+    """Return the folders that are searched: the package's, then the one the environment names."""
+    own = os.environ.get(FOLDER)
+    return [DATA / "cards", *([Path(own)] if own else [])]
+
+
+@cache
+def _folder(folder: Path) -> tuple[tuple[Card, ...], tuple[tuple[str, str], ...]]:
+    """Return the cards of a folder, and name and reason of each file that is none."""
+    cards, refused = [], []
+    for path in sorted(folder.glob("*.json")):
+        try:
+            cards.append(read_card(path))
+        except ParameterError as error:
+            refused.append((path.name, str(error)))
+    return tuple(cards), tuple(refused)
+
+
+def forget() -> None:
+    """Read the folders again next time."""
+    _folder.cache_clear()
+    _fresh.cache_clear()
+
+
+def load_cards(model: str, params: Any = None) -> list[Card]:
+    """Return the readable cards of a model, for one parameter set if it is given.
+
+    A stale card is among them: ask ``card.stale(params)``. Of two cards with one name the later
+    folder's counts.
+    """
+    found = {c.name: c for folder in card_folders() for c in _folder(folder)[0]}
+    digest = None if params is None else params_digest(params)
+    return [
+        c for c in found.values() if c.model == model and digest in (None, c.params.sha256)
+    ]  # fmt: skip
+
+
+def refused_files() -> dict[str, str]:
+    """Return name and reason of each file in the folders that is no card."""
+    return {name: why for folder in card_folders() for name, why in _folder(folder)[1]}
+
+
+def fresh_cards(model: str, fidelity: str, params: Any) -> tuple[Card, ...]:
+    """Return the cards of a rung that hold for these parameters and these kernels."""
+    return _fresh(model, fidelity, params, os.environ.get(FOLDER))
+
+
+@lru_cache(maxsize=64)
+def _fresh(model: str, fidelity: str, params: Any, folder: str | None) -> tuple[Card, ...]:
+    cards = [c for c in load_cards(model, params) if c.fidelity == fidelity]
+    return tuple(c for c in cards if c.stale(params) is None)
+
+
+def error_estimate(
+    model: str, fidelity: str, params: Any, point: Mapping[str, float],
+    quantity: str = "friction_torque", branch: str | None = None,
+) -> float | None:  # fmt: skip
+    """Return the error to expect at a point, or None where no fresh card speaks.
+
+    1.5 x the larger of the worst held-out error in the point's cell and the reference's own
+    uncertainty; over all charts if the branch is not named.
+    """
+    errors = []
+    for card in fresh_cards(model, fidelity, params):
+        if branch is None or card.branch in (None, branch):
+            found = card.error_of(quantity, point)
+            if found is not None:
+                errors.append(max(found, card.reference.uncertainty.get(quantity, 0.0)))
+    return SAFETY * max(errors) if errors else None

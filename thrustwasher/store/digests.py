@@ -1,0 +1,91 @@
+"""Fingerprints: of a parameter set, and of the sources that a rung's numbers come from."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import json
+from collections.abc import Iterable
+from dataclasses import fields
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+PACKAGE = Path(__file__).parents[1]
+KERNELS, DATA = PACKAGE / "kernels", PACKAGE / "data"
+
+
+def params_digest(params: Any) -> str:
+    """Return the SHA-256 of a parameter object: name of its class and all its fields.
+
+    Numbers that are equal have equal digests: 1 and 1.0 count as the same.
+    """
+    values = {f.name: _plain(getattr(params, f.name)) for f in fields(params)}
+    text = json.dumps([type(params).__name__, values], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    """Return numbers as floats; text and Booleans as they are."""
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def changed_fields(params: Any) -> dict[str, Any]:
+    """Return the fields that differ from their defaults."""
+    return {
+        f.name: getattr(params, f.name)
+        for f in fields(params)
+        if getattr(params, f.name) != f.default
+    }
+
+
+@cache
+def closure(*modules: str) -> tuple[str, ...]:
+    """Return the file names of kernel modules and of all that they import from ``kernels/``.
+
+    Raises
+    ------
+    FileNotFoundError : there is no such kernel module
+    """
+    found: set[str] = set()
+    waiting = list(modules)
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += _imports(name)
+    return tuple(sorted(f"{name}.py" for name in found))
+
+
+@cache
+def _imports(module: str) -> tuple[str, ...]:
+    """Return the modules of the same package that one of them imports, wherever it does so."""
+    names: list[str] = []
+    for node in ast.walk(ast.parse((KERNELS / f"{module}.py").read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level == 1:
+            inside = [node.module] if node.module else [alias.name for alias in node.names]
+            names += [n.split(".")[0] for n in inside]
+    return tuple(n for n in names if (KERNELS / f"{n}.py").is_file())
+
+
+def kernel_digest(files: Iterable[str]) -> str:
+    """Return the SHA-256 over files of ``kernels/`` or, with a slash in the name, of ``data/``.
+
+    Line ends count as one character: a checkout on Windows has the same digest.
+
+    Raises
+    ------
+    FileNotFoundError : a file is not there any more
+    """
+    whole = hashlib.sha256()
+    for name in sorted(files):
+        whole.update(f"{name}\0{_file_digest(name)}\n".encode())
+    return whole.hexdigest()
+
+
+@cache
+def _file_digest(name: str) -> str:
+    content = ((DATA if "/" in name else KERNELS) / name).read_bytes()
+    if name.endswith(".py"):
+        content = content.replace(b"\r\n", b"\n")
+    return hashlib.sha256(content).hexdigest()

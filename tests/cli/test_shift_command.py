@@ -120,3 +120,31 @@ def test_wrong_words_are_refused_before_any_work(words, named, tmp_path, capsys,
     assert out == "" and err.count("\n") == 1
     assert [text for text in named if text not in err] == []
     assert [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_tolerance_is_answered_with_a_rung_and_its_reason_for_every_part(tmp_path, capsys):
+    words = ["shift", "--scene", "msl", "--step", "4 ms", "--out", str(tmp_path / "r")]
+    assert main([*words, "--fidelity", "auto:0.01"]) == 0
+    text, err = capsys.readouterr()
+    assert err == ""
+    for part in ("clutch", "brake"):
+        assert any(line.startswith(f"{part}: ") for line in text.splitlines()), part
+    assert "communication step 4 ms" in text
+    page = (tmp_path / "r" / "report.html").read_text("utf-8")
+    assert 'id="rungs"' in page
+
+
+@pytest.mark.parametrize(
+    ("wish", "told"),
+    [("auto:9", "auto:TOLERANCE"), ("map=field", "no part 'map'"), ("quick", "'quick', allowed")],
+)
+def test_a_wrong_fidelity_is_refused_before_any_work(wish, told, tmp_path, capsys):
+    assert main(["shift", "--fidelity", wish, "--out", str(tmp_path / "r")]) == 2
+    assert told in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_package_takes_rungs_by_name_only(tmp_path, capsys):
+    words = ["shift", "--scene", "msl", "--ssp", str(tmp_path / "s.ssp")]
+    assert main([*words, "--fidelity", "auto"]) == 2
+    assert "a rung by name" in capsys.readouterr().err

@@ -17,6 +17,12 @@ def export(arguments: argparse.Namespace, scene: Any) -> int:
         raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
     if arguments.master not in (None, "jacobi"):
         raise ParameterError(f"--master {arguments.master}: a package is for a parallel master")
+    open_ = [name for name, part in scene.parts.items() if part.tolerance]
+    if open_:
+        raise ParameterError(
+            f"fidelity of {', '.join(open_)} = auto, allowed in a package: a rung by name "
+            "(--fidelity PART=RUNG)"
+        )
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
     from ..fmu.native.link import find_linker

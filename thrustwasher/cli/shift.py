@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -37,6 +37,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--master", metavar="NAME", help="gauss-seidel or jacobi, if not the scene's"
     )
     parser.add_argument(
+        "--fidelity", metavar="[PART=]RUNG", action="append", default=[],
+        help="a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "
+        "the cheapest that holds 1 %% and guards it; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
+        "--no-guard", action="store_true", help="with auto: do not watch the run, keep the choice"
+    )
+    parser.add_argument(
         "--fmu", choices=["native", "python"],
         help="kind of FMU; default native, or python if nothing here compiles",
     )  # fmt: skip
@@ -54,10 +62,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
-    from ..drivetrain import load_scene
+    from ..drivetrain import load_scene, with_fidelities
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     scene = load_scene(arguments.scene).with_options(step=step, master=arguments.master)
+    scene = with_fidelities(scene, arguments.fidelity)
     if arguments.ssp:
         from ._ssp import export
 
@@ -69,7 +78,7 @@ def run(arguments: argparse.Namespace) -> int:
     target = chosen_target(arguments.fmu)
     began = time.perf_counter()
     with compiled_for_report(scene, target):
-        result = _simulate(scene, target)
+        result = _simulate(scene, target, guard=not arguments.no_guard)
     from ..report import summary
     from ..report.shift_record import record_of
 
@@ -80,36 +89,47 @@ def run(arguments: argparse.Namespace) -> int:
         total = time.perf_counter() - began
         _output.print_json({**result.as_dict(), "total_time": total, "out": str(folder)})
         return 0
+    for text in result.selection.words() if result.selection else []:
+        print(text)
     for text in [*summary.sentences(record), *summary.warnings(record)]:
         print(text)
     missing = f"{record.energy['residual_share']:.1e} of {summary.whole_name(record)}"
     print(f"Energy book: {missing} is missing.")
     print(f"Report: {folder / REPORT}")
+    if result.guard:
+        print(f"Guard: {result.guard.closing()}.")
     return 0
 
 
-def _simulate(scene: Any, target: str) -> Any:
+def _simulate(scene: Any, target: str, guard: bool) -> Any:
     """Return the finished shift; the FMUs are built, loaded and freed here."""
-    from ..drivetrain import run_shift
+    from ..drivetrain import run_auto
 
-    with loaded(scene, target) as instances:
-        return run_shift(scene, instances, progress=progress_bar(scene.name))
+    with _loader(scene, target) as make:
+        return run_auto(scene, make, guard=guard, progress=progress_bar(scene.name))
 
 
 @contextmanager
 def loaded(scene: Any, target: str) -> Iterator[dict[str, Any]]:
     """Give an FMU instance for every part of a scene."""
+    with _loader(scene, target) as make:
+        yield {name: make(name, part) for name, part in scene.parts.items()}
+
+
+@contextmanager
+def _loader(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
+    """Give a function that makes an FMU instance of a part; all are freed in the end."""
     from ..fmu.stepper import Instance
     from ._fmu_cache import fmu_paths
 
     paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
     with ExitStack() as alive:
-        yield {
-            name: alive.enter_context(
-                Instance(paths[part.spec.name], parameters=part.parameters(), name=name)
-            )
-            for name, part in scene.parts.items()
-        }
+
+        def make(name: str, part: Any) -> Any:
+            path = paths[part.spec.name]
+            return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
+
+        yield make
 
 
 def _write(record: Any, result: Any, folder: Path) -> None:

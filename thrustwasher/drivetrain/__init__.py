@@ -12,6 +12,8 @@
 ================  =================================================================================
 """
 
+from .asked import with_fidelities
+from .auto import run_auto
 from .figure_list import FIGURES, KeyFigure
 from .result import Cost, Event, Phase, ShiftResult
 from .scene import Part, Published, Scene
@@ -20,5 +22,5 @@ from .shift import run_shift
 
 __all__ = [
     "FIGURES", "Cost", "Event", "KeyFigure", "Part", "Phase", "Published", "Scene", "ShiftResult",
-    "builtin_scenes", "load_scene", "run_shift",
+    "builtin_scenes", "load_scene", "run_auto", "run_shift", "with_fidelities",
 ]  # fmt: skip

@@ -29,7 +29,7 @@ REAL, INT32, INT64, BYTE = range(4)  # types of values
 # What the caller hands over and gets back: the point, the operation to go on with, the status of
 # the last call.
 AT_POINT, AT_OPERATION, LAST_STATUS = range(3)
-DONE, REPORTED = range(2)
+DONE, REPORTED, NOTICED = range(3)
 WARNING = 1
 
 INT = ir.IntType(32)
@@ -148,6 +148,20 @@ def _step(op: NDArray[np.int64], third: bool, t: float, h: float, told: int) -> 
 
 
 @kernel
+def _notices(
+    rows: NDArray[np.float64], i: int, changes: NDArray[np.int64], bounds: NDArray[np.float64]
+) -> bool:
+    """Tell if point ``i`` is one to look at."""
+    for column in changes:
+        if rows[i, column] != rows[i - 1, column]:
+            return True
+    for j in range(len(bounds)):
+        if not bounds[j, 1] <= rows[i, int(bounds[j, 0])] <= bounds[j, 2]:
+            return True
+    return False
+
+
+@kernel
 def run_program(
     operations: NDArray[np.int64], places: NDArray[np.int64], third: NDArray[np.int64],
     said: NDArray[np.int64], now: NDArray[np.float64], reals: NDArray[np.float64],
@@ -155,13 +169,16 @@ def run_program(
     told: int, clock: NDArray[np.int64], tick: float, ticks: NDArray[np.int64],
     begun: NDArray[np.float64], spent: NDArray[np.float64], calls: NDArray[np.int64],
     time: NDArray[np.float64], h: float, commands: NDArray[np.float64], command: int,
-    rows: NDArray[np.float64], stop: int, report: NDArray[np.int64],
+    rows: NDArray[np.float64], changes: NDArray[np.int64], bounds: NDArray[np.float64], stop: int,
+    report: NDArray[np.int64],
 ) -> int:  # fmt: skip
     """Work through the operations for the points from ``report[AT_POINT]`` to ``stop``.
 
-    Returns DONE, or REPORTED if the call before operation ``report[AT_OPERATION]`` had a status
-    above WARNING or its part said something (the number at its address in ``said`` is not 0).
-    ``now`` holds the present values of all parts, ``rows`` gets them at every point.
+    Returns DONE; NOTICED at a point where a value in ``changes`` is not what it was at the point
+    before or one of ``bounds`` (place, low, high) is left; or REPORTED if the call before operation
+    ``report[AT_OPERATION]`` had a status above WARNING or its part said something (the number at
+    its address in ``said`` is not 0). ``now`` holds the present values of all parts, ``rows`` gets
+    them at every point.
     """
     n = len(operations)
     while report[AT_POINT] < stop:
@@ -196,4 +213,6 @@ def run_program(
                 return REPORTED
         rows[i + 1] = now
         report[AT_POINT], report[AT_OPERATION] = i + 1, 0
+        if _notices(rows, i + 1, changes, bounds):
+            return NOTICED
     return DONE

@@ -24,13 +24,33 @@ class Run(NamedTuple):
     recorder: Recorder
 
 
+class Watch(NamedTuple):
+    """What ends a stretch before its time; places are columns of the recorder."""
+
+    changes: NDArray[np.int64]
+    """Values that were others at the point before."""
+    bounds: NDArray[np.float64]
+    """Rows of place, low, high: values outside."""
+
+    def notices(self, rows: NDArray[np.float64], i: int) -> bool:
+        """Tell if point ``i`` is one to look at."""
+        if (rows[i, self.changes] != rows[i - 1, self.changes]).any():
+            return True
+        values = rows[i, self.bounds[:, 0].astype(np.int64)]
+        return not ((self.bounds[:, 1] <= values) & (values <= self.bounds[:, 2])).all()
+
+
+NOTHING = Watch(np.zeros(0, np.int64), np.zeros((0, 3)))
+
+
 class Loop(Protocol):
     """A way to carry a run from one communication point to another."""
 
-    def advance(self, i: int, stop: int) -> None:
+    def advance(self, i: int, stop: int, watch: Watch = NOTHING) -> int:
         """Step from point ``i`` to point ``stop`` and record every point on the way.
 
-        ParameterError or SolveError names the part and the time where it failed.
+        Returns the point reached: ``stop``, or the first that ``watch`` notices. ParameterError or
+        SolveError names the part and the time where it failed.
         """
 
 
@@ -40,7 +60,7 @@ class PythonLoop:
     def __init__(self, run: Run) -> None:
         self.run = run
 
-    def advance(self, i: int, stop: int) -> None:
+    def advance(self, i: int, stop: int, watch: Watch = NOTHING) -> int:
         """Step from point ``i`` to point ``stop``."""
         system, schedule, time, h, commands, recorder = self.run
         for k in range(i, stop):
@@ -52,3 +72,6 @@ class PythonLoop:
                 else:
                     move.part.pull()
             recorder.keep(k + 1)
+            if watch.notices(recorder.rows, k + 1):
+                return k + 1
+        return stop

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError
-from .loop import Run
+from .loop import NOTHING, Run, Watch
 from .moves import Pull
 from .parts import COMMAND
 from .system import ConnectedPart, renamed
@@ -156,19 +156,22 @@ class CompiledLoop:
             run.commands, command, run.recorder.rows,
         )  # fmt: skip
         self._function = c.run_program
-        self._function(*self._arguments, 0, self._report)  # compiled or loaded before time counts
+        self._function(
+            *self._arguments, *NOTHING, 0, self._report
+        )  # compiled or loaded before time counts
 
-    def advance(self, i: int, stop: int) -> None:
+    def advance(self, i: int, stop: int, watch: Watch = NOTHING) -> int:
         """Step from point ``i`` to point ``stop``."""
         c, report = self.layout.codes, self._report
         self._now[:] = self.run.recorder.rows[i]
         report[:] = i, 0, 0
         try:
-            while self._function(*self._arguments, stop, report) == c.REPORTED:
+            while self._function(*self._arguments, *watch, stop, report) == c.REPORTED:
                 self._judge()
         finally:
             self._book()
         self.run.recorder.give_back(self._now)
+        return int(report[c.AT_POINT])
 
     def _judge(self) -> None:
         """Raise if the last call failed, as stepping in Python would."""

@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from .figure_list import KeyFigure
+from .guard_plan import GuardLog
 from .parts import PARTS
 from .scene import Scene
+from .selection_record import Selection
 
 
 class Event(NamedTuple):
@@ -72,6 +74,10 @@ class ShiftResult:
     real_time_factor: float
     """Simulated time over wall-clock time."""
     messages: list[str]
+    guard: GuardLog | None = None
+    """What the guard saw and did; None: there was none."""
+    selection: Selection | None = None
+    """Why the rungs are what they are, if they were chosen for a tolerance."""
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -126,6 +132,8 @@ class ShiftResult:
             "master_overhead": self.overhead,
             "real_time_factor": self.real_time_factor,
             "messages": self.messages,
+            "guard": self.guard.as_dict() if self.guard else None,
+            "selection": self.selection.as_dict() if self.selection else None,
             "parameters": {name: part.parameters() for name, part in scene.parts.items()},
         }
 

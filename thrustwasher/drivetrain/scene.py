@@ -20,6 +20,8 @@ class Part:
     spec: ModelSpec
     fidelity: str
     params: Any
+    tolerance: float | None = None
+    """Asked for with fidelity "auto": the rung is still to be chosen; None: it is as it stands."""
 
     def parameters(self) -> dict[str, Any]:
         """Return all parameters by name, the fidelity among them, as an FMU takes them."""

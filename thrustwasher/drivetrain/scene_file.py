@@ -17,12 +17,13 @@ from ..errors import ParameterError
 from ..models._params import allowed
 from ..models._spec import ModelSpec
 from ..units import parse_quantity
+from .asked import asked_for
 from .figure_list import FIGURES
 from .parts import PARTS, REQUIRED
 from .scene import STEP_RANGE, Part, Published, Scene
 
 # Key -> (unit, least, largest); texts have no unit.
-TEXTS = ("title", "description", "base", "master")
+TEXTS = ("title", "description", "base", "master", "fidelity")
 NUMBERS = {
     "start_time": ("s", -1e6, 1e6),
     "stop_time": ("s", -1e6, 1e6),
@@ -149,7 +150,10 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
     parts = {}
     for key in PARTS:
         if key in table:
-            parts[key] = _part(f"{where} [{key}]", PARTS[key], table[key])
+            given = dict(table[key])
+            if "fidelity" in table and len(PARTS[key].fidelities) > 1:
+                given.setdefault("fidelity", table["fidelity"])  # the scene's word for all parts
+            parts[key] = _part(f"{where} [{key}]", PARTS[key], given)
     scene = Scene(
         name=name,
         title=table.get("title", name),
@@ -199,13 +203,10 @@ RESERVED = {
 def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
     known = {f.name: f.metadata for f in fields(spec.params)}
     values: dict[str, Any] = {}
-    fidelity = spec.default_fidelity
+    fidelity, tolerance = spec.default_fidelity, None
     for key, value in table.items():
         if key == "fidelity":
-            if value not in spec.fidelities:
-                options = " or ".join(repr(n) for n in spec.fidelities)
-                raise ParameterError(f"{where}: fidelity = {value!r}, allowed: {options}")
-            fidelity = value
+            fidelity, tolerance = asked_for(where, spec, value)
         elif key not in known:
             raise _unknown(where, key, ["fidelity", *known])
         elif key in RESERVED:
@@ -213,7 +214,8 @@ def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
         else:
             values[key] = _value(where, key, value, known[key])
     try:
-        return Part(spec=spec, fidelity=fidelity, params=spec.params(**values))
+        params = spec.params(**values)
+        return Part(spec=spec, fidelity=fidelity, params=params, tolerance=tolerance)
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None
 

@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from . import book, course
+from .costs import Meter
 from .figures import key_figures
+from .guard import Guard
+from .guard_plan import Plan
 from .loop import Loop, PythonLoop, Run
 from .master import MASTERS
 from .parts import links
@@ -29,6 +32,7 @@ def run_shift(
     *,
     step: float | None = None,
     master: str | None = None,
+    guards: Mapping[str, Plan] | None = None,
     progress: Progress | None = None,
     compiled: bool | None = None,
 ) -> ShiftResult:
@@ -41,6 +45,7 @@ def run_shift(
     instances : one per part of the scene, made with ``scene.parts[name].parameters()``; they are
         neither closed nor reset here
     step, master : other values than the scene's
+    guards : part -> how its rung is watched and what may take over (``run_auto`` makes them)
     progress : called as ``progress(done, total)`` a hundred times at most, and at the end
     compiled : step the instances in one compiled function; default: if all of them are FMUs. The
         numbers are the same to the bit
@@ -53,47 +58,44 @@ def run_shift(
     messages = _remarks(scene, asked)
     scene = asked
     system = connected(scene, instances)
-    parts = system.parts
+    run = _laid_out(scene, system, messages)
+    system.initialize(scene.start_time)
+    run.recorder.keep(0)
+    plans = guards or {}
+    guard = Guard(run, plans, lambda now: loop_for(now, compiled)) if plans else None
+    advance = guard.advance if guard else loop_for(run, compiled).advance
+    meter = Meter(scene, system, plans)
+    begin = perf_counter()
+    _drive(advance, len(run.time) - 1, progress)
+    wall = perf_counter() - begin
+    return _result(scene, run, wall, meter.costs(wall, guard), messages, guard)
+
+
+def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
+    """Return times, commands, moves and rows of a run; say it if the step had to be adapted."""
     span = scene.stop_time - scene.start_time
     n = max(1, round(span / scene.step))
     h = span / n
     if abs(h / scene.step - 1.0) > 1e-9:
         messages.append(f"the step is {h:.9g} s so that {n} steps end at the stop time")
     time = scene.start_time + h * np.arange(n + 1, dtype=np.float64)
-    recorder = Recorder(system, n + 1)
-    system.initialize(scene.start_time)
-    recorder.keep(0)
-    spent_before = {name: p.instance.wall_time for name, p in parts.items()}
-    calls_before = {name: p.instance.calls for name, p in parts.items()}
-
     commands = np.array([scene.command(t) for t in time.tolist()])
-    run = Run(system, MASTERS[scene.master].schedule(system), time, h, commands, recorder)
-    loop = loop_for(run, compiled)
-    begin = perf_counter()
-    _drive(loop, n, progress)
-    wall = perf_counter() - begin
+    schedule = MASTERS[scene.master].schedule(system)
+    return Run(system, schedule, time, h, commands, Recorder(system, n + 1))
 
-    signals = recorder.signals()
+
+def _result(
+    scene: Scene, run: Run, wall: float, cost: list[Cost], messages: list[str],
+    guard: Guard | None,
+) -> ShiftResult:  # fmt: skip
+    """Read everything from the rows of a finished run."""
+    time, signals = run.time, run.recorder.signals()
     found = course.events(scene, time, signals)
-    messages += _advice(time, signals)
-    cost = []
-    for name, part in parts.items():
-        spent = part.instance.wall_time - spent_before[name]
-        cost.append(
-            Cost(
-                part=name,
-                model=part.spec.name,
-                fidelity=scene.parts[name].fidelity,
-                instantiate=part.instance.instantiate_time,
-                initialize=part.instance.initialize_time,
-                steps=part.instance.calls - calls_before[name],
-                wall_time=spent,
-                share=spent / wall,
-            )
-        )
+    log = guard.log() if guard else None
+    spent = sum(c.wall_time for c in cost) + (log.seconds if log else 0.0)
     return ShiftResult(
         scene=scene,
-        step=h,
+        step=run.h,
         master=scene.master,
         time=time,
         signals=signals,
@@ -103,19 +105,20 @@ def run_shift(
         key_figures=key_figures(scene, time, signals, found),
         cost=cost,
         wall_time=wall,
-        overhead=wall - sum(c.wall_time for c in cost),
-        real_time_factor=span / wall,
-        messages=messages,
+        overhead=wall - spent,
+        real_time_factor=(scene.stop_time - scene.start_time) / wall,
+        messages=[*messages, *_advice(time, signals)],
+        guard=log,
     )
 
 
-def _drive(loop: Loop, n: int, progress: Progress | None) -> None:
+def _drive(advance: Callable[[int, int], int], n: int, progress: Progress | None) -> None:
     """Carry the run to its end in stretches that a person at a terminal does not notice."""
     done, stretch = 0, max(1, n // 100)
     while done < n:
-        begin = perf_counter()
-        i, done = done, min(done + stretch, n)
-        loop.advance(i, done)
+        begin, stop = perf_counter(), min(done + stretch, n)
+        while done < stop:
+            done = advance(done, stop)
         if progress is not None:
             progress(done, n)
         if perf_counter() - begin < STRETCH:

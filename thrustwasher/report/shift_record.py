@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .rungs import Rungs, rungs_of
+
 Array = np.ndarray[Any, Any]
 PACKS = ("clutch", "brake")
 
@@ -97,6 +99,9 @@ class Record:
     costs: Sequence[Cost]
     wall_time: float
     messages: Sequence[str] = ()
+    rungs: Rungs | None = None
+    looks: float = 0.0
+    """[s] of wall clock for the guard's looks."""
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -175,4 +180,6 @@ def record_of(result: Any) -> Record:
         ],
         wall_time=result.wall_time,
         messages=result.messages,
+        rungs=rungs_of(result),
+        looks=result.guard.seconds if result.guard else 0.0,
     )

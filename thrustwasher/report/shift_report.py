@@ -6,6 +6,7 @@ from ..units import format_quantity as say
 from . import summary, tables
 from .extremes import highest, worst_film
 from .html import Card, Page, Plot, Section
+from .rungs import rung_sections
 from .shift_plots import (
     energy_figure,
     film_figure,
@@ -41,6 +42,7 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
             caption="Integrated by the driveline itself inside its steps.",
         )]),
         Section(anchor="key-figures", title="Key figures", tables=[tables.key_table(record)]),
+        *rung_sections(record.rungs, record.wall_time),
         _cost_section(record),
         Section(
             anchor="parameters", title="What was simulated",

@@ -20,6 +20,9 @@ class Moment(NamedTuple):
     recorded_film_ratio: float
 
 
+WITH_FIELDS = ("coarse", "field", "fine")  # rungs that leave maps over the washer
+
+
 def solve_moment(record: Record, time: float) -> Moment | None:
     """Return the washer at ``time``; None if the scene has none or no solution is found.
 
@@ -35,6 +38,8 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     known = {f.name for f in fields(WasherParams)}
     params = WasherParams(**{k: v for k, v in part.parameters.items() if k in known})
     fidelity = str(part.parameters.get("fidelity", SPEC.default_fidelity))
+    if fidelity not in WITH_FIELDS:
+        fidelity = SPEC.default_fidelity
     point: dict[str, Any] = {
         name: record.at(f"washer.{name}", time) or 0.0
         for name in ("load", "speed", "tilt", "oil_temperature")

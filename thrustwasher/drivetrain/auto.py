@@ -1,0 +1,82 @@
+"""A shift at a tolerance: scout, choose a rung for every part, run under guard."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from .budget import seconds_of, step_seconds, strides
+from .guard_plan import Plan
+from .result import ShiftResult
+from .scene import Scene
+from .scout import Make, Pool, scout
+from .selection import select
+from .selection_record import Selected, Selection
+from .shift import Progress, run_shift
+from .step_share import step_share
+
+
+def run_auto(
+    scene: Scene,
+    make: Make,
+    *,
+    guard: bool = True,
+    progress: Progress | None = None,
+    compiled: bool | None = None,
+) -> ShiftResult:
+    """Simulate a shift; the rung of every part that asks for a tolerance is found here.
+
+    Parameters
+    ----------
+    scene : what to simulate; ``tolerance`` of a part is the relative error asked for
+    make : returns an instance of a part, of the fidelity that stands in it; whoever makes it closes
+        it. One that has ``reset`` is used again
+    guard : watch the run and change a rung where its choice does not hold
+    progress, compiled : as in ``run_shift``
+
+    Returns
+    -------
+    ShiftResult : with ``selection`` and, if there was one, the guard's log
+
+    Raises
+    ------
+    ParameterError, SolveError : as in ``run_shift``; also if no rung of a part holds its tolerance
+    """
+    pool = Pool(make)
+    asked = [p.tolerance for p in scene.parts.values() if p.tolerance]
+    if not asked:
+        return run_shift(scene, pool.all_of(scene), progress=progress, compiled=compiled)
+    scouted = scout(scene, pool, compiled)
+    steps = max(1, round((scene.stop_time - scene.start_time) / scene.step))
+    chosen = select(scene, scouted, steps)
+    share = step_share(scouted, scene.step, min(asked))
+    selection = Selection(chosen, share, scouted.seconds)
+    parts = dict(scene.parts)
+    for found in chosen:
+        parts[found.part] = replace(parts[found.part], fidelity=found.rung, tolerance=None)
+    scene = replace(scene, parts=parts)
+    instances = pool.all_of(scene)
+    plans = _plans(scene, chosen, pool) if guard else {}
+    result = run_shift(
+        scene, instances, guards=plans, progress=progress, compiled=compiled
+    )  # fmt: skip
+    return replace(result, selection=selection)
+
+
+def _plans(scene: Scene, chosen: list[Selected], pool: Pool) -> dict[str, Plan]:
+    """Return a guard's plan for every part that has a rung above its own."""
+    guarded = [c for c in chosen if c.above is not None and c.scales]
+    step = step_seconds({n: (p.spec, p.fidelity) for n, p in scene.parts.items()})
+    plans = {}
+    for c in guarded:
+        part, higher = scene.parts[c.part], str(c.above)
+        base, above = (seconds_of(part.spec, rung) for rung in (c.rung, higher))
+        plans[c.part] = Plan(
+            base=c.rung,
+            above=higher,
+            instance=pool.take(c.part, replace(part, fidelity=higher)),
+            scales=c.scales,
+            tolerance=c.tolerance,
+            box=c.box,
+            every=strides(step, base, above, len(guarded)),
+        )
+    return plans

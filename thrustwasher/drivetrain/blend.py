@@ -1,0 +1,46 @@
+"""Two rungs of one part for the step in which one takes over from the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ..models._spec import ModelSpec
+from .system import Stepping
+
+
+class Blend:
+    """Steps two instances with the same inputs and returns a mix of their outputs.
+
+    Real outputs are ``(1 - share) x old + share x new``: torques of one sign, each of which takes
+    energy out, mix to one that does so too. Everything else is the new one's.
+    """
+
+    def __init__(self, spec: ModelSpec, old: Stepping, new: Stepping, share: float = 0.5) -> None:
+        self.input_names, self.output_names = new.input_names, new.output_names
+        self.old, self.new, self.share = old, new, share
+        self._real = [signal.kind == "real" for signal in spec.outputs]
+        self.calls, self.wall_time = 0, 0.0
+        self.instantiate_time = self.initialize_time = 0.0
+
+    def initialize(self, start_time: float, inputs: Mapping[str, float]) -> None:
+        """Start both."""
+        for instance in (self.old, self.new):
+            instance.initialize(start_time, inputs)
+
+    def set_inputs(self, values: Sequence[float]) -> None:
+        """Hand the inputs to both."""
+        for instance in (self.old, self.new):
+            instance.set_inputs(values)
+
+    def step(self, t: float, h: float) -> None:
+        """Let both step."""
+        for instance in (self.old, self.new):
+            instance.step(t, h)
+
+    def outputs(self) -> list[float]:
+        """Return the mix."""
+        s = self.share
+        return [
+            (1.0 - s) * a + s * b if real else b
+            for a, b, real in zip(self.old.outputs(), self.new.outputs(), self._real, strict=True)
+        ]

@@ -63,8 +63,8 @@ def run_auto(
 
 
 def _plans(scene: Scene, chosen: list[Selected], pool: Pool) -> dict[str, Plan]:
-    """Return a guard's plan for every part that has a rung above its own."""
-    guarded = [c for c in chosen if c.above is not None and c.scales]
+    """Return a guard's plan for every part that was chosen and has a rung above."""
+    guarded = [c for c in chosen if c.verified and c.above is not None and c.scales]
     step = step_seconds({n: (p.spec, p.fidelity) for n, p in scene.parts.items()})
     plans = {}
     for c in guarded:

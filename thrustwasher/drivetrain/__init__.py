@@ -3,10 +3,15 @@
 ================  =================================================================================
 ``scene``         ``Scene``: what is simulated
 ``scene_file``    TOML file -> checked ``Scene``; ``scenes/`` holds the built-in ones
+``asked``         which rung of a part is asked for, or which tolerance
 ``parts``         which parts there are and who passes what to whom
 ``system``        instances with their present inputs and outputs
-``master``        the list of masters; ``jacobi``, ``gauss_seidel``: one each
-``shift``         ``run_shift``: the loop, and the result
+``master``        the list of masters; ``jacobi``, ``gauss_seidel``: one each; ``moves``: their words
+``loop``          the loop over communication points; ``program``, ``compiled_loop``: the compiled one
+``shift``         ``run_shift``: one run, and the result
+``auto``          ``run_auto``: ``scout``, ``selection`` of rungs, a run under guard
+``guard``         changes a rung while a shift runs; ``sentry``: the guard of one part;
+                  ``guard_rules``: its decisions; ``budget``: how often it looks
 ``course``        events and phases; ``book``: energy book and key figures
 ``result``        ``ShiftResult``
 ================  =================================================================================

@@ -1,55 +1,21 @@
-"""Lays a run out for the compiled loop: operations, addresses, buffers.
-
-An instance that can be stepped so has two methods more than ``Stepping``: ``machine`` returns its
-addresses, ``judge`` raises what a bad status of a call means.
-"""
+"""Lays a run out for the compiled loop: operations, addresses, buffers."""
 
 from __future__ import annotations
 
 import ctypes
 import sys
 import time
-from collections.abc import Sequence
-from typing import Any, Protocol, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError
 from .loop import NOTHING, Run, Watch
+from .machine import Group, has_machine, machine_of
 from .moves import Pull
 from .parts import COMMAND
 from .system import ConnectedPart, renamed
-
-
-class Group(Protocol):
-    """A call that sets or gets values of one type."""
-
-    @property
-    def function(self) -> int: ...  # noqa: D102
-    @property
-    def references(self) -> int: ...  # noqa: D102
-    @property
-    def places(self) -> list[int]: ...  # noqa: D102
-    @property
-    def kind(self) -> str: ...  # noqa: D102
-
-
-class Machine(Protocol):
-    """The addresses of an instance."""
-
-    @property
-    def third(self) -> bool: ...  # noqa: D102
-    @property
-    def component(self) -> int: ...  # noqa: D102
-    @property
-    def step(self) -> int: ...  # noqa: D102
-    @property
-    def setters(self) -> Sequence[Group]: ...  # noqa: D102
-    @property
-    def getters(self) -> Sequence[Group]: ...  # noqa: D102
-    @property
-    def said(self) -> int: ...  # noqa: D102
 
 
 def can_compile(run: Run) -> bool:
@@ -59,7 +25,7 @@ def can_compile(run: Run) -> bool:
     settings: Any = config
     if settings.DISABLE_JIT or sys.maxsize < 2**32:
         return False
-    return all(hasattr(p.instance, "machine") for p in run.system.parts.values())
+    return all(has_machine(p.instance) for p in run.system.parts.values())
 
 
 class Layout:
@@ -71,7 +37,7 @@ class Layout:
         self._kinds = {"real": c.REAL, "int32": c.INT32, "int64": c.INT64, "byte": c.BYTE}
         self.run, self.codes = run, c
         self.parts = list(run.system.parts.values())
-        self.machines = [cast(Any, p.instance).machine() for p in self.parts]
+        self.machines = [machine_of(p.instance).machine() for p in self.parts]
         room = sum(len(p.input_names) + len(p.output_names) for p in self.parts)
         types = (np.float64, np.int32, np.int64, np.uint8)
         self.buffers: list[NDArray[Any]] = [np.zeros(room, t) for t in types]
@@ -178,7 +144,7 @@ class CompiledLoop:
         c, report = self.layout.codes, self._report
         part, stage = self.layout.stage(int(report[c.AT_OPERATION]) - 1)
         try:
-            cast(Any, part.instance).judge(stage, int(report[c.LAST_STATUS]))
+            machine_of(part.instance).judge(stage, int(report[c.LAST_STATUS]))
         except (ParameterError, SolveError) as problem:
             time = float(self.run.time[report[c.AT_POINT]])
             raise renamed(problem, part.name, time) from problem

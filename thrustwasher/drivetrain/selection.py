@@ -59,7 +59,7 @@ def _select(name: str, part: Part, scouted: Scouted, steps: int) -> Selected:
     if not speaking:
         rung, verified = spec.default_fidelity, False
         words: tuple[str, ...] = (
-            f"{name}: {rung}, the model's default: no card speaks for these parameters; not guarded",
+            f"{name}: {rung}, its default: no card speaks for these parameters; not guarded",
         )
         higher = above(spec, rung)
     else:

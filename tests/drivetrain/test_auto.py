@@ -163,10 +163,7 @@ def test_the_chooser_is_asked_once_for_the_scouted_box_and_the_rungs_share(monke
 def test_every_part_says_why(monkeypatch):
     words = run(monkeypatch)[0].selection.words()
     assert "mesh: closed, made up" in words and "  why not" in words
-    assert (
-        "clutch: field, the model's default: no card speaks for these parameters; not guarded"
-        in words
-    )
+    assert any(w.startswith("clutch: field, its default: no card") for w in words)
     assert "communication step 1 ms" in words[-1]
 
 

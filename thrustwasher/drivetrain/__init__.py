@@ -6,8 +6,8 @@
 ``asked``         which rung of a part is asked for, or which tolerance
 ``parts``         which parts there are and who passes what to whom
 ``system``        instances with their present inputs and outputs
-``master``        the list of masters; ``jacobi``, ``gauss_seidel``: one each; ``moves``: their words
-``loop``          the loop over communication points; ``program``, ``compiled_loop``: the compiled one
+``master``        the list of masters; ``jacobi``, ``gauss_seidel``: one each; ``moves``: words
+``loop``          the loop over communication points; ``program``, ``compiled_loop``: compiled
 ``shift``         ``run_shift``: one run, and the result
 ``auto``          ``run_auto``: ``scout``, ``selection`` of rungs, a run under guard
 ``guard``         changes a rung while a shift runs; ``sentry``: the guard of one part;

@@ -9,7 +9,7 @@ from .guard_plan import Plan
 from .result import ShiftResult
 from .scene import Scene
 from .scout import Make, Pool, scout
-from .selection import select
+from .selection import WITHOUT_PAST, select
 from .selection_record import Selected, Selection
 from .shift import Progress, run_shift
 from .step_share import step_share
@@ -63,8 +63,8 @@ def run_auto(
 
 
 def _plans(scene: Scene, chosen: list[Selected], pool: Pool) -> dict[str, Plan]:
-    """Return a guard's plan for every part that was chosen and has a rung above."""
-    guarded = [c for c in chosen if c.verified and c.above is not None and c.scales]
+    """Return a guard's plan for every part without a past that was chosen and has a rung above."""
+    guarded = [c for c in chosen if c.verified and c.above and c.model in WITHOUT_PAST]
     step = step_seconds({n: (p.spec, p.fidelity) for n, p in scene.parts.items()})
     plans = {}
     for c in guarded:

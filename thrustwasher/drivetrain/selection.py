@@ -16,6 +16,9 @@ from .selection_record import Box, Selected
 MODEL_SHARE = 0.6  # of the tolerance asked for is the rung's; the step has 0.3, the rest is spare
 FLOOR = 0.1  # of the scene's range: below it differences count as if the value were this large
 LEAST_RISE = 1.0  # K; a temperature that hardly moves is not compared more closely
+# Models whose outputs follow from the inputs of the moment. A guard's second instance sees these in
+# strides; of a model with a past of its own, such as a pack's film, it would have another past.
+WITHOUT_PAST = ("washer", "gearmesh")
 # What a part is judged by: quantity of its cards, output that a guard compares.
 QUANTITIES: Mapping[str, tuple[tuple[str, str], ...]] = {
     "washer": (("friction_torque", "friction_torque"),),
@@ -73,6 +76,8 @@ def _select(name: str, part: Part, scouted: Scouted, steps: int) -> Selected:
         words = tuple(_renamed(line, spec.key, name) for c in choices for line in c.reasons)
         higher = above(spec, rung)
         beyond = best.outside.fidelity if best.outside else ""
+        if spec.key not in WITHOUT_PAST:
+            words += ("  not guarded: it has a past, which an instance in strides would not share",)
         if beyond and rungs.index(beyond) > rungs.index(rung):
             higher = beyond
     return Selected(name, spec.key, rung, higher, share, verified, words, box, scales)

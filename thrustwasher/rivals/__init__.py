@@ -1,0 +1,9 @@
+"""Other methods for the same equations, written as plainly as their users write them.
+
+They are here to be measured against: no solver of the package calls them. Each says what it keeps
+of the original and what was set as favourably as can be.
+
+===============  =================================================================================
+``plain2006``    the washer as published in 2006: uniform mesh, over-relaxation, difference Newton
+===============  =================================================================================
+"""

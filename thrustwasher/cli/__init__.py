@@ -26,6 +26,7 @@ COMMANDS = (
     "gearmesh",
     "shift",
     "sweep",
+    "chart",
     "build",
     "doctor",
 )

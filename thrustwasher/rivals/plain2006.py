@@ -23,6 +23,7 @@ from ..errors import Status
 from ..models.washer_constants import constants
 from ..models.washer_params import WasherParams
 from . import plain2006_kernel as kernel
+from .plain2006_mesh import Settings
 
 Array = NDArray[np.float64]
 GRID = (9, 67)
@@ -50,7 +51,7 @@ class Plain2006:
 
     def solve(self, load: float, speed: float, tilt: float, oil_temperature: float) -> Status:
         """Solve one point, warm if there was one before; the results are the properties below."""
-        settings = kernel.Settings(
+        settings = Settings(
             self.relaxation, HEAT_RELAXATION, self.tolerance, DIFFERENCE, self.share, MOST_ROUNDS
         )
         status = kernel.solve(

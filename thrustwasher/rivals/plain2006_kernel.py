@@ -1,20 +1,18 @@
-"""The washer solved as it was published, as compiled loops; see ``plain2006`` for the method.
-
-All of it is one file: numba stamps cached code by its own file only.
-"""
+"""The washer solved as it was published, as compiled loops; see ``plain2006`` for the method."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels._jit import kernel
 from ..kernels.contact import contact_pressure
 from ..kernels.film import flow_conductance, mean_gap, shear_flow
 from ..kernels.roelands import viscosity
 from ..kernels.washer_gap import dry_friction
 from ..kernels.washer_model import WasherModel, washer_model
+from ._jit import rival
+from .plain2006_heat import heat
+from .plain2006_mesh import Mesh, Settings, gap_at, make_mesh
 
 Array = NDArray[np.float64]
 OK, MAX_ITERATIONS, NOT_FINITE = 0, 10, 14  # errors.Status
@@ -23,57 +21,7 @@ Q, N_Q = 0, 4  # places in `memory`: positions, then pressures, then temperature
 TORQUE, TEMPERATURE, FILM, SWEEPS, NEWTONS, ROUNDS, RATIO, N_OUT = 0, 1, 2, 3, 4, 5, 6, 7
 
 
-class Settings(NamedTuple):
-    """How the method is run."""
-
-    relaxation: float  # over-relaxation of the pressure
-    heat_relaxation: float  # of the temperatures
-    tolerance: float  # of every loop, relative
-    difference: float  # of the derivatives [sigma]
-    share: float  # of a temperature step that is taken
-    most_rounds: int
-
-
-class Mesh(NamedTuple):
-    """A uniform polar mesh; nodes (n_t, n_r), cells around them."""
-
-    r: Array  # (n_r,) [m]
-    area: Array  # (n_r,) of a cell [m2]
-    cos: Array  # (n_t,)
-    sin: Array
-    i_g: int  # radial node on the gear's inner radius
-    d_theta: float
-
-
-@kernel
-def make_mesh(m: WasherModel, n_r: int, n_t: int) -> Mesh:
-    """Return the mesh: equal intervals inside and outside the gear's inner radius."""
-    share = (m.gear_inner_radius - m.inner_radius) / (m.outer_radius - m.inner_radius)
-    i_g = min(max(1, int(share * (n_r - 1) + 0.5)), n_r - 2)
-    r, area = np.empty(n_r), np.empty(n_r)
-    for i in range(n_r):
-        if i <= i_g:
-            r[i] = m.inner_radius + (m.gear_inner_radius - m.inner_radius) * i / i_g
-        else:
-            s = (i - i_g) / (n_r - 1 - i_g)
-            r[i] = m.gear_inner_radius + (m.outer_radius - m.gear_inner_radius) * s
-    d_theta = 2.0 * math.pi / n_t
-    for i in range(n_r):
-        a = 0.5 * (r[i] + r[i - 1]) if i > 0 else r[0]
-        b = 0.5 * (r[i] + r[i + 1]) if i < n_r - 1 else r[n_r - 1]
-        area[i] = 0.5 * (b * b - a * a) * d_theta
-    cos, sin = np.empty(n_t), np.empty(n_t)
-    for j in range(n_t):
-        cos[j], sin[j] = math.cos(j * d_theta), math.sin(j * d_theta)
-    return Mesh(r, area, cos, sin, i_g, d_theta)
-
-
-@kernel
-def _gap(g: Mesh, q: Array, j: int, i: int) -> float:
-    return q[0] + g.r[i] * (g.sin[j] * q[2] - g.cos[j] * q[3])
-
-
-@kernel
+@rival
 def _conductances(
     m: WasherModel, g: Mesh, q: Array, speed: float, mu: Array, east: Array, north: Array,
     source: Array,
@@ -87,7 +35,7 @@ def _conductances(
     for j in range(n_t):
         jn = (j + 1) % n_t
         for i in range(n_r):
-            h0, h1 = _gap(g, q, j, i), _gap(g, q, jn, i)
+            h0, h1 = gap_at(g, q, j, i), gap_at(g, q, jn, i)
             h = 0.5 * (h0 + h1)
             flow, _ = flow_conductance(h, m.sigma1)
             if 0 < i < n_r - 1:
@@ -101,7 +49,7 @@ def _conductances(
                 source[j, i] -= through
                 source[jn, i] += through
             if i < n_r - 1:
-                h = 0.5 * (h0 + _gap(g, q, j, i + 1))
+                h = 0.5 * (h0 + gap_at(g, q, j, i + 1))
                 flow, _ = flow_conductance(h, m.sigma1)
                 north[j, i] = (
                     flow * 0.5 * (g.r[i] + g.r[i + 1]) * g.d_theta / (g.r[i + 1] - g.r[i])
@@ -109,7 +57,7 @@ def _conductances(
                 )  # fmt: skip
 
 
-@kernel
+@rival
 def relax_pressure(
     east: Array, north: Array, source: Array, p: Array, s: Settings, most: int
 ) -> int:
@@ -137,7 +85,7 @@ def relax_pressure(
     return most
 
 
-@kernel
+@rival
 def forces(
     m: WasherModel, g: Mesh, q: Array, tilt: float, p: Array, force: Array
 ) -> tuple[float, float]:
@@ -159,11 +107,7 @@ def forces(
             if i >= g.i_g:
                 h = q[1] - q[0] - x * (tilt - q[3]) - y * q[2]
                 pc, _ = contact_pressure((h - m.mean_summit2) / m.summit_sigma2, m.table2)
-                area = g.area[i]
-                if i == g.i_g:  # the gear begins at its node: the outer half of the cell
-                    b = 0.5 * (g.r[i] + g.r[i + 1])
-                    area = 0.5 * (b * b - g.r[i] * g.r[i]) * g.d_theta
-                f = pc * area
+                f = pc * g.gear_area[i]
                 force[0] -= f
                 force[1] -= f * y
                 force[2] += f * x
@@ -171,7 +115,7 @@ def forces(
     return contact, force[3]
 
 
-@kernel
+@rival
 def solve_four(a: Array, b: Array) -> bool:
     """Gauss elimination with pivoting, in place; the solution is in ``b``."""
     n = b.size
@@ -197,7 +141,7 @@ def solve_four(a: Array, b: Array) -> bool:
     return True
 
 
-@kernel
+@rival
 def _residual(
     m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, load: float, mu: Array, p: Array,
     s: Settings, east: Array, north: Array, source: Array, force: Array,
@@ -212,7 +156,7 @@ def _residual(
     return sweeps
 
 
-@kernel
+@rival
 def balance(
     m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, load: float, mu: Array, p: Array,
     s: Settings, out: Array,
@@ -258,77 +202,7 @@ def balance(
     return MAX_ITERATIONS
 
 
-@kernel
-def heat(
-    m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, mu: Array, contact: float,
-    rise: Array, s: Settings,
-) -> int:  # fmt: skip
-    """Gauss-Seidel with over-relaxation for carrier, washer, gear (3, n_t, n_r); return sweeps."""
-    n_t, n_r = mu.shape
-    friction, _ = dry_friction(m, contact)
-    q_in, across1, across2 = np.zeros((n_t, n_r)), np.zeros((n_t, n_r)), np.zeros((n_t, n_r))
-    half = m.washer_thickness / (2.0 * m.conductivity)
-    for j in range(n_t):
-        for i in range(n_r):
-            x, y = g.r[i] * g.cos[j], g.r[i] * g.sin[j]
-            h = q[0] + y * q[2] - x * q[3]
-            mean, _ = mean_gap(h, m.sigma1)
-            pc, _ = contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)
-            v = abs(speed) * g.r[i]
-            film = m.film_heat_fraction * mu[j, i] * v * v / mean
-            q_in[j, i] = g.area[i] * (film + friction * pc * v)
-            across1[j, i] = g.area[i] / (mean / m.oil_conductivity + half)
-            if i >= g.i_g:
-                h = q[1] - q[0] - x * (tilt - q[3]) - y * q[2]
-                mean, _ = mean_gap(h, m.sigma2)
-                across2[j, i] = g.area[i] / (mean / m.oil_conductivity + half)
-                if i == g.i_g:
-                    b = 0.5 * (g.r[i] + g.r[i + 1])
-                    outer = 0.5 * (b * b - g.r[i] * g.r[i]) * g.d_theta
-                    across2[j, i] *= outer / g.area[i]
-    thick = (m.carrier_thickness, m.washer_thickness, m.gear_thickness)
-    for sweep in range(20000):
-        change, total = 0.0, 0.0
-        for body in range(3):
-            first = g.i_g if body == 2 else 0
-            plate = m.conductivity * thick[body]
-            for j in range(n_t):
-                jb, jn = (j - 1) % n_t, (j + 1) % n_t
-                for i in range(first, n_r):
-                    a = g.r[i] if i == first else 0.5 * (g.r[i] + g.r[i - 1])
-                    b = g.r[i] if i == n_r - 1 else 0.5 * (g.r[i] + g.r[i + 1])
-                    area = 0.5 * (b * b - a * a) * g.d_theta
-                    along = plate * (b - a) / (g.r[i] * g.d_theta)
-                    up = 0.0 if i == n_r - 1 else plate * b * g.d_theta / (g.r[i + 1] - g.r[i])
-                    down = 0.0 if i == first else plate * a * g.d_theta / (g.r[i] - g.r[i - 1])
-                    diagonal = 2.0 * along + up + down
-                    value = along * (rise[body, jb, i] + rise[body, jn, i])
-                    if up > 0.0:
-                        value += up * rise[body, j, i + 1]
-                    if down > 0.0:
-                        value += down * rise[body, j, i - 1]
-                    if body != 1:
-                        far = m.conductivity / thick[body] * area
-                        diagonal += far
-                        c = across1[j, i] if body == 0 else across2[j, i]
-                        diagonal += c
-                        value += c * rise[1, j, i]
-                        if body == 0:
-                            value += m.heat_split * q_in[j, i]
-                    else:
-                        diagonal += across1[j, i] + across2[j, i]
-                        value += across1[j, i] * rise[0, j, i] + across2[j, i] * rise[2, j, i]
-                        value += (1.0 - m.heat_split) * q_in[j, i]
-                    step = s.heat_relaxation * (value / diagonal - rise[body, j, i])
-                    rise[body, j, i] += step
-                    change += abs(step)
-                    total += abs(rise[body, j, i])
-        if change <= 0.1 * s.tolerance * total:
-            return sweep + 1
-    return 20000
-
-
-@kernel
+@rival
 def outputs(
     m: WasherModel, g: Mesh, q: Array, speed: float, mu: Array, rise: Array, contact: float,
     oil: float, out: Array,
@@ -339,7 +213,7 @@ def outputs(
     torque, warmth, area = 0.0, 0.0, 0.0
     for j in range(n_t):
         for i in range(n_r):
-            h = _gap(g, q, j, i)
+            h = gap_at(g, q, j, i)
             mean, _ = mean_gap(h, m.sigma1)
             pc, _ = contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)
             viscous = mu[j, i] * speed * g.r[i] * g.r[i] / mean
@@ -353,7 +227,7 @@ def outputs(
     out[RATIO] = out[FILM] / m.sigma1
 
 
-@kernel
+@rival
 def solve(
     par: Array, n_r: int, n_t: int, load: float, speed: float, tilt: float, oil: float,
     s: Settings, memory: Array, out: Array,

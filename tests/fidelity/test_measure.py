@@ -1,0 +1,108 @@
+"""The clock and the book: first calls apart, failures kept, worst and rms as defined."""
+
+import json
+import math
+
+import pytest
+
+from thrustwasher.errors import Status
+from thrustwasher.fidelity.cases import Case, cases_of, digest
+from thrustwasher.fidelity.measure import Answer, Quantity, Rung, Truth, measure, time_call
+from thrustwasher.fidelity.models import spec_of
+
+CASES = (Case("one", (1.0,)), Case("two", (2.0,)), Case("three", (4.0,)))
+TRUTHS = [Truth({"y": c.point[0] ** 2}, {"y": 1e-6}) for c in CASES]
+RELATIVE = Quantity("y", True, 1e-3)
+
+
+class Way:
+    """Answers x^2 (1 + error(x)); what it does in a case can be changed."""
+
+    def __init__(self, error=lambda x: 0.0, odd=None):
+        self.error, self.odd = error, odd or {}
+        self.calls = 0
+
+    def solve(self, case):
+        x = case.point[0]
+        if case.name in self.odd:
+            return self.odd[case.name]()
+        return Answer({"y": x * x * (1.0 + self.error(x))}, Status.OK, 7.0)
+
+    def warm(self, case):
+        def call():
+            self.calls += 1
+
+        return call
+
+
+def sampled(way, quantities=(RELATIVE,)):
+    rung = Rung("family", "label", "knob", "1", lambda: way, "turns")
+    return measure(rung, CASES, TRUTHS, quantities, repeats=3)
+
+
+def test_worst_and_rms_are_over_all_cases_and_the_worst_is_named():
+    s = sampled(Way(lambda x: 0.01 * x))
+    assert s.errors["y"]["worst"] == pytest.approx(0.04)
+    assert s.errors["y"]["rms"] == pytest.approx(math.sqrt((1e-4 + 4e-4 + 16e-4) / 3.0))
+    assert (s.errors["y"]["case"], s.count, s.n_failed) == ("three", 7.0, 0)
+
+
+def test_absolute_errors_keep_their_unit():
+    s = sampled(Way(lambda x: 0.5 / (x * x)), (Quantity("y", False, unit="K"),))
+    assert s.errors["y"]["worst"] == pytest.approx(0.5)
+
+
+def failing():
+    raise ZeroDivisionError("no")
+
+
+def test_every_kind_of_failure_is_counted_and_none_ends_the_run():
+    odd = {
+        "one": failing,
+        "two": lambda: Answer({"y": 1.0}, Status.MAX_ITERATIONS, 0.0),
+        "three": lambda: Answer({"y": math.nan}, Status.OK, 0.0),
+    }
+    s = sampled(Way(odd=odd))
+    assert s.n_failed == 3 and s.errors["y"]["worst"] is None
+    assert s.failures["one"] == "ZeroDivisionError: no"
+    assert s.failures["two"] == "MAX_ITERATIONS"
+    assert s.failures["three"] == "not finite, without a word"
+    text = json.dumps(s.as_dict(), allow_nan=False)  # NaN of a cost that is not known: null
+    assert json.loads(text)["call_median"] is None
+
+
+def test_an_answer_outside_the_verified_range_is_no_answer():
+    odd = {"two": lambda: Answer({"y": 4.0}, Status.OUTSIDE_VERIFIED, 0.0)}
+    assert sampled(Way(odd=odd)).failures == {"two": "OUTSIDE_VERIFIED"}
+
+
+def test_the_first_call_is_apart_and_batches_are_long_enough():
+    seconds = iter([0.5, *[0.0] * 100_000])
+    clock = []
+
+    def call():
+        clock.append(next(seconds))
+
+    t = time_call(call, repeats=5, batch=1e-4)
+    assert t.repeats == 5 and t.least <= t.median
+    assert len(clock) > 5 * 10  # many calls per batch
+
+
+def test_time_per_thing_is_the_call_over_its_things():
+    one, ten = (time_call(lambda: sum(range(3000)), repeats=9, calls=n) for n in (1, 10))
+    assert ten.median < 0.5 * one.median
+
+
+def test_case_lists_hold_what_their_model_takes():
+    for model in ("washer", "gearmesh"):
+        spec = spec_of(model)
+        for case in cases_of(model):
+            for point in (*case.before, case.point):
+                assert len(point) == len(spec.inputs)
+                for value, signal in zip(point, spec.inputs, strict=True):
+                    assert signal.low <= value <= signal.high
+
+
+def test_a_changed_list_has_another_digest():
+    assert digest(CASES) != digest(CASES[:2]) and len(digest(CASES)) == 16
+    assert digest(cases_of("washer")) != digest(cases_of("washer", quick=True))

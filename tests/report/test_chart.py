@@ -1,0 +1,93 @@
+"""The charts are made from the record alone, whatever failed in it."""
+
+import json
+import xml.etree.ElementTree as ET
+
+import pytest
+
+from thrustwasher.cli import main
+
+QUANTITY = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
+
+
+def sample(label, cost, error, **other):
+    errors = {"worst": error, "rms": None if error is None else 0.4 * error,
+              "case": None if error is None else "a < b"}  # fmt: skip
+    return {
+        "family": "rungs", "label": label, "knob": "rung", "value": label, "cases": "0",
+        "errors": {"friction_torque": errors}, "ref_uncertainty": {"friction_torque": 1e-5},
+        "call_median": cost, "call_iqr": 0.05 * cost if cost else None, "call_min": cost,
+        "repeats": 9, "first_call_s": cost, "setup_s": 1e-3, "count": 3.0, "count_of": "turns",
+        "n_cases": 2, "n_failed": 0, "failures": {}, "is_rival": False, **other,
+    }  # fmt: skip
+
+
+@pytest.fixture
+def record(tmp_path):
+    samples = [
+        sample("closed", 1e-6, 0.5),
+        sample("field", 2e-4, 2e-3),
+        sample("map", 2e-6, 1e-4, setup_s=1.2, n_failed=1, failures={"b": "OUTSIDE_VERIFIED"}),
+        sample("exact", 1e-3, 0.0),
+        sample("old", None, None, family="2006", n_failed=2, is_rival=True,
+               failures={"a < b": "SINGULAR", "b": "SINGULAR"}),
+    ]  # fmt: skip
+    survey = {
+        "cases": [{"name": "a < b", "point": [1.0], "before": []},
+                  {"name": "b", "point": [2.0], "before": []}],
+        "cases_digest": "0", "quantities": [QUANTITY], "truths": [], "samples": samples,
+        "curve": {"points": 37, "first_step_2006_s": 0.1, "curve_2006_s": 2.0,
+                  "curve_field_s": 0.02, "first_step_then_s": 1800.0},
+    }  # fmt: skip
+    found = {
+        "schema": 1, "command": "thrustwasher chart", "date": "2026-11-21T18:00:00Z",
+        "machine": {"cpu": "a cpu", "cores": 2, "os": "an os", "python": "3", "numpy": "2",
+                    "numba": "1", "compiled": True, "threads": {}, "load": 0.1},
+        "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
+        "calibration_s": 0.01, "quick": False, "models": {"washer": survey}, "run_s": 1.0,
+    }  # fmt: skip
+    path = tmp_path / "in.json"
+    path.write_text(json.dumps(found), "utf-8")
+    return path
+
+
+@pytest.fixture
+def drawn(record, tmp_path):
+    assert main(["chart", "--draw", str(record), "--out", str(tmp_path / "out")]) == 0
+    return tmp_path / "out"
+
+
+def test_page_markdown_drawings_and_record_are_written(drawn, record):
+    names = {p.name for p in drawn.iterdir()}
+    assert names == {"chart.json", "chart.html", "chart.md", "chart-washer.svg",
+                     "chart-washer-count.svg"}  # fmt: skip
+    assert json.loads((drawn / "chart.json").read_text()) == json.loads(record.read_text())
+    for svg in drawn.glob("*.svg"):
+        ET.parse(svg)
+
+
+def test_who_won_what_failed_and_what_set_up_costs_is_said(drawn):
+    text = (drawn / "chart.md").read_text()
+    assert "nothing beats closed (1 us, worst 50 %), map (2 us, worst 0.01 %)" in text
+    assert "old fails in 2 of 2 cases (a < b: SINGULAR; b: SINGULAR)." in text
+    assert "| map | 1.2 s | 2 us | 6056 |" in text  # (1.2 - 0.001)/(2e-4 - 2e-6)
+    assert "100 times less" in text and "30 minutes" in text
+    assert "sources changed since" in text
+
+
+def test_failures_are_drawn_not_dropped(drawn):
+    svg = (drawn / "chart-washer.svg").read_text()
+    assert "map: 1 of 2 fail" in svg and "old: 2 of 2 fail" in svg
+
+
+def test_html_is_escaped_and_needs_nothing_else(drawn):
+    page = (drawn / "chart.html").read_text()
+    assert "a &lt; b" in page and "a < b (" not in page
+    assert "http://" not in page.replace("http://www.w3.org", "")
+
+
+def test_a_foreign_file_is_refused(tmp_path, capsys):
+    other = tmp_path / "other.json"
+    other.write_text('{"schema": 99}')
+    assert main(["chart", "--draw", str(other), "--out", str(tmp_path)]) == 2
+    assert "no chart.json" in capsys.readouterr().err

@@ -1,0 +1,94 @@
+"""What a chart file says about itself: the machine, the versions, the state of the sources."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+import time
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+SCHEMA = 1
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+def surroundings(command: str) -> dict[str, Any]:
+    """Return command, date, machine and versions, as JSON types."""
+    import numba
+    import numpy
+
+    from ..kernels._jit import kernel_digest
+
+    return {
+        "schema": SCHEMA,
+        "command": command,
+        "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+        "machine": {
+            "cpu": _cpu(), "cores": os.cpu_count(), "os": platform.platform(terse=True),
+            "python": platform.python_version(), "numpy": numpy.__version__,
+            "numba": numba.__version__, "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
+            "threads": {name: os.environ.get(name) for name in THREADS}, "load": load(),
+        },
+        "package": {"version": _version(), "kernels": kernel_digest(), **_commit()},
+        "calibration_s": calibration(),
+    }  # fmt: skip
+
+
+def load() -> float | None:
+    """Return how many processes wanted to run during the last minute."""
+    return round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None
+
+
+def calibration() -> float:
+    """Return the least seconds of a fixed loop of additions: what a second is worth here."""
+    best = float("inf")
+    for _ in range(5):
+        began, x = time.perf_counter(), 0.0
+        for i in range(200_000):
+            x += i * 0.5
+        best = min(best, time.perf_counter() - began)
+    return best
+
+
+def pin_threads() -> None:
+    """Hold every library that is not loaded yet to one thread."""
+    for name in THREADS:
+        if "numpy" not in sys.modules or name.startswith("NUMBA"):
+            os.environ.setdefault(name, "1")
+
+
+def _version() -> str | None:
+    """Return the installed version; None in a bare checkout."""
+    try:
+        return version("thrustwasher")
+    except PackageNotFoundError:
+        return None
+
+
+def _cpu() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
+    except OSError:
+        return platform.processor() or platform.machine()
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def _commit() -> dict[str, Any]:
+    """Return the commit of a checkout and if its files differ from it; None where there is none."""
+    folder = Path(__file__).parents[2]
+    if not (folder / ".git").exists():
+        return {"commit": None, "dirty": None}
+    try:
+        words = ["git", "-C", str(folder)]
+        head = subprocess.run([*words, "rev-parse", "HEAD"], capture_output=True, text=True)
+        state = subprocess.run(
+            [*words, "status", "--porcelain", "--untracked-files=no"],
+            capture_output=True, text=True,
+        )  # fmt: skip
+    except OSError:
+        return {"commit": None, "dirty": None}
+    return {"commit": head.stdout.strip()[:12] or None, "dirty": bool(state.stdout.strip())}

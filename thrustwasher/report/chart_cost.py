@@ -1,0 +1,129 @@
+"""Error against cost: every way a model can be solved, on logarithmic axes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
+
+COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
+RIVALS = (RED, ORANGE, PURPLE, GREEN)
+WORDS = {
+    "friction_torque": "friction torque", "temperature": "mean temperature",
+    "slip_energy": "slip energy", "lock_time": "lock time", "peak_temperature": "peak temperature",
+}  # fmt: skip
+Sampled = Mapping[str, Any]
+
+
+@styled
+def cost_figure(
+    model: str, survey: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
+) -> Figure:
+    """Return error over seconds per call, a panel per quantity.
+
+    Parameters
+    ----------
+    survey : of the model, as in the JSON file
+    fronts : indices of the samples that nothing beats, by quantity
+    """
+    quantities = survey["quantities"]
+    figure, panels = new_figure(11.0, 5.0, 1, len(quantities))
+    for axes, quantity in zip(panels, quantities, strict=True):
+        draw_samples(axes, survey["samples"], quantity, fronts[quantity["name"]])
+        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
+        words = WORDS.get(quantity["name"], quantity["name"])
+        label(axes, f"{model}: {words}", "warm call [s], 1 % away", f"error [{unit}]")
+    handles, names = panels[0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside lower center", ncols=4)
+    return figure
+
+
+def draw_samples(
+    axes: Axes, samples: Sequence[Sampled], quantity: Mapping[str, Any], front: Sequence[int],
+    cost: str = "call_median", spread: str | None = "call_iqr",
+) -> None:  # fmt: skip
+    """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
+    name = quantity["name"]
+    axes.set(xscale="log", yscale="log")
+    families = list(dict.fromkeys(s["family"] for s in samples))
+    rivals = iter(RIVALS * 4)
+    for family in families:
+        members = [s for s in samples if s["family"] == family and _drawable(s, name, cost)]
+        colour = COLOURS.get(family) or next(rivals)
+        _draw_family(axes, family, members, name, cost, spread, colour)
+    floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
+    errors = [s["errors"][name][k] for s in samples if _drawable(s, name, cost)
+              for k in ("worst", "rms")]  # fmt: skip
+    if not errors:
+        return
+    low = 0.5 * min([e for e in errors if e > 0.0] + ([floor] if floor else []))
+    axes.set_ylim(bottom=low)
+    if floor:
+        axes.axhspan(low, floor, color="#E8E8E8", lw=0, zorder=0)
+        axes.annotate("uncertainty of the reference", (0.99, floor), (0, 2), va="bottom",
+                      ha="right", xycoords=axes.get_yaxis_transform(), fontsize=8, color=GREY,
+                      textcoords="offset points")  # fmt: skip
+    best = [samples[i] for i in front]
+    axes.step([s[cost] for s in best], [s["errors"][name]["worst"] for s in best], where="post",
+              color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
+              zorder=1)  # fmt: skip
+    _draw_failures(axes, samples, cost)
+
+
+def _drawable(sample: Sampled, name: str, cost: str) -> bool:
+    error = sample["errors"].get(name, {}).get("worst")
+    return error is not None and error > 0.0 and bool(sample[cost])
+
+
+def _draw_family(
+    axes: Axes, family: str, members: Sequence[Sampled], name: str, cost: str, spread: str | None,
+    colour: str,
+) -> None:  # fmt: skip
+    """Draw one line in the order of its knob; rungs are no line, they are named."""
+    if not members:
+        return
+    x = np.array([s[cost] for s in members])
+    joined = "" if family == "rungs" else "-"
+    for kind, fill in (("worst", colour), ("rms", "white")):
+        y = np.array([s["errors"][name][kind] for s in members])
+        axes.plot(x, y, ls=joined, marker="o" if family != "rungs" else "D", ms=5, color=colour,
+                  mfc=fill, lw=1.2 if kind == "worst" else 0.7, zorder=3,
+                  label=f"{family}: worst, hollow rms" if kind == "worst" else None)  # fmt: skip
+        if spread and kind == "worst":
+            axes.errorbar(x, y, xerr=[0.5 * (s[spread] or 0.0) for s in members], fmt="none",
+                          ecolor=colour, elinewidth=0.9, zorder=2)  # fmt: skip
+    for s in members:
+        text = s["value"]
+        axes.annotate(text, (s[cost], s["errors"][name]["worst"]), (4, 4), fontsize=7.5,
+                      textcoords="offset points", color=colour)  # fmt: skip
+
+
+def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
+    """Mark failed samples by a cross at the top, with their number."""
+    failed = [s for s in samples if s["n_failed"]]
+    for rank, s in enumerate(failed):
+        x = s[cost] if s[cost] else 0.5 * (1.0 + rank)
+        axes.plot([x], [0.97], marker="x", ms=8, color=RED, mew=2, clip_on=False,
+                  transform=axes.get_xaxis_transform())  # fmt: skip
+        axes.annotate(f"{s['label']}: {s['n_failed']} of {s['n_cases']} fail", (x, 0.97), (6, -3),
+                      xycoords=axes.get_xaxis_transform(), textcoords="offset points",
+                      fontsize=7.5, color=RED)  # fmt: skip
+
+
+@styled
+def count_figure(model: str, survey: Mapping[str, Any]) -> Figure:
+    """Return error over the work that needs no machine, a panel per unit of work."""
+    quantity = survey["quantities"][0]
+    groups = list(dict.fromkeys(s["count_of"] for s in survey["samples"] if s["count"]))
+    figure, panels = new_figure(11.0, 3.8, 1, max(1, len(groups)))
+    for axes, group in zip(panels, groups, strict=False):
+        members = [s for s in survey["samples"] if s["count_of"] == group]
+        draw_samples(axes, members, quantity, (), "count", None)
+        words = WORDS.get(quantity["name"], quantity["name"])
+        label(axes, f"{model}: {words}", f"{group} per case", "error")
+    return figure

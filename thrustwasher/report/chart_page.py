@@ -1,0 +1,111 @@
+"""All charts as one page, as Markdown, and as drawings; made from the JSON record alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib import rc_context
+
+from . import chart_text as text
+from .chart_cost import cost_figure, count_figure
+from .html import Page, Plot, Section, Table, render
+
+TITLE = "Speed against accuracy"
+HOW = (
+    "Errors are measured against converged values on a fixed list of operating points with the "
+    "hard corners in it, times on warm calls one per cent away; filled marks are the worst case, "
+    "hollow ones the root mean square. Crosses are failures. Points in the grey band cannot be "
+    "told apart."
+)
+
+
+def sections(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> list[Section]:
+    """Return the chapters of what was measured."""
+    found = []
+    for model, survey in record["models"].items():
+        found.append(_model_section(model, survey, fronts[model]))
+    return found
+
+
+def _model_section(
+    model: str, survey: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
+) -> Section:
+    texts = [text.verdict(survey, fronts[q["name"]], q) for q in survey["quantities"]]
+    texts += text.failure_sentences(survey)
+    if "curve" in survey:
+        texts += text.curve_sentences(survey["curve"])
+    heads, rows = text.sample_rows(survey)
+    even_heads, even_rows = text.break_even_rows(survey, "field")
+    cases = [[c["name"], ", ".join(f"{v:g}" for v in c["point"])] for c in survey["cases"]]
+    return Section(
+        anchor=model,
+        title=f"{model}: error against cost",
+        texts=[t for t in texts if t],
+        plots=[
+            Plot(file=f"chart-{model}", figure=cost_figure(model, survey, fronts), caption=HOW),
+            Plot(file=f"chart-{model}-count", figure=count_figure(model, survey),
+                 caption="The same errors over counts that need no machine."),
+        ],
+        tables=[
+            Table(title="All samples (! : spread above 10 %)", heads=heads, rows=rows,
+                  numbers=(1, 2, 3, 4)),
+            Table(title="What set-up is worth", heads=even_heads, rows=even_rows,
+                  numbers=(1, 2, 3)),
+            Table(title="Cases", heads=("case", "inputs"), rows=cases, folded=True),
+        ],
+    )  # fmt: skip
+
+
+def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
+    """Return the whole page."""
+    busy = (record["machine"]["load"] or 0.0) > 0.5 * record["machine"]["cores"]
+    warnings = []
+    if busy:
+        warnings.append("The machine was busy when this was measured: compare ratios, no seconds.")
+    if record["quick"]:
+        warnings.append("A quick look: few cases and repeats, coarser reference values.")
+    return Page(
+        title=TITLE,
+        subtitle="how far each way to solve the models is off, and what a call of it costs",
+        summary=[HOW],
+        warnings=warnings,
+        cards=[],
+        sections=sections(record, fronts),
+        footer=text.machine_sentence(record),
+    )
+
+
+def save_drawings(page: Page, folder: Path) -> list[Path]:
+    """Write every plot as SVG into the folder."""
+    paths = []
+    for section in page.sections:
+        for plot in section.plots:
+            path = folder / f"{plot.file}.svg"
+            with rc_context({"svg.fonttype": "none", "svg.hashsalt": plot.file}):
+                plot.figure.savefig(path, metadata={"Date": None, "Creator": None})
+            paths.append(path)
+    return paths
+
+
+def markdown(page: Page) -> str:
+    """Return the page as Markdown beside its drawings."""
+    lines = [f"# {page.title}", "", *page.summary, ""]
+    lines += [f"**{w}**\n" for w in page.warnings]
+    for section in page.sections:
+        lines += [f"## {section.title}", ""]
+        lines += [f"{t}\n" for t in section.texts]
+        for plot in section.plots:
+            lines += [f"![{section.title}]({plot.file}.svg)", "", plot.caption, ""]
+        for table in section.tables:
+            lines += [f"**{table.title}**", ""] if table.title else []
+            lines += ["| " + " | ".join(table.heads) + " |", "|" + "---|" * len(table.heads)]
+            lines += ["| " + " | ".join(row) + " |" for row in table.rows]
+            lines.append("")
+    return "\n".join([*lines, page.footer, ""])
+
+
+def html(page: Page) -> str:
+    """Return the page as one file that works offline."""
+    return render(page)

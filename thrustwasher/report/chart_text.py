@@ -1,0 +1,114 @@
+"""The words beside the charts: who won, where it flips, what failed, what set-up costs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+Sampled = Mapping[str, Any]
+Row = list[str]
+
+
+def seconds(value: float | None) -> str:
+    """Return a duration as a person reads it.
+
+    >>> seconds(2.34e-4), seconds(65.0), seconds(None)
+    ('234 us', '65 s', '-')
+    """
+    if value is None:
+        return "-"
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
+        if value >= size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value / 1e-9:.3g} ns"
+
+
+def error_text(value: float | None, quantity: Mapping[str, Any]) -> str:
+    """Return an error with its unit, relative ones in per cent."""
+    if value is None:
+        return "-"
+    if quantity["kind"] == "relative":
+        return f"{100.0 * value:.2g} %"
+    return f"{value:.2g} {quantity['unit']}"
+
+
+def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
+    """Return heads and rows of the table of all samples."""
+    quantities = survey["quantities"]
+    heads = ["way", "warm call", "spread", "least", "set-up"]
+    for q in quantities:
+        heads += [f"{q['name']} worst", "rms"]
+    rows = []
+    for s in survey["samples"]:
+        spread = (s["call_iqr"] or 0.0) / s["call_median"] if s["call_median"] else None
+        row = [
+            s["label"], seconds(s["call_median"]),
+            "-" if spread is None else f"{100 * spread:.0f} %" + (" !" if spread > 0.1 else ""),
+            seconds(s["call_min"]), seconds(s["setup_s"]),
+        ]  # fmt: skip
+        for q in quantities:
+            errors = s["errors"][q["name"]]
+            row += [f"{error_text(errors['worst'], q)} ({errors['case']})",
+                    error_text(errors["rms"], q)]  # fmt: skip
+        rows.append([*row, f"{s['n_failed']} of {s['n_cases']}"])
+    return [*heads, "failed"], rows
+
+
+def break_even_rows(survey: Mapping[str, Any], basis: str) -> tuple[Row, list[Row]]:
+    """Return from how many calls on a way that is set up at some cost is cheaper than ``basis``."""
+    base = next((s for s in survey["samples"] if s["label"] == basis), None)
+    heads = ["way", "set-up", "warm call", f"calls from which it is cheaper than {basis}"]
+    rows = []
+    for s in survey["samples"]:
+        if base is None or s["is_rival"] or not s["call_median"] or s is base:
+            continue
+        gain = base["call_median"] - s["call_median"]
+        extra = s["setup_s"] - base["setup_s"]
+        calls = "never" if gain <= 0.0 else f"{max(0.0, extra) / gain:.0f}"
+        rows.append([s["label"], seconds(s["setup_s"]), seconds(s["call_median"]), calls])
+    return heads, rows
+
+
+def failure_sentences(survey: Mapping[str, Any]) -> list[str]:
+    """Say which samples failed where, and with which words."""
+    found = []
+    for s in survey["samples"]:
+        if s["failures"]:
+            words = "; ".join(f"{case}: {why}" for case, why in s["failures"].items())
+            found.append(
+                f"{s['label']} fails in {s['n_failed']} of {s['n_cases']} cases ({words})."
+            )
+    return found
+
+
+def verdict(survey: Mapping[str, Any], front: Sequence[int], quantity: Mapping[str, Any]) -> str:
+    """Say in one sentence what nothing beats, from cheap to dear."""
+    members = [survey["samples"][i] for i in front]
+    parts = [
+        f"{s['label']} ({seconds(s['call_median'])}, worst "
+        f"{error_text(s['errors'][quantity['name']]['worst'], quantity)})"
+        for s in members
+    ]
+    return f"{quantity['name']}: nothing beats {', '.join(parts)}." if parts else ""
+
+
+def curve_sentences(curve: Mapping[str, Any]) -> list[str]:
+    """Say how far it is from the run of 2006."""
+    return [
+        "The method of 2006 took 30 minutes for the first load step on a processor of 1.8 GHz. The "
+        f"same method compiled takes {seconds(curve['first_step_2006_s'])} for it on this machine, "
+        f"{seconds(curve['curve_2006_s'])} for the whole curve of {curve['points']} loads; the "
+        f"package's field takes {seconds(curve['curve_field_s'])} for the same curve, "
+        f"{curve['curve_2006_s'] / curve['curve_field_s']:.0f} times less."
+    ]
+
+
+def machine_sentence(record: Mapping[str, Any]) -> str:
+    """Say where and with what the numbers were measured."""
+    m, p = record["machine"], record["package"]
+    state = {True: ", sources changed since", False: "", None: ""}[p["dirty"]]
+    return (
+        f"{m['cpu']}, {m['cores']} cores, load {m['load']} at the start; {m['os']}; Python "
+        f"{m['python']}, numpy {m['numpy']}, numba {m['numba']}; one thread; thrustwasher "
+        f"{p['version']}, commit {p['commit'] or 'unknown'}{state}; {record['date']}."
+    )

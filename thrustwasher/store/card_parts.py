@@ -25,8 +25,8 @@ class Axis:
 class Errors:
     """Errors of one quantity, cell by cell: worst, root mean square, points.
 
-    ``kind`` is "relative" (to the reference's value, at least ``floor`` of its largest) or
-    "absolute" (in ``unit``).
+    ``kind`` is "relative" (to the reference's value, or to ``floor`` if that is more) or "absolute"
+    (in ``unit``).
     """
 
     kind: str

@@ -1,0 +1,95 @@
+"""Put a card together and write its file."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+from ..store.card_parts import HeldOut, Origin, ParameterSet, Reference, Sources
+from ..store.cards import SCHEMA, Card
+from ..store.digests import DATA, PACKAGE, changed_fields, kernel_digest, params_digest
+from ..store.sources import files_of
+from .answers import FAILED, OK, OUTSIDE, Answer
+from .costs import cost
+from .envelopes import SAMPLING, SEED, Case
+from .references import source_of
+from .tables import fold_part, tables, uncertainties
+from .timing import Timing, this_machine
+from .truths import Truth
+
+
+def make_card(
+    case: Case, rung: str, chart: str | None, pairs: Sequence[tuple[Truth, Answer]],
+    timing: Timing, first: float,
+) -> Card:  # fmt: skip
+    """Return the card of one chart from reference values and a rung's answers to them."""
+    errors, cells = tables(pairs, case.envelope)
+    away = [a for t, a in pairs if not t.beside_fold]
+    verdicts = [a.verdict for a in away]
+    known = [t for t, _ in pairs]
+    source = source_of(case.spec.key)
+    work = [a.work for a in away if a.verdict == OK and a.work]
+    files = [*files_of(case.spec.key, rung), *_built(case, rung)]
+    return Card(
+        schema=SCHEMA, model=case.spec.key, fidelity=rung, chart=chart,
+        branch=known[0].branch if known else None, fold=fold_part(pairs),
+        params=ParameterSet(case.name, params_digest(case.params), changed_fields(case.params)),
+        kernels=Sources(tuple(files), kernel_digest(files)),
+        package=origin(), made=datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        envelope=dict(case.envelope), errors=errors, cells=cells,
+        held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
+                         SEED, SAMPLING),
+        reference=Reference(source.fidelity, source.grid, source.routes, uncertainties(known)),
+        cost=cost(timing, first, sum(work) / len(work) if work else 1.0, rung in MESHED),
+        machine=this_machine(),
+    )  # fmt: skip
+
+
+MESHED = ("coarse", "field", "fine")
+
+
+def _built(case: Case, rung: str) -> list[str]:
+    """Return the shipped data that a rung's answers come from, as names below ``data/``."""
+    if rung != "map":
+        return []
+    from ..store.maps import find_map
+
+    path = find_map(case.params)
+    return [] if path is None else [Path(path).relative_to(DATA).as_posix()]
+
+
+def origin() -> Origin:
+    """Return the package's version and, in a checkout, its commit and if it was changed since."""
+    from .. import __version__
+
+    root = PACKAGE.parent
+    commit = _git(root, "rev-parse", "--short=12", "HEAD")
+    if commit is None:
+        return Origin(__version__, None, None)
+    changed = _git(
+        root, "status", "--porcelain", "--", "thrustwasher/kernels", "thrustwasher/models"
+    )
+    return Origin(__version__, commit, bool(changed))
+
+
+def _git(folder: Path, *words: str) -> str | None:
+    try:
+        done = subprocess.run(
+            ["git", "-C", str(folder), *words], capture_output=True, text=True, timeout=10
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return done.stdout.strip() if done.returncode == 0 else None
+
+
+def write_card(card: Card, folder: Path) -> Path:
+    """Write a card's file whole or not at all; return its path."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{card.name}.json"
+    draft = path.with_suffix(".part")
+    draft.write_text(card.as_json(), "utf-8")
+    os.replace(draft, path)
+    return path

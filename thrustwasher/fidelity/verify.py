@@ -1,0 +1,136 @@
+"""Write cards: each rung's error at random held-out points against a reference, and its cost.
+
+python -m thrustwasher.fidelity.verify [MODEL] [FIDELITY] [--sample N] [--params NAME] [--out DIR]
+
+Without FIDELITY only cards that are stale or missing are made; a run that is stopped goes on where
+it was, because reference values and finished cards are kept.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from ..errors import ParameterError, SolveError
+from ..store.cards import Card, forget, fresh_cards
+from ..store.digests import DATA
+from .answers import OK, Answer, answer, holds
+from .card_writer import make_card, write_card
+from .costs import call_cost, first_call
+from .envelopes import Case, cases
+from .models import HOMES
+from .references import source_of
+from .tables import deviation
+from .truths import Truth, truths
+
+HELP = "measure the rungs against the reference and write their cards"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Make the cards asked for; return 0, or 1 if some could not be made."""
+    parser = argparse.ArgumentParser("python -m thrustwasher.fidelity.verify", description=HELP)
+    parser.add_argument("model", nargs="?", choices=list(HOMES), help="default: all")
+    parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
+    parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 400")
+    parser.add_argument("--params", metavar="NAME", help="parameter set; default: all")
+    parser.add_argument("--out", type=Path, default=DATA / "cards", metavar="DIR")
+    options = parser.parse_args(argv)
+    failed = 0
+    for model in [options.model] if options.model else list(HOMES):
+        for case in cases(model):
+            if options.params in (None, case.name):
+                failed += _case(case, options.fidelity, options.sample or case.n, options.out)
+    return 1 if failed else 0
+
+
+def _case(case: Case, only: str | None, n: int, out: Path) -> int:
+    """Make the cards of one parameter set; return how many rungs failed."""
+    wanted = [r for r in case.spec.fidelities if _is_wanted(case, r, only)]
+    if not wanted:
+        _say(f"{case.spec.key} {case.name}: nothing to do")
+        return 0
+    began = time.perf_counter()
+    known = truths(case, source_of(case.spec.key), n, _progress(case, n))
+    _say(f"\r{case.spec.key} {case.name}: {len(known)} reference values at {n} points, "
+         f"{time.perf_counter() - began:.0f} s")  # fmt: skip
+    failed = 0
+    for rung in wanted:
+        try:
+            for card in rung_cards(case, rung, known):
+                write_card(card, out)
+                _say(summary(card))
+        except (SolveError, ParameterError, OSError, ValueError) as error:
+            failed += 1
+            _say(f"{case.spec.key} {case.name} {rung}: no card: {error}")
+    forget()
+    return failed
+
+
+def _is_wanted(case: Case, rung: str, only: str | None) -> bool:
+    if only is not None:
+        return rung == only
+    return holds(case.spec.key, case.params, rung) and not fresh_cards(
+        case.spec.key, rung, case.params
+    )
+
+
+def rung_cards(case: Case, rung: str, known: list[Truth]) -> Iterator[Card]:
+    """Yield the cards of a rung, one per chart, from the reference values."""
+    once = first_call(case.spec.key, rung, case.point(0))
+    for chart in dict.fromkeys(t.chart for t in known):
+        mine = [t for t in known if t.chart == chart]
+        pairs = [(t, answer(case.spec.key, case.params, rung, t)) for t in mine]
+        timing = call_cost(case.spec, case.params, rung, mine)
+        yield make_card(case, rung, chart, pairs, timing, once)
+
+
+def check(card: Card, case: Case, ks: Sequence[int]) -> list[str]:
+    """Return what a card gets wrong at some of its own points, solved again; empty: nothing."""
+    wrong = []
+    source = source_of(case.spec.key)
+    for k in ks:
+        for t in source.solve(case.params, case.point(k)):
+            if t.chart != card.chart or t.beside_fold:
+                continue
+            a: Answer = answer(case.spec.key, case.params, card.fidelity, t)
+            for q, e in card.errors.items() if a.verdict == OK else ():
+                found = deviation(q, t, a.values[q], e.floor or 0.0)
+                held = card.error_of(q, t.point)
+                if held is None or found > 1.01 * held + card.reference.uncertainty[q]:
+                    wrong.append(f"{card.name}: point {k}: {q} errs {found:.3g}, card: {held}")
+    return wrong
+
+
+def summary(card: Card) -> str:
+    """Return a line of what a card says."""
+    worst = {
+        q: max((w for row in e.worst for w in row if w is not None), default=float("nan"))
+        for q, e in card.errors.items()
+    }
+    text = ", ".join(f"{q} {w:.2g}" for q, w in worst.items())
+    h = card.held_out
+    return (
+        f"  {card.name}: n {h.n}, failed {h.failed}, outside {h.outside}; {text}; "
+        f"{1e6 * card.cost.call_median_s:.3g} us"
+    )
+
+
+def _progress(case: Case, n: int) -> Callable[[int], None]:
+    def show(k: int) -> None:
+        if sys.stderr.isatty() or k % 50 == 0:
+            end = "" if sys.stderr.isatty() else "\n"
+            text = f"\r{case.spec.key} {case.name}: reference {k}/{n}"
+            print(text, end=end, file=sys.stderr, flush=True)
+
+    return show
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -28,6 +28,7 @@ COMMANDS = (
     "sweep",
     "chart",
     "build",
+    "cards",
     "doctor",
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 3, 130, 141

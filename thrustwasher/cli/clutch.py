@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 from ..models.clutch_params import SPEC, SPEED, ClutchParams
-from . import _options, _output
+from . import _fidelity, _options, _output
 
 HELP = "friction torque of a wet clutch or brake pack at one load and slip speed"
 # Result fields that are no FMU output, or mean something else here: unit and meaning.
@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, SPEC)
     _options.add_parameters(parser, SPEC)
-    _options.add_fidelity(parser, SPEC)
+    _fidelity.add_fidelity(parser, SPEC)
     parser.add_argument(
         "--plot", metavar="FILE", help="draw shear ratio, coefficient and torque over slip"
     )
@@ -41,8 +41,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..models.clutch import solve_clutch
 
+    fidelity = _fidelity.rung(arguments.fidelity, SPEC, params, point)
     began = time.perf_counter()
-    result = solve_clutch(params, **point, fidelity=arguments.fidelity)
+    result = solve_clutch(params, **point, fidelity=fidelity)
     wall_time = time.perf_counter() - began
     if plot:
         with _output.whole_file(plot) as draft:
@@ -61,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     _output.print_rows(
         [(n, _output.shown(getattr(result, n), meanings[n][0]), meanings[n][1]) for n in names]
     )
-    print(f"  {result.status.advice}; {arguments.fidelity}, {wall_time:.3g} s")
+    print(f"  {result.status.advice}; {fidelity}, {wall_time:.3g} s")
     return 0
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..models.gearmesh_params import PRESETS, SPEC, GearMeshParams
 from ..units import format_quantity, parse_quantity
-from . import _options, _output
+from . import _fidelity, _options, _output
 
 HELP = "temperatures, stresses and loss of a gear mesh at one power and speed"
 POWER = 7500.0  # W
@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--preset", choices=list(PRESETS), default="bounded",
         help=f"what --set starts from; {_presets()}; default bounded",
     )  # fmt: skip
-    _options.add_fidelity(parser, SPEC)
+    _fidelity.add_fidelity(parser, SPEC)
     parser.add_argument(
         "--plot", metavar="FILE", help="draw temperatures and factors over the pinion's teeth"
     )
@@ -65,15 +65,18 @@ def run(arguments: argparse.Namespace) -> int:
     params = GearMeshParams.preset(arguments.preset, **settings)
     plot = arguments.plot and _output.check_file(arguments.plot, "--plot", _output.PLOT_SUFFIXES)
 
-    from ..models.gearmesh import solve_gearmesh
+    from ..models.gearmesh import pinion_torque, solve_gearmesh
 
+    place = {n: v for n, v in point.items() if n != "power"}
+    place["load"] = pinion_torque(power, point["speed"])
+    fidelity = _fidelity.rung(arguments.fidelity, SPEC, params, place)
     began = time.perf_counter()
-    result = solve_gearmesh(params, **point, fidelity=arguments.fidelity)
+    result = solve_gearmesh(params, **point, fidelity=fidelity)
     wall_time = time.perf_counter() - began
     if plot:
         from ..report.gearmesh_plot import gearmesh_figure
 
-        teeth, sweeps = sweep(params, point, arguments.fidelity)
+        teeth, sweeps = sweep(params, point, fidelity)
         with _output.whole_file(plot) as draft:
             gearmesh_figure(teeth, sweeps, result, params.pinion_teeth, point).savefig(draft)
         _output.note(f"wrote {plot}")

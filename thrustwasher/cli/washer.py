@@ -6,7 +6,7 @@ import argparse
 import time
 
 from ..models.washer_params import SPEC
-from . import _options, _output
+from . import _fidelity, _options, _output
 
 HELP = "solve the thrust washer at one load, speed and tilt"
 # Result fields that are no FMU output: unit and meaning.
@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, SPEC)
     _options.add_parameters(parser, SPEC)
-    _options.add_fidelity(parser, SPEC)
+    _fidelity.add_fidelity(parser, SPEC)
     _options.add_grid(parser)
     parser.add_argument(
         "--branch",
@@ -47,10 +47,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..models.washer import solve_washer
 
+    fidelity = _fidelity.rung(arguments.fidelity, SPEC, params, point)
     began = time.perf_counter()
-    result = solve_washer(
-        params, **point, fidelity=arguments.fidelity, grid=grid, branch=arguments.branch
-    )
+    result = solve_washer(params, **point, fidelity=fidelity, grid=grid, branch=arguments.branch)
     wall_time = time.perf_counter() - began
     if plot:
         from ..report.washer_plots import field_figure

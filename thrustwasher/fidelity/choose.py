@@ -212,9 +212,7 @@ def _refusal(request: Request, found: list[Candidate], refused: dict[str, str]) 
     here = [(s.error, rung.fidelity, s) for rung, s in seen if s is not None]
     if not here:
         envelope = found[-1].envelope
-        spans = ", ".join(
-            f"{n} {plain(a.min)} .. {plain(a.max)} {a.unit}" for n, a in envelope.items()
-        )
+        spans = ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in envelope.items())
         return (
             f"{key}: the box lies outside what was verified for {request.quantity} ({spans}); "
             f"name a rung yourself, or move the box{stale}"

@@ -63,7 +63,7 @@ def truths(
             if k not in known:
                 known[k] = source.solve(case.params, case.point(k))
                 record = {"k": k, "truths": [asdict(t) for t in known[k]]}
-                file.write(json.dumps(record) + "\n")
+                file.write("\n" + json.dumps(record))  # first: the line before may be cut off
                 file.flush()
             found += known[k]
             progress(k + 1)
@@ -74,7 +74,7 @@ def _read(path: Path) -> Iterator[tuple[int, list[Truth]]]:
     """Yield the points in a file; a line that was cut off is passed over."""
     if not path.exists():
         return
-    for line in path.read_text("utf-8").splitlines():
+    for line in path.read_text("utf-8").split("\n"):
         try:
             record = json.loads(line)
             yield int(record["k"]), [Truth(**t) for t in record["truths"]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 Grid = tuple[tuple[float | None, ...], ...]  # over two axes of cells; None: no point fell there
 Counts = tuple[tuple[int, ...], ...]
@@ -83,7 +84,7 @@ class ParameterSet:
 
     name: str
     sha256: str
-    changed: dict[str, float | str | bool]
+    changed: dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,198 @@
+"""Cards are made from random points and a reference: sampling, errors, tables, keeping, writing."""
+
+import dataclasses
+
+import pytest
+from synthetic import card, errors
+
+from thrustwasher import WasherParams, solve_washer
+from thrustwasher.drivetrain import load_scene
+from thrustwasher.fidelity import truths as home
+from thrustwasher.fidelity.answers import FAILED, OK, OTHER_SIDE, OUTSIDE, Answer
+from thrustwasher.fidelity.card_writer import write_card
+from thrustwasher.fidelity.envelopes import cases
+from thrustwasher.fidelity.prolong import solve_on
+from thrustwasher.fidelity.tables import deviation, fold_part, tables, uncertainties
+from thrustwasher.fidelity.timing import overhead, this_machine, time_call
+from thrustwasher.fidelity.truths import QUANTITIES, Source, Truth, truths
+from thrustwasher.store.cards import read_card
+from thrustwasher.store.digests import params_digest
+
+MODELS = ("washer", "clutch", "gearmesh")
+DEFAULT = {m: cases(m)[0] for m in MODELS}
+
+
+def truth(value, point=None, beside=False, uncertainty=0.0):
+    values = dict.fromkeys(QUANTITIES, value)
+    return Truth(point or {}, None, None, values, dict.fromkeys(QUANTITIES, uncertainty), beside)
+
+
+def said(value, verdict=OK):
+    return Answer(dict.fromkeys(QUANTITIES, value), verdict)
+
+
+# held-out points
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_points_lie_in_the_box_and_do_not_depend_on_their_number(model):
+    case = DEFAULT[model]
+    for k in range(50):
+        point = case.point(k)
+        assert list(point) == [s.name for s in case.spec.inputs]
+        assert all(a.min <= point[n] <= a.max for n, a in case.envelope.items())
+    assert case.point(7) == DEFAULT[model].point(7) != case.point(8)
+
+
+def test_points_are_uniform_in_the_scaled_box():
+    case = DEFAULT["washer"]
+    low = sum(case.point(k)["load"] < (20.0 * 1850.0) ** 0.5 for k in range(400))
+    assert 160 < low < 240
+
+
+@pytest.mark.parametrize(
+    ("model", "part"),
+    [("washer", "washer"), ("clutch", "clutch"), ("clutch", "brake"), ("gearmesh", "mesh")],
+)
+def test_the_parts_of_the_planetary_scene_have_cards_of_their_own(model, part):
+    params = load_scene("planetary").parts[part].params
+    assert params_digest(params) == params_digest(cases(model)[1].params)
+
+
+# errors and tables
+
+
+def test_a_relative_error_has_a_floor():
+    assert deviation("friction_torque", truth(2.0), 2.2, 0.01) == pytest.approx(0.1)
+    assert deviation("friction_torque", truth(0.0), 0.001, 0.01) == pytest.approx(0.1)
+    assert deviation("temperature", truth(300.0), 301.5, 0.01) == pytest.approx(1.5)
+
+
+def test_a_course_is_judged_by_its_largest_error_over_its_largest_value():
+    expected = truth([0.0, 10.0, 5.0])
+    assert deviation("friction_torque", expected, [1.0, 10.0, 4.5], 0.0) == pytest.approx(0.1)
+
+
+def pairs_over(case, n, answer_of):
+    points = [case.point(k) for k in range(n)]
+    return [(truth(1.0, p), answer_of(k)) for k, p in enumerate(points)]
+
+
+def test_tables_count_every_answer_once_and_only_those_that_count():
+    case = DEFAULT["washer"]
+    verdicts = [OK, OUTSIDE, FAILED, OK]
+    pairs = pairs_over(case, 120, lambda k: said(1.1, verdicts[k % 4]))
+    found, cells = tables(pairs, case.envelope)
+    table = found["friction_torque"]
+    assert sum(map(sum, table.n)) == 60
+    assert sum(map(sum, cells.outside)) == 30
+    assert 0.1 <= table.worst[0][0] < 0.101
+    assert cells.edges[0][0] == case.envelope["load"].min
+
+
+def test_the_worst_is_the_worst_and_never_rounded_down():
+    case = DEFAULT["washer"]
+    pairs = pairs_over(case, 90, lambda k: said(1.0 + 1.0001e-3 * k))
+    table = tables(pairs, case.envelope)[0]["friction_torque"]
+    assert max(w for row in table.worst for w in row) >= 89 * 1.0001e-3
+    assert all(r <= w for a, b in zip(table.rms, table.worst, strict=True)
+               for r, w in zip(a, b, strict=True))  # fmt: skip
+
+
+def test_points_beside_a_fold_are_told_apart():
+    case = DEFAULT["washer"]
+    pairs = pairs_over(case, 60, lambda k: said(1.01))
+    beside = [dataclasses.replace(t, beside_fold=True) for t, _ in pairs[:3]]
+    answers = [said(1.5), said(9.0, OTHER_SIDE), said(1.2)]
+    pairs = [*zip(beside, answers, strict=True), *pairs[3:]]
+    table = tables(pairs, case.envelope)[0]["friction_torque"]
+    assert max(w for row in table.worst for w in row) == pytest.approx(0.01, rel=1e-2)
+    fold = fold_part(pairs)
+    assert (fold.n, fold.other_side) == (3, 1)
+    assert fold.worst["friction_torque"] == pytest.approx(0.5)
+    assert fold_part(pairs[3:]) is None
+
+
+def test_the_uncertainty_is_the_largest_away_from_folds():
+    known = [truth(2.0, uncertainty=1e-3), truth(2.0, uncertainty=1.0, beside=True)]
+    assert uncertainties(known)["friction_torque"] == pytest.approx(5e-4)
+
+
+# reference values are kept
+
+
+@pytest.fixture
+def kept(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    asked = []
+
+    def solve(params, point):
+        asked.append(point)
+        return [truth(1.0, point)]
+
+    return asked, Source(solve, ("film",), "reference", None, ("one route",)), tmp_path
+
+
+def test_a_point_is_solved_once_and_a_stopped_run_goes_on(kept):
+    asked, source, _ = kept
+    first = truths(DEFAULT["washer"], source, 3)
+    more = truths(DEFAULT["washer"], source, 5)
+    assert len(asked) == 5 and more[:3] == first
+
+
+def test_a_line_that_was_cut_off_is_solved_again(kept):
+    asked, source, folder = kept
+    truths(DEFAULT["washer"], source, 3)
+    (path,) = folder.rglob("*.jsonl")
+    path.write_text(path.read_text()[:-30])
+    assert len(truths(DEFAULT["washer"], source, 3)) == 3
+    assert len(asked) == 4
+    assert len(truths(DEFAULT["washer"], source, 3)) == 3 and len(asked) == 4
+
+
+def test_values_of_other_kernels_or_parameters_are_not_taken(kept, monkeypatch):
+    asked, source, _ = kept
+    truths(DEFAULT["washer"], source, 1)
+    truths(cases("washer")[1], source, 1)
+    monkeypatch.setattr(home, "kernel_digest", lambda files: "other")
+    truths(DEFAULT["washer"], source, 1)
+    assert len(asked) == 3
+
+
+# the washer's finer meshes
+
+
+@pytest.mark.parametrize(("load", "branch"), [(300.0, "film"), (600.0, "contact")])
+def test_a_solution_carried_to_another_mesh_is_the_one_found_there(load, branch):
+    point = {"load": load, "speed": 545.0, "tilt": 2e-3}
+    coarse = solve_washer(WasherParams(), **point, branch=branch)
+    carried = solve_on(coarse, (19, 64))
+    cold = solve_washer(WasherParams(), **point, branch=branch, fidelity="fine")
+    assert carried.branch == branch and carried.grid == (19, 64)
+    assert carried.friction_torque == pytest.approx(cold.friction_torque, rel=2e-5)
+    assert carried.temperature == pytest.approx(cold.temperature, abs=1e-3)
+    assert carried.iterations < cold.iterations
+
+
+# time, machine, files
+
+
+def test_a_call_is_timed_without_its_first_one():
+    seen = []
+    timing = time_call(seen.append, repeats=9)
+    assert seen == list(range(len(seen)))
+    assert 0.0 < timing.least <= timing.median
+    assert overhead((1.0, 2.0)) < 1e-4
+
+
+def test_the_machine_is_named():
+    machine = this_machine()
+    assert machine.cpu and machine.cores >= 1 and machine.numba.count(".") == 2
+
+
+def test_a_written_card_is_read_back(tmp_path):
+    made = card(chart="film", errors={"friction_torque": errors([[1e-3, None], [2e-3, 3e-3]])})
+    path = write_card(made, tmp_path / "new")
+    assert path.name == "washer-field-film.json"
+    assert read_card(path) == made
+    assert [p.name for p in path.parent.iterdir()] == [path.name]

@@ -1,0 +1,99 @@
+"""``thrustwasher cards``: what is known of each rung's error, where, and what it costs."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from . import _output
+
+HELP = "list the verified errors of all rungs, where they hold and what a call costs"
+MODELS = ("washer", "clutch", "gearmesh")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("model", nargs="?", choices=MODELS, help="only this model")
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """List the cards, fresh or not; files that are no cards come last."""
+    from ..store.cards import load_cards, refused_files
+
+    wanted = [arguments.model] if arguments.model else list(MODELS)
+    found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
+    refused = {
+        name: why
+        for name, why in refused_files().items()
+        if arguments.model is None or name.startswith(f"{arguments.model}-")
+    }
+    if arguments.json:
+        records = [_record(card) for cards in found.values() for card in cards]
+        _output.print_json({"cards": records, "refused": refused})
+        return 0
+    for model, cards in found.items():
+        _print_model(model, cards)
+    for name, why in refused.items():
+        print(f"{name}: refused: {why}")
+    return 0
+
+
+def _order(model: str) -> Any:
+    """Return the key that sorts cards by parameter set, then by rung as in the ladder."""
+    from ..fidelity.models import spec_of
+
+    rungs = list(spec_of(model).fidelities)
+
+    def key(card: Any) -> tuple[Any, ...]:
+        known = card.fidelity in rungs
+        return (card.params.name, rungs.index(card.fidelity) if known else 99, card.chart or "")
+
+    return key
+
+
+def worst(card: Any, quantity: str) -> float | None:
+    """Return the largest error of a quantity over all cells."""
+    table = card.errors[quantity].worst if quantity in card.errors else ()
+    return max((e for row in table for e in row if e is not None), default=None)
+
+
+def _print_model(model: str, cards: list[Any]) -> None:
+    """Print a table per parameter set."""
+    from ..fidelity.words import shown_error, shown_seconds
+
+    if not cards:
+        print(f"{model}: no cards; make them: python -m thrustwasher.fidelity.verify {model}")
+    for name in dict.fromkeys(card.params.name for card in cards):
+        mine = [card for card in cards if card.params.name == name]
+        spans = ", ".join(
+            f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in mine[0].envelope.items()
+        )
+        print(f"{model}, {name} parameters: {spans}")
+        rows = []
+        for card in mine:
+            torque, kelvin = worst(card, "friction_torque"), worst(card, "temperature")
+            errors = [
+                "-" if torque is None else shown_error(torque, "relative", None),
+                "-" if kelvin is None else shown_error(kelvin, "absolute", "K"),
+            ]
+            time = shown_seconds(card.cost.call_median_s)
+            rung = f"{card.fidelity} {card.chart or ''}".strip()
+            told = f"{card.held_out.n} points; {card.stale() or 'fresh'}"
+            rows.append((rung, f"{errors[0]:>10} {errors[1]:>10} {time:>8}", told))
+        _output.print_rows([("rung", f"{'torque':>10} {'temp.':>10} {'a call':>8}", ""), *rows])
+
+
+def _record(card: Any) -> dict[str, Any]:
+    """Return what a program wants to know of a card."""
+    return {
+        "name": card.name, "model": card.model, "fidelity": card.fidelity, "chart": card.chart,
+        "parameters": card.params.name, "made": card.made, "stale": card.stale(),
+        "points": card.held_out.n, "failed": card.held_out.failed,
+        "outside": card.held_out.outside,
+        "envelope": {n: [a.min, a.max, a.unit] for n, a in card.envelope.items()},
+        "worst": {q: worst(card, q) for q in card.errors},
+        "reference_uncertainty": dict(card.reference.uncertainty),
+        "call_median_s": card.cost.call_median_s, "call_iqr_s": card.cost.call_iqr_s,
+        "first_call_s": card.cost.first_call_s,
+    }  # fmt: skip

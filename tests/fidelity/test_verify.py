@@ -86,7 +86,7 @@ def test_tables_count_every_answer_once_and_only_those_that_count():
     table = found["friction_torque"]
     assert sum(map(sum, table.n)) == 60
     assert sum(map(sum, cells.outside)) == 30
-    assert 0.1 <= table.worst[0][0] < 0.101
+    assert table.worst[0][0] == 0.1
     assert cells.edges[0][0] == case.envelope["load"].min
 
 
@@ -94,7 +94,7 @@ def test_the_worst_is_the_worst_and_never_rounded_down():
     case = DEFAULT["washer"]
     pairs = pairs_over(case, 90, lambda k: said(1.0 + 1.0001e-3 * k))
     table = tables(pairs, case.envelope)[0]["friction_torque"]
-    assert max(w for row in table.worst for w in row) >= 89 * 1.0001e-3
+    assert max(w for row in table.worst for w in row) >= 0.0891 > 89 * 1.0001e-3
     assert all(r <= w for a, b in zip(table.rms, table.worst, strict=True)
                for r, w in zip(a, b, strict=True))  # fmt: skip
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import ParameterError, SolveError, Status
+from ..errors import SolveError, Status
 from .courses import engagement
 from .truths import Truth, Values
 
@@ -87,11 +87,7 @@ def holds(model: str, params: Any, fidelity: str) -> bool:
     """Tell if a rung can be used with a parameter set at all; a map may not be there."""
     if fidelity != "map":
         return True
-    try:
-        from ..store.maps import find_map
-    except ImportError:
-        return False
-    try:
-        return find_map(params) is not None
-    except ParameterError:
-        return False
+    from ..models._params import as_numbers
+    from ..store.maps import find_map
+
+    return find_map(as_numbers(params)) is not None

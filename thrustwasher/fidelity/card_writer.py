@@ -8,13 +8,15 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
+from ..errors import ParameterError
+from ..models._params import as_numbers
 from ..store.card_parts import HeldOut, Origin, ParameterSet, Reference, Sources
 from ..store.cards import SCHEMA, Card
-from ..store.digests import DATA, PACKAGE, changed_fields, kernel_digest, params_digest
+from ..store.digests import PACKAGE, changed_fields, kernel_digest, params_digest
 from ..store.sources import files_of
 from .answers import FAILED, OK, OUTSIDE, Answer
 from .costs import cost
-from .envelopes import SAMPLING, SEED, Case
+from .envelopes import SAMPLING, Case
 from .references import source_of
 from .tables import fold_part, tables, uncertainties
 from .timing import Timing, this_machine
@@ -41,7 +43,7 @@ def make_card(
         package=origin(), made=datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
         envelope=dict(case.envelope), errors=errors, cells=cells,
         held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
-                         SEED, SAMPLING),
+                         case.seed, SAMPLING),
         reference=Reference(source.fidelity, source.grid, source.routes, uncertainties(known)),
         cost=cost(timing, first, sum(work) / len(work) if work else 1.0, rung in MESHED),
         machine=this_machine(),
@@ -55,10 +57,15 @@ def _built(case: Case, rung: str) -> list[str]:
     """Return the shipped data that a rung's answers come from, as names below ``data/``."""
     if rung != "map":
         return []
-    from ..store.maps import find_map
+    from ..store.maps import SHIPPED, find_map
 
-    path = find_map(case.params)
-    return [] if path is None else [Path(path).relative_to(DATA).as_posix()]
+    found = find_map(as_numbers(case.params))
+    if found is None or found.path.parent != SHIPPED.resolve():
+        raise ParameterError(
+            f"map for the {case.name} parameters = {found and found.path}, allowed: one that is "
+            "shipped; a card speaks for a file below thrustwasher/data"
+        )
+    return [f"{SHIPPED.name}/{found.path.name}"]
 
 
 def origin() -> Origin:

@@ -30,10 +30,11 @@ class Case:
     params: Any
     envelope: dict[str, Axis]
     n: int
+    seed: int = SEED
 
     def point(self, k: int) -> dict[str, float]:
         """Return held-out point number ``k``: its own random numbers, whatever ``n`` is."""
-        share = np.random.default_rng([SEED, k]).random(len(self.envelope))
+        share = np.random.default_rng([self.seed, k]).random(len(self.envelope))
         return {
             name: _at(axis, float(u))
             for (name, axis), u in zip(self.envelope.items(), share, strict=True)

@@ -102,9 +102,11 @@ def _rms(errors: list[float]) -> float | None:
 
 
 def _up(value: float) -> float:
-    """Return the value with three digits, not below itself."""
-    rounded = float(f"{value:.2e}")
-    return rounded if rounded >= value else float(f"{value * 1.005:.2e}")
+    """Return the value with three digits, not below itself but for the last bits of a double."""
+    if not 0.0 < value < math.inf:
+        return value
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return float(f"{math.ceil(value / step - 1e-9) * step:.3g}")
 
 
 def fold_part(pairs: Pairs) -> Fold | None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..store.digests import closure, kernel_digest, params_digest
-from .envelopes import SEED, Case
+from .envelopes import Case
 
 QUANTITIES = ("friction_torque", "temperature", "film_thickness", "film_ratio")
 Point = dict[str, float]
@@ -86,7 +86,7 @@ def _kept(case: Case, source: Source) -> Path:
     """Return the file for a case: its name tells kernels, parameters, box and method."""
     base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     axes = [asdict(a) for a in case.envelope.values()]
-    what = [kernel_digest(closure(*source.kernels)), params_digest(case.params), axes, SEED,
+    what = [kernel_digest(closure(*source.kernels)), params_digest(case.params), axes, case.seed,
             list(source.routes), list(source.grid or ()), MARGIN]  # fmt: skip
     digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
     name = f"{case.spec.key}-{case.name}-{digest}.jsonl"

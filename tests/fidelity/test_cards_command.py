@@ -8,7 +8,6 @@ from synthetic import card
 from thrustwasher.cli import main
 from thrustwasher.store import cards
 
-
 WASHER = ["washer", "--load", "100", "--speed", "500"]
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 from ..errors import SolveError, Status
+from ..models._params import as_numbers
 from .courses import engagement
 from .truths import Truth, Values
 
@@ -87,7 +89,5 @@ def holds(model: str, params: Any, fidelity: str) -> bool:
     """Tell if a rung can be used with a parameter set at all; a map may not be there."""
     if fidelity != "map":
         return True
-    from ..models._params import as_numbers
-    from ..store.maps import find_map
-
-    return find_map(as_numbers(params)) is not None
+    store: Any = import_module("..store.maps", __package__)
+    return store.find_map(as_numbers(params)) is not None

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from ..errors import ParameterError
 from ..models._params import as_numbers
@@ -57,29 +60,26 @@ def _built(case: Case, rung: str) -> list[str]:
     """Return the shipped data that a rung's answers come from, as names below ``data/``."""
     if rung != "map":
         return []
-    from ..store.maps import SHIPPED, find_map
-
-    found = find_map(as_numbers(case.params))
-    if found is None or found.path.parent != SHIPPED.resolve():
+    store: Any = import_module("..store.maps", __package__)
+    found = store.find_map(as_numbers(case.params))
+    if found is None or found.path.parent != store.SHIPPED.resolve():
         raise ParameterError(
             f"map for the {case.name} parameters = {found and found.path}, allowed: one that is "
             "shipped; a card speaks for a file below thrustwasher/data"
         )
-    return [f"{SHIPPED.name}/{found.path.name}"]
+    return [f"{store.SHIPPED.name}/{found.path.name}"]
 
 
 def origin() -> Origin:
     """Return the package's version and, in a checkout, its commit and if it was changed since."""
-    from .. import __version__
-
-    root = PACKAGE.parent
+    root, version = PACKAGE.parent, sys.modules[__package__.partition(".")[0]].__version__
     commit = _git(root, "rev-parse", "--short=12", "HEAD")
     if commit is None:
-        return Origin(__version__, None, None)
+        return Origin(version, None, None)
     changed = _git(
         root, "status", "--porcelain", "--", "thrustwasher/kernels", "thrustwasher/models"
     )
-    return Origin(__version__, commit, bool(changed))
+    return Origin(version, commit, bool(changed))
 
 
 def _git(folder: Path, *words: str) -> str | None:

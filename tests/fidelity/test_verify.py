@@ -113,9 +113,26 @@ def test_points_beside_a_fold_are_told_apart():
     assert fold_part(pairs[3:]) is None
 
 
-def test_the_uncertainty_is_the_largest_away_from_folds():
-    known = [truth(2.0, uncertainty=1e-3), truth(2.0, uncertainty=1.0, beside=True)]
+def test_the_uncertainty_of_the_reference_counts_as_error():
+    assert deviation("friction_torque", truth(2.0, uncertainty=0.1), 2.2, 0.0) == pytest.approx(
+        0.15
+    )
+
+
+def test_the_uncertainty_named_is_the_typical_one_away_from_folds():
+    known = [truth(2.0, uncertainty=u) for u in (1e-3, 1e-3, 1.0)]
+    known.append(truth(2.0, uncertainty=9.0, beside=True))
     assert uncertainties(known)["friction_torque"] == pytest.approx(5e-4)
+
+
+@pytest.mark.parametrize("n", [10, 40, 100, 250, 600])
+def test_each_cell_holds_enough_points_to_speak_for_itself(n):
+    case = DEFAULT["washer"]
+    table = tables(pairs_over(case, n, lambda k: said(1.0)), case.envelope)[0]["friction_torque"]
+    counts = [c for row in table.n for c in row]
+    assert sum(counts) == n
+    assert min(counts) >= 30 or len(counts) == 1
+    assert len(counts) >= min(n // 75, 12)
 
 
 # reference values are kept

@@ -18,6 +18,7 @@ from .models import spec_of
 
 SCENES = Path(__file__).parents[1] / "drivetrain" / "scenes"
 SEED = 7
+POINTS = 500
 SAMPLING = "uniform in the scaled box"
 
 
@@ -76,8 +77,8 @@ def _washers() -> list[Case]:
     small = _box(spec, load=(1.0, 200.0, "log"), speed=(1.0, 450.0, "log"), tilt=tilt,
                  oil_temperature=_OIL)  # fmt: skip
     return [
-        Case(spec, "default", spec.params(), full, 400),
-        Case(spec, "planetary", _scene_params(spec, "planetary", "washer"), small, 400),
+        Case(spec, "default", spec.params(), full, POINTS),
+        Case(spec, "planetary", _scene_params(spec, "planetary", "washer"), small, POINTS),
     ]
 
 
@@ -85,8 +86,8 @@ def _gears() -> list[Case]:
     spec = spec_of("gearmesh")
     box = _box(spec, load=(1.0, 200.0, "log"), speed=(1.0, 700.0, "log"), oil_temperature=_OIL)
     return [
-        Case(spec, "default", spec.params(), box, 400),
-        Case(spec, "planetary", _scene_params(spec, "planetary", "mesh"), box, 400),
+        Case(spec, "default", spec.params(), box, POINTS),
+        Case(spec, "planetary", _scene_params(spec, "planetary", "mesh"), box, POINTS),
     ]
 
 
@@ -95,8 +96,8 @@ def _clutches() -> list[Case]:
     box = _box(spec, load=(50.0, 10000.0, "log"), speed=(1.0, 350.0, "log"), oil_temperature=_OIL)
     in_scene = replace(_scene_params(spec, "planetary", "clutch"), input_course="linear")
     return [
-        Case(spec, "default", spec.params(), box, 400),
-        Case(spec, "planetary", in_scene, box, 400),
+        Case(spec, "default", spec.params(), box, POINTS),
+        Case(spec, "planetary", in_scene, box, POINTS),
     ]
 
 

@@ -3,32 +3,35 @@
 from __future__ import annotations
 
 import math
+import statistics
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 
-from ..store.card_parts import Axis, Cells, Errors, Fold
+from ..store.card_parts import FEW, Axis, Cells, Errors, Fold
 from .answers import OK, OTHER_SIDE, OUTSIDE, Answer
-from .truths import MARGIN, Truth
+from .truths import MARGIN, Point, Truth
 
 FLOOR = 1e-3  # of the largest value: relative errors are taken of at least so much
 KINDS = {"friction_torque": ("relative", None), "temperature": ("absolute", "K"),
          "film_thickness": ("absolute", "m"), "film_ratio": ("absolute", "1")}  # fmt: skip
 AXES = ("load", "speed")
-SHAPE = (3, 2)  # cells along load and speed
+SHAPES = ((4, 4), (4, 3), (3, 3), (3, 2), (2, 2), (2, 1), (1, 1))  # cells along load and speed
 
 Place = tuple[int, int]
 Pairs = Sequence[tuple[Truth, Answer]]
 
 
 def deviation(quantity: str, truth: Truth, found: float | list[float], floor: float) -> float:
-    """Return the error of an answer, of a course the largest one.
+    """Return the largest that the error of an answer can be, of a course the largest one.
 
+    That is the distance from the reference plus the reference's own uncertainty at this point.
     Relative errors are taken of the reference's value, of a course its largest, or of ``floor`` if
     that is more.
     """
     error = np.max(np.abs(np.asarray(found) - np.asarray(truth.values[quantity])))
-    return float(error) / _scale(quantity, truth, floor)
+    return (float(error) + truth.uncertainty[quantity]) / _scale(quantity, truth, floor)
 
 
 def _scale(quantity: str, truth: Truth, floor: float) -> float:
@@ -44,28 +47,43 @@ def floor_of(quantity: str, truths: Sequence[Truth]) -> float:
     return _up(FLOOR * max((_size(t, quantity) for t in truths), default=0.0)) or 1e-300
 
 
-def cells_for(points: Sequence[dict[str, float]], envelope: dict[str, Axis]) -> list[list[float]]:
-    """Return edges so that the cells hold about equally many points."""
-    found = []
-    for name, parts in zip(AXES, SHAPE, strict=True):
-        axis, values = envelope[name], [p[name] for p in points]
-        shares = [k / parts for k in range(1, parts)] if len(values) > parts else []
-        rounded = [float(f"{np.quantile(values, share):.2g}") for share in shares]
-        kept = sorted({v for v in rounded if axis.min < v < axis.max})
-        found.append([axis.min, *kept, axis.max])
-    return found
+def cells_for(points: Sequence[Point], envelope: dict[str, Axis]) -> Cells:
+    """Return the finest cells of which each holds enough points to speak for itself.
+
+    Edges are quantiles of the points, with two digits. Counts of ``outside`` are still zero.
+    """
+    for shape in SHAPES:
+        edges = tuple(
+            _edges(envelope[name], [p[name] for p in points], parts)
+            for name, parts in zip(AXES, shape, strict=True)
+        )
+        n = (len(edges[0]) - 1, len(edges[1]) - 1)
+        cells = Cells(AXES, edges, tuple((0,) * n[1] for _ in range(n[0])))
+        held = Counter(place_of(cells, p) for p in points)
+        if shape == SHAPES[-1] or (len(held) == n[0] * n[1] and min(held.values()) >= FEW):
+            return cells
+    raise AssertionError  # the last shape is always taken
+
+
+def _edges(axis: Axis, values: Sequence[float], parts: int) -> tuple[float, ...]:
+    """Return the ends of an axis and rounded quantiles between them."""
+    shares = [k / parts for k in range(1, parts)] if values else []
+    inner = {float(f"{np.quantile(values, share):.2g}") for share in shares}
+    return (axis.min, *sorted(v for v in inner if axis.min < v < axis.max), axis.max)
+
+
+def place_of(cells: Cells, point: Point) -> Place:
+    """Return the cell of a point inside the envelope."""
+    i, j = (cells.index(k, point[name]) for k, name in enumerate(cells.axes))
+    return i or 0, j or 0
 
 
 def tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Errors], Cells]:
     """Return the error tables and cells of one chart; points beside folds are left out."""
     pairs = [(t, a) for t, a in pairs if not t.beside_fold]
-    edges = cells_for([t.point for t, _ in pairs], envelope)
-    blank = Cells(AXES, tuple(map(tuple, edges)), ())
-    place = [
-        (blank.index(0, t.point[AXES[0]]) or 0, blank.index(1, t.point[AXES[1]]) or 0)
-        for t, _ in pairs
-    ]
-    shape = (len(edges[0]) - 1, len(edges[1]) - 1)
+    blank = cells_for([t.point for t, _ in pairs], envelope)
+    place = [place_of(blank, t.point) for t, _ in pairs]
+    shape = (len(blank.edges[0]) - 1, len(blank.edges[1]) - 1)
     outside = np.zeros(shape, int)
     for at, (_, a) in zip(place, pairs, strict=True):
         outside[at] += a.verdict == OUTSIDE
@@ -124,10 +142,13 @@ def fold_part(pairs: Pairs) -> Fold | None:
 
 
 def uncertainties(truths: Sequence[Truth]) -> dict[str, float]:
-    """Return the reference's largest uncertainty of each quantity, as errors are measured."""
+    """Return the reference's typical uncertainty of each quantity, as errors are measured.
+
+    It is the median over the points; what it is at each point is in the errors already.
+    """
     away = [t for t in truths if not t.beside_fold]
     return {
-        q: _up(max((t.uncertainty[q] / _scale(q, t, floor_of(q, away)) for t in away),
-                   default=0.0))
+        q: _up(statistics.median(t.uncertainty[q] / _scale(q, t, floor_of(q, away)) for t in away))
         for q in KINDS
-    }  # fmt: skip
+        if away
+    }

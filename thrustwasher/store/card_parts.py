@@ -117,7 +117,10 @@ class HeldOut:
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """What it was compared with; ``uncertainty`` is the reference's own, per quantity."""
+    """What it was compared with; ``uncertainty`` is the reference's own, typically, per quantity.
+
+    Errors contain the uncertainty at their point already.
+    """
 
     fidelity: str
     grid: tuple[int, ...] | None

@@ -1,6 +1,7 @@
 """Cards are made from random points and a reference: sampling, errors, tables, keeping, writing."""
 
 import dataclasses
+import itertools
 
 import pytest
 from synthetic import card, errors
@@ -10,10 +11,12 @@ from thrustwasher.drivetrain import load_scene
 from thrustwasher.fidelity import truths as home
 from thrustwasher.fidelity.answers import FAILED, OK, OTHER_SIDE, OUTSIDE, Answer
 from thrustwasher.fidelity.card_writer import write_card
+from thrustwasher.fidelity.costs import less, stepper
 from thrustwasher.fidelity.envelopes import cases
+from thrustwasher.fidelity.measure import Timing
 from thrustwasher.fidelity.prolong import solve_on
 from thrustwasher.fidelity.tables import deviation, fold_part, tables, uncertainties
-from thrustwasher.fidelity.timing import overhead, this_machine, time_call
+from thrustwasher.fidelity.timing import empty_step, this_machine
 from thrustwasher.fidelity.truths import QUANTITIES, Source, Truth, truths
 from thrustwasher.store.cards import read_card
 from thrustwasher.store.digests import params_digest
@@ -194,12 +197,28 @@ def test_a_solution_carried_to_another_mesh_is_the_one_found_there(load, branch)
 # time, machine, files
 
 
-def test_a_call_is_timed_without_its_first_one():
-    seen = []
-    timing = time_call(seen.append, repeats=9)
-    assert seen == list(range(len(seen)))
-    assert 0.0 < timing.least <= timing.median
-    assert overhead((1.0, 2.0)) < 1e-4
+def test_what_python_adds_to_a_call_is_taken_off():
+    assert empty_step()(1.0, 2.0) == 0
+    timing = less(Timing(1.25, 0.5, 1.0, 9, 2.0), 0.25)
+    assert (timing.median, timing.iqr, timing.least) == (1.0, 0.5, 0.75)
+    assert less(timing, 5.0).median > 0.0
+
+
+def test_a_timed_step_goes_to_and_fro_and_stays_away_from_the_fold():
+    spec = DEFAULT["gearmesh"].spec
+    point = {"load": 40.0, "speed": 180.0, "oil_temperature": 300.0}
+    loads = []
+
+    def step(par, inp, *rest):
+        loads.append(float(inp[0]))
+        return 0
+
+    call = stepper(spec, spec.params(), "field", truth(1.0, point), step)
+    for _ in range(80):
+        call()
+    steps = {round(abs(b / a - 1.0), 3) for a, b in itertools.pairwise(loads)}
+    assert min(loads) == loads[0] == loads[40] == loads[80] == 40.0
+    assert steps == {0.003}
 
 
 def test_the_machine_is_named():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
@@ -15,14 +14,15 @@ from ..errors import ParameterError
 from ..models._params import as_numbers
 from ..store.card_parts import HeldOut, Origin, ParameterSet, Reference, Sources
 from ..store.cards import SCHEMA, Card
-from ..store.digests import PACKAGE, changed_fields, kernel_digest, params_digest
+from ..store.digests import changed_fields, kernel_digest, params_digest
 from ..store.sources import files_of
 from .answers import FAILED, OK, OUTSIDE, Answer
 from .costs import cost
 from .envelopes import SAMPLING, Case
+from .measure import Timing
 from .references import source_of
 from .tables import fold_part, tables, uncertainties
-from .timing import Timing, this_machine
+from .timing import this_machine, this_place
 from .truths import Truth
 
 
@@ -72,24 +72,9 @@ def _built(case: Case, rung: str) -> list[str]:
 
 def origin() -> Origin:
     """Return the package's version and, in a checkout, its commit and if it was changed since."""
-    root, version = PACKAGE.parent, sys.modules[__package__.partition(".")[0]].__version__
-    commit = _git(root, "rev-parse", "--short=12", "HEAD")
-    if commit is None:
-        return Origin(version, None, None)
-    changed = _git(
-        root, "status", "--porcelain", "--", "thrustwasher/kernels", "thrustwasher/models"
-    )
-    return Origin(version, commit, bool(changed))
-
-
-def _git(folder: Path, *words: str) -> str | None:
-    try:
-        done = subprocess.run(
-            ["git", "-C", str(folder), *words], capture_output=True, text=True, timeout=10
-        )
-    except (OSError, subprocess.TimeoutExpired):
-        return None
-    return done.stdout.strip() if done.returncode == 0 else None
+    package = this_place()["package"]
+    version = sys.modules[__name__.partition(".")[0]].__version__
+    return Origin(version, package["commit"], package["dirty"])
 
 
 def write_card(card: Card, folder: Path) -> Path:

@@ -6,6 +6,8 @@ any rung.
 
 from __future__ import annotations
 
+import dataclasses
+import itertools
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
@@ -17,10 +19,12 @@ import numpy as np
 from ..models._prepare import filled
 from ..models._spec import ModelSpec
 from ..store.card_parts import Cost
-from .timing import Timing, overhead, time_call
+from .measure import Timing, time_call
+from .timing import empty_step
 from .truths import Truth
 
 WALK = 0.003  # load and speed move by so much from call to call
+LEAST = 5e-8  # s
 TURN = 20  # calls in one direction
 STEP = 1e-3  # s, for parts that have states
 BRANCHES = {"film": 1.0, "contact": 3.0}
@@ -38,28 +42,36 @@ print(time.perf_counter() - began)
 
 
 def stepper(
-    spec: ModelSpec, params: Any, fidelity: str, truth: Truth
-) -> tuple[Callable[[int], object], tuple[Any, ...]]:
-    """Return a function of a counter that makes one step of a rung near a point; its arguments."""
+    spec: ModelSpec, params: Any, fidelity: str, truth: Truth, step: Any = None
+) -> Callable[[], int]:
+    """Return a call that makes one step of a rung near a point, load and speed a little further.
+
+    ``step`` replaces the kernel's.
+    """
     kernel = import_module(f"..kernels.{spec.kernel}", __package__)
+    step = step or kernel.step
     par = prepared(spec, params, fidelity)
     branch = BRANCHES.get(truth.branch or "", 0.0) if spec.key == "washer" else None
-    first = np.array([truth.point[s.name] for s in spec.inputs])
+    first = [truth.point[s.name] for s in spec.inputs]
     inp = np.array([*first, *([branch] if branch is not None else [])])
     state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
     out, iout = np.zeros(kernel.NOUT), np.zeros(max(kernel.NIOUT, 1), np.int32)
-    step = kernel.step
+    walk = itertools.cycle(_walk(first[0], first[1], branch == BRANCHES["film"]))
 
-    def call(k: int) -> int:
-        moved = 1.0 + WALK * abs(TURN - (k + TURN) % (2 * TURN))
-        # away from the fold: a film's load falls, a contact's rises
-        inp[0] = first[0] / moved if branch == BRANCHES["film"] else first[0] * moved
-        inp[1] = first[1] * moved
-        if k == 1 and branch is not None:
-            inp[4] = 0.0  # the branch was asked for once, from now on it is remembered
-        return int(step(par, inp, state, work, out, iout, k * STEP, STEP))
+    def call() -> int:
+        inp[0], inp[1] = next(walk)
+        return int(step(par, inp, state, work, out, iout, 0.0, STEP))
 
-    return call, (par, inp, state, work, out, iout, 0.0, STEP)
+    call()
+    if branch is not None:
+        inp[4] = 0.0  # the branch was asked for once, from now on it is remembered
+    return call
+
+
+def _walk(load: float, speed: float, falls: bool) -> list[tuple[float, float]]:
+    """Return loads and speeds up and down again; away from the fold, a film's load falls."""
+    factors = [1.0 + WALK * (TURN - abs(TURN - k)) for k in range(2 * TURN)]
+    return [(load / f if falls else load * f, speed * f) for f in factors]
 
 
 def prepared(spec: ModelSpec, params: Any, fidelity: str) -> Any:
@@ -72,16 +84,17 @@ def call_cost(spec: ModelSpec, params: Any, fidelity: str, truths: Sequence[Trut
     """Return the cost of a call: the median of a few points of a chart."""
     away = sorted((t for t in truths if not t.beside_fold), key=lambda t: t.point["load"])
     some = [away[k * (len(away) - 1) // 4] for k in (1, 2, 3)]
-    found = []
+    empty, found = empty_step(), []
     for t in some:
-        call, arguments = stepper(spec, params, fidelity, t)
-        found.append(less(time_call(call), overhead(arguments)))
+        spent = time_call(stepper(spec, params, fidelity, t, empty)).least
+        found.append(less(time_call(stepper(spec, params, fidelity, t)), spent))
     return sorted(found, key=lambda t: t.median)[1]
 
 
 def less(timing: Timing, spent: float) -> Timing:
-    """Return a timing without what the call from Python takes; 50 ns are left in any case."""
-    return Timing(max(timing.median - spent, 5e-8), timing.iqr, max(timing.least - spent, 5e-8))
+    """Return a timing without what the call from Python takes; some is left in any case."""
+    median, least = max(timing.median - spent, LEAST), max(timing.least - spent, LEAST)
+    return dataclasses.replace(timing, median=median, least=least)
 
 
 def first_call(model: str, fidelity: str, point: dict[str, float]) -> float:

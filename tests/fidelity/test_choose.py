@@ -176,6 +176,14 @@ def test_where_no_card_speaks_there_is_no_promise(ladder):
     assert "no card speaks there" in str(choice)
 
 
+def test_where_no_card_speaks_the_default_serves_or_a_finer_rung(ladder):
+    box = {**BOX, "load": (10.0, 1000.0)}
+    for tol, inside, outside in ((2.0, "closed", "field"), (0.02, "field", "field"),
+                                 (1e-3, "fine", "fine")):  # fmt: skip
+        choice = choose("washer", box, tol=tol)
+        assert (choice.fidelity, choice.outside.fidelity) == (inside, outside)
+
+
 def test_a_rung_verified_everywhere_comes_before_a_cheaper_one_that_is_not(ladder):
     small = {**ENVELOPE, "tilt": Axis(1.9e-3, 2.1e-3, "rad", "log")}
     ladder(card("coarse", 1e-3, 1e-5, first=0.0, envelope=small, outside=25), LADDER[1])

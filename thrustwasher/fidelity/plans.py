@@ -66,7 +66,7 @@ def _plan(
     left = sum(p.share for p in seen.rest)
     if seen.rest:
         after = _ordered(_plans(request, others, seen.rest))
-        outside = after[0] if after else _unverified([rung, *others], seen)
+        outside = after[0] if after else _unverified(request, rung, others, seen)
     share = sum(p.share for p in parts)
     calls = request.n_calls * max(share - left, 0.0)
     return Plan(
@@ -75,9 +75,12 @@ def _plan(
     )  # fmt: skip
 
 
-def _unverified(at_hand: list[Candidate], seen: Seen) -> Plan:
-    """Return the dearest rung at hand for parts that no card speaks for, without a promise."""
-    last = max(at_hand, key=lambda c: c.call)
+def _unverified(request: Request, rung: Candidate, others: list[Candidate], seen: Seen) -> Plan:
+    """Return who serves the parts that no card speaks for: the model's default, or a finer rung."""
+    rungs, usual = list(request.spec.fidelities), request.spec.default_fidelity
+    last = rung
+    if rungs.index(rung.fidelity) < rungs.index(usual):
+        last = next((c for c in others if c.fidelity == usual), rung)
     share = sum(p.share for p in seen.rest)
     return Plan(
         last.fidelity, math.inf, seen.kind, seen.unit, "", "", last.call, 0.0, 0.0, share,

@@ -17,13 +17,12 @@ from pathlib import Path
 from ..errors import ParameterError, SolveError
 from ..store.cards import Card, forget, fresh_cards
 from ..store.digests import DATA
-from .answers import OK, Answer, answer, holds
+from .answers import answer, holds
 from .card_writer import make_card, write_card
 from .costs import call_cost, first_call
 from .envelopes import Case, cases
 from .models import HOMES
 from .references import source_of
-from .tables import deviation
 from .truths import Truth, truths
 
 HELP = "measure the rungs against the reference and write their cards"
@@ -85,23 +84,6 @@ def rung_cards(case: Case, rung: str, known: list[Truth]) -> Iterator[Card]:
         pairs = [(t, answer(case.spec.key, case.params, rung, t)) for t in mine]
         timing = call_cost(case.spec, case.params, rung, mine)
         yield make_card(case, rung, chart, pairs, timing, once)
-
-
-def check(card: Card, case: Case, ks: Sequence[int]) -> list[str]:
-    """Return what a card gets wrong at some of its own points, solved again; empty: nothing."""
-    wrong = []
-    source = source_of(case.spec.key)
-    for k in ks:
-        for t in source.solve(case.params, case.point(k)):
-            if t.chart != card.chart or t.beside_fold:
-                continue
-            a: Answer = answer(case.spec.key, case.params, card.fidelity, t)
-            for q, e in card.errors.items() if a.verdict == OK else ():
-                found = deviation(q, t, a.values[q], e.floor or 0.0)
-                held = card.error_of(q, t.point)
-                if held is None or found > 1.01 * held:
-                    wrong.append(f"{card.name}: point {k}: {q} errs {found:.3g}, card: {held}")
-    return wrong
 
 
 def summary(card: Card) -> str:

@@ -22,8 +22,33 @@ def sample(label, cost, error, **other):
     }  # fmt: skip
 
 
-@pytest.fixture
-def record(tmp_path):
+def run_of(way, step, error, **other):
+    return sample(f"{way}, {step:g} ms", 1.0 / step, error, family=way, value=f"{step:g} ms",
+                  n_cases=1, **other)  # fmt: skip
+
+
+STUDY = {
+    "scene": "a shift", "quantities": [QUANTITY], "truth": {},
+    "samples": [
+        *(run_of("second order", h, 1e-2 * h * h) for h in (2.0, 1.0, 0.5)),
+        *(run_of("chattering", h, 0.1, n_failed=1, failures={"shift": f"turns {h:g}0 times"})
+          for h in (2.0, 1.0)),
+        run_of("not at all", 1.0, None, n_failed=1, failures={"shift": "does not lock"}),
+    ],
+}  # fmt: skip
+GROUP = {
+    "name": "films", "judged": "load off", "methods": ["good", "bad"], "hazards": ["a", "b"],
+    "cells": [
+        [{"verdict": "ok", "figure": "", "words": ""}, {"verdict": "says", "figure": "",
+                                                        "words": "SINGULAR"}],
+        [{"verdict": "LIES", "figure": "-20 %", "words": "load off"},
+         {"verdict": "slow", "figure": "9 sweeps", "words": ""}],
+    ],
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory):
     samples = [
         sample("closed", 1e-6, 0.5),
         sample("field", 2e-4, 2e-3),
@@ -45,22 +70,24 @@ def record(tmp_path):
                     "numba": "1", "compiled": True, "threads": {}, "load": 0.1},
         "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
         "calibration_s": 0.01, "quick": False, "models": {"washer": survey}, "run_s": 1.0,
+        "macro_steps": STUDY, "stability": [GROUP],
     }  # fmt: skip
-    path = tmp_path / "in.json"
+    path = tmp_path_factory.mktemp("chart") / "in.json"
     path.write_text(json.dumps(found), "utf-8")
     return path
 
 
-@pytest.fixture
-def drawn(record, tmp_path):
-    assert main(["chart", "--draw", str(record), "--out", str(tmp_path / "out")]) == 0
-    return tmp_path / "out"
+@pytest.fixture(scope="module")
+def drawn(record):
+    out = record.parent / "out"
+    assert main(["chart", "--draw", str(record), "--out", str(out)]) == 0
+    return out
 
 
 def test_page_markdown_drawings_and_record_are_written(drawn, record):
-    names = {p.name for p in drawn.iterdir()}
-    assert names == {"chart.json", "chart.html", "chart.md", "chart-washer.svg",
-                     "chart-washer-count.svg"}  # fmt: skip
+    drawings = ("washer", "washer-count", "shift", "stability")
+    wanted = {"chart.json", "chart.html", "chart.md", *(f"chart-{d}.svg" for d in drawings)}
+    assert {p.name for p in drawn.iterdir()} == wanted
     assert json.loads((drawn / "chart.json").read_text()) == json.loads(record.read_text())
     for svg in drawn.glob("*.svg"):
         ET.parse(svg)
@@ -73,6 +100,15 @@ def test_who_won_what_failed_and_what_set_up_costs_is_said(drawn):
     assert "| map | 1.2 s | 2 us | 6056 |" in text  # (1.2 - 0.001)/(2e-4 - 2e-6)
     assert "100 times less" in text and "30 minutes" in text
     assert "sources changed since" in text
+
+
+def test_orders_and_what_goes_wrong_without_a_word_are_said(drawn):
+    text = (drawn / "chart.md").read_text()
+    assert "second order: order friction_torque 2.0." in text
+    assert "chattering: wrong in 2 of 2 (turns many times)." in text
+    assert "not at all: wrong in 1 of 1 (does not lock)." in text
+    assert "1 of 4 answers are wrong and come without a word" in text
+    assert "LIES  -20 %" in (drawn / "chart-stability.svg").read_text()
 
 
 def test_failures_are_drawn_not_dropped(drawn):

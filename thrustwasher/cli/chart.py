@@ -51,6 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _measured(command: str, *, quick: bool) -> dict[str, Any]:
     """Return everything that is measured, as JSON types."""
     from ..fidelity.record import surroundings
+    from ..fidelity.stability import stability
     from ..fidelity.survey import MODELS, survey
 
     began = time.perf_counter()
@@ -60,8 +61,24 @@ def _measured(command: str, *, quick: bool) -> dict[str, Any]:
         _output.note(f"the machine is busy (load {load} on {cores} cores): ratios may be compared")
     for model in MODELS:
         record["models"][model] = survey(model, quick=quick, progress=_say)
+    record["macro_steps"] = _macro_steps(quick=quick)
+    record["stability"] = stability(quick=quick, progress=_say)
     record["run_s"] = time.perf_counter() - began
     return record
+
+
+def _macro_steps(*, quick: bool) -> dict[str, Any]:
+    """Return the study of a shift, its parts stepped in this process."""
+    from ..drivetrain.macro_steps import study
+    from ..fmu.direct import DirectInstance
+
+    def make(scene: Any) -> dict[str, Any]:
+        return {
+            name: DirectInstance(part.spec, parameters=part.parameters())
+            for name, part in scene.parts.items()
+        }
+
+    return study(make, quick=quick, progress=_say)
 
 
 def _say(what: str) -> None:
@@ -93,6 +110,11 @@ def _write(record: dict[str, Any], folder: Path) -> None:
         model: {q["name"]: front(s["samples"], q["name"]) for q in s["quantities"]}
         for model, s in record["models"].items()
     }
+    if "macro_steps" in record:
+        steps = record["macro_steps"]
+        fronts["macro_steps"] = {
+            q["name"]: front(steps["samples"], q["name"]) for q in steps["quantities"]
+        }
     page = page_of(record, fronts)
     with _output.whole_folder(folder) as draft:
         (draft / "chart.json").write_text(json.dumps(record, indent=1, allow_nan=False), "utf-8")

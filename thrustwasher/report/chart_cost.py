@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
 
 COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
-RIVALS = (RED, ORANGE, PURPLE, GREEN)
+RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)
 WORDS = {
     "friction_torque": "friction torque", "temperature": "mean temperature",
     "slip_energy": "slip energy", "lock_time": "lock time", "peak_temperature": "peak temperature",
@@ -33,11 +33,12 @@ def cost_figure(
     """
     quantities = survey["quantities"]
     figure, panels = new_figure(11.0, 5.0, 1, len(quantities))
+    across = "warm call [s], 1 % away"
     for axes, quantity in zip(panels, quantities, strict=True):
         draw_samples(axes, survey["samples"], quantity, fronts[quantity["name"]])
         unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
         words = WORDS.get(quantity["name"], quantity["name"])
-        label(axes, f"{model}: {words}", "warm call [s], 1 % away", f"error [{unit}]")
+        label(axes, f"{model}: {words}", across, f"error [{unit}]")
     handles, names = panels[0].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside lower center", ncols=4)
     return figure
@@ -45,13 +46,14 @@ def cost_figure(
 
 def draw_samples(
     axes: Axes, samples: Sequence[Sampled], quantity: Mapping[str, Any], front: Sequence[int],
-    cost: str = "call_median", spread: str | None = "call_iqr",
+    cost: str = "call_median", spread: str | None = "call_iqr", crosses: bool = True,
 ) -> None:  # fmt: skip
     """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
     name = quantity["name"]
     axes.set(xscale="log", yscale="log")
     families = list(dict.fromkeys(s["family"] for s in samples))
-    rivals = iter(RIVALS * 4)
+    free = RIVALS if set(families) & set(COLOURS) else (BLUE, SKY, *RIVALS)
+    rivals = iter(free * 4)
     for family in families:
         members = [s for s in samples if s["family"] == family and _drawable(s, name, cost)]
         colour = COLOURS.get(family) or next(rivals)
@@ -72,7 +74,8 @@ def draw_samples(
     axes.step([s[cost] for s in best], [s["errors"][name]["worst"] for s in best], where="post",
               color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
               zorder=1)  # fmt: skip
-    _draw_failures(axes, samples, cost)
+    if crosses:
+        _draw_failures(axes, samples, cost)
 
 
 def _drawable(sample: Sampled, name: str, cost: str) -> bool:
@@ -89,7 +92,8 @@ def _draw_family(
         return
     x = np.array([s[cost] for s in members])
     joined = "" if family == "rungs" else "-"
-    for kind, fill in (("worst", colour), ("rms", "white")):
+    single = all(s["errors"][name]["rms"] == s["errors"][name]["worst"] for s in members)
+    for kind, fill in (("worst", colour), ("rms", "white"))[: 1 if single else 2]:
         y = np.array([s["errors"][name][kind] for s in members])
         axes.plot(x, y, ls=joined, marker="o" if family != "rungs" else "D", ms=5, color=colour,
                   mfc=fill, lw=1.2 if kind == "worst" else 0.7, zorder=3,
@@ -97,7 +101,8 @@ def _draw_family(
         if spread and kind == "worst":
             axes.errorbar(x, y, xerr=[0.5 * (s[spread] or 0.0) for s in members], fmt="none",
                           ecolor=colour, elinewidth=0.9, zorder=2)  # fmt: skip
-    for s in members:
+    shown = members if len(members) < 5 or not single else (members[0], members[-1])
+    for s in shown:
         text = s["value"]
         axes.annotate(text, (s[cost], s["errors"][name]["worst"]), (4, 4), fontsize=7.5,
                       textcoords="offset points", color=colour)  # fmt: skip
@@ -113,6 +118,25 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
         axes.annotate(f"{s['label']}: {s['n_failed']} of {s['n_cases']} fail", (x, 0.97), (6, -3),
                       xycoords=axes.get_xaxis_transform(), textcoords="offset points",
                       fontsize=7.5, color=RED)  # fmt: skip
+
+
+@styled
+def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Figure:
+    """Return the errors of a shift over its cost, a panel per quantity; lines follow the step."""
+    figure, panels = new_figure(11.0, 5.6, 1, len(study["quantities"]))
+    for axes, quantity in zip(panels, study["quantities"], strict=True):
+        name = quantity["name"]
+        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=False)
+        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
+        label(axes, WORDS[name], "wall time per simulated second", f"error [{unit}]")
+        for s in study["samples"]:
+            error = s["errors"][name]["worst"]
+            if s["n_failed"] and error and s["call_median"]:
+                axes.plot([s["call_median"]], [error], marker="x", ms=9, color=RED, mew=1.6)
+    handles, names = panels[0].get_legend_handles_labels()
+    names = [n.replace(": worst, hollow rms", "") for n in names]
+    figure.legend(handles, names, loc="outside lower center", ncols=3)
+    return figure
 
 
 @styled

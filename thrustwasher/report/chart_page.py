@@ -9,7 +9,8 @@ from typing import Any
 from matplotlib import rc_context
 
 from . import chart_text as text
-from .chart_cost import cost_figure, count_figure
+from .chart_cost import cost_figure, count_figure, steps_figure
+from .chart_stability import stability_figure
 from .html import Page, Plot, Section, Table, render
 
 TITLE = "Speed against accuracy"
@@ -26,7 +27,60 @@ def sections(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> list[Secti
     found = []
     for model, survey in record["models"].items():
         found.append(_model_section(model, survey, fronts[model]))
+    if "macro_steps" in record:
+        found.append(_steps_section(record["macro_steps"], fronts["macro_steps"]))
+    if "stability" in record:
+        found.append(_stability_section(record["stability"]))
     return found
+
+
+def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
+    heads = ["method", "hazard", "verdict", "figure", "in words"]
+    rows = [
+        [method, hazard, cell["verdict"], cell["figure"], cell["words"]]
+        for g in groups
+        for method, row in zip(g["methods"], g["cells"], strict=True)
+        for hazard, cell in zip(g["hazards"], row, strict=True)
+    ]
+    lies = sum(row[2] == "LIES" for row in rows)
+    return Section(
+        anchor="stability",
+        title="Where methods fail",
+        texts=[
+            f"Each cell was run: {lies} of {len(rows)} answers are wrong and come without a word. "
+            "The methods are small ones written for this map; the package's own are named so.",
+        ],
+        plots=[Plot(file="chart-stability", figure=stability_figure(groups),
+                    caption="A method that says that it failed is worth more than one that does "
+                    "not know.")],
+        tables=[Table(title="All cells", heads=heads, rows=rows, folded=True)],
+    )  # fmt: skip
+
+
+def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Section:
+    heads = ["way", "step", "per simulated second",
+             *(q["name"] for q in study["quantities"]), "what was wrong"]  # fmt: skip
+    rows = [
+        [s["family"], s["value"], text.seconds(s["call_median"]),
+         *(text.error_text(s["errors"][q["name"]]["worst"], q) for q in study["quantities"]),
+         "; ".join(s["failures"].values())]
+        for s in study["samples"]
+    ]  # fmt: skip
+    orders = text.order_sentences(study)
+    return Section(
+        anchor="macro-steps",
+        title="A shift: error against cost over step, master, coupling and rung",
+        texts=[
+            f"The scene is {study['scene']}. Errors are those of quantities that a shift does not "
+            "forget, against the limit that both masters tend to.",
+            *orders,
+        ],
+        plots=[Plot(file="chart-shift", figure=steps_figure(study, fronts),
+                    caption="Each line goes from large steps to small ones. Red crosses: the run "
+                    "ended without a word, but chatters or does not lock.")],
+        tables=[Table(title="All runs", heads=heads, rows=rows, numbers=(2, 3, 4, 5),
+                      folded=True)],
+    )  # fmt: skip
 
 
 def _model_section(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -90,6 +92,40 @@ def verdict(survey: Mapping[str, Any], front: Sequence[int], quantity: Mapping[s
         for s in members
     ]
     return f"{quantity['name']}: nothing beats {', '.join(parts)}." if parts else ""
+
+
+def order_sentences(study: Mapping[str, Any]) -> list[str]:
+    """Say with which order the errors of each way fall with the step, and what goes wrong."""
+    found = []
+    for family in dict.fromkeys(s["family"] for s in study["samples"]):
+        members = [s for s in study["samples"] if s["family"] == family]
+        wrong = [s for s in members if s["n_failed"]]
+        orders = [
+            f"{q['name']} {order:.1f}"
+            for q in study["quantities"]
+            if (order := _order(members, q["name"])) is not None
+        ]
+        if wrong:
+            words = dict.fromkeys(re.sub(r"\d+", "many", w) for s in wrong
+                                  for w in s["failures"].values())  # fmt: skip
+            found.append(f"{family}: wrong in {len(wrong)} of {len(members)} ({'; '.join(words)}).")
+        elif orders:
+            found.append(f"{family}: order {', '.join(orders)}.")
+    return found
+
+
+def _order(members: Sequence[Sampled], name: str) -> float | None:
+    """Return the slope of the logarithms of error and step, over errors that can be seen."""
+    pairs = []
+    for s in members:
+        error = s["errors"][name]["worst"]
+        if error and error > 3.0 * (s["ref_uncertainty"][name] or 0.0):
+            pairs.append((math.log(float(s["value"].split()[0])), math.log(error)))
+    if len(pairs) < 3:
+        return None
+    mean_x, mean_y = (sum(p[i] for p in pairs) / len(pairs) for i in (0, 1))
+    top = sum((x - mean_x) * (y - mean_y) for x, y in pairs)
+    return top / sum((x - mean_x) ** 2 for x, _ in pairs)
 
 
 def curve_sentences(curve: Mapping[str, Any]) -> list[str]:

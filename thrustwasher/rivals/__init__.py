@@ -5,5 +5,7 @@ of the original and what was set as favourably as can be.
 
 ===============  =================================================================================
 ``plain2006``    the washer as published in 2006: uniform mesh, over-relaxation, difference Newton
+``cavitation``   five ways to solve a cavitating film, some of which lie
+``lockup``       six ways to step a clutch through lock-up, some of which lie
 ===============  =================================================================================
 """

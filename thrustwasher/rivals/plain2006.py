@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Status
+from ..kernels.washer_model import SIGMA1
 from ..models.washer_constants import constants
 from ..models.washer_params import WasherParams
 from . import plain2006_kernel as kernel
@@ -42,6 +43,8 @@ class Plain2006:
     tolerance: float = 1e-6
     relaxation: float = RELAXATION
     share: float = SHARE
+    limited: bool = True  # Newton's steps
+    level: bool = False  # the paper's start: washer level, 3 sigma off everything
 
     def __post_init__(self) -> None:
         n_r, n_t = self.grid
@@ -52,8 +55,18 @@ class Plain2006:
     def solve(self, load: float, speed: float, tilt: float, oil_temperature: float) -> Status:
         """Solve one point, warm if there was one before; the results are the properties below."""
         settings = Settings(
-            self.relaxation, HEAT_RELAXATION, self.tolerance, DIFFERENCE, self.share, MOST_ROUNDS
+            self.relaxation,
+            HEAT_RELAXATION,
+            self.tolerance,
+            DIFFERENCE,
+            self.share,
+            MOST_ROUNDS,
+            1.0 if self.limited else 1e300,
         )
+        if self.level and self.memory[0] == 0.0:
+            gap = 3.0 * float(self._par[SIGMA1])
+            self.memory[0] = gap
+            self.memory[1] = 2.0 * gap + tilt * self.params.outer_radius
         status = kernel.solve(
             self._par, *self.grid, load, speed, tilt, oil_temperature, settings, self.memory,
             self.out,

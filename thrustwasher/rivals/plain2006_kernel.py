@@ -196,7 +196,7 @@ def balance(
         least = (q[0] - m.outer_radius * math.sqrt(q[2] ** 2 + q[3] ** 2)) / m.sigma1
         allowed = max(1.0, 0.3 * least)
         change = max(abs(force[0]) + tilted, 0.5 * (abs(force[1] - force[0]) + tilted))
-        step = min(1.0, allowed / change) if change > 0.0 else 1.0
+        step = min(1.0, s.limit * allowed / change) if change > 0.0 else 1.0
         for k in range(4):
             q[k] -= step * force[k] * scale[k]
     return MAX_ITERATIONS

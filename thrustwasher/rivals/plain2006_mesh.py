@@ -21,6 +21,7 @@ class Settings(NamedTuple):
     difference: float  # of the derivatives [sigma]
     share: float  # of a temperature step that is taken
     most_rounds: int
+    limit: float  # of Newton's steps: 1 for that said in `balance`, large for none
 
 
 class Mesh(NamedTuple):

@@ -1,0 +1,52 @@
+"""Slopes over the macro step: what the coupling of packs and driveline is worth."""
+
+import math
+
+import pytest
+from scene_runs import instances
+
+from thrustwasher.drivetrain import macro_steps
+from thrustwasher.drivetrain.macro_steps import Way, complaint, figures, run
+
+NAMES = ("lock_time", "slip_energy", "peak_temperature")
+
+
+@pytest.fixture(scope="module")
+def limit():
+    return macro_steps.reference(instances, quick=True)
+
+
+def errors(way, step, limit):
+    found = figures(run(way, step, instances))
+    return [abs(found[name] - limit[0][name]) for name in NAMES]
+
+
+def slopes(way, steps, limit):
+    coarse, fine = (errors(way, step, limit) for step in steps)
+    ratio = math.log(steps[0] / steps[1])
+    return [math.log(a / b) / ratio for a, b in zip(coarse, fine, strict=True)]
+
+
+def test_both_masters_tend_to_one_limit(limit):
+    truth, apart = limit
+    assert apart["lock_time"] < 1e-5 * truth["lock_time"]
+    assert apart["slip_energy"] < 5e-5 * truth["slip_energy"]
+
+
+@pytest.mark.parametrize("master", ["gauss-seidel", "jacobi"])
+def test_held_capacities_couple_with_order_one(master, limit):
+    lock, _, peak = slopes(Way(master, extrapolation=False), (8e-3, 2e-3), limit)
+    assert lock == pytest.approx(1.0, abs=0.15) and peak == pytest.approx(1.0, abs=0.15)
+
+
+def test_extrapolated_capacities_couple_with_order_two_nearly(limit):
+    """Lock-up and the release are corners: each run meets them elsewhere in its steps."""
+    found = slopes(Way("jacobi"), (1e-2, 1e-3), limit)
+    assert all(1.6 < slope < 2.4 for slope in found)
+
+
+def test_a_handed_friction_torque_chatters_after_lock_up():
+    result = run(Way("gauss-seidel", "torque"), 1e-3, instances)
+    assert "turns round" in complaint(result, figures(result))
+    located = run(Way("gauss-seidel"), 1e-3, instances)
+    assert complaint(located, figures(located)) == ""

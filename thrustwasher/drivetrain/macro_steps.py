@@ -1,0 +1,203 @@
+"""Error of a shift against its cost, over macro step, master, coupling and rung.
+
+The shift is the built-in ``planetary`` without washers and gear mesh: what is judged is how the
+packs and the driveline are coupled. Quantities that a shift does not forget: heat of the clutch,
+time of lock-up, peak temperature.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..errors import ParameterError, SolveError
+from .result import ShiftResult
+from .scene import Scene
+from .scene_file import load_scene
+from .shift import run_shift
+from .system import Stepping
+
+STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4)
+QUICK_STEPS = (1e-2, 2e-3)
+TRUE_STEPS, QUICK_TRUE_STEPS = (1e-4, 5e-5), (4e-4, 2e-4)
+SLOW_SLIP = 0.5  # [rad/s]; with smoothed friction less counts as locked
+MOST_TURNS = 2  # changes of the slip's sign after lock-up; more is chatter
+QUANTITIES: tuple[dict[str, Any], ...] = (
+    {"name": "slip_energy", "kind": "relative", "unit": "1", "floor": 0.0},
+    {"name": "lock_time", "kind": "absolute", "unit": "s", "floor": None},
+    {"name": "peak_temperature", "kind": "absolute", "unit": "K", "floor": None},
+)
+Make = Callable[[Scene], Mapping[str, Stepping]]
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way to couple the shift."""
+
+    master: str
+    coupling: str = "capacity"
+    extrapolation: bool = True
+    rung: str = "field"
+
+    @property
+    def name(self) -> str:
+        """What the line is called."""
+        what = "friction torque" if self.coupling == "torque" else (
+            "capacity, extrapolated" if self.extrapolation else "capacity, held"
+        )  # fmt: skip
+        rung = "" if self.rung == "field" else f", packs {self.rung}"
+        return f"{self.master}, {what}{rung}"
+
+
+WAYS = (
+    Way("gauss-seidel"),
+    Way("jacobi"),
+    Way("gauss-seidel", extrapolation=False),
+    Way("jacobi", extrapolation=False),
+    Way("gauss-seidel", "torque"),
+    Way("jacobi", "torque"),
+    Way("gauss-seidel", rung="stribeck"),
+    Way("gauss-seidel", rung="closed"),
+)
+
+
+def scene_of(way: Way, step: float) -> Scene:
+    """Return the shift to be run."""
+    scene = load_scene("planetary").with_options(step=step, master=way.master)
+    parts = {k: v for k, v in scene.parts.items() if k not in ("washer", "mesh")}
+    gearbox = parts["transmission"]
+    params = replace(
+        gearbox.params, washers=0, coupling=way.coupling, capacity_extrapolation=way.extrapolation
+    )
+    parts["transmission"] = replace(gearbox, params=params)
+    for pack in ("clutch", "brake"):
+        parts[pack] = replace(parts[pack], fidelity=way.rung)
+    return replace(scene, parts=parts)
+
+
+def figures(result: ShiftResult) -> dict[str, float]:
+    """Return what the shift is judged by; NaN for a lock-up that was not reached."""
+    signals, time = result.signals, result.time
+    slip = signals["transmission.clutch_speed"]
+    peak = float(np.max(signals["clutch.temperature"]))
+    located = [f.value for f in result.key_figures if f.name == "lock_time"]
+    lock = located[0] if located and located[0] is not None else _slow_since(time, slip)
+    energy = float(signals["transmission.clutch_heat"][-1])
+    return {"slip_energy": energy, "lock_time": lock, "peak_temperature": peak}
+
+
+def _slow_since(time: Any, slip: Any) -> float:
+    """Return when the slip first fell below ``SLOW_SLIP``, by interpolation; NaN if never."""
+    i = int(np.argmax(slip))
+    below = np.flatnonzero(np.abs(slip[i:]) < SLOW_SLIP)
+    if not len(below) or below[0] == 0:
+        return float("nan")
+    k = i + int(below[0])
+    share = (slip[k - 1] - SLOW_SLIP) / (slip[k - 1] - slip[k])
+    return float(time[k - 1] + min(max(share, 0.0), 1.0) * (time[k] - time[k - 1]))
+
+
+def complaint(result: ShiftResult, found: Mapping[str, float]) -> str:
+    """Say what is wrong with a run that came to its end; empty if nothing is.
+
+    Its numbers are kept all the same: that is what a user would have got.
+    """
+    if not all(map(np.isfinite, found.values())):
+        return "does not lock"
+    slip, time = result.signals["transmission.clutch_speed"], result.time
+    after = slip[time > found["lock_time"]]
+    moving = np.sign(after[np.abs(after) > 1e-3])
+    turns = int(np.count_nonzero(np.diff(moving)))
+    return f"chatters: the slip turns round {turns} times" if turns > MOST_TURNS else ""
+
+
+def study(
+    make: Make, *, quick: bool = False, progress: Callable[[str], None] = print
+) -> dict[str, Any]:
+    """Return truth and samples of all ways and steps, as JSON types.
+
+    Parameters
+    ----------
+    make : gives an instance for each part of a scene
+    quick : few steps, one repeat
+    """
+    progress("shift: reference")
+    truth, uncertainty = reference(make, quick=quick)
+    samples = []
+    for way in WAYS:
+        progress(f"shift: {way.name}")
+        for step in QUICK_STEPS if quick else STEPS:
+            samples.append(sample(way, step, make, truth, uncertainty, 1 if quick else 3))
+    return {
+        "scene": "planetary without washers and gear mesh", "quantities": list(QUANTITIES),
+        "truth": truth, "samples": samples,
+    }  # fmt: skip
+
+
+def reference(make: Make, *, quick: bool = False) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the figures both masters tend to, and how far these limits are apart.
+
+    Two steps of each master are extrapolated with first order; the mean of the limits counts.
+    """
+    coarse, fine = QUICK_TRUE_STEPS if quick else TRUE_STEPS
+    limits = []
+    for master in ("gauss-seidel", "jacobi"):
+        a, b = (figures(run(Way(master), step, make)) for step in (coarse, fine))
+        limits.append({k: b[k] + (b[k] - a[k]) * fine / (coarse - fine) for k in b})
+    truth = {k: 0.5 * (limits[0][k] + limits[1][k]) for k in limits[0]}
+    apart = {k: abs(limits[0][k] - limits[1][k]) for k in truth}
+    return truth, apart
+
+
+def run(way: Way, step: float, make: Make) -> ShiftResult:
+    """Run the shift once."""
+    scene = scene_of(way, step)
+    return run_shift(scene, make(scene))
+
+
+def sample(
+    way: Way, step: float, make: Make, truth: Mapping[str, float],
+    uncertainty: Mapping[str, float], repeats: int,
+) -> dict[str, Any]:  # fmt: skip
+    """Return one sample in the layout of all charts; the cost is per simulated second."""
+    wall: list[float] = []
+    failures: dict[str, str] = {}
+    found: dict[str, float] = {}
+    count = 0
+    try:
+        for _ in range(repeats):
+            result = run(way, step, make)
+            span = float(result.time[-1] - result.time[0])
+            wall.append(result.wall_time / span)
+        count = sum(c.steps for c in result.cost)
+        found = figures(result)
+        why = complaint(result, found)
+    except (ParameterError, SolveError) as error:
+        why = f"{type(error).__name__}: {error}"
+    if why:
+        failures["shift"] = why
+    errors = {}
+    for q in QUANTITIES:
+        size = abs(truth[q["name"]]) if q["kind"] == "relative" else 1.0
+        off = abs(found.get(q["name"], float("nan")) - truth[q["name"]]) / size
+        known = off if np.isfinite(off) else None
+        errors[q["name"]] = {"worst": known, "rms": known, "case": "shift"}
+    relative = {
+        q["name"]: uncertainty[q["name"]]
+        / (abs(truth[q["name"]]) if q["kind"] == "relative" else 1.0)
+        for q in QUANTITIES
+    }
+    quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
+    return {
+        "family": way.name, "label": f"{way.name}, {1e3 * step:g} ms", "knob": "macro step",
+        "value": f"{1e3 * step:g} ms", "cases": "planetary", "errors": errors,
+        "ref_uncertainty": relative, "call_median": statistics.median(wall) if wall else None,
+        "call_iqr": quartiles[2] - quartiles[0], "call_min": min(wall) if wall else None,
+        "repeats": len(wall), "first_call_s": None, "setup_s": 0.0, "count": float(count),
+        "count_of": "steps of all parts", "n_cases": 1, "n_failed": len(failures),
+        "failures": failures, "is_rival": False,
+    }  # fmt: skip

@@ -1,0 +1,56 @@
+"""Where methods fail, as a map of coloured cells."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from textwrap import fill
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from .style import new_figure, styled
+
+SHADES = {"ok": "#D5EFE3", "slow": "#FFF0CC", "says": "#D6E9F7", "LIES": "#F6C6AE", "-": "#EFEFEF"}
+WORDS = {
+    "ok": "right", "slow": "right, but costs", "says": "fails and says so",
+    "LIES": "wrong without a word",
+}  # fmt: skip
+
+
+@styled
+def stability_figure(groups: Sequence[Mapping[str, Any]]) -> Figure:
+    """Return a panel of cells for each group: methods down, hazards across."""
+    rows = [len(g["methods"]) for g in groups]
+    figure, panels = new_figure(
+        11.0, 0.42 * sum(rows) + 1.15 * len(groups), len(groups), 1, height_ratios=rows
+    )
+    for axes, group in zip(panels, groups, strict=True):
+        _draw_group(axes, group)
+    handles = [Rectangle((0, 0), 1, 1, color=SHADES[v]) for v in WORDS]
+    names = [f"{v}: {text}" for v, text in WORDS.items()]
+    figure.legend(handles, names, loc="outside lower center", ncols=4)
+    return figure
+
+
+def _draw_group(axes: Axes, group: Mapping[str, Any]) -> None:
+    """Draw the cells of one group, the worst in bold."""
+    n_rows, n_columns = len(group["methods"]), len(group["hazards"])
+    axes.set(xlim=(0, n_columns), ylim=(n_rows, 0))
+    axes.grid(False)
+    axes.set_title(f"{group['name']} (wrong: {group['judged']})")
+    for i, row in enumerate(group["cells"]):
+        for j, cell in enumerate(row):
+            axes.add_patch(Rectangle((j + 0.02, i + 0.04), 0.96, 0.92, lw=0,
+                                     color=SHADES[cell["verdict"]]))  # fmt: skip
+            lies = cell["verdict"] == "LIES"
+            text = f"{cell['verdict']}  {cell['figure']}".strip()
+            axes.text(j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=8.5,
+                      fontweight="bold" if lies else "normal")  # fmt: skip
+    axes.set_xticks([j + 0.5 for j in range(n_columns)], [fill(h, 18) for h in group["hazards"]],
+                    fontsize=8)  # fmt: skip
+    axes.set_yticks([i + 0.5 for i in range(n_rows)], group["methods"], fontsize=8.5)
+    axes.tick_params(length=0)
+    for spine in axes.spines.values():
+        spine.set_visible(False)

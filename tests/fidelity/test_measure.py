@@ -7,7 +7,15 @@ import pytest
 
 from thrustwasher.errors import Status
 from thrustwasher.fidelity.cases import Case, cases_of, digest
-from thrustwasher.fidelity.measure import Answer, Quantity, Rung, Truth, measure, time_call
+from thrustwasher.fidelity.measure import (
+    Answer,
+    Quantity,
+    Rung,
+    Timing,
+    Truth,
+    measure,
+    time_call,
+)
 from thrustwasher.fidelity.models import spec_of
 
 CASES = (Case("one", (1.0,)), Case("two", (2.0,)), Case("three", (4.0,)))
@@ -33,6 +41,9 @@ class Way:
             self.calls += 1
 
         return call
+
+    def idle(self, case):
+        return None
 
 
 def sampled(way, quantities=(RELATIVE,)):
@@ -76,21 +87,63 @@ def test_an_answer_outside_the_verified_range_is_no_answer():
     assert sampled(Way(odd=odd)).failures == {"two": "OUTSIDE_VERIFIED"}
 
 
-def test_the_first_call_is_apart_and_batches_are_long_enough():
-    seconds = iter([0.5, *[0.0] * 100_000])
-    clock = []
+class Clock:
+    """A clock that only calls move on."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def perf_counter(self):
+        return self.now
+
+    def takes(self, seconds):
+        def call():
+            self.now += seconds
+
+        return call
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    found = Clock()
+    monkeypatch.setattr("thrustwasher.fidelity.measure.time", found)
+    return found
+
+
+def test_the_first_call_is_apart_and_batches_are_long_enough(clock):
+    costs = iter([0.5, *[1e-4] * 10_000])
 
     def call():
-        clock.append(next(seconds))
+        clock.now += next(costs)
 
-    t = time_call(call, repeats=5, batch=1e-4)
-    assert t.repeats == 5 and t.least <= t.median
-    assert len(clock) > 5 * 10  # many calls per batch
+    t = time_call(call, repeats=5, batch=1e-2)
+    assert (t.first, t.repeats) == (0.5, 5)
+    assert t.median == pytest.approx(1e-4) and t.least == pytest.approx(1e-4)
+    assert 5 * 1e-2 <= clock.now - 0.5001 < 6 * 1e-2
+    assert not t.is_noisy
 
 
-def test_time_per_thing_is_the_call_over_its_things():
-    one, ten = (time_call(lambda: sum(range(3000)), repeats=9, calls=n) for n in (1, 10))
-    assert ten.median < 0.5 * one.median
+def test_time_per_thing_is_the_call_over_its_things(clock):
+    assert time_call(clock.takes(1e-3), calls=10).median == pytest.approx(1e-4)
+
+
+def test_a_spread_above_a_tenth_is_flagged(clock):
+    def call():
+        clock.now += 1e-2 if clock.now % 0.04 < 0.02 else 2e-2
+
+    assert time_call(call, repeats=20).is_noisy
+
+
+def test_what_the_call_itself_costs_is_taken_off(clock):
+    way = Way()
+    way.warm = lambda case: clock.takes(3e-3)
+    way.idle = lambda case: clock.takes(1e-3)
+    s = sampled(way)
+    assert s.call_median == pytest.approx(2e-3) and s.call_min == pytest.approx(2e-3)
+
+
+def test_something_is_left_of_every_call():
+    assert 0.0 < Timing(1e-6, 0.0, 1e-6, 9, 0.0).less(1.0).median < 1e-6
 
 
 def test_case_lists_hold_what_their_model_takes():

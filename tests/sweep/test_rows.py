@@ -91,12 +91,34 @@ def test_points_stand_alone_unless_they_share_a_line():
     assert walked["distress"].tolist() == [False, True, True]
 
 
+def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypatch):
+    from thrustwasher.fidelity import choose
+
+    asked = {}
+
+    def choose_closed(model, box, **options):
+        asked.update(options, model=model, box=box)
+        return choose.Choice("closed", 0.01, 1e-6, ("gear mesh: closed", "because"))
+
+    monkeypatch.setattr(choose, "choose", choose_closed)
+    over = {"load": [10.0, 40.0], "speed": [50.0, 150.0]}
+    table = run_sweep("gearmesh", over, fidelity="auto:0.05")
+    assert (asked["model"], asked["tol"], asked["n_calls"]) == ("gearmesh", 0.05, 4)
+    assert asked["box"]["load"] == (10.0, 40.0) and asked["box"]["speed"] == (50.0, 150.0)
+    assert (table.fidelity, "because" in table.choice) == ("closed", True)
+    named = run_sweep("gearmesh", over, fidelity="closed")
+    assert (table["friction_torque"] == named["friction_torque"]).all()
+    with pytest.raises(ParameterError, match="without varied parameters"):
+        run_sweep("gearmesh", {**over, "pinion_teeth": [30, 40]}, fidelity="auto:0.05")
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
         ({"model": "gearbox", "over": {"load": [1.0]}}, "washer, clutch, gearmesh"),
         ({"model": "washer"}, "nothing is varied"),
         ({"model": "washer", "over": {"load": [1.0]}, "fidelity": "best"}, "'field'"),
+        ({"model": "washer", "over": {"load": [1.0]}, "fidelity": "auto:-1"}, "auto:TOLERANCE"),
         ({"model": "washer", "over": {"load": [1.0]}, "at": {"load": 2.0}}, "twice"),
         ({"model": "washer", "over": {"load": [1.0]}, "points": {"load": [1.0]}}, "without axes"),
         ({"model": "washer", "points": {"load": [1.0, 2.0], "speed": [1.0]}}, "one length"),

@@ -47,6 +47,7 @@ def test_two_processes_give_the_rows_of_one(tmp_path):
     assert not journal_of(out).exists()
 
 
+@pytest.mark.slow
 def test_a_process_that_is_killed_costs_nothing_but_time(tmp_path, monkeypatch):
     import multiprocessing
 

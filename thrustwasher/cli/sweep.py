@@ -39,7 +39,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
     for name, units in _inputs().items():
         inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
-    parser.add_argument("--fidelity", help="rung of the model; its command's --help lists them")
+    parser.add_argument(
+        "--fidelity", metavar="RUNG",
+        help="rung of the model, its command's --help lists them; auto:0.01: the cheapest whose "
+        "torque is verified to 1 %% over all points",
+    )  # fmt: skip
     parser.add_argument(
         "--out", metavar="FILE",
         help="table to write, .csv or .parquet; stopped, the same command goes on. Without: CSV "
@@ -69,6 +73,8 @@ def run(arguments: argparse.Namespace) -> int:
         workers=_workers(arguments.workers), cluster=arguments.cluster,
         progress=_progress(spec),
     )  # fmt: skip
+    if table.choice:
+        _output.note(table.choice)
     if not out:
         write_csv(table, sys.stdout)
     failed = ", ".join(f"{n} {name}" for name, n in table.failures.items())

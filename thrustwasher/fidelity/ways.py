@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from importlib import import_module
 from typing import Any
 
@@ -14,8 +14,12 @@ from ..models._prepare import filled
 from ..models._spec import ModelSpec
 from .cases import Case
 from .measure import Answer
+from .timing import empty_step
 
 STEP = 0.01  # how far apart warm calls are in the first input, relative
+
+
+_empty_step = cache(empty_step)
 
 
 def way_to(case: Case) -> tuple[tuple[float, ...], ...]:
@@ -74,9 +78,16 @@ class KernelWay:
     def warm(self, case: Case) -> Callable[[], object]:
         """Return a call that goes back and forth over one per cent of the first input."""
         state, _, _ = self._walk(case)
+        return self._call(case, state, self._kernel.step)
+
+    def idle(self, case: Case) -> Callable[[], object]:
+        """Return the call with an empty function in the kernel's place."""
+        return self._call(case, np.zeros(self._n_state), _empty_step())
+
+    def _call(self, case: Case, state: Any, step: Any) -> Callable[[], object]:
         first, *others = case.point
         points = [np.array((first * (1.0 + s * 0.5 * STEP), *others)) for s in (-1.0, 1.0)]
-        step, par, work, out, iout = self._kernel.step, self._par, self._work, self._out, self._iout
+        par, work, out, iout = self._par, self._work, self._out, self._iout
         turn = 0
 
         def call() -> None:
@@ -124,3 +135,6 @@ class Way2006:
             washer.solve(load * (1.0 + turn * 0.5 * STEP), *others)
 
         return call
+
+    def idle(self, case: Case) -> None:
+        """Return nothing: a call from Python is nothing beside a solve."""

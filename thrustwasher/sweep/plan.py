@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from importlib import import_module
 from typing import Any
 
@@ -39,6 +40,7 @@ class Plan:
     params: tuple[Any, ...]  # parameter objects; None: broken rule
     params_of: NDArray[np.int64]  # (n_lines,) index into params
     identity: dict[str, str] = field(default_factory=dict)  # digests by what they stand for
+    choice: str = ""  # why the cards chose this rung, if they did
 
     @property
     def n_rows(self) -> int:
@@ -67,9 +69,7 @@ def make_plan(
     spec = load_spec(model)
     known = places(spec)
     rung = spec.default_fidelity if fidelity is None else fidelity
-    if rung not in spec.fidelities:
-        rungs = " or ".join(map(repr, spec.fidelities))
-        raise ParameterError(f"fidelity = {rung!r}, allowed: {rungs}")
+    tolerance = _tolerance(rung, spec)
     base = spec.params() if params is None else params
     if not isinstance(base, spec.params):
         raise ParameterError(f"params: {type(base).__name__}, allowed: {spec.params.__name__}")
@@ -85,7 +85,42 @@ def make_plan(
     twice = [name for name in given if given.count(name) > 1]
     if twice:
         raise ParameterError(f"{twice[0]}: is given twice, allowed: varied or held, once")
-    return _assemble(spec, rung, base, held, rows, lines, [known[name] for name in order])
+    plan = _assemble(spec, rung, base, held, rows, lines, [known[name] for name in order])
+    return plan if tolerance is None else _chosen(plan, tolerance)
+
+
+def _tolerance(rung: str, spec: ModelSpec) -> float | None:
+    """Return the tolerance of "auto:0.01", None for the name of a rung."""
+    if rung in spec.fidelities:
+        return None
+    name, _, text = rung.partition(":")
+    try:
+        if name == "auto" and 0.0 < float(text) < math.inf:
+            return float(text)
+    except ValueError:
+        pass
+    rungs = ", ".join(map(repr, spec.fidelities))
+    raise ParameterError(
+        f"fidelity = {rung!r}, allowed: {rungs} or 'auto:TOLERANCE', e.g. auto:0.01"
+    )
+
+
+def _chosen(plan: Plan, tolerance: float) -> Plan:
+    """Return the plan with the rung that the cards choose for all of its points.
+
+    Raises
+    ------
+    SolveError : no rung is verified to the tolerance
+    """
+    from ..fidelity.choose import choose
+
+    if len(plan.params) != 1:
+        raise ParameterError("fidelity = 'auto': allowed: without varied parameters")
+    low, high = np.nanmin(plan.inputs, axis=0).tolist(), np.nanmax(plan.inputs, axis=0).tolist()
+    box = {s.name: (a, b) for s, a, b in zip(plan.spec.inputs, low, high, strict=True)}
+    choice = choose(plan.spec.key, box, tol=tolerance, n_calls=plan.n_rows, params=plan.params[0])
+    identity = {**plan.identity, "fidelity": choice.fidelity}
+    return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
 
 
 def _held(at: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec) -> list[Axis]:

@@ -42,7 +42,8 @@ def run_sweep(
     at : one value by name for what is held; the rest is at the model's defaults
     points : instead of ``over``, columns of one length by name: every row is a point
     params : parameter object to start from
-    fidelity : rung of the model
+    fidelity : rung of the model, or "auto:0.01": the cheapest one whose torque the cards verify to
+        1 % over all points
     out : file to write, .csv or .parquet; a journal lies beside it until the sweep is done, and
         the same call goes on from there
     workers : processes on this machine; None: as many as there are cores where that pays, 1: none
@@ -57,6 +58,7 @@ def run_sweep(
     Raises
     ------
     ParameterError : wrong argument, or ``out`` has a journal of another sweep
+    SolveError : with auto, no rung is verified to the tolerance
     EnvironmentProblem : a package is missing, the cluster does not answer, workers keep dying
 
     Notes

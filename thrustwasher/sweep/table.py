@@ -28,11 +28,14 @@ class SweepTable:
     """All points of a sweep: inputs, varied parameters, outputs, status; SI units.
 
     ``columns`` maps names to arrays in the order of the rows, as ``pandas.DataFrame`` takes them.
+    ``choice`` says why the rung ``fidelity`` was chosen, if it was not asked for by name.
     Outputs of a failed point are NaN, "" or False; ``status`` says why.
     """
 
     columns: dict[str, NDArray[Any]]
     units: dict[str, str]
+    fidelity: str = ""
+    choice: str = ""
 
     def __len__(self) -> int:
         return len(self.columns["status"])
@@ -67,7 +70,7 @@ def make_table(plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32
     for status in Status:
         names[status] = status.name
     columns["status"] = names[flags[:, -1]]
-    return SweepTable(columns, units)
+    return SweepTable(columns, units, plan.fidelity, plan.choice)
 
 
 def check_output(path: str | Path) -> Path:

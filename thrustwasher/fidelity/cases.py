@@ -48,15 +48,26 @@ WASHER = (
 GEARMESH = (
     Case("centre", (7500.0 / 180.0, 180.0, 299.85)),
     Case("light", (5.0, 180.0, 299.85)),
-    Case("heavy", (250.0, 180.0, 299.85)),
+    Case("heavy", (120.0, 180.0, 299.85)),
     Case("slow", (40.0, 10.0, 299.85)),
     Case("fast", (40.0, 1000.0, 299.85)),
     Case("hot oil", (40.0, 180.0, 373.15)),
     Case("fast, light, hot", (5.0, 1000.0, 373.15)),
-    Case("slow, heavy, cold", (250.0, 10.0, 263.15)),
+    Case("slow, heavy, cold", (120.0, 10.0, 263.15)),
 )
-LISTS = {"washer": WASHER, "gearmesh": GEARMESH}
-FEW = {"washer": (0, 1, 8, 11, 12), "gearmesh": (0, 2, 3, 4)}  # for a quick look
+# an engagement: full force N, slip at the start rad/s, oil K
+CLUTCH = (
+    Case("centre", (5898.0, 350.0, 297.15)),
+    Case("light", (1500.0, 350.0, 297.15)),
+    Case("heavy", (12000.0, 350.0, 297.15)),
+    Case("slow", (5898.0, 40.0, 297.15)),
+    Case("fast", (3000.0, 600.0, 297.15)),
+    Case("hot oil", (5898.0, 350.0, 353.15)),
+)
+LISTS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": GEARMESH}
+FEW = {  # for a quick look
+    "washer": (0, 1, 8, 11, 12), "clutch": (0, 2, 3), "gearmesh": (0, 2, 3, 4),
+}  # fmt: skip
 
 
 def cases_of(model: str, *, quick: bool = False) -> tuple[Case, ...]:

@@ -8,17 +8,24 @@ from ..models._spec import ModelSpec
 from .measure import Quantity, Rung
 from .models import spec_of
 from .ways import KernelWay, Way2006
+from .ways_clutch import ClutchWay
 
 QUANTITIES = {
     "washer": (
         Quantity("friction_torque", True, 1e-3),
         Quantity("temperature", False, unit="K"),
     ),
+    "clutch": (
+        Quantity("slip_energy", True),
+        Quantity("peak_temperature", False, unit="K"),
+    ),
     "gearmesh": (
         Quantity("friction_torque", True, 1e-4),
         Quantity("temperature", False, unit="K"),
     ),
 }
+USUAL_STEP = 1e-3
+STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 5e-4)
 GRIDS = ((7, 20), (9, 24), (10, 32), (13, 40), (16, 48), (19, 64), (28, 96))
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 GRIDS_2006 = ((9, 67), (17, 67), (17, 134))
@@ -27,6 +34,11 @@ GRIDS_2006 = ((9, 67), (17, 67), (17, 134))
 def rungs_of(model: str) -> list[Rung]:
     """Return one rung per named fidelity that the kernel knows."""
     spec = spec_of(model)
+    if model == "clutch":
+        return [
+            Rung("rungs", name, "rung", name, partial(ClutchWay, name, USUAL_STEP), "steps")
+            for name in spec.fidelities
+        ]
     counted = spec.counts[0][0] if spec.counts else "calls"
     return [
         Rung("rungs", name, "rung", name, partial(KernelWay, spec, name), counted)
@@ -40,6 +52,15 @@ def meshes(spec: ModelSpec, *, quick: bool = False) -> list[Rung]:
         Rung("mesh of the package", f"{r} x {t}", "grid", f"{r}x{t}",
              partial(KernelWay, spec, "field", (r, t)), "Newton iterations x nodes")
         for r, t in (GRIDS[::3] if quick else GRIDS)
+    ]  # fmt: skip
+
+
+def steps(*, quick: bool = False) -> list[Rung]:
+    """Return the clutch's default rung over the communication step."""
+    return [
+        Rung("field over the step", f"field, {1e3 * h:g} ms", "step", f"{1e3 * h:g} ms",
+             partial(ClutchWay, "field", h), "steps")
+        for h in (STEPS[::2] if quick else STEPS)
     ]  # fmt: skip
 
 
@@ -64,4 +85,6 @@ def lines_of(model: str, *, quick: bool = False) -> list[Rung]:
     found = rungs_of(model)
     if model == "washer":
         found += meshes(spec_of(model), quick=quick) + method_of_2006(quick=quick)
+    if model == "clutch":
+        found += steps(quick=quick)
     return found

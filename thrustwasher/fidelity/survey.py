@@ -11,7 +11,8 @@ from .lines import QUANTITIES, lines_of
 from .measure import REPEATS, Truth, measure
 
 Progress = Callable[[str], None]
-MODELS = ("washer", "gearmesh")
+MODELS = ("washer", "clutch", "gearmesh")
+COST_OF = {"washer": "warm call, 1 % away [s]", "clutch": "engagement of 0.6 s [s]"}
 BEST_2006 = 1e-5  # tolerance of the method of 2006 beyond which its answers do not change
 LOADS = tuple(range(50, 1851, 50))  # of the washer's whole curve
 
@@ -29,7 +30,7 @@ def survey(model: str, *, quick: bool = False, progress: Progress = print) -> di
         samples.append(measure(rung, cases, truths, quantities, repeats=repeats).as_dict())
     found: dict[str, Any] = {
         "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
-        "cases_digest": digest(cases),
+        "cases_digest": digest(cases), "cost_of": COST_OF.get(model, COST_OF["washer"]),
         "quantities": [
             {"name": q.name, "kind": "relative" if q.relative else "absolute", "unit": q.unit,
              "floor": q.floor if q.relative else None}
@@ -50,9 +51,10 @@ def truths_of(model: str, cases: tuple[Case, ...], *, quick: bool) -> list[Truth
         from .truth import washer_truth
 
         return [washer_truth(case, quick=quick) for case in cases]
-    from .truth import gearmesh_truth
+    from .truth import clutch_truth, gearmesh_truth
 
-    return [gearmesh_truth(case) for case in cases]
+    truth = clutch_truth if model == "clutch" else gearmesh_truth
+    return [truth(case) for case in cases]
 
 
 def whole_curve(*, quick: bool = False) -> dict[str, float]:

@@ -8,6 +8,7 @@ from .cases import Case
 from .measure import Truth
 
 FAMILY = ((19, 64), (28, 96), (37, 128))  # intervals 2 : 4/3 : 1
+CLUTCH_STEPS = (4e-4, 2e-4, 1e-4)  # s
 QUICK = ((13, 40), (19, 64), (28, 96))
 
 
@@ -48,3 +49,22 @@ def gearmesh_truth(case: Case) -> Truth:
     values = {name: answer.values[name] for name in ("friction_torque", "temperature")}
     return Truth(values, {"friction_torque": 1e-9 * abs(values["friction_torque"]),
                           "temperature": 1e-6})  # fmt: skip
+
+
+def clutch_truth(case: Case) -> Truth:
+    """Return slip energy and peak temperature of an engagement, from the finest rung.
+
+    Three steps, each half the one before; the two finest are extrapolated with second order. What
+    that adds, and its difference to the same of the coarser two, is the uncertainty.
+    """
+    from ..models.clutch_params import SPEC
+    from .ways_clutch import ClutchWay
+
+    finest = list(SPEC.fidelities)[-1]
+    a, b, c = (ClutchWay(finest, step).solve(case).values for step in CLUTCH_STEPS)
+    values, uncertainty = {}, {}
+    for name in a:
+        near, far = b[name] + (b[name] - a[name]) / 3.0, c[name] + (c[name] - b[name]) / 3.0
+        values[name] = far
+        uncertainty[name] = max(abs(far - near), abs(far - c[name]))
+    return Truth(values, uncertainty)

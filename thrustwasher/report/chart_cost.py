@@ -33,7 +33,7 @@ def cost_figure(
     """
     quantities = survey["quantities"]
     figure, panels = new_figure(11.0, 5.0, 1, len(quantities))
-    across = "warm call [s], 1 % away"
+    across = survey["cost_of"]
     for axes, quantity in zip(panels, quantities, strict=True):
         draw_samples(axes, survey["samples"], quantity, fronts[quantity["name"]])
         unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
@@ -51,50 +51,53 @@ def draw_samples(
     """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
     name = quantity["name"]
     axes.set(xscale="log", yscale="log")
+    known = [s for s in samples if _drawable(s, name, cost)]
+    floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
+    low = _draw_floor(axes, known, name, floor)
     families = list(dict.fromkeys(s["family"] for s in samples))
     free = RIVALS if set(families) & set(COLOURS) else (BLUE, SKY, *RIVALS)
     rivals = iter(free * 4)
     for family in families:
-        members = [s for s in samples if s["family"] == family and _drawable(s, name, cost)]
+        members = [s for s in known if s["family"] == family]
         colour = COLOURS.get(family) or next(rivals)
-        _draw_family(axes, family, members, name, cost, spread, colour)
-    floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
-    errors = [s["errors"][name][k] for s in samples if _drawable(s, name, cost)
-              for k in ("worst", "rms")]  # fmt: skip
-    if not errors:
-        return
-    low = 0.5 * min([e for e in errors if e > 0.0] + ([floor] if floor else []))
-    axes.set_ylim(bottom=low)
-    if floor:
-        axes.axhspan(low, floor, color="#E8E8E8", lw=0, zorder=0)
-        axes.annotate("uncertainty of the reference", (0.99, floor), (0, 2), va="bottom",
-                      ha="right", xycoords=axes.get_yaxis_transform(), fontsize=8, color=GREY,
-                      textcoords="offset points")  # fmt: skip
+        if members:
+            _draw_family(axes, family, members, name, cost, spread, colour, low)
     best = [samples[i] for i in front]
-    axes.step([s[cost] for s in best], [s["errors"][name]["worst"] for s in best], where="post",
-              color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
+    axes.step([s[cost] for s in best], [max(s["errors"][name]["worst"], low) for s in best],
+              where="post", color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
               zorder=1)  # fmt: skip
     if crosses:
         _draw_failures(axes, samples, cost)
 
 
+def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -> float:
+    """Shade what the reference cannot tell; return the height at which no error is drawn."""
+    errors = [s["errors"][name][k] for s in known for k in ("worst", "rms")]
+    low = min([e for e in errors if e > 0.0] + ([floor] if floor else []), default=1e-16)
+    axes.set_ylim(bottom=0.4 * low)
+    if floor:
+        axes.axhspan(0.4 * low, floor, color="#E8E8E8", lw=0, zorder=0)
+        axes.annotate("uncertainty of the reference", (0.99, floor), (0, 2), va="bottom",
+                      ha="right", xycoords=axes.get_yaxis_transform(), fontsize=8, color=GREY,
+                      textcoords="offset points")  # fmt: skip
+    return 0.6 * low
+
+
 def _drawable(sample: Sampled, name: str, cost: str) -> bool:
     error = sample["errors"].get(name, {}).get("worst")
-    return error is not None and error > 0.0 and bool(sample[cost])
+    return error is not None and bool(sample[cost])
 
 
 def _draw_family(
     axes: Axes, family: str, members: Sequence[Sampled], name: str, cost: str, spread: str | None,
-    colour: str,
+    colour: str, low: float,
 ) -> None:  # fmt: skip
     """Draw one line in the order of its knob; rungs are no line, they are named."""
-    if not members:
-        return
     x = np.array([s[cost] for s in members])
     joined = "" if family == "rungs" else "-"
     single = all(s["errors"][name]["rms"] == s["errors"][name]["worst"] for s in members)
     for kind, fill in (("worst", colour), ("rms", "white"))[: 1 if single else 2]:
-        y = np.array([s["errors"][name][kind] for s in members])
+        y = np.maximum([s["errors"][name][kind] for s in members], low)
         axes.plot(x, y, ls=joined, marker="o" if family != "rungs" else "D", ms=5, color=colour,
                   mfc=fill, lw=1.2 if kind == "worst" else 0.7, zorder=3,
                   label=f"{family}: worst, hollow rms" if kind == "worst" else None)  # fmt: skip
@@ -104,7 +107,7 @@ def _draw_family(
     shown = members if len(members) < 5 or not single else (members[0], members[-1])
     for s in shown:
         text = s["value"]
-        axes.annotate(text, (s[cost], s["errors"][name]["worst"]), (4, 4), fontsize=7.5,
+        axes.annotate(text, (s[cost], max(s["errors"][name]["worst"], low)), (4, 4), fontsize=7.5,
                       textcoords="offset points", color=colour)  # fmt: skip
 
 
@@ -112,11 +115,12 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
     """Mark failed samples by a cross at the top, with their number."""
     failed = [s for s in samples if s["n_failed"]]
     for rank, s in enumerate(failed):
-        x = s[cost] if s[cost] else 0.5 * (1.0 + rank)
-        axes.plot([x], [0.97], marker="x", ms=8, color=RED, mew=2, clip_on=False,
-                  transform=axes.get_xaxis_transform())  # fmt: skip
-        axes.annotate(f"{s['label']}: {s['n_failed']} of {s['n_cases']} fail", (x, 0.97), (6, -3),
-                      xycoords=axes.get_xaxis_transform(), textcoords="offset points",
+        up = 0.98 - 0.045 * rank
+        text = f"{s['label']}: {s['n_failed']} of {s['n_cases']} fail"
+        where: Any = axes.get_xaxis_transform() if s[cost] else axes.transAxes
+        x = s[cost] or 0.02
+        axes.plot([x], [up], marker="x", ms=7, color=RED, mew=1.8, clip_on=False, transform=where)
+        axes.annotate(text, (x, up), (6, -3), xycoords=where, textcoords="offset points",
                       fontsize=7.5, color=RED)  # fmt: skip
 
 

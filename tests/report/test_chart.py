@@ -60,7 +60,8 @@ def record(tmp_path_factory):
     survey = {
         "cases": [{"name": "a < b", "point": [1.0], "before": []},
                   {"name": "b", "point": [2.0], "before": []}],
-        "cases_digest": "0", "cost_of": "a call [s]", "quantities": [QUANTITY], "truths": [], "samples": samples,
+        "cases_digest": "0", "cost_of": "a call [s]", "quantities": [QUANTITY], "truths": [],
+        "samples": samples,
         "curve": {"points": 37, "first_step_2006_s": 0.1, "curve_2006_s": 2.0,
                   "curve_field_s": 0.02, "first_step_then_s": 1800.0},
     }  # fmt: skip

@@ -30,8 +30,13 @@ def error_text(value: float | None, quantity: Mapping[str, Any]) -> str:
     if value is None:
         return "-"
     if quantity["kind"] == "relative":
-        return f"{100.0 * value:.2g} %"
-    return f"{value:.2g} {quantity['unit']}"
+        return f"{_short(100.0 * value)} %"
+    return f"{_short(value)} {quantity['unit']}"
+
+
+def _short(value: float) -> str:
+    """Return two digits, without an exponent for large numbers."""
+    return f"{value:.0f}" if value >= 99.5 else f"{value:.2g}"
 
 
 def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:

@@ -68,8 +68,8 @@ class Plain2006:
             self.memory[0] = gap
             self.memory[1] = 2.0 * gap + tilt * self.params.outer_radius
         status = kernel.solve(
-            self._par, *self.grid, load, speed, tilt, oil_temperature, settings, self.memory,
-            self.out,
+            self._par, *self.grid, float(load), float(speed), float(tilt), float(oil_temperature),
+            settings, self.memory, self.out,
         )  # fmt: skip
         return Status(status)
 

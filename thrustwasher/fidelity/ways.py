@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import Status
 from ..models._prepare import filled
 from ..models._spec import ModelSpec
+from ..models._tables import fill_table
 from .cases import Case
 from .measure import Answer
 from .timing import empty_step
@@ -49,6 +50,8 @@ class KernelWay:
             self._n_state = size_of_state(*grid)
             self._n_work = kernel.N_HEAD + size_of_work(*grid)
         self._work = np.zeros(self._n_work)
+        if grid is None:
+            fill_table(spec, spec.params(), self._par, self._work)
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._real = [s.name for s in spec.outputs if s.kind == "real"]
         places = [(t, *where.split(":")) for t, where in spec.counts[:1]]

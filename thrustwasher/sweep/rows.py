@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..errors import FIRST_FAILURE, ParameterError, Status
 from ..models._prepare import filled
 from ..models._spec import REGIMES, ModelSpec, Signal
+from ..models._tables import fill_table, wants_table
 from .plan import load_spec
 
 Array = NDArray[np.float64]
@@ -74,8 +75,11 @@ def _walk_kernel(
 ) -> None:
     """Fill the rows of one line by steps of the model's kernel."""
     kernel = _kernel(spec.kernel)
-    step, work, state = kernel.step, _work(spec.kernel), np.zeros(kernel.NSTATE)
+    step, state = kernel.step, np.zeros(kernel.NSTATE)
     par = _constants(spec.key, fidelity, params)
+    work = _work_with_table(spec.key, fidelity, params) if wants_table(spec, par) else (
+        _work(spec.kernel)
+    )  # fmt: skip
     for point, row, flag in zip(inputs, numbers, flags, strict=True):
         status = step(par, point, state, work, row, flag, 0.0, 1.0)
         if status >= FIRST_FAILURE:
@@ -119,3 +123,20 @@ def _constants(model: str, fidelity: str, params: Any) -> Array:
     kernel = _kernel(spec.kernel)
     par: Array = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
     return par
+
+
+@lru_cache(maxsize=4)
+def _work_with_table(model: str, fidelity: str, params: Any) -> Array:
+    """Return a work array with the table of a rung; ParameterError if there is none."""
+    spec = load_spec(model)
+    work: Array = np.zeros(_kernel(spec.kernel).NWORK)
+    fill_table(spec, params, _constants(model, fidelity, params), work)
+    return work
+
+
+def check_rung(spec: ModelSpec, fidelity: str, params: Any) -> None:
+    """Raise ParameterError if a rung lacks what it needs for the first parameters of a sweep."""
+    if spec.key != "clutch" and params is not None:
+        par = _constants(spec.key, fidelity, params)
+        if wants_table(spec, par):
+            _work_with_table(spec.key, fidelity, params)

@@ -16,7 +16,7 @@ from ..errors import EnvironmentProblem, ParameterError
 from .journal import Journal
 from .plan import Plan, make_plan
 from .pools import dask_cluster, local_processes, refuse_import_by_worker, usable_cores
-from .rows import Task, output_signals, solve_task
+from .rows import Task, check_rung, output_signals, solve_task
 from .table import SweepTable, check_output, make_table, write_table
 
 Progress = Callable[[int, int], None]
@@ -81,6 +81,8 @@ def run_sweep(
         raise ParameterError("workers and cluster: allowed: one of them")
     target = None if out is None else check_output(out)
     plan = make_plan(model, over or {}, at or {}, points, params, fidelity)
+    if len(plan.params) == 1:
+        check_rung(plan.spec, plan.fidelity, plan.params[0])
     real, whole = output_signals(plan.spec)
     numbers = np.full((plan.n_rows, len(real)), np.nan)
     flags = np.zeros((plan.n_rows, len(whole)), np.int32)

@@ -7,6 +7,7 @@ import pytest
 
 from thrustwasher.errors import Status
 from thrustwasher.fidelity.cases import Case, cases_of, digest
+from thrustwasher.fidelity.lines import lines_of
 from thrustwasher.fidelity.measure import (
     Answer,
     Quantity,
@@ -159,3 +160,11 @@ def test_case_lists_hold_what_their_model_takes():
 def test_a_changed_list_has_another_digest():
     assert digest(CASES) != digest(CASES[:2]) and len(digest(CASES)) == 16
     assert digest(cases_of("washer")) != digest(cases_of("washer", quick=True))
+
+
+@pytest.mark.parametrize("model", ["washer", "clutch", "gearmesh"])
+def test_every_way_has_a_label_of_its_own(model):
+    found = [rung.label for rung in lines_of(model)]
+    assert len(set(found)) == len(found)
+    assert {r.label for r in lines_of(model, quick=True)} <= set(found)
+    assert set(spec_of(model).fidelities) <= set(found)

@@ -73,7 +73,7 @@ def method_of_2006(*, quick: bool = False) -> list[Rung]:
         for t in (TOLERANCES[1:2] if quick else TOLERANCES)
     ]  # fmt: skip
     by_mesh = [
-        Rung("2006, 1e-5, mesh", f"2006, {r} x {t}, 1e-05", "grid", f"{r}x{t}",
+        Rung("2006, 1e-5, mesh", f"2006, mesh {r} x {t}", "grid", f"{r}x{t}",
              partial(Way2006, tolerance=1e-5, grid=(r, t)), counted, True)
         for r, t in (() if quick else GRIDS_2006)
     ]  # fmt: skip

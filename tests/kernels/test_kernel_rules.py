@@ -15,10 +15,13 @@ from thrustwasher.errors import Status
 from thrustwasher.kernels import (
     washer_branch,
     washer_curve,
+    washer_lumped,
     washer_model,
     washer_newton,
+    washer_simple,
     washer_solve,
     washer_step,
+    washer_verdict,
 )  # fmt: skip
 
 FOLDER = Path(inspect.getfile(thrustwasher.kernels)).parent
@@ -111,7 +114,17 @@ def k(a: NDArray[np.float64]) -> None:
 
 @pytest.mark.parametrize(
     "module",
-    [washer_branch, washer_curve, washer_model, washer_newton, washer_solve, washer_step],
+    [
+        washer_branch,
+        washer_curve,
+        washer_lumped,
+        washer_model,
+        washer_newton,
+        washer_simple,
+        washer_solve,
+        washer_step,
+        washer_verdict,
+    ],
     ids=lambda m: m.__name__.rsplit(".", 1)[1],
 )
 def test_status_numbers_are_those_of_the_enumeration(module):

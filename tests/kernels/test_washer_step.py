@@ -11,7 +11,7 @@ from thrustwasher.models.washer_params import WasherParams
 BASE = np.array([300.0, 545.0, 0.002, 297.15])
 
 
-def parameters(fidelity=1.0):
+def parameters(fidelity=float(kernel.FIELD)):
     par = np.zeros(kernel.NPAR)
     par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), fidelity]
     assert kernel.derive(par) == Status.OK

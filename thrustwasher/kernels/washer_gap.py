@@ -17,7 +17,7 @@ from .contact import contact_pressure
 from .film import mean_gap
 from .roelands import viscosity
 from .washer_fields import Fields, Point
-from .washer_model import WasherModel
+from .washer_model import Plates, WasherModel
 
 # places in Fields.small
 FORCE = 0  # (4,) contact forces conjugate to q
@@ -30,7 +30,7 @@ TANGENT_READY = 27  # 1 if washer_tangent has been through since the last evalua
 
 
 @kernel
-def dry_friction(m: WasherModel, contact_load: float) -> tuple[float, float]:
+def dry_friction(m: WasherModel | Plates, contact_load: float) -> tuple[float, float]:
     """Return the dry friction coefficient and its slope over the contact force [1/N].
 
     Source: Jackson & Green Eq 18 with the total contact force, f = a - b ln F, held constant

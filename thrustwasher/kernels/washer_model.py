@@ -20,8 +20,10 @@ from .spline import spline_weights
 N_PARAM = 32  # 31 fields of WasherParams, then the fidelity
 N_SCALAR = 16
 OUTER_RADIUS, SIGMA1, SIGMA2 = 1, N_PARAM + 3, N_PARAM + 4  # places in `par`
+SUMMIT1, SUMMIT_SIGMA1 = N_PARAM + 6, N_PARAM + 8
 TABLES = N_PARAM + N_SCALAR
 MESH = TABLES + 2 * N_TABLE
+WEDGE = MESH  # where a rung without a mesh has its nodes
 N_RADIAL = 7  # arrays over the radial nodes
 N_AROUND = 8  # arrays over the angles
 COARSE_GRADING, FINE_GRADING = 1.6, 2.0  # best below and from FINE_FROM radial nodes
@@ -81,6 +83,40 @@ class WasherModel(NamedTuple):
     width_t: NDArray[np.float64]  # (n_t,) cell widths [rad]
     step_t: NDArray[np.float64]  # (n_t,) from j to j + 1 [rad]
     per_step: NDArray[np.float64]  # (n_t,) its reciprocal
+
+
+class Plates(NamedTuple):
+    """The parameters alone by the same names: a fifth of the words in every call."""
+
+    inner_radius: float
+    outer_radius: float
+    gear_inner_radius: float
+    carrier_thickness: float
+    washer_thickness: float
+    gear_thickness: float
+    conductivity: float
+    oil_conductivity: float
+    viscosity_constant: float
+    viscosity_exponent: float
+    viscosity_scale: float
+    constant_friction: bool
+    dry_friction: float
+    friction_constant: float
+    friction_slope: float
+    friction_load_min: float
+    friction_load_max: float
+    heat_split: float
+    film_heat_fraction: float
+
+
+@kernel
+def washer_plates(par: NDArray[np.float64]) -> Plates:
+    """Return the parameters in ``par`` by name."""
+    return Plates(
+        par[0], par[1], par[2], par[3], par[4], par[5],
+        par[17], par[19], par[20], par[21], par[22],
+        par[23] == 2.0, par[24], par[25], par[26], par[27], par[28], par[29], par[30],
+    )  # fmt: skip
 
 
 @kernel
@@ -185,6 +221,15 @@ def derive_grid(par: NDArray[np.float64], n_r: int, n_t: int) -> int:
         return BAD_INPUT
     i_g = gear_node(n_r, (par[2] - par[0]) / (par[1] - par[0]))
     good = _mesh(par, n_r, n_t, i_g)
+    scratch = par[MESH + N_RADIAL * n_r + N_AROUND * n_t :]
+    status = derive_surfaces(par, scratch)
+    par[N_PARAM], par[N_PARAM + 1], par[N_PARAM + 2] = n_r, n_t, i_g
+    return status if status != OK or good else NOT_FINITE
+
+
+@kernel
+def derive_surfaces(par: NDArray[np.float64], scratch: NDArray[np.float64]) -> int:
+    """Fill the scalars and the contact tables of ``par``; ``scratch`` (N_CONTACT_WORK,) or more."""
     carrier, washer = _pair(par, 7, 8)
     gear, _ = _pair(par, 9, 8)
     sigma1 = math.sqrt(carrier * carrier + washer * washer)
@@ -192,16 +237,15 @@ def derive_grid(par: NDArray[np.float64], n_r: int, n_t: int) -> int:
     height1, scatter1, good1 = _gap_constants(par, sigma1)
     height2, scatter2, good2 = _gap_constants(par, sigma2)
     a = asperity_args(par[10], par[11], par[12], par[13] == 2.0, par[14])
-    scratch = par[MESH + N_RADIAL * n_r + N_AROUND * n_t :]
     first, second = par[TABLES : TABLES + N_TABLE], par[TABLES + N_TABLE : MESH]
-    good = contact_table(a, par[15], scatter1, first, scratch) and good
+    good = contact_table(a, par[15], scatter1, first, scratch)
     if scatter2 == scatter1:
         for k in range(N_TABLE):
             second[k] = first[k]
     else:
         good = contact_table(a, par[15], scatter2, second, scratch) and good
     d = N_PARAM
-    par[d], par[d + 1], par[d + 2] = n_r, n_t, i_g
+    par[d], par[d + 1], par[d + 2] = 0.0, 0.0, 0.0
     par[d + 3], par[d + 4] = sigma1, sigma2
     par[d + 5] = (carrier * carrier - washer * washer) / (sigma1 * sigma1)
     par[d + 6], par[d + 7], par[d + 8], par[d + 9] = height1, height2, scatter1, scatter2

@@ -1,64 +1,78 @@
-"""The washer behind the step ABI (see the package's docstring)."""
+"""The washer behind the step ABI (see the package's docstring).
 
-import math
+Rungs: `closed` and `stribeck` have no mesh and no memory, the others are one kernel on meshes.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
 from .washer_branch import ANY, N_FOUND, NO_BRANCH
+from .washer_closed import closed_sens, closed_step
 from .washer_curve import N_WALK
-from .washer_fields import Bench, Point, size_of_work, washer_fields
+from .washer_fields import Bench, size_of_work, washer_fields
 from .washer_memory import size_of_state
 from .washer_model import BAD_INPUT, N_PARAM, NOT_FINITE, OK, derive_grid, size_of_par, washer_model
 from .washer_newton import N_INFO, SINGULAR
 from .washer_outputs import CONTACT_LOAD, MEAN_TEMPERATURE, N_ALL, N_REAL, RATIO, washer_outputs
 from .washer_rules import broken_rule as broken_rule
 from .washer_sens import differentiate
+from .washer_simple import derive_simple
 from .washer_solve import is_distressed, keep_solution, solve
+from .washer_stribeck import stribeck_sens, stribeck_step
+from .washer_verdict import (
+    BOUNDARY,
+    CLOSED,
+    COARSE,
+    DISTRESS,
+    DISTRESS_OUT,
+    FIELD,
+    FILM,
+    FINE,
+    LEAST_LOAD,
+    LEAST_TILT,
+    MAP,
+    MIXED,
+    OUTSIDE_VERIFIED,
+    REGIME_OUT,
+    STATUS_OUT,
+    STRIBECK,
+    change_of,
+    is_bad,
+    judge,
+    point_of,
+    regime_of,
+)  # fmt: skip
 
-FIELD_GRID = (10, 32)  # radial and circumferential nodes of fidelity "field", number 1
-FINE_GRID = (19, 64)  # of fidelity "fine", number 2
+COARSE_GRID = (8, 20)  # radial and circumferential nodes of fidelity "coarse"
+FIELD_GRID = (10, 32)  # of "field"
+FINE_GRID = (19, 64)  # of "fine"
 NINP, NOUT, NIOUT = 4, N_REAL, 3
 NPAR = size_of_par(*FINE_GRID)
 NSTATE = size_of_state(*FINE_GRID)
 N_HEAD = N_INFO + N_FOUND + N_WALK + N_ALL + 4
 NWORK = N_HEAD + size_of_work(*FINE_GRID)
-OUTSIDE_VERIFIED, DISTRESS = 1, 3  # errors.Status; a test keeps them equal
-FILM, MIXED, BOUNDARY = 1, 2, 3  # regimes
-REGIME_OUT, DISTRESS_OUT, STATUS_OUT = 0, 1, 2
-LEAST_TILT = 1e-9  # [rad]; less counts as none: a wedge of 0.02 nm has lift of no account
-LEAST_LOAD = 1.0  # [N]; an unloaded washer counts as loaded so much
 
 __all__ = [
-    "FIELD_GRID", "FINE_GRID", "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_ALL",
-    "N_FOUND", "N_HEAD", "N_INFO", "N_PARAM", "N_WALK", "derive", "sens", "step",
+    "BOUNDARY", "CLOSED", "COARSE", "COARSE_GRID", "DISTRESS", "DISTRESS_OUT", "FIELD",
+    "FIELD_GRID", "FILM", "FINE", "FINE_GRID", "LEAST_LOAD", "LEAST_TILT", "MAP", "MIXED", "NINP",
+    "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_ALL", "N_FOUND", "N_HEAD", "N_INFO", "N_PARAM",
+    "N_WALK", "OUTSIDE_VERIFIED", "REGIME_OUT", "STATUS_OUT", "STRIBECK", "derive", "regime_of",
+    "sens", "step",
 ]  # fmt: skip
 
 
 @kernel
 def derive(par: NDArray[np.float64]) -> int:
-    """Fill ``par`` behind its ``N_PARAM`` parameters: mesh, contact tables, scalars."""
-    if par[N_PARAM - 1] == 2.0:
+    """Fill ``par`` behind its ``N_PARAM`` parameters: contact tables, scalars, mesh if any."""
+    fidelity = par[N_PARAM - 1]
+    if fidelity == CLOSED or fidelity == STRIBECK:
+        return derive_simple(par)
+    if fidelity == COARSE:
+        return derive_grid(par, COARSE_GRID[0], COARSE_GRID[1])
+    if fidelity == FINE:
         return derive_grid(par, FINE_GRID[0], FINE_GRID[1])
     return derive_grid(par, FIELD_GRID[0], FIELD_GRID[1])
-
-
-@kernel
-def _is_verified(pt: Point) -> bool:
-    """Tell if the operating point is inside the range that the tests cover."""
-    return (
-        pt.load <= 3000.0 and abs(pt.speed) <= 1500.0 and pt.tilt <= 0.004
-        and 260.0 <= pt.oil_temperature <= 420.0
-    )  # fmt: skip
-
-
-@kernel
-def regime_of(ratio: float) -> int:
-    """Return the regime's number at a film ratio."""
-    if ratio > 3.0:
-        return FILM
-    return MIXED if ratio >= 1.0 else BOUNDARY
 
 
 @kernel
@@ -73,12 +87,16 @@ def step(
     branch (washer_branch), otherwise the one that ``state`` remembers goes on. ``work`` begins with
     info (N_INFO), found (N_FOUND), walk (N_WALK), all outputs (N_ALL), q (4): for Python's results.
     """
+    fidelity = par[N_PARAM - 1]
+    if fidelity == CLOSED:
+        return closed_step(par, inp, state, work, out, iout, t, dt)
+    if fidelity == STRIBECK:
+        return stribeck_step(par, inp, state, work, out, iout, t, dt)
     iout[REGIME_OUT], iout[DISTRESS_OUT], iout[STATUS_OUT] = BOUNDARY, 0, BAD_INPUT
-    if not math.isfinite(inp[0] + inp[1] + inp[2] + inp[3]) or inp[2] < 0.0:
+    if is_bad(inp):
         return BAD_INPUT
     wanted = inp[4] if inp.size > 4 else ANY
-    tilt = inp[2] if inp[2] > LEAST_TILT else 0.0
-    pt = Point(max(inp[0], LEAST_LOAD), inp[1], tilt, inp[3])
+    pt = point_of(inp)
     a = N_INFO + N_FOUND
     n = a + N_WALK
     info, found = work[:N_INFO], work[N_INFO:a]
@@ -95,12 +113,8 @@ def step(
     for k in range(N_REAL):
         out[k] = numbers[k]
     distressed = is_distressed(found, out[MEAN_TEMPERATURE] - pt.oil_temperature)
-    iout[REGIME_OUT] = regime_of(out[RATIO])
-    iout[DISTRESS_OUT] = 1 if distressed else 0
-    iout[STATUS_OUT] = status
-    if status == OK and distressed:
-        iout[STATUS_OUT] = DISTRESS
-    elif status == OK and not _is_verified(pt):
+    judge(pt, out[RATIO], distressed, status, iout)
+    if fidelity == MAP and iout[STATUS_OUT] == OK:  # no map yet: the answer of the field
         iout[STATUS_OUT] = OUTSIDE_VERIFIED
     return status
 
@@ -116,10 +130,11 @@ def sens(
     bound (an unloaded or a level washer) its derivative is zero. Returns SINGULAR at a fold, and at
     rest with contact, where the torque jumps.
     """
-    tilted = inp[2] > LEAST_TILT
-    pt = Point(max(inp[0], LEAST_LOAD), inp[1], inp[2] if tilted else 0.0, inp[3])
-    dload = seed[0] if inp[0] > LEAST_LOAD else 0.0
-    change = Point(dload, seed[1], seed[2] if tilted else 0.0, seed[3])
+    if par[N_PARAM - 1] == CLOSED:
+        return closed_sens(par, inp, state, work, seed, dout)
+    if par[N_PARAM - 1] == STRIBECK:
+        return stribeck_sens(par, inp, state, work, seed, dout)
+    pt, change = point_of(inp), change_of(inp, seed)
     n = N_INFO + N_FOUND + N_WALK
     out, q = work[n : n + N_ALL], work[n + N_ALL : N_HEAD]
     if pt.speed == 0.0 and seed[1] != 0.0 and out[CONTACT_LOAD] > 0.0:

@@ -11,6 +11,10 @@ from ._params import as_numbers
 from ._spec import ModelSpec
 
 Derive = Callable[[NDArray[np.float64]], int]
+OFFLINE = (
+    "fidelity = 'reference' is no rung to solve with: it takes long and comes with an uncertainty; "
+    "call thrustwasher.fidelity.reference_{0}.reference_{0}"
+)
 
 
 def filled(spec: ModelSpec, params: Any, fidelity: str, size: int, derive: Derive) -> Any:
@@ -20,6 +24,8 @@ def filled(spec: ModelSpec, params: Any, fidelity: str, size: int, derive: Deriv
     ------
     ParameterError : the rung is not one of the model's, or the parameters cannot be used together
     """
+    if fidelity == "reference":
+        raise ParameterError(OFFLINE.format(spec.key))
     rungs = list(spec.fidelities)
     if fidelity not in rungs:
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")

@@ -16,19 +16,26 @@ from ..kernels import washer_step as kernel
 from ..kernels.washer_fields import size_of_work
 from ..kernels.washer_memory import Q, size_of_state
 from ..kernels.washer_newton import ITERATIONS, N_INFO
+from ..kernels.washer_simple import N_WORK
 from ._buffers import work_array
 from ._params import check_number
-from .washer_constants import constants
+from ._prepare import OFFLINE
+from .washer_constants import NO_MESH, SIMPLE, constants
 from .washer_params import SPEC, WasherParams
 from .washer_result import WasherResult
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
 Array = NDArray[np.float64]
-GRIDS = {"field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID}
+GRIDS = {
+    "closed": NO_MESH, "stribeck": NO_MESH, "map": kernel.FIELD_GRID, "coarse": kernel.COARSE_GRID,
+    "field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID,
+}  # fmt: skip
 # largest error of friction_torque against the grid-converged value over the verified range
 # (tests/models/test_washer_accuracy.py measures it again)
-ERRORS = {"field": 6e-3, "fine": 1e-3}
+ERRORS = {
+    "closed": 3.0, "stribeck": 1.0, "map": 6e-3, "coarse": 2e-2, "field": 6e-3, "fine": 1e-3,
+}  # fmt: skip
 BRANCHES = {"film": 1.0, "contact": 3.0}
 NAMES = {1: "film", 2: "unstable", 3: "contact"}
 LARGEST_GRID = (129, 512)
@@ -37,11 +44,15 @@ N_NUMBERS = N_INFO + kernel.N_FOUND + kernel.N_WALK
 
 def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]:
     """Return (n_r, n_theta) or raise ParameterError naming what is wrong."""
+    if fidelity == "reference":
+        raise ParameterError(OFFLINE.format("washer"))
     if fidelity not in GRIDS:
         known = " or ".join(repr(name) for name in GRIDS)
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {known}")
     if grid is None:
         return GRIDS[fidelity]
+    if fidelity in SIMPLE:
+        raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity {fidelity!r} has no mesh")
     try:
         n_r, n_t = (int(n) for n in grid)
         whole = (n_r, n_t) == tuple(grid)
@@ -96,7 +107,8 @@ def solve_washer(
     speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15
-    fidelity : "field" (10 x 32 nodes) or "fine" (19 x 64)
+    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64), "coarse" (8 x 20), "map", or without
+        mesh and memory "stribeck" (one film temperature) and "closed" (oil as supplied)
     grid : (n_r, n_theta), overrides the nodes of the fidelity
     branch : "film" or "contact", the one wanted where several solutions exist; without it the
         branch of ``start``, else the film branch up to its fold and the contact branch beyond
@@ -129,6 +141,7 @@ def solve_washer(
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     wanted = BRANCHES[branch] if branch is not None else 0.0
+    start = None if fidelity in SIMPLE else start
     result = _solve(params, point, fidelity, nodes, wanted, start)
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
         result = _with_embedded_estimate(result, wanted)
@@ -151,9 +164,13 @@ def _solve(
     params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
     nodes: tuple[int, int], wanted: float, start: WasherResult | None,
 ) -> WasherResult:  # fmt: skip
-    par = constants(params, nodes)
-    work = work_array(("washer", nodes), kernel.N_HEAD + size_of_work(*nodes))
-    if start is not None and start.grid == nodes and start.params == params:
+    par = constants(params, nodes, fidelity)
+    simple = fidelity in SIMPLE
+    size = N_WORK if simple else kernel.N_HEAD + size_of_work(*nodes)
+    work = work_array(("washer", nodes), size)
+    if simple:
+        state = np.zeros(1)
+    elif start is not None and start.grid == nodes and start.params == params:
         state = start._state.copy()
     else:
         state = np.zeros(size_of_state(*nodes))
@@ -162,7 +179,7 @@ def _solve(
             return _prefer(params, point, fidelity, nodes, wanted)
     inp, out, iout = np.array((*point, wanted)), np.empty(kernel.NOUT), np.zeros(3, np.int32)
     status = Status(kernel.step(par, inp, state, work, out, iout, 0.0, 1.0))
-    if status.is_failure:
+    if status.is_failure and not simple:
         keep_estimate(state, work)
     branch = work[N_INFO]
     return result_from(

@@ -8,26 +8,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
-from ..kernels.washer_model import derive_grid, size_of_par
+from ..kernels.washer_model import N_PARAM, derive_grid, size_of_par
+from ..kernels.washer_simple import N_SIMPLE_PAR, derive_simple
+from ..kernels.washer_verdict import CLOSED, FIELD, STRIBECK
 from ._params import as_numbers
 from .washer_params import WasherParams
 
 Array = NDArray[np.float64]
+NO_MESH = (0, 0)
+SIMPLE = {"closed": CLOSED, "stribeck": STRIBECK}  # rungs without a mesh
 
 
 @lru_cache(maxsize=64)
-def constants(params: WasherParams, grid: tuple[int, int]) -> Array:
-    """Return the kernel's ``par`` for parameters and grid; read only.
+def constants(params: WasherParams, grid: tuple[int, int], fidelity: str = "field") -> Array:
+    """Return the kernel's ``par`` for parameters and grid, or a rung without one; read only.
 
     Raises
     ------
     ParameterError : the asperity contact cannot be tabulated
     """
-    par = np.zeros(size_of_par(*grid))
-    numbers = as_numbers(params)
-    par[: len(numbers)] = numbers
-    par[len(numbers)] = 1.0
-    status = Status(derive_grid(par, *grid))
+    simple = fidelity in SIMPLE
+    par = np.zeros(N_SIMPLE_PAR if simple else size_of_par(*grid))
+    par[:N_PARAM] = [*as_numbers(params), SIMPLE.get(fidelity, FIELD)]
+    status = Status(derive_simple(par) if simple else derive_grid(par, *grid))
     if status is not Status.OK:
         raise ParameterError(
             "the asperity contact cannot be tabulated for these parameters; check yield_strength, "

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import SolveError, Status
+from ..errors import ParameterError, SolveError, Status
 from ..kernels import washer_step as kernel
 from ..kernels.washer_curve import (
     ACCURACY,
@@ -37,7 +37,7 @@ from ..kernels.washer_outputs import MEAN_TEMPERATURE, RATIO, TORQUE, washer_out
 from ._buffers import work_array
 from ._params import check_number
 from .washer import ERRORS, check_point, resolve_grid, result_from
-from .washer_constants import constants
+from .washer_constants import NO_MESH, constants
 from .washer_params import WasherParams
 from .washer_result import WasherResult
 
@@ -172,6 +172,11 @@ def load_curve(
     ['film_lost 773 N', 'film_regained 441 N']
     """
     nodes = resolve_grid(fidelity, grid)
+    if nodes == NO_MESH:
+        raise ParameterError(
+            f"fidelity = {fidelity!r}, allowed: 'coarse' or 'field' or 'fine'; without a mesh "
+            "there is one solution for each load: call solve_washer"
+        )
     check_number("load_min", load_min, "N", 1.0, 1e4)
     check_number("load_max", load_max, "N", load_min, 1e4)
     point = Point(*check_point(load_min, speed, tilt, oil_temperature))

@@ -117,6 +117,10 @@ SPEC = ModelSpec(
     help="Tilted thrust washer in mixed lubrication: friction torque, temperature, film thickness",
     params=WasherParams,
     fidelities={
+        "closed": "wedge in closed form, oil at its own temperature; no branches",
+        "stribeck": "wedge in closed form, one film temperature; one branch, steep at the folds",
+        "map": "charts of the solution; the field's answer where there is none",
+        "coarse": "8 x 20 graded nodes: torque within 2 % of the converged value",
         "field": "10 x 32 graded nodes: torque within 0.6 % of the converged value",
         "fine": "19 x 64 graded nodes: torque within 0.1 % of the converged value",
     },

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import Status
+from ..errors import ParameterError, Status
 from ..kernels.contact import contact_pressure
 from ..kernels.washer_memory import FIELDS, Q
 from ..kernels.washer_model import WasherModel, washer_model
-from .washer_constants import constants
+from .washer_constants import NO_MESH, constants
 from .washer_params import WasherParams
 
 Array = NDArray[np.float64]
@@ -60,7 +60,11 @@ class WasherResult:
     _state: Array = field(repr=False, compare=False)
 
     def fields(self) -> WasherFields:
-        """Return gap, pressures and temperatures over the washer."""
+        """Return gap, pressures and temperatures over the washer; it takes a rung with a mesh."""
+        if self.grid == NO_MESH:
+            raise ParameterError(
+                f"fidelity = {self.fidelity!r} has no fields; allowed: 'coarse', 'field' or 'fine'"
+            )
         m = washer_model(constants(self.params, self.grid))
         n_r, n_t = self.grid
         m_t = 3 * n_r - m.i_g

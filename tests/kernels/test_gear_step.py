@@ -38,7 +38,7 @@ class Mesh:
 def test_the_arrays_are_laid_out_as_the_lists_say():
     names = [n[2:].lower() for n in vars(L) if n.startswith("P_")]
     assert names == [f.name for f in fields(GearMeshParams)] + ["fidelity"]
-    assert [n for n in vars(L) if n.startswith("D_")] and L.D_CONTACT_RATIO == L.NPAR - 1
+    assert [n for n in vars(L) if n.startswith("D_")] and L.D_PLACES == L.D_POSITION - 1
     assert k.N_PARAM == len(names) and k.NINP == len(SPEC.inputs)
     assert (k.NOUT, k.NIOUT) == (len(NAMES), len(SPEC.outputs) - len(NAMES))
 

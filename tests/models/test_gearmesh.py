@@ -301,7 +301,7 @@ P = GearMeshParams()
         (lambda: solve_gearmesh(P, power=math.nan, speed=1.0), "power = nan W, allowed"),
         (lambda: solve_gearmesh(P, power=1.0, speed=6e3), "speed = 6000.0 rad/s, allowed"),
         (lambda: solve_gearmesh(P, **POINT, oil_temperature=27.0), "oil_temperature = 27.0 K"),
-        (lambda: solve_gearmesh(P, **POINT, fidelity="fine"), "fidelity = 'fine', allowed: 'clo"),
+        (lambda: solve_gearmesh(P, **POINT, fidelity="best"), "fidelity = 'best', allowed: 'clo"),
         (lambda: GearMeshParams(addendum=0.4), "addendum = 0.4, .* contact ratio is 0.72"),
         (lambda: GearMeshParams(effective_roughness=7e-5), "effective_roughness = 7e-05, allowed"),
         (lambda: GearMeshParams(effective_roughness=7e-6), "effective_roughness = 7e-06, allowed"),
@@ -322,7 +322,7 @@ def test_the_way_out_of_li_seireg_works():
 def test_a_flank_that_is_not_found_is_a_solve_error(monkeypatch):
     from thrustwasher.models import gearmesh
 
-    monkeypatch.setattr(gearmesh, "mesh_point", lambda *_: int(Status.MAX_ITERATIONS))
+    monkeypatch.setattr(gearmesh, "solve_mesh", lambda *_: int(Status.MAX_ITERATIONS))
     with pytest.raises(SolveError, match=r"power = 7500 W.*not converged"):
         solve_gearmesh(P, **POINT)
     r = solve_gearmesh(P, **POINT, throw=False)

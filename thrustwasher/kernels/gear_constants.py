@@ -9,6 +9,7 @@ from . import gear_layout as L
 from ._jit import kernel
 from .gear_contact import compliance
 from .gear_geometry import loss_factor, path_lengths, slide_roll, start_of_contact
+from .gear_path import line_of_action
 
 Array = NDArray[np.float64]
 
@@ -59,7 +60,10 @@ def derive(par: Array) -> int:
     by_speed = math.sqrt(par[L.D_V1]) / (math.sqrt(par[L.D_V1]) + math.sqrt(par[L.D_V2]))
     constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE and par[L.P_FIDELITY] != L.CLOSED
     par[L.D_SHARE] = par[L.P_PARTITION_SHARE] if constant else by_speed
-    for i in range(L.N_PARAM, L.NPAR):
+    par[L.D_PLACES] = 0.0
+    if par[L.P_FIDELITY] == L.FINE:
+        line_of_action(par, approach, recess)
+    for i in range(L.N_PARAM, L.D_POSITION):
         if not math.isfinite(par[np.uintp(i)]):
             return L.NOT_FINITE
     return L.OK

@@ -122,3 +122,54 @@ def heated_flank(
         rise += step
         last = abs(step)
     return bulk + rise, stress, slope, 10, MAX_ITERATIONS
+
+
+@kernel
+def settled(heat: float) -> tuple[float, float]:
+    """Return w with w exp(w) = ``heat`` >= 0, to 2 %, and the exact slope of what is returned.
+
+    ln(1 + x) (1 - ln(1 + ln(1 + x))/(2 + ln(1 + x))): a common closed form of Lambert's function.
+    """
+    first = math.log1p(heat)
+    bend = math.log1p(first) / (2.0 + first)
+    steeper = (1.0 / (1.0 + first) - bend) / (2.0 + first)
+    return first * (1.0 - bend), (1.0 - bend - first * steeper) / (1.0 + heat)
+
+
+@kernel
+def closed_flank(
+    bulk: float, factor: float, shear: float, cap: float, exponent: float, b: float, c: float
+) -> tuple[float, float, float]:
+    """Return T [K] of the flank, the stress [Pa] and its log slope, as ``heated_flank``, closed.
+
+    The viscosity is taken at the rise y of ``settled_rise``; the flank's rise follows from it.
+    """
+    cold = max(bulk, LOWEST_OIL) - 273.15 + c
+    rise, _ = settled_rise(cold, 0.0, factor * shear, 0.0, exponent * b)
+    thin = math.exp(exponent * b * (1.0 / (cold + rise) - 1.0 / cold))
+    stress, slope = shear_stress(shear * thin, cap)
+    return bulk + factor * stress, stress, slope
+
+
+@kernel
+def settled_rise(
+    cold: float, dcold: float, free: float, dfree: float, power: float
+) -> tuple[float, float]:
+    """Return y [K] with y = free exp(power (1/(cold + y) - 1/cold)), nearly, and its change.
+
+    ``free`` [K] is the rise without thinning, ``dfree`` its relative change. Twice Lambert's
+    function with the slope of the exponent over y, at 0 and at the first result.
+    """
+    a = power / (cold * cold)
+    if not a * free > 1e-12:
+        return free, free * dfree
+    da = -2.0 * dcold / cold  # relative
+    w, slope = settled(a * free)
+    y = w / a
+    dy = slope * free * (da + dfree) - y * da
+    warmer = 1.0 + y / cold
+    da -= (dy - y * dcold / cold) / (cold * warmer)
+    a /= warmer
+    w, slope = settled(a * free)
+    y = w / a
+    return y, slope * free * (da + dfree) - y * da

@@ -16,9 +16,12 @@ N_PARAM = 42
 (
     D_START, D_SLIDE_ROLL, D_RADIUS, D_LINE, D_V1, D_V2, D_SLIDING, D_ROLLING, D_PITCH_RADIUS,
     D_LOSS, D_THETA, D_CAPACITY, D_OIL_CAPACITY, D_EFFUSIVITY, D_SIGMA, D_ROUGHNESS, D_MEAN,
-    D_SHARE, D_CONTACT_RATIO,
-) = range(42, 61)  # fmt: skip
-NPAR = 61
+    D_SHARE, D_CONTACT_RATIO, D_PLACES,
+) = range(42, 62)  # fmt: skip
+# The line of action, for the rung `fine`: positions from the pitch point in base pitches, shares of
+# the load that heat the pair there, shares of the loss; D_PLACES is the number of positions.
+N_PATH = 80
+D_POSITION, D_PATH_SHARE, D_PATH_LOSS, NPAR = 62, 62 + N_PATH, 62 + 2 * N_PATH, 62 + 3 * N_PATH
 I_LOAD, I_SPEED, I_OIL = range(3)
 NINP = 3
 NSTATE = 1  # unused: the mesh follows its inputs at once
@@ -29,10 +32,13 @@ NSTATE = 1  # unused: the mesh follows its inputs at once
     F_MODIFICATION_4340, F_ALLOWABLE_1020, F_ALLOWABLE_4340, F_UTILIZATION_1020,
     F_UTILIZATION_4340, F_LINE_LOAD, F_WIDTH, F_PRESSURE, F_SLIDING, F_VISCOSITY, F_WEIGHT, F_AREA,
     F_STATUS, F_ITERATIONS, F_BULK_VISCOSITY, F_SURFACE_RISE, F_FILM_RISE, F_STRESS_SLOPE,
-    F_FRICTION_SLOPE, F_FREE_AREA, F_FREE_AREA_SLOPE, F_SMOOTH_SIGN,
-) = range(36)  # fmt: skip
-N_FIELD = 36
-NWORK = N_FIELD
+    F_FRICTION_SLOPE, F_FREE_AREA, F_FREE_AREA_SLOPE, F_SMOOTH_SIGN, F_FREE_RISE,
+) = range(37)  # fmt: skip
+N_FIELD = 37
+# Behind them, for the rung `fine`: the hottest position's own numbers, those of the position at
+# hand, the constants there, the number of the hottest.
+W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + 62
+NWORK = W_PLACE + 1
 NOUT = 19
 IO_REGIME, IO_STATUS = range(2)
 NIOUT = 2
@@ -40,7 +46,7 @@ NIOUT = 2
 FILM, MIXED, BOUNDARY = range(1, 4)  # regimes
 OK, OUTSIDE_VERIFIED, HOT, MAX_ITERATIONS, NOT_FINITE, BAD_INPUT = 0, 1, 2, 10, 14, 15
 # Numbers of the enumerations.
-CLOSED = 1  # fidelity
+CLOSED, STRIBECK, FIELD, FINE = range(1, 5)  # fidelity
 ROUGH = 1  # surface
 LI_SEIREG, ISO = 1, 2  # friction_law, 3 is constant
 AISI4340 = 1  # steel

@@ -17,6 +17,7 @@ from .gear_contact import film_thickness, hertz_width, surface_stress
 from .gear_friction import iso_and_slope, li_seireg, li_seireg_slope
 from .gear_heat import (
     blok_rise,
+    closed_flank,
     film_factor,
     flash_rise,
     heated_flank,
@@ -101,9 +102,15 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
     taken = par[L.D_SHARE] * sliding * width  # heat into the pinion per stress, [m2/s]
     factor = taken * surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
     warm, thins, exponent = viscosity_follows(par)
-    surface, stress, slope, status, iterations = heated_flank(
-        oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
-    )
+    status, iterations = L.OK, 0
+    if par[L.P_FIDELITY] == L.STRIBECK:
+        surface, stress, slope = closed_flank(
+            oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+        )
+    else:
+        surface, stress, slope, status, iterations = heated_flank(
+            oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+        )
     viscosity = bulk
     if warm:
         viscosity = oil_viscosity(
@@ -114,7 +121,7 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
     field[L.F_VISCOSITY], field[L.F_FILM], field[L.F_SURFACE] = viscosity, film, surface
     field[L.F_RATIO] = film / par[L.D_SIGMA]
     field[L.F_BULK_VISCOSITY], field[L.F_STRESS_SLOPE] = bulk, slope
-    field[L.F_SURFACE_RISE] = factor * stress
+    field[L.F_SURFACE_RISE], field[L.F_FREE_RISE] = factor * stress, factor * shear
     field[L.F_FILM_RISE] = taken * stress * film_factor(
         film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
         par[L.D_OIL_CAPACITY],

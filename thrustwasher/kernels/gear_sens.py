@@ -5,24 +5,15 @@ Most laws are products of powers, so relative changes add up. The flank's temper
 of an equation: its change follows from that equation's slopes at the root.
 """
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
 from . import gear_layout as L
 from ._jit import kernel
-from .corners import (
-    floored,
-    floored_slope,
-    smoothstep_slope,
-    soft_size,
-    soft_size_slope,
-)
-from .gear_heat import LOWEST_OIL
+from .corners import smoothstep_slope, soft_size, soft_size_slope
+from .gear_heat import LOWEST_OIL, settled_rise
 from .gear_point import (
     LEAST_LINE_LOAD,
-    LEAST_SPEED,
     MECHANICAL_1020,
     MECHANICAL_4340,
     SWITCH_FROM,
@@ -70,16 +61,24 @@ def film_changes(
         power = par[L.P_PRESSURE_VISCOSITY] * field[L.F_PRESSURE]
         shear += power * cap if power < 200.0 else 0.0
 
-    # rise = factor x stress(rise), solved for the change of the rise
     _, thins, exponent = viscosity_follows(par)
     rise, slope = field[L.F_SURFACE_RISE], field[L.F_STRESS_SLOPE]
-    warmth = cold + rise
-    thinning = exponent * b / (warmth * warmth)
-    held = shear + colder * (exponent * steep - thinning)
     factor = 0.5 * (speed + width)
-    stress = slope * held + (1.0 - slope) * cap
-    rising = rise * (factor + stress) / (1.0 + rise * slope * thinning)
-    stress -= slope * thinning * rising
+    if par[L.P_FIDELITY] == L.STRIBECK:
+        warm, warmer = settled_rise(
+            cold, colder, field[L.F_FREE_RISE], factor + shear, exponent * b
+        )
+        held = shear - exponent * b * (colder + warmer) / ((cold + warm) * (cold + warm))
+        held += exponent * steep * colder
+        stress = slope * held + (1.0 - slope) * cap
+        rising = rise * (factor + stress)
+    else:  # rise = factor x stress(rise), solved for the change of the rise
+        warmth = cold + rise
+        thinning = exponent * b / (warmth * warmth)
+        held = shear + colder * (exponent * steep - thinning)
+        stress = slope * held + (1.0 - slope) * cap
+        rising = rise * (factor + stress) / (1.0 + rise * slope * thinning)
+        stress -= slope * thinning * rising
     surface = change + rising
 
     if thins and field[L.F_SURFACE] >= LOWEST_OIL:
@@ -89,6 +88,25 @@ def film_changes(
     power = -(0.013 + 9e-4 * par[L.D_OIL_CAPACITY] * half) * (speed + film) - 1.003 * (width - film)
     hotter = field[L.F_FILM_RISE] * (speed + width + stress + power)
     return film, bulk, surface, surface + hotter
+
+
+@kernel
+def follow_friction(
+    par: Array, field: Array, film: float, bulk: float, load: float, speed: float
+) -> float:
+    """Return the change of the coefficient of friction; all changes given are relative."""
+    iso = par[L.P_FRICTION_LAW] == L.ISO
+    follows = 0.2 * (load - speed) - 0.05 * bulk if iso else film
+    return field[L.F_FRICTION_SLOPE] * follows
+
+
+@kernel
+def friction_change(
+    par: Array, field: Array, oil: float, turning: float, load: float, speed: float, change: float
+) -> float:
+    """Return the change of the coefficient of friction; arguments as of ``film_changes``."""
+    film, bulk, _, _ = film_changes(par, field, oil, turning, load, speed, change)
+    return follow_friction(par, field, film, bulk, load, speed)
 
 
 @kernel
@@ -155,9 +173,7 @@ def fill_changes(
 ) -> None:  # fmt: skip
     """Fill the changes of all outputs but loss torque and power."""
     film, bulk, surface, hottest = film_changes(par, field, oil, turning, load, speed, change)
-    iso = par[L.P_FRICTION_LAW] == L.ISO
-    follows = 0.2 * (load - speed) - 0.05 * bulk if iso else film
-    friction = field[L.F_FRICTION_SLOPE] * follows
+    friction = follow_friction(par, field, film, bulk, load, speed)
     flash = flash_change(par, field, torque, load, speed, torque_change, friction)
     ratio = field[L.F_RATIO] * film
     weight = 0.0
@@ -192,36 +208,3 @@ def fill_changes(
     dout[L.F_SURFACE], dout[L.F_FILM_TEMPERATURE] = surface, hottest
     dout[L.F_STRESS] = 0.5 * mechanical * load
     dout[L.F_FLASH], dout[L.F_FRICTION] = flash, friction
-
-
-@kernel
-def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
-    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
-
-    ``work`` is as the last successful step with these inputs left it. Corners that are not
-    rounded (the oil's lowest temperature, the sharp switch) count as on the side the point is on.
-    Returns 0, or NOT_FINITE.
-    """
-    torque, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
-    line = torque * par[L.D_LINE]
-    load = (
-        floored_slope(line, LEAST_LINE_LOAD) * par[L.D_LINE] * seed[L.I_LOAD]
-        / floored(line, LEAST_LINE_LOAD)
-    )  # fmt: skip
-    turning = floored(speed, LEAST_SPEED)
-    faster = floored_slope(speed, LEAST_SPEED) * seed[L.I_SPEED] / turning
-    fill_changes(par, work, torque, oil, turning, load, faster, seed[L.I_LOAD], seed[L.I_OIL], dout)
-    width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
-    pressed, smooth = soft_size(torque, width), work[L.F_SMOOTH_SIGN]
-    friction = work[L.F_FRICTION]
-    more = dout[L.F_FRICTION] * pressed
-    more += friction * soft_size_slope(torque, width) * seed[L.I_LOAD]
-    steep = (1.0 - smooth) * (1.0 + smooth) / par[L.P_SPEED_SMOOTHING]
-    dout[L.F_TORQUE] = par[L.D_LOSS] * (
-        more * smooth + friction * pressed * steep * seed[L.I_SPEED]
-    )
-    dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
-    for i in range(L.NOUT):
-        if not math.isfinite(dout[np.uintp(i)]):
-            return L.NOT_FINITE
-    return L.OK

@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from . import gear_layout as L
 from ._jit import kernel
-from .corners import soft_size
+from .corners import soft_size, soft_size_slope
 from .gear_constants import derive as derive
-from .gear_point import LEAST_LINE_LOAD, mesh_point
+from .gear_fine import mesh_changes, solve_mesh
+from .gear_point import LEAST_LINE_LOAD
 from .gear_rules import broken_rule as broken_rule
-from .gear_sens import sens as sens
 
 Array = NDArray[np.float64]
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
@@ -48,7 +48,7 @@ def step(
     ):  # fmt: skip
         iout[L.IO_STATUS] = L.BAD_INPUT
         return L.BAD_INPUT
-    status = mesh_point(par, load, speed, oil, work)
+    status = solve_mesh(par, load, speed, oil, work)
     # The loss grows from zero load with a continuous slope, over twice the least line load.
     pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
     smooth_sign = math.tanh(speed / par[L.P_SPEED_SMOOTHING])
@@ -62,3 +62,29 @@ def step(
             status = L.NOT_FINITE
     iout[L.IO_STATUS] = status
     return status if status >= 10 else 0
+
+
+@kernel
+def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
+    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
+
+    ``work`` is as the last successful step with these inputs left it. Corners that are not
+    rounded (the oil's lowest temperature, the sharp switch) count as on the side the point is on.
+    Returns 0, or NOT_FINITE.
+    """
+    torque, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
+    mesh_changes(par, work, torque, speed, oil, seed, dout)
+    width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
+    pressed, smooth = soft_size(torque, width), work[L.F_SMOOTH_SIGN]
+    friction = work[L.F_FRICTION]
+    more = dout[L.F_FRICTION] * pressed
+    more += friction * soft_size_slope(torque, width) * seed[L.I_LOAD]
+    steep = (1.0 - smooth) * (1.0 + smooth) / par[L.P_SPEED_SMOOTHING]
+    dout[L.F_TORQUE] = par[L.D_LOSS] * (
+        more * smooth + friction * pressed * steep * seed[L.I_SPEED]
+    )
+    dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
+    for i in range(L.NOUT):
+        if not math.isfinite(dout[np.uintp(i)]):
+            return L.NOT_FINITE
+    return L.OK

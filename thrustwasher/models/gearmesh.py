@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import ParameterError, SolveError, Status
 from ..kernels import gear_layout as k
 from ..kernels.gear_constants import derive
-from ..kernels.gear_point import mesh_point
+from ..kernels.gear_fine import solve_mesh
 from ._params import check_number
 from ._prepare import filled
 from .gearmesh_params import PRESETS, SPEC, GearMeshParams
@@ -148,9 +148,9 @@ def solve_gearmesh(
     power = check_number("power", power, "W", -1e9, 1e9)
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
-    par, field = prepare(params, fidelity), np.zeros(k.N_FIELD)
+    par, field = prepare(params, fidelity), np.zeros(k.NWORK)
     torque = pinion_torque(power, speed)
-    status = Status(mesh_point(par, torque, speed, oil, field))
+    status = Status(solve_mesh(par, torque, speed, oil, field))
     if not np.isfinite(field).all():
         status = Status.NOT_FINITE
     if status.is_failure and throw:

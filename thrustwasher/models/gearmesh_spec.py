@@ -56,7 +56,9 @@ def gearmesh_spec(params: type[Any]) -> ModelSpec:
         params=params,
         fidelities={
             "closed": "Hertz contact, Blok flash temperature, constant friction, oil as supplied",
+            "stribeck": "the same as field, viscosity and flank's temperature in closed form",
             "field": "friction over the film, viscosity found with the flank's temperature",
+            "fine": "the same at every position of the line of action, the loss their sum",
         },
         default_fidelity="field",
         inputs=(LOAD, SPEED, OIL),

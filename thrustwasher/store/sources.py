@@ -20,11 +20,11 @@ ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
         "boundary": ("clutch_steady",),
         "stribeck": ("clutch_steady",),
         "field": ("clutch_steady",),
-        "fine": ("clutch_fine",),
+        "fine": ("clutch_fine", "clutch_steady"),
     },
     "gearmesh": {
         "closed": ("gear_point",),
-        "stribeck": ("gear_stribeck",),
+        "stribeck": ("gear_point",),
         "field": ("gear_point",),
         "fine": ("gear_fine",),
     },

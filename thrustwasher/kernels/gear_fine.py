@@ -1,0 +1,84 @@
+# mypy: disable-error-code="no-any-return"
+"""Rung `fine` of the gear mesh: resolved along the line of action.
+
+Every position has its own load, radii, speeds, film, temperatures and coefficient of friction. The
+loss is their sum; all other outputs are those of the position whose asperities are hottest.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import gear_layout as L
+from ._jit import kernel
+from .corners import floored, floored_slope
+from .gear_path import place_mesh
+from .gear_point import LEAST_LINE_LOAD, LEAST_SPEED, mesh_point
+from .gear_sens import fill_changes, friction_change
+
+Array = NDArray[np.float64]
+
+
+@kernel
+def solve_mesh(par: Array, torque: float, speed: float, oil: float, work: Array) -> int:
+    """Fill ``work[:N_FIELD]``, except loss torque and power; return 0, an advice or a failure.
+
+    Of the rung `fine` the coefficient of friction is the mean that the loss feels.
+    """
+    if par[L.P_FIDELITY] != L.FINE:
+        return mesh_point(par, torque, speed, oil, work)
+    hottest = work[L.W_HOTTEST : L.W_HERE]
+    here, local = work[L.W_HERE : L.W_LOCAL], work[L.W_LOCAL : L.W_PLACE]
+    worst, friction, iterations = L.OK, 0.0, 0.0
+    for place in range(int(par[L.D_PLACES])):
+        place_mesh(par, place, local)
+        worst = max(worst, mesh_point(local, torque, speed, oil, here))
+        friction += par[L.D_PATH_LOSS + place] * here[L.F_FRICTION]
+        iterations += here[L.F_ITERATIONS]
+        if place == 0 or here[L.F_ASPERITY] > hottest[L.F_ASPERITY]:
+            work[L.W_PLACE] = float(place)
+            for i in range(L.N_FIELD):
+                hottest[np.uintp(i)] = here[np.uintp(i)]
+    for i in range(L.N_FIELD):
+        work[np.uintp(i)] = hottest[np.uintp(i)]
+    work[L.F_FRICTION], work[L.F_ITERATIONS] = friction, iterations
+    work[L.F_STATUS] = float(worst)
+    return worst
+
+
+@kernel
+def mesh_changes(
+    par: Array, work: Array, torque: float, speed: float, oil: float, seed: Array, dout: Array
+) -> None:
+    """Fill the changes of all outputs but loss torque and power along ``seed``."""
+    turning = floored(speed, LEAST_SPEED)
+    faster = floored_slope(speed, LEAST_SPEED) * seed[L.I_SPEED] / turning
+    if par[L.P_FIDELITY] != L.FINE:
+        load = _heavier(par, torque, seed[L.I_LOAD])
+        fill_changes(
+            par, work, torque, oil, turning, load, faster, seed[L.I_LOAD], seed[L.I_OIL], dout
+        )
+        return
+    here, local = work[L.W_HERE : L.W_LOCAL], work[L.W_LOCAL : L.W_PLACE]
+    friction = 0.0
+    for place in range(int(par[L.D_PLACES])):
+        place_mesh(par, place, local)
+        mesh_point(local, torque, speed, oil, here)
+        load = _heavier(local, torque, seed[L.I_LOAD])
+        friction += par[L.D_PATH_LOSS + place] * friction_change(
+            local, here, oil, turning, load, faster, seed[L.I_OIL]
+        )
+    place_mesh(par, int(work[L.W_PLACE]), local)
+    load = _heavier(local, torque, seed[L.I_LOAD])
+    fill_changes(
+        local, work[L.W_HOTTEST : L.W_HERE], torque, oil, turning, load, faster, seed[L.I_LOAD],
+        seed[L.I_OIL], dout,
+    )  # fmt: skip
+    dout[L.F_FRICTION] = friction
+
+
+@kernel
+def _heavier(par: Array, torque: float, change: float) -> float:
+    """Return the relative change of the line load when the torque changes by ``change`` [N m]."""
+    line = torque * par[L.D_LINE]
+    slope = floored_slope(line, LEAST_LINE_LOAD) * par[L.D_LINE]
+    return slope * change / floored(line, LEAST_LINE_LOAD)

@@ -9,6 +9,7 @@ from . import clutch_layout as L
 from ._jit import kernel
 from .boundary import ploughing
 from .lining import pressure_scale
+from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 from .squeeze import squeeze_group
 
 Array = NDArray[np.float64]
@@ -81,11 +82,54 @@ def derive_heat(par: Array) -> None:
 
 
 @kernel
+def derive_rings(par: Array, n: int) -> None:
+    """Fill ``n`` rings of equal width: each is a pack of its own on the film of all.
+
+    Its weight in the film is its share of the integral of (r^2 - c^2)^2/r over the radius, by
+    which oil of viscosity eta(r) resists being squeezed; c is the radius where it does not flow.
+    """
+    ri, ro = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
+    scale = par[L.D_RADIUS] * 3.0 * (ro + ri) / (2.0 * (ro * ro + ro * ri + ri * ri))
+    still = (ro - ri) * (ro + ri) / (2.0 * math.log(ro / ri))
+    par[L.D_RINGS] = float(n)
+    total = 0.0
+    for k in range(n):
+        ring = par[L.D_BLOCKS + k * L.N_PACK : L.D_BLOCKS + (k + 1) * L.N_PACK]
+        for i in range(L.N_PACK):
+            ring[np.uintp(i)] = par[np.uintp(i)]
+        a, b = ri + (ro - ri) * k / n, ri + (ro - ri) * (k + 1) / n
+        ring[L.P_INNER_RADIUS], ring[L.P_OUTER_RADIUS] = a, b
+        ring[L.P_FIDELITY] = float(L.FIELD)
+        ring[L.P_EFFECTIVE_RADIUS] = scale * 2.0 * (b * b + a * b + a * a) / (3.0 * (a + b))
+        derive_friction(ring)
+        ring[L.D_VISCOUS] *= (b - a) * (b + a) * (b * b + a * a)
+        ring[L.D_VISCOUS] /= (ro - ri) * (ro + ri) * (ro * ro + ri * ri)
+        derive_heat(ring)
+        par[np.uintp(L.D_SQUEEZE + k)] = _squeezed(a, b, still)
+        total += par[np.uintp(L.D_SQUEEZE + k)]
+    for k in range(n):
+        par[np.uintp(L.D_SQUEEZE + k)] /= total
+
+
+@kernel
+def _squeezed(a: float, b: float, still: float) -> float:
+    """Return the integral of (r^2 - still)^2/r from ``a`` to ``b``, by Gauss's rule."""
+    total = 0.0
+    for k in range(GAUSS_NODES.size):
+        r = a + (b - a) * GAUSS_NODES[k]
+        total += GAUSS_WEIGHTS[k] * (r * r - still) * (r * r - still) / r
+    return (b - a) * total
+
+
+@kernel
 def derive(par: Array) -> int:
     """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
     derive_friction(par)
     derive_film(par)
     derive_heat(par)
+    par[L.D_RINGS] = 0.0
+    if par[L.P_FIDELITY] == L.FINE:
+        derive_rings(par, L.N_RINGS)
     for i in range(L.N_PARAM, L.NPAR):
         if not math.isfinite(par[np.uintp(i)]):
             return L.NOT_FINITE

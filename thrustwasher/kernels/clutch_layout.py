@@ -26,7 +26,12 @@ N_MODES = 8  # of heat conduction across half a steel plate
 ) = range(N_PARAM, N_PARAM + 15)  # fmt: skip
 D_DECAY = N_PARAM + 15  # decay rate [1/s] of the lumped heat, then of each mode
 D_GAIN = D_DECAY + 1 + N_MODES  # their rise [K/s] per W into a face
-NPAR = D_GAIN + 1 + N_MODES
+N_PACK = D_GAIN + 1 + N_MODES
+# The rung `fine` behind them: the number of rings, each ring's weight in the squeezed film, then a
+# block like all of the above for each ring.
+MAX_RINGS, N_RINGS = 8, 4  # at most, and those of the rung
+D_RINGS, D_SQUEEZE, D_BLOCKS = N_PACK, N_PACK + 1, N_PACK + 1 + MAX_RINGS
+NPAR = D_BLOCKS + MAX_RINGS * N_PACK
 
 I_LOAD, I_SPEED, I_OIL = range(3)
 NINP = 3
@@ -39,7 +44,10 @@ S_MODES = 4
 (
     S_SHOWN_TEMPERATURE, S_SHOWN_ENERGY, S_POWER, S_LOAD, S_SLIP, S_OIL, S_DURATION, S_SUBSTEP,
 ) = range(S_MODES + N_MODES, S_MODES + N_MODES + 8)  # fmt: skip
-NSTATE = S_MODES + N_MODES + 8
+# Of the rung `fine`, ring by ring: mean temperature and modes of the plate.
+S_RINGS = S_MODES + N_MODES + 8
+N_BODY = 1 + N_MODES
+NSTATE = S_RINGS + MAX_RINGS * N_BODY
 
 # The unknowns of the moving film: film ratio, energy of a face, lumped temperature, modes.
 Y_FILM, Y_ENERGY, Y_HEAT = range(3)
@@ -65,7 +73,18 @@ W_KEPT, N_KEPT = W_SUBSTEPS + 19, 7
 W_VARIED = W_KEPT + (N_STAGES + 1) * N_KEPT  # changes of the unknowns with the inputs
 W_VARIED_DRIFT = W_VARIED + NY
 W_VARIED_STAGES = W_VARIED + 2 * NY
-NWORK = W_VARIED_STAGES + N_STAGES * NY
+# Of the rung `fine`: unknowns, changes of them, trial values and changes, the stages' rates and
+# theirs; then the rings' numbers at hand.
+NZ = 2 + MAX_RINGS * N_BODY  # film ratio, energy of a face, then each ring
+Z_FILM, Z_ENERGY, Z_RINGS = range(3)
+N_FINE_STAGES, N_AT = 5, 12
+W_Z = W_VARIED_STAGES + N_STAGES * NY
+W_DZ, W_BASE, W_DBASE, W_K, W_DK = (
+    W_Z + NZ, W_Z + 2 * NZ, W_Z + 3 * NZ, W_Z + 4 * NZ, W_Z + (4 + N_FINE_STAGES) * NZ,
+)  # fmt: skip
+W_AT = W_DK + N_FINE_STAGES * NZ
+W_SURFACE = W_AT + MAX_RINGS * N_AT  # interface temperatures of the rings, their changes
+NWORK = W_SURFACE + 2 * MAX_RINGS
 
 (
     O_TORQUE, O_TEMPERATURE, O_FILM, O_CAPACITY, O_COEFFICIENT, O_RATIO, O_POWER, O_ENERGY,
@@ -75,7 +94,7 @@ NOUT = 13
 IO_REGIME, IO_STATUS = range(2)
 NIOUT = 2
 
-CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD = range(1, 5)  # fidelity
+CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD, FINE = range(1, 6)  # fidelity
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 N_TABLE = 5  # points above standstill
 LINEAR_COURSE = 2  # input_course

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 from . import clutch_layout as L
 from ._jit import kernel
 from .clutch_constants import derive
+from .clutch_fine import fine_sens, fine_step
 from .clutch_friction import regime_of, settled_slope
 from .clutch_point import advance, fill_outputs, load_memory, moves_film, store_memory, warm_up
 from .clutch_rules import broken_rule
-from .clutch_sens import sens
+from .clutch_sens import sens as lumped_sens
 from .clutch_stage import surface_temperature
 
 __all__ = [
@@ -54,6 +55,8 @@ def step(
     ):  # fmt: skip
         iout[L.IO_STATUS] = L.BAD_INPUT
         return L.BAD_INPUT
+    if par[L.P_FIDELITY] == L.FINE:
+        return fine_step(par, inp, state, work, out, iout, t, dt)
     started = state[L.S_STARTED] != 0.0
     linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
     film = moves_film(par)
@@ -110,6 +113,17 @@ def step(
         advice = L.HOT
     iout[L.IO_STATUS] = advice if status == L.OK else status
     return status
+
+
+@kernel
+def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
+    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
+
+    ``work`` is as the last successful step with these inputs left it; see clutch_sens, clutch_fine.
+    """
+    if par[L.P_FIDELITY] == L.FINE:
+        return fine_sens(par, inp, state, work, seed, dout)
+    return lumped_sens(par, inp, state, work, seed, dout)
 
 
 @kernel

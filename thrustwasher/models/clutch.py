@@ -15,6 +15,7 @@ from ._params import check_number
 from ._prepare import filled
 from ._spec import REGIMES
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
+from .clutch_steady_pack import steady_pack
 
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
@@ -137,7 +138,8 @@ def solve_clutch(
     speed : slip [rad/s], with its sign
     oil_temperature : [K]
     fidelity : "closed" (constant coefficient), "boundary" (coefficient over slip speed, no heat),
-        "stribeck" (with heat) or "field" (with heat and the shear of the settled film)
+        "stribeck" (with heat), "field" (with heat and the shear of the settled film) or "fine" (the
+        same in rings, ``temperature`` their mean by area)
     start : an earlier result to start the search for the film from
     throw : False returns the best estimate with its status instead of raising SolveError
 
@@ -165,7 +167,8 @@ def solve_clutch(
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
     par = prepare(params, fidelity)
-    heated = speed != 0.0 and (load > 0.0 or fidelity == "field") and fidelity != "boundary"
+    moves = fidelity in ("field", "fine")
+    heated = speed != 0.0 and (load > 0.0 or moves) and fidelity != "boundary"
     if heated and params.heat_transfer == 0.0:
         raise ParameterError(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
@@ -173,24 +176,24 @@ def solve_clutch(
     ratio, film, turns = clutch_friction.settled_ratio(
         par, load, start.film_ratio if start else 1.0
     )
-    temperature, heat, rounds = clutch_steady.steady_temperature(par, load, speed, oil, ratio)
-    contact, viscous, _ = clutch_steady.steady_torques(par, load, speed, ratio, temperature)
-    status = max(Status(film), Status(heat))
+    s = steady_pack(par, load, speed, oil, ratio)
+    contact, viscous = s.contact, s.viscous
+    status = max(Status(film), Status(s.status))
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
     if not status.is_failure and ratio < clutch_layout.LEAST_RATIO:
         status = Status.OUTSIDE_VERIFIED
-    if not status.is_failure and temperature > clutch_layout.HOT_LIMIT:
+    if not status.is_failure and s.hottest > clutch_layout.HOT_LIMIT:
         status = Status.HOT
     sign = math.copysign(1.0, speed) if speed else 0.0
     torque = sign * (contact + viscous)
     return ClutchResult(
         friction_torque=torque,
-        friction_coefficient=float(clutch_friction.coefficient_of(par, speed, temperature)[0]),
-        temperature=float(temperature),
+        friction_coefficient=s.coefficient,
+        temperature=s.temperature,
         film_thickness=float(ratio * params.roughness),
         film_ratio=float(ratio),
-        shear_ratio=float(clutch_friction.shear_of(par, speed, temperature)[0]),
+        shear_ratio=s.shear_ratio,
         torque_capacity=float(contact + viscous),
         friction_power=float(torque * speed),
         contact_torque=sign * contact,
@@ -198,6 +201,6 @@ def solve_clutch(
         contact_share=float(clutch_friction.contact_share(par, ratio)[0]),
         regime=list(REGIMES)[clutch_friction.regime_of(par, ratio, speed) - 1],
         status=status,
-        iterations=int(turns + rounds),
+        iterations=int(turns + s.iterations),
         fidelity=fidelity,
     )

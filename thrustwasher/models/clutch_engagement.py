@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..kernels import clutch_friction, clutch_point, clutch_stage
+from ..kernels import clutch_friction
 from ..kernels import clutch_layout as k
 from ._params import check_number
 from ._spec import REGIMES
 from .clutch import prepare
+from .clutch_course import Lumped, Rings
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
 
 __all__ = ["Engagement", "engage_clutch"]
@@ -99,27 +100,19 @@ def engage_clutch(
     forces = _course("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0, len(points))
     slips = _course("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
-    par, work = prepare(params, fidelity), np.zeros(k.NWORK)
-    out, rows, substeps = np.zeros(k.NOUT), np.empty((len(points), k.NOUT)), 0
-    code = clutch_point.load_memory(par, forces[0], oil, np.zeros(k.NSTATE), work)
+    par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
+    pack = (Rings if fidelity == "fine" else Lumped)(par, forces[0], oil)
     for i in range(len(points)):
-        if i and code == k.OK:
+        if i and pack.status == k.OK:
             course = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
-            power = out[k.O_POWER] / params.faces
-            dt = points[i] - points[i - 1]
-            code = clutch_point.advance(par, course, dt, power, work[k.W_PROPOSED], work)
-            substeps += int(work[k.W_SUBSTEPS])
-        elif code == k.OK and not clutch_point.moves_film(par):
-            work[k.W_NOW], code, _ = clutch_friction.settled_ratio(par, forces[0], 1.0)
-        if Status(code).is_failure:
+            substeps += pack.advance(course, points[i] - points[i - 1])
+        if not Status(pack.status).is_failure:
+            rows[i] = pack.show(forces[i], slips[i])
+        if Status(pack.status).is_failure:
             raise SolveError(
                 f"t = {points[i]:g} s, load = {forces[i]:g} N, speed = {slips[i]:g} rad/s: "
-                f"{Status(code).advice}"
+                f"{Status(pack.status).advice}"
             )
-        clutch_point.fill_outputs(par, forces[i], slips[i], work, out)
-        out[k.O_TEMPERATURE] = clutch_stage.surface_temperature(par, work, k.W_NOW)
-        out[k.O_ENERGY] = params.faces * work[k.W_NOW + k.Y_ENERGY]
-        rows[i] = out
     return _engagement(par, points, forces, slips, rows, substeps, fidelity)
 
 

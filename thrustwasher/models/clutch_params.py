@@ -199,6 +199,7 @@ SPEC = ModelSpec(
         "boundary": "boundary friction over slip speed, film settled, no heat",
         "stribeck": "boundary friction over slip speed, film settled, lumped heat",
         "field": "boundary friction, film that is squeezed out and sheared, lumped heat",
+        "fine": "the same in four rings, each with its own slip speed, heat and temperature",
     },
     default_fidelity="field",
     inputs=(LOAD, SPEED, OIL),

@@ -1,0 +1,388 @@
+"""Every rung of every model: the same inputs and outputs, the same signs, the same statuses."""
+
+import math
+
+import numpy as np
+import pytest
+
+from thrustwasher import (
+    ClutchParams,
+    GearMeshParams,
+    ParameterError,
+    WasherParams,
+    engage_clutch,
+    load_curve,
+    solve_clutch,
+    solve_gearmesh,
+    solve_washer,
+)
+from thrustwasher.errors import Status
+from thrustwasher.fmu.interface import enumerations
+from thrustwasher.kernels import clutch_layout, clutch_step, gear_layout, gear_step, washer_step
+from thrustwasher.kernels.clutch_constants import derive_rings
+from thrustwasher.models import clutch_params, gearmesh_params, washer_params
+from thrustwasher.models._prepare import filled
+
+SPECS = {
+    "washer": (washer_params.SPEC, washer_step),
+    "clutch": (clutch_params.SPEC, clutch_step),
+    "gearmesh": (gearmesh_params.SPEC, gear_step),
+}
+LADDER = {
+    "washer": ["closed", "stribeck", "map", "coarse", "field", "fine"],
+    "clutch": ["closed", "boundary", "stribeck", "field", "fine"],
+    "gearmesh": ["closed", "stribeck", "field", "fine"],
+}
+RUNGS = [(model, rung) for model, rungs in LADDER.items() for rung in rungs]
+# load, speed, (tilt), oil temperature: light, ordinary, heavy
+POINTS = {
+    "washer": [
+        (60.0, 900.0, 2e-3, 300.0), (300.0, 545.0, 1.5e-3, 330.0), (1361.0, 136.0, 2e-3, 297.15),
+    ],
+    "clutch": [(500.0, 150.0, 330.0), (5e3, 40.0, 353.15), (2e4, 5.0, 353.15)],
+    "gearmesh": [(5.0, 300.0, 300.0), (40.0, 180.0, 299.85), (400.0, 40.0, 350.0)],
+}  # fmt: skip
+
+
+class Part:
+    """A model at a rung: one step of its kernel from nothing."""
+
+    def __init__(self, model, rung, **changes):
+        self.spec, self.k = SPECS[model]
+        self.par = filled(self.spec, self.spec.params(**changes), rung, self.k.NPAR, self.k.derive)
+        self.state, self.work = np.zeros(self.k.NSTATE), np.zeros(self.k.NWORK)
+        reals = [s.name for s in self.spec.outputs if s.kind == "real"]
+        self.place = {name: i for i, name in enumerate(reals)}
+
+    def step(self, inputs, dt=0.0):
+        self.inp, self.out = np.array(inputs, float), np.full(self.k.NOUT, np.nan)
+        self.iout = np.full(self.k.NIOUT, -7, np.int32)
+        arrays = (self.par, self.inp, self.state, self.work, self.out, self.iout)
+        return self.k.step(*arrays, 0.0, dt)
+
+    def sens(self, seed):
+        dout = np.full(self.k.NOUT, np.nan)
+        arrays = (self.par, self.inp, self.state, self.work, np.array(seed, float), dout)
+        assert self.k.sens(*arrays) == Status.OK
+        return dout
+
+    def __getitem__(self, name):
+        return float(self.out[self.place[name]])
+
+
+def settled(model, rung, **changes):
+    """Return a part that has reached its steady state at every call."""
+    if model == "clutch":
+        changes = {"starts_pressed": True, **changes}
+    return Part(model, rung, **changes)
+
+
+def test_the_ladder_has_its_rungs_in_this_order():
+    assert {model: list(spec.fidelities) for model, (spec, _) in SPECS.items()} == LADDER
+
+
+@pytest.mark.parametrize(("model", "rung"), RUNGS)
+def test_the_fmu_counts_rungs_from_one(model, rung):
+    items = {i.name: i.value for i in enumerations(SPECS[model][0])["Fidelity"]}
+    assert items[rung] == LADDER[model].index(rung) + 1
+
+
+def test_kernels_count_rungs_as_the_list_does():
+    of = {"washer": washer_step, "clutch": clutch_layout, "gearmesh": gear_layout}
+    names = {"boundary": "BOUNDARY_ONLY"}
+    for model, rung in RUNGS:
+        number = getattr(of[model], names.get(rung, rung.upper()))
+        assert number == LADDER[model].index(rung) + 1
+
+
+@pytest.mark.parametrize(("model", "rung"), RUNGS)
+def test_every_output_is_finite_and_passive(model, rung):
+    part = settled(model, rung)
+    for point in POINTS[model]:
+        for side in (1.0, -1.0):
+            inputs = np.array(point)
+            inputs[1] *= side
+            assert part.step(inputs) == Status.OK
+            assert np.all(np.isfinite(part.out)) and np.all(part.iout >= 0)
+            assert part["friction_torque"] * side > 0.0
+            assert part["friction_power"] == pytest.approx(part["friction_torque"] * inputs[1])
+            assert part["friction_coefficient"] > 0.0
+            assert part["temperature"] >= inputs[-1] - 1e-9
+
+
+@pytest.mark.parametrize(("model", "rung"), RUNGS)
+def test_the_torque_is_odd_in_speed_and_all_else_even(model, rung):
+    one, other = settled(model, rung), settled(model, rung)
+    odd = {"friction_torque", "contact_torque", "viscous_torque"}
+    for point in POINTS[model]:
+        inputs = np.array(point)
+        one.step(inputs)
+        inputs[1] *= -1.0
+        other.step(inputs)
+        for name in one.place:
+            assert other[name] == pytest.approx(-one[name] if name in odd else one[name], rel=1e-5)
+
+
+@pytest.mark.parametrize(("model", "rung"), RUNGS)
+def test_standstill_gives_no_torque_and_no_load_gives_numbers(model, rung):
+    part = settled(model, rung)
+    for load, speed in ((POINTS[model][1][0], 0.0), (0.0, 100.0), (0.0, 0.0)):
+        inputs = np.array(POINTS[model][1])
+        inputs[0], inputs[1] = load, speed
+        assert part.step(inputs) == Status.OK
+        assert np.all(np.isfinite(part.out))
+        if speed == 0.0:
+            assert part["friction_torque"] == 0.0 == part["friction_power"]
+
+
+@pytest.mark.parametrize(("model", "rung"), RUNGS)
+def test_bad_inputs_are_named_by_the_same_status(model, rung):
+    part = settled(model, rung)
+    for place in range(part.k.NINP):
+        for value in (math.nan, math.inf):
+            inputs = np.array(POINTS[model][1])
+            inputs[place] = value
+            assert part.step(inputs) == Status.BAD_INPUT
+
+
+@pytest.mark.parametrize(("model", "rung"), RUNGS)
+def test_rungs_agree_on_the_torque_of_an_ordinary_point_within_their_class(model, rung):
+    """Closed forms within a factor of three, all others within a third of the finest."""
+    top = settled(model, LADDER[model][-1])
+    part = settled(model, rung)
+    top.step(POINTS[model][1])
+    part.step(POINTS[model][1])
+    ratio = part["friction_torque"] / top["friction_torque"]
+    low = 1.0 / 3.0 if rung in ("closed", "boundary") else 2.0 / 3.0
+    assert low < ratio < 1.0 / low
+
+
+NEW = [("washer", "closed"), ("washer", "stribeck"), ("washer", "coarse"),
+       ("clutch", "fine"), ("gearmesh", "stribeck"), ("gearmesh", "fine")]  # fmt: skip
+
+
+def central(part, point, place, size):
+    """Return central differences over one input, once extrapolated."""
+    found = []
+    for h in (size, 0.5 * size):
+        ends = []
+        for side in (1.0, -1.0):
+            inputs = np.array(point)
+            inputs[place] += side * h
+            assert part.step(inputs) == Status.OK
+            ends.append(part.out.copy())
+        found.append((ends[0] - ends[1]) / (2.0 * h))
+    return (4.0 * found[1] - found[0]) / 3.0
+
+
+@pytest.mark.parametrize(("model", "rung"), [n for n in NEW if n[1] != "coarse"])
+def test_derivatives_are_those_of_differences(model, rung):
+    part = settled(model, rung)
+    for point in POINTS[model]:
+        for place in range(part.k.NINP):
+            scale = 30.0 if place == part.k.NINP - 1 else point[place]
+            wanted = central(part, point, place, 1e-4 * scale) * scale
+            part.step(point)
+            found = part.sens(np.eye(part.k.NINP)[place]) * scale
+            np.testing.assert_allclose(found, wanted, rtol=1e-6, atol=1e-7 * np.abs(part.out).max())
+
+
+# --- the washer's rungs without a mesh
+
+
+def washer(rung, params=None, **changes):
+    at = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15, **changes}
+    return solve_washer(params or WasherParams(), **at, fidelity=rung)
+
+
+@pytest.mark.parametrize("rung", ["closed", "stribeck"])
+def test_a_washer_without_a_mesh_has_one_solution_for_each_load(rung):
+    """The film gets thinner with every load, through the range where the field has three."""
+    films = [washer(rung, load=load).film_thickness for load in np.geomspace(20.0, 3000.0, 60)]
+    assert np.all(np.diff(films) < 0.0)
+    assert washer(rung, load=600.0).branch == washer(rung, load=600.0).branch
+
+
+@pytest.mark.parametrize("rung", ["closed", "stribeck"])
+def test_film_and_contact_carry_the_load(rung):
+    for load in (1.0, 30.0, 700.0, 3000.0):
+        r = washer(rung, load=load)
+        assert r.fluid_load + r.contact_load == pytest.approx(load, rel=1e-12)
+        assert r.temperature_max >= r.temperature >= r.oil_temperature
+
+
+def test_without_heat_the_stribeck_rung_is_the_closed_one():
+    cold = WasherParams(film_heat_fraction=0.0, dry_friction=0.0, friction_law="constant")
+    for load in (50.0, 800.0):
+        one, other = washer("closed", cold, load=load), washer("stribeck", cold, load=load)
+        assert other.friction_torque == pytest.approx(one.friction_torque, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("load", "speed", "tilt"),
+    [(100.0, 300.0, 1e-3), (300.0, 953.0, 2e-3), (150.0, 1367.0, 3e-3), (500.0, 545.0, 1.2e-3)],
+)
+def test_in_full_film_the_stribeck_rung_is_within_seven_percent(load, speed, tilt):
+    at = {"load": load, "speed": speed, "tilt": tilt}
+    field, found = washer("field", **at), washer("stribeck", **at)
+    assert found.friction_torque == pytest.approx(field.friction_torque, rel=0.07)
+    assert found.film_ratio == pytest.approx(field.film_ratio, rel=0.12)
+    rise = field.temperature - field.oil_temperature
+    assert found.temperature - found.oil_temperature == pytest.approx(rise, rel=0.15)
+
+
+def test_a_cold_washer_is_met_by_the_closed_rung():
+    """Nothing heats the oil: what is left is the wedge, fitted to 2 % of its force."""
+    cold = WasherParams(film_heat_fraction=0.0)
+    field, found = washer("field", cold, load=100.0), washer("closed", cold, load=100.0)
+    assert found.friction_torque == pytest.approx(field.friction_torque, rel=0.02)
+    assert found.film_ratio == pytest.approx(field.film_ratio, rel=0.03)
+
+
+def test_a_level_washer_lies_on_its_asperities_at_every_rung():
+    for rung in LADDER["washer"]:
+        r = washer(rung, tilt=0.0, speed=0.1)
+        assert r.fluid_load == pytest.approx(0.0, abs=1e-9)
+        mean = 2.0 / 3.0 * (0.0227**3 - 0.0111**3) / (0.0227**2 - 0.0111**2)
+        dry = (0.48 - 0.05 * math.log(300.0)) * 300.0 * mean
+        assert r.friction_torque == pytest.approx(dry, rel=0.005)
+
+
+def test_what_a_rung_without_a_mesh_lacks_is_named():
+    with pytest.raises(ParameterError, match="no mesh"):
+        solve_washer(WasherParams(), load=1.0, speed=1.0, tilt=0.0, fidelity="closed", grid=(9, 32))
+    with pytest.raises(ParameterError, match="one solution for each load"):
+        load_curve(WasherParams(), speed=1.0, tilt=1e-3, fidelity="stribeck")
+    with pytest.raises(ParameterError, match="has no fields"):
+        washer("closed").fields()
+    with pytest.raises(ParameterError, match="has no solution at load"):
+        solve_washer(
+            WasherParams(), load=50.0, speed=545.0, tilt=2e-3, fidelity="closed", branch="contact"
+        )
+
+
+# --- the gear mesh, resolved along the line of action
+
+
+def mesh(rung, power=7500.0, speed=180.0, **changes):
+    return solve_gearmesh(GearMeshParams(**changes), power=power, speed=speed, fidelity=rung)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "teeth", "addendum"),
+    [(2.0, 20, 1.0), (5.0, 30, 1.0), (1.0, 60, 1.0), (1.5, 80, 1.3)],
+)
+def test_with_one_coefficient_the_resolved_loss_is_the_closed_form(ratio, teeth, addendum):
+    """Two pairs, three pairs, the pitch point where two share: Ohlendorf's factor to rounding."""
+    like = {"gear_ratio": ratio, "pinion_teeth": teeth, "addendum": addendum,
+            "friction_law": "constant"}  # fmt: skip
+    fine, field = mesh("fine", **like), mesh("field", **like)
+    assert fine.friction_torque == pytest.approx(field.friction_torque, rel=1e-12)
+
+
+def test_the_hottest_position_of_an_ordinary_pair_is_the_start_of_contact():
+    fine, field = mesh("fine"), mesh("field")
+    for name in ("asperity_temperature", "surface_temperature", "film_thickness", "flash_rise"):
+        assert getattr(fine, name) == pytest.approx(getattr(field, name), rel=1e-12)
+
+
+def test_where_the_start_bears_little_the_hottest_position_lies_further_on():
+    """A twentieth of the load at the start: the pair is hotter where it is alone."""
+    changes = {"load_share": 0.05, "switch": "none", "area_law": "constant", "area_ratio": 5.0}
+    fine, field = mesh("fine", **changes), mesh("field", **changes)
+    assert fine.asperity_temperature > field.asperity_temperature + 1.0
+    assert fine.hertz_pressure > field.hertz_pressure
+
+
+def test_friction_over_the_film_is_higher_where_the_film_is_thinner():
+    """Li & Seireg's coefficient falls with the film over the radius; its mean lies between."""
+    fine, field = mesh("fine"), mesh("field")
+    assert fine.friction_coefficient != field.friction_coefficient
+    assert fine.friction_coefficient == pytest.approx(field.friction_coefficient, rel=0.05)
+
+
+@pytest.mark.parametrize("changes", [{}, {"traction_law": "limited"}, {"film_viscosity": "inlet"},
+                                     {"viscosity_at": "inlet"}])  # fmt: skip
+def test_the_closed_thermal_loop_is_within_a_fiftieth_of_the_rise(changes):
+    for power, speed in ((7500.0, 180.0), (500.0, 900.0), (2e4, 50.0)):
+        one, other = (mesh(rung, power, speed, **changes) for rung in ("stribeck", "field"))
+        rise = other.surface_temperature - 299.85
+        assert one.surface_temperature - 299.85 == pytest.approx(rise, rel=0.02)
+        assert one.friction_torque == pytest.approx(other.friction_torque, rel=2e-3)
+
+
+# --- the clutch
+
+
+NARROW = {"inner_radius": 0.0795, "outer_radius": 0.08}
+COURSE = np.linspace(0.0, 0.3, 31)
+
+
+def engaged(rung, rings=None, **changes):
+    """Return an engagement: pressure rises over 0.1 s, the slip falls to nothing over 0.4 s."""
+    params = ClutchParams(**changes)
+    if rings is None:
+        return engage_clutch(
+            params, time=COURSE, load=6e3 * np.minimum(COURSE / 0.1, 1.0),
+            speed=120.0 * (1.0 - COURSE / 0.4), oil_temperature=350.0, fidelity=rung,
+        )  # fmt: skip
+    part = Part("clutch", rung, input_course="linear", **changes)
+    derive_rings(part.par, rings)
+    for t in COURSE:
+        part.step([6e3 * min(t / 0.1, 1.0), 120.0 * (1.0 - t / 0.4), 350.0], 0.01)
+    return part
+
+
+@pytest.mark.parametrize("changes", [{}, {"contact_rise": True}])
+def test_one_ring_is_the_lumped_pack(changes):
+    """Another integrator, the same equations: torque, temperature and heat to its tolerance."""
+    one = engaged("fine", 1, **changes)
+    lumped = Part("clutch", "field", input_course="linear", **changes)
+    for t in COURSE:
+        lumped.step([6e3 * min(t / 0.1, 1.0), 120.0 * (1.0 - t / 0.4), 350.0], 0.01)
+    for name in ("friction_torque", "film_ratio", "temperature", "viscosity"):
+        assert one[name] == pytest.approx(lumped[name], rel=2e-6), name
+    assert one["energy"] == pytest.approx(lumped["energy"], rel=1e-4)
+
+
+def test_rings_converge_with_second_order():
+    torques = [engaged("fine", n)["friction_torque"] for n in (1, 2, 4, 8)]
+    changes = np.abs(np.diff(torques))
+    assert changes[0] / changes[1] == pytest.approx(4.0, rel=0.05)
+    assert changes[1] / changes[2] == pytest.approx(4.0, rel=0.05)
+
+
+def test_a_narrow_pack_is_as_good_lumped_as_in_rings():
+    wide = [engaged(rung).friction_torque[-1] for rung in ("fine", "field")]
+    narrow = [engaged(rung, **NARROW).friction_torque[-1] for rung in ("fine", "field")]
+    assert abs(wide[0] / wide[1] - 1.0) > 1e-3
+    assert narrow[0] == pytest.approx(narrow[1], rel=2e-6)
+
+
+def test_outer_rings_are_hotter_and_their_mean_is_shown():
+    part = Part("clutch", "fine")
+    for _ in range(50):
+        part.step([6e3, 120.0, 350.0], 2e-3)
+    surface = part.work[clutch_layout.W_SURFACE :][: clutch_layout.N_RINGS]
+    assert np.all(np.diff(surface) > 0.4)
+    assert surface[0] < part["temperature"] < surface[-1]
+
+
+@pytest.mark.parametrize("changes", [{}, {"contact_rise": True}, {"film_dynamics": False}])
+def test_with_linear_inputs_the_rings_derivatives_follow_the_stretch(changes):
+    """So short that one substep does; the sizes of several would follow the inputs."""
+    part = Part("clutch", "fine", input_course="linear", starts_pressed=True, **changes)
+    for k in range(4):
+        part.step([4e3 + 500.0 * k, 100.0 - 5.0 * k, 340.0], 1e-4)
+    point = [6e3, 80.0, 340.0]
+    for place, scale in enumerate((6e3, 80.0)):
+        wanted = central(part, point, place, 1e-3 * scale) * scale
+        part.step(point)
+        found = part.sens(np.eye(3)[place]) * scale
+        np.testing.assert_allclose(found, wanted, rtol=2e-6, atol=1e-9 * np.abs(wanted).max())
+
+
+def test_clutch_rungs_hold_the_same_static_torque():
+    held = [solve_clutch(ClutchParams(), load=5e3, speed=0.0, fidelity=rung).torque_capacity
+            for rung in LADDER["clutch"][1:]]  # fmt: skip
+    assert held == pytest.approx([held[0]] * len(held), rel=1e-9)

@@ -16,7 +16,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
                               fmi2String fmuResourceLocation,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,
                               fmi2Boolean loggingOn) {
-    (void)fmuResourceLocation, (void)visible; /* there are no resources and nothing to see */
+    (void)visible; /* there is nothing to see */
     Log log = {0};
     log.send = send_message;
     if (functions) {
@@ -30,7 +30,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         tell(&log, BAD, LOG_ERROR, &text);
         return NULL;
     }
-    return instantiate(&log, fmuGUID);
+    return instantiate(&log, fmuGUID, fmuResourceLocation);
 }
 
 void fmi2FreeInstance(fmi2Component c) { free_instance(c); }

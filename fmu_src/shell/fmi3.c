@@ -30,7 +30,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
     fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
     size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
     fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
-    (void)resourcePath, (void)visible, (void)earlyReturnAllowed;
+    (void)visible, (void)earlyReturnAllowed;
     (void)requiredIntermediateVariables, (void)intermediateUpdate;
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
     if (eventModeUsed) {
@@ -40,7 +40,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
         return refuse_instance(&log, "has no intermediate updates: "
                                "nRequiredIntermediateVariables has to be 0");
     }
-    return instantiate(&log, instantiationToken);
+    return instantiate(&log, instantiationToken, resourcePath);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(

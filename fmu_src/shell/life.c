@@ -10,7 +10,7 @@ int reset(Instance *m) {
     memset(&m->now, 0, sizeof m->now);
     m->now.mode = INSTANTIATED;
     m->now.dirty = 1;
-    m->unsolved = m->warned = m->work_fits = m->last_step = 0;
+    m->unsolved = m->warned = m->work_fits = m->last_step = m->table_ready = 0;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];
         if (v->store == STORE_PAR) m->now.par[v->slot] = v->start;
@@ -26,7 +26,7 @@ void name_log(Log *log, const char *name, int on) {
 }
 
 /* The only memory an instance takes; NULL, and the reason in the log, if it cannot be. */
-Instance *instantiate(const Log *log, const char *guid) {
+Instance *instantiate(const Log *log, const char *guid, const char *resources) {
     Text text = {0};
     if (!guid || strcmp(guid, GUID) != 0) {
         add(&text, "%s: the description has the identifier %s, this library %s; they are of "
@@ -42,6 +42,7 @@ Instance *instantiate(const Log *log, const char *guid) {
         return NULL;
     }
     m->log = *log;
+    take_resources(m, resources);
     reset(m);
     return m;
 }
@@ -92,7 +93,7 @@ int begin(Instance *m, double start_time) {
 
 /* Check the rules between parameters and compute the derived constants. */
 int prepare(Instance *m) {
-    if (m->now.prepared) return GOOD;
+    if (m->now.prepared) return load_table(m);
     int32_t failed = m->now.latch;
     m->now.latch = STATUS_BAD_INPUT;
 #if HAS_RULES
@@ -106,6 +107,8 @@ int prepare(Instance *m) {
     if (rc < 0 || rc >= FIRST_FAILURE) {
         return fail(m, "the parameters cannot be used: %s", status_text(rc)->advice);
     }
+    m->table_ready = 0;
+    if (load_table(m)) return BAD;
     m->now.prepared = 1;
     m->now.latch = failed;
     return GOOD;

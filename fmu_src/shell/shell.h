@@ -51,8 +51,10 @@ typedef struct {
     int32_t warned;    /* the status the host was last told */
     int32_t work_fits; /* `work` belongs to the present solution */
     int32_t last_step; /* what the last step returned */
+    int32_t table_ready; /* the table in `work` is that of the present parameters, or not wanted */
+    char resources[TEXT_LENGTH]; /* the folder, in UTF-8 */
     char refusal[TEXT_LENGTH];
-    double work[AT_LEAST_ONE(NWORK)]; /* carries nothing between calls */
+    double work[AT_LEAST_ONE(NWORK)]; /* carries nothing between calls, the table aside */
 } Instance;
 
 /* How a host hands over values: which types of variables, in which form. */
@@ -61,7 +63,7 @@ enum { FORM_DOUBLE, FORM_INT32, FORM_INT64, FORM_BYTE, FORM_NONE };
 
 /* life.c */
 void name_log(Log *log, const char *name, int on); /* switched on: every category */
-Instance *instantiate(const Log *log, const char *guid);
+Instance *instantiate(const Log *log, const char *guid, const char *resources);
 void free_instance(void *instance);
 Instance *enter(void *instance, int call); /* NULL: not allowed now, and said so */
 int begin(Instance *m, double start_time);
@@ -78,6 +80,10 @@ static inline int is_finite(double x) {
     memcpy(&bits, &x, sizeof bits);
     return bits << 1 < (uint64_t)0x7ff << 53;
 }
+
+/* resource.c */
+void take_resources(Instance *m, const char *location);
+int load_table(Instance *m); /* BAD: the fidelity wants a table that is not there, and said so */
 
 /* values.c */
 int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,

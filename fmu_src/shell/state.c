@@ -91,7 +91,7 @@ int set_state(Instance *m, void *state) {
     if (!s) return BAD;
     memcpy(&m->now, &s->snap, sizeof m->now);
     for (int i = 0; i < N_VARIABLES; i++) m->now.refused[i] = m->now.refused[i] ? 2 : 0;
-    m->unsolved = m->work_fits = 0;
+    m->unsolved = m->work_fits = m->table_ready = 0;
     return GOOD;
 }
 

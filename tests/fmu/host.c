@@ -216,6 +216,7 @@ static const struct { const char *name; int (*call)(void); } COMMANDS[] = {
 };
 
 int main(void) {
+    signal(SIGINT, SIG_DFL); /* a shell's background jobs inherit that it is ignored */
     static char line[1 << 16];
     while (fgets(line, sizeof line, stdin)) {
         n_words = 0;

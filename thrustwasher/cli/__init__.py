@@ -20,6 +20,7 @@ from ..errors import EnvironmentProblem, ParameterError, SolveError
 COMMANDS = (
     "washer",
     "curve",
+    "map",
     "clutch",
     "engage",
     "calibrate",

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ..models._spec import ModelSpec
+from ..models._tables import fill_table, wants_table
 from .interface import Variable, enumerations, variables
 from .registry import content_digest, count_places, load_kernel
 from .snapshot import Snapshot
@@ -150,7 +151,14 @@ class Core:
         rc = self._derive(self.par)
         if rc >= FIRST_FAILURE:
             raise ParameterError(f"the parameters cannot be used: {Status(rc).advice}")
+        self._load_table()
         self.prepared, self.latch = True, failed
+
+    def _load_table(self) -> None:
+        """Put the model's table into ``work`` if the fidelity reads one."""
+        if wants_table(self.spec, self.par):
+            params = self.spec.params(**self._named_parameters())
+            fill_table(self.spec, params, self.par, self.work)
 
     def _named_parameters(self) -> dict[str, Any]:
         named: dict[str, Any] = {}
@@ -287,3 +295,5 @@ class Core:
         self.latch, self._unsolved = snapshot.latch, ""
         self._seen, self.events = snapshot.seen.tolist(), []
         self.refused = refused
+        if self.prepared:
+            self._load_table()  # it is no part of a snapshot

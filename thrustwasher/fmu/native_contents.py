@@ -5,6 +5,7 @@ from importlib import metadata
 
 from ..errors import ParameterError
 from ..models._spec import ModelSpec
+from ..store.maps import all_maps, plain
 from .native.here import this_level, this_platform
 from .native.link import find_linker
 from .native.targets import PLATFORMS, Platform
@@ -58,8 +59,16 @@ def native_contents(
         path = _place(PLATFORMS[name], fmi, spec.name)
         made = library(spec, fmi=fmi, guid=guid, platform=name, level=level, note=note)
         found.setdefault(path, []).append(made)
-    return {path: parts[0] if len(parts) == 1 else universal(parts)
-            for path, parts in found.items()}  # fmt: skip
+    libraries = {path: parts[0] if len(parts) == 1 else universal(parts)
+                 for path, parts in found.items()}  # fmt: skip
+    return libraries | table_files(spec)
+
+
+def table_files(spec: ModelSpec) -> dict[str, bytes]:
+    """Return the tables that the model may read while it starts."""
+    if not spec.table:
+        return {}
+    return {f"resources/map-{k}.bin": plain(file) for k, file in enumerate(all_maps())}
 
 
 def _place(platform: Platform, fmi: int, model: str) -> str:

@@ -83,6 +83,18 @@ def find_derivatives(spec: ModelSpec) -> Callable[..., int] | None:
     return getattr(importlib.import_module(kernel_module(spec.kernel)), "sens", None)
 
 
+def kernel_table(spec: ModelSpec) -> dict[str, float]:
+    """Return where in ``work`` a model's table lies and how it is known, by name; ROOM 0: none.
+
+    ``AT``, ``ROOM``: place and length. ``MAGIC``: its first number. ``SIZE``: place of its length.
+    ``PARAMS``, ``N_PARAMS``: place and number of the parameters it was made for. ``HEADER``: how
+    many of its numbers are doubles in a file. ``SWITCH``, ``ON``: place in ``par`` and number of
+    the fidelity that wants it.
+    """
+    found = getattr(importlib.import_module(kernel_module(spec.kernel)), "TABLE", None)
+    return dict(found) if found else {"ROOM": 0}
+
+
 def is_compiled(spec: ModelSpec) -> bool:
     """Tell if the model's step is in numba's cache, so that its first call takes no minutes."""
     stats = getattr(load_kernel(spec.kernel).step, "stats", None)
@@ -120,14 +132,15 @@ def package_version() -> str:
 
 def content_digest(spec: ModelSpec) -> str:
     """Return 16 hex digits over everything that decides the numbers: kernels, maps, parameters."""
-    return _content_digest(kernel_module(spec.kernel), spec.params.__module__)
+    return _content_digest(kernel_module(spec.kernel), spec.params.__module__, bool(spec.table))
 
 
 @cache
-def _content_digest(kernel: str, params: str) -> str:
+def _content_digest(kernel: str, params: str, table: bool) -> str:
     found = [importlib.util.find_spec(name) for name in (kernel, params)]
     files = [Path(s.origin) for s in found if s and s.origin]
-    files += sorted(p for p in (Path(__file__).parents[1] / "data").rglob("*") if p.is_file())
+    if table:
+        files += sorted((Path(__file__).parents[1] / "data" / "maps").glob("*.twm"))
     hashed = hashlib.sha256(f"{package_version()} {kernel_digest()}".encode())
     for file in files:
         hashed.update(file.name.encode() + file.read_bytes())

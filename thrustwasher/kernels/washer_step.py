@@ -11,9 +11,11 @@ from .washer_branch import ANY, N_FOUND, NO_BRANCH
 from .washer_closed import closed_sens, closed_step
 from .washer_curve import N_WALK
 from .washer_fields import Bench, size_of_work, washer_fields
+from .washer_map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
+from .washer_map_step import MAP_BRANCH, N_MAP_WORK, NOT_HERE, map_sens, map_step
 from .washer_memory import size_of_state
 from .washer_model import BAD_INPUT, N_PARAM, NOT_FINITE, OK, derive_grid, size_of_par, washer_model
-from .washer_newton import N_INFO, SINGULAR
+from .washer_newton import FACTORED, ITERATIONS, N_INFO, SINGULAR
 from .washer_outputs import CONTACT_LOAD, MEAN_TEMPERATURE, N_ALL, N_REAL, RATIO, washer_outputs
 from .washer_rules import broken_rule as broken_rule
 from .washer_sens import differentiate
@@ -51,14 +53,53 @@ NINP, NOUT, NIOUT = 4, N_REAL, 3
 NPAR = size_of_par(*FINE_GRID)
 NSTATE = size_of_state(*FINE_GRID)
 N_HEAD = N_INFO + N_FOUND + N_WALK + N_ALL + 4
-NWORK = N_HEAD + size_of_work(*FINE_GRID)
+MAP_WORK = N_HEAD + size_of_work(*FINE_GRID)  # behind the fields: scratch of a look-up, then
+BY_MAP = MAP_WORK + N_MAP_WORK  # 1 if the last solution was looked up, then the map itself
+TABLE = {
+    "AT": BY_MAP + 1, "ROOM": ROOM, "MAGIC": MAGIC, "SIZE": SIZE, "PARAMS": PARAMS,
+    "N_PARAMS": N_PARAM - 1, "HEADER": DATA, "SWITCH": N_PARAM - 1, "ON": MAP,
+}  # fmt: skip
+TABLE_AT = BY_MAP + 1
+NWORK = TABLE_AT + ROOM
 
 __all__ = [
-    "BOUNDARY", "CLOSED", "COARSE", "COARSE_GRID", "DISTRESS", "DISTRESS_OUT", "FIELD",
-    "FIELD_GRID", "FILM", "FINE", "FINE_GRID", "LEAST_LOAD", "LEAST_TILT", "MAP", "MIXED", "NINP",
-    "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_ALL", "N_FOUND", "N_HEAD", "N_INFO", "N_PARAM",
-    "N_WALK", "OUTSIDE_VERIFIED", "REGIME_OUT", "STATUS_OUT", "STRIBECK", "derive", "regime_of",
-    "sens", "step",
+    "BOUNDARY",
+    "CLOSED",
+    "COARSE",
+    "COARSE_GRID",
+    "DISTRESS",
+    "DISTRESS_OUT",
+    "FIELD",
+    "FIELD_GRID",
+    "FILM",
+    "FINE",
+    "FINE_GRID",
+    "LEAST_LOAD",
+    "LEAST_TILT",
+    "MAP",
+    "MIXED",
+    "NINP",
+    "NIOUT",
+    "NOUT",
+    "NPAR",
+    "NSTATE",
+    "NWORK",
+    "N_ALL",
+    "N_FOUND",
+    "N_HEAD",
+    "N_INFO",
+    "N_PARAM",
+    "N_WALK",
+    "OUTSIDE_VERIFIED",
+    "REGIME_OUT",
+    "STATUS_OUT",
+    "STRIBECK",
+    "TABLE",
+    "TABLE_AT",
+    "derive",
+    "regime_of",
+    "sens",
+    "step",
 ]  # fmt: skip
 
 
@@ -102,20 +143,34 @@ def step(
     info, found = work[:N_INFO], work[N_INFO:a]
     walk, numbers = work[a:n], work[n : n + N_ALL]
     q = work[n + N_ALL : N_HEAD]
-    b = Bench(par, work[N_HEAD:])
-    status = solve(b, pt, wanted, state, q, info, found, walk)
+    if fidelity == MAP:
+        info[ITERATIONS], info[FACTORED] = 0.0, 0.0
+        work[BY_MAP] = 1.0
+        status = map_step(par, inp, wanted, state, numbers, work[MAP_WORK:BY_MAP],
+                          work[TABLE_AT:], out, iout, dt)  # fmt: skip
+        if status != NOT_HERE:
+            return status
+        work[BY_MAP] = 0.0
+        if wanted == ANY:
+            wanted = state[MAP_BRANCH]
+    b = Bench(par, work[N_HEAD:MAP_WORK])
+    status = OK
+    for _ in range(2):
+        status = solve(b, pt, wanted, state, q, info, found, walk)
+        if status != NO_BRANCH or wanted == ANY or inp.size > 4:
+            break
+        wanted = ANY  # the branch of the map ends outside it
     m = washer_model(par)
     f = washer_fields(m, b.work)
     if not washer_outputs(m, pt, q, f, numbers) and status == OK:
         status = NOT_FINITE
     if dt > 0.0 and (status == OK or status == NO_BRANCH):
         keep_solution(b, pt, q, info, found, state)
+        state[MAP_BRANCH] = 0.0
     for k in range(N_REAL):
         out[k] = numbers[k]
     distressed = is_distressed(found, out[MEAN_TEMPERATURE] - pt.oil_temperature)
     judge(pt, out[RATIO], distressed, status, iout)
-    if fidelity == MAP and iout[STATUS_OUT] == OK:  # no map yet: the answer of the field
-        iout[STATUS_OUT] = OUTSIDE_VERIFIED
     return status
 
 
@@ -137,6 +192,8 @@ def sens(
     pt, change = point_of(inp), change_of(inp, seed)
     n = N_INFO + N_FOUND + N_WALK
     out, q = work[n : n + N_ALL], work[n + N_ALL : N_HEAD]
+    if par[N_PARAM - 1] == MAP and work[BY_MAP] == 1.0:
+        return map_sens(inp, seed, out, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)
     if pt.speed == 0.0 and seed[1] != 0.0 and out[CONTACT_LOAD] > 0.0:
         return SINGULAR
-    return differentiate(Bench(par, work[N_HEAD:]), pt, change, q, out, dout)
+    return differentiate(Bench(par, work[N_HEAD:MAP_WORK]), pt, change, q, out, dout)

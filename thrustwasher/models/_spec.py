@@ -67,6 +67,8 @@ class ModelSpec:
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0
     step_size: float = 1e-3
+    # "module below thrustwasher.models:function" that returns the kernel's table for parameters.
+    table: str = ""
     # The reference run: rows of time and all inputs, linear between; none: inputs at their start.
     course: tuple[tuple[float, ...], ...] = ()
     # What the solver counts: (text, "module below thrustwasher.kernels:NAME of the place in work").

@@ -37,6 +37,7 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
 
 def _known(spec: ModelSpec) -> dict[str, float]:
     """Return what the kernel says about its table; empty if it has none."""
-    kernel = import_module(f"thrustwasher.kernels.{spec.kernel}")
+    name = spec.kernel if "." in spec.kernel else f"thrustwasher.kernels.{spec.kernel}"
+    kernel = import_module(name)
     found: dict[str, float] = getattr(kernel, "TABLE", None) or {}
     return found

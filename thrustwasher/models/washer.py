@@ -108,7 +108,8 @@ def solve_washer(
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15
     fidelity : "field" (10 x 32 nodes), "fine" (19 x 64), "coarse" (8 x 20), "map", or without
-        mesh and memory "stribeck" (one film temperature) and "closed" (oil as supplied)
+        mesh and memory "stribeck" (one film temperature) and "closed" (oil as supplied). A "map"
+        answers outside its box with the field, and the result says so
     grid : (n_r, n_theta), overrides the nodes of the fidelity
     branch : "film" or "contact", the one wanted where several solutions exist; without it the
         branch of ``start``, else the film branch up to its fold and the contact branch beyond
@@ -142,7 +143,15 @@ def solve_washer(
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     wanted = BRANCHES[branch] if branch is not None else 0.0
     start = None if fidelity in SIMPLE else start
-    result = _solve(params, point, fidelity, nodes, wanted, start)
+    found = None
+    if fidelity == "map":
+        from .washer_map import solve_by_map
+
+        if grid is not None:
+            raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
+        found = solve_by_map(params, point, wanted, start)
+        fidelity = "map" if found else "field"  # outside the map
+    result = found or _solve(params, point, fidelity, nodes, wanted, start)
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
         result = _with_embedded_estimate(result, wanted)
     if throw and result.status is Status.NO_BRANCH:

@@ -119,7 +119,7 @@ SPEC = ModelSpec(
     fidelities={
         "closed": "wedge in closed form, oil at its own temperature; no branches",
         "stribeck": "wedge in closed form, one film temperature; one branch, steep at the folds",
-        "map": "charts of the solution; the field's answer where there is none",
+        "map": "look-up in charts of fine solutions; the field's answer outside their box",
         "coarse": "8 x 20 graded nodes: torque within 2 % of the converged value",
         "field": "10 x 32 graded nodes: torque within 0.6 % of the converged value",
         "fine": "19 x 64 graded nodes: torque within 0.1 % of the converged value",
@@ -163,6 +163,7 @@ SPEC = ModelSpec(
                  members=(("oil_temperature", "T", "signal"),
                           ("friction_power", "Q_flow", "outflow"))),
     ),
+    table="washer_map:map_data",
     step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed
     course=((0.0, 100.0, 545.0, 2e-3, 297.15), (0.6, 400.0, 545.0, 2e-3, 310.0),
             (1.0, 200.0, 300.0, 1.5e-3, 310.0)),

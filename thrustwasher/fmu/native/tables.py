@@ -7,13 +7,13 @@ from typing import Any
 from ...errors import FIRST_FAILURE, Status
 from ...models._spec import ModelSpec
 from ..interface import Variable, enumerations, variables
-from ..registry import count_places, kernel_module, load_kernel
+from ..registry import count_places, kernel_module, kernel_table, load_kernel
 from ..xml import LOG_CATEGORIES, log_categories
 from . import calls
 
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
-COMMON = ("life.c", "values.c", "text.c", "stories.c", "state.c", "derivative.c")
+COMMON = ("life.c", "resource.c", "values.c", "text.c", "stories.c", "state.c", "derivative.c")
 PROTOCOL = {
     2: ("fmi2.c", "fmi2_values.c"),
     3: ("fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c"),
@@ -106,6 +106,7 @@ def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, li
         "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
+        **{f"TABLE_{name}": value for name, value in kernel_table(spec).items()},
         "HAS_RULES": int(_has(spec, "broken_rule")), "HAS_SENS": int(_has(spec, "sens")),
     }  # fmt: skip
     shown = [v for v in found if v.causality == "input" or v.name in ("film_ratio", "engine_speed")]

@@ -1,0 +1,130 @@
+/* A table of numbers that a model reads from the folder resources: the washer's maps.
+
+   A file map-<k>.bin, k from 0 without gaps, has a header of TABLE_HEADER doubles, little-endian as
+   on every platform built for: a magic number, how many numbers there are, then the parameters that
+   the table was made for. Numbers in single precision follow. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#ifdef _WIN32
+#include <wchar.h>
+#endif
+
+#include "shell.h"
+
+#if TABLE_ROOM > 0
+
+static int hex(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+/* The path in file:///x, file:/x, file://localhost/x or in a plain path. */
+void take_resources(Instance *m, const char *location) {
+    const char *from = location ? location : "";
+    int uri = !strncmp(from, "file:", 5);
+    if (uri) from += 5;
+    if (uri && !strncmp(from, "//", 2)) {
+        const char *host = from + 2;
+        from = strchr(host, '/');
+        if (!from) from = "";
+    }
+    if (uri && from[0] == '/' && from[1] && from[2] == ':') from++; /* a drive of Windows */
+    size_t n = 0;
+    while (*from && n + 1 < sizeof m->resources) {
+        int high = uri && *from == '%' ? hex(from[1]) : -1;
+        int low = high >= 0 ? hex(from[2]) : -1;
+        m->resources[n++] = low >= 0 ? (char)(16 * high + low) : *from;
+        from += low >= 0 ? 3 : 1;
+    }
+    while (n > 1 && (m->resources[n - 1] == '/' || m->resources[n - 1] == '\\')) n--;
+    m->resources[*from ? 0 : n] = '\0'; /* a path that is too long is none */
+}
+
+#ifdef _WIN32
+/* UTF-8 to UTF-16: the C library takes bytes for letters of its own code page. */
+static FILE *open_file(const char *path) {
+    wchar_t wide[sizeof ((Instance *)0)->resources + 32];
+    size_t n = 0;
+    for (const unsigned char *c = (const unsigned char *)path; *c && n + 2 < sizeof wide / 2;) {
+        int more = *c >= 0xf0 ? 3 : *c >= 0xe0 ? 2 : *c >= 0xc0 ? 1 : 0;
+        uint32_t code = more ? *c & (0x3fu >> more) : *c;
+        for (c++; more && (*c & 0xc0) == 0x80; more--) code = code << 6 | (*c++ & 0x3fu);
+        if (code >= 0x10000u) {
+            wide[n++] = (wchar_t)(0xd800u + ((code - 0x10000u) >> 10));
+            code = 0xdc00u + ((code - 0x10000u) & 0x3ffu);
+        }
+        wide[n++] = (wchar_t)code;
+    }
+    wide[n] = 0;
+    return _wfopen(wide, L"rb");
+}
+#else
+static FILE *open_file(const char *path) { return fopen(path, "rb"); }
+#endif
+
+static int made_for(const double *table, const double *par) {
+    return table[0] == TABLE_MAGIC
+        && memcmp(table + TABLE_PARAMS, par, TABLE_N_PARAMS * sizeof *par) == 0;
+}
+
+/* Read the numbers behind the header; 0 if the file is cut off or damaged. */
+static int read_numbers(FILE *file, double *table) {
+    double size = table[TABLE_SIZE];
+    if (!(size > TABLE_HEADER && size <= TABLE_ROOM)) return 0;
+    float part[512];
+    for (size_t at = TABLE_HEADER, all = (size_t)size; at < all;) {
+        size_t n = all - at < 512 ? all - at : 512;
+        if (fread(part, sizeof *part, n, file) != n) return 0;
+        for (size_t i = 0; i < n; i++) {
+            table[at + i] = (double)part[i];
+            if (!is_finite(table[at + i])) return 0;
+        }
+        at += n;
+    }
+    return fgetc(file) == EOF;
+}
+
+/* 1: the file had the table, 0: it had another one, -1: there is no such file, -2: damaged. */
+static int try_file(Instance *m, int k) {
+    char path[sizeof m->resources + 32];
+    double *table = m->work + TABLE_AT;
+    snprintf(path, sizeof path, "%s/map-%d.bin", m->resources, k);
+    FILE *file = m->resources[0] ? open_file(path) : NULL;
+    if (!file) return -1;
+    int found = -2;
+    if (fread(table, sizeof *table, TABLE_HEADER, file) == TABLE_HEADER) {
+        found = made_for(table, m->now.par) ? read_numbers(file, table) ? 1 : -2 : 0;
+    }
+    fclose(file);
+    if (found != 1) table[0] = 0.0;
+    return found;
+}
+
+/* See to it that the table is there if the fidelity wants it. */
+int load_table(Instance *m) {
+    if (m->table_ready || m->now.par[TABLE_SWITCH] != TABLE_ON) return GOOD;
+    m->table_ready = made_for(m->work + TABLE_AT, m->now.par);
+    int found = 0;
+    for (int k = 0; !m->table_ready && found >= 0 && k < 1000; k++) {
+        found = try_file(m, k);
+        m->table_ready = found == 1;
+    }
+    if (m->table_ready) return GOOD;
+    m->now.latch = STATUS_BAD_INPUT;
+    if (found == -2) return fail(m, "a map in %s is damaged; unpack the FMU again", m->resources);
+    return fail(m, "fidelity = 'map': no map was made for these parameters; make one with "
+                "`thrustwasher map build`, or use fidelity 'field'");
+}
+
+#else
+
+void take_resources(Instance *m, const char *location) { (void)m, (void)location; }
+
+int load_table(Instance *m) {
+    (void)m;
+    return GOOD;
+}
+
+#endif

@@ -1,0 +1,70 @@
+"""The command map: build, list, check; wrong input in one line."""
+
+import json
+
+import pytest
+
+from thrustwasher.cli import main
+from thrustwasher.models.washer import solve_washer
+from thrustwasher.models.washer_map import WasherMap
+from thrustwasher.models.washer_params import WasherParams
+
+BOX = ["--load", "200:400", "--speed", "5000 rpm:5200 rpm", "--tilt", "0.002",
+       "--oil-temperature", "24 degC"]  # fmt: skip
+BUILD = ["map", "build", *BOX, "--fidelity", "field", "--workers", "1", "--points", "4"]
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    path = tmp_path_factory.mktemp("map") / "small.twm"
+    assert main([*BUILD, "--out", str(path)]) == 0
+    return path
+
+
+def test_a_built_map_serves_and_lies_alone_in_its_folder(built):
+    washer = WasherMap(WasherParams(), built)
+    assert washer.box["speed"] == pytest.approx((523.598776, 544.542727))
+    mesh = solve_washer(WasherParams(), load=300.0, speed=530.0, tilt=0.002)
+    assert washer.torque(300.0, 530.0, 0.002, 297.15) == pytest.approx(
+        mesh.friction_torque, rel=1e-4
+    )
+    assert [p.name for p in built.parent.iterdir()] == ["small.twm"]
+
+
+def test_check_measures_it_again(built, capsys):
+    assert main(["map", "check", str(built), "--points", "4", "--json"]) == 0
+    card = json.loads(capsys.readouterr().out)
+    assert card["held_out"]["torque"] < 1e-3 and card["built_from"] == "field"
+
+
+def test_list_names_maps_with_box_and_errors(built, capsys, monkeypatch):
+    monkeypatch.setenv("THRUSTWASHER_MAPS", str(built.parent))
+    assert main(["map", "list"]) == 0
+    said = capsys.readouterr().out
+    assert "small.twm" in said and "200 .. 400 N" in said and "torque within" in said
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["map", "build", "--load", "400:200"], "load"),
+        (["map", "build", "--load", "1:2:3"], "LOW:HIGH"),
+        (["map", "build", "--load", "a:b"], "load"),
+        (["map", "build", "--fidelity", "coarse"], "coarse"),
+        (["map", "build", "--workers", "0"], "--workers"),
+        (["map", "build", "--points", "0"], "--points"),
+        (["map", "build", "--out", "map.txt"], ".twm"),
+        (["map", "build", "--out", "nowhere/map.twm"], "nowhere"),
+        (["map", "build", "--set", "rougness=1e-7"], "roughness"),
+        (["map", "build", "more.twm"], "--out"),
+        (["map", "check"], "map file"),
+        (["map", "check", "none.twm"], "none.twm"),
+        (["map", "forget"], "forget"),
+    ],
+)
+def test_wrong_input_is_one_line_and_leaves_nothing(words, said, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(words) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and said in err and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []

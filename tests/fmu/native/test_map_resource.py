@@ -1,0 +1,127 @@
+"""A native washer reads its map from the folder resources, and says so when it cannot."""
+
+import shutil
+
+import pytest
+
+from thrustwasher.errors import ParameterError, SolveError
+from thrustwasher.fmu.build import build
+from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.loading import unpack
+from thrustwasher.fmu.stepper import Instance
+from thrustwasher.maps.make import make_map
+from thrustwasher.models.washer_params import SPEC, WasherParams
+from thrustwasher.store.maps import VARIABLE
+
+BOX = {"load": (100.0, 900.0), "speed": (500.0, 600.0), "tilt": (0.002, 0.002),
+       "oil_temperature": (297.15, 297.15)}  # fmt: skip
+POINT = {"load": 300.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
+MAP = {"fidelity": "map"}
+NONE = "no map was made for these parameters"
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory):
+    """Washers of FMI 2 and 3 that carry a small map, which this process finds too."""
+    folder = tmp_path_factory.mktemp("mapped")
+    make_map(WasherParams(), folder / "small.twm", box=BOX, fidelity="field", points=4)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(VARIABLE, str(folder))
+        yield {n: build(["ThrustWasher"], out=folder, fmi=n, local=True)[0] for n in (2, 3)}
+
+
+def course():
+    """Return inputs up over the fold, back, and out of the box."""
+    loads = [300.0 + 10.0 * k for k in range(55)] + [850.0 - 10.0 * k for k in range(55)]
+    return [[load, 545.0 + 0.1 * k, 0.002, 297.15] for k, load in enumerate([*loads, 95.0, 300.0])]
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_it_gives_the_bits_of_the_kernels_in_python(fmus, fmi):
+    ours = DirectInstance(SPEC, parameters=MAP)
+    with Instance(fmus[fmi], parameters=MAP) as theirs:
+        for instance in (ours, theirs):
+            instance.initialize(0.0, POINT)
+        lost = 0.0
+        for k, inputs in enumerate(course()):
+            for instance in (ours, theirs):
+                instance.set_inputs(inputs)
+                instance.step(1e-3 * k, 1e-3)
+            assert ours.outputs() == theirs.outputs()
+            lost += ours.outputs()[9]
+        assert 20 < lost < 80  # the fold was passed and passed back
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_its_derivatives_are_those_of_the_kernels(fmus, fmi):
+    ours = DirectInstance(SPEC, parameters=MAP)
+    asked = ["friction_torque", "film_thickness"], ["load", "speed"], [1.0, 0.5]
+    with Instance(fmus[fmi], parameters=MAP) as theirs:
+        for instance in (ours, theirs):
+            instance.initialize(0.0, POINT)
+        assert theirs.directional_derivative(*asked) == ours.directional_derivative(*asked)
+
+
+def test_a_state_taken_to_another_instance_brings_the_map_with_it(fmus):
+    with Instance(fmus[2], parameters=MAP) as first, Instance(fmus[2], parameters=MAP) as second:
+        first.initialize(0.0, POINT)
+        first.set_inputs([600.0, 545.0, 0.002, 297.15])
+        first.step(0.0, 1e-3)
+        state = first.get_state()
+        data = first.serialize(state)
+        assert len(data) < 1_000_000  # the map is no part of it
+        second.set_state(second.deserialize(data))
+        for instance in (first, second):
+            instance.set_inputs([610.0, 545.0, 0.002, 297.15])
+            instance.step(1e-3, 1e-3)
+        assert first.outputs() == second.outputs()
+
+
+def test_other_parameters_have_no_map(fmus):
+    with pytest.raises((ParameterError, SolveError), match=NONE):
+        with Instance(fmus[2], parameters={**MAP, "roughness": 4e-7}) as instance:
+            instance.initialize(0.0, POINT)
+
+
+def moved(fmu, name, tmp_path):
+    """Return the FMU packed anew from a folder with a name that needs care."""
+    folder = tmp_path / name
+    shutil.copytree(unpack(fmu), folder)
+    return folder
+
+
+@pytest.mark.parametrize("change", ["gone", "cut", "rubbish"])
+def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(fmus, tmp_path, change):
+    folder = moved(fmus[2], "copy", tmp_path)
+    file = folder / "resources" / "map-0.bin"
+    if change == "gone":
+        shutil.rmtree(file.parent)
+    else:
+        raw = file.read_bytes()
+        file.write_bytes(raw[:-40] if change == "cut" else raw[:-4] + b"\xff\xff\xff\xff")
+    packed = shutil.make_archive(str(tmp_path / "again"), "zip", folder)
+    fmu = shutil.move(packed, tmp_path / "ThrustWasher.fmu")
+    with pytest.raises((ParameterError, SolveError), match=NONE if change == "gone" else "damaged"):
+        with Instance(fmu, parameters=MAP) as instance:
+            instance.initialize(0.0, POINT)
+
+
+@pytest.mark.parametrize("name", ["with space", "per%20cent", "mäp 測定", "plus+and#hash"])
+def test_any_folder_name_will_do(fmus, tmp_path, name):
+    from fmpy.fmi2 import FMU2Slave
+    from fmpy.model_description import read_model_description
+
+    folder = moved(fmus[2], name, tmp_path)
+    told = read_model_description(str(folder), validate=False)
+    place = {v.name: v.valueReference for v in told.modelVariables}
+    fmu = FMU2Slave(guid=told.guid, unzipDirectory=str(folder), instanceName="washer",
+                    modelIdentifier=told.coSimulation.modelIdentifier)  # fmt: skip
+    fmu.instantiate()
+    fmu.setupExperiment(startTime=0.0)
+    fmu.enterInitializationMode()
+    fmu.setInteger([place["fidelity"]], [3])
+    fmu.setReal([place[n] for n in POINT], list(POINT.values()))
+    fmu.exitInitializationMode()
+    assert fmu.getReal([place["friction_torque"]])[0] == pytest.approx(0.2051, rel=1e-3)
+    fmu.terminate()
+    fmu.freeInstance()

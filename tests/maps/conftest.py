@@ -1,0 +1,36 @@
+"""A small map: quick to build, and with folds in it."""
+
+import pytest
+
+from thrustwasher.maps.make import make_map
+from thrustwasher.models.washer_map import WasherMap
+from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.store.maps import VARIABLE
+
+BOX = {
+    "load": (100.0, 900.0), "speed": (400.0, 700.0), "tilt": (0.0018, 0.0022),
+    "oil_temperature": (297.15, 297.15),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def map_path(tmp_path_factory):
+    path = tmp_path_factory.mktemp("maps") / "small.twm"
+    make_map(WasherParams(), path, box=BOX, fidelity="field", workers=1, points=8)
+    return path
+
+
+@pytest.fixture(scope="session")
+def small(map_path):
+    return WasherMap(WasherParams(), map_path)
+
+
+@pytest.fixture
+def found_first(map_path, monkeypatch):
+    """Let the small map be the one that is found for the default washer."""
+    from thrustwasher.models import washer_map
+
+    monkeypatch.setenv(VARIABLE, str(map_path.parent))
+    washer_map.washer_map.cache_clear()
+    yield map_path
+    washer_map.washer_map.cache_clear()

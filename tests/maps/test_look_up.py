@@ -1,0 +1,131 @@
+"""The map against the mesh it was built on: values, branches, folds, symmetry, derivatives."""
+
+import math
+
+import numpy as np
+import pytest
+
+from thrustwasher.errors import BranchError, ParameterError, Status
+from thrustwasher.kernels.washer_fields import Point
+from thrustwasher.kernels.washer_map_step import N_MAP_WORK, look_up, map_sens
+from thrustwasher.kernels.washer_outputs import N_ALL
+from thrustwasher.models.washer import solve_washer
+from thrustwasher.models.washer_curve import load_curve
+from thrustwasher.models.washer_params import WasherParams
+
+PARAMS = WasherParams()
+PLACE = {"speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
+OFF_NODES = [
+    (150.0, 431.0, 0.00183, "film"), (420.0, 655.0, 0.00217, "film"),
+    (700.0, 512.0, 0.00194, "film"), (500.0, 587.0, 0.00209, "contact"),
+    (880.0, 418.0, 0.00201, "contact"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("load", "speed", "tilt", "branch"), OFF_NODES)
+def test_between_its_nodes_the_map_agrees_with_the_mesh(found_first, load, speed, tilt, branch):
+    point = {"load": load, "speed": speed, "tilt": tilt, "branch": branch}
+    here = solve_washer(PARAMS, **point, fidelity="map")
+    there = solve_washer(PARAMS, **point)
+    assert (here.fidelity, here.branch, here.distress) == ("map", there.branch, there.distress)
+    assert here.friction_torque == pytest.approx(there.friction_torque, rel=2e-4)
+    assert here.film_ratio == pytest.approx(there.film_ratio, abs=2e-3)
+    assert here.temperature == pytest.approx(there.temperature, abs=0.02)
+    assert here.fluid_load + here.contact_load == pytest.approx(load, rel=1e-9)
+    assert here.contact_load == pytest.approx(there.contact_load, rel=2e-3, abs=0.02)
+    assert here.washer_tilt_y == pytest.approx(there.washer_tilt_y, rel=1e-4)
+    assert here.washer_tilt_x == pytest.approx(there.washer_tilt_x, abs=1e-5 * tilt)
+    assert here.friction_coefficient == pytest.approx(there.friction_coefficient, rel=2e-4)
+
+
+def test_the_folds_are_those_of_the_load_curve(small):
+    for speed in (460.0, 545.0, 690.0):
+        place = {**PLACE, "speed": speed}
+        mine, theirs = small.folds(**place), load_curve(PARAMS, **place).folds
+        assert [f.kind for f in mine] == [f.kind for f in theirs] == ["film_lost", "film_regained"]
+        for a, b in zip(mine, theirs, strict=True):
+            assert a.load == pytest.approx(b.load, rel=5e-4)
+            assert a.film_ratio == pytest.approx(b.film_ratio, abs=0.02)
+
+
+def test_a_branch_is_kept_up_to_its_fold_and_no_further(found_first, small):
+    lost, regained = (f.load for f in small.folds(**PLACE))
+    last = solve_washer(PARAMS, load=lost - 0.5, **PLACE, fidelity="map")
+    assert (last.branch, last.distress) == ("film", False)
+    fallen = solve_washer(PARAMS, load=lost + 0.5, **PLACE, fidelity="map", start=last)
+    assert (fallen.branch, fallen.distress) == ("contact", True)
+    held = solve_washer(PARAMS, load=regained + 0.5, **PLACE, fidelity="map", start=fallen)
+    assert held.branch == "contact"
+    back = solve_washer(PARAMS, load=regained - 0.5, **PLACE, fidelity="map", start=held)
+    assert back.branch == "film"
+
+
+def test_small_steps_from_a_result_end_where_a_look_up_from_nothing_ends(found_first):
+    result = None
+    for load in np.linspace(120.0, 760.0, 40):
+        result = solve_washer(PARAMS, load=load, **PLACE, fidelity="map", start=result)
+        fresh = solve_washer(PARAMS, load=load, **PLACE, fidelity="map")
+        assert result.friction_torque == pytest.approx(fresh.friction_torque, rel=1e-11)
+
+
+def test_a_branch_that_is_not_there_is_refused(found_first, small):
+    lost, regained = (f.load for f in small.folds(**PLACE))
+    with pytest.raises(BranchError, match="film"):
+        solve_washer(PARAMS, load=1.02 * lost, **PLACE, fidelity="map", branch="film")
+    with pytest.raises(BranchError, match="contact"):
+        solve_washer(PARAMS, load=0.98 * regained, **PLACE, fidelity="map", branch="contact")
+
+
+def test_torque_is_odd_in_speed_and_takes_power(small):
+    loads = np.linspace(110.0, 890.0, 25)
+    ahead, back = (small.look_up(load=loads, **{**PLACE, "speed": s}) for s in (545.0, -545.0))
+    assert np.array_equal(ahead["friction_torque"], -back["friction_torque"])
+    for name in ("temperature", "film_ratio", "friction_power", "branch"):
+        assert np.array_equal(ahead[name], back[name])
+    assert np.all(ahead["friction_power"] > 0.0)
+
+
+def test_rows_and_single_look_ups_are_the_same(small):
+    loads = np.linspace(110.0, 890.0, 9)
+    rows = small.look_up(load=loads, **PLACE)["friction_torque"]
+    assert [small.torque(load, 545.0, 0.002, 297.15) for load in loads] == rows.tolist()
+
+
+def test_outside_its_box_a_map_says_nothing_and_the_field_answers(found_first, small):
+    for change in ({"load": 99.0}, {"load": 901.0}, {"speed": 399.0}, {"tilt": 0.0023},
+                   {"oil_temperature": 298.0}):  # fmt: skip
+        point = {"load": 300.0, **PLACE, **change}
+        assert not small.covers(**point)
+        assert math.isnan(small.torque(*point.values()))
+        assert small.look_up(**point)["branch"] == -1.0
+        result = solve_washer(PARAMS, **point, fidelity="map")
+        assert result.fidelity == "field" and result.status is Status.OK
+        assert result.friction_torque == solve_washer(PARAMS, **point).friction_torque
+
+
+def test_a_level_washer_has_no_map(found_first):
+    point = {"load": 300.0, "speed": 545.0, "tilt": 0.0}
+    assert solve_washer(PARAMS, **point, fidelity="map").fidelity == "field"
+
+
+def test_without_a_map_for_the_parameters_the_message_says_how_to_make_one(found_first):
+    with pytest.raises(ParameterError, match="thrustwasher map build"):
+        solve_washer(WasherParams(roughness=4.1e-7), load=300.0, **PLACE, fidelity="map")
+
+
+@pytest.mark.parametrize(("load", "speed", "tilt", "branch"), OFF_NODES)
+def test_derivatives_are_those_of_the_map(small, load, speed, tilt, branch):
+    wanted = {"film": 1.0, "contact": 3.0}[branch]
+    at, direction = np.array([load, speed, tilt, 297.15]), np.array([0.7, -0.4, 3e-6, 0.0])
+    w, numbers, found = np.zeros(N_MAP_WORK), np.zeros(N_ALL), np.zeros(2)
+
+    def outputs(x):
+        assert look_up(small.data, Point(*x), wanted, np.zeros(40), w, numbers, found) == 0
+        return numbers[:8].copy()
+
+    step = 1e-3
+    ahead, back = outputs(at + step * direction), outputs(at - step * direction)
+    outputs(at)
+    slope = np.zeros(8)
+    assert map_sens(at, direction, numbers, w, small.data, slope) == 0
+    assert slope == pytest.approx((ahead - back) / (2.0 * step), rel=2e-6, abs=1e-12)

@@ -1,0 +1,143 @@
+"""Map files: whole or refused; a build that was stopped goes on."""
+
+import zipfile
+
+import numpy as np
+import pytest
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.kernels import washer_map_layout as L
+from thrustwasher.maps.build import build_lines
+from thrustwasher.maps.journal import Journal
+from thrustwasher.maps.make import make_map
+from thrustwasher.maps.plan import plan_map
+from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.store.maps import CARD, NUMBERS, all_maps, pack, plain, read_map, unpack
+
+TINY = {"load": (300.0, 400.0), "speed": (540.0, 550.0), "tilt": (0.002, 0.002),
+        "oil_temperature": (297.15, 297.15)}  # fmt: skip
+
+
+def test_what_is_packed_is_read_again(map_path, tmp_path):
+    first = read_map(map_path)
+    copy = tmp_path / "copy.twm"
+    copy.write_bytes(pack(first.data, first.card))
+    second = read_map(copy)
+    assert np.array_equal(first.data, second.data) and first.card == second.card
+    assert copy.read_bytes() == map_path.read_bytes()  # the same bytes for the same map
+
+
+def test_the_card_says_what_the_map_is_worth(map_path):
+    card = read_map(map_path).card
+    assert card["held_out"]["torque"] < 1e-3 and card["held_out"]["fold_load"] < 1e-3
+    assert card["built_from"] == "field" and card["params"]["roughness"] == 5.15e-7
+
+
+def test_the_resource_of_an_fmu_holds_the_same_numbers(map_path):
+    file = read_map(map_path)
+    assert np.array_equal(unpack(plain(file)), file.data)
+
+
+def damaged(path, change):
+    with zipfile.ZipFile(path) as archive:
+        parts = {name: archive.read(name) for name in (NUMBERS, CARD)}
+    change(parts)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content)
+
+
+def cut(parts):
+    parts[NUMBERS] = parts[NUMBERS][:-4]
+
+
+def other_version(parts):
+    parts[NUMBERS] = np.float64(1.0).tobytes() + parts[NUMBERS][8:]
+
+
+def not_finite(parts):
+    parts[NUMBERS] = parts[NUMBERS][:-4] + np.float32(np.nan).tobytes()
+
+
+def wrong_shape(parts):
+    numbers = bytearray(parts[NUMBERS])
+    numbers[8 * (L.AXES + 2) : 8 * (L.AXES + 3)] = np.float64(7.0).tobytes()
+    parts[NUMBERS] = bytes(numbers)
+
+
+def no_card(parts):
+    parts[CARD] = b"[1, 2]"
+
+
+def empty(parts):
+    parts[NUMBERS] = b""
+
+
+@pytest.mark.parametrize("change", [cut, other_version, not_finite, wrong_shape, no_card, empty])
+def test_a_damaged_file_is_refused_by_name(map_path, tmp_path, change, monkeypatch):
+    path = tmp_path / "damaged.twm"
+    path.write_bytes(map_path.read_bytes())
+    damaged(path, change)
+    with pytest.raises(ParameterError, match=r"damaged\.twm"):
+        read_map(path)
+    monkeypatch.setenv("THRUSTWASHER_MAPS", str(tmp_path))
+    assert path not in [m.path for m in all_maps()]
+
+
+def test_what_is_no_archive_is_refused(tmp_path):
+    path = tmp_path / "text.twm"
+    for content in (b"", b"hello", b"PK\x03\x04 half"):
+        path.write_bytes(content)
+        with pytest.raises(ParameterError, match="thrustwasher map build"):
+            read_map(path)
+
+
+def test_a_build_that_was_stopped_goes_on_with_what_it_had(tmp_path, monkeypatch):
+    from thrustwasher.maps import build
+
+    plan, journal = plan_map(WasherParams(), TINY), tmp_path / "lines"
+    whole = build_lines(plan, fidelity="field")
+    solved = []
+
+    def solve(task):
+        solved.append(task.speed)
+        if len(solved) == 3:
+            raise KeyboardInterrupt
+        return real(task)
+
+    real = build.solve_line
+    monkeypatch.setattr(build, "solve_line", solve)
+    with pytest.raises(KeyboardInterrupt):
+        build_lines(plan, fidelity="field", journal=journal)
+    with journal.open("ab") as file:
+        file.write(b"half a line")
+    monkeypatch.setattr(build, "solve_line", real)
+    done = []
+    again = build_lines(plan, fidelity="field", journal=journal,
+                        progress=lambda k, _n: done.append(k))  # fmt: skip
+    assert np.array_equal(again, whole) and done == [3, 4] and not journal.exists()
+
+
+def test_lines_of_another_plan_are_not_taken(tmp_path):
+    path = tmp_path / "lines"
+    first = Journal(path, np.arange(float(L.DATA)))
+    first.add(np.ones(L.LINE))
+    assert len(Journal(path, np.arange(float(L.DATA))).lines) == 1
+    assert len(Journal(path, np.arange(1.0, L.DATA + 1.0)).lines) == 0
+
+
+@pytest.mark.parametrize(
+    ("box", "word"),
+    [
+        ({"load": (0.1, 10.0)}, "load"),
+        ({"load": (100.0, 101.0)}, "1.2 x low"),
+        ({"speed": (100.0, 5000.0)}, "speed"),
+        ({"tilt": (0.002, 0.001)}, "tilt"),
+        ({"torque": (1.0, 2.0)}, "torque"),
+        ({"oil_temperature": ("a", 1.0)}, "oil_temperature"),
+    ],
+)
+def test_a_wrong_box_is_refused_by_name(tmp_path, box, word):
+    with pytest.raises(ParameterError, match=word):
+        make_map(WasherParams(), tmp_path / "x.twm", box=box)
+    assert list(tmp_path.iterdir()) == []

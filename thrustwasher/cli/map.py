@@ -1,0 +1,132 @@
+"""``thrustwasher map``: build a washer's map, list the maps there are, check one."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from ..models.washer_params import SPEC
+from ..units import parse_quantity
+from . import _options, _output
+from ._progress import time_left
+
+HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
+DEEDS = ("build", "list", "check")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("deed", choices=DEEDS, help="what to do; build takes minutes")
+    parser.add_argument("file", nargs="?", help="check: the map file")
+    group = parser.add_argument_group("box of a map to build: LOW:HIGH, or one value to fix")
+    for signal in SPEC.inputs:
+        group.add_argument(
+            _options.option_name(signal.name), dest=signal.name, metavar="LOW:HIGH",
+            help=f"{signal.help} [{signal.unit}]",
+        )  # fmt: skip
+    _options.add_parameters(parser, SPEC)
+    parser.add_argument("--fidelity", default="fine", help="mesh to chart: fine (default), field")
+    parser.add_argument("--out", default="washer.twm", metavar="FILE", help="default washer.twm")
+    parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
+    parser.add_argument("--points", type=int, default=200, metavar="N",
+                        help="held-out points of the check, default 200")  # fmt: skip
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do what is asked."""
+    if arguments.parameters:
+        print(_options.parameter_table(SPEC))
+        return 0
+    if arguments.workers is not None and arguments.workers < 1:
+        raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
+    if not 2 <= arguments.points <= 100_000:
+        raise ParameterError(f"--points = {arguments.points}, allowed: 2 .. 100000")
+    return {"build": _build, "list": _list, "check": _check}[arguments.deed](arguments)
+
+
+def _build(arguments: argparse.Namespace) -> int:
+    if arguments.file:
+        raise ParameterError("build: the file to write is named with --out")
+    out = _output.check_file(arguments.out, "--out", (".twm",))
+    params = _options.read_parameters(arguments, SPEC)
+    box = {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
+           for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
+
+    from ..maps.make import make_map
+
+    card = make_map(params, Path(out), box=box, fidelity=arguments.fidelity,
+                    workers=arguments.workers, points=arguments.points,
+                    progress=time_left)  # fmt: skip
+    _show(card, str(out), arguments.json)
+    return 0
+
+
+def _span(text: str, name: str, unit: str) -> tuple[float, float]:
+    """Return LOW:HIGH, or one value twice, in SI."""
+    parts = text.split(":")
+    if len(parts) > 2 or not all(p.strip() for p in parts):
+        raise ParameterError(f"--{name} = {text!r}, allowed: LOW:HIGH or one value")
+    ends = [parse_quantity(p, unit, name) for p in parts]
+    return float(ends[0]), float(ends[-1])
+
+
+def _list(arguments: argparse.Namespace) -> int:
+    from ..store.maps import all_maps, map_folders
+
+    maps = all_maps()
+    if arguments.json:
+        _output.print_json({"maps": [{"file": str(m.path), **m.card} for m in maps]})
+        return 0
+    for m in maps:
+        _show(m.card, str(m.path), False)
+    if not maps:
+        folders = ", ".join(map(str, map_folders()))
+        print(f"no map in {folders}; make one with `thrustwasher map build`")
+    return 0
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    if not arguments.file:
+        raise ParameterError("check: the map file is wanted, `thrustwasher map check FILE`")
+    from ..maps.check import check_map
+    from ..models.washer_params import WasherParams
+    from ..store.maps import read_map
+
+    file = read_map(arguments.file)
+    try:
+        params = WasherParams(**file.card["params"])
+    except (KeyError, TypeError):
+        raise ParameterError(f"map = {arguments.file!r}: its card names no parameters") from None
+    verdict = check_map(
+        params, arguments.file, points=arguments.points, fidelity=str(file.card["built_from"]),
+        workers=arguments.workers or 1, progress=time_left("held-out points"),
+    )  # fmt: skip
+    card = {**file.card, "held_out": verdict.as_dict()}
+    _show(card, arguments.file, arguments.json)
+    return 0
+
+
+def _show(card: dict[str, Any], path: str, as_json: bool) -> None:
+    """Print a card, as one JSON object or in words."""
+    if as_json:
+        _output.print_json({"file": path, **card})
+        return
+    units = {s.name: s.unit for s in SPEC.inputs}
+    box = ", ".join(
+        f"{name} {ends[0]:g} .. {ends[1]:g} {units[name]}" for name, ends in card["box"].items()
+    )
+    print(f"{path}: {box}")
+    nodes = " x ".join(str(n) for n in card["nodes"])
+    print(f"  {nodes} curves on the {card['built_from']} mesh, {card['build_s']:g} s with "
+          f"{card['workers']} processes")  # fmt: skip
+    held = card["held_out"]
+    if held:
+        print(
+            f"  held out ({held['points']:g} points): torque within {held['torque']:.2g} (rms "
+            f"{held['torque_rms']:.2g}), {held['torque_near_fold']:.2g} within 3 % of a fold; film "
+            f"ratio {held['film_ratio']:.2g}; temperature {held['temperature']:.2g} K; loads of "
+            f"{held['folds']:g} folds {held['fold_load']:.2g}"
+        )

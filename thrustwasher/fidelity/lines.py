@@ -17,7 +17,7 @@ QUANTITIES = {
     ),
     "clutch": (
         Quantity("slip_energy", True),
-        Quantity("peak_temperature", False, unit="K"),
+        Quantity("end_temperature", False, unit="K"),
     ),
     "gearmesh": (
         Quantity("friction_torque", True, 1e-4),
@@ -56,11 +56,11 @@ def meshes(spec: ModelSpec, *, quick: bool = False) -> list[Rung]:
 
 
 def steps(*, quick: bool = False) -> list[Rung]:
-    """Return the clutch's default rung over the communication step."""
+    """Return the clutch's rungs with a moving film over the communication step."""
     return [
-        Rung("field over the step", f"field, {1e3 * h:g} ms", "step", f"{1e3 * h:g} ms",
-             partial(ClutchWay, "field", h), "steps")
-        for h in (STEPS[::2] if quick else STEPS)
+        Rung(f"{name} over the step", f"{name}, {1e3 * h:g} ms", "step", f"{1e3 * h:g} ms",
+             partial(ClutchWay, name, h), "steps")
+        for name in ("field", "fine") for h in (STEPS[::2] if quick else STEPS)
     ]  # fmt: skip
 
 

@@ -21,7 +21,7 @@ def survey(model: str, *, quick: bool = False, progress: Progress = print) -> di
     """Return cases, truths and samples of a model, as JSON types."""
     cases = cases_of(model, quick=quick)
     progress(f"{model}: reference values of {len(cases)} cases")
-    truths = truths_of(model, cases, quick=quick)
+    truths = truths_of(model, cases)
     quantities = QUANTITIES[model]
     samples = []
     for rung in lines_of(model, quick=quick):
@@ -45,16 +45,15 @@ def survey(model: str, *, quick: bool = False, progress: Progress = print) -> di
     return found
 
 
-def truths_of(model: str, cases: tuple[Case, ...], *, quick: bool) -> list[Truth]:
+def truths_of(model: str, cases: tuple[Case, ...]) -> list[Truth]:
     """Return the truth of every case."""
-    if model == "washer":
-        from .truth import washer_truth
+    from . import truth
 
-        return [washer_truth(case, quick=quick) for case in cases]
-    from .truth import clutch_truth, gearmesh_truth
-
-    truth = clutch_truth if model == "clutch" else gearmesh_truth
-    return [truth(case) for case in cases]
+    found = {
+        "washer": truth.washer_truth, "clutch": truth.clutch_truth,
+        "gearmesh": truth.gearmesh_truth,
+    }[model]  # fmt: skip
+    return [found(case) for case in cases]
 
 
 def whole_curve(*, quick: bool = False) -> dict[str, float]:

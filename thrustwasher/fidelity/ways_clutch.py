@@ -20,7 +20,14 @@ from .timing import empty_step
 
 RISE, FALL_FROM, END = 0.1, 0.2, 0.6  # s; as in an upshift
 LEFT = 0.05  # of the slip at the end
+LEAST_STEP = 1e-9  # s
 _empty_step = cache(empty_step)
+
+
+def corners(case: Case) -> tuple[list[float], list[float], list[float]]:
+    """Return the points [s] between which force [N] and slip [rad/s] are straight, and both."""
+    force, slip, _ = case.point
+    return [0.0, RISE, FALL_FROM, END], [0.0, force, force, force], [slip, slip, slip, LEFT * slip]
 
 
 class ClutchWay:
@@ -36,29 +43,27 @@ class ClutchWay:
 
     def _course(self, case: Case) -> Any:
         """Return force, slip and oil temperature at all points (n + 1, 3)."""
-        force, slip, oil = case.point
+        time, force, slip = corners(case)
         t = self._h * np.arange(self._n + 1)
-        fallen = np.clip((t - FALL_FROM) / (END - FALL_FROM), 0.0, 1.0)
-        return np.column_stack([
-            force * np.minimum(t / RISE, 1.0), slip * (1.0 - (1.0 - LEFT) * fallen),
-            np.full_like(t, oil),
-        ])  # fmt: skip
+        oil = np.full_like(t, case.point[2])
+        return np.column_stack([np.interp(t, time, force), np.interp(t, time, slip), oil])
 
-    def _engage(self, course: Any, step: Any) -> tuple[int, float]:
-        """Step over the course; return the worst status and the highest temperature."""
+    def _engage(self, course: Any, step: Any) -> int:
+        """Step over the course, the last step next to nothing; return the worst status."""
         par, work, out, iout, h = self._par, self._work, self._out, self._iout, self._h
-        state, status, peak = np.zeros(kernel.NSTATE), 0, 0.0
-        for k, point in enumerate(course):
+        state, status = np.zeros(kernel.NSTATE), 0
+        for k, point in enumerate(course[:-1]):
             status = max(status, step(par, point, state, work, out, iout, k * h, h))
-            peak = max(peak, out[O_TEMPERATURE])
-        return status, float(peak)
+        # A step first brings the pack to its own time, then looks ahead: here the end counts.
+        return max(status, int(step(par, course[-1], state, work, out, iout, END, LEAST_STEP)))
 
     def solve(self, case: Case) -> Answer:
         """Engage once."""
-        course = self._course(case)
-        # the last step looks ahead beyond the end: what is shown is the heat up to it
-        status, peak = self._engage(course[:-1], kernel.step)
-        values = {"slip_energy": float(self._out[O_ENERGY]), "peak_temperature": peak}
+        status = self._engage(self._course(case), kernel.step)
+        values = {
+            "slip_energy": float(self._out[O_ENERGY]),
+            "end_temperature": float(self._out[O_TEMPERATURE]),
+        }
         return Answer(values, Status(status), float(self._n))
 
     def warm(self, case: Case) -> Callable[[], object]:

@@ -16,6 +16,7 @@ RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)
 WORDS = {
     "friction_torque": "friction torque", "temperature": "mean temperature",
     "slip_energy": "slip energy", "lock_time": "lock time", "peak_temperature": "peak temperature",
+    "end_temperature": "interface temperature at the end",
 }  # fmt: skip
 Sampled = Mapping[str, Any]
 

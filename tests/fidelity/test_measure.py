@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from thrustwasher.errors import Status
+from thrustwasher.errors import ParameterError, Status
 from thrustwasher.fidelity.cases import Case, cases_of, digest
 from thrustwasher.fidelity.lines import lines_of
 from thrustwasher.fidelity.measure import (
@@ -81,6 +81,14 @@ def test_every_kind_of_failure_is_counted_and_none_ends_the_run():
     assert s.failures["three"] == "not finite, without a word"
     text = json.dumps(s.as_dict(), allow_nan=False)  # NaN of a cost that is not known: null
     assert json.loads(text)["call_median"] is None
+
+
+def test_a_way_that_cannot_be_set_up_fails_in_every_case():
+    def make():
+        raise ParameterError("there is no map")
+
+    s = measure(Rung("f", "l", "k", "1", make), CASES, TRUTHS, (RELATIVE,), repeats=3)
+    assert s.n_failed == 3 and s.failures["one"] == "ParameterError: there is no map"
 
 
 def test_an_answer_outside_the_verified_range_is_no_answer():

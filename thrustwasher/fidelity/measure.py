@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Protocol
 
-from ..errors import Status
+from ..errors import ParameterError, Status
 from .cases import Case, digest
 
 BATCH = 10e-3  # [s] least time between two looks at the clock
@@ -157,7 +157,10 @@ def measure(
 ) -> Sample:  # fmt: skip
     """Return error and cost of a rung over the cases."""
     began = time.perf_counter()
-    method = rung.make()
+    try:
+        method: Method = rung.make()
+    except ParameterError as missing:  # such as a map that was never built
+        method = _Nothing(str(missing))
     setup = time.perf_counter() - began
     found: dict[str, list[tuple[float, str]]] = {q.name: [] for q in quantities}
     failures: dict[str, str] = {}
@@ -180,6 +183,24 @@ def measure(
         timing.repeats, timing.first, setup, statistics.fmean(counts) if counts else math.nan,
         rung.count_of, len(cases), len(failures), failures, rung.is_rival,
     )  # fmt: skip
+
+
+class _Nothing:
+    """A way that could not be set up: it fails in every case, and says why."""
+
+    def __init__(self, why: str) -> None:
+        self._why = why
+
+    def solve(self, case: Case) -> Answer:
+        """Fail."""
+        raise ParameterError(self._why)
+
+    def warm(self, case: Case) -> Callable[[], object]:
+        """Do nothing: it is never asked."""
+        return lambda: None
+
+    def idle(self, case: Case) -> None:
+        """Do nothing: it is never asked."""
 
 
 def _ask(method: Method, case: Case) -> tuple[Answer | None, str]:

@@ -25,8 +25,8 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
     if not wants_table(spec, par):
         return
     known = _known(spec)
-    module, _, name = str(getattr(spec, "table", "")).partition(":")
-    table = getattr(import_module(f"..{module}", __package__), name)(params)
+    module, _, name = spec.table.partition(":")
+    table = getattr(import_module(f".{module}", __package__), name)(params)
     room = work[int(known["AT"]) :]
     if len(table) > len(room):
         raise ParameterError(

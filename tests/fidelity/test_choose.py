@@ -248,6 +248,8 @@ def test_among_limits_the_choice(ladder):
     assert choose("washer", BOX, tol=2.0, among=["field", "fine"]).fidelity == "field"
     with pytest.raises(ParameterError, match="among: 'finest', allowed"):
         choose("washer", BOX, tol=2.0, among=["finest"])
+    with pytest.raises(ParameterError, match="among: no rung"):
+        choose("washer", BOX, tol=2.0, among=[])
 
 
 def test_the_same_cards_give_the_same_answer_in_any_order(ladder):

@@ -48,7 +48,7 @@ def _washer(params: Any, fidelity: str, truth: Truth) -> Answer:
         "film_thickness": r.film_thickness, "film_ratio": r.film_ratio,
     }  # fmt: skip
     work = float(r.iterations * max(r.grid[0] * r.grid[1], 1))
-    if fidelity == "map" and r.status is Status.OUTSIDE_VERIFIED:
+    if fidelity == "map" and (r.fidelity != "map" or r.status is Status.OUTSIDE_VERIFIED):
         return Answer(values, OUTSIDE, work)
     if r.status is Status.NO_BRANCH and truth.beside_fold:
         return Answer(values, OTHER_SIDE, work)

@@ -109,6 +109,8 @@ def choose(
         if name not in rungs:
             raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, rungs))}")
     wanted = [name for name in rungs if among is None or name in among]
+    if not wanted:
+        raise ParameterError(f"among: no rung, allowed: some of {', '.join(map(repr, rungs))}")
     found, refused = candidates(spec, spec.params() if params is None else params, wanted)
     return decide(request, found, refused)
 

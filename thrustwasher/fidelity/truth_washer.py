@@ -1,26 +1,27 @@
-"""The washer's reference values: two fine meshes extrapolated, on each branch that exists."""
+"""The washer's reference values: fine meshes extrapolated, on each branch that exists."""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 from ..errors import SolveError
 from ..models.washer import WasherResult, solve_washer
 from ..models.washer_curve import load_curve
 from .prolong import solve_on
+from .reference_values import extrapolated
+from .reference_washer import GRIDS
 from .truths import MARGIN, QUANTITIES, Point, Source, Truth, Values
 
-# meshes of one family: all intervals are refined alike
-GRIDS = ((19, 64), (28, 96), (37, 128))
-GAIN = (36.0 / 27.0) ** 2 - 1.0  # of one refinement at second order
+N = [n_r - 1 for n_r, _ in GRIDS]  # intervals along the radius
 
 
 def washer_truths(params: Any, point: Point) -> list[Truth]:
     """Return the reference's answers at a point, one per branch that exists there.
 
-    From the default mesh the solution is carried to finer ones. The value is extrapolated from the
-    two finest with second order; the whole correction counts as its uncertainty. Points where a
-    mesh fails are left out.
+    They are those of ``reference_washer``; here they start from the default mesh, whose fields are
+    carried to finer ones, and what the rung `fine` says on the way is kept. Points where a mesh
+    fails are left out.
     """
     place: Any = {k: v for k, v in point.items() if k != "load"}
     try:
@@ -52,14 +53,10 @@ def _good(result: WasherResult, branch: str) -> bool:
 
 def _truth(point: Point, branch: str, chain: list[WasherResult], beside_fold: bool) -> Truth:
     """Return the extrapolated values and what the fine mesh said."""
-    values: Values = {}
-    uncertainty = {}
-    for name in QUANTITIES:
-        coarse, fine = (float(getattr(r, name)) for r in chain[-2:])
-        correction = (fine - coarse) / GAIN
-        values[name], uncertainty[name] = fine + correction, abs(correction)
-    fine_mesh: Values = {name: float(getattr(chain[1], name)) for name in QUANTITIES}
-    return Truth(point, branch, branch, values, uncertainty, beside_fold, {"fine": fine_mesh})
+    rows = [{name: float(getattr(r, name)) for name in QUANTITIES} for r in chain[1:]]
+    values, uncertainty = extrapolated(rows, (N[1] / N[0], N[2] / N[1]), 2.0)
+    by_rung: dict[str, Values] = {"fine": dict(rows[0])}
+    return Truth(point, branch, branch, dict(values), uncertainty, beside_fold, by_rung)
 
 
 SOURCE = Source(
@@ -67,5 +64,5 @@ SOURCE = Source(
     kernels=("washer_solve", "washer_outputs", "washer_model"),
     fidelity="reference",
     grid=GRIDS[-1],
-    routes=("28 x 96 and 37 x 128 nodes extrapolated with order 2", "the correction is the error"),
+    routes=tuple(f"{a} x {b} and {c} x {d} nodes, order 2" for (a, b), (c, d) in pairwise(GRIDS)),
 )

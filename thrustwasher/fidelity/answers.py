@@ -89,5 +89,8 @@ def holds(model: str, params: Any, fidelity: str) -> bool:
     """Tell if a rung can be used with a parameter set at all; a map may not be there."""
     if fidelity != "map":
         return True
-    store: Any = import_module("..store.maps", __package__)
+    try:
+        store: Any = import_module("..store.maps", __package__)
+    except ModuleNotFoundError:
+        return False
     return store.find_map(as_numbers(params)) is not None

@@ -6,6 +6,7 @@ pack that closes while its slip runs out, as in a shift, at points of time.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from .reference_clutch import RINGS, reference_clutch
 from .truths import QUANTITIES, Point, Source, Truth, Values
 
 PLACES = (O_TORQUE, O_TEMPERATURE, O_FILM, O_RATIO)  # of the quantities, among the outputs
-BEFORE, GAIN = ((b / a) ** 2 - 1.0 for a, b in zip(RINGS[:2], RINGS[1:], strict=True))
+BEFORE, GAIN = ((b / a) ** 2 - 1.0 for a, b in pairwise(RINGS))
 Array = NDArray[np.float64]
 
 

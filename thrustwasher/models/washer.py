@@ -21,6 +21,7 @@ from ._buffers import work_array
 from ._params import check_number
 from ._prepare import OFFLINE
 from .washer_constants import NO_MESH, SIMPLE, constants
+from .washer_error import with_card_error
 from .washer_params import SPEC, WasherParams
 from .washer_result import WasherResult
 
@@ -166,7 +167,7 @@ def solve_washer(
             f"tilt = {point[2]:g} rad, oil_temperature = {point[3]:g} K, grid {nodes[0]} x "
             f"{nodes[1]}; tried: warm start, Newton from a guess, descent in film thickness)"
         )
-    return result
+    return with_card_error(result) if grid is None else result
 
 
 def _solve(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .digests import KERNELS, closure
 
+_CLUTCH = ("clutch_steady", "clutch_point")
 _WASHER_FIELD = ("washer_solve", "washer_outputs", "washer_model")
 # model -> rung -> the modules that compute; what they import is found by itself
 ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
@@ -16,10 +17,10 @@ ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
         "fine": _WASHER_FIELD,
     },
     "clutch": {
-        "closed": ("clutch_steady",),
-        "boundary": ("clutch_steady",),
-        "stribeck": ("clutch_steady",),
-        "field": ("clutch_steady",),
+        "closed": _CLUTCH,
+        "boundary": _CLUTCH,
+        "stribeck": _CLUTCH,
+        "field": _CLUTCH,
         "fine": ("clutch_fine", "clutch_steady"),
     },
     "gearmesh": {

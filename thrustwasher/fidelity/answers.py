@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
 from ..errors import SolveError, Status
 from ..models._params import as_numbers
+from ..store.maps import find_map
 from .courses import engagement
 from .truths import Truth, Values
 
@@ -89,8 +89,4 @@ def holds(model: str, params: Any, fidelity: str) -> bool:
     """Tell if a rung can be used with a parameter set at all; a map may not be there."""
     if fidelity != "map":
         return True
-    try:
-        store: Any = import_module("..store.maps", __package__)
-    except ModuleNotFoundError:
-        return False
-    return store.find_map(as_numbers(params)) is not None
+    return find_map(as_numbers(params)) is not None

@@ -6,15 +6,14 @@ import os
 import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 from ..errors import ParameterError
 from ..models._params import as_numbers
 from ..store.card_parts import HeldOut, Origin, ParameterSet, Reference, Sources
 from ..store.cards import SCHEMA, Card
 from ..store.digests import changed_fields, kernel_digest, params_digest
+from ..store.maps import SHIPPED, find_map
 from ..store.sources import files_of
 from .answers import FAILED, OK, OUTSIDE, Answer
 from .costs import cost
@@ -60,14 +59,13 @@ def _built(case: Case, rung: str) -> list[str]:
     """Return the shipped data that a rung's answers come from, as names below ``data/``."""
     if rung != "map":
         return []
-    store: Any = import_module("..store.maps", __package__)
-    found = store.find_map(as_numbers(case.params))
-    if found is None or found.path.parent != store.SHIPPED.resolve():
+    found = find_map(as_numbers(case.params))
+    if found is None or found.path.parent != SHIPPED.resolve():
         raise ParameterError(
             f"map for the {case.name} parameters = {found and found.path}, allowed: one that is "
             "shipped; a card speaks for a file below thrustwasher/data"
         )
-    return [f"{store.SHIPPED.name}/{found.path.name}"]
+    return [f"{SHIPPED.name}/{found.path.name}"]
 
 
 def origin() -> Origin:

@@ -101,3 +101,10 @@ def test_old_versions_go_after_a_day(tmp_path):
         os.utime(folder, (now - age, now - age))
     _fmu_cache.prune(tmp_path)
     assert sorted(f.name for f in tmp_path.iterdir()) == ["0", "1", "2", "3"]
+
+
+def test_a_new_map_is_another_version(tmp_path, monkeypatch):
+    before = _fmu_cache.source_digest("python")
+    (tmp_path / "mine.twm").write_bytes(b"a map")
+    monkeypatch.setenv("THRUSTWASHER_MAPS", str(tmp_path))
+    assert _fmu_cache.source_digest("python") != before

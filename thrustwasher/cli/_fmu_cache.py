@@ -69,12 +69,15 @@ def source_digest(target: str) -> str:
     from ..fmu.build import source_folder
     from ..fmu.native_contents import this_machine, tools
     from ..fmu.registry import package_version
+    from ..store.maps import SUFFIX, map_folders
 
     made_for = f"{tools()} {this_machine()}" if target == "native" else "python"
     hashed = hashlib.sha256(f"{package_version()} {made_for}".encode())
     for root in (Path(__file__).parents[1], source_folder()):
         for path in sorted(p for p in root.rglob("*") if p.suffix in TEXTS):
             hashed.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
+    for path in (path for folder in map_folders() for path in sorted(folder.glob(f"*{SUFFIX}"))):
+        hashed.update(path.read_bytes())  # every map goes into the washer's FMU
     return hashed.hexdigest()[:16]
 
 

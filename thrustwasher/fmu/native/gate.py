@@ -11,7 +11,7 @@ from .symbols import undefined
 # stack probe of Windows for frames above 4 kB, which the linker puts into the library itself.
 ALLOWED = frozenset(
     """
-    exp log log10 log2 log1p expm1 exp2 pow erf erfc tanh sinh cosh sin cos tan sincos
+    exp log log10 log2 log1p expm1 exp2 pow erf erfc tanh sinh cosh asinh sin cos tan sincos
     __sincos_stret asin acos atan atan2 sqrt fmod floor ceil cbrt hypot
     memset memcpy memmove bzero __bzero
     ___chkstk_ms

@@ -153,7 +153,7 @@ def step(
         work[BY_MAP] = 0.0
         if wanted == ANY:
             wanted = state[MAP_BRANCH]
-    b = Bench(par, work[N_HEAD:MAP_WORK])
+    b = Bench(par, work[N_HEAD:])
     status = OK
     for _ in range(2):
         status = solve(b, pt, wanted, state, q, info, found, walk)
@@ -196,4 +196,4 @@ def sens(
         return map_sens(inp, seed, out, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)
     if pt.speed == 0.0 and seed[1] != 0.0 and out[CONTACT_LOAD] > 0.0:
         return SINGULAR
-    return differentiate(Bench(par, work[N_HEAD:MAP_WORK]), pt, change, q, out, dout)
+    return differentiate(Bench(par, work[N_HEAD:]), pt, change, q, out, dout)

@@ -151,6 +151,14 @@ def test_what_the_call_itself_costs_is_taken_off(clock):
     assert s.call_median == pytest.approx(2e-3) and s.call_min == pytest.approx(2e-3)
 
 
+def test_the_cost_is_that_of_the_median_case_and_the_slowest_is_named(clock):
+    way = Way()
+    way.warm = lambda case: clock.takes({"one": 1e-3, "two": 9e-3, "three": 2e-3}[case.name])
+    s = sampled(way)
+    assert s.call_median == pytest.approx(2e-3)
+    assert (s.slowest_case, s.slowest_call_s) == ("two", pytest.approx(9e-3))
+
+
 def test_something_is_left_of_every_call():
     assert 0.0 < Timing(1e-6, 0.0, 1e-6, 9, 0.0).less(1.0).median < 1e-6
 

@@ -18,7 +18,9 @@ def sample(label, cost, error, **other):
         "errors": {"friction_torque": errors}, "ref_uncertainty": {"friction_torque": 1e-5},
         "call_median": cost, "call_iqr": 0.05 * cost if cost else None, "call_min": cost,
         "repeats": 9, "first_call_s": cost, "setup_s": 1e-3, "count": 3.0, "count_of": "turns",
-        "n_cases": 2, "n_failed": 0, "failures": {}, "is_rival": False, **other,
+        "n_cases": 2, "n_failed": 0, "failures": {}, "is_rival": False,
+        "slowest_call_s": cost, "slowest_case": "b" if cost else None,
+        "build_s": 0.0, **other,
     }  # fmt: skip
 
 
@@ -52,7 +54,8 @@ def record(tmp_path_factory):
     samples = [
         sample("closed", 1e-6, 0.5),
         sample("field", 2e-4, 2e-3),
-        sample("map", 2e-6, 1e-4, setup_s=1.2, n_failed=1, failures={"b": "OUTSIDE_VERIFIED"}),
+        sample("map", 2e-6, 1e-4, setup_s=0.2, build_s=1.0, n_failed=1,
+               failures={"b": "OUTSIDE_VERIFIED"}),
         sample("exact", 1e-3, 0.0),
         sample("old", None, None, family="2006", n_failed=2, is_rival=True,
                failures={"a < b": "SINGULAR", "b": "SINGULAR"}),
@@ -98,7 +101,7 @@ def test_who_won_what_failed_and_what_set_up_costs_is_said(drawn):
     text = (drawn / "chart.md").read_text()
     assert "nothing beats closed (1 us, worst 50 %), map (2 us, worst 0.01 %)" in text
     assert "old fails in 2 of 2 cases (a < b: SINGULAR; b: SINGULAR)." in text
-    assert "| map | 1.2 s | 2 us | 6056 |" in text  # (1.2 - 0.001)/(2e-4 - 2e-6)
+    assert "| map | 1 s | 200 ms | 2 us | 6056 |" in text  # (1.2 - 0.001)/(2e-4 - 2e-6)
     assert "100 times less" in text and "30 minutes" in text
     assert "sources changed since" in text
 

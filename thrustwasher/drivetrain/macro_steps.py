@@ -199,5 +199,6 @@ def sample(
         "call_iqr": quartiles[2] - quartiles[0], "call_min": min(wall) if wall else None,
         "repeats": len(wall), "first_call_s": None, "setup_s": 0.0, "count": float(count),
         "count_of": "steps of all parts", "n_cases": 1, "n_failed": len(failures),
-        "failures": failures, "is_rival": False,
+        "failures": failures, "is_rival": False, "slowest_call_s": None, "slowest_case": None,
+        "build_s": 0.0,
     }  # fmt: skip

@@ -114,7 +114,7 @@ class Sample:
     cases: str  # digest of the list
     errors: dict[str, dict[str, Any]]  # quantity -> worst, rms, case (that was worst)
     ref_uncertainty: dict[str, float]
-    call_median: float
+    call_median: float  # [s] the median of the cases' medians, as are the next two
     call_iqr: float
     call_min: float
     repeats: int
@@ -126,6 +126,9 @@ class Sample:
     n_failed: int
     failures: dict[str, str] = field(default_factory=dict)  # case -> what it said
     is_rival: bool = False
+    slowest_call_s: float = math.nan
+    slowest_case: str | None = None
+    build_s: float = 0.0  # spent once for all, before the set-up: a map
 
     def as_dict(self) -> dict[str, Any]:
         """Return the sample as JSON types; no number is NaN or infinite."""
@@ -175,13 +178,17 @@ def measure(
         for q in quantities:
             error = q.error(answer.values[q.name], truth.values[q.name])
             found[q.name].append((error, case.name))
-    timing = _time(method, solved, repeats)
+    timings = _time(method, solved, repeats)
+    timing = _typical(list(timings.values()))
+    slowest = max(timings, key=lambda name: timings[name].median, default=None)
     errors = {name: _errors(pairs) for name, pairs in found.items()}
     return Sample(
         rung.family, rung.label, rung.knob, rung.value, digest(tuple(cases)), errors,
         uncertainty_of(truths, quantities), timing.median, timing.iqr, timing.least,
         timing.repeats, timing.first, setup, statistics.fmean(counts) if counts else math.nan,
         rung.count_of, len(cases), len(failures), failures, rung.is_rival,
+        timings[slowest].median if slowest else math.nan, slowest,
+        float(getattr(method, "build_s", 0.0)),
     )  # fmt: skip
 
 
@@ -216,28 +223,28 @@ def _ask(method: Method, case: Case) -> tuple[Answer | None, str]:
     return answer, ""
 
 
-def _time(method: Method, cases: Sequence[Case], repeats: int) -> Timing:
-    """Return the cost of a call, the mean over the cases that have an answer.
+def _time(method: Method, cases: Sequence[Case], repeats: int) -> dict[str, Timing]:
+    """Return the cost of a warm call of each case.
 
     It is that of the compiled code, as in an FMU: what the call from Python adds is taken off.
     """
-    calls = [method.warm(case) for case in cases]
-    if not calls:
+    found = {}
+    for case in cases:
+        timing = time_call(method.warm(case), repeats=repeats)
+        idle = method.idle(case)
+        if idle is not None:
+            timing = timing.less(time_call(idle, repeats=3).least)
+        found[case.name] = timing
+    return found
+
+
+def _typical(timings: Sequence[Timing]) -> Timing:
+    """Return the medians over the cases."""
+    if not timings:
         return Timing(math.nan, math.nan, math.nan, 0, math.nan)
-
-    timing = time_call(_through(calls), repeats=repeats, calls=len(calls))
-    idle = [call for case in cases if (call := method.idle(case))]
-    if len(idle) < len(calls):
-        return timing
-    return timing.less(time_call(_through(idle), repeats=repeats, calls=len(idle)).least)
-
-
-def _through(calls: Sequence[Callable[[], object]]) -> Callable[[], None]:
-    def through() -> None:
-        for call in calls:
-            call()
-
-    return through
+    parts = ([getattr(t, name) for t in timings] for name in ("median", "iqr", "least", "first"))
+    median, iqr, least, first = (statistics.median(values) for values in parts)
+    return Timing(median, iqr, least, timings[0].repeats, first)
 
 
 def _errors(pairs: list[tuple[float, str]]) -> dict[str, Any]:

@@ -50,8 +50,13 @@ class KernelWay:
             self._n_state = size_of_state(*grid)
             self._n_work = kernel.N_HEAD + size_of_work(*grid)
         self._work = np.zeros(self._n_work)
+        self.build_s = 0.0
         if grid is None:
             fill_table(spec, spec.params(), self._par, self._work)
+            if fidelity == "map":
+                from ..models.washer_map import map_for
+
+                self.build_s = float(map_for(spec.params()).card["build_s"])
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._real = [s.name for s in spec.outputs if s.kind == "real"]
         places = [(t, *where.split(":")) for t, where in spec.counts[:1]]

@@ -104,9 +104,9 @@ def _model_section(
         ],
         tables=[
             Table(title="All samples (! : spread above 10 %)", heads=heads, rows=rows,
-                  numbers=(1, 2, 3, 4)),
+                  numbers=(1, 2, 3, 5)),
             Table(title="What set-up is worth", heads=even_heads, rows=even_rows,
-                  numbers=(1, 2, 3)),
+                  numbers=(1, 2, 3, 4)),
             Table(title="Cases", heads=("case", "inputs"), rows=cases, folded=True),
         ],
     )  # fmt: skip

@@ -42,7 +42,7 @@ def _short(value: float) -> str:
 def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
     """Return heads and rows of the table of all samples."""
     quantities = survey["quantities"]
-    heads = ["way", "warm call", "spread", "least", "set-up"]
+    heads = ["way", "warm call", "spread", "least", "slowest case", "set-up"]
     for q in quantities:
         heads += [f"{q['name']} worst", "rms"]
     rows = []
@@ -51,7 +51,7 @@ def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
         row = [
             s["label"], seconds(s["call_median"]),
             "-" if spread is None else f"{100 * spread:.0f} %" + (" !" if spread > 0.1 else ""),
-            seconds(s["call_min"]), seconds(s["setup_s"]),
+            seconds(s["call_min"]), _slowest(s), seconds(s["setup_s"]),
         ]  # fmt: skip
         for q in quantities:
             errors = s["errors"][q["name"]]
@@ -61,18 +61,33 @@ def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
     return [*heads, "failed"], rows
 
 
+def _slowest(s: Sampled) -> str:
+    if s["slowest_call_s"] is None:
+        return "-"
+    return f"{seconds(s['slowest_call_s'])} ({s['slowest_case']})"
+
+
 def break_even_rows(survey: Mapping[str, Any], basis: str) -> tuple[Row, list[Row]]:
     """Return from how many calls on a way that is set up at some cost is cheaper than ``basis``."""
     base = next((s for s in survey["samples"] if s["label"] == basis), None)
-    heads = ["way", "set-up", "warm call", f"calls from which it is cheaper than {basis}"]
+    heads = [
+        "way",
+        "built once",
+        "set-up",
+        "warm call",
+        f"calls from which it is cheaper than {basis}",
+    ]
     rows = []
     for s in survey["samples"]:
         if base is None or s["is_rival"] or not s["call_median"] or s is base:
             continue
         gain = base["call_median"] - s["call_median"]
-        extra = s["setup_s"] - base["setup_s"]
+        extra = s["build_s"] + s["setup_s"] - base["setup_s"]
         calls = "never" if gain <= 0.0 else f"{max(0.0, extra) / gain:.0f}"
-        rows.append([s["label"], seconds(s["setup_s"]), seconds(s["call_median"]), calls])
+        built = seconds(s["build_s"]) if s["build_s"] else "-"
+        rows.append([
+            s["label"], built, seconds(s["setup_s"]), seconds(s["call_median"]), calls
+        ])  # fmt: skip
     return heads, rows
 
 

@@ -173,9 +173,8 @@ def solve_clutch(
         raise ParameterError(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
         )
-    ratio, film, turns = clutch_friction.settled_ratio(
-        par, load, start.film_ratio if start else 1.0
-    )
+    guess = start.film_ratio if start else 1.0
+    ratio, film, turns = clutch_friction.settled_ratio(par, load, guess)
     s = steady_pack(par, load, speed, oil, ratio)
     contact, viscous = s.contact, s.viscous
     status = max(Status(film), Status(s.status))

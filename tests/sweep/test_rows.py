@@ -13,7 +13,9 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
+from thrustwasher.sweep.plan import load_spec
 
+SPEC = load_spec("washer")
 UP = "200:1200:200"
 
 
@@ -89,6 +91,23 @@ def test_points_stand_alone_unless_they_share_a_line():
         "washer", points={"load": loads, "speed": speeds, "line": [7, 7, 7]}, workers=1
     )
     assert walked["distress"].tolist() == [False, True, True]
+
+
+def test_rows_through_the_map_are_single_look_ups():
+    over = {"load": "100:900:200", "speed": [400.0, 700.0]}
+    table = run_sweep("washer", over, fidelity="map", workers=1)
+    for i in range(len(table)):
+        point = {s.name: table[s.name][i] for s in SPEC.inputs}
+        branch = "contact" if table["distress"][i] else "film"
+        one = solve_washer(WasherParams(), **point, fidelity="map", branch=branch)
+        assert one.fidelity == "map"
+        assert table["friction_torque"][i] == pytest.approx(one.friction_torque, rel=1e-9)
+        assert table["temperature"][i] == pytest.approx(one.temperature, rel=1e-9)
+
+
+def test_a_map_that_was_never_built_is_an_error_not_a_table_of_failures():
+    with pytest.raises(ParameterError, match="map"):
+        run_sweep("washer", {"load": [100.0]}, at={"roughness": 4.321e-7}, fidelity="map")
 
 
 def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypatch):

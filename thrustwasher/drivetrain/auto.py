@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .budget import seconds_of, step_seconds, strides
+from .budget import FAR, seconds_of, step_seconds, strides
 from .guard_plan import Plan
 from .result import ShiftResult
 from .scene import Scene
@@ -55,14 +55,14 @@ def run_auto(
         parts[found.part] = replace(parts[found.part], fidelity=found.rung, tolerance=None)
     scene = replace(scene, parts=parts)
     instances = pool.all_of(scene)
-    plans = _plans(scene, chosen, pool) if guard else {}
+    plans = _plans(scene, chosen, pool, steps) if guard else {}
     result = run_shift(
         scene, instances, guards=plans, progress=progress, compiled=compiled
     )  # fmt: skip
     return replace(result, selection=selection)
 
 
-def _plans(scene: Scene, chosen: list[Selected], pool: Pool) -> dict[str, Plan]:
+def _plans(scene: Scene, chosen: list[Selected], pool: Pool, steps: int) -> dict[str, Plan]:
     """Return a guard's plan for every part without a past that was chosen and has a rung above."""
     guarded = [c for c in chosen if c.verified and c.above and c.model in WITHOUT_PAST]
     step = step_seconds({n: (p.spec, p.fidelity) for n, p in scene.parts.items()})
@@ -77,6 +77,8 @@ def _plans(scene: Scene, chosen: list[Selected], pool: Pool) -> dict[str, Plan]:
             scales=c.scales,
             tolerance=c.tolerance,
             box=c.box,
-            every=strides(step, base, above, len(guarded)),
+            every=strides(
+                step, base, above, steps=steps, far=FAR.get(c.model, 1.0), guards=len(guarded)
+            ),
         )
     return plans

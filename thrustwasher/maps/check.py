@@ -118,16 +118,15 @@ def _compare(task: _Task) -> tuple[Held | None, list[float], int]:
     load, speed, tilt, oil = task.point
     place: dict[str, Any] = {"speed": speed, "tilt": tilt, "oil_temperature": oil}
     washer = WasherMap(task.params, task.path)
-    here = washer.look_up(load=load, **place, branch=task.branch)
+    mine = [f.load for f in washer.folds(**place)]
+    branch = task.branch if mine else None  # elsewhere the name only follows the film ratio
+    here = washer.look_up(load=load, **place, branch=branch)
     try:
-        there = solve_washer(
-            task.params, load=load, **place, fidelity=task.fidelity, branch=task.branch
-        )
+        there = solve_washer(task.params, load=load, **place, fidelity=task.fidelity, branch=branch)
     except BranchError:
         there = None
     except SolveError:
         return None, [], 1
-    mine = [f.load for f in washer.folds(**place)]
     differences: list[float] = []
     near = any(abs(load / f - 1.0) < NEAR for f in mine)
     if len(mine) == 2 and mine[1] < 0.97 * mine[0]:

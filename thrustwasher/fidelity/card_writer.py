@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Sequence
@@ -10,19 +11,20 @@ from pathlib import Path
 
 from ..errors import ParameterError
 from ..models._params import as_numbers
-from ..store.card_parts import HeldOut, Origin, ParameterSet, Reference, Sources
+from ..store.card_parts import Cost, HeldOut, Origin, ParameterSet, Reference, Sources
 from ..store.cards import SCHEMA, Card
 from ..store.digests import changed_fields, kernel_digest, params_digest
-from ..store.maps import SHIPPED, find_map
+from ..store.maps import SHIPPED, MapFile, find_map
 from ..store.sources import files_of
 from .answers import FAILED, OK, OUTSIDE, Answer
-from .costs import cost
 from .envelopes import SAMPLING, Case
 from .measure import Timing
 from .references import source_of
 from .tables import fold_part, tables, uncertainties
 from .timing import this_machine, this_place
 from .truths import Truth
+
+MESHED = ("coarse", "field", "fine")
 
 
 def make_card(
@@ -35,8 +37,9 @@ def make_card(
     verdicts = [a.verdict for a in away]
     known = [t for t, _ in pairs]
     source = source_of(case.spec.key)
-    work = [a.work for a in away if a.verdict == OK and a.work]
-    files = [*files_of(case.spec.key, rung), *_built(case, rung)]
+    built = _built(case, rung)
+    files = list(files_of(case.spec.key, rung))
+    files += [f"{SHIPPED.name}/{built.path.name}"] if built else []
     return Card(
         schema=SCHEMA, model=case.spec.key, fidelity=rung, chart=chart,
         branch=known[0].branch if known else None, fold=fold_part(pairs),
@@ -47,25 +50,37 @@ def make_card(
         held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
                          case.seed, SAMPLING),
         reference=Reference(source.fidelity, source.grid, source.routes, uncertainties(known)),
-        cost=cost(timing, first, sum(work) / len(work) if work else 1.0, rung in MESHED),
+        cost=_cost(rung, timing, first, away, built),
         machine=this_machine(),
     )  # fmt: skip
 
 
-MESHED = ("coarse", "field", "fine")
-
-
-def _built(case: Case, rung: str) -> list[str]:
-    """Return the shipped data that a rung's answers come from, as names below ``data/``."""
+def _built(case: Case, rung: str) -> MapFile | None:
+    """Return the shipped file that a rung's answers come from; None for rungs that need none."""
     if rung != "map":
-        return []
+        return None
     found = find_map(as_numbers(case.params))
     if found is None or found.path.parent != SHIPPED.resolve():
         raise ParameterError(
             f"map for the {case.name} parameters = {found and found.path}, allowed: one that is "
             "shipped; a card speaks for a file below thrustwasher/data"
         )
-    return [f"{SHIPPED.name}/{found.path.name}"]
+    return found
+
+
+def _cost(
+    rung: str, timing: Timing, first: float, answers: Sequence[Answer], built: MapFile | None
+) -> Cost:
+    """Return a card's cost part; times have three digits."""
+    done = [a.work for a in answers if a.verdict == OK]
+    what = "iterations x mesh nodes, from nothing" if rung in MESHED else "iterations"
+    median, iqr, least, once = (
+        float(f"{t:.3g}") for t in (timing.median, timing.iqr, timing.least, first)
+    )
+    build = float(built.card.get("build_s") or 0.0) if built else 0.0
+    solves = math.prod(built.card.get("nodes") or (0,)) if built else 0
+    count = float(f"{sum(done) / max(len(done), 1):.4g}")
+    return Cost(median, iqr, least, once, build, solves, count, what)
 
 
 def origin() -> Origin:

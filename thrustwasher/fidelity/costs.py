@@ -18,7 +18,7 @@ import numpy as np
 
 from ..models._prepare import filled
 from ..models._spec import ModelSpec
-from ..store.card_parts import Cost
+from ..models._tables import fill_table
 from .measure import Timing, time_call
 from .timing import empty_step
 from .truths import Truth
@@ -56,6 +56,7 @@ def stepper(
     inp = np.array([*first, *([branch] if branch is not None else [])])
     state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
     out, iout = np.zeros(kernel.NOUT), np.zeros(max(kernel.NIOUT, 1), np.int32)
+    fill_table(spec, params, par, work)
     walk = itertools.cycle(_walk(first[0], first[1], branch == BRANCHES["film"]))
 
     def call() -> int:
@@ -104,15 +105,3 @@ def first_call(model: str, fidelity: str, point: dict[str, float]) -> float:
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600
     )
     return float(done.stdout.split()[-1])
-
-
-def cost(timing: Timing, first: float, work: float, has_mesh: bool, build: float = 0.0,
-         solves: int = 0) -> Cost:  # fmt: skip
-    """Return a card's cost part; times have three digits."""
-    what = "iterations x mesh nodes, from nothing" if has_mesh else "iterations"
-    median, iqr, least, once = (float(f"{t:.3g}") for t in (*_parts(timing), first))
-    return Cost(median, iqr, least, once, build, solves, float(f"{work:.4g}"), what)
-
-
-def _parts(timing: Timing) -> tuple[float, float, float]:
-    return timing.median, timing.iqr, timing.least

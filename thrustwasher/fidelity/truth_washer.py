@@ -16,11 +16,16 @@ from .truths import MARGIN, QUANTITIES, Point, Source, Truth, Values
 N = [n_r - 1 for n_r, _ in GRIDS]  # intervals along the radius
 
 
+def mesh_name(grid: tuple[int, int]) -> str:
+    """Return a mesh as it is written: "19x64"."""
+    return f"{grid[0]}x{grid[1]}"
+
+
 def washer_truths(params: Any, point: Point) -> list[Truth]:
     """Return the reference's answers at a point, one per branch that exists there.
 
     They are those of ``reference_washer``; here they start from the default mesh, whose fields are
-    carried to finer ones, and what the rung `fine` says on the way is kept. Points where a mesh
+    carried to finer ones, and what the first of them says is kept. Points where a mesh
     fails are left out.
     """
     place: Any = {k: v for k, v in point.items() if k != "load"}
@@ -55,8 +60,8 @@ def _truth(point: Point, branch: str, chain: list[WasherResult], beside_fold: bo
     """Return the extrapolated values and what the fine mesh said."""
     rows = [{name: float(getattr(r, name)) for name in QUANTITIES} for r in chain[1:]]
     values, uncertainty = extrapolated(rows, (N[1] / N[0], N[2] / N[1]), 2.0)
-    by_rung: dict[str, Values] = {"fine": dict(rows[0])}
-    return Truth(point, branch, branch, dict(values), uncertainty, beside_fold, by_rung)
+    by_mesh: dict[str, Values] = {mesh_name(GRIDS[0]): dict(rows[0])}
+    return Truth(point, branch, branch, dict(values), uncertainty, beside_fold, by_mesh)
 
 
 SOURCE = Source(

@@ -24,7 +24,7 @@ class Truth:
     """What the reference says at a point on one chart.
 
     ``values`` holds the quantities, numbers or a course over time; ``uncertainty`` is the
-    reference's own for each, in the same unit. ``by_rung`` holds what rungs said on the way.
+    reference's own for each, in the same unit. ``by_mesh`` holds what a mesh said on the way.
     """
 
     point: Point
@@ -33,7 +33,7 @@ class Truth:
     values: Values
     uncertainty: dict[str, float]
     beside_fold: bool = False
-    by_rung: dict[str, Values] = field(default_factory=dict)
+    by_mesh: dict[str, Values] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

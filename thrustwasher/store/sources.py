@@ -11,7 +11,7 @@ ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
     "washer": {
         "closed": ("washer_closed",),
         "stribeck": ("washer_stribeck",),
-        "map": ("washer_map",),
+        "map": ("washer_map_step",),
         "coarse": _WASHER_FIELD,
         "field": _WASHER_FIELD,
         "fine": _WASHER_FIELD,

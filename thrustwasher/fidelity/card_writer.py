@@ -73,14 +73,14 @@ def _cost(
 ) -> Cost:
     """Return a card's cost part; times have three digits."""
     done = [a.work for a in answers if a.verdict == OK]
+    count = float(f"{sum(done) / max(len(done), 1):.4g}") or None  # None: nothing is iterated
     what = "iterations x mesh nodes, from nothing" if rung in MESHED else "iterations"
     median, iqr, least, once = (
         float(f"{t:.3g}") for t in (timing.median, timing.iqr, timing.least, first)
     )
     build = float(built.card.get("build_s") or 0.0) if built else 0.0
     solves = math.prod(built.card.get("nodes") or (0,)) if built else 0
-    count = float(f"{sum(done) / max(len(done), 1):.4g}")
-    return Cost(median, iqr, least, once, build, solves, count, what)
+    return Cost(median, iqr, least, once, build, solves, count, what if count else None)
 
 
 def origin() -> Origin:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..errors import SolveError, Status
 from ..kernels.clutch_constants import derive_rings
-from ..kernels.clutch_layout import O_FILM, O_RATIO, O_TEMPERATURE, O_TORQUE
+from ..kernels.clutch_layout import HOT_LIMIT, O_FILM, O_RATIO, O_TEMPERATURE, O_TORQUE
 from ..models.clutch import prepare
 from ..models.clutch_course import Rings
 from .courses import course
@@ -30,13 +30,15 @@ def clutch_truths(params: Any, point: Point) -> list[Truth]:
     """Return the reference's answers at a point, settled and in an engagement.
 
     Both are extrapolated over the number of rings. A chart on which the equations have no solution
-    is left out.
+    is left out, and slip that would burn the lining before it settles.
     """
     found = []
     for chart, ask in (("settled", _settled), ("engagement", _engagement)):
         try:
             values, uncertainty = ask(params, point)
         except SolveError:
+            continue
+        if chart == "settled" and float(np.max(values["temperature"])) > HOT_LIMIT:
             continue
         found.append(Truth(point, chart, None, values, uncertainty))
     return found
@@ -78,5 +80,5 @@ def _course(params: Any, n: int, point: Point) -> Array:
 
 SOURCE = Source(
     clutch_truths, ("clutch_fine", "clutch_steady", "clutch_constants"), "reference", None,
-    (f"{', '.join(map(str, RINGS))} rings, order 2",),
+    (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {HOT_LIMIT:g} K",),
 )  # fmt: skip

@@ -78,7 +78,11 @@ def _is_wanted(case: Case, rung: str, only: str | None) -> bool:
 
 def rung_cards(case: Case, rung: str, known: list[Truth]) -> Iterator[Card]:
     """Yield the cards of a rung, one per chart, from the reference values."""
-    once = first_call(case.spec.key, rung, case.point(0))
+    point = case.point(0)
+    answer(
+        case.spec.key, case.params, rung, Truth(point, None, None, {}, {})
+    )  # compiled from now on
+    once = first_call(case.spec.key, rung)
     for chart in dict.fromkeys(t.chart for t in known):
         mine = [t for t in known if t.chart == chart]
         pairs = [(t, answer(case.spec.key, case.params, rung, t)) for t in mine]

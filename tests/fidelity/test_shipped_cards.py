@@ -65,6 +65,8 @@ def test_points_solved_again_err_as_their_card_says(case):
         cards = {c.chart: c for c in fresh_cards(case.spec.key, rung, case.params)}
         for t in (t for t in known if t.chart in cards and not t.beside_fold):
             card, found = cards[t.chart], answer(case.spec.key, case.params, rung, t)
+            if not card.covers(t.point):
+                continue  # a map of a part of the box
             for q, e in card.errors.items() if found.verdict == OK else ():
                 error = deviation(q, t, found.values[q], e.floor or 0.0)
                 assert error <= 1.02 * card.error_of(q, t.point) + 1e-12, (card.name, q, t.point)

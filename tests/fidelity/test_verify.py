@@ -62,6 +62,18 @@ def test_the_parts_of_the_planetary_scene_have_cards_of_their_own(model, part):
     assert params_digest(params) == params_digest(cases(model)[1].params)
 
 
+def test_a_part_of_the_box_has_the_points_that_lie_in_it():
+    case = DEFAULT["washer"]
+    part = case.within({**{n: (a.min, a.max) for n, a in case.envelope.items()},
+                        "tilt": (1.5e-3, 9e-3)})  # fmt: skip
+    ks = part.numbers(40)
+    assert len(ks) == 40 and ks == sorted(ks) and ks[-1] > 40
+    assert all(part.point(k)["tilt"] >= 1.5e-3 and part.point(k) == case.point(k) for k in ks)
+    assert (part.verified["tilt"].min, part.verified["tilt"].max) == (1.5e-3, 3e-3)
+    whole = {n: (a.min * (1.0 + 1e-12), a.max) for n, a in case.envelope.items()}
+    assert case.within(whole) is case and case.numbers(3) == [0, 1, 2]
+
+
 # errors and tables
 
 

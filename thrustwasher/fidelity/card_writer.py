@@ -32,7 +32,7 @@ def make_card(
     timing: Timing, first: float,
 ) -> Card:  # fmt: skip
     """Return the card of one chart from reference values and a rung's answers to them."""
-    errors, cells = tables(pairs, case.envelope)
+    errors, cells = tables(pairs, case.verified)
     away = [a for t, a in pairs if not t.beside_fold]
     verdicts = [a.verdict for a in away]
     known = [t for t, _ in pairs]
@@ -46,7 +46,7 @@ def make_card(
         params=ParameterSet(case.name, params_digest(case.params), changed_fields(case.params)),
         kernels=Sources(tuple(files), kernel_digest(files)),
         package=origin(), made=datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
-        envelope=dict(case.envelope), errors=errors, cells=cells,
+        envelope=dict(case.verified), errors=errors, cells=cells,
         held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
                          case.seed, SAMPLING),
         reference=Reference(source.fidelity, source.grid, source.routes, uncertainties(known)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
@@ -18,13 +19,17 @@ from .models import spec_of
 
 SCENES = Path(__file__).parents[1] / "drivetrain" / "scenes"
 SEED = 7
-POINTS = 500
+POINTS, POINTS_IN_PART = 500, 350
+MOST = 50  # points drawn for each one wanted in a part of a box
 SAMPLING = "uniform in the scaled box"
 
 
 @dataclass(frozen=True)
 class Case:
-    """One parameter set of a model with the box that is verified."""
+    """One parameter set of a model with the box that points are drawn from.
+
+    ``part`` is the part of the box that is verified, where that is less: a map may cover no more.
+    """
 
     spec: ModelSpec
     name: str  # of the parameter set: "default" or the scene it comes from
@@ -32,6 +37,37 @@ class Case:
     envelope: dict[str, Axis]
     n: int
     seed: int = SEED
+    part: dict[str, Axis] | None = None
+
+    @property
+    def verified(self) -> dict[str, Axis]:
+        """The box that a card of this case speaks for."""
+        return self.part or self.envelope
+
+    def numbers(self, n: int) -> list[int]:
+        """Return the numbers of the first ``n`` points that lie in the verified box."""
+        if self.part is None:
+            return list(range(n))
+        found: list[int] = []
+        for k in range(MOST * n):
+            point = self.point(k)
+            if all(a.min <= point[name] <= a.max for name, a in self.part.items()):
+                found.append(k)
+            if len(found) == n:
+                break
+        return found
+
+    def within(self, box: Mapping[str, tuple[float, float]]) -> Case:
+        """Return the case for the part of its box that lies in another one."""
+        part = {}
+        for name, a in self.envelope.items():
+            low, high = box[name]
+            part[name] = Axis(
+                a.min if low <= a.min * (1.0 + 1e-9) else low,
+                a.max if high >= a.max * (1.0 - 1e-9) else high,
+                a.unit, a.scale,
+            )  # fmt: skip
+        return self if part == self.envelope else replace(self, part=part)
 
     def point(self, k: int) -> dict[str, float]:
         """Return held-out point number ``k``: its own random numbers, whatever ``n`` is."""

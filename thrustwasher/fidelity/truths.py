@@ -50,7 +50,7 @@ class Source:
 def truths(
     case: Case, source: Source, n: int, progress: Callable[[int], None] = lambda k: None
 ) -> list[Truth]:
-    """Return the reference's answers at the first ``n`` points; what is kept is not solved again.
+    """Return the reference's answers at ``n`` points; what is kept is not solved again.
 
     A run that is stopped goes on where it was: each point is written when it is done.
     """
@@ -59,14 +59,14 @@ def truths(
     known = dict(_read(path))
     found: list[Truth] = []
     with path.open("a", encoding="utf-8") as file:
-        for k in range(n):
+        for done, k in enumerate(case.numbers(n), 1):
             if k not in known:
                 known[k] = source.solve(case.params, case.point(k))
                 record = {"k": k, "truths": [asdict(t) for t in known[k]]}
                 file.write("\n" + json.dumps(record))  # first: the line before may be cut off
                 file.flush()
             found += known[k]
-            progress(k + 1)
+            progress(done)
     return found
 
 

@@ -20,7 +20,7 @@ from ..store.digests import DATA
 from .answers import answer, holds
 from .card_writer import make_card, write_card
 from .costs import call_cost, first_call
-from .envelopes import Case, cases
+from .envelopes import POINTS_IN_PART, Case, cases
 from .models import HOMES
 from .references import source_of
 from .truths import Truth, truths
@@ -58,7 +58,12 @@ def _case(case: Case, only: str | None, n: int, out: Path) -> int:
     failed = 0
     for rung in wanted:
         try:
-            for card in rung_cards(case, rung, known):
+            its_case = case_of(case, rung)
+            mine = known
+            if its_case is not case:
+                m = min(n, POINTS_IN_PART)
+                mine = truths(its_case, source_of(case.spec.key), m, _progress(case, m))
+            for card in rung_cards(its_case, rung, mine):
                 write_card(card, out)
                 _say(summary(card))
         except (SolveError, ParameterError, OSError, ValueError) as error:
@@ -74,6 +79,15 @@ def _is_wanted(case: Case, rung: str, only: str | None) -> bool:
     return holds(case.spec.key, case.params, rung) and not fresh_cards(
         case.spec.key, rung, case.params
     )
+
+
+def case_of(case: Case, rung: str) -> Case:
+    """Return the case for a rung: a map is verified where it lies."""
+    if rung != "map":
+        return case
+    from ..models.washer_map import WasherMap
+
+    return case.within(WasherMap(case.params).box)
 
 
 def rung_cards(case: Case, rung: str, known: list[Truth]) -> Iterator[Card]:

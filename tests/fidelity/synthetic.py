@@ -66,7 +66,7 @@ def card(fidelity="field", worst=5e-3, median=2e-4, *, model="washer", n=75, iqr
             "friction_torque": errors(table(worst, shape), n),
             "temperature": errors(table(kelvin, shape), n, "absolute"),
         },
-        cells=part.Cells(("load", "speed"), edges, table(outside, shape)),
+        cells=part.Cells(("load", "speed"), edges, table(outside, shape)), by_film_ratio=None,
         held_out=part.HeldOut(300, 0, 0, 7, "uniform in the scaled box"),
         reference=part.Reference("reference", None, ("two grids extrapolated",),
                                  {"friction_torque": uncertainty, "temperature": 1e-4}),

@@ -8,7 +8,7 @@ from synthetic import BOX, ENVELOPE, card, errors
 
 from thrustwasher import ParameterError, WasherParams
 from thrustwasher.store import cards, digests
-from thrustwasher.store.card_parts import Cells
+from thrustwasher.store.card_parts import ByFilmRatio, Cells
 from thrustwasher.store.sources import files_of
 
 POINT = {"load": 100.0, "speed": 500.0, "tilt": 2e-3, "oil_temperature": 300.0}
@@ -50,6 +50,7 @@ def test_a_card_comes_back_from_its_file_as_it_was(tmp_path):
         (lambda c: c.update(schema=2), "schema = 2"),
         (lambda c: c["cells"].update(edges=[[1, 2], [2, 1]]), "rising edges"),
         (lambda c: c["errors"]["temperature"].update(worst=[[1.0]]), "2 x 2 cells"),
+        (lambda c: c.update(by_film_ratio={"edges": [3.0], "n": [30], "worst": {}}), "one class"),
         (lambda c: c["errors"]["temperature"].update(kind="odd"), "kind = 'odd'"),
         (lambda c: c["errors"]["temperature"].update(rms=[[1, 1], [1, -1]]), "from 0 on"),
         (lambda c: c["cost"].update(count=float("nan")), "NaN is no number"),
@@ -131,6 +132,16 @@ def test_the_error_is_that_of_the_cell_and_none_outside():
     assert made.error_of("friction_torque", {**POINT, "load": 19.0}) is None
     assert made.error_of("friction_torque", {**POINT, "tilt": 4e-3}) is None
     assert made.error_of("heat", POINT) is None
+
+
+def test_the_film_ratio_of_a_result_narrows_its_cells_error_but_never_widens_it():
+    alike = ByFilmRatio((3.0, 5.0), (30, 30, 30), {"friction_torque": (1e-4, 8e-3, 2e-4)})
+    made = card(worst=2e-3, by_film_ratio=alike)
+    expected = {1.0: 1e-4, 3.0: 2e-3, 4.9: 2e-3, 5.0: 2e-4, 1e9: 2e-4, None: 2e-3}
+    for ratio, worst in expected.items():
+        assert made.error_of("friction_torque", POINT, ratio) == worst
+    assert made.error_of("temperature", POINT, 1.0) == 0.1
+    assert made.error_of("friction_torque", {**POINT, "load": 19.0}, 1.0) is None
 
 
 def test_a_cell_with_few_points_takes_the_worst_of_its_neighbours():

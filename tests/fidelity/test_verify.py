@@ -15,7 +15,7 @@ from thrustwasher.fidelity.costs import less, stepper
 from thrustwasher.fidelity.envelopes import cases
 from thrustwasher.fidelity.measure import Timing
 from thrustwasher.fidelity.prolong import solve_on
-from thrustwasher.fidelity.tables import deviation, fold_part, tables, uncertainties
+from thrustwasher.fidelity.tables import by_film_ratio, deviation, fold_part, tables, uncertainties
 from thrustwasher.fidelity.timing import empty_step, this_machine
 from thrustwasher.fidelity.truths import QUANTITIES, Source, Truth, truths
 from thrustwasher.store.cards import read_card
@@ -126,6 +126,16 @@ def test_points_beside_a_fold_are_told_apart():
     assert (fold.n, fold.other_side) == (3, 1)
     assert fold.worst["friction_torque"] == pytest.approx(0.5)
     assert fold_part(pairs[3:]) is None
+
+
+def test_classes_of_film_ratio_hold_thirty_points_and_their_worst_error():
+    known = [dataclasses.replace(truth(1.0), values={**truth(1.0).values, "film_ratio": 0.1 * k})
+             for k in range(90)]  # fmt: skip
+    found = by_film_ratio([(t, said(1.1 if 30 <= k < 60 else 1.001)) for k, t in enumerate(known)])
+    assert found.n == (30, 30, 30) and found.edges == pytest.approx((3.0, 6.0), abs=0.1)
+    assert found.worst["friction_torque"] == pytest.approx((1e-3, 0.1, 1e-3), rel=1e-2)
+    course = dataclasses.replace(truth(1.0), values={q: [1.0, 2.0] for q in QUANTITIES})
+    assert by_film_ratio([(course, said([1.0, 2.0]))]) is None
 
 
 def test_the_uncertainty_of_the_reference_counts_as_error():

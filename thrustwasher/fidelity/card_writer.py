@@ -6,6 +6,7 @@ import math
 import os
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -20,7 +21,7 @@ from .answers import FAILED, OK, OUTSIDE, Answer
 from .envelopes import SAMPLING, Case
 from .measure import Timing
 from .references import source_of
-from .tables import fold_part, tables, uncertainties
+from .tables import by_film_ratio, fold_part, tables, uncertainties
 from .timing import this_machine, this_place
 from .truths import Truth
 
@@ -47,6 +48,7 @@ def make_card(
         kernels=Sources(tuple(files), kernel_digest(files)),
         package=origin(), made=datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
         envelope=dict(case.verified), errors=errors, cells=cells,
+        by_film_ratio=by_film_ratio(pairs),
         held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
                          case.seed, SAMPLING),
         reference=Reference(source.fidelity, source.grid, source.routes, uncertainties(known)),
@@ -75,12 +77,23 @@ def _cost(
     done = [a.work for a in answers if a.verdict == OK]
     count = float(f"{sum(done) / max(len(done), 1):.4g}") or None  # None: nothing is iterated
     what = "iterations x mesh nodes, from nothing" if rung in MESHED else "iterations"
-    median, iqr, least, once = (
-        float(f"{t:.3g}") for t in (timing.median, timing.iqr, timing.least, first)
-    )
+    median, iqr, least, once = _seconds(timing, first)
     build = float(built.card.get("build_s") or 0.0) if built else 0.0
     solves = math.prod(built.card.get("nodes") or (0,)) if built else 0
     return Cost(median, iqr, least, once, build, solves, count, what if count else None)
+
+
+def _seconds(timing: Timing, first: float) -> tuple[float, ...]:
+    return tuple(float(f"{t:.3g}") for t in (timing.median, timing.iqr, timing.least, first))
+
+
+def timed_card(card: Card, timing: Timing, first: float) -> Card:
+    """Return a card with times measured anew, on this machine."""
+    median, iqr, least, once = _seconds(timing, first)
+    cost = replace(
+        card.cost, call_median_s=median, call_iqr_s=iqr, call_min_s=least, first_call_s=once
+    )
+    return replace(card, cost=cost, machine=this_machine())
 
 
 def origin() -> Origin:

@@ -9,13 +9,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..store.card_parts import FEW, Axis, Cells, Errors, Fold
+from ..store.card_parts import FEW, Axis, ByFilmRatio, Cells, Errors, Fold
 from .answers import OK, OTHER_SIDE, OUTSIDE, Answer
 from .truths import MARGIN, Point, Truth
 
 FLOOR = 1e-3  # of the largest value: relative errors are taken of at least so much
 KINDS = {"friction_torque": ("relative", None), "temperature": ("absolute", "K"),
          "film_thickness": ("absolute", "m"), "film_ratio": ("absolute", "1")}  # fmt: skip
+CLASSES = 8  # of film ratios, at most
 AXES = ("load", "speed")
 SHAPES = ((4, 4), (4, 3), (3, 3), (3, 2), (2, 2), (2, 1), (1, 1))  # cells along load and speed
 
@@ -125,6 +126,27 @@ def _up(value: float) -> float:
         return value
     step = 10.0 ** (math.floor(math.log10(value)) - 2)
     return float(f"{math.ceil(value / step - 1e-9) * step:.3g}")
+
+
+def by_film_ratio(pairs: Pairs) -> ByFilmRatio | None:
+    """Return the worst errors over the film ratio, in classes of 30 points; None for courses."""
+    good = [(t, a) for t, a in pairs if a.verdict == OK and not t.beside_fold]
+    if not good or any(isinstance(t.values["film_ratio"], list) for t, _ in good):
+        return None
+    ratios = np.array([float(t.values["film_ratio"]) for t, _ in good])  # type: ignore[arg-type]
+    parts = min(max(len(good) // FEW, 1), CLASSES)
+    inner = np.quantile(ratios, [k / parts for k in range(1, parts)]) if parts > 1 else ()
+    edges = sorted({float(f"{v:.3g}") for v in inner})
+    place = [sum(r >= e for e in edges) for r in ratios]
+    worst = {}
+    for q in KINDS:
+        floor = floor_of(q, [t for t, _ in good])
+        found: list[list[float]] = [[0.0] for _ in range(len(edges) + 1)]
+        for k, (t, a) in zip(place, good, strict=True):
+            found[k].append(deviation(q, t, a.values[q], floor))
+        worst[q] = tuple(_up(max(errors)) for errors in found)
+    counts = tuple(place.count(k) for k in range(len(edges) + 1))
+    return ByFilmRatio(tuple(edges), counts, worst)
 
 
 def fold_part(pairs: Pairs) -> Fold | None:

@@ -1,6 +1,7 @@
 """Write cards: each rung's error at random held-out points against a reference, and its cost.
 
 python -m thrustwasher.fidelity.verify [MODEL] [FIDELITY] [--sample N] [--params NAME] [--out DIR]
+python -m thrustwasher.fidelity.verify [MODEL] [FIDELITY] --costs
 
 Without FIDELITY only cards that are stale or missing are made; a run that is stopped goes on where
 it was, because reference values and finished cards are kept.
@@ -18,10 +19,10 @@ from ..errors import ParameterError, SolveError
 from ..store.cards import Card, forget, fresh_cards
 from ..store.digests import DATA
 from .answers import answer, holds
-from .card_writer import make_card, write_card
+from .card_writer import make_card, timed_card, write_card
 from .costs import call_cost, first_call
 from .envelopes import POINTS_IN_PART, Case, cases
-from .models import HOMES
+from .models import HOMES, spec_of
 from .references import source_of
 from .truths import Truth, truths
 
@@ -34,14 +35,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("model", nargs="?", choices=list(HOMES), help="default: all")
     parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
     parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 500")
+    parser.add_argument(
+        "--costs", action="store_true", help="only time the rungs of fresh cards again"
+    )
     parser.add_argument("--params", metavar="NAME", help="parameter set; default: all")
     parser.add_argument("--out", type=Path, default=DATA / "cards", metavar="DIR")
     options = parser.parse_args(argv)
+    rungs = spec_of(options.model).fidelities if options.model else {}
+    if options.fidelity and options.fidelity not in rungs:
+        parser.error(f"fidelity = {options.fidelity!r}, allowed: {', '.join(rungs)}")
+    make = time_again if options.costs else _case
     failed = 0
     for model in [options.model] if options.model else list(HOMES):
         for case in cases(model):
             if options.params in (None, case.name):
-                failed += _case(case, options.fidelity, options.sample or case.n, options.out)
+                failed += make(case, options.fidelity, options.sample or case.n, options.out)
     return 1 if failed else 0
 
 
@@ -52,17 +60,14 @@ def _case(case: Case, only: str | None, n: int, out: Path) -> int:
         _say(f"{case.spec.key} {case.name}: nothing to do")
         return 0
     began = time.perf_counter()
-    known = truths(case, source_of(case.spec.key), n, _progress(case, n))
+    known = _known(case, n)
     _say(f"\r{case.spec.key} {case.name}: {len(known)} reference values at {n} points, "
          f"{time.perf_counter() - began:.0f} s")  # fmt: skip
     failed = 0
     for rung in wanted:
         try:
             its_case = case_of(case, rung)
-            mine = known
-            if its_case is not case:
-                m = min(n, POINTS_IN_PART)
-                mine = truths(its_case, source_of(case.spec.key), m, _progress(case, m))
+            mine = known if its_case is case else _known(its_case, n)
             for card in rung_cards(its_case, rung, mine):
                 write_card(card, out)
                 _say(summary(card))
@@ -71,6 +76,26 @@ def _case(case: Case, only: str | None, n: int, out: Path) -> int:
             _say(f"{case.spec.key} {case.name} {rung}: no card: {error}")
     forget()
     return failed
+
+
+def _known(case: Case, n: int) -> list[Truth]:
+    """Return the reference values of a case, of a part of its box fewer."""
+    n = n if case.part is None else min(n, POINTS_IN_PART)
+    return truths(case, source_of(case.spec.key), n, _progress(case, n))
+
+
+def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
+    """Measure the costs in fresh cards anew, on a machine that is idle now; return 0."""
+    for rung in [only] if only else case.spec.fidelities:
+        cards = fresh_cards(case.spec.key, rung, case.params)
+        known = _known(case_of(case, rung), n) if cards else []
+        for card in cards:
+            mine = [t for t in known if t.chart == card.chart]
+            timing = call_cost(case.spec, case.params, rung, mine)
+            write_card(timed_card(card, timing, first_call(case.spec.key, rung)), out)
+            _say(f"  {card.name}: {1e6 * timing.median:.3g} us")
+    forget()
+    return 0
 
 
 def _is_wanted(case: Case, rung: str, only: str | None) -> bool:
@@ -93,9 +118,8 @@ def case_of(case: Case, rung: str) -> Case:
 def rung_cards(case: Case, rung: str, known: list[Truth]) -> Iterator[Card]:
     """Yield the cards of a rung, one per chart, from the reference values."""
     point = case.point(0)
-    answer(
-        case.spec.key, case.params, rung, Truth(point, None, None, {}, {})
-    )  # compiled from now on
+    blank = Truth(point, None, None, {}, {})
+    answer(case.spec.key, case.params, rung, blank)  # compiled from now on
     once = first_call(case.spec.key, rung)
     for chart in dict.fromkeys(t.chart for t in known):
         mine = [t for t in known if t.chart == chart]

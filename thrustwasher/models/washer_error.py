@@ -20,5 +20,8 @@ def with_card_error(result: WasherResult) -> WasherResult:
         "oil_temperature": result.oil_temperature,
     }  # fmt: skip
     branch = None if result.fidelity in SIMPLE else result.branch
-    found = error_estimate("washer", result.fidelity, result.params, point, branch=branch)
+    found = error_estimate(
+        "washer", result.fidelity, result.params, point, branch=branch,
+        film_ratio=None if branch is None else result.film_ratio,
+    )  # fmt: skip
     return result if found is None else dataclasses.replace(result, error_estimate=found)

@@ -63,6 +63,23 @@ class Cells:
 
 
 @dataclass(frozen=True, slots=True)
+class ByFilmRatio:
+    """Worst errors over the film ratio, which a result knows though a box does not.
+
+    ``edges`` are inner ones: the first and the last class are open. Each class holds 30 points.
+    """
+
+    edges: tuple[float, ...]
+    n: tuple[int, ...]
+    worst: dict[str, tuple[float, ...]]
+
+    def error_of(self, quantity: str, film_ratio: float) -> float | None:
+        """Return the worst error of the class that a film ratio is in."""
+        table = self.worst.get(quantity)
+        return None if table is None else table[sum(film_ratio >= e for e in self.edges)]
+
+
+@dataclass(frozen=True, slots=True)
 class Fold:
     """What was found beside the end of a branch; such points are not in the errors.
 

@@ -21,6 +21,7 @@ from typing import Any
 from ..errors import ParameterError
 from .card_parts import (
     Axis,
+    ByFilmRatio,
     Cells,
     Cost,
     Errors,
@@ -64,6 +65,7 @@ class Card:
     envelope: dict[str, Axis]
     errors: dict[str, Errors]
     cells: Cells
+    by_film_ratio: ByFilmRatio | None
     held_out: HeldOut
     reference: Reference
     cost: Cost
@@ -87,8 +89,13 @@ class Card:
             for name, axis in self.envelope.items()
         )
 
-    def error_of(self, quantity: str, point: Mapping[str, float]) -> float | None:
-        """Return the worst error of a point's cell, or None outside the envelope."""
+    def error_of(
+        self, quantity: str, point: Mapping[str, float], film_ratio: float | None = None
+    ) -> float | None:
+        """Return the worst error of a point's cell, or None outside the envelope.
+
+        With the film ratio found there, the worst of its class if that is less: both hold.
+        """
         if quantity not in self.errors or not self.covers(point):
             return None
         place = [
@@ -97,7 +104,11 @@ class Card:
         ]
         if place[0] is None or place[1] is None:
             return None
-        return worst_near(self.errors[quantity], place[0], place[1])
+        found = worst_near(self.errors[quantity], place[0], place[1])
+        if found is None or film_ratio is None or self.by_film_ratio is None:
+            return found
+        alike = self.by_film_ratio.error_of(quantity, film_ratio)
+        return found if alike is None else min(found, alike)
 
     def stale(self, params: Any = None) -> str | None:
         """Return why the card does not hold here, with the command that renews it, or None.
@@ -148,6 +159,9 @@ def _contradiction(card: Card) -> str | None:
     for name, edges in zip(card.cells.axes, card.cells.edges, strict=True):
         if name not in card.envelope or len(edges) < 2 or list(edges) != sorted(set(edges)):
             return f"cells: {name}: an input of the envelope with rising edges is wanted"
+    by = card.by_film_ratio
+    if by and any(len(row) != len(by.edges) + 1 for row in (by.n, *by.worst.values())):
+        return "by_film_ratio: one class more than edges is wanted"
     shape = [len(edges) - 1 for edges in card.cells.edges]
     tables = [("cells: outside", card.cells.outside)]
     for name, e in card.errors.items():
@@ -239,17 +253,18 @@ def _fresh(model: str, fidelity: str, params: Any, folder: str | None) -> tuple[
 
 def error_estimate(
     model: str, fidelity: str, params: Any, point: Mapping[str, float],
-    quantity: str = "friction_torque", branch: str | None = None,
+    quantity: str = "friction_torque", branch: str | None = None, film_ratio: float | None = None,
 ) -> float | None:  # fmt: skip
     """Return the error to expect at a point, or None where no fresh card speaks.
 
     1.5 x the larger of the worst held-out error in the point's cell and the reference's own
-    uncertainty; over all charts if the branch is not named.
+    uncertainty; over all charts if the branch is not named. With the film ratio found at the point,
+    the worst among points of such film ratios if that is less.
     """
     errors = []
     for card in fresh_cards(model, fidelity, params):
         if branch is None or card.branch in (None, branch):
-            found = card.error_of(quantity, point)
+            found = card.error_of(quantity, point, film_ratio)
             if found is not None:
                 errors.append(max(found, card.reference.uncertainty.get(quantity, 0.0)))
     return SAFETY * max(errors) if errors else None

@@ -7,7 +7,7 @@ import pytest
 from scene_runs import PetroffWasher
 
 from thrustwasher.drivetrain import load_scene, run_auto, selection, with_fidelities
-from thrustwasher.drivetrain.budget import LOOK, SHARE, strides
+from thrustwasher.drivetrain.budget import LOOK, SHARE, first_look, strides
 from thrustwasher.drivetrain.scout import MARGIN, Pool, scout
 from thrustwasher.drivetrain.selection import above
 from thrustwasher.drivetrain.step_share import step_share
@@ -129,16 +129,17 @@ def test_a_step_too_long_for_the_tolerance_is_said_with_one_that_would_do():
 
 
 def test_looks_stay_within_their_share_of_the_run():
-    few, many = strides(10e-6, 2e-6, 300e-6, steps=10**6)
+    few, many = strides(10e-6, 2e-6, 300e-6)
     assert (300e-6 + LOOK) / few <= SHARE * 10e-6
     assert (2e-6 + LOOK) / many <= SHARE * 308e-6
-    assert strides(10e-6, 2e-6, 300e-6, steps=10**6, guards=2)[0] in (2 * few, 2 * few - 1)
-    assert strides(10e-6, 2e-6, 300e-6, steps=10**6, far=8.0)[0] > 7 * few
+    assert strides(10e-6, 2e-6, 300e-6, guards=2)[0] in (2 * few, 2 * few - 1)
+    assert strides(10e-6, 2e-6, 300e-6, far=8.0)[0] > 7 * few
 
 
-def test_a_run_too_quick_for_its_share_is_looked_at_a_few_times_all_the_same():
-    assert strides(10e-6, 2e-6, 300e-6, steps=1500, far=8.0)[0] == 300
-    assert strides(10e-6, 2e-6, 300e-6, steps=3)[0] == 1
+def test_a_run_too_quick_for_its_share_is_looked_at_once_all_the_same():
+    assert first_look(1500, 15_000) == 300
+    assert first_look(1500, 40) == 40
+    assert first_look(2, 15_000) == 1
 
 
 def run(monkeypatch, fidelity="closed", outside=None, **options):

@@ -140,6 +140,23 @@ def test_a_change_of_regime_is_looked_at_before_the_stride_is_over():
     # 0.046: brought forward to a quarter of the stride after the last look; 0.054 likewise.
 
 
+def test_the_first_look_may_come_before_its_stride_is_over():
+    above = Liar()
+    guarded(Liar(), above, every=(100, 2), first=30)
+    assert [round((t + h) / H) for t, h, *_ in above.log] == [30]
+
+
+def test_a_standstill_is_not_looked_at():
+    """Without speed there is no torque in any rung, and solving there is dear."""
+    above, stop = Liar(), 0.75
+    r = guarded(Liar(), above, stop=stop)
+    speed = r.signals["washer.speed"]
+    looked = [round((t + h) / H) for t, h, *_ in above.log]
+    assert (speed == 0.0).sum() > 50
+    assert looked and all(speed[i] != 0.0 for i in looked)
+    assert (speed[max(looked) + 10 :] == 0.0).all(), "to the end of motion"
+
+
 def test_the_rung_above_follows_in_strides_with_the_inputs_of_the_last_step():
     above = Liar()
     r = guarded(Liar(), above)

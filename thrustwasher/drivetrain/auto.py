@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .budget import FAR, seconds_of, step_seconds, strides
+from .budget import FAR, first_look, seconds_of, step_seconds, strides
 from .guard_plan import Plan
 from .result import ShiftResult
 from .scene import Scene
@@ -70,6 +70,8 @@ def _plans(scene: Scene, chosen: list[Selected], pool: Pool, steps: int) -> dict
     for c in guarded:
         part, higher = scene.parts[c.part], str(c.above)
         base, above = (seconds_of(part.spec, rung) for rung in (c.rung, higher))
+        far = FAR.get(c.model, 1.0)
+        every = strides(step, base, above, far=far, guards=len(guarded))
         plans[c.part] = Plan(
             base=c.rung,
             above=higher,
@@ -77,8 +79,7 @@ def _plans(scene: Scene, chosen: list[Selected], pool: Pool, steps: int) -> dict
             scales=c.scales,
             tolerance=c.tolerance,
             box=c.box,
-            every=strides(
-                step, base, above, steps=steps, far=FAR.get(c.model, 1.0), guards=len(guarded)
-            ),
+            every=every,
+            first=first_look(steps, every[0]),
         )
     return plans

@@ -13,9 +13,10 @@ from ..models._spec import ModelSpec
 from ..store.cards import load_cards
 
 SHARE = 0.1  # of a run's wall time, for all looks together
-LEAST_LOOKS = 4  # in a run, also in one so quick that its share buys none
-# A solve that has to follow over a long stride takes more iterations than one a step away.
-FAR = {"washer": 8.0}
+FIRST = 0.2  # of a run; its first look is made there at the latest, whatever it costs
+# A washer solved far from its last solution walks there: 3 ms with a thick film, 15 ms in the mixed
+# regime, against 0.3 ms a step away.
+FAR = {"washer": 50.0}
 LOOK = 30e-6  # s; coming back to Python for a look
 MASTER = 0.5e-6  # s; the loop itself, a step
 # Seconds a step where no card tells: the models' orders of magnitude.
@@ -36,7 +37,7 @@ def seconds_of(spec: ModelSpec, rung: str) -> float:
 
 
 def strides(
-    step: float, base: float, above: float, *, steps: int, far: float = 1.0, guards: int = 1
+    step: float, base: float, above: float, *, far: float = 1.0, guards: int = 1
 ) -> tuple[int, int]:
     """Return the steps between two looks while the base serves, and while the rung above does.
 
@@ -44,17 +45,20 @@ def strides(
     ----------
     step : seconds a step of the whole run with the base
     base, above : seconds a step of the two rungs
-    steps : of the whole run
     far : how many times a step's cost a solve after a long stride takes
     guards : how many parts share the budget
     """
     share = SHARE / max(guards, 1)
     up = step - base + above
-    rarely = math.ceil((far * above + LOOK) / (share * step))
     return (
-        max(1, min(rarely, steps // (LEAST_LOOKS + 1))),
+        max(1, math.ceil((far * above + LOOK) / (share * step))),
         max(1, math.ceil((base + LOOK) / (share * up))),
     )
+
+
+def first_look(steps: int, every: int) -> int:
+    """Return the point of the first look in a run of so many steps."""
+    return max(1, min(every, round(FIRST * steps)))
 
 
 def step_seconds(rungs: Mapping[str, tuple[ModelSpec, str]]) -> float:

@@ -41,6 +41,8 @@ class Plan:
     """Inputs [SI] that the base was chosen for: low, high."""
     every: tuple[int, int] = (100, 10)
     """Steps between two looks while the base serves, and while the rung above does."""
+    first: int | None = None
+    """Point of the first look; default: one stride after the start."""
 
 
 class Switch(NamedTuple):

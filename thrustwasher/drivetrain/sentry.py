@@ -15,6 +15,7 @@ from .loop import Run
 from .system import ConnectedPart, Stepping
 
 SOON = 4  # a change of regime is looked at this part of a stride after a look, not before
+SPEED = "speed"  # the input without which there is nothing to compare
 WATCHED = ("regime", "solver_status", "distress")  # outputs whose change is a change of regime
 
 
@@ -39,7 +40,7 @@ class Sentry:
         self.memory, self.failed, self.seconds = Memory(), 0, 0.0
         self.looks = {plan.base: [0, 0.0], plan.above: [0, 0.0]}  # calls and time of looks
         self._reached = 0  # the point up to which the other instance has followed
-        self._looked, self.due = 0, plan.every[0]
+        self._looked, self.due = 0, plan.first or plan.every[0]
         self._courses: list[Course] = []
         self._since = float(run.time[0])
         recorder, names = run.recorder, part.output_names
@@ -49,6 +50,7 @@ class Sentry:
         self._outputs = slice(first, first + len(names))
         self.changes = [first + names.index(n) for n in WATCHED if n in names]
         self._status = names.index("solver_status") if "solver_status" in names else None
+        self._speed = self._inputs.start + inputs.index(SPEED) if SPEED in inputs else None
         self._scales = [(names.index(s.output), s) for s in plan.scales]
         self._seen: list[float] = []  # outputs of the other instance at the last look
         # Inputs are looked at where they come from: before a step is made with them.
@@ -137,7 +139,8 @@ class Sentry:
         if i < self.due:
             return False
         self._looked, self.due = i, i + self.every
-        return True
+        # Nothing turns: no torque in any rung, and no heat.
+        return self._speed is None or bool(rows[i, self._speed] != 0.0)
 
     def _outside(self, i: int) -> bool:
         """Tell if the base is not verified at the coming inputs, or says so itself."""

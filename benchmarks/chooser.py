@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thrustwasher import SolveError, choose
+from thrustwasher import Choice, SolveError, choose
 from thrustwasher.fidelity.answers import OK, answer
 from thrustwasher.fidelity.envelopes import Case, cases
 from thrustwasher.fidelity.references import source_of
@@ -35,7 +35,7 @@ class Pool:
 
     case: Case
     truths: list[Truth]
-    errors: dict[str, list[float]]  # nan: the rung gives no answer there
+    errors: dict[str, list[float]]  # nan: the rung is not verified there
 
     def inside(self, box: dict[str, tuple[float, float]]) -> list[int]:
         """Return the points in a box, away from folds."""
@@ -48,6 +48,15 @@ class Pool:
         """Return a rung's largest error at points; infinite if it fails at one of them."""
         found = [self.errors[rung][k] for k in points]
         return math.inf if any(map(math.isnan, found)) else max(found)
+
+    def served(self, choice: Choice | None, k: int) -> float:
+        """Return the error at a point of the rung that serves it; 0 where nothing is promised."""
+        while choice is not None and math.isfinite(choice.error):
+            error = self.errors[choice.fidelity][k]
+            if not math.isnan(error):
+                return error
+            choice = choice.outside
+        return 0.0
 
 
 def pool_of(case: Case, n: int) -> Pool:
@@ -64,8 +73,10 @@ def pool_of(case: Case, n: int) -> Pool:
 
 def error_at(case: Case, rung: str, truth: Truth, card: Card | None) -> float:
     """Return a rung's error at a point, as its card measures it."""
+    if card is None or not card.covers(truth.point):
+        return math.nan
     found = answer(case.spec.key, case.params, rung, truth)
-    if card is None or found.verdict != OK:
+    if found.verdict != OK:
         return math.nan
     floor = card.errors[QUANTITY].floor or 0.0
     return deviation(QUANTITY, truth, found.values[QUANTITY], floor)
@@ -88,18 +99,19 @@ def ask(pool: Pool, rng: np.random.Generator) -> Outcome:
     box = random_box(pool, rng)
     tol, n_calls = 10.0 ** rng.uniform(-4.0, 0.0), 10.0 ** rng.uniform(2.0, 6.0)
     try:
-        chosen = choose(
+        choice = choose(
             pool.case.spec.key, box, tol=tol, n_calls=n_calls, safety=SAFETY,
             params=pool.case.params,
-        ).fidelity  # fmt: skip
+        )  # fmt: skip
     except SolveError:
-        chosen = None
+        choice = None
     points = pool.inside(box)
     around = pool.inside(cells_around(pool, box))
     order = sorted(pool.errors, key=lambda r: cost(pool.case, r, n_calls))
     cheapest = next((r for r in order if pool.worst(r, points) <= tol), None)
     guarded = next((r for r in order if SAFETY * pool.worst(r, around) <= tol), None)
-    error = pool.worst(chosen, points) if chosen else math.nan
+    error = max((pool.served(choice, k) for k in points), default=0.0) if choice else math.nan
+    chosen = choice.fidelity if choice else None
     return Outcome(pool.case.spec.key, tol, chosen, error, cheapest, guarded)
 
 

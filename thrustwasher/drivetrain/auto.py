@@ -47,7 +47,7 @@ def run_auto(
         return run_shift(scene, pool.all_of(scene), progress=progress, compiled=compiled)
     scouted = scout(scene, pool, compiled)
     steps = max(1, round((scene.stop_time - scene.start_time) / scene.step))
-    chosen = select(scene, scouted, steps)
+    chosen = select(scene, scouted, steps, guard)
     share = step_share(scouted, scene.step, min(asked))
     selection = Selection(chosen, share, scouted.seconds)
     parts = dict(scene.parts)

@@ -1,8 +1,9 @@
 """Scout runs: which inputs a part will see, found with cheap rungs and long steps.
 
-Parts that only drag (washer, mesh) take their cheapest rung that knows speed; packs keep their own,
-because their films decide the course of the shift and cost microseconds. Two runs, one with steps
-twice as long as the other, also tell what the communication step is worth.
+A part whose own torque is judged (the washer) takes its cheapest rung that knows speed; the others
+keep theirs, which cost microseconds: with settled films in the packs another shift would be seen.
+Two runs, one with steps twice as long as the other, tell what the communication step is worth; a
+third one with the finest rungs of all other parts tells what theirs are worth.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from .shift import run_shift
 from .system import Stepping
 
 CHEAP = ("stribeck", "closed")  # what a scout takes, the first that a part has
-DECIDING = ("clutch", "brake")  # parts that keep their own rung
+DIRECT = ("washer",)  # parts whose own torque is judged, beside what it does to the shift
 MARGIN = 0.2  # of the width of the box, added on each side
 STRIDE, LEAST_STEPS = 4, 100  # a scout's steps are as many times as long; at least so many steps
 Make = Callable[[str, Part], Stepping]
@@ -51,10 +52,12 @@ class Pool:
 
 
 class Scouted(NamedTuple):
-    """What two scout runs found; ``coarse`` has steps twice as long as ``fine``."""
+    """What scout runs found; ``coarse`` has steps twice as long as ``fine``."""
 
     coarse: ShiftResult
     fine: ShiftResult
+    trial: ShiftResult | None
+    """As ``coarse``, with the finest rungs of parts that are not judged by themselves."""
     seconds: float
 
     def seen(self, part: str, variable: str) -> tuple[float, float]:
@@ -75,24 +78,30 @@ class Scouted(NamedTuple):
 
 
 def scout(scene: Scene, pool: Pool, compiled: bool | None = None) -> Scouted:
-    """Run a scene twice with cheap rungs and long steps."""
+    """Run a scene with cheap rungs and long steps."""
     begin = perf_counter()
-    cheap = _with_rungs(scene, {n: _cheap(n, p) for n, p in scene.parts.items() if p.tolerance})
+    open_ = {name: part.spec for name, part in scene.parts.items() if part.tolerance}
+    rungs = {n: _cheap(s) if n in DIRECT else s.default_fidelity for n, s in open_.items()}
     span = scene.stop_time - scene.start_time
     step = min(STRIDE * scene.step, max(scene.step, span / LEAST_STEPS))
 
-    def run(h: float) -> ShiftResult:
-        now = cheap.with_options(step=min(h, span))
+    def run(h: float, taken: Mapping[str, str]) -> ShiftResult:
+        now = _with_rungs(scene, taken).with_options(step=min(h, span))
         return run_shift(now, pool.all_of(now), compiled=compiled)
 
-    coarse, fine = run(2.0 * step), run(step)
-    return Scouted(coarse, fine, perf_counter() - begin)
+    coarse, fine = run(2.0 * step, rungs), run(step, rungs)
+    finest = rungs | {n: finest_of(s) for n, s in open_.items() if n not in DIRECT}
+    trial = run(2.0 * step, finest) if finest != rungs else None
+    return Scouted(coarse, fine, trial, perf_counter() - begin)
 
 
-def _cheap(name: str, part: Part) -> str:
-    if name in DECIDING:
-        return part.fidelity
-    return next((rung for rung in CHEAP if rung in part.spec.fidelities), part.fidelity)
+def finest_of(spec: ModelSpec) -> str:
+    """Return a model's last rung."""
+    return list(spec.fidelities)[-1]
+
+
+def _cheap(spec: ModelSpec) -> str:
+    return next((rung for rung in CHEAP if rung in spec.fidelities), spec.default_fidelity)
 
 
 def _with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:

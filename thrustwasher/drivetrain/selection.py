@@ -1,4 +1,9 @@
-"""Which rung each part takes: from the cards, over the inputs that a scout has seen."""
+"""Which rung each part takes.
+
+A part that is not judged by itself keeps its default rung if the finest rungs of all such parts
+together do not move the scouts' figures by more than the rungs' share of the tolerance. For the
+others the cards decide, over the inputs that the scouts have seen.
+"""
 
 from __future__ import annotations
 
@@ -10,10 +15,14 @@ from ..models._spec import ModelSpec
 from ..store.cards import fresh_cards
 from .guard_plan import Scale
 from .scene import Part, Scene
-from .scout import Scouted
+from .scout import DIRECT, Scouted, finest_of
 from .selection_record import Box, Selected
+from .step_share import farthest
 
-MODEL_SHARE = 0.6  # of the tolerance asked for is the rung's; the step has 0.3, the rest is spare
+# Of the tolerance asked for the rungs have this share; the step has 0.3, the rest is spare. A
+# torque that is judged by itself has all of it: it follows from the inputs of the moment.
+MODEL_SHARE = 0.6
+SAFETY = 1.5  # on the cards' errors where no guard watches
 FLOOR = 0.1  # of the scene's range: below it differences count as if the value were this large
 LEAST_RISE = 1.0  # K; a temperature that hardly moves is not compared more closely
 # Models whose outputs follow from the inputs of the moment. A guard's second instance sees these in
@@ -27,15 +36,23 @@ QUANTITIES: Mapping[str, tuple[tuple[str, str], ...]] = {
 }
 
 
-def select(scene: Scene, scouted: Scouted, steps: int) -> list[Selected]:
+def select(scene: Scene, scouted: Scouted, steps: int, guarded: bool = True) -> list[Selected]:
     """Return the rung of every part that asks for a tolerance.
+
+    Parameters
+    ----------
+    steps : of the run to come
+    guarded : a guard will watch what lies between the cards' points; else their errors count times
+        the chooser's factor of safety
 
     Raises
     ------
     SolveError : no rung of a part holds its tolerance; the best one is named
     """
+    asked = {name: part for name, part in scene.parts.items() if part.tolerance}
     return [
-        _select(name, part, scouted, steps) for name, part in scene.parts.items() if part.tolerance
+        _by_trial(name, part, scouted) or _by_cards(name, part, scouted, steps, guarded)
+        for name, part in asked.items()
     ]
 
 
@@ -53,53 +70,78 @@ def above(spec: ModelSpec, rung: str) -> str | None:
     return rungs[place] if place < len(rungs) else None
 
 
-def _select(name: str, part: Part, scouted: Scouted, steps: int) -> Selected:
+def _by_trial(name: str, part: Part, scouted: Scouted) -> Selected | None:
+    """Return the default rung if nothing that is judged depends on it."""
+    if name in DIRECT:
+        return None
+    spec, share = part.spec, MODEL_SHARE * (part.tolerance or 0.0)
+    rung = spec.default_fidelity
+    if rung == finest_of(spec):
+        words = f"{name}: {rung}, its default and its finest"
+    elif scouted.trial is None:
+        return None
+    else:
+        moved, figure = farthest(scouted.coarse, scouted.trial)
+        if not moved <= share:
+            return None
+        words = (
+            f"{name}: {rung}, its default: the finest rungs of all parts but the washer move the "
+            f"scouts' figures by {100.0 * moved:.2g} % ({figure.replace('_', ' ')}), "
+            f"{100.0 * share:.2g} % allowed"
+        )
+    box = scouted.box(name, spec)
+    return Selected(name, spec.key, rung, None, share, False, (words,), box, ())
+
+
+def _by_cards(name: str, part: Part, scouted: Scouted, steps: int, guarded: bool) -> Selected:
     spec, box = part.spec, scouted.box(name, part.spec)
-    share = MODEL_SHARE * (part.tolerance or 0.0)
+    direct = name in DIRECT
+    share = (part.tolerance or 0.0) * (1.0 if direct else MODEL_SHARE)
     quantities = [(q, out) for q, out in QUANTITIES.get(spec.key, ()) if out in _names(spec)]
     scales = tuple(_scale(name, output, quantity, scouted) for quantity, output in quantities)
-    speaking = [r for r in spec.fidelities if fresh_cards(spec.key, r, part.params)]
-    if not speaking:
-        rung, verified = spec.default_fidelity, False
-        words: tuple[str, ...] = (
-            f"{name}: {rung}, its default: no card speaks for these parameters; not guarded",
-        )
-        higher = above(spec, rung)
-    else:
-        choices = [
-            _choose(name, part, box, quantity, share, scale, steps)
-            for (quantity, _), scale in zip(quantities, scales, strict=True)
-        ]
-        rungs = list(spec.fidelities)
-        best = max(choices, key=lambda c: rungs.index(c.fidelity))
-        rung, verified = best.fidelity, True
-        words = tuple(_renamed(line, spec.key, name) for c in choices for line in c.reasons)
-        higher = above(spec, rung)
-        beyond = best.outside.fidelity if best.outside else ""
-        if spec.key not in WITHOUT_PAST:
-            words += ("  not guarded: it has a past, which an instance in strides would not share",)
-        if beyond and rungs.index(beyond) > rungs.index(rung):
-            higher = beyond
-    return Selected(name, spec.key, rung, higher, share, verified, words, box, scales)
+    if not any(fresh_cards(spec.key, rung, part.params) for rung in spec.fidelities):
+        rung = spec.default_fidelity
+        words = f"{name}: {rung}, its default: no card speaks for these parameters; not guarded"
+        return Selected(name, spec.key, rung, None, share, False, (words,), box, scales)
+    safety = 1.0 if guarded and spec.key in WITHOUT_PAST else SAFETY
+    choices = [
+        _choose(name, part, box, quantity, share, scale, steps, safety)
+        for (quantity, _), scale in zip(quantities, scales, strict=True)
+    ]
+    rungs = list(spec.fidelities)
+    best = max(choices, key=lambda c: rungs.index(c.fidelity))
+    reasons = [_renamed(line, spec.key, name) for c in choices for line in c.reasons]
+    if spec.key not in WITHOUT_PAST:
+        reasons.append("  not guarded: it has a past, which an instance in strides would not share")
+    higher = above(spec, best.fidelity)
+    beyond = best.outside.fidelity if best.outside else best.fidelity
+    if rungs.index(beyond) > rungs.index(best.fidelity):
+        higher = beyond
+    return Selected(
+        name, spec.key, best.fidelity, higher, share, True, tuple(reasons), box, scales
+    )  # fmt: skip
 
 
 def _choose(
-    name: str, part: Part, box: Box, quantity: str, share: float, scale: Scale, steps: int
-) -> Choice:
+    name: str, part: Part, box: Box, quantity: str, share: float, scale: Scale, steps: int,
+    safety: float,
+) -> Choice:  # fmt: skip
     """Ask the cards; a temperature's tolerance is the share of its range in the scene."""
     tolerance = share if scale.relative else share * scale.floor
     try:
         return choose(
-            part.spec.key, box, quantity=quantity, tol=tolerance, n_calls=steps, params=part.params
-        )
+            part.spec.key, box, quantity=quantity, tol=tolerance, n_calls=steps, safety=safety,
+            params=part.params,
+        )  # fmt: skip
     except (ParameterError, SolveError) as problem:
         raise type(problem)(f"part {name!r}, {quantity}: {problem}") from problem
 
 
 def _scale(part: str, output: str, quantity: str, scouted: Scouted) -> Scale:
     low, high = scouted.seen(part, output)
-    if quantity == "temperature":
-        return Scale(output, max(high - low, LEAST_RISE), relative=False)
+    if quantity == "temperature":  # of the hotter pack: what a scene is judged by
+        ranges = [scouted.seen(pack, output) for pack in ("clutch", "brake")]
+        return Scale(output, max(LEAST_RISE, *(b - a for a, b in ranges)), relative=False)
     return Scale(output, FLOOR * max(abs(low), abs(high)) or 1e-12)
 
 

@@ -78,19 +78,22 @@ def _by_trial(name: str, part: Part, scouted: Scouted) -> Selected | None:
     rung = spec.default_fidelity
     if rung == finest_of(spec):
         words = f"{name}: {rung}, its default and its finest"
-    elif scouted.trial is None:
+    elif scouted.trial is None or not farthest(scouted.coarse, scouted.trial)[0] <= share:
         return None
     else:
-        moved, figure = farthest(scouted.coarse, scouted.trial)
-        if not moved <= share:
-            return None
-        words = (
-            f"{name}: {rung}, its default: the finest rungs of all parts but the washer move the "
-            f"scouts' figures by {100.0 * moved:.2g} % ({figure.replace('_', ' ')}), "
-            f"{100.0 * share:.2g} % allowed"
-        )
+        words = f"{name}: {rung}, its default: {_moved(scouted)}, {100.0 * share:.2g} % allowed"
     box = scouted.box(name, spec)
     return Selected(name, spec.key, rung, None, share, False, (words,), box, ())
+
+
+def _moved(scouted: Scouted) -> str:
+    """Say what the finest rungs of all parts that are not judged by themselves are worth."""
+    assert scouted.trial is not None
+    moved, figure = farthest(scouted.coarse, scouted.trial)
+    return (
+        f"the finest rungs of all parts but the washer move the scouts' figures by "
+        f"{100.0 * moved:.2g} % ({figure.replace('_', ' ')})"
+    )
 
 
 def _by_cards(name: str, part: Part, scouted: Scouted, steps: int, guarded: bool) -> Selected:
@@ -111,6 +114,8 @@ def _by_cards(name: str, part: Part, scouted: Scouted, steps: int, guarded: bool
     rungs = list(spec.fidelities)
     best = max(choices, key=lambda c: rungs.index(c.fidelity))
     reasons = [_renamed(line, spec.key, name) for c in choices for line in c.reasons]
+    if not direct and scouted.trial is not None:
+        reasons.append(f"  asked, because {_moved(scouted)}")
     if spec.key not in WITHOUT_PAST:
         reasons.append("  not guarded: it has a past, which an instance in strides would not share")
     higher = above(spec, best.fidelity)

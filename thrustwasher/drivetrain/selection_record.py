@@ -51,7 +51,7 @@ class StepShare(NamedTuple):
         if self.suffices:
             return f"{text}, within its share of {share:.2g} %"
         wanted = self.step * STEP_SHARE * self.tolerance / self.error
-        return f"{text}, more than its share of {share:.2g} %; {wanted:.1g} s would do"
+        return f"{text}, more than its share of {share:.2g} %; {wanted:.2g} s would do"
 
 
 class Selection(NamedTuple):

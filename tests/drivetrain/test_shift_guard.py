@@ -187,7 +187,7 @@ def test_the_log_goes_into_json_and_into_one_line():
     told = log.as_dict()
     assert told["switches"][0]["reason"] == "difference"
     assert told["parts"][0]["checks"] == log.posts[0].checks
-    assert "washer: map" in log.closing() and "against field" in log.closing()
+    assert "washer: map" in log.closing() and "looks at field" in log.closing()
     assert "\n" not in log.closing()
 
 

@@ -117,8 +117,9 @@ class GuardLog(NamedTuple):
         texts = []
         for p in self.posts:
             served = ", ".join(f"{r} {s:.3g} %" for r, s in percent(p.shares).items() if s)
+            looks = "1 look" if p.checks == 1 else f"{p.checks} looks"
             texts.append(
-                f"{p.part}: {served} of the time; {p.checks} checks against {p.above}, worst "
+                f"{p.part}: {served} of the time; {looks} at {p.above}, worst "
                 f"difference {100.0 * p.worst:.2g} % ({100.0 * p.tolerance:.2g} % allowed)"
             )
         return "; ".join(texts)

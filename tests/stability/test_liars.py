@@ -96,7 +96,7 @@ def test_the_default_solver_is_no_liar_where_others_are():
     """Compiles the rival's loops for a minute."""
     from thrustwasher.fidelity.stability import balance
 
-    group = balance(quick=True)
+    group = balance()
     verdicts = {m: [cell.verdict for cell in row]
                 for m, row in zip(group.methods, group.cells, strict=True)}  # fmt: skip
     assert set(verdicts["field, the package's default"]) == {OK}

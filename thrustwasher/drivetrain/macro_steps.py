@@ -21,7 +21,7 @@ from .scene_file import load_scene
 from .shift import run_shift
 from .system import Stepping
 
-STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4)
+STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
 TRUE_STEPS, QUICK_TRUE_STEPS = (1e-4, 5e-5), (4e-4, 2e-4)
 SLOW_SLIP = 0.5  # [rad/s]; with smoothed friction less counts as locked

@@ -27,8 +27,8 @@ QUANTITIES = {
 USUAL_STEP = 1e-3
 STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 5e-4)
 GRIDS = ((7, 20), (9, 24), (10, 32), (13, 40), (16, 48), (19, 64), (28, 96))
-TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
-GRIDS_2006 = ((9, 67), (17, 67), (17, 134))
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
+GRIDS_2006 = ((13, 67), (17, 67), (17, 134))
 
 
 def rungs_of(model: str) -> list[Rung]:

@@ -120,13 +120,13 @@ WASHER_HAZARDS = {
 MESH = (17, 67)
 
 
-def balance(*, quick: bool = False) -> Group:
+def balance() -> Group:
     """Judge ways to find the washer's balance, from nothing, by the branch they end on."""
     from ..models.washer import solve_washer
     from ..models.washer_params import WasherParams
     from ..rivals.plain2006 import Plain2006
 
-    base = partial(Plain2006, grid=MESH, tolerance=1e-4 if quick else 1e-5)
+    base = partial(Plain2006, grid=MESH, tolerance=1e-4)
     methods: dict[str, Any] = {
         "Newton, undamped, level start": partial(base, limited=False, level=True),
         "Newton, limited; temperatures substituted": partial(base, share=1.0),
@@ -205,7 +205,7 @@ def stability(
 ) -> list[dict[str, Any]]:
     """Return all groups, as JSON types."""
     groups: list[Group] = []
-    for made in (partial(cavitation, quick=quick), partial(balance, quick=quick), coupling):
+    for made in (partial(cavitation, quick=quick), balance, coupling):
         progress("where methods fail: " + made_name(made))
         groups.append(made())
     return [asdict(g) for g in groups]

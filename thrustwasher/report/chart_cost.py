@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from .chart_text import staircase
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
 
 COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
@@ -41,7 +42,7 @@ def cost_figure(
         words = WORDS.get(quantity["name"], quantity["name"])
         label(axes, f"{model}: {words}", across, f"error [{unit}]")
     handles, names = panels[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=4)
+    figure.legend(handles, names, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -63,7 +64,7 @@ def draw_samples(
         colour = COLOURS.get(family) or next(rivals)
         if members:
             _draw_family(axes, family, members, name, cost, spread, colour, low)
-    best = [samples[i] for i in front]
+    best = staircase(samples, front, name)
     axes.step([s[cost] for s in best], [max(s["errors"][name]["worst"], low) for s in best],
               where="post", color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
               zorder=1)  # fmt: skip
@@ -72,10 +73,10 @@ def draw_samples(
 
 
 def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -> float:
-    """Shade what the reference cannot tell; return the height at which no error is drawn."""
+    """Set the range of errors, shade what the reference cannot tell; return where zero is drawn."""
     errors = [s["errors"][name][k] for s in known for k in ("worst", "rms")]
     low = min([e for e in errors if e > 0.0] + ([floor] if floor else []), default=1e-16)
-    axes.set_ylim(bottom=0.4 * low)
+    axes.set_ylim(0.4 * low, 6.0 * max([*errors, floor, low]))  # room for crosses at the top
     if floor:
         axes.axhspan(0.4 * low, floor, color="#E8E8E8", lw=0, zorder=0)
         axes.annotate("uncertainty of the reference", (0.99, floor), (0, 2), va="bottom",

@@ -65,11 +65,17 @@ def test_a_process_that_is_killed_costs_nothing_but_time(tmp_path, monkeypatch):
     assert same(table, run_sweep("clutch", OVER, workers=1))
 
 
+def _listen():
+    """Take the signal again: a shell's background jobs inherit that it is ignored."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_ctrl_c_leaves_a_state_that_the_same_command_goes_on_from(tmp_path):
     out = tmp_path / "map.csv"
     words = [sys.executable, "-m", "thrustwasher", "sweep", "clutch", "--over", "load [kN]=1:9:n60",
              "--over", "speed=5:300:n1500", "--workers", "2", "--out", str(out)]  # fmt: skip
-    process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                               preexec_fn=_listen)  # fmt: skip
     journal = journal_of(out)
     deadline = time.monotonic() + 60.0
     while time.monotonic() < deadline:

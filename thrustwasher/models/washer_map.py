@@ -62,7 +62,7 @@ class WasherMap:
     >>> washer = WasherMap(WasherParams())
     >>> torque = washer.torque(load=300.0, speed=545.0, tilt=0.002, oil_temperature=297.15)
     >>> f"{torque:.4f} N m"
-    '0.1547 N m'
+    '0.2052 N m'
     """
 
     def __init__(self, params: WasherParams, path: str | os.PathLike[str] | None = None) -> None:

@@ -4,11 +4,14 @@ import ast
 import hashlib
 import importlib.util
 import sys
+import threading
 from importlib import metadata
 from pathlib import Path
 
 # An edit of one of these may change what comes out.
 MAKERS = ("emit.py", "lower.py", "gate.py", "symbols.py")
+
+_parsing = threading.Lock()  # CPython 3.11 miscounts its depth when two threads parse
 
 
 def key(kernel: str, *settings: object) -> str:
@@ -46,7 +49,9 @@ def _is_package(file: str) -> bool:
 def _imported(source: bytes, package: str) -> list[str]:
     """Return the modules a source imports by ``from . import x`` and ``from .x import y``."""
     names = []
-    for node in ast.walk(ast.parse(source)):
+    with _parsing:
+        tree = ast.parse(source)
+    for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
             given = "." * node.level + (node.module or "")
             module = importlib.util.resolve_name(given, package)

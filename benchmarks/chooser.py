@@ -4,7 +4,8 @@ python benchmarks/chooser.py [--requests N] [--points N] [MODEL ...]
 
 The points are others than those the cards were made with; each has its own reference value. A
 request is a box around one of them, with a random tolerance and number of calls. Its true error is
-the largest at the points in the box. Prints Markdown.
+the largest at the new points in the box. Which rung is the cheapest that holds is judged by all
+points known, old and new. Prints Markdown.
 """
 
 from __future__ import annotations
@@ -31,16 +32,17 @@ QUANTITY = "friction_torque"
 
 @dataclass
 class Pool:
-    """New points of one case: reference values and every rung's error at them."""
+    """Points of one case: reference values and every rung's error at them; new points first."""
 
     case: Case
     truths: list[Truth]
+    new: int
     errors: dict[str, list[float]]  # nan: the rung is not verified there
 
-    def inside(self, box: dict[str, tuple[float, float]]) -> list[int]:
-        """Return the points in a box, away from folds."""
+    def inside(self, box: dict[str, tuple[float, float]], old: bool = False) -> list[int]:
+        """Return the new points in a box, away from folds; with ``old`` the others too."""
         return [
-            k for k, t in enumerate(self.truths)
+            k for k, t in enumerate(self.truths[: None if old else self.new])
             if not t.beside_fold and all(lo <= t.point[n] <= hi for n, (lo, hi) in box.items())
         ]  # fmt: skip
 
@@ -61,14 +63,15 @@ class Pool:
 
 def pool_of(case: Case, n: int) -> Pool:
     """Return new points of a case with the errors of all rungs that have cards."""
-    case = dataclasses.replace(case, seed=SEED)
-    known = truths(case, source_of(case.spec.key), n)
+    source = source_of(case.spec.key)
+    new = truths(dataclasses.replace(case, seed=SEED), source, n)
+    known = new + truths(case, source, case.n)
     errors = {}
     for rung in case.spec.fidelities:
         cards = {c.chart: c for c in fresh_cards(case.spec.key, rung, case.params)}
         if cards:
             errors[rung] = [error_at(case, rung, t, cards.get(t.chart)) for t in known]
-    return Pool(case, known, errors)
+    return Pool(case, known, len(new), errors)
 
 
 def error_at(case: Case, rung: str, truth: Truth, card: Card | None) -> float:
@@ -106,7 +109,7 @@ def ask(pool: Pool, rng: np.random.Generator) -> Outcome:
     except SolveError:
         choice = None
     points = pool.inside(box)
-    around = pool.inside(cells_around(pool, box))
+    around = pool.inside(cells_around(pool, box), old=True)
     order = sorted(pool.errors, key=lambda r: cost(pool.case, r, n_calls))
     cheapest = next((r for r in order if pool.worst(r, points) <= tol), None)
     guarded = next((r for r in order if SAFETY * pool.worst(r, around) <= tol), None)
@@ -117,7 +120,7 @@ def ask(pool: Pool, rng: np.random.Generator) -> Outcome:
 
 def random_box(pool: Pool, rng: np.random.Generator) -> dict[str, tuple[float, float]]:
     """Return a box of random size around a random point, inside the envelope."""
-    away = [t for t in pool.truths if not t.beside_fold]
+    away = [t for t in pool.truths[: pool.new] if not t.beside_fold]
     middle = away[rng.integers(len(away))].point
     box = {}
     for name, axis in pool.case.envelope.items():

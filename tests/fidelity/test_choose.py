@@ -129,9 +129,14 @@ def test_compiling_counts_as_time(ladder):
 def test_within_their_spreads_the_more_accurate_wins(ladder):
     ladder(
         card("coarse", 9e-3, 1.0e-4, iqr=2e-5, first=0.0),
-        card("field", 5e-3, 1.1e-4, iqr=0.0, first=0.0),
+        card("field", 5e-3, 1.1e-4, iqr=2e-5, first=0.0),
     )
     assert choose("washer", BOX, tol=0.02).fidelity == "field"
+    ladder(
+        card("coarse", 9e-3, 1.0e-4, iqr=1e-6, first=0.0),
+        card("field", 5e-3, 1.1e-4, iqr=9e-4, first=0.0),
+    )
+    assert choose("washer", BOX, tol=0.02).fidelity == "coarse"
     ladder(
         card("coarse", 9e-3, 1.0e-4, iqr=5e-6, first=0.0),
         card("field", 5e-3, 1.1e-4, iqr=5e-6, first=0.0),

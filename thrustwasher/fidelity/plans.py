@@ -95,7 +95,7 @@ def _where(parts: list[Part]) -> str:
 def _ordered(options: list[Plan]) -> list[Plan]:
     """Return the plans, best first: verified everywhere, then cheap; ties to the more accurate.
 
-    One is cheaper only if it is so by more than both spreads.
+    Costs are a tie if each lies within the other's spread: a rung that was badly timed ties no one.
     """
     left, ordered = list(options), []
     while left:
@@ -104,7 +104,7 @@ def _ordered(options: list[Plan]) -> list[Plan]:
             p
             for p in left
             if round(p.unverified, 9) == round(best.unverified, 9)
-            and p.total - best.total <= max(p.spread, best.spread)
+            and p.total - best.total <= min(p.spread, best.spread)
         ]
         chosen = min(ties, key=lambda p: (p.error, p.total))
         ordered.append(chosen)

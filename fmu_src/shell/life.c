@@ -120,16 +120,24 @@ static int all_finite(const double *x, int n) {
     return !bad;
 }
 
-/* The kernels leave `state` alone when they fail. It is kept all the same: a solution with a number
-   that is none comes with their OK, and then the state has moved. */
+/* The kernels leave `state` alone when they fail, and say so of a solution that is not finite. A small
+   state is kept all the same; to copy a large one would take longer than to look a solution up. */
+#define KEEPS_STATE (NSTATE <= 1024)
+
+static void copy_solution(Solution *to, const Solution *from) {
+    if (KEEPS_STATE) memcpy(to->state, from->state, sizeof to->state);
+    memcpy(to->out, from->out, sizeof to->out);
+    memcpy(to->iout, from->iout, sizeof to->iout);
+}
+
 int solve(Instance *m, double t, double h) {
     Solution *s = &m->now.solution;
-    memcpy(&m->undo, s, sizeof *s);
+    copy_solution(&m->undo, s);
     int rc = tw_step(m->now.par, m->now.inp, s->state, m->work, s->out, s->iout, t, h);
     if (rc < 0 || (rc < FIRST_FAILURE && !all_finite(s->out, NOUT))) rc = STATUS_NOT_FINITE;
     m->work_fits = rc < FIRST_FAILURE;
     if (rc < FIRST_FAILURE) return 0;
-    memcpy(s, &m->undo, sizeof *s);
+    copy_solution(s, &m->undo);
     return rc;
 }
 

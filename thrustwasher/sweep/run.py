@@ -132,7 +132,7 @@ class Run:
                 return
             try:
                 with local_processes(min(n, self.plan.n_lines)) as executor:
-                    self._hand_out(executor, n)
+                    self._hand_out(executor, n, helps=True)
             except BrokenProcessPool:
                 continue
         if not self.done.all():
@@ -159,15 +159,23 @@ class Run:
             else:  # the first task has loaded or compiled the kernels: that is not the pace
                 warm, began = True, time.perf_counter()
 
-    def _hand_out(self, executor: Executor, n: int) -> None:
-        """Solve with workers; a few tasks wait for each, no more."""
+    def _hand_out(self, executor: Executor, n: int, *, helps: bool = False) -> None:
+        """Solve with workers; a few tasks wait for each, no more.
+
+        ``helps``: until the workers have started this process solves too.
+        """
         waiting: dict[Future[Any], Task] = {}
         tasks = self._tasks(n)
         try:
             for task in tasks:
-                waiting[executor.submit(solve_task, task)] = task
-                if len(waiting) >= 3 * n:
+                full = len(waiting) >= 3 * n
+                if full and helps and not any(future.done() for future in waiting):
+                    self._take(task, *solve_task(task))
+                    continue
+                if full:
+                    helps = False
                     self._take_finished(waiting)
+                waiting[executor.submit(solve_task, task)] = task
             while waiting:
                 self._take_finished(waiting)
         except BaseException:

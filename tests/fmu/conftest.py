@@ -3,19 +3,15 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from toy.places import HERE, TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 os.environ["SOURCE_DATE_EPOCH"] = "1767225600"  # builds repeat while somebody commits
-
-HERE = Path(__file__).parent
-TOY_SLAVES = HERE / "toy" / "slaves"
-TOY_START = {"load": 500.0, "speed": 20.0, "oil_temperature": 310.0}
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,7 @@ import signal
 
 import pytest
 from c_host import LIBPYTHON, load, needs_host, talk
-from conftest import TOY_START
+from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.interface import all_specs, variables

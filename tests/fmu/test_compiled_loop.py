@@ -5,7 +5,7 @@ from dataclasses import replace
 import numba
 import numpy as np
 import pytest
-from conftest import TOY_SLAVES
+from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
 from thrustwasher.drivetrain import load_scene, run_shift, shift, with_fidelities

@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import HERE
+from toy.places import HERE
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import doctor

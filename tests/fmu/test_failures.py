@@ -4,7 +4,7 @@ import math
 import zipfile
 
 import pytest
-from conftest import TOY_START
+from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError, Status

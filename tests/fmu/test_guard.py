@@ -7,7 +7,7 @@ from urllib.parse import quote
 
 import pytest
 from c_host import load, needs_host, talk
-from conftest import TOY_START
+from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem

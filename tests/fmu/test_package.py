@@ -5,7 +5,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from conftest import TOY_SLAVES
+from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError

@@ -6,7 +6,7 @@ import shutil
 import time
 
 import pytest
-from conftest import TOY_START
+from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError

@@ -3,7 +3,7 @@
 import random
 
 import pytest
-from conftest import TOY_SLAVES, TOY_START
+from toy.places import TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 from ..store.cards import error_estimate
 from .washer_constants import SIMPLE
 from .washer_result import WasherResult
@@ -24,4 +22,7 @@ def with_card_error(result: WasherResult) -> WasherResult:
         "washer", result.fidelity, result.params, point, branch=branch,
         film_ratio=None if branch is None else result.film_ratio,
     )  # fmt: skip
-    return result if found is None else dataclasses.replace(result, error_estimate=found)
+    if found is not None:
+        # nobody else has this result yet, and a copy takes longer than a look-up
+        object.__setattr__(result, "error_estimate", found)
+    return result

@@ -44,6 +44,11 @@ OUTPUTS = (
     "fluid_load_share", "friction_coefficient", "friction_power", "fluid_load", "contact_load",
 )  # fmt: skip
 
+SHOWN = tuple(
+    f.name for f in fields(WasherResult)
+    if f.name in (*OUTPUTS, "washer_tilt_x", "washer_tilt_y")
+)  # fmt: skip
+
 
 class WasherMap:
     """All steady states of one washer in a box of load, speed, tilt and oil temperature.
@@ -176,7 +181,7 @@ def solve_by_map(
     status = look_up(washer.data, pt, wanted, state, w, numbers, branch)
     if status == NOT_HERE:
         return None
-    names = dict(zip(OUTPUTS, (float(x) for x in numbers), strict=True))
+    names = dict(zip(OUTPUTS, numbers.tolist(), strict=True))
     if status != OK:
         nothing = dict.fromkeys((*OUTPUTS, "washer_tilt_x", "washer_tilt_y"), math.nan)
         return _result(params, point, nothing, "film", False, Status(status), state)
@@ -193,10 +198,9 @@ def _result(
     params: WasherParams, point: tuple[float, float, float, float], found: dict[str, float],
     branch: str, distress: bool, status: Status, state: Array,
 ) -> WasherResult:  # fmt: skip
-    named = {f.name for f in fields(WasherResult)}
     load, speed, tilt, oil = point
     return WasherResult(
-        **{name: value for name, value in found.items() if name in named},
+        **{name: found[name] for name in SHOWN},
         branch=branch, distress=distress, status=status, iterations=0, fidelity="map",
         grid=(0, 0), error_estimate=ERROR, load=load, speed=speed, tilt=tilt, oil_temperature=oil,
         params=params, _state=state,

@@ -10,6 +10,7 @@ import io
 import json
 import os
 import zipfile
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -104,18 +105,11 @@ def _read(path: str, _changed: int, _size: int) -> MapFile:
         if not isinstance(card, dict):
             raise ValueError("its card is no JSON object")
     except (OSError, zipfile.BadZipFile, zipfile.LargeZipFile, KeyError, ValueError, EOFError,
-            NotImplementedError, RuntimeError, zlib_error()) as problem:  # fmt: skip
+            NotImplementedError, RuntimeError, zlib.error) as problem:  # fmt: skip
         raise ParameterError(
             f"map = {path!r}: {problem}; allowed: a file written by `thrustwasher map build`"
         ) from None
     return MapFile(Path(path), data, card)
-
-
-def zlib_error() -> type[Exception]:
-    """Return the error that damaged compressed data raise."""
-    import zlib
-
-    return zlib.error
 
 
 def read_map(path: str | os.PathLike[str]) -> MapFile:

@@ -38,7 +38,12 @@ BROKEN = {
         {"f0": 0.02},
         {"pinion_teeth": 200},
     ),
-    "transmission": ({"ring_teeth": 30, "planet_teeth": 0}, {"planet_teeth": 20}),
+    "transmission": (
+        {"ring_teeth": 30, "planet_teeth": 0},
+        {"planet_teeth": 20},
+        {"shaft_damping": 1.0},
+        {"initial_twist": -0.1},
+    ),
 }
 CASES = [(spec, n, change) for spec in SPECS for n, change in enumerate(BROKEN[spec.key], 1)]
 

@@ -28,6 +28,8 @@ def energy(signals: Signals) -> dict[str, float]:
         "brake": last("transmission.brake_heat"),
         "washers": last("transmission.washer_heat"),
         "meshes": last("transmission.mesh_heat"),
+        "shaft": last("transmission.shaft_heat"),
+        "spring": last("transmission.shaft_energy"),
         "residual": last("transmission.energy_residual"),
     }
     whole = abs(book["engine_work"]) or abs(book["kinetic"])

@@ -187,7 +187,7 @@ def run(par: Array, work: Array, t: float, dt: float, started: bool) -> int:
 
 @kernel
 def is_at_rest(par: Array, work: Array) -> bool:
-    """Return True if both packs stick: nothing can turn."""
+    """Return True if both packs stick: nothing of the set can turn."""
     return (
         work[L.W_CLUTCH_MODE] == L.STUCK
         and work[L.W_BRAKE_MODE] == L.STUCK

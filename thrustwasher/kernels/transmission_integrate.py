@@ -25,6 +25,7 @@ DIFFERENCE = np.array([
     71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40,
 ])  # fmt: skip
 SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
+TWIST_SCALE = 0.01  # rad
 ENERGY_SCALE = 100.0  # J
 
 
@@ -50,6 +51,10 @@ def trial_step(par: Array, work: Array, s: float, h: float) -> float:
             error += DIFFERENCE[np.uintp(k)] * work[np.uintp(L.W_SLOPES + k * L.N_Y + i)]
         new = work[np.uintp(L.W_STAGE + i)]  # the last stage is the fifth-order result
         work[np.uintp(L.W_NEW + i)] = new
-        scale = SPEED_SCALE if i <= L.Y_CARRIER else ENERGY_SCALE
+        scale = ENERGY_SCALE
+        if i == L.Y_TWIST:
+            scale = TWIST_SCALE
+        elif i <= L.Y_VEHICLE:
+            scale = SPEED_SCALE
         worst = max(worst, abs(h * error) / (par[L.P_TOLERANCE] * (scale + abs(new))))
     return worst

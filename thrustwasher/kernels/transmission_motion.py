@@ -4,6 +4,9 @@
 Unknowns are the speeds of sun and carrier; the ring follows from the teeth, so that a ring without
 inertia is an ordinary case. Clutch and drag act on the same slip: the drag is carried along as the
 clutch torque that does the same work, X = T_clutch + T_drag r/(1 + r).
+
+With a stiffness the shaft behind the carrier is a spring and a damper to the vehicle, which then
+has a speed of its own and meets the load. Without, the carrier is the vehicle.
 """
 
 import math
@@ -65,10 +68,28 @@ def clutch_slip(r: float, sun: float, carrier: float) -> float:
 
 
 @kernel
-def load_torque(par: Array, carrier: float) -> float:
-    """Return the torque of the load [N m] at a speed of the carrier [rad/s]."""
-    x = carrier / par[L.P_LOAD_SPEED]
-    return math.copysign(par[L.P_LOAD_TORQUE] * x * x, carrier)
+def load_torque(par: Array, speed: float) -> float:
+    """Return the torque of the load [N m] at a speed of what it acts on [rad/s]."""
+    x = speed / par[L.P_LOAD_SPEED]
+    return math.copysign(par[L.P_LOAD_TORQUE] * x * x, speed)
+
+
+@kernel
+def vehicle_speed(par: Array, work: Array, y: int) -> float:
+    """Return the speed of the vehicle [rad/s] for the vector at ``work[y:]``."""
+    at = L.Y_VEHICLE if par[L.P_SHAFT_STIFFNESS] > 0.0 else L.Y_CARRIER
+    return float(work[np.uintp(y + at)])
+
+
+@kernel
+def output_torque(par: Array, work: Array, y: int) -> float:
+    """Return the torque against the carrier [N m] for ``work[y:]``: the shaft's, or the load's."""
+    stiffness = par[L.P_SHAFT_STIFFNESS]
+    carrier = work[np.uintp(y + L.Y_CARRIER)]
+    if not stiffness > 0.0:
+        return load_torque(par, carrier)
+    twisting = carrier - work[np.uintp(y + L.Y_VEHICLE)]
+    return stiffness * work[np.uintp(y + L.Y_TWIST)] + par[L.P_SHAFT_DAMPING] * twisting
 
 
 @kernel
@@ -84,17 +105,17 @@ def brake_capacity(work: Array, s: float) -> float:
 
 
 @kernel
-def solve_torques(par: Array, work: Array, s: float, carrier: float) -> None:
+def solve_torques(par: Array, work: Array, s: float, load: float) -> None:
     """Fill the torques X and T_brake and the accelerations for the modes in ``work``.
 
     A slipping pack has its capacity with the sign of its mode; a stuck one the torque that keeps
-    its slip acceleration at zero (a 2 x 2 system if both stick).
+    its slip acceleration at zero (a 2 x 2 system if both stick). ``load`` resists the carrier.
     """
     r = par[L.D_RATIO]
     i_ss, i_sc, i_cc = par[L.D_INV_SS], par[L.D_INV_SC], par[L.D_INV_CC]
     s_cc, s_cb, s_bb = par[L.D_SLIP_CC], par[L.D_SLIP_CB], par[L.D_SLIP_BB]
     c, b = (1.0 + r) / r, 1.0 / r
-    engine, load = work[L.W_ENGINE], load_torque(par, carrier)
+    engine = work[L.W_ENGINE]
     free_sun = i_ss * engine - i_sc * load
     free_carrier = i_sc * engine - i_cc * load
     free_clutch = c * (free_sun - free_carrier)
@@ -142,11 +163,21 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     to the integrator's tolerance.
     """
     sun, carrier = work[np.uintp(y + L.Y_SUN)], work[np.uintp(y + L.Y_CARRIER)]
-    solve_torques(par, work, s, carrier)
+    resists = output_torque(par, work, y)
+    solve_torques(par, work, s, resists)
     work[np.uintp(slopes + L.Y_SUN)] = work[L.W_SUN_RATE]
     work[np.uintp(slopes + L.Y_CARRIER)] = work[L.W_CARRIER_RATE]
     work[np.uintp(slopes + L.Y_ENGINE)] = work[L.W_ENGINE] * sun
-    work[np.uintp(slopes + L.Y_LOAD)] = load_torque(par, carrier) * carrier
+    vehicle = vehicle_speed(par, work, y)
+    load = load_torque(par, vehicle)
+    work[np.uintp(slopes + L.Y_LOAD)] = load * vehicle
+    twisting, acceleration = 0.0, 0.0
+    if par[L.P_SHAFT_STIFFNESS] > 0.0:
+        twisting = carrier - vehicle
+        acceleration = (resists - load) / par[L.P_VEHICLE_INERTIA]
+    work[np.uintp(slopes + L.Y_VEHICLE)] = acceleration
+    work[np.uintp(slopes + L.Y_TWIST)] = twisting
+    work[np.uintp(slopes + L.Y_SHAFT)] = par[L.P_SHAFT_DAMPING] * twisting * twisting
     r = par[L.D_RATIO]
     clutch_heat, washer_heat, mesh_heat, brake_heat = 0.0, 0.0, 0.0, 0.0
     if work[L.W_CLUTCH_MODE] != L.STUCK:
@@ -163,11 +194,21 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
 
 
 @kernel
-def kinetic_energy(par: Array, sun: float, carrier: float) -> float:
-    """Return the kinetic energy of sun, ring and carrier [J]."""
+def kinetic_energy(par: Array, sun: float, carrier: float, vehicle: float) -> float:
+    """Return the kinetic energy of sun, ring, carrier and vehicle [J]."""
     ring = ring_speed(par[L.D_RATIO], sun, carrier)
-    return 0.5 * (
+    energy = 0.5 * (
         par[L.P_SUN_INERTIA] * sun * sun
         + par[L.P_RING_INERTIA] * ring * ring
         + par[L.P_CARRIER_INERTIA] * carrier * carrier
     )
+    if par[L.P_SHAFT_STIFFNESS] > 0.0:
+        energy += 0.5 * par[L.P_VEHICLE_INERTIA] * vehicle * vehicle
+    return energy
+
+
+@kernel
+def spring_energy(par: Array, twist: float) -> float:
+    """Return the energy of the shaft's spring [J] since the start at a twist [rad]."""
+    start = par[L.P_INITIAL_TWIST]
+    return 0.5 * par[L.P_SHAFT_STIFFNESS] * (twist - start) * (twist + start)

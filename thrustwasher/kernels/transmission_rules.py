@@ -1,4 +1,4 @@
-"""Rules between the transmission's parameters: which teeth make no planetary set."""
+"""Rules between the transmission's parameters: teeth of no planetary set, a damped rigid shaft."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,4 +18,9 @@ def broken_rule(par: NDArray[np.float64]) -> int:
         return 1
     if planet != 0.0 and not abs(ring - sun - 2.0 * planet) <= 2.0:
         return 2
+    if par[L.P_SHAFT_STIFFNESS] == 0.0:
+        if par[L.P_SHAFT_DAMPING] != 0.0:
+            return 3
+        if par[L.P_INITIAL_TWIST] != 0.0:
+            return 4
     return 0

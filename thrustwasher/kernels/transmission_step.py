@@ -38,6 +38,7 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
     work[L.W_Y + L.Y_CARRIER] = carrier
     # With the drum at rest the slip must be zero to the last bit, or nothing can stick.
     work[L.W_Y + L.Y_SUN] = (1.0 + r) * carrier if ring == 0.0 else sun
+    work[L.W_Y + L.Y_VEHICLE], work[L.W_Y + L.Y_TWIST] = carrier, par[L.P_INITIAL_TWIST]
     work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = 1.0, 1.0
     work[L.W_EVENTS], work[L.W_EVENTS + 1], work[L.W_EVENTS + 2] = -1.0, 0.0, -1.0
     work[L.W_EVENTS + 3] = 0.0
@@ -83,7 +84,8 @@ def kinetic_start(par: Array, state: Array, dt: float) -> float:
     if dt == 0.0:
         return -1.0
     sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
-    return float(motion.kinetic_energy(par, sun, (sun + r * ring) / (1.0 + r)))
+    carrier = (sun + r * ring) / (1.0 + r)
+    return float(motion.kinetic_energy(par, sun, carrier, carrier))
 
 
 @kernel
@@ -107,7 +109,8 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     """Fill speeds, torques and loads at ``s`` seconds into the step."""
     r = par[L.D_RATIO]
     sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
-    motion.solve_torques(par, work, s, carrier)
+    resists = motion.output_torque(par, work, L.W_Y)
+    motion.solve_torques(par, work, s, resists)
     clutch = motion.clutch_share(par, work, s)
     drag = (work[L.W_CLUTCH] - clutch) * (1.0 + r) / r
     tau = work[L.W_ENGINE] - clutch - drag - par[L.P_SUN_INERTIA] * work[L.W_SUN_RATE]
@@ -129,7 +132,10 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     out[L.O_ENGINE_SPEED], out[L.O_OUTPUT_SPEED] = sun, carrier
     out[L.O_RING_SPEED] = motion.ring_speed(r, sun, carrier)
     out[L.O_DRIVE_TORQUE] = work[L.W_ENGINE]
-    out[L.O_RESISTANCE_TORQUE] = motion.load_torque(par, carrier)
+    vehicle = motion.vehicle_speed(par, work, L.W_Y)
+    out[L.O_RESISTANCE_TORQUE] = motion.load_torque(par, vehicle)
+    out[L.O_VEHICLE_SPEED], out[L.O_SHAFT_TORQUE] = vehicle, resists
+    out[L.O_SHAFT_TWIST] = work[L.W_Y + L.Y_TWIST]
     out[L.O_CLUTCH_REACTION], out[L.O_BRAKE_REACTION] = clutch, work[L.W_BRAKE]
     out[L.O_SUN_TORQUE], out[L.O_DRAG_TORQUE] = tau, drag
     out[L.O_TOOTH_FORCE], out[L.O_TILTING_COUPLE] = force, couple
@@ -143,7 +149,9 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
 
     The residual is what the entries leave unexplained.
     """
-    kinetic = motion.kinetic_energy(par, work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER])
+    sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
+    vehicle = motion.vehicle_speed(par, work, L.W_Y)
+    kinetic = motion.kinetic_energy(par, sun, carrier, vehicle)
     if start < 0.0:
         start = kinetic
     out[L.O_ENGINE_WORK] = work[L.W_Y + L.Y_ENGINE]
@@ -153,8 +161,11 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
     out[L.O_BRAKE_HEAT] = work[L.W_Y + L.Y_BRAKE]
     out[L.O_WASHER_HEAT] = work[L.W_Y + L.Y_WASHER]
     out[L.O_MESH_HEAT] = work[L.W_Y + L.Y_MESH]
+    out[L.O_SHAFT_HEAT] = work[L.W_Y + L.Y_SHAFT]
+    out[L.O_SHAFT_ENERGY] = motion.spring_energy(par, work[L.W_Y + L.Y_TWIST])
     spent = out[L.O_KINETIC_CHANGE] + out[L.O_LOAD_WORK] + out[L.O_CLUTCH_HEAT]
     spent += out[L.O_BRAKE_HEAT] + out[L.O_WASHER_HEAT] + out[L.O_MESH_HEAT]
+    spent += out[L.O_SHAFT_HEAT] + out[L.O_SHAFT_ENERGY]
     out[L.O_ENERGY_RESIDUAL] = out[L.O_ENGINE_WORK] - spent
     out[L.O_LOCK_TIME], out[L.O_LOCK_SPEED] = work[L.W_EVENTS], work[L.W_EVENTS + 1]
     out[L.O_RELEASE_TIME] = work[L.W_EVENTS + 2]

@@ -25,6 +25,10 @@ RULES = (
     Rule("ring_teeth = {ring_teeth}, allowed: above sun_teeth ({sun_teeth})"),
     Rule("planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
          "{sun_teeth}), within one tooth, or 0", _planet_teeth),
+    Rule("shaft_damping = {shaft_damping} N.m.s/rad, allowed: 0 with a rigid shaft "
+         "(shaft_stiffness = 0)"),
+    Rule("initial_twist = {initial_twist} rad, allowed: 0 with a rigid shaft "
+         "(shaft_stiffness = 0)"),
 )  # fmt: skip
 
 
@@ -33,7 +37,8 @@ class TransmissionParams:
     """One planetary set with engine at the sun, drum at the ring and output at the carrier.
 
     The brake holds the ring (first gear, ratio 1 + z_r/z_s), the clutch locks sun to ring (second
-    gear, ratio 1). All defaults are engineering estimates of a car-sized set.
+    gear, ratio 1). A stiffness puts a spring and a damper between carrier and vehicle; the load
+    then acts on the vehicle. All defaults are engineering estimates of a car-sized set.
     """
 
     sun_teeth: int = count(30, 1, 1000, "teeth of the sun gear")
@@ -43,7 +48,9 @@ class TransmissionParams:
     normal_module: float = quantity(1.5e-3, "m", 1e-4, 0.05, "normal module of the gears")
     helix_angle: float = quantity(0.3490658503988659, "rad", 0.0, 0.8, "helix angle at the pitch")
     sun_inertia: float = quantity(0.25, "kg.m2", 1e-6, 1e4, "inertia of engine and sun")
-    carrier_inertia: float = quantity(8.0, "kg.m2", 1e-6, 1e6, "inertia of carrier and vehicle")
+    carrier_inertia: float = quantity(
+        8.0, "kg.m2", 1e-6, 1e6, "inertia of the carrier, with a rigid shaft also of the vehicle"
+    )
     ring_inertia: float = quantity(0.01, "kg.m2", 0.0, 1e4, "inertia of ring and drum (0 allowed)")
     initial_engine_speed: float = quantity(350.0, "rad/s", -5e3, 5e3, "engine speed at the start")
     initial_ring_speed: float = quantity(0.0, "rad/s", -5e3, 5e3, "ring speed at the start")
@@ -62,6 +69,10 @@ class TransmissionParams:
     capacity_extrapolation: bool = flag(True, "capacities go on changing as in the step before")
     torque_age: int = count(0, 0, 2, "steps the received torques are old (1: parallel master)")
     tolerance: float = quantity(1e-11, "1", 1e-13, 1e-4, "relative error of the inner integration")
+    shaft_stiffness: float = quantity(0.0, "N.m/rad", 0.0, 1e9, "output shaft (0: rigid)")
+    shaft_damping: float = quantity(0.0, "N.m.s/rad", 0.0, 1e6, "damping of the output shaft")
+    vehicle_inertia: float = quantity(8.0, "kg.m2", 1e-6, 1e6, "inertia behind an elastic shaft")
+    initial_twist: float = quantity(0.0, "rad", -10.0, 10.0, "twist of the shaft at the start")
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -125,6 +136,11 @@ OUTPUTS = (
     _out("lock_speed", "rad/s", 100.0, "engine speed when the clutch last locked"),
     _out("release_time", "s", 1.0, "time the brake last broke away (-1: it never did)"),
     _out("oil_supply_temperature", "K", 300.0, "temperature of the oil sent to every part"),
+    _out("vehicle_speed", "rad/s", 100.0, "speed of the vehicle behind the output shaft"),
+    _out("shaft_torque", "N.m", 100.0, "torque of the output shaft (rigid: of the load)"),
+    _out("shaft_twist", "rad", 0.1, "twist of the output shaft, carrier before vehicle"),
+    _out("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
+    _out("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
     Signal(name="clutch_locked", unit="1", kind="boolean", depends=_TORQUES,
            help="the clutch sticks, its slip is exactly zero",
            events=("clutch locked", "clutch broke away")),
@@ -142,7 +158,7 @@ SPEC = ModelSpec(
     name="ShiftTransmission",
     help="Planetary set with engine, load, clutch and brake: speeds, lock-up and the energy book",
     params=TransmissionParams,
-    fidelities={"rigid": "rigid shafts and gears, lock-up located inside the step"},
+    fidelities={"rigid": "rigid gears, lock-up located inside the step"},
     default_fidelity="rigid",
     inputs=INPUTS,
     outputs=OUTPUTS,

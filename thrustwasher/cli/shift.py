@@ -34,7 +34,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--step", metavar="QUANTITY", help="communication step [s], if not the scene's"
     )
     parser.add_argument(
-        "--master", metavar="NAME", help="gauss-seidel or jacobi, if not the scene's"
+        "--master", metavar="NAME",
+        help="gauss-seidel, jacobi or linearly-implicit, if not the scene's",
     )
     parser.add_argument(
         "--fidelity", metavar="[PART=]RUNG", action="append", default=[],

@@ -7,7 +7,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .moves import Move, Step
+from .moves import Move, Pull, Step
 from .recorder import Recorder
 from .system import System
 
@@ -69,8 +69,10 @@ class PythonLoop:
             for move in schedule:
                 if isinstance(move, Step):
                     move.part.step(t, h)
-                else:
+                elif isinstance(move, Pull):
                     move.part.pull()
+                else:
+                    move.change(t, h)
             recorder.keep(k + 1)
             if watch.notices(recorder.rows, k + 1):
                 return k + 1

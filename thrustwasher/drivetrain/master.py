@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from . import gauss_seidel, jacobi
+from . import gauss_seidel, jacobi, linearly_implicit
 from .moves import Move
 from .system import System
 
@@ -30,4 +30,8 @@ MASTERS: dict[str, Master] = {
     "jacobi": Master(
         jacobi.schedule, 1, "all parts step at once with the inputs of the last point"
     ),
-}
+    linearly_implicit.NAME: Master(
+        linearly_implicit.schedule, 0,
+        "as gauss-seidel, torques corrected to the end of the step by their derivatives",
+    ),
+}  # fmt: skip

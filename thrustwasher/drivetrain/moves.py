@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from .system import ConnectedPart
 
@@ -13,10 +13,27 @@ class Pull(NamedTuple):
     part: ConnectedPart
 
 
+class Change(Protocol):
+    """Changes the present inputs of a part before it steps."""
+
+    def __call__(self, t: float, h: float) -> None:
+        """Change them for the step from ``t`` to ``t + h``."""
+
+    def words(self) -> list[str]:
+        """Say what a reader of the run has to know."""
+
+
+class Correct(NamedTuple):
+    """The inputs of a part are changed before it steps."""
+
+    part: ConnectedPart
+    change: Change
+
+
 class Step(NamedTuple):
     """A part advances with its present inputs."""
 
     part: ConnectedPart
 
 
-Move = Pull | Step
+Move = Pull | Correct | Step

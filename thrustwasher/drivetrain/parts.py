@@ -45,6 +45,7 @@ LINKS = (
     Link("transmission", "oil_supply_temperature", "mesh", "oil_temperature"),
     Link("mesh", "friction_torque", "transmission", "mesh_torque"),
 )
+PACK_INPUTS = ("clutch_torque", "brake_torque")  # of the transmission
 PACK_OUTPUT = {"capacity": "torque_capacity", "torque": "friction_torque"}
 
 

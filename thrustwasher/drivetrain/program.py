@@ -13,17 +13,19 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, SolveError
 from .loop import NOTHING, Run, Watch
 from .machine import Group, has_machine, machine_of
-from .moves import Pull
+from .moves import Correct, Pull
 from .parts import COMMAND
 from .system import ConnectedPart, renamed
 
 
 def can_compile(run: Run) -> bool:
-    """Tell if every part gives its addresses and numba compiles here."""
+    """Tell if every part gives its addresses, every move is a call, and numba compiles here."""
     from numba.core import config
 
     settings: Any = config
     if settings.DISABLE_JIT or sys.maxsize < 2**32:
+        return False
+    if any(isinstance(move, Correct) for move in run.schedule):
         return False
     return all(has_machine(p.instance) for p in run.system.parts.values())
 

@@ -16,7 +16,8 @@ from .guard import Guard
 from .guard_plan import Plan
 from .loop import Loop, PythonLoop, Run
 from .master import MASTERS
-from .parts import links
+from .moves import Correct
+from .parts import PACK_INPUTS, links
 from .recorder import Recorder
 from .result import Cost, ShiftResult
 from .scene import Scene
@@ -107,9 +108,14 @@ def _result(
         wall_time=wall,
         overhead=wall - spent,
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
-        messages=[*messages, *_advice(time, signals)],
+        messages=[*messages, *_said(run), *_advice(time, signals)],
         guard=log,
     )
+
+
+def _said(run: Run) -> list[str]:
+    """Return what the master itself has to say."""
+    return [line for m in run.schedule if isinstance(m, Correct) for line in m.change.words()]
 
 
 def _drive(advance: Callable[[int, int], int], n: int, progress: Progress | None) -> None:
@@ -147,8 +153,11 @@ def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
     if missing:
         raise ParameterError(f"instances: {', '.join(missing)} missing, the scene has them")
     parts = {n: ConnectedPart(n, p.spec, instances[n]) for n, p in scene.parts.items()}
-    coupling = scene.parts["transmission"].params.coupling
-    system = System(parts, links(coupling, set(parts)))
+    gearbox = scene.parts["transmission"].params
+    carries_on = gearbox.coupling == "capacity" and gearbox.capacity_extrapolation
+    system = System(
+        parts, links(gearbox.coupling, set(parts)), carries_on=PACK_INPUTS if carries_on else ()
+    )
     system.set_command(scene.command(scene.start_time))
     return system
 

@@ -109,19 +109,33 @@ def _named(part: str, time: float) -> Iterator[None]:
 
 
 class System:
-    """All parts of a shift, connected; the shift command comes from outside."""
+    """All parts of a shift, connected; the shift command comes from outside.
 
-    def __init__(self, parts: Mapping[str, ConnectedPart], links: Sequence[Link]) -> None:
+    Parameters
+    ----------
+    parts : by name
+    links : who passes what to whom
+    hub : the part that moves, ``transmission`` here; all others answer its speeds with torques
+    carries_on : inputs that the hub itself carries on over a step as they changed in the last one
+    """
+
+    def __init__(
+        self, parts: Mapping[str, ConnectedPart], links: Sequence[Link], *,
+        hub: str = "transmission", carries_on: Sequence[str] = (),
+    ) -> None:  # fmt: skip
         self.parts = dict(parts)
-        self.transmission = self.parts["transmission"]
-        self.friction_parts = [p for n, p in self.parts.items() if n != "transmission"]
-        self._command = self.transmission.input_names.index(COMMAND)
+        self.transmission = self.parts[hub]
+        self.friction_parts = [p for n, p in self.parts.items() if n != hub]
+        self.carries_on = frozenset(carries_on)
+        names = self.transmission.input_names
+        self._command = names.index(COMMAND) if COMMAND in names else None
         for link in links:
             self.parts[link.target].connect(link, self.parts[link.source])
 
     def set_command(self, value: float) -> None:
         """Set the shift command for the end of the coming step."""
-        self.transmission.inputs[self._command] = value
+        if self._command is not None:
+            self.transmission.inputs[self._command] = value
 
     def initialize(self, time: float) -> None:
         """Start all parts and pass signals round until loads and torques belong together."""

@@ -11,7 +11,7 @@ from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ..models._spec import ModelSpec
 from .core import Core, Mode
 from .interface import enumerations, variables
-from .registry import find_derivatives
+from .registry import find_derivatives, has_derivatives
 from .snapshot import from_bytes
 
 
@@ -28,6 +28,7 @@ class DirectInstance:
         self._outputs = [v.reference for v in found if v.causality == "output"]
         self._parameters = dict(parameters or {})
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
+        self.saves_state, self.gives_derivatives = True, has_derivatives(spec)
         self.reset()
         self.instantiate_time = perf_counter() - start
 

@@ -103,6 +103,24 @@ def description(folder: Path) -> Any:
     return read_model_description(str(folder), validate=False)
 
 
+@cache
+def capabilities(folder: Path) -> tuple[bool, bool]:
+    """Tell if an unpacked FMU saves its state and gives directional derivatives.
+
+    Read here: the two FMI versions spell these flags differently, and FMPy reads one spelling.
+    """
+    from xml.etree import ElementTree
+
+    root = ElementTree.parse(folder / "modelDescription.xml").getroot()
+    found = root.find("CoSimulation")
+    flags = {} if found is None else {name.lower(): said for name, said in found.attrib.items()}
+    state = flags.get("cangetandsetfmustate")
+    slopes = flags.get("providesdirectionalderivatives") or flags.get(
+        "providesdirectionalderivative"
+    )
+    return state in ("true", "1"), slopes in ("true", "1")
+
+
 def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> Any:
     """Load and instantiate; what the FMU logs is appended to ``messages``."""
     third = described.fmiVersion.startswith("3")

@@ -14,7 +14,7 @@ from typing import Any, Self
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .direct import DirectInstance, number, unknown
-from .loading import WARNING, Message, Messages, description, instantiate, unpack
+from .loading import WARNING, Message, Messages, capabilities, description, instantiate, unpack
 from .machine import Machine, machine_of
 from .protocol import Direction, Fmi2, Fmi3, Protocol, Table
 
@@ -44,7 +44,8 @@ class Instance:
     A call that fails raises: ParameterError for a value that is not taken over, SolveError for a
     step or solution that failed, with the FMU's own message; after a failed step the FMU is where
     it was before. ``warnings`` keeps the texts of warnings, ``notes`` what else the FMU sent, as
-    (status, category, text), for categories switched on with ``log``.
+    (status, category, text), for categories switched on with ``log``. ``saves_state``: the FMU can
+    save its state; ``gives_derivatives``: it has directional derivatives.
     """
 
     def __init__(
@@ -61,6 +62,7 @@ class Instance:
         self.path = Path(path)
         folder = unpack(path)
         self.description = description(folder)
+        self.saves_state, self.gives_derivatives = capabilities(folder)
         self._by_name = {v.name: v for v in self.description.modelVariables}
         listed = self.description.modelVariables
         inputs, outputs = ([v for v in listed if v.causality == c] for c in ("input", "output"))

@@ -1,0 +1,1 @@
+"""Two small linear FMUs for loops whose limits are known: a body that moves, a law that answers."""

@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--master", metavar="NAME",
         help="gauss-seidel, jacobi or linearly-implicit, if not the scene's",
-    )
+    )  # fmt: skip
     parser.add_argument(
         "--fidelity", metavar="[PART=]RUNG", action="append", default=[],
         help="a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "

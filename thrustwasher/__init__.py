@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .models.clutch_engagement import Engagement, engage_clutch
     from .models.gearmesh import GearMeshParams, GearMeshResult, solve_gearmesh
     from .models.washer import WasherParams, WasherResult, solve_washer
+    from .models.washer_course import WasherCourse, follow_washer
     from .models.washer_curve import LoadCurve, load_curve
     from .sweep.run import run_sweep
     from .sweep.table import SweepTable
@@ -30,6 +31,7 @@ _HOMES = {
     "models.gearmesh": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "models.clutch_engagement": ("Engagement", "engage_clutch"),
     "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
+    "models.washer_course": ("WasherCourse", "follow_washer"),
     "models.washer_curve": ("LoadCurve", "load_curve"),
     "sweep.run": ("run_sweep",),
     "sweep.table": ("SweepTable",),
@@ -48,12 +50,14 @@ __all__ = [
     "SolveError",
     "Status",
     "SweepTable",
+    "WasherCourse",
     "WasherParams",
     "WasherResult",
     "boundary_friction",
     "calibrate",
     "choose",
     "engage_clutch",
+    "follow_washer",
     "load_curve",
     "run_sweep",
     "solve_clutch",

@@ -11,7 +11,7 @@ from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ..models._spec import ModelSpec
 from ..models._tables import fill_table, wants_table
 from .interface import Variable, enumerations, variables
-from .registry import content_digest, count_places, load_kernel
+from .registry import content_digest, count_places, find_broken_rule, load_kernel
 from .snapshot import Snapshot
 
 
@@ -35,6 +35,7 @@ class Core:
     def __init__(self, spec: ModelSpec) -> None:
         kernel = load_kernel(spec.kernel)
         self.spec, self._derive, self._step = spec, kernel.derive, kernel.step
+        self._broken_rule = find_broken_rule(spec)
         self._n_param = kernel.n_param
         self.variables = variables(spec)
         self.par, self.inp = np.zeros(kernel.n_par), np.zeros(kernel.n_inp)
@@ -147,7 +148,10 @@ class Core:
         if self.prepared:
             return
         failed, self.latch = self.latch, Status.BAD_INPUT
-        self.spec.params(**self._named_parameters())  # raises ParameterError naming the rule
+        params = self.spec.params(**self._named_parameters())  # raises, naming the rule
+        number = self._broken_rule(self.par) if self._broken_rule and self.spec.rules else 0
+        if number:  # one that concerns the fidelity too
+            raise ParameterError(self.spec.rules[number - 1].message(params))
         rc = self._derive(self.par)
         if rc >= FIRST_FAILURE:
             raise ParameterError(f"the parameters cannot be used: {Status(rc).advice}")

@@ -83,6 +83,11 @@ def find_derivatives(spec: ModelSpec) -> Callable[..., int] | None:
     return getattr(importlib.import_module(kernel_module(spec.kernel)), "sens", None)
 
 
+def find_broken_rule(spec: ModelSpec) -> Callable[[Any], int] | None:
+    """Return ``broken_rule(par)`` of a model, None if it has none."""
+    return getattr(importlib.import_module(kernel_module(spec.kernel)), "broken_rule", None)
+
+
 def kernel_table(spec: ModelSpec) -> dict[str, float]:
     """Return where in ``work`` a model's table lies and how it is known, by name; ROOM 0: none.
 

@@ -16,6 +16,7 @@ from .washer_model import WasherModel
 N_TAG = 48  # what the stored heat factor was made for: inputs, positions, parameters, grid
 N_SMALL = 128
 N_KEEP = 3
+RATE = 125  # in Fields.small: 1/s that storage weighs heat with; 0: steady
 
 
 class Point(NamedTuple):
@@ -73,6 +74,8 @@ class Fields(NamedTuple):
     heat: NDArray[np.float64]  # (n_temp,) residual of the heat equations [W]
     dtemp: NDArray[np.float64]  # (n_temp,) T step at fixed positions
     spare: NDArray[np.float64]  # (n_temp,) permuted right side
+    past: NDArray[np.float64]  # (n_temp,) rises that the storage of heat counts from [K]
+    begin: NDArray[np.float64]  # (n_temp,) rises at the start of a substep
     keep: NDArray[np.float64]  # (N_KEEP (4 + n_temp + n),) remembered solutions; of washer_sens too
 
 
@@ -87,7 +90,7 @@ def size_of_work(n_r: int, n_t: int) -> int:
     width = 4 * n_temp // n_t + 2
     film = (2 * n_r + 1) * n
     kept = N_KEEP * (4 + n_temp + n)
-    return N_TAG + 1 + n_temp * (width + 9) + N_SMALL + n_t + 43 * n + film + kept
+    return N_TAG + 1 + n_temp * (width + 11) + N_SMALL + n_t + 43 * n + film + kept
 
 
 @kernel
@@ -113,7 +116,7 @@ def washer_fields(m: WasherModel, work: NDArray[np.float64]) -> Fields:
     e = d + 24 * n
     g = e + n_temp
     k = g + n
-    z = k + 3 * n_temp
+    z = k + 5 * n_temp
     return Fields(
         work[:a0], work[a0:a1], work[a1:a2], work[a2:a3],
         work[a3 : a3 + n], work[a3 + n : a3 + 2 * n], work[a3 + 2 * n : a3 + 3 * n],
@@ -127,5 +130,6 @@ def washer_fields(m: WasherModel, work: NDArray[np.float64]) -> Fields:
         work[b:c], work[c:d], work[d : d + 8 * n],
         work[d + 8 * n : d + 16 * n], work[d + 16 * n : e], work[e:g], work[g:k],
         work[k : k + n_temp], work[k + n_temp : k + 2 * n_temp],
-        work[k + 2 * n_temp : z], work[z : z + N_KEEP * (4 + n_temp + n)],
+        work[k + 2 * n_temp : k + 3 * n_temp], work[k + 3 * n_temp : k + 4 * n_temp],
+        work[k + 4 * n_temp : z], work[z : z + N_KEEP * (4 + n_temp + n)],
     )  # fmt: skip

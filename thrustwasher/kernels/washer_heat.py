@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 
 from ._jit import kernel
 from .banded import cholesky, cholesky_solve, lu, lu_solve, mirror
-from .washer_fields import Fields, Point
+from .washer_fields import RATE, Fields, Point
 from .washer_gap import DCONTACT, FRICTION
 from .washer_model import WasherModel
+
+STORED = 126  # in Fields.small: size of the heat that goes into storage [W]
 
 
 @kernel
@@ -83,12 +85,41 @@ def conduct(
 
 
 @kernel
+def store(m: WasherModel, temp: NDArray[np.float64], less: NDArray[np.float64], more: float,
+          f: Fields, heat: NDArray[np.float64]) -> float:  # fmt: skip
+    """Add to ``heat`` [W] what the bodies store at the rate in ``f.small``; return its size [W].
+
+    A body of thickness t takes density x specific heat x t x area x rate x (temp - less + more).
+    """
+    n_r, m_t = m.n_r, 3 * m.n_r - m.i_g
+    rate = m.volume_heat * f.small[RATE]
+    size = 0.0
+    for j in range(m.n_t):
+        for k in range(m_t):
+            i = k % n_r if k < 2 * n_r else k - 2 * n_r + m.i_g
+            if k < n_r:
+                capacity = m.carrier_thickness * m.weight1[i]
+            elif k < 2 * n_r:
+                capacity = m.washer_thickness * m.weight1[i]
+            else:
+                capacity = m.gear_thickness * m.weight2[i]
+            a = np.uintp(j * m_t + k)
+            flow = rate * capacity * m.weight_t[j] * (temp[a] - less[a] + more)
+            heat[a] += flow
+            # no balance is better than the rounding of a temperature
+            size += abs(flow) + 1e-8 * rate * capacity * m.weight_t[j] * abs(temp[a])
+    return size
+
+
+@kernel
 def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields) -> float:
     """Fill ``f.heat`` [W], heat leaving each node less heat made; return the heat made [W]."""
     n_r, m_t = m.n_r, 3 * m.n_r - m.i_g
     omega = abs(pt.speed)
     friction = f.small[FRICTION]
     conduct(m, temp, f, f.heat)
+    if f.small[RATE] != 0.0:
+        f.small[STORED] = store(m, temp, f.past, 0.0, f, f.heat)
     made = 0.0
     for j in range(m.n_t):
         for i in range(n_r):
@@ -151,6 +182,7 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
     half = m.washer_thickness / (2.0 * m.conductivity)
     per_oil = 1.0 / m.oil_conductivity
     omega = abs(pt.speed)
+    rate = m.volume_heat * f.small[RATE]
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         c0, n0 = _place(j, n_t) * m_t, _place(jn, n_t) * m_t
@@ -160,7 +192,8 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
             w1 = m.weight1[i] * m.weight_t[j]
             v = omega * m.r[i]
             _link(a, band, symmetric, ic, iw, w1 / (f.ht[k] * per_oil + half))
-            _add(a, band, symmetric, ic, ic, w1 * far_c)
+            _add(a, band, symmetric, ic, ic, w1 * (far_c + rate * m.carrier_thickness))
+            _add(a, band, symmetric, iw, iw, w1 * rate * m.washer_thickness)
             # the film's heat falls with either temperature
             s = -0.5 * w1 * m.film_heat_fraction * f.dmu[k] * v * v / f.ht[k]
             _add(a, band, symmetric, ic, ic, m.heat_split * s)
@@ -179,7 +212,7 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
                 ig, ign = c0 + 2 * n_r + i - i_g, n0 + 2 * n_r + i - i_g
                 w2 = m.weight2[i] * m.weight_t[j]
                 _link(a, band, symmetric, iw, ig, w2 / (f.ht2[k] * per_oil + half))
-                _add(a, band, symmetric, ig, ig, w2 * far_g)
+                _add(a, band, symmetric, ig, ig, w2 * (far_g + rate * m.gear_thickness))
                 _link(
                     a,
                     band,

@@ -30,7 +30,7 @@ from .washer_map import (
 from .washer_map_layout import N_LOOK_UP, STEEP, THICK
 from .washer_map_point import map_derivative, map_outputs
 from .washer_memory import BRANCH_NOW, VALID
-from .washer_model import BAD_INPUT, N_PARAM, NOT_FINITE, OK
+from .washer_model import BAD_INPUT, N_STEADY, NOT_FINITE, OK
 from .washer_newton import SINGULAR
 from .washer_outputs import CONTACT_LOAD, MEAN_TEMPERATURE, N_REAL, RATIO
 from .washer_verdict import STATUS_OUT, change_of, judge, point_of
@@ -164,7 +164,7 @@ def map_step(
     w : (N_MAP_WORK,) scratch
     data : the table in the caller's work; BAD_INPUT if it is not one of these parameters
     """
-    if not map_fits(data, par, N_PARAM - 1):
+    if not map_fits(data, par, N_STEADY):
         return BAD_INPUT
     pt = point_of(inp)
     branch = w[N_MAP_WORK - N_VERDICT :]

@@ -9,16 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .washer_fields import N_TAG, Bench, Fields, Point, temperatures_of, washer_fields
+from .washer_fields import N_TAG, RATE, Bench, Fields, Point, temperatures_of, washer_fields
 from .washer_gap import evaluate_gaps, evaluate_viscosity
 from .washer_model import N_PARAM, washer_model
-from .washer_newton import make_factor
+from .washer_newton import RATE_TAG, make_factor
 
 VALID, BRANCH_NOW, MULTIPLICITY_NOW = 0, 1, 2
 LOAD_THEN, SPEED_THEN, TILT_THEN, OIL_THEN = 3, 4, 5, 6  # inputs of the last solution
 SCAN_SPEED, SCAN_TILT, SCAN_OIL = 7, 8, 9  # inputs of the last descent; a tilt < 0: none
 Q, RATIO_THEN, SHARE_THEN, FACTOR_VALID = 10, 14, 15, 16
 FACTOR_SPEED, FACTOR_TILT, FACTOR_OIL, FACTOR_Q = 17, 18, 19, 20
+FACTOR_RATE, SUBSTEP = 26, 27  # 24 and 25 belong to the map; the next substep to try [s]
 FIELDS = 32  # then temperatures, pressures, temperatures of the factor
 
 
@@ -32,7 +33,7 @@ def _belongs(par: NDArray[np.float64], state: NDArray[np.float64], f: Fields) ->
     """Tell if the factor in ``f`` was made for these parameters and the remembered fields."""
     t = f.tag
     if not (t[0] == 1.0 and t[1] == state[FACTOR_SPEED] and t[2] == state[FACTOR_TILT]
-            and t[7] == state[FACTOR_OIL]):  # fmt: skip
+            and t[7] == state[FACTOR_OIL] and t[RATE_TAG] == state[FACTOR_RATE]):  # fmt: skip
         return False
     for k in range(4):
         if t[3 + k] != state[FACTOR_Q + k]:
@@ -66,7 +67,10 @@ def recall_state(b: Bench, state: NDArray[np.float64], q: NDArray[np.float64]) -
             f.temp[np.uintp(k)] = state[np.uintp(base + k)]
         evaluate_gaps(m, pt, q, f)
         evaluate_viscosity(m, pt, f)
+        rate = f.small[RATE]
+        f.small[RATE] = state[FACTOR_RATE]
         make_factor(m, pt, q, f.temp, f)
+        f.small[RATE] = rate
         own_factor(par, f)
     for k in range(4):
         q[k] = state[Q + k]
@@ -101,7 +105,7 @@ def remember_state(b: Bench, pt: Point, q: NDArray[np.float64], state: NDArray[n
     own_factor(b.par, f)
     state[FACTOR_VALID] = f.tag[0]
     state[FACTOR_SPEED], state[FACTOR_TILT] = f.tag[1], f.tag[2]
-    state[FACTOR_OIL] = f.tag[7]
+    state[FACTOR_OIL], state[FACTOR_RATE] = f.tag[7], f.tag[RATE_TAG]
     for k in range(4):
         state[FACTOR_Q + k] = f.tag[3 + k]
     for k in range(n_temp):

@@ -17,7 +17,10 @@ from .asperity import asperity_args
 from .contact import N_CONTACT_WORK, N_TABLE, contact_table
 from .spline import spline_weights
 
-N_PARAM = 32  # 31 fields of WasherParams, then the fidelity
+N_PARAM = 36  # 35 fields of WasherParams, then the fidelity
+N_STEADY = 31  # the fields that a steady solution depends on; what follows belongs to time
+THERMAL_MODE, THERMAL_START = 31, 34  # places in `par`
+QUASI_STEADY, TRANSIENT, FROM_OIL = 1.0, 2.0, 2.0  # their values
 N_SCALAR = 16
 OUTER_RADIUS, SIGMA1, SIGMA2 = 1, N_PARAM + 3, N_PARAM + 4  # places in `par`
 SUMMIT1, SUMMIT_SIGMA1 = N_PARAM + 6, N_PARAM + 8
@@ -54,6 +57,7 @@ class WasherModel(NamedTuple):
     friction_load_max: float
     heat_split: float
     film_heat_fraction: float
+    volume_heat: float  # [J/(m^3 K)] density times specific heat
     carrier_spread: float  # factor on conduction around the circumference
     rotating_spread: float
     n_r: int
@@ -267,7 +271,7 @@ def washer_model(par: NDArray[np.float64]) -> WasherModel:
         par[0], par[1], par[2], par[3], par[4], par[5],
         par[17], par[19], par[20], par[21], par[22],
         par[23] == 2.0, par[24], par[25], par[26], par[27], par[28], par[29], par[30],
-        carrier_spread, rotating_spread,
+        par[32] * par[33], carrier_spread, rotating_spread,
         n_r, n_t, int(par[d + 2]),
         par[d + 3], par[d + 4], par[d + 5], par[d + 6], par[d + 7], par[d + 8], par[d + 9],
         par[TABLES : TABLES + N_TABLE], par[TABLES + N_TABLE : MESH],

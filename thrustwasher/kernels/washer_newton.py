@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from ._jit import kernel
 from .banded import N_SIDES
 from .dense import dense_solve
-from .washer_fields import N_TAG, Bench, Fields, Point, washer_fields
+from .washer_fields import N_TAG, RATE, Bench, Fields, Point, washer_fields
 from .washer_film import evaluate_film, film_residual, film_solve
 from .washer_gap import FORCE, STIFF, evaluate_gaps, evaluate_viscosity
-from .washer_heat import factor_heat, heat_residual, heat_slopes, solve_heat
+from .washer_heat import STORED, factor_heat, heat_residual, heat_slopes, solve_heat
 from .washer_model import OUTER_RADIUS, SIGMA1, WasherModel, washer_model
 
 OK, MAX_ITERATIONS, SINGULAR, NOT_FINITE = 0, 10, 11, 14  # errors.Status; a test keeps them equal
@@ -33,6 +33,7 @@ SLOPES = 36  # (16,) their slopes over q
 SYSTEM = 52  # (16,) scratch
 RIGHT = 68  # (8,) scratch
 TANGENT = 76  # (4,) dq/ds along the curve of solutions
+RATE_TAG = N_TAG - 1  # in the tag: the rate of storage
 # places in `info`; iterations and factorings add up over the calls of one solve
 ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT = 0, 1, 2, 3, 4, 5
 ARRIVED, SCANNED, N_INFO = 6, 7, 8  # of a solve with memory: warm, after a descent
@@ -67,6 +68,7 @@ def make_factor(
     for s in range(4):
         solve_heat(m, f.sens[s * n : s * n + n], f.sens[s * n : s * n + n], f)
     f.tag[0], f.tag[1], f.tag[2], f.tag[7] = 1.0, pt.speed, pt.tilt, pt.oil_temperature
+    f.tag[RATE_TAG] = f.small[RATE]
     for k in range(4):
         f.tag[3 + k] = q[k]
     for k in range(n):
@@ -241,7 +243,8 @@ def newton(
         lost = 0.0
         for k in range(n_temp):
             lost += abs(f.heat[np.uintp(k)])
-        error = max(error, lost / max(made, 1e-2))
+        flow = made + (f.small[STORED] if f.small[RATE] != 0.0 else 0.0)
+        error = max(error, lost / max(flow, 1e-2))
         info[RESIDUAL], info[REACHED_LOAD], info[HEAT] = error, reached, made
         if not math.isfinite(error):
             return NOT_FINITE
@@ -257,7 +260,7 @@ def newton(
             info[FACTORED] += 1.0
         before = error
         # a change of load alone leaves the heat balanced: no step at fixed positions then
-        balanced = lost < tolerance * max(made, 1e-2)
+        balanced = lost < tolerance * max(flow, 1e-2)
         for k in range(n_temp):
             f.heat[np.uintp(k)] = -f.heat[np.uintp(k)]
             f.dtemp[np.uintp(k)] = 0.0

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .washer_model import _gap_constants, _pair
+from .washer_model import N_PARAM, THERMAL_MODE, TRANSIENT, _gap_constants, _pair
+from .washer_verdict import COARSE
 
 LARGEST_SPREAD = 20.0  # outer over inner radius
 LEAST_ROUGHNESS = 1.5e-7  # [m]
@@ -38,4 +39,8 @@ def broken_rule(par: NDArray[np.float64]) -> int:
     gear, _ = _pair(par, 9, 8)
     _, _, first = _gap_constants(par, math.sqrt(carrier * carrier + washer * washer))
     _, _, second = _gap_constants(par, math.sqrt(gear * gear + washer * washer))
-    return 0 if first and second else 7
+    if not (first and second):
+        return 7
+    if par.size >= N_PARAM and par[THERMAL_MODE] == TRANSIENT:  # the fidelity is known
+        return 0 if par[N_PARAM - 1] >= COARSE else 8
+    return 0

@@ -51,7 +51,7 @@ CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
 
 
 @kernel
-def _scan_holds(pt: Point, state: NDArray[np.float64]) -> bool:
+def scan_holds(pt: Point, state: NDArray[np.float64]) -> bool:
     """Tell if the last descent was at about this speed, tilt and oil temperature."""
     return bool(
         state[SCAN_TILT] >= 0.0
@@ -76,7 +76,7 @@ def _warm(
     if branch == FILM_BRANCH and is_clear_film(b, q, info):
         return True
     ratio = film_ratio(b, q)
-    if abs(ratio - state[RATIO_THEN]) > CONTINUOUS or not _scan_holds(pt, state):
+    if abs(ratio - state[RATIO_THEN]) > CONTINUOUS or not scan_holds(pt, state):
         return False
     if info[LOAD_SLOPE] * b.par[SIGMA1] > -0.3 * info[REACHED_LOAD]:
         # a fold may be near: the slope is needed with a heat factor made here

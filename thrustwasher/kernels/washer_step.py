@@ -6,22 +6,51 @@ Rungs: `closed` and `stribeck` have no mesh and no memory, the others are one ke
 import numpy as np
 from numpy.typing import NDArray
 
-from ._jit import kernel
-from .washer_branch import ANY, N_FOUND, NO_BRANCH
+from ._jit import inlined, kernel
+from .washer_branch import ANY, MULTIPLICITY, N_FOUND, NO_BRANCH
 from .washer_closed import closed_sens, closed_step
 from .washer_curve import N_WALK
-from .washer_fields import Bench, size_of_work, washer_fields
+from .washer_fields import Bench, Point, size_of_work, washer_fields
 from .washer_map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .washer_map_step import MAP_BRANCH, N_MAP_WORK, NOT_HERE, map_sens, map_step
-from .washer_memory import size_of_state
-from .washer_model import BAD_INPUT, N_PARAM, NOT_FINITE, OK, derive_grid, size_of_par, washer_model
-from .washer_newton import FACTORED, ITERATIONS, N_INFO, SINGULAR
-from .washer_outputs import CONTACT_LOAD, MEAN_TEMPERATURE, N_ALL, N_REAL, RATIO, washer_outputs
+from .washer_memory import MULTIPLICITY_NOW, SUBSTEP, VALID, size_of_state
+from .washer_model import (
+    BAD_INPUT,
+    FROM_OIL,
+    N_PARAM,
+    N_STEADY,
+    NOT_FINITE,
+    OK,
+    THERMAL_MODE,
+    THERMAL_START,
+    TRANSIENT,
+    derive_grid,
+    size_of_par,
+    washer_model,
+)  # fmt: skip
+from .washer_newton import ARRIVED, FACTORED, ITERATIONS, N_INFO, SCANNED, SINGULAR
+from .washer_outputs import (
+    CONTACT_LOAD,
+    FLUID_SHARE,
+    MEAN_TEMPERATURE,
+    N_ALL,
+    N_REAL,
+    RATIO,
+    washer_outputs,
+)  # fmt: skip
 from .washer_rules import broken_rule as broken_rule
 from .washer_sens import differentiate
 from .washer_simple import derive_simple
 from .washer_solve import is_distressed, keep_solution, solve
 from .washer_stribeck import stribeck_sens, stribeck_step
+from .washer_transient import (
+    advance_heat,
+    look_for_folds,
+    name_branch,
+    set_steady,
+    start_cold,
+    take_up,
+)  # fmt: skip
 from .washer_verdict import (
     BOUNDARY,
     CLOSED,
@@ -57,7 +86,7 @@ MAP_WORK = N_HEAD + size_of_work(*FINE_GRID)  # behind the fields: scratch of a 
 BY_MAP = MAP_WORK + N_MAP_WORK  # 1 if the last solution was looked up, then the map itself
 TABLE = {
     "AT": BY_MAP + 1, "ROOM": ROOM, "MAGIC": MAGIC, "SIZE": SIZE, "PARAMS": PARAMS,
-    "N_PARAMS": N_PARAM - 1, "HEADER": DATA, "SWITCH": N_PARAM - 1, "ON": MAP,
+    "N_PARAMS": N_STEADY, "HEADER": DATA, "SWITCH": N_PARAM - 1, "ON": MAP,
 }  # fmt: skip
 TABLE_AT = BY_MAP + 1
 NWORK = TABLE_AT + ROOM
@@ -116,6 +145,24 @@ def derive(par: NDArray[np.float64]) -> int:
     return derive_grid(par, FIELD_GRID[0], FIELD_GRID[1])
 
 
+@inlined
+def _in_time(
+    b: Bench, pt: Point, dt: float, fresh: bool, state: NDArray[np.float64],
+    q: NDArray[np.float64], info: NDArray[np.float64], found: NDArray[np.float64],
+    walk: NDArray[np.float64],
+) -> tuple[int, float]:  # fmt: skip
+    """Go on from the remembered temperatures through ``dt``; return status and next substep."""
+    if not fresh:
+        info[ITERATIONS], info[FACTORED] = 0.0, 0.0
+        take_up(b, pt, state, q)
+        found[MULTIPLICITY] = state[MULTIPLICITY_NOW]
+    info[ARRIVED], info[SCANNED] = 1.0, 0.0
+    status, substep = OK, 0.0
+    if dt > 0.0 or not fresh:
+        status, substep = advance_heat(b, pt, dt, state[SUBSTEP], q, info, walk)
+    return status, substep
+
+
 @kernel
 def step(
     par: NDArray[np.float64], inp: NDArray[np.float64], state: NDArray[np.float64],
@@ -154,19 +201,33 @@ def step(
         if wanted == ANY:
             wanted = state[MAP_BRANCH]
     b = Bench(par, work[N_HEAD:])
+    in_time = par[THERMAL_MODE] == TRANSIENT
+    fresh = state[VALID] != 1.0
+    set_steady(b)
+    if in_time and fresh and par[THERMAL_START] == FROM_OIL:
+        start_cold(b)
     status = OK
     for _ in range(2):
+        if in_time and not fresh:
+            break
         status = solve(b, pt, wanted, state, q, info, found, walk)
         if status != NO_BRANCH or wanted == ANY or inp.size > 4:
             break
         wanted = ANY  # the branch of the map ends outside it
+    substep = state[SUBSTEP]
+    if in_time and status == OK:
+        status, substep = _in_time(b, pt, dt, fresh, state, q, info, found, walk)
     m = washer_model(par)
     f = washer_fields(m, b.work)
     if not washer_outputs(m, pt, q, f, numbers) and status == OK:
         status = NOT_FINITE
+    lost = in_time and name_branch(found, numbers[RATIO], numbers[FLUID_SHARE])
     if dt > 0.0 and (status == OK or status == NO_BRANCH):
         keep_solution(b, pt, q, info, found, state)
         state[MAP_BRANCH] = 0.0
+        state[SUBSTEP] = substep
+        if lost:
+            look_for_folds(b, pt, state, q, info, found, walk)
     for k in range(N_REAL):
         out[k] = numbers[k]
     distressed = is_distressed(found, out[MEAN_TEMPERATURE] - pt.oil_temperature)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from ._jit import kernel
 from .banded import N_SIDES, cholesky_solve_many
-from .washer_fields import Fields, Point
+from .washer_fields import RATE, Fields, Point
 from .washer_film import band_of_film, film_factor, size_of_film
 from .washer_gap import DCONTACT, FRICTION, STIFF, TANGENT_READY
-from .washer_heat import conduct
+from .washer_heat import conduct, store
 from .washer_model import WasherModel
 
 Array = NDArray[np.float64]
@@ -45,6 +45,10 @@ def heat_tangent(
         dcontact += f.small[DCONTACT + a] * dq[a]
     friction, dfriction = f.small[FRICTION], f.small[FRICTION + 1] * dcontact
     conduct(m, dtemp, f, heat)
+    if f.small[RATE] != 0.0:  # a rise above warmer oil is less: the body stays as warm as it was
+        for k in range(dtemp.size):
+            f.spare[np.uintp(k)] = 0.0
+        store(m, dtemp, f.spare, change.oil_temperature, f, heat)
     for j in range(n_t):
         for i in range(n_r):
             k = np.uintp(j * n_r + i)

@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
 from ..kernels.chart import N_NODES, nodes_of
 from ..kernels.roelands import viscosity
-from ..kernels.washer_model import SIGMA1
+from ..kernels.washer_model import N_STEADY, SIGMA1
 from ..models._params import as_numbers
 from ..models.washer_constants import constants
 from ..models.washer_params import SPEC, WasherParams
@@ -61,7 +61,7 @@ class MapPlan:
     def header(self, reach: float) -> Array:
         """Return the map's header; ``reach`` sets where the thick films end (see the layout)."""
         head = np.zeros(L.DATA)
-        numbers = as_numbers(self.params)
+        numbers = as_numbers(self.params)[:N_STEADY]
         head[L.KIND], head[L.SIZE] = L.MAGIC, L.DATA + math.prod(self.shape) * L.LINE
         head[L.PARAMS : L.PARAMS + len(numbers)] = numbers
         head[L.AXES : L.AXES + 9] = [x for axis in self.axes for x in axis]

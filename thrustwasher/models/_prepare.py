@@ -1,6 +1,7 @@
 """From a parameter dataclass to the array a kernel takes."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,8 @@ OFFLINE = (
 def filled(spec: ModelSpec, params: Any, fidelity: str, size: int, derive: Derive) -> Any:
     """Return the ``size`` numbers of a kernel's ``par``: parameters, rung, derived constants.
 
+    It is for solutions without a past: a washer's bodies are taken as steady.
+
     Raises
     ------
     ParameterError : the rung is not one of the model's, or the parameters cannot be used together
@@ -29,6 +32,8 @@ def filled(spec: ModelSpec, params: Any, fidelity: str, size: int, derive: Deriv
     rungs = list(spec.fidelities)
     if fidelity not in rungs:
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")
+    if getattr(params, "thermal_mode", "quasi_steady") != "quasi_steady":
+        params = replace(params, thermal_mode="quasi_steady")
     numbers = [*as_numbers(params), rungs.index(fidelity) + 1]
     par = np.zeros(size)
     par[: len(numbers)] = numbers

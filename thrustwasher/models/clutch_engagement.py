@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import ParameterError, SolveError, Status
+from ..errors import SolveError, Status
 from ..kernels import clutch_friction
 from ..kernels import clutch_layout as k
+from ._course import course_of, rising
 from ._params import check_number
 from ._spec import REGIMES
 from .clutch import prepare
@@ -94,11 +95,9 @@ def engage_clutch(
     >>> e.regime[0], e.regime[-1]
     ('film', 'boundary')
     """
-    points = _course("time", time, "s", -1e9, 1e9)
-    if len(points) < 2 or not (np.diff(points) > 0.0).all():
-        raise ParameterError("time: at least two rising points [s] are wanted")
-    forces = _course("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0, len(points))
-    slips = _course("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
+    points = rising(time)
+    forces = course_of("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0, len(points))
+    slips = course_of("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
     par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
     pack = (Rings if fidelity == "fine" else Lumped)(par, forces[0], oil)
@@ -132,24 +131,3 @@ def _engagement(
         ],
         status=Status.HOT if hot else Status.OK,
     )  # fmt: skip
-
-
-def _course(
-    name: str, values: ArrayLike, unit: str, low: float, high: float, n: int | None = None
-) -> Array:
-    """Return a checked array; one number stands for ``n`` equal ones."""
-    array = np.asarray(values, float)
-    if n is not None and array.ndim == 0:
-        array = np.full(n, float(array))
-    if array.ndim != 1 or (n is not None and len(array) != n):
-        raise ParameterError(
-            f"{name}: shape {array.shape}, allowed: one number per point"
-            + ("" if n is None else f" ({n})")
-        )
-    bad = ~((array >= low) & (array <= high))
-    if bad.any():
-        i = int(np.argmax(bad))
-        raise ParameterError(
-            f"{name}[{i}] = {float(array[i])!r} {unit}, allowed: {low:g} .. {high:g} {unit}"
-        )
-    return array

@@ -8,7 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
-from ..kernels.washer_model import N_PARAM, derive_grid, size_of_par
+from ..kernels.washer_model import (
+    N_PARAM,
+    QUASI_STEADY,
+    THERMAL_MODE,
+    TRANSIENT,
+    derive_grid,
+    size_of_par,
+)
 from ..kernels.washer_simple import N_SIMPLE_PAR, derive_simple
 from ..kernels.washer_verdict import CLOSED, FIELD, STRIBECK
 from ._params import as_numbers
@@ -20,8 +27,12 @@ SIMPLE = {"closed": CLOSED, "stribeck": STRIBECK}  # rungs without a mesh
 
 
 @lru_cache(maxsize=64)
-def constants(params: WasherParams, grid: tuple[int, int], fidelity: str = "field") -> Array:
+def constants(
+    params: WasherParams, grid: tuple[int, int], fidelity: str = "field", in_time: bool = False
+) -> Array:
     """Return the kernel's ``par`` for parameters and grid, or a rung without one; read only.
+
+    Without ``in_time`` it is for steady solutions, whatever ``params.thermal_mode`` says.
 
     Raises
     ------
@@ -30,6 +41,7 @@ def constants(params: WasherParams, grid: tuple[int, int], fidelity: str = "fiel
     simple = fidelity in SIMPLE
     par = np.zeros(N_SIMPLE_PAR if simple else size_of_par(*grid))
     par[:N_PARAM] = [*as_numbers(params), SIMPLE.get(fidelity, FIELD)]
+    par[THERMAL_MODE] = TRANSIENT if in_time else QUASI_STEADY
     status = Status(derive_simple(par) if simple else derive_grid(par, *grid))
     if status is not Status.OK:
         raise ParameterError(

@@ -27,6 +27,15 @@ CONDUCTION = {
     "rotating": "only in washer and gear; the carrier is axisymmetric",
 }
 
+THERMAL_MODES = {
+    "quasi_steady": "steady temperatures at every instant",
+    "transient": "carrier, washer and gear store heat (fidelity coarse, field or fine)",
+}
+THERMAL_STARTS = {
+    "steady": "as warm as the first operating point makes it",
+    "oil": "everything at oil temperature",
+}
+
 
 def _smooth(name: str) -> Rule:
     bounds = f"{LEAST_ROUGHNESS:g} .. 1e-05 m"
@@ -45,6 +54,8 @@ RULES = (
     Rule("asperity_density x asperity_radius = {asperity_density} 1/m2 x {asperity_radius} m "
          "leaves no scatter of the summits at roughness = {roughness} m; raise either, or use "
          "asperity_height_law = 'surface'"),
+    Rule("thermal_mode = transient, allowed: with fidelity coarse, field or fine; the others have "
+         "no bodies that could store heat"),
 )  # fmt: skip
 
 
@@ -93,6 +104,14 @@ class WasherParams:
     friction_load_max: float = quantity(1725.6, "N", 1.0, 1e5, "upper end of the law's range")
     heat_split: float = quantity(0.5, "1", 0.0, 1.0, "share of the heat that enters the carrier")
     film_heat_fraction: float = quantity(1.0, "1", 0.0, 1.0, "share of film heat into the solids")
+    thermal_mode: str = choice(
+        "quasi_steady", THERMAL_MODES, "ThermalMode", "how temperatures follow the inputs in time"
+    )
+    density: float = quantity(7850.0, "kg/m3", 500.0, 25e3, "density of the three bodies")
+    specific_heat: float = quantity(475.0, "J/(kg.K)", 50.0, 5e3, "specific heat of the bodies")
+    thermal_start: str = choice(
+        "steady", THERMAL_STARTS, "ThermalStart", "temperatures at the start, if transient"
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
+from ..kernels.washer_model import N_STEADY
 
 Array = NDArray[np.float64]
 SHIPPED = Path(__file__).parents[1] / "data" / "maps"
@@ -41,7 +42,8 @@ class MapFile:
 
     def made_for(self, numbers: Sequence[float]) -> bool:
         """Tell if the map was made for these parameters, in the order of the dataclass."""
-        return params_of(self.data, len(numbers)) == tuple(float(x) for x in numbers)
+        steady = tuple(float(x) for x in numbers[:N_STEADY])
+        return params_of(self.data, len(steady)) == steady
 
 
 def params_of(data: Array, count: int) -> tuple[float, ...]:

@@ -1,0 +1,102 @@
+"""A clutch that slips before an elastic shaft: where falling friction feeds the torsional mode.
+
+Slip and twist of the driveline are the two motions; the mobilities say how their accelerations
+follow the torques X (clutch) and T = k twist + d twist' (shaft):
+
+    slip' = -(A_ss X + A_st T)        twist'' = -(A_st X + A_tt T)        D = A_ss A_tt - A_st^2
+
+With X = c slip the characteristic polynomial is
+
+    s^3 + (A_ss c + A_tt d) s^2 + (A_tt k + D c d) s + D c k
+"""
+
+import math
+from typing import NamedTuple
+
+
+class Mobility(NamedTuple):
+    """Accelerations per torque [1/(kg m2)] of slip and twist; ``cross``: of one by the other."""
+
+    slip: float
+    cross: float
+    twist: float
+
+    @property
+    def determinant(self) -> float:
+        """D of the module's text."""
+        return self.slip * self.twist - self.cross**2
+
+
+class Limit(NamedTuple):
+    """Where the torsional mode neither grows nor decays."""
+
+    damping: float
+    """[N m s/rad] of the shaft"""
+    frequency: float
+    """[rad/s]"""
+
+
+def two_inertias(engine: float, output: float, vehicle: float) -> Mobility:
+    """Return the mobility of engine - clutch - output - shaft - vehicle [kg m2]."""
+    return Mobility(1.0 / engine + 1.0 / output, -1.0 / output, 1.0 / output + 1.0 / vehicle)
+
+
+def planetary(
+    ratio: float, sun: float, ring: float, carrier: float, vehicle: float, pack: str = "clutch"
+) -> Mobility:
+    """Return the mobility of a planetary set with the shaft at its carrier; inertias in kg m2.
+
+    One pack slips, the other is open: the ``pack`` "clutch" between sun and ring or "brake" at the
+    ring. ``ratio`` is z_ring/z_sun; ``ring`` may be 0.
+    """
+    r = ratio
+    share = ring / r**2
+    m_ss, m_sc, m_cc = sun + share, -share * (1.0 + r), carrier + share * (1.0 + r) ** 2
+    det = m_ss * m_cc - m_sc**2
+    i_ss, i_sc, i_cc = m_cc / det, -m_sc / det, m_ss / det
+    # slip = a sun + b carrier
+    a, b = ((1.0 + r) / r, -(1.0 + r) / r) if pack == "clutch" else (-1.0 / r, (1.0 + r) / r)
+    return Mobility(
+        a * a * i_ss + 2.0 * a * b * i_sc + b * b * i_cc, a * i_sc + b * i_cc, i_cc + 1.0 / vehicle
+    )
+
+
+def characteristic(
+    m: Mobility, slope: float, stiffness: float, damping: float
+) -> tuple[float, float, float, float]:
+    """Return the coefficients of the characteristic polynomial, highest power first.
+
+    ``slope`` [N m s/rad] is the change of the clutch's torque over its slip.
+    """
+    return (
+        1.0,
+        m.slip * slope + m.twist * damping,
+        m.twist * stiffness + m.determinant * slope * damping,
+        m.determinant * slope * stiffness,
+    )
+
+
+def damping_limit(m: Mobility, slope: float, stiffness: float) -> Limit:
+    """Return the damping of the shaft [N m s/rad] below which judder grows, and its frequency.
+
+    A pair of roots on the imaginary axis needs a_2 a_1 = a_0, a square equation for the damping:
+
+        A_tt D c d^2 + (A_tt^2 k + A_ss D c^2) d + A_st^2 c k = 0
+
+    Its smaller root is the limit, about |c| (A_st/A_tt)^2 where friction changes little within a
+    period. Friction that does not fall has none: 0.
+    """
+    free = math.sqrt(m.twist * stiffness)
+    if slope >= 0.0:
+        return Limit(0.0, free)
+    c, rest = -slope, m.determinant
+    middle = m.twist**2 * stiffness + m.slip * rest * c * c
+    inner = middle**2 - 4.0 * m.twist * rest * m.cross**2 * stiffness * c * c
+    damping = 2.0 * c * stiffness * m.cross**2 / (middle + math.sqrt(max(inner, 0.0)))
+    square = m.twist * stiffness - rest * c * damping
+    return Limit(damping, math.sqrt(max(square, 0.0)))
+
+
+def small_slope_growth(m: Mobility, slope: float, damping: float) -> float:
+    """Return the growth of the mode [1/s] for small slope and damping: the first-order formula."""
+    return -0.5 * (m.twist * damping + slope * m.cross**2 / m.twist)

@@ -13,6 +13,8 @@
 ``guard``         changes a rung while a shift runs; ``sentry``: the guard of one part;
                   ``guard_rules``: its decisions; ``budget``: how often it looks
 ``course``        events and phases; ``book``: energy book and key figures
+``judder``        what a swing of the output shaft is; ``judder_search``: how it is found;
+                  ``swing``, ``torsion``, ``pack_slope``: fit, eigenvalues, slope of friction
 ``result``        ``ShiftResult``
 ================  =================================================================================
 """

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels.clutch_layout import HOT_LIMIT
+from .judder import FEW
 from .result import Event, Phase
 from .scene import Scene
 
@@ -98,5 +99,6 @@ def phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phase]:
         ]
     else:
         marks = [("free", scene.start_time, start), (SLIPPING[pack], start, lock)]
-    marks.append(("locked", lock, stop))
+    locks = [e for e in found if e.kind == f"{pack}_locked" and e.time >= start]
+    marks.append(("locked" if len(locks) < FEW else "stick-slip", lock, stop))
     return [Phase(name, a, b) for name, a, b in marks if b > a]

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .figure_list import Found, KeyFigure, assemble
+from .judder import Judder, judder_figures
 from .pack_figures import area_of, friction_figures, pack_figures, peak
 from .planet_figures import mesh_figures, washer_figures
 from .result import Event
@@ -17,7 +18,7 @@ Signals = dict[str, Array]
 
 
 def key_figures(
-    scene: Scene, time: Array, signals: Signals, events: list[Event]
+    scene: Scene, time: Array, signals: Signals, events: list[Event], judder: Judder | None = None
 ) -> list[KeyFigure]:
     """Return the numbers a shift is judged by, SI units; None where there is no such thing."""
     start, pack, other = scene.shift_start, scene.engaging, scene.releasing
@@ -34,6 +35,7 @@ def key_figures(
         **pack_figures(scene, "clutch", time, signals),
         **pack_figures(scene, "brake", time, signals),
         **tie_up_figures(scene, time, signals),
+        **judder_figures(judder),
         "peak_sun_thrust": peak(signals["transmission.sun_thrust"], time),
         **washer_figures(time, signals),
         **mesh_figures(time, signals),

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..errors import ParameterError
 from .figure_list import KeyFigure
 from .guard_plan import GuardLog
+from .judder import Judder
 from .parts import PARTS
 from .scene import Scene
 from .selection_record import Selection
@@ -76,6 +77,8 @@ class ShiftResult:
     messages: list[str]
     guard: GuardLog | None = None
     """What the guard saw and did; None: there was none."""
+    judder: Judder | None = None
+    """How the output shaft swings while a pack slips; None: it is rigid or does not swing."""
     selection: Selection | None = None
     """Why the rungs are what they are, if they were chosen for a tolerance."""
 
@@ -133,6 +136,7 @@ class ShiftResult:
             "real_time_factor": self.real_time_factor,
             "messages": self.messages,
             "guard": self.guard.as_dict() if self.guard else None,
+            "judder": self.judder.as_dict() if self.judder else None,
             "selection": self.selection.as_dict() if self.selection else None,
             "parameters": {name: part.parameters() for name, part in scene.parts.items()},
         }

@@ -14,6 +14,7 @@ from .costs import Meter
 from .figures import key_figures
 from .guard import Guard
 from .guard_plan import Plan
+from .judder_search import find_judder
 from .loop import Loop, PythonLoop, Run
 from .master import MASTERS
 from .moves import Correct
@@ -92,6 +93,7 @@ def _result(
     """Read everything from the rows of a finished run."""
     time, signals = run.time, run.recorder.signals()
     found = course.events(scene, time, signals)
+    swing = find_judder(scene, time, signals, run.h)
     log = guard.log() if guard else None
     spent = sum(c.wall_time for c in cost) + (log.seconds if log else 0.0)
     return ShiftResult(
@@ -103,13 +105,14 @@ def _result(
         events=found,
         phases=course.phases(scene, signals, found),
         energy=book.energy(signals),
-        key_figures=key_figures(scene, time, signals, found),
+        key_figures=key_figures(scene, time, signals, found, swing),
         cost=cost,
         wall_time=wall,
         overhead=wall - spent,
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
         messages=[*messages, *_said(run), *_advice(time, signals)],
         guard=log,
+        judder=swing,
     )
 
 

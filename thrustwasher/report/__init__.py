@@ -10,11 +10,12 @@
 ``shift_record``   what the report needs from a finished shift
 ``panel_base``     what panels over time share: lines, phases, events
 ``panels``         single panels over time: speeds, torques, temperatures
-``film_panels``, ``energy_panels``, ``stress_panels``, ``friction_panels``: the others
+``film_panels``, ``energy_panels``, ``stress_panels``, ``friction_panels``, ``judder_panels``: more
 ``shift_plots``    the figures made of them
 ``washer_moment``  the washer solved again at one moment of the shift
 ``extremes``       the worst values of a shift and when they were reached
 ``trust``          how far to trust it, in sentences
+``judder``         what to say of a shaft that swings
 ``summary``        what happened, in sentences made from the numbers
 ``tables``         the report's tables as rows of text
 ``shift_report``   all of that as the chapters of a page

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from .panel_base import draw_phases, thin
 from .panels import COLOURS
 from .shift_record import PACKS, Record
-from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY, beside, label
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, beside, label
 
 Array = np.ndarray[Any, Any]
 LEAST_POWER = 0.1  # [W] the foot of the logarithmic axis
@@ -32,6 +32,7 @@ def draw_energy(axis: Axes, record: Record) -> None:
             ("brake_heat", "heat in the brake", PURPLE),
             ("washer_heat", "heat in all washers", ORANGE),
             ("mesh_heat", "heat in all meshes", SKY),
+            ("shaft_heat", "heat in the output shaft", GREY),
         )
     ]
     parts = [part for part in parts if np.any(part[0] != 0.0)]

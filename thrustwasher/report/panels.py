@@ -15,6 +15,12 @@ WASHER_RISE = 200.0  # [K] mean rise above the oil at which the paper calls a wa
 COLOURS = {"clutch": RED, "brake": PURPLE}
 
 
+def elastic(record: Record) -> bool:
+    """Return whether the output shaft twists; a rigid one only repeats carrier and load."""
+    twist = record.series("transmission.shaft_twist")
+    return twist is not None and bool(np.any(twist))
+
+
 def draw_speeds(axis: Axes, record: Record) -> None:
     """Draw the speeds with phases shaded and events numbered; of a lone brake only the drum's."""
     draw_phases(axis, record, legend=True)
@@ -22,12 +28,15 @@ def draw_speeds(axis: Axes, record: Record) -> None:
     for name, words, colour, dashes in (
         ("transmission.engine_speed", "engine (sun)", BLUE, "-"),
         ("transmission.output_speed", "output (carrier)", GREEN, "-"),
+        ("transmission.vehicle_speed", "vehicle", BLACK, ":"),
         ("transmission.ring_speed", "drum (ring)", PURPLE, "-"),
         ("transmission.clutch_speed", "clutch slip", RED, "--"),
         ("transmission.washer_speed", "planet on its pin", ORANGE, "-."),
     ):
         at_planets = "washer" in name
         if at_planets and not (record.part("washer") or record.part("mesh")):
+            continue
+        if "vehicle" in name and not elastic(record):
             continue
         if not lone_brake or "ring" in name:
             draw(axis, record, name, words, colour, dashes)
@@ -39,6 +48,8 @@ def draw_speeds(axis: Axes, record: Record) -> None:
 def _speed_title(record: Record) -> str:
     if record.alone:
         return f"Speed: the {record.engaging} brings it to rest"
+    if not record.presses(record.releasing):
+        return "Speeds"
     if record.engaging == "clutch":
         return "Speeds: the engine comes down to the output"
     return "Speeds: the engine goes up to its ratio"
@@ -54,16 +65,17 @@ def draw_torques(axis: Axes, record: Record) -> None:
         ("transmission.brake_reaction", "brake", PURPLE, "-"),
         ("transmission.sun_torque", "sun's teeth", GREY, "--"),
         ("transmission.resistance_torque", "load at the output", GREEN, "-"),
+        ("transmission.shaft_torque", "output shaft", BLACK, "-"),
     ):
         values = record.series(name)
-        hidden = record.alone and "sun" in name
+        hidden = (record.alone and "sun" in name) or ("shaft" in name and not elastic(record))
         if values is not None and np.any(values != 0.0) and not hidden:
             draw(axis, record, name, words, colour, dashes)
     _draw_brake_capacity(axis, record)
     _draw_split(axis, record)
     pack, other = record.engaging, record.releasing
-    words = f"the {pack} takes over from the {other}"
-    label(axis, f"Torque of the {pack}" if record.alone else f"Torques: {words}", "",
+    words = f": the {pack} takes over from the {other}" if record.presses(other) else ""
+    label(axis, f"Torque of the {pack}" if record.alone else f"Torques{words}", "",
           "torque [N·m]")  # fmt: skip
     beside(axis)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from . import energy_panels, film_panels, friction_panels, panels, stress_panels
+from . import energy_panels, film_panels, friction_panels, judder_panels, panels, stress_panels
 from .shift_record import Record
 from .style import styled, time_figure
 
@@ -74,6 +74,17 @@ def friction_figure(record: Record) -> Figure | None:
     """Return friction against slip of the pack that engages; None if it is constant."""
     figure, (axis,) = time_figure(3.8)
     return figure if friction_panels.draw_friction(axis, record) else None
+
+
+@styled
+def judder_figure(record: Record) -> Figure | None:
+    """Return shaft torque and slip while a pack slips; None if the shaft does not swing."""
+    if record.judder is None:
+        return None
+    figure, axes = time_figure(5.4, 2, (1.3, 1.0))
+    judder_panels.draw_shaft(axes[0], record)
+    judder_panels.draw_slip(axes[1], record)
+    return figure
 
 
 @styled

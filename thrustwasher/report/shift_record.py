@@ -99,6 +99,8 @@ class Record:
     costs: Sequence[Cost]
     wall_time: float
     messages: Sequence[str] = ()
+    judder: Any = None
+    """How the output shaft swings (``drivetrain.judder.Judder``); None: not at all."""
     rungs: Rungs | None = None
     looks: float = 0.0
     """[s] of wall clock for the guard's looks."""
@@ -180,6 +182,7 @@ def record_of(result: Any) -> Record:
         ],
         wall_time=result.wall_time,
         messages=result.messages,
+        judder=result.judder,
         rungs=rungs_of(result),
         looks=result.guard.seconds if result.guard else 0.0,
     )

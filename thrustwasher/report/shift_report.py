@@ -6,11 +6,13 @@ from ..units import format_quantity as say
 from . import summary, tables
 from .extremes import highest, worst_film
 from .html import Card, Page, Plot, Section
+from .judder import TITLES, judder_words
 from .rungs import rung_sections
 from .shift_plots import (
     energy_figure,
     film_figure,
     friction_figure,
+    judder_figure,
     speed_figure,
     stress_figure,
     temperature_figure,
@@ -35,6 +37,7 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
         )]),
         *_film_sections(record),
         *_friction_sections(record),
+        *_judder_sections(record),
         *_washer_sections(record),
         *_stress_sections(record),
         Section(anchor="energy", title="Energy", tables=[tables.energy_table(record)], plots=[Plot(
@@ -152,6 +155,19 @@ def _friction_sections(record: Record) -> list[Section]:
     return [Section(
         anchor="friction", title=f"Friction of the {pack}, published and computed", plots=plots,
         texts=[f"Published: {record.source}."], tables=[tables.published_table(record)],
+    )]  # fmt: skip
+
+
+def _judder_sections(record: Record) -> list[Section]:
+    """Return how the output shaft swings while a pack slips, and why."""
+    figure = judder_figure(record)
+    if figure is None:
+        return []
+    caption = "Between the dashed lines the swing was small enough to judge its growth."
+    return [Section(
+        anchor="judder", title=TITLES[record.judder.kind], texts=[judder_words(record)],
+        tables=[tables.judder_table(record)],
+        plots=[Plot(file="judder", figure=figure, caption=caption)],
     )]  # fmt: skip
 
 

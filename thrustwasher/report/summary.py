@@ -6,6 +6,7 @@ import math
 
 from ..units import format_quantity as say
 from .extremes import highest
+from .judder import judder_text
 from .shift_record import Record
 from .tie_up import tie_up_text
 
@@ -28,6 +29,7 @@ def warnings(record: Record) -> list[str]:
             f"The {record.engaging} did not lock: the shift is not finished at the end of the run."
         )
     found += tie_up_text(record)
+    found += judder_text(record)
     distress = figures.get("washer_distress_time") or 0.0
     if distress > 0.0:
         found.append(
@@ -67,7 +69,10 @@ def _course(record: Record) -> str:
     if start > record.time[-1]:
         return f"{gear} the engine reached {rpm(speed)}; the run ends before the shift begins."
     words = f"{gear} the engine had reached {rpm(speed)} when, at {start:.4g} s, pressure "
-    words += f"began to move from the {other} to the {pack}"
+    moves = (
+        f"move from the {other} to the {pack}" if record.presses(other) else f"rise on the {pack}"
+    )
+    words += f"began to {moves}"
     release, lock, lock_speed = (
         figures["release_time"], figures["lock_time"], figures["lock_speed"]
     )  # fmt: skip
@@ -76,6 +81,8 @@ def _course(record: Record) -> str:
         words += f"; the {other} let go{object_} at {release:.4g} s"
     if lock is None or lock_speed is None:
         return f"{words}, and the {pack} was still slipping at the end."
+    if record.judder and record.judder.stick_slip:
+        return f"{words}; from {lock:.4g} s on the {pack} stuck and slipped in turn."
     return (
         f"{words}, and the {pack} locked at {lock:.4g} s, {lock - start:.3g} s after "
         f"the shift began, with the engine at {rpm(lock_speed)}."

@@ -38,6 +38,8 @@ def energy_table(record: Record) -> Table:
         ("heat in the brake", book["brake"]),
         ("heat in all thrust washers", book["washers"]),
         ("heat in all gear meshes", book["meshes"]),
+        ("heat in the output shaft's damping", book.get("shaft", 0.0)),
+        ("energy the output shaft's spring gained", book.get("spring", 0.0)),
         ("residual: what the book cannot account for", book["residual"]),
         ("coupling: clutch heat, driveline minus clutch FMU", book["coupling_difference"]),
         ("coupling: brake heat, driveline minus brake FMU", book["brake_coupling_difference"]),
@@ -60,6 +62,21 @@ def key_table(record: Record) -> Table:
         for f in record.key_figures if f.value and f.name not in SAID_TWICE
     ]  # fmt: skip
     return Table(heads=("", "value", "at time [s]"), rows=rows, numbers=(1, 2))
+
+
+def judder_table(record: Record) -> Table:
+    """Return the swing as measured beside the driveline's eigenvalue, and what decides on it."""
+    j = record.judder
+    rows = [
+        ("frequency", f"{j.frequency:.4g} Hz", f"{j.mode_frequency:.4g} Hz"),
+        ("growth", f"{j.growth:.4g} 1/s", f"{j.mode_growth:.4g} 1/s"),
+        ("growth with this communication step", "", f"{j.mode_growth + j.step_growth:.4g} 1/s"),
+        (f"change of the {j.pack}'s torque over its slip", "", say(j.slope, "N.m.s/rad")),
+        ("damping of the shaft", "", say(j.damping, "N.m.s/rad")),
+        ("damping below which the swing grows", "", say(j.limit_damping, "N.m.s/rad")),
+        ("greatest swing of the shaft torque", say(j.amplitude, "N.m"), ""),
+    ]
+    return Table(heads=("", "measured", "from the parameters"), rows=rows, numbers=(1, 2))
 
 
 def published_table(record: Record) -> Table:

@@ -1,0 +1,80 @@
+"""What the report says of a shaft that swings: each kind of swing in its own words."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from shift_stand_in import record
+
+from thrustwasher.drivetrain.judder import Judder
+from thrustwasher.report import summary
+from thrustwasher.report.judder import judder_text, judder_words
+from thrustwasher.report.shift_plots import judder_figure
+from thrustwasher.report.shift_report import shift_page
+
+GROWS = Judder(
+    pack="clutch", start=0.11, end=1.3, frequency=9.9, growth=3.42, amplitude=440.0, locks=8,
+    slope=-1.34, damping=0.5, limit_damping=2.61, mode_frequency=9.901, mode_growth=3.41,
+    step_growth=0.007, step=1e-3,
+)  # fmt: skip
+DECAYS = replace(GROWS, growth=-2.25, mode_growth=-2.25, damping=4.0, locks=0)
+BY_STEP = replace(GROWS, growth=1.5, mode_growth=-0.15, step_growth=1.8, step=1e-2, damping=2.7)
+HIDDEN = replace(GROWS, growth=-0.5, mode_growth=1.0, step_growth=-1.6)
+WORSE = replace(GROWS, growth=4.7, step_growth=1.7, step=1e-2)
+STRANGE = replace(GROWS, growth=9.0)
+
+
+def shown(judder):
+    made = record(washer=False)
+    t = made.time
+    swing = 120.0 + 20.0 * np.sin(60.0 * t)
+    signals = {**made.signals, "transmission.shaft_torque": swing,
+               "transmission.shaft_twist": swing / 1200.0}  # fmt: skip
+    return replace(made, judder=judder, signals=signals)
+
+
+@pytest.mark.parametrize(
+    ("judder", "kind", "words"),
+    [
+        (GROWS, "physical", ["Judder: from 0.11 s", "9.9 Hz", "3.42 per second", "8 lock-ups",
+                             "physical, not numerical", "falls by 1.34", "below 2.61", "has 0.5"]),
+        (DECAYS, "decaying", ["decays by 2.25", "has 4 "]),
+        (BY_STEP, "numerical", ["Numerical, no judder", "decay by 0.15", "+1.8", "step of 1.3 ms"]),
+        (HIDDEN, "numerical", ["Judder hidden by the step", "grow by 1", "-1.6"]),
+        (WORSE, "numerical", ["Judder that the communication step falsifies", "+1.7"]),
+        (STRANGE, "unexplained", ["does not explain", "half the step"]),
+        (replace(DECAYS, slope=0.5), "decaying", ["rises by 0.5", "damps"]),
+    ],
+)  # fmt: skip
+def test_every_kind_of_swing_has_its_words(judder, kind, words):
+    text = judder_words(shown(judder))
+    assert judder.kind == kind
+    assert [w for w in words if w not in text] == []
+    assert judder.as_dict()["kind"] == kind
+
+
+def test_a_swing_that_decays_is_no_warning_and_all_others_are():
+    assert judder_text(shown(DECAYS)) == judder_text(record()) == []
+    for judder in (GROWS, BY_STEP, HIDDEN, WORSE, STRANGE):
+        assert judder_words(shown(judder)) in summary.warnings(shown(judder))
+
+
+def test_a_step_that_would_do_makes_half_the_tolerance():
+    assert WORSE.step_growth * (WORSE.good_step / WORSE.step) ** 2 == pytest.approx(
+        0.5 * WORSE.tolerance
+    )
+    assert GROWS.good_step == GROWS.step
+
+
+def test_the_page_has_a_chapter_with_shaft_torque_and_slip():
+    page = shift_page(shown(GROWS))
+    chapter = next(s for s in page.sections if s.anchor == "judder")
+    assert chapter.title == "Judder" and [p.file for p in chapter.plots] == ["judder"]
+    rows = {row[0]: row[1:] for row in chapter.tables[0].rows}
+    assert rows["frequency"] == ("9.9 Hz", "9.901 Hz")
+    assert judder_figure(record()) is None
+
+
+def test_a_pack_that_sticks_and_slips_has_not_locked():
+    text = " ".join(summary.sentences(shown(GROWS)))
+    assert "stuck and slipped in turn" in text and "locked at" not in text

@@ -47,7 +47,7 @@ from .washer_transient import (
     advance_heat,
     look_for_folds,
     name_branch,
-    set_steady,
+    set_rate,
     start_cold,
     take_up,
 )  # fmt: skip
@@ -203,7 +203,7 @@ def step(
     b = Bench(par, work[N_HEAD:])
     in_time = par[THERMAL_MODE] == TRANSIENT
     fresh = state[VALID] != 1.0
-    set_steady(b)
+    set_rate(b, 0.0)
     if in_time and fresh and par[THERMAL_START] == FROM_OIL:
         start_cold(b)
     status = OK
@@ -228,6 +228,8 @@ def step(
         state[SUBSTEP] = substep
         if lost:
             look_for_folds(b, pt, state, q, info, found, walk)
+    if in_time and dt > 0.0:
+        set_rate(b, 1.0 / dt)  # derivatives: of what the whole step brings
     for k in range(N_REAL):
         out[k] = numbers[k]
     distressed = is_distressed(found, out[MEAN_TEMPERATURE] - pt.oil_temperature)

@@ -46,8 +46,8 @@ def heat_tangent(
     friction, dfriction = f.small[FRICTION], f.small[FRICTION + 1] * dcontact
     conduct(m, dtemp, f, heat)
     if f.small[RATE] != 0.0:  # a rise above warmer oil is less: the body stays as warm as it was
-        for k in range(dtemp.size):
-            f.spare[np.uintp(k)] = 0.0
+        for node in range(dtemp.size):
+            f.spare[np.uintp(node)] = 0.0
         store(m, dtemp, f.spare, change.oil_temperature, f, heat)
     for j in range(n_t):
         for i in range(n_r):

@@ -69,9 +69,9 @@ def start_cold(b: Bench) -> None:
 
 
 @kernel
-def set_steady(b: Bench) -> None:
-    """Let nothing be stored."""
-    washer_fields(washer_model(b.par), b.work).small[RATE] = 0.0
+def set_rate(b: Bench, rate: float) -> None:
+    """Weigh what is stored by ``rate`` [1/s]; 0: nothing is."""
+    washer_fields(washer_model(b.par), b.work).small[RATE] = rate
 
 
 @inlined

@@ -110,7 +110,8 @@ def follow_washer(
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'coarse', 'field' or 'fine'")
     inputs = np.column_stack(columns)
     run = _Run(params, resolve_grid(fidelity, grid))
-    rows, lost, said = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool), []
+    rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
+    said: list[Status] = []
     for i in range(len(points)):
         duration = points[i] - points[i - 1] if i else 0.0
         code = run.go(inputs[max(i - 1, 0)], inputs[i], duration)

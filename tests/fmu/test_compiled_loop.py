@@ -81,6 +81,37 @@ def test_every_signal_is_equal_to_the_bit(fmus, master):
     assert quick.events == slow.events and quick.figures == slow.figures
 
 
+def in_process(scene):
+    """Run a scene with the kernels of this process."""
+    parts = {n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in scene.parts.items()}
+    return run_shift(scene, parts)
+
+
+def test_step_doubling_steps_fmus_as_it_steps_kernels(fmus):
+    """States are saved and given back through FMI."""
+    scene = planetary("step-doubling", duration=0.02)
+    (found, made), wanted = run(scene, fmus, None), in_process(scene)
+    assert made["clutch"].saves_state and found.steps.rejected == wanted.steps.rejected > 0
+    np.testing.assert_allclose(found.time, wanted.time, rtol=1e-9)
+    slip, other = (r.signals["transmission.clutch_speed"] for r in (found, wanted))
+    np.testing.assert_allclose(slip, other, rtol=1e-9)
+
+
+def test_derivatives_through_fmi_correct_the_torques_as_those_of_the_kernels(fmus):
+    """Python FMUs have none: there the outputs' differences serve, and the run says so."""
+    scene = planetary("linearly-implicit")
+    gearbox = scene.parts["transmission"]
+    gearbox = replace(gearbox, params=replace(gearbox.params, coupling="torque"))
+    scene = replace(scene, parts={**scene.parts, "transmission": gearbox})
+    (found, made), wanted = run(scene, fmus, None), in_process(scene)
+    exact = made["clutch"].gives_derivatives
+    assert any("took differences" in message for message in found.messages) is not exact
+    slip, other = (r.signals["transmission.clutch_speed"] for r in (found, wanted))
+    np.testing.assert_allclose(slip, other, rtol=1e-9 if exact else 2e-4)
+    with pytest.raises(ParameterError, match="master 'gauss-seidel' or 'jacobi'"):
+        raise run(scene, fmus, True)[0]
+
+
 def test_calls_and_their_time_are_counted(fmus):
     (slow, _), (quick, _) = (run(planetary(), fmus, compiled) for compiled in (False, True))
     assert [c.steps for c in quick.cost] == [c.steps for c in slow.cost] == [STEPS] * 3

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..errors import ParameterError
 from .budget import FAR, first_look, seconds_of, step_seconds, strides
 from .guard_plan import Plan
+from .master import MASTERS
 from .result import ShiftResult
 from .scene import Scene
 from .scout import Make, Pool, scout
@@ -45,6 +47,11 @@ def run_auto(
     asked = [p.tolerance for p in scene.parts.values() if p.tolerance]
     if not asked:
         return run_shift(scene, pool.all_of(scene), progress=progress, compiled=compiled)
+    if MASTERS[scene.master].adaptive:
+        raise ParameterError(
+            f"master = {scene.master!r}, allowed with a fidelity that is to be chosen: masters "
+            "with fixed steps; or name the fidelities"
+        )
     scouted = scout(scene, pool, compiled)
     steps = max(1, round((scene.stop_time - scene.start_time) / scene.step))
     chosen = select(scene, scouted, steps, guard)

@@ -54,6 +54,17 @@ class Loop(Protocol):
         """
 
 
+def carry_out(schedule: list[Move], t: float, h: float) -> None:
+    """Make the moves of the step from ``t`` to ``t + h``."""
+    for move in schedule:
+        if isinstance(move, Step):
+            move.part.step(t, h)
+        elif isinstance(move, Pull):
+            move.part.pull()
+        else:
+            move.change(t, h)
+
+
 class PythonLoop:
     """Steps the parts one call after another."""
 
@@ -66,13 +77,7 @@ class PythonLoop:
         for k in range(i, stop):
             t = float(time[k])
             system.set_command(float(commands[k + 1]))
-            for move in schedule:
-                if isinstance(move, Step):
-                    move.part.step(t, h)
-                elif isinstance(move, Pull):
-                    move.part.pull()
-                else:
-                    move.change(t, h)
+            carry_out(schedule, t, h)
             recorder.keep(k + 1)
             if watch.notices(recorder.rows, k + 1):
                 return k + 1

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from . import gauss_seidel, jacobi, linearly_implicit
+from . import gauss_seidel, jacobi, linearly_implicit, step_doubling
 from .moves import Move
 from .system import System
 
@@ -21,6 +21,8 @@ class Master(NamedTuple):
     torque_age: int
     """How many steps the torques that the transmission receives are old."""
     help: str
+    adaptive: bool = False
+    """It chooses its steps itself; communication points then lie anywhere."""
 
 
 MASTERS: dict[str, Master] = {
@@ -33,5 +35,9 @@ MASTERS: dict[str, Master] = {
     linearly_implicit.NAME: Master(
         linearly_implicit.schedule, 0,
         "as gauss-seidel, torques corrected to the end of the step by their derivatives",
+    ),
+    step_doubling.NAME: Master(
+        step_doubling.schedule, 0,
+        "as gauss-seidel, steps as long as master_tolerance allows, with rollback", adaptive=True,
     ),
 }  # fmt: skip

@@ -28,6 +28,11 @@ class Recorder:
                 row[at : at + len(values)] = values
                 at += len(values)
 
+    def make_room(self, i: int) -> None:
+        """See to it that there is a row ``i``, for runs whose points are not known beforehand."""
+        if i >= len(self.rows):
+            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
+
     def give_back(self, row: NDArray[np.float64]) -> None:
         """Let the parts have the values of a row for their present ones."""
         values, at = row.tolist(), 0

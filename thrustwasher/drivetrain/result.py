@@ -15,9 +15,11 @@ from ..errors import ParameterError
 from .figure_list import KeyFigure
 from .guard_plan import GuardLog
 from .judder import Judder
+from .master import MASTERS
 from .parts import PARTS
 from .scene import Scene
 from .selection_record import Selection
+from .steps import Steps
 
 
 class Event(NamedTuple):
@@ -60,6 +62,8 @@ class ShiftResult:
 
     scene: Scene
     step: float
+    """[s]; with a master that chooses its steps the longest one."""
+    steps: Steps
     master: str
     time: NDArray[np.float64]
     signals: dict[str, NDArray[np.float64]]
@@ -117,6 +121,8 @@ class ShiftResult:
             "stop_time": scene.stop_time,
             "step": self.step,
             "master": self.master,
+            "master_tolerance": scene.master_tolerance if MASTERS[self.master].adaptive else None,
+            "steps": self.steps._asdict(),
             "oil_temperature": scene.oil_temperature,
             "shift_start": scene.shift_start,
             "shift_duration": scene.shift_duration,

@@ -11,6 +11,7 @@ from .master import MASTERS
 
 MAX_STEPS = 500_000  # all signals of so many steps still fit into memory
 STEP_RANGE = (1e-6, 1.0)  # s
+TOLERANCE_RANGE = (1e-9, 0.1)  # of master_tolerance
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +52,8 @@ class Scene:
     stop_time: float
     step: float
     master: str
+    master_tolerance: float = 1e-4
+    """Relative error of one step that a master with error control allows."""
     oil_temperature: float
     shift_start: float
     shift_duration: float
@@ -91,13 +94,16 @@ class Scene:
         step: float | None = None,
         master: str | None = None,
         stop_time: float | None = None,
+        master_tolerance: float | None = None,
     ) -> Scene:
         """Return the scene with another step, master or end; what hangs on them is adapted."""
+        tolerance = self.master_tolerance if master_tolerance is None else master_tolerance
         scene = replace(
             self,
             step=self.step if step is None else step,
             master=self.master if master is None else master,
             stop_time=self.stop_time if stop_time is None else stop_time,
+            master_tolerance=tolerance,
         )
         return scene.checked()
 
@@ -110,6 +116,12 @@ class Scene:
         if not STEP_RANGE[0] <= self.step <= STEP_RANGE[1]:
             low, high = STEP_RANGE
             raise ParameterError(f"{where}: step = {self.step!r} s, allowed: {low:g} .. {high:g} s")
+        low, high = TOLERANCE_RANGE
+        if not low <= self.master_tolerance <= high:
+            raise ParameterError(
+                f"{where}: master_tolerance = {self.master_tolerance!r}, allowed: {low:g} .. "
+                f"{high:g}"
+            )
         span = self.stop_time - self.start_time
         if not self.step <= span <= MAX_STEPS * self.step:
             raise ParameterError(

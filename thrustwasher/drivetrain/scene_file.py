@@ -20,7 +20,7 @@ from ..units import parse_quantity
 from .asked import asked_for
 from .figure_list import FIGURES
 from .parts import PARTS, REQUIRED
-from .scene import STEP_RANGE, Part, Published, Scene
+from .scene import STEP_RANGE, TOLERANCE_RANGE, Part, Published, Scene
 
 # Key -> (unit, least, largest); texts have no unit.
 TEXTS = ("title", "description", "base", "master", "fidelity")
@@ -28,6 +28,7 @@ NUMBERS = {
     "start_time": ("s", -1e6, 1e6),
     "stop_time": ("s", -1e6, 1e6),
     "step": ("s", *STEP_RANGE),
+    "master_tolerance": ("1", *TOLERANCE_RANGE),
     "oil_temperature": ("K", 233.15, 473.15),
 }
 SHIFT = {

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from . import book, course
+from .adaptive import check_adaptive, run_adaptive
 from .costs import Meter
 from .figures import key_figures
 from .guard import Guard
@@ -22,6 +23,7 @@ from .parts import PACK_INPUTS, links
 from .recorder import Recorder
 from .result import Cost, ShiftResult
 from .scene import Scene
+from .steps import Steps, fixed
 from .system import ConnectedPart, Stepping, System
 
 Progress = Callable[[int, int], None]
@@ -60,17 +62,25 @@ def run_shift(
     messages = _remarks(scene, asked)
     scene = asked
     system = connected(scene, instances)
+    plans = guards or {}
+    if MASTERS[scene.master].adaptive:
+        check_adaptive(scene, bool(plans), compiled)
+        system.initialize(scene.start_time)
+        meter, begin = Meter(scene, system, {}), perf_counter()
+        run, steps = run_adaptive(scene, system, progress)
+        wall = perf_counter() - begin
+        return _result(scene, run, steps, wall, meter.costs(wall, None), messages, None)
     run = _laid_out(scene, system, messages)
     system.initialize(scene.start_time)
     run.recorder.keep(0)
-    plans = guards or {}
     guard = Guard(run, plans, lambda now: loop_for(now, compiled)) if plans else None
     advance = guard.advance if guard else loop_for(run, compiled).advance
-    meter = Meter(scene, system, plans)
+    meter, n = Meter(scene, system, plans), len(run.time) - 1
     begin = perf_counter()
-    _drive(advance, len(run.time) - 1, progress)
+    _drive(advance, n, progress)
     wall = perf_counter() - begin
-    return _result(scene, run, wall, meter.costs(wall, guard), messages, guard)
+    costs = meter.costs(wall, guard)
+    return _result(scene, run, fixed(n, run.h), wall, costs, messages, guard)
 
 
 def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
@@ -87,7 +97,7 @@ def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
 
 
 def _result(
-    scene: Scene, run: Run, wall: float, cost: list[Cost], messages: list[str],
+    scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str],
     guard: Guard | None,
 ) -> ShiftResult:  # fmt: skip
     """Read everything from the rows of a finished run."""
@@ -99,6 +109,7 @@ def _result(
     return ShiftResult(
         scene=scene,
         step=run.h,
+        steps=steps,
         master=scene.master,
         time=time,
         signals=signals,
@@ -110,7 +121,7 @@ def _result(
         wall_time=wall,
         overhead=wall - spent,
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
-        messages=[*messages, *_said(run), *_advice(time, signals)],
+        messages=[*messages, *_said(run), *steps.words(), *_advice(time, signals)],
         guard=log,
         judder=swing,
     )
@@ -144,8 +155,8 @@ def loop_for(run: Run, compiled: bool | None) -> Loop:
         return CompiledLoop(run)
     if compiled:
         raise ParameterError(
-            "compiled = True, allowed: with FMUs for all parts, on a 64-bit machine where numba "
-            "compiles"
+            "compiled = True, allowed: with FMUs for all parts and master 'gauss-seidel' or "
+            "'jacobi', on a 64-bit machine where numba compiles"
         )
     return PythonLoop(run)
 

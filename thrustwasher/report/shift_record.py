@@ -70,6 +70,17 @@ class Published(NamedTuple):
     run: float | None
 
 
+class Steps(NamedTuple):
+    """Communication steps of a master that chooses them: how many, and their lengths [s]."""
+
+    accepted: int
+    rejected: int
+    shortest: float
+    longest: float
+    located: int
+    """Events that became communication points."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Record:
     """A finished shift; ``signals`` maps "part.variable" to values at ``time``, SI units.
@@ -102,6 +113,8 @@ class Record:
     judder: Any = None
     """How the output shaft swings (``drivetrain.judder.Judder``); None: not at all."""
     rungs: Rungs | None = None
+    steps: Steps | None = None
+    """None: all as long as ``step``."""
     looks: float = 0.0
     """[s] of wall clock for the guard's looks."""
 
@@ -184,5 +197,13 @@ def record_of(result: Any) -> Record:
         messages=result.messages,
         judder=result.judder,
         rungs=rungs_of(result),
+        steps=_steps(result.steps),
         looks=result.guard.seconds if result.guard else 0.0,
     )
+
+
+def _steps(taken: Any) -> Steps | None:
+    """Return the steps of a run whose master chose them."""
+    if taken.shortest == taken.longest:
+        return None
+    return Steps(taken.accepted, taken.rejected, taken.shortest, taken.longest, taken.located)

@@ -49,8 +49,7 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
         _cost_section(record),
         Section(
             anchor="parameters", title="What was simulated",
-            texts=[record.help, f"Communication step {say(record.step, 's')}, master "
-                   f"{record.master}. All values in SI units."],
+            texts=[record.help, f"{_stepping(record)} All values in SI units."],
             tables=tables.parameter_tables(record),
         ),
         Section(anchor="trust", title="How far to trust it", texts=trust_texts(record)),
@@ -222,6 +221,20 @@ def _cost_section(record: Record) -> Section:
         "loading the FMUs. FMUs through FMPy; the time of a step includes setting inputs "
         "and reading outputs."
     )
+    if record.steps is not None:
+        words += f" {_stepping(record)} Calls count what was rolled back."
     return Section(
         anchor="cost", title="Time spent", texts=[words], tables=[tables.cost_table(record)]
+    )
+
+
+def _stepping(record: Record) -> str:
+    """Say which communication steps were taken."""
+    taken = record.steps
+    if taken is None:
+        return f"Communication step {say(record.step, 's')}, master {record.master}."
+    return (
+        f"Communication steps of {say(taken.shortest, 's')} to {say(taken.longest, 's')}, master "
+        f"{record.master}: {taken.accepted} taken, {taken.rejected} tries rolled back, "
+        f"{taken.located} put on events."
     )

@@ -17,7 +17,8 @@ def trust_texts(record: Record) -> list[str]:
         f"Coupling: the {record.engaging} FMU counts "
         f"{book[f'{prefix}coupling_difference_share']:.3%} more or less heat than the driveline. "
         "Both are right about their own step; the difference is the error of exchanging values "
-        f"only every {say(record.step, 's')} and shrinks with it.",
+        f"only every {say(record.step, 's')}{'' if record.steps is None else ' or less'} and "
+        "shrinks with it.",
         *_packs(record),
     ]
     if record.part("washer") is not None:

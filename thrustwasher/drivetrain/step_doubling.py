@@ -1,0 +1,200 @@
+"""Step doubling: each communication step is made once whole and once in halves, then judged.
+
+The halves are what counts; the whole step is made to be compared with them and rolled back. The
+difference in the transmission's speeds and energies, over ``master_tolerance`` times the value and
+its nominal value, is the error; above 1 everything goes back and a shorter step is tried. A PI
+controller chooses the next length. Lock-up, break-away and slips that change their sign inside a
+half are located and become communication points. FMUs do not let their states be combined, so the
+halves are not extrapolated any further.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import inf
+
+import numpy as np
+
+from ..errors import SolveError
+from . import gauss_seidel
+from .events import Events
+from .loop import carry_out
+from .recorder import Recorder
+from .rollback import Held, Rollback
+from .steps import Steps, varied
+from .system import System
+
+NAME = "step-doubling"
+schedule = gauss_seidel.schedule
+LONGEST, SHORTEST = 16.0, 1.0 / 1024.0  # steps, as shares of the first one
+MOST = 500_000  # communication points: all signals of so many still fit into memory
+SAFETY, LEAST, MORE = 0.9, 0.2, 2.0  # what the next step may be of the one before
+ORDER = 2.0  # of one step's error: that of torques and drags held over a step
+NOW, BEFORE = 0.7 / ORDER, 0.4 / ORDER  # exponents of the PI controller
+ATTEMPTS = 100  # at one step; a tenth of them lead from the longest length to the shortest
+NEAR = 1e-6  # of a step: an event so close to its end is at its end
+RECORDS = ("lock_time", "lock_speed", "release_time")  # outputs that only tell of the past
+
+
+class Controller:
+    """Chooses lengths of steps by the errors of those before (PI)."""
+
+    def __init__(self, first: float) -> None:
+        self.h, self.longest, self.shortest = first, LONGEST * first, SHORTEST * first
+        self._before, self._calm = 1.0, True
+
+    def accepted(self, h: float, error: float, tried: float) -> None:
+        """Take note of a step; the next one may be longer unless one has just been rejected.
+
+        ``tried`` is longer than ``h`` where an event has cut the step.
+        """
+        error = max(error, 1e-4)
+        factor = SAFETY * error**-NOW * self._before**BEFORE
+        most = MORE if self._calm else 1.0
+        self.h = self._within(max(h * min(max(factor, LEAST), most), 0.5 * min(tried, self.h)))
+        self._before, self._calm = error, True
+
+    def rejected(self, h: float, error: float) -> None:
+        """Take note of a step that erred too much, or without limit."""
+        factor = SAFETY * error ** (-1.0 / ORDER) if error < inf else LEAST
+        self.h = self._within(h * max(LEAST, factor))
+        self._calm = False
+
+    def _within(self, h: float) -> float:
+        return min(max(h, self.shortest), self.longest)
+
+
+class Doubling:
+    """Steps a system from start to stop and records every point.
+
+    Parameters
+    ----------
+    system : initialized at the start
+    tolerance : relative error of one step
+    command : the shift command at a time
+    stops : times that become communication points; the last one ends the run
+    first : length of the first step [s]
+    """
+
+    def __init__(
+        self, system: System, tolerance: float, command: Callable[[float], float],
+        stops: Sequence[float], first: float,
+    ) -> None:  # fmt: skip
+        self.system, self._command, self._stops = system, command, sorted(stops)
+        self._moves, self._back = schedule(system), Rollback(system, NAME)
+        self._events = Events(system, command, NAME, tolerance)
+        self._hub = self._back.parts.index(system.transmission)
+        self._control = Controller(first)
+        self.recorder = Recorder(system, 1024)
+        self.time: list[float] = []
+        self._scales = [
+            (i, tolerance, tolerance * (s.nominal or 1.0))
+            for i, s in enumerate(system.transmission.spec.outputs)
+            if s.kind == "real" and not s.depends and s.name not in RECORDS
+        ]  # fmt: skip
+        self._rejected = self._located = self._forced = 0
+
+    def begin(self, time: float) -> None:
+        """Record the start."""
+        self._keep(time)
+
+    def advance(self) -> float:
+        """Take one step, in halves, and return the time reached."""
+        t, points, start = self.time[-1], len(self.time), self._back.hold()
+        stop = next(s for s in self._stops if s > t)
+        h = self._length(stop - t)
+        for _ in range(ATTEMPTS):
+            event, error = self._attempt(t, h, start)
+            reached = self.time[-1]
+            if event is None and (error <= 1.0 or h <= 2.0 * self._control.shortest):
+                self._forced += error > 1.0
+                self._control.accepted(reached - t, error, h)
+                self._back.drop(start)
+                return reached
+            self._rejected += 1
+            del self.time[points:]
+            self._back.give_back(start)
+            if event is not None:  # it shall lie in the second half
+                h = 4.0 / 3.0 * event
+            else:
+                self._control.rejected(reached - t if reached > t else h, error)
+                h = min(self._length(stop - t), h)
+        raise SolveError(
+            f"no step at t = {t:g} s meets master_tolerance; take a shorter step or a larger one"
+        )
+
+    def steps(self) -> Steps:
+        """Return what was done."""
+        return varied(np.array(self.time), self._rejected, self._located, self._forced)
+
+    def _length(self, left: float) -> float:
+        """Return the length to try: to the next stop, or so that no sliver is left before it."""
+        h = self._control.h
+        return left if left <= 1.001 * h else min(h, 0.5 * left) if left < 2.0 * h else h
+
+    def _attempt(self, t: float, h: float, start: Held) -> tuple[float | None, float]:
+        """Make and record two halves; return an event in the first, or the error of all.
+
+        A step that cannot be solved errs without limit, unless it is as short as can be.
+        """
+        try:
+            event = self._part(t, 0.5 * h)
+            if event is not None and event > 2.0 * self._control.shortest:
+                return event, inf
+            if event is None:
+                middle = self.time[-1]
+                event = self._part(middle, t + h - middle)
+            if event is not None:
+                self._part(self.time[-1], event, landing=True)
+            return None, self._error(start, t, self.time[-1] - t)
+        except SolveError:
+            if h <= 2.0 * self._control.shortest:
+                raise
+            return None, inf
+
+    def _part(self, t: float, h: float, landing: bool = False) -> float | None:
+        """Step and record; or stay and return the time to an event that is not at an end."""
+        start, before = self._back.hold(), self._events.seen()
+        try:
+            self._step(t, h)
+            if landing:
+                self._located += 1
+            elif self._events.between(before, self._events.seen()):
+                event = self._events.locate(t, h, before, start.states[self._hub])
+                self._back.give_back(start)
+                if self._control.shortest < event < (1.0 - NEAR) * h:
+                    return event
+                self._step(t, h)
+            self._keep(t + h)
+            return None
+        finally:
+            self._back.drop(start)
+
+    def _error(self, start: Held, t: float, h: float) -> float:
+        """Return how far a whole step ends from where its halves did, 1: as far as it may."""
+        end = self._back.hold()
+        try:
+            self._back.give_back(start)
+            self._step(t, h)
+            whole, halves = self.system.transmission.outputs, end.outputs[self._hub]
+            return max(
+                abs(whole[i] - halves[i]) / (relative * abs(halves[i]) + least)
+                for i, relative, least in self._scales
+            )
+        finally:
+            self._back.give_back(end)
+            self._back.drop(end)
+
+    def _step(self, t: float, h: float) -> None:
+        self.system.set_command(self._command(t + h))
+        carry_out(self._moves, t, h)
+
+    def _keep(self, time: float) -> None:
+        if len(self.time) >= MOST:
+            raise SolveError(
+                f"t = {time:g} s is reached after {MOST} communication points; take a larger "
+                "master_tolerance, or coupling 'capacity'"
+            )
+        self.recorder.make_room(len(self.time))
+        self.recorder.keep(len(self.time))
+        self.time.append(time)

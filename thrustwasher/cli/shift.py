@@ -35,7 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--master", metavar="NAME",
-        help="gauss-seidel, jacobi or linearly-implicit, if not the scene's",
+        help="gauss-seidel, jacobi, linearly-implicit or step-doubling, if not the scene's",
+    )  # fmt: skip
+    parser.add_argument(
+        "--master-tolerance", metavar="NUMBER",
+        help="relative error of a step that step-doubling allows, if not the scene's",
     )  # fmt: skip
     parser.add_argument(
         "--fidelity", metavar="[PART=]RUNG", action="append", default=[],
@@ -66,7 +70,11 @@ def run(arguments: argparse.Namespace) -> int:
     from ..drivetrain import load_scene, with_fidelities
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
-    scene = load_scene(arguments.scene).with_options(step=step, master=arguments.master)
+    tolerance = arguments.master_tolerance
+    scene = load_scene(arguments.scene).with_options(
+        step=step, master=arguments.master,
+        master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
+    )  # fmt: skip
     scene = with_fidelities(scene, arguments.fidelity)
     if arguments.ssp:
         from ._ssp import export

@@ -25,6 +25,7 @@ from .result import Cost, ShiftResult
 from .scene import Scene
 from .steps import Steps, fixed
 from .system import ConnectedPart, Stepping, System
+from .thermal_need import thermal_need
 
 Progress = Callable[[int, int], None]
 STRETCH = 0.02  # s between two looks at the progress, at least
@@ -121,7 +122,13 @@ def _result(
         wall_time=wall,
         overhead=wall - spent,
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
-        messages=[*messages, *_said(run), *steps.words(), *_advice(time, signals)],
+        messages=[
+            *messages,
+            *_said(run),
+            *steps.words(),
+            *_advice(time, signals),
+            *_thermal(scene, time, signals),
+        ],  # fmt: skip
         guard=log,
         judder=swing,
     )
@@ -188,14 +195,17 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
         )
     if "mesh" not in scene.parts and gearbox.planet_teeth:
         remarks.append("there is no gear mesh model in this scene: the meshes run without loss")
-    if "washer" in scene.parts:
-        remarks.append(
-            "washer temperatures are steady values at every instant; a washer needs 0.1 s to 6 s "
-            "to warm up, so during a shift they are an upper bound"
-        )
-    elif gearbox.washers:
+    if "washer" not in scene.parts and gearbox.washers:
         remarks.append("there is no washer model in this scene: the washers run without drag")
     return remarks
+
+
+def _thermal(
+    scene: Scene, time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]
+) -> list[str]:
+    """Say which thermal mode the washer needs, if there is one."""
+    need = thermal_need(scene, time, signals)
+    return [] if need is None else [need]
 
 
 def _advice(time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -21,6 +22,8 @@ from .washer_params import SPEC, WasherParams
 __all__ = ["CourseError", "WasherCourse", "follow_washer"]
 
 Array = NDArray[np.float64]
+PIECE = 0.1  # of the thickest body's time: how long inputs are held on their way between points
+MOST_PIECES = 32
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,8 +91,8 @@ def follow_washer(
     -----
     Quasi-steady: every point is the steady state there, on the branch that its past leads to.
     Transient: the heat balance of Jackson & Green Eq 19-29 with what carrier, washer and gear
-    store, density x specific heat x thickness each; between two points the inputs are those of
-    the middle, and substeps keep temperatures within 0.02 K + 0.2 % each.
+    store, density x specific heat x thickness each. Inputs run straight from point to point, in
+    stairs that are short beside the bodies' time; substeps keep temperatures within 0.02 K + 0.2 %.
 
     Examples
     --------
@@ -98,7 +101,7 @@ def follow_washer(
     >>> c = follow_washer(hot, time=np.linspace(0.0, 9.0, 10), load=[300.0] + 9 * [900.0],
     ...                   speed=545.0, tilt=2e-3)
     >>> c.distress.tolist().index(True)
-    5
+    8
     """
     points = rising(time)
     columns = [
@@ -137,13 +140,22 @@ class _Run:
         self.state = np.zeros(size_of_state(*grid))
         self.work = np.zeros(kernel.N_HEAD + size_of_work(*grid))
         self.out, self.iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
+        thickest = max(params.carrier_thickness, params.washer_thickness, params.gear_thickness)
+        slowest = params.density * params.specific_heat * thickest**2 / params.conductivity
+        self.piece = PIECE * slowest
 
     def go(self, before: Array, now: Array, duration: float) -> int:
         """Come to the inputs ``now``; return the status."""
         if duration == 0.0 or not self.in_time:
             return self._step(now, duration or 1e-12)
-        code = self._step(0.5 * (before + now), duration)
-        return code if Status(code).is_failure or (before == now).all() else self._step(now, 0.0)
+        if (before == now).all():
+            return self._step(now, duration)
+        n = min(max(math.ceil(duration / self.piece), 1), MOST_PIECES)
+        for i in range(n):
+            code = self._step(before + (now - before) * ((i + 0.5) / n), duration / n)
+            if Status(code).is_failure:
+                return code
+        return self._step(now, 0.0)
 
     def _step(self, inputs: Array, duration: float) -> int:
         return int(kernel.step(self.par, inputs, self.state, self.work, self.out, self.iout,

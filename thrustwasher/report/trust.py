@@ -69,10 +69,18 @@ def _washer(record: Record) -> list[str]:
     given = part.parameters if part else {}
     rung = str(given.get("fidelity", SPEC.default_fidelity))
     promise = SPEC.fidelities.get(rung, "")
+    if given.get("thermal_mode") == "transient":
+        heat = (
+            "Carrier, washer and gear store heat, each with one temperature across its thickness: "
+            "a thick body's face warms up earlier than that says, its back later."
+        )
+    else:
+        heat = (
+            "The washer is quasi-steady, every step is a steady state: while its bodies warm up, "
+            "its temperatures are an upper bound, and its film is rather thicker in truth."
+        )
     return [
-        f"Washer, fidelity {rung}: {promise}. The washer is quasi-steady, every step is a "
-        "steady state. Real steel needs 0.1 s (washer) to 6 s (carrier) to warm up, so that its "
-        "temperatures during a shift are an upper bound, and its film is rather thicker in truth.",
+        f"Washer, fidelity {rung}: {promise}. {heat}",
         "Washer's size: the published 45 mm washer does not fit a planet of a car-sized set; a "
         "scene that wants it to fit uses half the size. What is used stands in the parameters.",
     ]

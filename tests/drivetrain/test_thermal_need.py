@@ -1,0 +1,55 @@
+"""The scene says whether its washer's bodies have time to follow."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thrustwasher import WasherParams
+from thrustwasher.drivetrain.scene_file import load_scene
+from thrustwasher.drivetrain.thermal_need import body_times, change_time, thermal_need
+
+
+def said(duration, mode="quasi_steady", scene="planetary"):
+    scene = load_scene(scene)
+    part = scene.parts["washer"]
+    params = replace(part.params, thermal_mode=mode)
+    scene = replace(scene, parts={**scene.parts, "washer": replace(part, params=params)})
+    time = np.linspace(0.0, 10.0 * duration, 1001)
+    power = 10.0 + 90.0 * np.clip(time / (duration / 0.8), 0.0, 1.0)
+    film = np.full_like(time, 2e-6)
+    signals = {"washer.friction_power": power, "washer.film_thickness": film}
+    return thermal_need(scene, time, signals)
+
+
+def test_bodies_settle_within_their_own_times():
+    p = WasherParams()
+    quickest, middle, slowest = body_times(p, 2e-6)
+    alone = p.density * p.specific_heat * p.carrier_thickness**2 / p.conductivity
+    assert quickest < middle < slowest
+    assert slowest == pytest.approx(alone, rel=0.1)  # two thick bodies, held together by the film
+    assert 0.01 < quickest < 0.3
+
+
+def test_time_of_change_is_that_of_the_middle_eighty_percent():
+    time = np.linspace(0.0, 1.0, 1001)
+    assert change_time(time, np.clip(time / 0.5, 0.0, 1.0)) == pytest.approx(0.4, abs=3e-3)
+    assert change_time(time, np.ones_like(time)) == math.inf
+    assert change_time(time, np.where(time > 0.3, 1.0, 0.0)) == pytest.approx(1e-3)
+
+
+def test_quick_courses_need_stored_heat_and_slow_ones_do_not():
+    assert "upper bound" in said(0.5) and "transient" in said(0.5)
+    assert said(0.5, "transient").endswith("needed here, and it ran")
+    assert said(500.0).endswith("steady temperatures are right")
+    assert "would do" in said(500.0, "transient")
+
+
+def test_a_scene_without_a_washer_needs_neither():
+    assert thermal_need(load_scene("msl"), np.array([0.0, 1.0]), {}) is None
+
+
+def test_the_transient_scene_asks_for_bodies_as_cold_as_the_oil():
+    params = load_scene("planetary-transient").parts["washer"].params
+    assert (params.thermal_mode, params.thermal_start) == ("transient", "oil")

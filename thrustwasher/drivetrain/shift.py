@@ -128,7 +128,7 @@ def _result(
             *steps.words(),
             *_advice(time, signals),
             *_thermal(scene, time, signals),
-        ],  # fmt: skip
+        ],
         guard=log,
         judder=swing,
     )

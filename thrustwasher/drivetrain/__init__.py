@@ -15,6 +15,7 @@
 ``course``        events and phases; ``book``: energy book and key figures
 ``judder``        what a swing of the output shaft is; ``judder_search``: how it is found;
                   ``swing``, ``torsion``, ``pack_slope``: fit, eigenvalues, slope of friction
+``chatter``       packs whose slip flips from step to step
 ``result``        ``ShiftResult``
 ================  =================================================================================
 """

@@ -43,12 +43,15 @@ class Judder:
     """What handing capacities over once per step adds to the eigenvalue's growth."""
     step: float
     """[s]"""
+    scatter: float = 0.0
+    """Of measured less computed growth, from window to window."""
 
     @property
     def tolerance(self) -> float:
         """Growth [1/s] to which measured and computed growth are held to agree."""
         relative, absolute = AGREES
-        return max(relative * abs(self.mode_growth), absolute * 2.0 * math.pi * self.mode_frequency)
+        angular = 2.0 * math.pi * self.mode_frequency
+        return max(relative * abs(self.mode_growth), absolute * angular, self.scatter)
 
     @property
     def stick_slip(self) -> bool:

@@ -48,24 +48,26 @@ class _Window(NamedTuple):
     swing: Swing
     slopes: Mapping[str, float]
     vehicle: float
+    step: float
     mode: complex
     stepped: complex
 
 
-def find_judder(scene: Scene, time: Array, signals: Signals, step: float) -> Judder | None:
+def find_judder(scene: Scene, time: Array, signals: Signals) -> Judder | None:
     """Return how the shaft swings while a pack slips; None where it is rigid or does not swing."""
     gearbox = scene.parts["transmission"].params
     if not gearbox.shaft_stiffness:
         return None
-    stretch = max(_stretches(scene, time, signals), key=lambda s: len(s.places), default=None)
-    if stretch is None:
+    stretches = [s for s in _stretches(scene, time, signals) if len(s.places) >= LEAST_SAMPLES]
+    if not stretches:
         return None
-    found = list(_windows(scene, time, signals, stretch, step))
+    stretch = max(stretches, key=lambda s: time[s.places[-1]] - time[s.places[0]])
+    found = list(_windows(scene, time, signals, stretch))
     most = np.max(np.abs(signals["transmission.shaft_torque"]))
     found = [w for w in found if w.swing.amplitude > LEAST_SWING * most]
     if not found:
         return None
-    return _judged(scene, time, signals, stretch, found, step)
+    return _judged(scene, time, signals, stretch, found)
 
 
 def _stretches(scene: Scene, time: Array, signals: Signals) -> Iterator[_Stretch]:
@@ -86,27 +88,28 @@ def _stretches(scene: Scene, time: Array, signals: Signals) -> Iterator[_Stretch
             yield _Stretch(places[1:], rubbing, held)  # the first point is of the change
 
 
-def _windows(
-    scene: Scene, time: Array, signals: Signals, stretch: _Stretch, step: float
-) -> Iterator[_Window]:
-    """Give what the swing is in windows of some periods, and what it should be."""
-    places = stretch.places
-    if len(places) < LEAST_SAMPLES:
-        return
-    speed = signals["transmission.vehicle_speed"]
+def _windows(scene: Scene, time: Array, signals: Signals, stretch: _Stretch) -> Iterator[_Window]:
+    """Give what the swing is in windows of some periods, and what it should be.
+
+    Communication points may lie anywhere; the step of a window is its mean.
+    """
+    places, torque = stretch.places, signals["transmission.shaft_torque"]
+    speed, t = signals["transmission.vehicle_speed"], time[stretch.places]
     slopes = _slopes(scene, signals, stretch, places[:1], None)
-    modes = _modes(scene, slopes, stretch.held, float(speed[places[0]]), step)
+    modes = _modes(scene, slopes, stretch.held, float(speed[places[0]]), 0.0)
     if modes is None:
         return
     mode = modes[0]
-    length = math.ceil(PERIODS * 2.0 * math.pi / (mode.imag * step))
-    last = len(places) - length
-    if last < 0 or length < LEAST_SAMPLES:
+    length = PERIODS * 2.0 * math.pi / mode.imag
+    spare = float(t[-1] - t[0]) - length
+    if spare < 0.0:
         return
-    torque = signals["transmission.shaft_torque"]
-    count = min(MOST_WINDOWS, 1 + 4 * last // length)
-    for begin in np.unique(np.linspace(0, last, count).astype(int)):
-        inside = places[begin : begin + length : max(1, length // MOST_SAMPLES)]
+    for begin in t[0] + np.linspace(0.0, spare, min(MOST_WINDOWS, 1 + int(4.0 * spare / length))):
+        inside = places[(t >= begin) & (t <= begin + length)]
+        if len(inside) < LEAST_SAMPLES:
+            continue
+        step = float(time[inside[-1]] - time[inside[0]]) / (len(inside) - 1)
+        inside = inside[:: max(1, len(inside) // MOST_SAMPLES)]
         swing = fit_swing(time[inside], torque[inside], mode.real, mode.imag)
         if swing is None:
             continue
@@ -115,7 +118,7 @@ def _windows(
         modes = _modes(scene, slopes, stretch.held, vehicle, step)
         if modes is not None:
             mode = modes[0]
-            yield _Window(swing, slopes, vehicle, *modes)
+            yield _Window(swing, slopes, vehicle, step, *modes)
 
 
 def _slopes(
@@ -150,8 +153,7 @@ def _modes(
 
 
 def _judged(
-    scene: Scene, time: Array, signals: Signals, stretch: _Stretch, found: list[_Window],
-    step: float,
+    scene: Scene, time: Array, signals: Signals, stretch: _Stretch, found: list[_Window]
 ) -> Judder:  # fmt: skip
     """Return the verdict's numbers: means over the windows in which the swing is small."""
     gearbox = scene.parts["transmission"].params
@@ -179,7 +181,8 @@ def _judged(
         damping=gearbox.shaft_damping,
         limit_damping=damping_limit_of(gearbox, slopes, stretch.held, vehicle),
         mode_frequency=mode.imag / (2.0 * math.pi), mode_growth=mode.real,
-        step_growth=stepped.real - mode.real, step=step,
+        step_growth=stepped.real - mode.real, step=float(np.mean([w.step for w in found])),
+        scatter=float(np.std([w.swing.growth - w.mode.real for w in found])),
     )  # fmt: skip
 
 

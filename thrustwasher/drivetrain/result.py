@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from .chatter import Chatter
 from .figure_list import KeyFigure
 from .guard_plan import GuardLog
 from .judder import Judder
@@ -83,6 +85,8 @@ class ShiftResult:
     """What the guard saw and did; None: there was none."""
     judder: Judder | None = None
     """How the output shaft swings while a pack slips; None: it is rigid or does not swing."""
+    chatter: Sequence[Chatter] = ()
+    """Packs whose slip flips from step to step."""
     selection: Selection | None = None
     """Why the rungs are what they are, if they were chosen for a tolerance."""
 
@@ -143,6 +147,7 @@ class ShiftResult:
             "messages": self.messages,
             "guard": self.guard.as_dict() if self.guard else None,
             "judder": self.judder.as_dict() if self.judder else None,
+            "chatter": [c.as_dict() for c in self.chatter],
             "selection": self.selection.as_dict() if self.selection else None,
             "parameters": {name: part.parameters() for name, part in scene.parts.items()},
         }

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, Status
 from . import book, course
 from .adaptive import check_adaptive, run_adaptive
+from .chatter import find_chatter
 from .costs import Meter
 from .figures import key_figures
 from .guard import Guard
@@ -104,7 +105,7 @@ def _result(
     """Read everything from the rows of a finished run."""
     time, signals = run.time, run.recorder.signals()
     found = course.events(scene, time, signals)
-    swing = find_judder(scene, time, signals, run.h)
+    swing = find_judder(scene, time, signals)
     log = guard.log() if guard else None
     spent = sum(c.wall_time for c in cost) + (log.seconds if log else 0.0)
     return ShiftResult(
@@ -131,6 +132,7 @@ def _result(
         ],
         guard=log,
         judder=swing,
+        chatter=find_chatter(scene, time, signals, run.h),
     )
 
 

@@ -15,7 +15,7 @@
 ``washer_moment``  the washer solved again at one moment of the shift
 ``extremes``       the worst values of a shift and when they were reached
 ``trust``          how far to trust it, in sentences
-``judder``         what to say of a shaft that swings
+``judder``         what to say of a shaft that swings; ``chatter``: of a slip that flips
 ``summary``        what happened, in sentences made from the numbers
 ``tables``         the report's tables as rows of text
 ``shift_report``   all of that as the chapters of a page

@@ -14,6 +14,7 @@ TITLES = {
     "unexplained": "A swing of the shaft",
 }
 RATE = "per second"
+ADAPTIVE = "step-doubling"
 
 
 def judder_text(record: Record) -> list[str]:
@@ -30,6 +31,8 @@ def judder_words(record: Record) -> str:
         "unexplained": _unexplained,
     }  # fmt: skip
     words = texts[found.kind](found)
+    if found.kind == "numerical" and record.master == ADAPTIVE:
+        words += " This master chooses its steps itself: lower master_tolerance."
     return words[0].upper() + words[1:]
 
 
@@ -91,11 +94,11 @@ def _cause(j: Any) -> str:
     """Return the criterion: slope of friction against damping."""
     if j.slope >= 0.0:
         return (
-            f"The {j.pack}'s torque rises by {say(j.slope, 'N.m.s/rad', digits=3)} of slip, which "
-            "damps the swing."
+            f"The {j.pack}'s torque rises by {j.slope:.3g} N·m per rad/s of slip, which damps the "
+            "swing."
         )
     return (
-        f"The {j.pack}'s torque falls by {say(-j.slope, 'N.m.s/rad', digits=3)} of slip; the "
+        f"The {j.pack}'s torque falls by {-j.slope:.3g} N·m per rad/s of slip; the "
         f"swing grows below {say(j.limit_damping, 'N.m.s/rad', digits=3)} of damping in the "
         f"shaft, which has {say(j.damping, 'N.m.s/rad', digits=3)}."
     )

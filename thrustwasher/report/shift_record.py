@@ -112,6 +112,8 @@ class Record:
     messages: Sequence[str] = ()
     judder: Any = None
     """How the output shaft swings (``drivetrain.judder.Judder``); None: not at all."""
+    chatter: Sequence[Any] = ()
+    """Packs whose slip flips from step to step (``drivetrain.chatter.Chatter``)."""
     rungs: Rungs | None = None
     steps: Steps | None = None
     """None: all as long as ``step``."""
@@ -196,6 +198,7 @@ def record_of(result: Any) -> Record:
         wall_time=result.wall_time,
         messages=result.messages,
         judder=result.judder,
+        chatter=result.chatter,
         rungs=rungs_of(result),
         steps=_steps(result.steps),
         looks=result.guard.seconds if result.guard else 0.0,

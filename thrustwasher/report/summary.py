@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ..units import format_quantity as say
+from .chatter import chatter_text
 from .extremes import highest
 from .judder import judder_text
 from .shift_record import Record
@@ -30,6 +31,7 @@ def warnings(record: Record) -> list[str]:
         )
     found += tie_up_text(record)
     found += judder_text(record)
+    found += chatter_text(record)
     distress = figures.get("washer_distress_time") or 0.0
     if distress > 0.0:
         found.append(

@@ -29,6 +29,7 @@ def test_a_quick_run_measures_everything_and_draws_it(tmp_path):
     assert washer["field"]["n_failed"] == 0
     lies = [c["verdict"] for g in record["stability"] for row in g["cells"] for c in row]
     assert {"ok", "LIES"} <= set(lies)
+    assert all(abs(one["deviation"]) < 0.02 for one in record["limits"])
     names = {p.name for p in tmp_path.iterdir()}
     assert {"chart.html", "chart.md", "chart-washer.svg", "chart-shift.svg",
             "chart-stability.svg", "chart-clutch.svg"} <= names  # fmt: skip

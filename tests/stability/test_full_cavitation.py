@@ -1,4 +1,9 @@
-"""No pressure anywhere, and pressure all around."""
+"""No pressure anywhere, and pressure all around.
+
+Hazard: the set of full nodes is empty, or cuts no ring: the banded system has no rows, or wraps.
+Formula: p >= 0, residual >= 0, p residual = 0 at every node (Reynolds cavitation).
+Cure: columns without a full node are left out; a ring without a dry column is folded.
+"""
 
 import pytest
 

@@ -1,4 +1,12 @@
-"""From one end of the range to the other in one step."""
+"""From one end of the range to the other in one step.
+
+Hazard: a warm start is a bad start: its active set, temperatures and branch belong elsewhere, and
+    Newton's method from there diverges or lands on the wrong branch.
+Formula: quadratic convergence inside a basin of some 0.3 of the film; the ends are 20 films
+    apart.
+Cure: steps are limited; what does not converge warm is solved cold, then along the film
+    thickness.
+"""
 
 import itertools
 

@@ -1,4 +1,11 @@
-"""What is no number is refused by name; what was solved before is not harmed."""
+"""What is no number is refused by name; what was solved before is not harmed.
+
+Hazard: a NaN passes every test written as "stop if larger": the loop ends with status OK, and the
+    memory is poisoned for good.
+Formula: not (low <= NaN <= high), and NaN != NaN.
+Cure: ranges are asked for, not exceeded; memory is taken over only after a solution is all
+    finite.
+"""
 
 import math
 

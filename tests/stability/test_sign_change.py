@@ -1,4 +1,10 @@
-"""Turning through standstill and back."""
+"""Turning through standstill and back.
+
+Hazard: cavities change sides, so that a sweep now runs the wrong way and a warm start holds
+    pressure where the film opens.
+Formula: speed -> -speed mirrors the film about the tilt's axis; torque is odd, all else even.
+Cure: the active set is corrected until it stays, from any start; no sweep has a direction.
+"""
 
 import pytest
 

@@ -1,4 +1,12 @@
-"""A washer that stands still, and one that comes to rest."""
+"""A washer that stands still, and one that comes to rest.
+
+Hazard: the film's source, the heat and its scale go to zero together; residuals divided by them
+    are 0/0, and a stop test on the relative change of nothing never ends.
+Formula: at speed 0 the pressure is 0, T = T_oil, contact load = load, friction torque = 0;
+    Coulomb friction has no limit there: f W r for +0 and -f W r for -0.
+Cure: residuals are scaled with absolute floors; the torque at rest is 0 by definition, and rest
+    is approached, not skipped.
+"""
 
 import pytest
 

@@ -1,4 +1,12 @@
-"""Films thinner than the roughness, and nothing left of them."""
+"""Films thinner than the roughness, and nothing left of them.
+
+Hazard: 1/h and 1/h^3 where the mean surfaces touch and pass: infinite shear, no flow, a log of a
+    negative number.
+Formula: the mean gap of rough surfaces h_T = E[max(h + s, 0)] is above 0 for every h, and so is
+    the flow that Patir & Cheng's phi h^3 leaves.
+Cure: shear and flow are taken from h_T and a bounded flow factor; film ratios below 0 are
+    answers.
+"""
 
 import pytest
 
@@ -25,16 +33,6 @@ def test_the_softest_and_the_smoothest_washers_are_answered(change):
     """Both are the ends of the parameters' ranges."""
     r = solve_washer(WasherParams(**change), load=3000.0, speed=100.0, tilt=0.002)
     assert is_sound(r)
-
-
-@pytest.mark.parametrize("kelvin", [233.15, 260.0, 420.0, 473.15])
-@pytest.mark.parametrize("load", [1.0, 300.0, 3000.0])
-def test_oil_at_both_ends_of_its_range(kelvin, load):
-    """From a viscosity a hundred times that of base to one fifty times below it."""
-    r = solve(load=load, oil_temperature=kelvin)
-    assert is_sound(r)
-    if load == 1.0:
-        assert r.branch == "film"
 
 
 def test_hot_oil_carries_less():

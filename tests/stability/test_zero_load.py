@@ -1,4 +1,11 @@
-"""An unloaded washer, and one that is let go."""
+"""An unloaded washer, and one that is let go.
+
+Hazard: without a load there is no balance: the film grows without end, and a scene that lifts its
+    load for one step stops with an exception.
+Formula: film thickness ~ load^(-1/2) as the load goes to 0.
+Cure: the library refuses loads below 1 N by name; a washer in a scene takes less as 1 N and goes
+    on.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,12 @@
-"""No tilt, no wedge: the asperities carry all."""
+"""No tilt, no wedge: the asperities carry all.
+
+Hazard: Newton's method started level has a singular matrix: no tilt changes nothing. The least
+    film thickness has a kink (a norm) at zero tilt.
+Formula: tilt 0: pressure 0, contact load = load, torque = f W (2/3)(r_o^3 - r_i^3)/(r_o^2 -
+    r_i^2).
+Cure: started from the washer lying on the gear; continued in the mean gap where the norm has its
+    kink.
+"""
 
 import math
 

@@ -24,6 +24,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"folder for chart.json, chart.html, chart.md and the drawings; default {FOLDER}",
     )  # fmt: skip
     parser.add_argument(
+        "--only", choices=("stability",),
+        help="measure this part alone: where methods fail, and the limits of coupling, as "
+        "stability.md beside the chart's page; with --out FILE.md that page alone",
+    )  # fmt: skip
+    parser.add_argument(
         "--quick", action="store_true",
         help="few cases and repeats: minutes become half a minute, and the numbers a first look",
     )  # fmt: skip
@@ -34,6 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, then write the record and what is drawn from it."""
+    if arguments.only:
+        return _stability_alone(arguments)
     folder = _output.check_folder(arguments.out, "--out")
     if arguments.draw:
         record = _read(arguments.draw)
@@ -48,10 +55,59 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _stability_alone(arguments: argparse.Namespace) -> int:
+    """Measure and write where methods fail, nothing else."""
+    if arguments.draw:
+        raise ParameterError("--only: not together with --draw, which draws what was measured")
+    alone = Path(arguments.out).suffix.lower() == ".md"
+    check = _output.check_file if alone else _output.check_folder
+    target = check(arguments.out, "--out")
+    from ..fidelity.record import pin_threads, surroundings
+
+    pin_threads()
+    command = "thrustwasher chart --only stability" + (" --quick" if arguments.quick else "")
+    began = time.perf_counter()
+    record = {**surroundings(command), "quick": arguments.quick, "models": {}}
+    record |= _stability(quick=arguments.quick)
+    record["run_s"] = time.perf_counter() - began
+    from ..report.stability_page import stability_markdown
+
+    page = stability_markdown(record)
+    if alone:
+        with _output.whole_file(target) as draft:
+            draft.write_text(page, "utf-8")
+        _output.note(f"wrote {target}")
+        return 0
+    _write(record, target, page)
+    _output.note(f"wrote {target / 'stability.md'}, chart.html, chart.md, chart.json, a drawing")
+    return 0
+
+
+def _stability(*, quick: bool) -> dict[str, Any]:
+    """Return the stability map with the masters of the driveline, and the limits of coupling."""
+    from ..drivetrain.stability_masters import masters
+    from ..fidelity.stability import stability
+    from ..fidelity.stability_limits import as_rows, limits
+
+    more = (("masters of a shift", lambda: masters(_instances)),)
+    groups = stability(quick=quick, progress=_say, more=more)
+    _say("limits of coupling")
+    return {"stability": groups, "limits": as_rows(limits())}
+
+
+def _instances(scene: Any) -> dict[str, Any]:
+    """Return an instance in this process for each part of a scene."""
+    from ..fmu.direct import DirectInstance
+
+    return {
+        name: DirectInstance(part.spec, parameters=part.parameters())
+        for name, part in scene.parts.items()
+    }
+
+
 def _measured(command: str, *, quick: bool) -> dict[str, Any]:
     """Return everything that is measured, as JSON types."""
     from ..fidelity.record import surroundings
-    from ..fidelity.stability import stability
     from ..fidelity.survey import MODELS, survey
 
     began = time.perf_counter()
@@ -62,7 +118,7 @@ def _measured(command: str, *, quick: bool) -> dict[str, Any]:
     for model in MODELS:
         record["models"][model] = survey(model, quick=quick, progress=_say)
     record["macro_steps"] = _macro_steps(quick=quick)
-    record["stability"] = stability(quick=quick, progress=_say)
+    record |= _stability(quick=quick)
     record["run_s"] = time.perf_counter() - began
     return record
 
@@ -70,15 +126,8 @@ def _measured(command: str, *, quick: bool) -> dict[str, Any]:
 def _macro_steps(*, quick: bool) -> dict[str, Any]:
     """Return the study of a shift, its parts stepped in this process."""
     from ..drivetrain.macro_steps import study
-    from ..fmu.direct import DirectInstance
 
-    def make(scene: Any) -> dict[str, Any]:
-        return {
-            name: DirectInstance(part.spec, parameters=part.parameters())
-            for name, part in scene.parts.items()
-        }
-
-    return study(make, quick=quick, progress=_say)
+    return study(_instances, quick=quick, progress=_say)
 
 
 def _say(what: str) -> None:
@@ -100,8 +149,8 @@ def _read(path: str) -> dict[str, Any]:
     return dict(record)
 
 
-def _write(record: dict[str, Any], folder: Path) -> None:
-    """Write record, page and drawings; all of them or none."""
+def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
+    """Write record, page and drawings; all of them or none. ``extra``: text of stability.md."""
     os.environ.setdefault("MPLBACKEND", "Agg")
     from ..fidelity.pareto import front
     from ..report.chart_page import html, markdown, page_of, save_drawings
@@ -120,4 +169,6 @@ def _write(record: dict[str, Any], folder: Path) -> None:
         (draft / "chart.json").write_text(json.dumps(record, indent=1, allow_nan=False), "utf-8")
         (draft / "chart.md").write_text(markdown(page), "utf-8")
         (draft / "chart.html").write_text(html(page), "utf-8")
+        if extra:
+            (draft / "stability.md").write_text(extra, "utf-8")
         save_drawings(page, draft)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, Status
 from . import book, course
 from .adaptive import check_adaptive, run_adaptive
+from .agreement import check_agreement
 from .chatter import find_chatter
 from .costs import Meter
 from .figures import key_figures
@@ -48,8 +49,8 @@ def run_shift(
     ----------
     scene : what to simulate; ``scene.with_options`` first if step or master are to differ, since
         the transmission's parameters depend on the master
-    instances : one per part of the scene, made with ``scene.parts[name].parameters()``; they are
-        neither closed nor reset here
+    instances : one per part of the scene, made with ``scene.parts[name].parameters()`` and not
+        initialized since they were made or reset; they are neither closed nor reset here
     step, master : other values than the scene's
     guards : part -> how its rung is watched and what may take over (``run_auto`` makes them)
     progress : called as ``progress(done, total)`` a hundred times at most, and at the end
@@ -58,22 +59,24 @@ def run_shift(
 
     Raises
     ------
-    ParameterError, SolveError : the message names part and time
+    ParameterError, SolveError : the message names part and time; among them instances that were
+        made with other parameters than the scene's, or stepped before
     """
-    asked = scene.with_options(step=step, master=master)
-    messages = _remarks(scene, asked)
-    scene = asked
+    made_for, scene = scene, scene.with_options(step=step, master=master)
+    messages = _remarks(made_for, scene)
     system = connected(scene, instances)
     plans = guards or {}
     if MASTERS[scene.master].adaptive:
         check_adaptive(scene, bool(plans), compiled)
         system.initialize(scene.start_time)
+        check_agreement(made_for, instances)
         meter, begin = Meter(scene, system, {}), perf_counter()
         run, steps = run_adaptive(scene, system, progress)
         wall = perf_counter() - begin
         return _result(scene, run, steps, wall, meter.costs(wall, None), messages, None)
     run = _laid_out(scene, system, messages)
     system.initialize(scene.start_time)
+    check_agreement(made_for, instances)
     run.recorder.keep(0)
     guard = Guard(run, plans, lambda now: loop_for(now, compiled)) if plans else None
     advance = guard.advance if guard else loop_for(run, compiled).advance

@@ -51,8 +51,13 @@ class DirectInstance:
     def initialize(
         self, start_time: float = 0.0, inputs: Mapping[str, float] | None = None
     ) -> None:
-        """Set the inputs at the start and solve there."""
+        """Set the inputs at the start and solve there; after steps only if ``reset``."""
         start = perf_counter()
+        if self.core.state.any():  # an FMU would refuse; here the memory would go on silently
+            raise ParameterError(
+                f"{self.spec.name} was stepped before and stands at t = {self.core.time:g} s; "
+                "call reset() before it is initialized again"
+            )
         self.core.time, self.core.mode = start_time, Mode.INITIALIZING
         for name, value in (inputs or {}).items():
             if name not in self.input_names:

@@ -48,7 +48,7 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
         title="Where methods fail",
         texts=[
             f"Each cell was run: {lies} of {len(rows)} answers are wrong and come without a word. "
-            "The methods are small ones written for this map; the package's own are named so.",
+            "Most methods are small ones written for this map; the package's own are named so.",
         ],
         plots=[Plot(file="chart-stability", figure=stability_figure(groups),
                     caption="A method that says that it failed is worth more than one that does "

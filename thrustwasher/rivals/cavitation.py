@@ -28,6 +28,7 @@ from ._jit import rival
 Array = NDArray[np.float64]
 RELAXATION = 1.7
 MOST_SWEEPS = 20000
+MOST_SOLVES = 200
 CHANGE, REST = 1e-4, 1e-6
 
 
@@ -69,6 +70,16 @@ def pad(height: Callable[[Any, Any], Any], n: int = 31, direction: float = 1.0) 
     at_north = np.asarray(height(inner[:, None], faces[None, :]), np.float64)
     source = -direction * d * (at_east[1:] - at_east[:-1])
     return Pad(at_east**3, at_north**3, source)
+
+
+def slider(x: Array, y: Array) -> Array:
+    """Return a film that closes all the way: full everywhere."""
+    return 2.0 - x + 0.0 * y
+
+
+def level(x: Array, y: Array) -> Array:
+    """Return a film of one height: nothing lifts."""
+    return 1.0 + 0.0 * x * y
 
 
 def one_wave(x: Array, y: Array) -> Array:
@@ -210,7 +221,7 @@ def active_set(p: Pad, start: NDArray[np.bool_] | None = None) -> Film:
     n = len(p.source)
     dry = np.zeros(n * n, bool) if start is None else start.ravel().copy()
     diagonal, band = p.diagonal.ravel(), _band(p)
-    for turn in range(200):
+    for turn in range(MOST_SOLVES):
         held, x = band.copy(), p.source.ravel().copy()
         held[dry, 1:] = 0.0
         for b in (1, n):
@@ -223,7 +234,7 @@ def active_set(p: Pad, start: NDArray[np.bool_] | None = None) -> Film:
         if (now == dry).all():
             return Film(x.reshape(n, n), Status.OK, turn + 1)
         dry = now
-    return Film(np.maximum(x, 0.0).reshape(n, n), Status.MAX_ITERATIONS, 200)
+    return Film(np.maximum(x, 0.0).reshape(n, n), Status.MAX_ITERATIONS, MOST_SOLVES)
 
 
 def _rest(p: Pad, x: Array) -> Array:

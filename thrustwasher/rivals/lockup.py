@@ -1,8 +1,9 @@
-"""A clutch that locks, stepped in six ways: the least problem in which co-simulation goes wrong.
+"""A clutch that locks, stepped in many ways: the least problem in which co-simulation goes wrong.
 
-Slip w of a reduced inertia J: J dw/dt = T_d - T_f sign(w), sticking while |T_d| <= T_f. Friction
-and drive are constant, so that lock-up and slip energy have a closed form. Friction is smoothed
-over a slip of w_s where a way needs it.
+Slip w of a reduced inertia J: J dw/dt = T_d - T_f sign(w), sticking while |T_d| <= T_f. The drive
+is constant; friction is too, unless a film has to be squeezed out first or one rung hands over to
+another. Friction is smoothed over a slip of w_s where a way needs it. The ways are in
+``lockup_ways`` and ``lockup_solvers``.
 """
 
 from __future__ import annotations
@@ -10,8 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
+
+Row = np.ndarray[tuple[int], np.dtype[np.float64]]
+FINE = 400_001  # times at which slip and heat are summed up where there is no closed form
 
 
 @dataclass(frozen=True)
@@ -24,28 +30,92 @@ class Clutch:
     slip: float = 150.0  # at the start
     width: float = 0.05  # w_s of smoothed friction
     span: float = 1.0
+    lag: float = 0.0  # s in which the film goes down to 1/e and friction comes up
+    other: float = 1.0  # friction of the second rung over that of the first
+    blend: tuple[float, float] = (0.2, 0.201)  # s between which it takes over
 
     @property
     def lock_time(self) -> float:
         """[s]."""
-        return self.slip * self.inertia / (self.friction - self.drive)
+        if self._is_even:
+            return self.slip * self.inertia / (self.friction - self.drive)
+        return self._course[0]
 
     @property
     def slip_energy(self) -> float:
         """[J] turned into heat until lock-up."""
-        return 0.5 * self.friction * self.slip * self.lock_time
+        if self._is_even:
+            return 0.5 * self.friction * self.slip * self.lock_time
+        return self._course[1]
 
-    def smooth(self, w: float) -> float:
+    @property
+    def _is_even(self) -> bool:
+        return self.lag == 0.0 and self.other == 1.0
+
+    @cached_property
+    def _course(self) -> tuple[float, float]:
+        """Time of lock-up and heat until then, summed up in fine steps."""
+        time = np.linspace(0.0, self.span, FINE)
+        film = 1.0 - np.exp(-time / self.lag) if self.lag else np.ones_like(time)
+        low, high = self.blend
+        share = np.clip((time - low) / (high - low), 0.0, 1.0)
+        torque = self.friction * film * (1.0 + (self.other - 1.0) * share)
+        slip = self.slip + _sums((self.drive - torque) / self.inertia, time)
+        heat = _sums(torque * slip, time)
+        k = int(np.argmax(slip <= 0.0))
+        part = slip[k - 1] / (slip[k - 1] - slip[k])
+        lock = time[k - 1] + part * (time[k] - time[k - 1])
+        return float(lock), float(heat[k - 1] + part * (heat[k] - heat[k - 1]))
+
+    def film_after(self, film: float, h: float) -> float:
+        """Return how much of the film is gone (0 .. 1) ``h`` later."""
+        return 1.0 - (1.0 - film) * math.exp(-h / self.lag) if self.lag else 1.0
+
+    def level(self, film: float, t: float) -> float:
+        """Return the friction torque of full slip [N m]."""
+        if self.other == 1.0:
+            return self.friction * film
+        low, high = self.blend
+        share = min(max((t - low) / (high - low), 0.0), 1.0)
+        return self.friction * film * (1.0 + (self.other - 1.0) * share)
+
+    def smooth(self, w: float, film: float = 1.0, t: float = 0.0) -> float:
         """Return the smoothed friction torque [N m]."""
-        return self.friction * math.tanh(w / self.width)
+        return self.level(film, t) * math.tanh(w / self.width)
+
+
+def _sums(rate: Row, time: Row) -> Row:
+    """Integrate by trapezoids from the start on."""
+    parts = 0.5 * (rate[1:] + rate[:-1]) * np.diff(time)
+    return np.concatenate(([0.0], np.cumsum(parts)))
+
+
+class Now(NamedTuple):
+    """All that a way knows at a communication point."""
+
+    time: float
+    slip: float
+    heat: float
+    film: float  # how much of it is gone
+    own: float  # what else the way keeps: the torque of a step ago, a step that went well
+    work: int  # torques evaluated
+
+
+class Rewind(NamedTuple):
+    """A master that goes back: ``ahead`` steps every ``every`` steps, then from there again."""
+
+    every: int = 1000
+    ahead: int = 100
+    forgets: bool = False  # the film and what the way keeps stay where they were
 
 
 @dataclass(frozen=True)
 class Course:
-    """Slip over time and the heat at the end."""
+    """Slip over time, the heat at the end and how often a torque was evaluated."""
 
-    slip: np.ndarray[tuple[int], np.dtype[np.float64]]
+    slip: Row
     energy: float
+    work: int = 0
 
     def chatter(self, clutch: Clutch) -> int:
         """Return how often the slip turns round after lock-up."""
@@ -56,105 +126,34 @@ class Course:
         return int(np.count_nonzero(np.diff(moving)))
 
 
-def _walk(
-    clutch: Clutch, step: float, advance: Callable[[float, float], tuple[float, float]]
-) -> Course:
-    """Step with ``advance(w, h)``, which returns the new slip and the heat made."""
+Advance = Callable[[Clutch, Now, float], Now]
+
+
+def begin(clutch: Clutch) -> Now:
+    """Return the start."""
+    film = 0.0 if clutch.lag else 1.0
+    return Now(0.0, clutch.slip, 0.0, film, clutch.smooth(clutch.slip, film), 0)
+
+
+def walk(clutch: Clutch, step: float, advance: Advance, rewind: Rewind | None = None) -> Course:
+    """Step to the end of the span; ``advance`` returns what is known a step later."""
     n = round(clutch.span / step)
-    slip, energy = [clutch.slip], 0.0
-    for _ in range(n):
-        w, heat = advance(slip[-1], step)
-        slip.append(w)
-        energy += heat
-    return Course(np.array(slip), energy)
+    now = begin(clutch)
+    slip = np.empty(n + 1)
+    slip[0] = now.slip
+    for i in range(n):
+        if rewind and i and i % rewind.every == 0:
+            now = gone_back(clutch, now, step, advance, rewind)
+        now = advance(clutch, now, step)
+        slip[i + 1] = now.slip
+    return Course(slip, now.heat, now.work)
 
 
-def runge_kutta(clutch: Clutch, step: float) -> Course:
-    """Classical Runge-Kutta steps of fixed length on smoothed friction."""
-
-    def rate(w: float) -> float:
-        return (clutch.drive - clutch.smooth(w)) / clutch.inertia
-
-    def advance(w: float, h: float) -> tuple[float, float]:
-        a = rate(w)
-        b = rate(w + 0.5 * h * a)
-        c = rate(w + 0.5 * h * b)
-        d = rate(w + h * c)
-        new = w + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
-        middle = 0.5 * (w + new)
-        power = (
-            clutch.smooth(w) * w + 4.0 * clutch.smooth(middle) * middle + clutch.smooth(new) * new
-        )
-        return new, h / 6.0 * power
-
-    return _walk(clutch, step, advance)
-
-
-def adaptive(clutch: Clutch, step: float) -> Course:
-    """LSODA on smoothed friction, tolerance 1e-8; ``step`` is what it is looked at with."""
-    from scipy.integrate import solve_ivp
-
-    def rate(_: float, y: np.ndarray[tuple[int], np.dtype[np.float64]]) -> list[float]:
-        torque = clutch.smooth(y[0])
-        return [(clutch.drive - torque) / clutch.inertia, torque * y[0]]
-
-    times = np.linspace(0.0, clutch.span, round(clutch.span / step) + 1)
-    found = solve_ivp(
-        rate, (0.0, clutch.span), [clutch.slip, 0.0], method="LSODA", t_eval=times, rtol=1e-8,
-        atol=1e-8,
-    )  # fmt: skip
-    return Course(found.y[0], float(found.y[1, -1]))
-
-
-def located(clutch: Clutch, step: float) -> Course:
-    """Stick and slip as modes, lock-up located inside the step, as the package's driveline does."""
-    stuck = abs(clutch.drive) <= clutch.friction
-
-    def advance(w: float, h: float) -> tuple[float, float]:
-        if w == 0.0 and stuck:
-            return 0.0, 0.0
-        torque = math.copysign(clutch.friction, w)
-        rate = (clutch.drive - torque) / clutch.inertia
-        new = w + h * rate
-        if new * w <= 0.0 and stuck:
-            until = -w / rate
-            return 0.0, 0.5 * torque * w * until
-        return new, h * torque * 0.5 * (w + new)
-
-    return _walk(clutch, step, advance)
-
-
-def gauss_seidel(clutch: Clutch, step: float) -> Course:
-    """Friction torque handed over, fresh in each step, held while the driveline steps."""
-
-    def advance(w: float, h: float) -> tuple[float, float]:
-        torque = clutch.smooth(w)
-        new = w + h * (clutch.drive - torque) / clutch.inertia
-        return new, h * torque * 0.5 * (w + new)
-
-    return _walk(clutch, step, advance)
-
-
-def jacobi(clutch: Clutch, step: float) -> Course:
-    """Friction torque handed over, one step old."""
-    old = clutch.smooth(clutch.slip)
-
-    def advance(w: float, h: float) -> tuple[float, float]:
-        nonlocal old
-        torque, old = old, clutch.smooth(w)
-        new = w + h * (clutch.drive - torque) / clutch.inertia
-        return new, h * torque * 0.5 * (w + new)
-
-    return _walk(clutch, step, advance)
-
-
-def linearly_implicit(clutch: Clutch, step: float) -> Course:
-    """Friction torque with its slope over the slip, both handed over."""
-
-    def advance(w: float, h: float) -> tuple[float, float]:
-        torque = clutch.smooth(w)
-        slope = clutch.friction / clutch.width * (1.0 - (torque / clutch.friction) ** 2)
-        change = h * (clutch.drive - torque) / (clutch.inertia + h * slope)
-        return w + change, h * (torque + 0.5 * slope * change) * (w + 0.5 * change)
-
-    return _walk(clutch, step, advance)
+def gone_back(clutch: Clutch, now: Now, step: float, advance: Advance, rewind: Rewind) -> Now:
+    """Go some steps ahead and back again; return what is known then."""
+    kept = now
+    for _ in range(rewind.ahead):
+        now = advance(clutch, now, step)
+    if rewind.forgets:
+        return kept._replace(film=now.film, own=now.own, work=now.work)
+    return kept._replace(work=now.work)

@@ -16,6 +16,7 @@ from .plain2006_mesh import Mesh, Settings, gap_at, make_mesh
 
 Array = NDArray[np.float64]
 OK, MAX_ITERATIONS, NOT_FINITE = 0, 10, 14  # errors.Status
+MOST_SWEEPS = 3000  # of pressure, per residual
 Q, N_Q = 0, 4  # places in `memory`: positions, then pressures, then temperature rises
 # what `solve` reports
 TORQUE, TEMPERATURE, FILM, SWEEPS, NEWTONS, ROUNDS, RATIO, N_OUT = 0, 1, 2, 3, 4, 5, 6, 7
@@ -148,7 +149,7 @@ def _residual(
 ) -> int:  # fmt: skip
     """Solve the pressure at ``q`` and fill the scaled residual of the four balances."""
     _conductances(m, g, q, speed, mu, east, north, source)
-    sweeps = relax_pressure(east, north, source, p, s, 20000)
+    sweeps = relax_pressure(east, north, source, p, s, MOST_SWEEPS)
     forces(m, g, q, tilt, p, force)
     force[3] -= load
     for k in range(4):

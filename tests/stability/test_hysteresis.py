@@ -1,0 +1,106 @@
+"""Loaded beyond the fold and let go again: two ways between the same two ends.
+
+Hazard: a solver that keeps nothing of its past jumps back at the fold it came over; one that
+    keeps too much never comes back, or comes back to another film than it left.
+Formula: between the folds (441 N and 773 N at 545 rad/s, 2 mrad) one load has two stable films;
+    the path goes along the film up to film_lost, along the contact down to film_regained. The
+    area of the loop, integral of torque over load there and back, is a property of the washer.
+Cure: the branch is memory: it is part of the state, and changes at the folds only.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from thrustwasher import WasherParams, load_curve
+from thrustwasher.errors import Status
+from thrustwasher.kernels import washer_step as kernel
+from thrustwasher.models._params import as_numbers
+
+from washer_runs import followed, is_sound, solve  # isort: skip
+
+LOW, HIGH = 300.0, 900.0
+
+
+def path(n):
+    up = np.linspace(LOW, HIGH, n)
+    return np.concatenate((up, up[-2::-1]))
+
+
+def loop(n):
+    """Return loads, torques and results of a loop in ``n`` steps each way."""
+    loads = path(n)
+    results = followed([{"load": float(w)} for w in loads])
+    assert all(is_sound(r) for r in results)
+    return loads, np.array([r.friction_torque for r in results]), results
+
+
+def area(loads, torques):
+    return float(np.sum(0.5 * (torques[1:] + torques[:-1]) * np.diff(loads)))
+
+
+@pytest.fixture(scope="module")
+def fine():
+    return loop(121)
+
+
+def test_the_loop_closes(fine):
+    _, torques, results = fine
+    assert results[0].branch == results[-1].branch == "film"
+    assert torques[-1] == pytest.approx(torques[0], rel=1e-6)
+    assert results[-1].film_ratio == pytest.approx(results[0].film_ratio, rel=1e-6)
+    assert results[-1].temperature == pytest.approx(results[0].temperature, abs=1e-4)
+
+
+def test_the_film_goes_and_comes_back_at_the_two_folds(fine):
+    loads, _, results = fine
+    lost, regained = (f.load for f in load_curve(WasherParams(), speed=545.0, tilt=0.002).folds)
+    steps = [(a, b, r.branch) for (a, r0), (b, r) in pairwise(zip(loads, results, strict=True))
+             if r.branch != r0.branch]  # fmt: skip
+    (a, b, gone), (c, d, back) = steps
+    assert (gone, back) == ("contact", "film")
+    assert a < lost < b and d < regained < c
+
+
+def test_between_the_folds_there_and_back_differ_and_outside_they_do_not(fine):
+    loads, torques, _ = fine
+    there, back = torques[:121], torques[:119:-1]
+    inside = (loads[:121] > 445.0) & (loads[:121] < 770.0)
+    assert (back[inside] > 2.0 * there[inside]).all()
+    outside = (loads[:121] < 440.0) | (loads[:121] > 775.0)
+    assert back[outside] == pytest.approx(there[outside], rel=2e-5)
+
+
+def test_the_area_of_the_loop_is_the_same_whenever_and_however_finely_it_is_run(fine):
+    loads, torques, _ = fine
+    again = loop(121)
+    assert area(*again[:2]) == pytest.approx(area(loads, torques), rel=1e-5)
+    coarse = area(*loop(61)[:2])
+    assert area(loads, torques) < -10.0  # the way back takes more torque
+    assert coarse == pytest.approx(area(loads, torques), rel=0.05)
+
+
+def test_an_fmu_goes_round_the_same_loop_twice():
+    """In one instance's memory, step after step: the second round is the first."""
+    par = np.zeros(kernel.NPAR)
+    par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), 5.0]
+    assert kernel.derive(par) == Status.OK
+    state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
+    out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
+    rounds = []
+    for _ in range(2):
+        torques = []
+        for load in path(41):
+            inp = np.array([load, 545.0, 0.002, 297.15])
+            assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) < 10
+            torques.append(out[0])
+        rounds.append(torques)
+    assert rounds[1] == pytest.approx(rounds[0], rel=1e-5)
+
+
+def test_one_jump_there_and_one_back_end_where_they_began():
+    start = solve(load=LOW)
+    back = solve(load=LOW, start=solve(load=1e4, start=start))
+    assert is_sound(back) and back.branch == "film"
+    assert back.friction_torque == pytest.approx(start.friction_torque, rel=2e-5)

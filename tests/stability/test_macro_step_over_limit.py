@@ -1,0 +1,80 @@
+"""A communication step ten times as long as the coupling bears.
+
+Hazard: a friction torque held over a step of H > 2 J/c pushes the slip further than it was, back
+    and forth for ever: every part says OK, every number is finite, and the speeds look locked.
+Formula: kappa = H c/J; torque fresh in each step: stable to 2, torque a step old: to 1. Smoothed
+    Coulomb friction has c = T_k/w_0 at lock-up: H < 2 J w_0/T_k.
+Cure: the default coupling hands over capacities, which know no c: ten times the step moves the
+    heat by a quarter of a per cent. A run that hands over torques and chatters says so, with the
+    step that would end it.
+"""
+
+import numpy as np
+import pytest
+
+from thrustwasher.drivetrain.chatter import MANY, longest_run
+from thrustwasher.drivetrain.macro_steps import Way, scene_of
+from thrustwasher.drivetrain.shift import run_shift
+from thrustwasher.drivetrain.stability_masters import masters
+from thrustwasher.fidelity.stability_cells import OK, SAYS
+from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.reference.engagement import reduced_inertia
+
+
+def instances(scene):
+    return {n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in scene.parts.items()}
+
+
+def shift(step, coupling="capacity", master="gauss-seidel"):
+    scene = scene_of(Way(master, coupling), step).with_options(stop_time=0.9)
+    return run_shift(scene, instances(scene))
+
+
+def turns(result):
+    """Return how often the clutch's slip turns round after lock-up."""
+    slip = result.signals["transmission.clutch_speed"][result.time > 0.7]
+    return int(np.count_nonzero(np.diff(np.sign(slip[np.abs(slip) > 1e-3]))))
+
+
+@pytest.fixture(scope="module")
+def fine():
+    return shift(5e-4)
+
+
+@pytest.mark.parametrize("master", ["gauss-seidel", "jacobi"])
+def test_capacities_in_ten_times_the_step_stay_right(fine, master):
+    r, name = shift(1e-2, master=master), "transmission.clutch_heat"
+    limit = 0.01 if master == "gauss-seidel" else 0.02
+    assert r.signals[name][-1] == pytest.approx(fine.signals[name][-1], rel=limit)
+    assert r.figures["lock_time"] == pytest.approx(fine.figures["lock_time"], abs=5e-3)
+    assert turns(r) == 0 and r.signals["transmission.clutch_speed"][-1] == 0.0
+    assert not any("turns round" in m for m in r.messages)
+
+
+@pytest.mark.parametrize("master", ["gauss-seidel", "jacobi"])
+def test_torques_over_the_limit_chatter_and_the_run_says_so_with_the_limit(master):
+    r = shift(1e-3, "torque", master)
+    assert turns(r) > 20
+    said = [m for m in r.messages if m.startswith("clutch") and "turns round" in m]
+    assert len(said) == 1 and 'coupling = "capacity"' in said[0]
+    torque = float(r.signals["clutch.torque_capacity"].max())
+    limit = 2.0 * reduced_inertia(2.2, 0.25, 0.01, 8.0) * 0.1 / torque  # some 0.06 ms
+    assert 4e-5 < limit < 8e-5 and f"less than {1e3 * limit:.2g} ms" in said[0]
+
+
+def test_a_swing_of_many_steps_is_no_chatter():
+    """Physics may turn the slip round, but not within four steps, ten times over."""
+    t = np.arange(2000)
+    assert longest_run(np.sin(2.0 * np.pi * t / 20.0))[1] == 1
+    assert longest_run(np.sin(2.0 * np.pi * t / 6.0 + 0.1))[1] > MANY
+    assert longest_run(np.where(t % 2, 1.0, -1.0)) == (1, 1999)
+    assert longest_run(np.zeros(10)) == (0, 0)
+    assert longest_run(np.linspace(300.0, -5.0, 100))[1] == 1
+
+
+@pytest.mark.slow
+def test_every_master_is_right_below_its_limit_and_never_silent_above_it():
+    found = masters(instances, quick=True)
+    for row in found.cells:
+        for hazard, cell in zip(found.hazards, row, strict=True):
+            assert cell.verdict == OK or (hazard.startswith("torque") and cell.verdict == SAYS)

@@ -75,6 +75,6 @@ def _judged(result: ShiftResult, true: float) -> Cell:
     right = abs(error) <= WRONG_HEAT
     if right and turns <= MOST_TURNS:
         return Cell(OK, f"{100 * abs(error):.2f} %", "")
-    words = "; ".join(m for m in result.messages if "turns round" in m)
+    words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)
     figure = off(error) if not right else "chatters"
     return Cell(SAYS if words else LIES, figure, words or f"{turns} turns after lock-up")

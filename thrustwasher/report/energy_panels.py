@@ -40,7 +40,9 @@ def draw_energy(axis: Axes, record: Record) -> None:
     if parts:
         axis.stackplot(record.time[some], *(p[0][some] for p in parts), lw=0, alpha=0.8,
                        labels=[p[1] for p in parts], colors=[p[2] for p in parts])  # fmt: skip
+    # What the shaft's spring keeps counts as kinetic: it comes back.
     engine, kinetic = kilojoules("engine_work"), kilojoules("kinetic_change")
+    kinetic = kinetic + kilojoules("shaft_energy")
     if np.any(engine):
         axis.plot(record.time, engine, color=BLUE, label="work of the engine")
         words = "engine, less kinetic energy gained" if kinetic[-1] > 0.0 else (

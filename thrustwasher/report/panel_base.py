@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from .shift_record import Record
 
 Array = np.ndarray[Any, Any]
-MOST_EVENTS = 8  # numbered in a panel
+MOST_EVENTS, FIRST_EVENTS = 8, 5  # numbered in a panel: all, or the first of too many
 SHADES = ("#F1F1F1", "#FFF3D9", "#E2F0FA", "#E3F4EC", "#F7E9F1")
 
 
@@ -57,8 +57,8 @@ def draw_events(axis: Axes, record: Record) -> None:
     """Draw the events as numbered lines; numbers of close neighbours stand above each other."""
     close = 0.025 * float(record.time[-1] - record.time[0])
     height, before = 0, -np.inf
-    more = len(record.events) - MOST_EVENTS
-    for number, event in enumerate(record.events[:MOST_EVENTS], 1):
+    shown = record.events if len(record.events) <= MOST_EVENTS else record.events[:FIRST_EVENTS]
+    for number, event in enumerate(shown, 1):
         height = height + 1 if event.time - before < close else 0
         before = event.time
         axis.axvline(event.time, color="#444444", lw=0.8, ls=":",
@@ -66,7 +66,8 @@ def draw_events(axis: Axes, record: Record) -> None:
         axis.annotate(str(number), (event.time, 0.0), (2, 3 + 9 * height),
                       textcoords="offset points", xycoords=axis.get_xaxis_transform(),
                       fontsize=8, color="#444444")  # fmt: skip
-    if more > 0:
+    if len(shown) < len(record.events):
+        more = len(record.events) - len(shown)
         axis.plot([], [], lw=0.0, label=f"and {more} more events")
 
 

@@ -1,6 +1,9 @@
 """What can go wrong, and how it is said."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import IntEnum
+from os import PathLike, fspath
 
 
 class ParameterError(ValueError):
@@ -17,6 +20,17 @@ class BranchError(ParameterError, SolveError):
 
 class EnvironmentProblem(RuntimeError):
     """Something this machine lacks (a package, a writable folder); the message says what to do."""
+
+
+@contextmanager
+def naming(path: str | PathLike[str]) -> Iterator[None]:
+    """Let an error of the disk, such as a full one, say which file it is about."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename is None:
+            error.filename = fspath(path)
+        raise
 
 
 class Status(IntEnum):

@@ -1,6 +1,7 @@
 """Map files: whole or refused; a build that was stopped goes on."""
 
 import zipfile
+import zlib
 
 import numpy as np
 import pytest
@@ -8,7 +9,6 @@ import pytest
 from thrustwasher.errors import ParameterError
 from thrustwasher.kernels import washer_map_layout as L
 from thrustwasher.maps.build import build_lines
-from thrustwasher.maps.journal import Journal
 from thrustwasher.maps.make import make_map
 from thrustwasher.maps.plan import plan_map
 from thrustwasher.models.washer_params import WasherParams
@@ -35,7 +35,9 @@ def test_the_card_says_what_the_map_is_worth(map_path):
 
 def test_the_resource_of_an_fmu_holds_the_same_numbers(map_path):
     file = read_map(map_path)
-    assert np.array_equal(unpack(plain(file)), file.data)
+    numbers, check = plain(file)[:-4], plain(file)[-4:]
+    assert np.array_equal(unpack(numbers), file.data)
+    assert int.from_bytes(check, "little") == zlib.crc32(numbers)
 
 
 def damaged(path, change):
@@ -115,15 +117,34 @@ def test_a_build_that_was_stopped_goes_on_with_what_it_had(tmp_path, monkeypatch
     done = []
     again = build_lines(plan, fidelity="field", journal=journal,
                         progress=lambda k, _n: done.append(k))  # fmt: skip
-    assert np.array_equal(again, whole) and done == [3, 4] and not journal.exists()
+    assert np.array_equal(again, whole) and done == [3, 4]
 
 
-def test_lines_of_another_plan_are_not_taken(tmp_path):
-    path = tmp_path / "lines"
-    first = Journal(path, np.arange(float(L.DATA)))
-    first.add(np.ones(L.LINE))
-    assert len(Journal(path, np.arange(float(L.DATA))).lines) == 1
-    assert len(Journal(path, np.arange(1.0, L.DATA + 1.0)).lines) == 0
+def test_lines_of_another_map_are_neither_taken_nor_harmed(tmp_path):
+    plan, journal = plan_map(WasherParams(), TINY), tmp_path / "lines"
+    build_lines(plan, fidelity="field", journal=journal)
+    before = journal.read_bytes()
+    other = plan_map(WasherParams(), {**TINY, "load": (300.0, 500.0)})
+    with pytest.raises(ParameterError, match=r"another map \(other box\)"):
+        build_lines(other, fidelity="field", journal=journal)
+    assert journal.read_bytes() == before
+
+
+def test_a_map_that_cannot_be_written_loses_no_line(tmp_path, monkeypatch):
+    from thrustwasher.maps import make
+
+    def fail(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    out = tmp_path / "x.twm"
+    monkeypatch.setattr(make, "check_map", fail)
+    with pytest.raises(OSError, match="No space"):
+        make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1)
+    assert [p.name for p in tmp_path.iterdir()] == ["x.twm.journal"]
+    monkeypatch.undo()
+    monkeypatch.setattr("thrustwasher.maps.build.solve_line", fail)  # none is solved again
+    make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1, points=4)
+    assert [p.name for p in tmp_path.iterdir()] == ["x.twm"]
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ def same(one, two):
 
 def count_blocks(monkeypatch):
     """Collect the first rows of all blocks that are taken in."""
-    from thrustwasher.sweep.journal import Journal
+    from thrustwasher.store.journal import Journal
 
     firsts, append = [], Journal.append
 

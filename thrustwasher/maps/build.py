@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import SolveError
+from ..errors import EnvironmentProblem, SolveError
 from ..kernels import washer_map_layout as L
+from ..kernels._jit import kernel_digest
 from ..kernels.washer_outputs import FLUID_LOAD
 from ..models.washer import GRIDS
-from .journal import Journal
+from ..processes import local_processes
+from ..store.digests import params_digest
+from ..store.journal import Journal
 from .line import Line, LineTask, solve_line
 from .plan import COARSE, ONSET, SPARE, MapPlan
 
@@ -38,10 +41,12 @@ def build_lines(
     fidelity : mesh of the solutions, "field" or "fine"
     workers : processes
     progress : called as ``progress(done, total)``
-    journal : file that keeps the lines; a build that was stopped goes on with them
+    journal : file that keeps the lines; a build that was stopped goes on with them. It stays:
+        remove it once the map is safe
 
     Raises
     ------
+    ParameterError : the journal is that of another map, or another run writes it
     SolveError : a node has no solution; a map with a hole is not made
     """
     speeds, tilts, oils = plan.nodes()
@@ -53,32 +58,55 @@ def build_lines(
     data = np.empty(L.DATA + len(tasks) * L.LINE)
     data[: L.DATA] = plan.header(reach)
     lines = data[L.DATA :].reshape(len(tasks), L.LINE)
-    kept = Journal(journal, np.append(data[: L.DATA - 1], FIDELITIES.index(fidelity)))
-    done = len(kept.lines)
-    lines[:done] = kept.lines
-    with executor(workers) as pool:
-        rest = tasks[done:]
-        found = pool.map(solve_line, rest, chunksize=BATCH) if pool else map(solve_line, rest)
-        for i, line in enumerate(found, done):
-            lines[i] = line
-            kept.add(line)
-            if progress is not None:
-                progress(i + 1, len(tasks))
-    kept.close()
+    flags = np.zeros((len(tasks), 1), np.int32)
+    kept = Journal(journal, _identity(plan, fidelity), "map") if journal else None
+    try:
+        done = kept.load(lines, flags) if kept else np.zeros(len(tasks), bool)
+        rest = np.flatnonzero(~done).tolist()
+        with executor(workers) as pool:
+            waiting = [tasks[i] for i in rest]
+            found = pool.map(solve_line, waiting, chunksize=BATCH) if pool else map(
+                solve_line, waiting
+            )  # fmt: skip
+            for count, (i, line) in enumerate(zip(rest, found, strict=True), int(done.sum()) + 1):
+                lines[i] = line
+                if kept:
+                    kept.append(i, lines[i : i + 1], flags[i : i + 1])
+                if progress is not None:
+                    progress(count, len(tasks))
+    finally:
+        if kept:
+            kept.close(finished=False)
     return data
+
+
+def _identity(plan: MapPlan, fidelity: str) -> dict[str, str]:
+    """Return what makes this map another one than the next."""
+    return {
+        "parameters": params_digest(plan.params)[:16], "box": str(plan.box), "fidelity": fidelity,
+        "kernels": kernel_digest(),
+    }  # fmt: skip
 
 
 @contextmanager
 def executor(workers: int) -> Iterator[Executor | None]:
-    """Give a pool of processes, or None for one worker."""
+    """Give a pool of processes, or None for one worker.
+
+    Raises
+    ------
+    EnvironmentProblem : a worker process has ended before its work was done
+    """
     if workers <= 1:
         yield None
         return
-    pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
     try:
-        yield pool
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+        with local_processes(workers) as pool:
+            yield pool
+    except BrokenProcessPool:
+        raise EnvironmentProblem(
+            "a worker process has ended before its work was done (too little memory?); solved "
+            "lines are kept: run the same again, with fewer workers"
+        ) from None
 
 
 def find_reach(plan: MapPlan) -> float:

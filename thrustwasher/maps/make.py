@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ParameterError
+from ..errors import ParameterError, naming
 from ..kernels import washer_map_layout as L
 from ..kernels._jit import kernel_digest
 from ..models.washer_params import WasherParams
@@ -58,21 +58,28 @@ def make_map(
     count = workers or os.cpu_count() or 1
     show = progress or (lambda _label: lambda _done, _total: None)
     began = time.perf_counter()
+    journal = out.with_name(f"{out.name}.journal")
     data = build_lines(plan, fidelity=fidelity, workers=count, progress=show("lines"),
-                       journal=out.with_name(f"{out.name}.part"))  # fmt: skip
+                       journal=journal)  # fmt: skip
     took = time.perf_counter() - began
     draft = out.with_name(f".{out.name}.draft{SUFFIX}")
     card = _card(plan, fidelity, took, count)
     try:
-        draft.write_bytes(pack(data, card))
+        _write(draft, data, card)
         verdict = check_map(params, str(draft), points=points, fidelity=fidelity, workers=count,
                             progress=show("held-out points"))  # fmt: skip
         card["held_out"] = verdict.as_dict()
-        draft.write_bytes(pack(data, card))
+        _write(draft, data, card)
         draft.replace(out)
+        journal.unlink(missing_ok=True)
     finally:
         draft.unlink(missing_ok=True)
     return card
+
+
+def _write(path: Path, data: Any, card: dict[str, Any]) -> None:
+    with naming(path):
+        path.write_bytes(pack(data, card))
 
 
 def _card(plan: MapPlan, fidelity: str, took: float, workers: int) -> dict[str, Any]:

@@ -5,7 +5,6 @@
 ``plan``     the rows in their order, cut into lines that are solved one point after the other
 ``rows``     solves lines; runs in the workers
 ``pools``    where the workers are: processes here, or a Dask cluster
-``journal``  finished lines on disk, so that a stopped sweep goes on
 ``table``    the rows as columns, as CSV or Parquet
 ``run``      ``run_sweep``, which ties these together
 ===========  =====================================================================================

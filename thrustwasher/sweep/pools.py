@@ -5,74 +5,19 @@ Both are executors of ``concurrent.futures``; the sweep cannot tell them apart.
 
 from __future__ import annotations
 
-import multiprocessing
-import os
-import signal
 import sys
-import threading
 from collections.abc import Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import Any
 
 from ..errors import EnvironmentProblem
+from ..processes import local_processes, refuse_import_by_worker, usable_cores
+
+__all__ = ["dask_cluster", "local_processes", "refuse_import_by_worker", "usable_cores"]
 
 ANSWER_TIME = "10s"  # a cluster that takes longer is taken for absent
 INSTALL = 'pip install "thrustwasher[sweep]"'
-
-
-def usable_cores() -> int:
-    """Return how many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
-def refuse_import_by_worker() -> None:
-    """Stop a worker that runs the user's script again because its main part is not guarded."""
-    if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise EnvironmentProblem(
-            "a sweep on several processes was called while a worker imports the script; put the "
-            'call below: if __name__ == "__main__":'
-        )
-
-
-@contextmanager
-def local_processes(n: int) -> Iterator[Executor]:
-    """Give ``n`` fresh processes; whatever happens they are gone at the end."""
-    refuse_import_by_worker()
-    executor = ProcessPoolExecutor(
-        n, mp_context=multiprocessing.get_context("spawn"), initializer=_settle_in
-    )
-    try:
-        yield executor
-        executor.shutdown()
-    except BaseException:
-        _stop_now(executor)
-        raise
-
-
-def _settle_in() -> None:
-    """Prepare a worker: Ctrl-C is the parent's business, and without a parent there is no work."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
-
-
-def _end_with(parent: Any) -> None:
-    parent.join()
-    os._exit(1)
-
-
-def _stop_now(executor: Any) -> None:
-    """End the workers in the middle of their work; it is done again."""
-    processes = list((getattr(executor, "_processes", None) or {}).values())
-    executor.shutdown(wait=False, cancel_futures=True)
-    for process in processes:
-        process.terminate()
-    for process in processes:
-        process.join(5.0)
 
 
 @contextmanager

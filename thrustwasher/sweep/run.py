@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import EnvironmentProblem, ParameterError
-from .journal import Journal
+from ..store.journal import Journal
 from .plan import Plan, make_plan
 from .pools import dask_cluster, local_processes, refuse_import_by_worker, usable_cores
 from .rows import Task, check_rung, output_signals, solve_task

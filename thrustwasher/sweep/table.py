@@ -13,7 +13,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
+from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status, naming
 from ..models._spec import REGIMES
 from .plan import Plan
 from .pools import INSTALL
@@ -91,11 +91,12 @@ def write_table(table: SweepTable, path: Path) -> None:
     handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
     os.close(handle)
     try:
-        if path.suffix.lower() == ".parquet":
-            _write_parquet(table, name)
-        else:
-            with open(name, "w", encoding="utf-8", newline="") as stream:
-                write_csv(table, stream)
+        with naming(path):
+            if path.suffix.lower() == ".parquet":
+                _write_parquet(table, name)
+            else:
+                with open(name, "w", encoding="utf-8", newline="") as stream:
+                    write_csv(table, stream)
         mask = os.umask(0)
         os.umask(mask)
         os.chmod(name, 0o666 & ~mask)

@@ -7,15 +7,17 @@ which returns the exit status. Heavy imports happen inside ``run``: ``--help`` a
 from __future__ import annotations
 
 import argparse
+import errno
 import os
 import re
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from ..errors import EnvironmentProblem, ParameterError, SolveError
+from ._signals import Watch
 
 COMMANDS = (
     "washer",
@@ -32,7 +34,8 @@ COMMANDS = (
     "cards",
     "doctor",
 )
-DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 3, 130, 141
+DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
+LONGEST = 2000  # characters of a message
 EPILOG = (
     "Numbers are SI (kelvin, radian, pascal); with a unit they may be anything sensible: "
     '"24 degC", "3000 rpm", "1 MPa", "0.1 deg". '
@@ -46,29 +49,43 @@ def main(argv: Sequence[str] | None = None) -> int:
     label = f"thrustwasher {words[0]}" if words and words[0] in COMMANDS else "thrustwasher"
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that knows no µ still gets numbers
+    watch = Watch()
     try:
+        if argv is None:  # a program of its own, no function in somebody's process
+            watch.begin()
         status = _dispatch(words)
+        watch.close()
         sys.stdout.flush()
         return status
-    except SystemExit as stop:  # argparse after --help and --version
-        return stop.code if isinstance(stop.code, int) else DONE
-    except BrokenPipeError:  # the reader, e.g. `head`, has gone: that is its right
+    except BaseException as error:
+        watch.close()
+        if watch.number or isinstance(error, KeyboardInterrupt):
+            return _say(label, watch.word, watch.status)
+        return _status_of(error, label)
+
+
+def _status_of(error: BaseException, label: str) -> int:
+    """Say what went wrong in one line and return the exit status."""
+    if isinstance(error, SystemExit):  # argparse after --help and --version
+        return error.code if isinstance(error.code, int) else DONE
+    if isinstance(error, BrokenPipeError):  # the reader, e.g. `head`, has gone: that is its right
         _silence_stdout()
         return PIPE_CLOSED
-    except KeyboardInterrupt:
-        return _say(label, "stopped", INTERRUPTED)
-    except (ParameterError, EnvironmentProblem) as error:  # first: BranchError is a SolveError too
+    if isinstance(error, ParameterError | EnvironmentProblem):  # first: BranchError is both
         return _say(label, str(error), WRONG_INPUT)
-    except SolveError as error:
+    if isinstance(error, SolveError):
         return _say(label, str(error), NO_SOLUTION)
-    except OSError as error:
-        where = f"{error.filename}: " if error.filename else ""
+    if isinstance(error, OSError):
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+        where = error.filename or ("standard output" if full else "")
+        where = f"{where}: " if where else ""
         return _say(label, f"{where}{error.strerror or error}", WRONG_INPUT)
-    except Exception as error:
-        if os.environ.get("THRUSTWASHER_TRACEBACK"):
-            raise
-        text = f"defect in thrustwasher: {type(error).__name__}: {error}"
-        return _say(label, f"{text} (THRUSTWASHER_TRACEBACK=1 shows where)", DEFECT)
+    if isinstance(error, MemoryError):
+        return _say(label, "out of memory; ask for fewer points or a coarser grid", WRONG_INPUT)
+    if os.environ.get("THRUSTWASHER_TRACEBACK"):
+        raise error
+    text = f"defect in thrustwasher: {type(error).__name__}: {error}"
+    return _say(label, f"{text} (THRUSTWASHER_TRACEBACK=1 shows where)", DEFECT)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -77,6 +94,12 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Raise instead of printing the usage and leaving."""
         raise ParameterError(f"{message} (see {self.prog} --help)")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        """Write help and version, and raise where that fails, which argparse would not."""
+        if message:
+            (file or sys.stdout).write(message)
+            (file or sys.stdout).flush()
 
 
 def _dispatch(words: list[str]) -> int:
@@ -139,6 +162,8 @@ def _join_negative_numbers(words: list[str]) -> list[str]:
 def _say(label: str, message: str, status: int) -> int:
     """Write one line to standard error and return the exit status."""
     line = " ".join(message.split())
+    if len(line) > LONGEST:
+        line = f"{line[: LONGEST // 2]} ... {line[-LONGEST // 2 :]}"
     print(f"{label}: {line}", file=sys.stderr)
     return status
 

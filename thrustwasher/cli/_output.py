@@ -15,7 +15,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, naming
 from ..units import format_quantity
 
 PLOT_SUFFIXES = (".png", ".svg", ".pdf")
@@ -107,7 +107,7 @@ def check_folder(path: str, option: str) -> Path:
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
     """Give a temporary path beside ``path`` that takes its place only if all went well."""
-    with _folder_unless_failed(path.parent):
+    with naming(path), _folder_unless_failed(path.parent):
         handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
         os.close(handle)
         try:
@@ -121,7 +121,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 @contextmanager
 def whole_folder(path: Path) -> Iterator[Path]:
     """Give a temporary folder whose files move to ``path`` only if all went well."""
-    with _folder_unless_failed(path):
+    with naming(path), _folder_unless_failed(path):
         draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=path))
         try:
             yield draft

@@ -7,6 +7,8 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
+from ..errors import naming
+
 FIRST = "modelDescription.xml"
 EPOCH = (1980, 1, 1, 0, 0, 0)
 UNIX, FILE_MODE = 3, 0o100644
@@ -30,7 +32,7 @@ def write(path: Path, data: bytes) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
-        with os.fdopen(handle, "wb") as file:
+        with naming(path), os.fdopen(handle, "wb") as file:
             file.write(data)
         os.chmod(part, 0o644)
         os.replace(part, path)

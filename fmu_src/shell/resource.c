@@ -2,7 +2,7 @@
 
    A file map-<k>.bin, k from 0 without gaps, has a header of TABLE_HEADER doubles, little-endian as
    on every platform built for: a magic number, how many numbers there are, then the parameters that
-   the table was made for. Numbers in single precision follow. */
+   the table was made for. Numbers in single precision follow, then a CRC-32 of all that. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,16 +74,23 @@ static int read_numbers(FILE *file, double *table) {
     double size = table[TABLE_SIZE];
     if (!(size > TABLE_HEADER && size <= TABLE_ROOM)) return 0;
     float part[512];
+    uint32_t crc = checksum(0, (const unsigned char *)table, TABLE_HEADER * sizeof *table);
+    unsigned char end[4];
     for (size_t at = TABLE_HEADER, all = (size_t)size; at < all;) {
         size_t n = all - at < 512 ? all - at : 512;
         if (fread(part, sizeof *part, n, file) != n) return 0;
+        crc = checksum(crc, (const unsigned char *)part, n * sizeof *part);
         for (size_t i = 0; i < n; i++) {
             table[at + i] = (double)part[i];
             if (!is_finite(table[at + i])) return 0;
         }
         at += n;
     }
-    return fgetc(file) == EOF;
+    if (fread(end, 1, sizeof end, file) != sizeof end || fgetc(file) != EOF) return 0;
+    for (int i = 0; i < 4; i++) {
+        if (end[i] != (unsigned char)(crc >> 8 * i)) return 0;
+    }
+    return 1;
 }
 
 /* 1: the file had the table, 0: it had another one, -1: there is no such file, -2: damaged. */

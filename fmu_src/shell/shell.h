@@ -111,6 +111,7 @@ static inline int is_inside(const Variable *v, double value) {
 
 /* state.c */
 typedef struct State State;
+uint32_t checksum(uint32_t crc, const unsigned char *bytes, size_t n);
 int get_state(Instance *m, void **state);
 int set_state(Instance *m, void *state);
 int free_state(Instance *m, void **state);

@@ -29,8 +29,8 @@ static void write_head(Head *head) {
     memcpy(head->sizes, sizes, sizeof sizes);
 }
 
-/* CRC-32, four bits at a time. */
-static uint32_t checksum(uint32_t crc, const unsigned char *bytes, size_t n) {
+/* CRC-32, four bits at a time; of what follows earlier bytes: from their result on. */
+uint32_t checksum(uint32_t crc, const unsigned char *bytes, size_t n) {
     static const uint32_t table[16] = {
         0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u,
         0x4db26158u, 0x5005713cu, 0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,

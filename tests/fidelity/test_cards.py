@@ -24,8 +24,9 @@ def folder(tmp_path, monkeypatch):
 
 
 def written(path, edit):
-    """Write a good card after an edit of its JSON."""
+    """Write a good card after an edit of its JSON, without checksum as by hand."""
     raw = json.loads(card().as_json())
+    del raw["check"]
     edit(raw)
     path.write_text(json.dumps(raw))
     return path
@@ -60,6 +61,16 @@ def test_a_wrong_card_is_refused_with_file_and_key(tmp_path, edit, said):
     with pytest.raises(ParameterError, match=r"bad\.json") as refusal:
         cards.read_card(written(tmp_path / "bad.json", edit))
     assert said in str(refusal.value)
+
+
+def test_a_card_that_was_changed_since_it_was_written_is_refused(tmp_path):
+    text = card().as_json()
+    path = tmp_path / "bad.json"
+    for before, after in (("0.005", "0.004"), ('"linear"', '"log"')):
+        path.write_text(text.replace(before, after, 1))
+        assert path.read_text() != text
+        with pytest.raises(ParameterError, match=r"bad\.json: was changed since it was written"):
+            cards.read_card(path)
 
 
 def test_broken_files_are_refused_with_a_reason_and_the_others_are_read(folder):

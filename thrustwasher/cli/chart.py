@@ -50,7 +50,14 @@ def run(arguments: argparse.Namespace) -> int:
         pin_threads()
         command = "thrustwasher chart" + (" --quick" if arguments.quick else "")
         record = _measured(command, quick=arguments.quick)
-    _write(record, folder)
+    try:
+        _write(record, folder)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
+        if not arguments.draw:
+            raise
+        raise ParameterError(
+            f"--draw {arguments.draw}: is no whole chart.json ({type(problem).__name__}: {problem})"
+        ) from None
     _output.note(f"wrote {folder / 'chart.html'}, chart.md, chart.json and the drawings")
     return 0
 
@@ -138,14 +145,17 @@ def _say(what: str) -> None:
 def _read(path: str) -> dict[str, Any]:
     """Return the record of an earlier run."""
     from ..fidelity.record import SCHEMA
+    from ..store.seal import is_broken
 
     try:
         record = json.loads(Path(path).read_text("utf-8"))
         known = record["schema"] == SCHEMA
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         known = False
     if not known:
         raise ParameterError(f"--draw {path}: is no chart.json of this version")
+    if is_broken(record):
+        raise ParameterError(f"--draw {path}: was changed since it was measured (check)")
     return dict(record)
 
 
@@ -154,6 +164,7 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     os.environ.setdefault("MPLBACKEND", "Agg")
     from ..fidelity.pareto import front
     from ..report.chart_page import html, markdown, page_of, save_drawings
+    from ..store.seal import sealed
 
     fronts = {
         model: {q["name"]: front(s["samples"], q["name"]) for q in s["quantities"]}
@@ -166,7 +177,9 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
         }
     page = page_of(record, fronts)
     with _output.whole_folder(folder) as draft:
-        (draft / "chart.json").write_text(json.dumps(record, indent=1, allow_nan=False), "utf-8")
+        (draft / "chart.json").write_text(
+            json.dumps(sealed(record), indent=1, allow_nan=False), "utf-8"
+        )
         (draft / "chart.md").write_text(markdown(page), "utf-8")
         (draft / "chart.html").write_text(html(page), "utf-8")
         if extra:

@@ -35,6 +35,7 @@ from .card_parts import (
     worst_near,
 )  # fmt: skip
 from .digests import DATA, closure, kernel_digest, params_digest
+from .seal import KEY, is_broken, sealed
 from .sources import files_of
 from .strict import build
 
@@ -136,8 +137,8 @@ class Card:
         return any("/" in name for name in self.kernels.files)
 
     def as_json(self) -> str:
-        """Return the text of the card's file."""
-        text = json.dumps(asdict(self), indent=1, allow_nan=False)
+        """Return the text of the card's file, with a checksum as its last key."""
+        text = json.dumps(sealed(asdict(self)), indent=1, allow_nan=False)
         innermost = re.compile(r"\[\s+([^][{}]*?)\s+\]")  # rows of numbers on one line each
         return innermost.sub(lambda m: f"[{' '.join(m[1].split())}]", text) + "\n"
 
@@ -181,12 +182,20 @@ def read_card(path: Path) -> Card:
 
     Raises
     ------
-    ParameterError : not JSON, a key missing, unknown or of another type; file and key are named
+    ParameterError : not JSON, changed since it was written, a key missing, unknown or of another
+        type; file and key are named
     """
     try:
         raw = json.loads(path.read_text("utf-8"), parse_constant=_no_number)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise ParameterError(f"{path.name}: cannot be read ({error})") from None
+    if isinstance(raw, dict):
+        if is_broken(raw):
+            raise ParameterError(
+                f"{path.name}: was changed since it was written (check = {raw[KEY]!r} does not "
+                "fit); make it again: python -m thrustwasher.fidelity.verify"
+            )
+        raw.pop(KEY, None)
     try:
         return build(Card, raw, path.name)
     except ParameterError as error:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import struct
 import zipfile
 import zlib
 from collections.abc import Sequence
@@ -54,19 +55,21 @@ def params_of(data: Array, count: int) -> tuple[float, ...]:
 def pack(data: Array, card: dict[str, Any]) -> bytes:
     """Return the bytes of a map file; the same for the same contents."""
     memory = io.BytesIO()
-    head = data[: L.DATA].astype("<f8").tobytes()
-    body = data[L.DATA :].astype("<f4").tobytes()
     with zipfile.ZipFile(memory, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, content in ((CARD, json.dumps(card, indent=1).encode()), (NUMBERS, head + body)):
+        for name, content in ((CARD, json.dumps(card, indent=1).encode()), (NUMBERS, _bytes(data))):
             archive.writestr(zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0)), content,
                              zipfile.ZIP_DEFLATED)  # fmt: skip
     return memory.getvalue()
 
 
 def plain(file: MapFile) -> bytes:
-    """Return a map as the resource of an FMU: header in doubles, then single precision."""
-    head, body = file.data[: L.DATA], file.data[L.DATA :]
-    return bytes(head.astype("<f8").tobytes() + body.astype("<f4").tobytes())
+    """Return a map as the resource of an FMU: header in doubles, single precision, CRC-32."""
+    numbers = _bytes(file.data)
+    return numbers + zlib.crc32(numbers).to_bytes(4, "little")
+
+
+def _bytes(data: Array) -> bytes:
+    return bytes(data[: L.DATA].astype("<f8").tobytes() + data[L.DATA :].astype("<f4").tobytes())
 
 
 def unpack(numbers: bytes) -> Array:
@@ -107,7 +110,8 @@ def _read(path: str, _changed: int, _size: int) -> MapFile:
         if not isinstance(card, dict):
             raise ValueError("its card is no JSON object")
     except (OSError, zipfile.BadZipFile, zipfile.LargeZipFile, KeyError, ValueError, EOFError,
-            NotImplementedError, RuntimeError, zlib.error) as problem:  # fmt: skip
+            NotImplementedError, RuntimeError, OverflowError, struct.error,
+            zlib.error) as problem:  # fmt: skip
         raise ParameterError(
             f"map = {path!r}: {problem}; allowed: a file written by `thrustwasher map build`"
         ) from None

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 from ..errors import ParameterError
 
 T = TypeVar("T")
+LARGEST = 1e300
 
 
 @cache
@@ -73,7 +74,9 @@ def _either(kinds: tuple[Any, ...], raw: Any, where: str) -> Any:
 def _scalar(kind: Any, raw: Any, where: str) -> Any:
     """Return text, Boolean or number; a whole number passes as a float, a Boolean does not."""
     if kind is float and isinstance(raw, int | float) and not isinstance(raw, bool):
-        return float(raw)
+        if abs(raw) <= LARGEST:  # 1e999 is infinite to JSON, and whole numbers have no end
+            return float(raw)
+        raise ParameterError(f"{where}: a number up to {LARGEST:g} is wanted, got {_shown(raw)}")
     if kind is not float and isinstance(raw, kind) and (kind is bool or not isinstance(raw, bool)):
         return raw
     wanted = {str: "text", bool: "true or false", int: "a whole number", float: "a number"}

@@ -90,7 +90,7 @@ def moved(fmu, name, tmp_path):
     return folder
 
 
-@pytest.mark.parametrize("change", ["gone", "cut", "rubbish"])
+@pytest.mark.parametrize("change", ["gone", "cut", "rubbish", "bit"])
 def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(fmus, tmp_path, change):
     folder = moved(fmus[2], "copy", tmp_path)
     file = folder / "resources" / "map-0.bin"
@@ -98,7 +98,10 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(fmus, tmp_path,
         shutil.rmtree(file.parent)
     else:
         raw = file.read_bytes()
-        file.write_bytes(raw[:-40] if change == "cut" else raw[:-4] + b"\xff\xff\xff\xff")
+        bit = bytes([raw[-400] ^ 1]) + raw[-399:]
+        file.write_bytes({
+            "cut": raw[:-40], "rubbish": raw[:-4] + b"\xff\xff\xff\xff", "bit": raw[:-400] + bit,
+        }[change])  # fmt: skip
     packed = shutil.make_archive(str(tmp_path / "again"), "zip", folder)
     fmu = shutil.move(packed, tmp_path / "ThrustWasher.fmu")
     with pytest.raises((ParameterError, SolveError), match=NONE if change == "gone" else "damaged"):

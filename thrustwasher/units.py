@@ -89,7 +89,7 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
     if not isinstance(value, str):
-        number, written = float(value), ""
+        number, written = _as_float(value), ""
     else:
         match = _NUMBER.fullmatch(value)
         if match is None:
@@ -106,6 +106,14 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
     if not math.isfinite(si):
         raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
     return si
+
+
+def _as_float(value: int | float) -> float:
+    """Return the number; one beyond all floats counts as infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def format_quantity(value: float, unit: str, *, difference: bool = False, digits: int = 4) -> str:

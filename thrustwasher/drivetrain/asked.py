@@ -21,12 +21,12 @@ def asked_for(where: str, spec: ModelSpec, text: object) -> tuple[str, float | N
     """
     if isinstance(text, str) and text.partition(":")[0] == AUTO:
         return spec.default_fidelity, _tolerance(where, text)
-    if text not in spec.fidelities:
+    if not isinstance(text, str) or text not in spec.fidelities:
         options = " or ".join(repr(n) for n in spec.fidelities)
         raise ParameterError(
             f"{where}: fidelity = {text!r}, allowed: {options} or 'auto:TOLERANCE'"
         )
-    return str(text), None
+    return text, None
 
 
 def _tolerance(where: str, text: str) -> float:

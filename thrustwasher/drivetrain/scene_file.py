@@ -79,7 +79,7 @@ def _parse(name: str) -> dict[str, Any]:
     if name.endswith(".toml"):
         try:
             text = Path(name).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as problem:
+        except (OSError, ValueError) as problem:  # bytes that are no text, a path that is none
             reason = getattr(problem, "strerror", None) or "not a text file"
             raise ParameterError(f"scene = {name!r}: cannot be read ({reason})") from None
     elif name in builtin_scenes():
@@ -94,7 +94,7 @@ def _parse(name: str) -> dict[str, Any]:
         )
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
+    except (ValueError, RecursionError) as problem:  # also numbers and nesting without end
         raise ParameterError(f"scene = {name!r}: not valid TOML ({problem})") from None
 
 

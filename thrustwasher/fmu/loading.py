@@ -1,24 +1,31 @@
 """Unpack an FMU once, load its library once, instantiate it with its messages kept."""
 
 import ctypes
+import errno
 import hashlib
 import os
 import platform
 import re
 import shutil
+import struct
 import sys
 import tempfile
 import time
 import zipfile
+import zlib
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import EnvironmentProblem, ParameterError
+from ..errors import EnvironmentProblem, ParameterError, naming
 
 KEPT = 20  # unpacked FMUs
 IN_USE = 86400.0  # s; a folder used within this time may be open in another process
+# The disk's or the user's trouble; other errors come of a damaged archive.
+DISK = {getattr(errno, name, None) for name in (
+    "ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS", "EACCES", "EPERM", "EMFILE", "ENFILE",
+)}  # fmt: skip
 WARNING = 1  # of both FMI versions; what is above carries the reason of a failure
 # Arguments behind "..." lie where named ones would: everywhere but on Apple's ARM.
 VARIADIC_AS_USUAL = (sys.platform, platform.machine()) != ("darwin", "arm64")
@@ -68,8 +75,12 @@ def _unpacked(path: str, _changed: int, _size: int) -> Path:
         part = Path(tempfile.mkdtemp(dir=home))
     folder = home / f"{Path(path).stem}-{digest}"
     if not (folder / "modelDescription.xml").is_file():
-        with zipfile.ZipFile(path) as archive:
-            archive.extractall(part)
+        try:
+            with naming(folder):
+                _extract(path, part)
+        except BaseException:
+            shutil.rmtree(part, ignore_errors=True)
+            raise
         try:
             part.rename(folder)  # all or nothing; two processes may do it at once
         except OSError:
@@ -78,6 +89,21 @@ def _unpacked(path: str, _changed: int, _size: int) -> Path:
         prune(home)
     shutil.rmtree(part, ignore_errors=True)
     return folder
+
+
+def _extract(path: str, folder: Path) -> None:
+    """Unpack an archive whole, or refuse it by name."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            archive.getinfo("modelDescription.xml")
+            archive.extractall(folder)
+    except (OSError, zipfile.BadZipFile, zlib.error, struct.error, EOFError, KeyError, ValueError,
+            OverflowError, RuntimeError) as problem:  # fmt: skip
+        if isinstance(problem, OSError) and problem.errno in DISK:
+            raise
+        raise ParameterError(
+            f"FMU = {path!r}: is no whole FMU ({problem}); remove it and build it again"
+        ) from None
 
 
 def prune(home: Path) -> None:

@@ -1,5 +1,6 @@
 """One field, one source: the metadata feeds checks, FMU variables, command line and docs."""
 
+import math
 from dataclasses import field, fields
 from typing import Any
 
@@ -49,7 +50,7 @@ def check_ranges(params: Any) -> None:
     for f in fields(params):
         value, m = getattr(params, f.name), f.metadata
         if m["kind"] == "enumeration":
-            good = value in m["options"]
+            good = isinstance(value, str) and value in m["options"]
         elif m["kind"] == "boolean":
             good = isinstance(value, bool) or value in (0, 1)
         else:
@@ -68,6 +69,8 @@ def check_number(name: str, value: float, unit: str, low: float, high: float) ->
         number = float(value)
     except (TypeError, ValueError):
         raise ParameterError(f"{name} = {value!r}, a number in {unit} is wanted") from None
+    except OverflowError:
+        number = math.inf
     if not low <= number <= high:
         raise ParameterError(f"{name} = {number!r} {unit}, allowed: {low:g} .. {high:g} {unit}")
     return number

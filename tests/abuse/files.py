@@ -1,0 +1,321 @@
+"""Damaged files of every kind, each accepted with its right meaning or refused by name."""
+
+import json
+import math
+import tomllib
+import zipfile
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import fields
+from importlib import resources
+from io import StringIO
+from pathlib import Path
+
+import damage
+import numpy as np
+from calls import REFUSED, RIGHT, Wrong, say_if_wrong
+
+from thrustwasher import ParameterError, SolveError
+from thrustwasher.cli import main
+from thrustwasher.drivetrain import load_scene
+from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.kernels import washer_map_layout as L
+from thrustwasher.store import cards, maps
+from thrustwasher.store.journal import Journal
+from thrustwasher.sweep.run import journal_of, run_sweep
+
+OVER = {"load": "10:200:10", "speed": "50:300:50"}
+
+
+def command(*words):
+    """Run a command in this process; return status, output and messages."""
+    out, said = StringIO(), StringIO()
+    with redirect_stdout(out), redirect_stderr(said):
+        status = main([str(w) for w in words])
+    return status, out.getvalue(), said.getvalue()
+
+
+def one_line(error, name):
+    """Return REFUSED if the refusal is one line that names the file."""
+    text = str(error)
+    if "\n" in text.strip() or name not in text or not isinstance(
+        error, ParameterError | SolveError | EnvironmentProblem
+    ):  # fmt: skip
+        raise Wrong(f"refused without a name: {error!r}")
+    return REFUSED
+
+
+class Scenes:
+    """Scene files: what is accepted has every number of the file in its place."""
+
+    def __init__(self, folder):
+        self.path = Path(folder) / "spoiled.toml"
+        builtin = resources.files("thrustwasher.drivetrain") / "scenes"
+        self.texts = [f.read_bytes() for f in builtin.iterdir() if f.name.endswith(".toml")]
+
+    def __call__(self, rng):
+        data = rng.choice(self.texts)
+        for _ in range(rng.choice([1, 1, 2])):
+            data = damage.text(rng, data)
+        self.path.write_bytes(data)
+        try:
+            scene = load_scene(self.path)
+        except ParameterError as error:
+            return one_line(error, "scene")
+        table = tomllib.loads(data.decode())
+        found = [k for k in ("step", "stop_time") if _differs(table.get(k), getattr(scene, k))]
+        for name, part in scene.parts.items():
+            found += [f"{name}.{f.name}" for f in fields(part.params)
+                      if _differs(table.get(name, {}).get(f.name), getattr(part.params, f.name))
+                      ]  # fmt: skip
+        say_if_wrong(found, data)
+        return RIGHT
+
+
+def _differs(written, taken):
+    """Tell if a bare number of the file is another one in the scene."""
+    if isinstance(written, bool) or not isinstance(written, int | float):
+        return False
+    return float(written) != taken or not math.isfinite(taken)
+
+
+class Cards:
+    """Cards: refused, or the card that was written."""
+
+    def __init__(self, folder):
+        self.path = Path(folder) / "spoiled.json"
+        whole = sorted((Path(cards.__file__).parents[1] / "data" / "cards").glob("*.json"))
+        self.cards = [cards.read_card(path) for path in whole[::7]]
+
+    def __call__(self, rng):
+        card = rng.choice(self.cards)
+        self.path.write_bytes(damage.text(rng, card.as_json().encode()))
+        try:
+            found = cards.read_card(self.path)
+        except ParameterError as error:
+            return one_line(error, "spoiled.json")
+        say_if_wrong([] if found == card else ["another card"], self.path.read_bytes())
+        return RIGHT
+
+
+class Maps:
+    """Map files: refused, or the map that was written."""
+
+    def __init__(self, folder):
+        self.path = Path(folder) / "spoiled.twm"
+        data = np.zeros(L.DATA + L.LINE)
+        data[L.KIND], data[L.SIZE] = L.MAGIC, len(data)
+        data[L.DATA :] = np.float32(np.linspace(-1.0, 3.0, L.LINE))
+        self.card = {"kind": "washer map", "box": {"load": [1.0, 2.0]}}
+        self.data, self.whole = data, maps.pack(data, self.card)
+
+    def __call__(self, rng):
+        self.path.write_bytes(damage.bits(rng, self.whole))
+        maps._read.cache_clear()
+        try:
+            found = maps.read_map(self.path)
+        except ParameterError as error:
+            return one_line(error, "spoiled.twm")
+        same = np.array_equal(found.data, self.data) and found.card == self.card
+        say_if_wrong([] if same else ["another map"])
+        return RIGHT
+
+
+class SweepJournals:
+    """Journals of sweeps: the sweep is refused, or ends with the very table of a whole run."""
+
+    def __init__(self, folder):
+        self.out = Path(folder) / "spoiled.csv"
+        run_sweep("gearmesh", OVER, out=self.out, workers=1)
+        self.table = self.out.read_bytes()
+
+        def stop(done, total):
+            if done >= 60:
+                raise KeyboardInterrupt
+
+        try:
+            run_sweep("gearmesh", OVER, out=self.out, workers=1, progress=stop)
+        except KeyboardInterrupt:
+            self.begun = journal_of(self.out).read_bytes()
+
+    def __call__(self, rng):
+        journal_of(self.out).write_bytes(damage.bits(rng, self.begun))
+        self.out.unlink(missing_ok=True)
+        try:
+            run_sweep("gearmesh", OVER, out=self.out, workers=1)
+        except ParameterError as error:
+            return one_line(error, "spoiled.csv.journal")
+        same = self.out.read_bytes() == self.table
+        say_if_wrong([] if same else ["another table"])
+        return RIGHT
+
+
+class MapJournals:
+    """Journals of maps: refused, or every line that counts as solved is the one that was solved."""
+
+    def __init__(self, folder):
+        self.path = Path(folder) / "spoiled.twm.journal"
+        self.identity = {"parameters": "p", "box": "b", "fidelity": "fine", "kernels": "k"}
+        self.lines = np.random.default_rng(1).normal(size=(12, L.LINE))
+        journal = Journal(self.path, self.identity, "map")
+        for i in range(8):
+            journal.append(i, self.lines[i : i + 1], np.zeros((1, 1), np.int32))
+        journal.close(finished=False)
+        self.begun = self.path.read_bytes()
+
+    def __call__(self, rng):
+        self.path.write_bytes(damage.bits(rng, self.begun))
+        lines, flags = np.full_like(self.lines, np.nan), np.zeros((12, 1), np.int32)
+        try:
+            journal = Journal(self.path, self.identity, "map")
+        except ParameterError as error:
+            return one_line(error, "spoiled.twm.journal")
+        done = journal.load(lines, flags)
+        journal.close(finished=False)
+        say_if_wrong([] if np.array_equal(lines[done], self.lines[done]) else ["other lines"])
+        return RIGHT
+
+
+class States:
+    """Serialised states: refused, or the state that was written; the run goes on in any case."""
+
+    def __init__(self, instance, others=()):
+        self.instance, self.others = instance, list(others)
+        instance.initialize()
+        instance.step(0.0, 1e-3)
+        self.state = instance.get_state()
+        self.whole = instance.serialize(self.state)
+        self.outputs = instance.outputs()
+
+    def __call__(self, rng):
+        foreign = self.others and rng.random() < 0.1
+        data = rng.choice(self.others) if foreign else damage.bits(rng, self.whole)
+        result = RIGHT
+        try:
+            found = self.instance.deserialize(data)
+            self.instance.set_state(found)
+            same = self.instance.serialize(found) == self.whole
+            say_if_wrong([] if same and not foreign else ["another state"])
+            self.instance.free_state(found)
+        except (ParameterError, SolveError) as error:
+            result = one_line(error, "FMU state")
+        say_if_wrong([] if self.instance.outputs() == self.outputs else ["outputs have changed"])
+        self.instance.set_state(self.state)
+        self.instance.step(0.001, 1e-3)
+        self.instance.set_state(self.state)
+        return result
+
+
+class Calibrations:
+    """Measured points: refused with file and line, or fitted with finite numbers."""
+
+    def __init__(self, folder, data):
+        self.path, self.whole = Path(folder) / "spoiled.csv", data
+
+    def __call__(self, rng):
+        self.path.write_bytes(damage.text(rng, self.whole))
+        status, out, said = command("calibrate", self.path, "--json")
+        lines = [x for x in said.splitlines() if not x.startswith("warning")]
+        if status == 0:
+            json.loads(out, parse_constant=_no_number)
+            return RIGHT
+        say_if_wrong([] if status in (2, 3) and len(lines) == 1 and "defect" not in said
+                     else ["no named refusal"], status, said)  # fmt: skip
+        return REFUSED
+
+
+def _no_number(text):
+    raise Wrong(f"{text} with status 0")
+
+
+class Charts:
+    """Records of charts: refused, or drawn as they were measured."""
+
+    def __init__(self, folder, record, seal=True, draw=True):
+        from thrustwasher.store.seal import sealed
+
+        self.draw = draw
+        self.path, self.out = Path(folder) / "spoiled.json", Path(folder) / "drawn"
+        self.record, self.seal = record, seal
+        text = json.dumps(sealed(record) if seal else record, indent=1)
+        self.whole = text.encode()
+
+    def __call__(self, rng):
+        self.path.write_bytes(damage.text(rng, self.whole))
+        if not self.draw:
+            return self.read()
+        status, _, said = command("chart", "--draw", self.path, "--out", self.out)
+        if status == 0:
+            drawn = json.loads((self.out / "chart.json").read_text("utf-8"))
+            drawn.pop("check", None)
+            same = not self.seal or drawn == self.record
+            say_if_wrong([] if same else ["another record"])
+            return RIGHT
+        one = status == 2 and said.count("\n") == 1 and "spoiled.json" in said
+        say_if_wrong([] if one and "defect" not in said else ["no named refusal"], status, said)
+        return REFUSED
+
+    def read(self):
+        from thrustwasher.cli.chart import _read
+
+        try:
+            found = _read(str(self.path))
+        except ParameterError as error:
+            return one_line(error, "spoiled.json")
+        found.pop("check", None)
+        say_if_wrong([] if found == self.record else ["another record"])
+        return RIGHT
+
+
+class Archives:
+    """FMU files: refused by name, or whole; what is inside is the importer's to check."""
+
+    def __init__(self, folder, fmu):
+        self.path, self.whole = Path(folder) / "Spoiled.fmu", Path(fmu).read_bytes()
+        with zipfile.ZipFile(fmu) as archive:
+            self.files = {n: archive.read(n) for n in archive.namelist()}
+
+    def __call__(self, rng):
+        from thrustwasher.fmu.loading import unpack
+
+        self.path.write_bytes(damage.bits(rng, self.whole))
+        try:
+            folder = unpack(self.path)
+        except (ParameterError, EnvironmentProblem) as error:
+            return one_line(error, "Spoiled.fmu")
+        found = {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*")
+                 if p.is_file()}  # fmt: skip
+        other = [n for n, data in found.items() if self.files.get(n, data) != data]
+        say_if_wrong([f"{n} is another" for n in other])
+        return RIGHT
+
+
+def chart_record():
+    """Return a small record, as ``thrustwasher chart`` measures it."""
+    quantity = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
+    samples = [
+        {
+            "family": "rungs", "label": label, "knob": "rung", "value": label, "cases": "0",
+            "errors": {"friction_torque": {"worst": error, "rms": 0.4 * error, "case": "a"}},
+            "ref_uncertainty": {"friction_torque": 1e-5}, "call_median": cost,
+            "call_iqr": 0.05 * cost, "call_min": cost, "repeats": 9, "first_call_s": cost,
+            "setup_s": 1e-3, "count": 3.0, "count_of": "turns", "n_cases": 2, "n_failed": failed,
+            "failures": {"b": "SINGULAR"} if failed else {}, "is_rival": False,
+            "slowest_call_s": cost, "slowest_case": "b", "build_s": 0.0,
+        }
+        for label, cost, error, failed in (("closed", 1e-6, 0.5, 0), ("field", 2e-4, 2e-3, 1))
+    ]  # fmt: skip
+    survey = {
+        "cases": [{"name": "a", "point": [1.0], "before": []}], "cases_digest": "0",
+        "cost_of": "a call [s]", "quantities": [quantity], "truths": [], "samples": samples,
+    }  # fmt: skip
+    cell = {"verdict": "ok", "figure": "", "words": ""}
+    group = {"name": "films", "judged": "load off", "methods": ["good"], "hazards": ["a"],
+             "cells": [[cell]]}  # fmt: skip
+    machine = {"cpu": "a cpu", "cores": 2, "os": "an os", "python": "3", "numpy": "2",
+               "numba": "1", "compiled": True, "threads": {}, "load": 0.1}  # fmt: skip
+    return {
+        "schema": 1, "command": "thrustwasher chart", "date": "2026-11-21T18:00:00Z",
+        "machine": machine, "calibration_s": 0.01, "quick": False, "run_s": 1.0,
+        "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
+        "models": {"clutch": survey}, "stability": [group],
+    }  # fmt: skip

@@ -1,0 +1,29 @@
+"""Whatever is asked of the Python functions: a right answer, or a refusal by name."""
+
+import calls
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+randoms = st.randoms(use_true_random=False)
+
+
+@pytest.fixture(scope="module", params=["clutch", "gearmesh", "washer"])
+def model(request):
+    """A model that answers a sane call after all the others as it did before."""
+    before = calls.sane_bits(request.param)
+    yield request.param
+    assert calls.sane_bits(request.param) == before
+
+
+@settings(max_examples=80)
+@given(rng=randoms)
+def test_any_call_is_answered_right_or_refused_by_name(model, rng):
+    calls.solve_once(model, rng)
+
+
+@settings(max_examples=15)
+@given(rng=randoms)
+@pytest.mark.parametrize("rung", ["coarse", "field"])
+def test_any_washer_on_a_mesh_is_answered_right_or_refused_by_name(rung, rng):
+    calls.solve_once("washer", rng, rungs=[rung])

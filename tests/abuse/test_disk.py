@@ -1,0 +1,149 @@
+"""A full disk or one that may not be written to: one line, nothing half, nothing lost."""
+
+import json
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from disk import full_disk
+from files import chart_record, command
+
+from thrustwasher.cli import main
+from thrustwasher.fmu import archive
+from thrustwasher.fmu.loading import unpack
+from thrustwasher.sweep import run as runs
+from thrustwasher.sweep.rows import solve_task
+
+MEASURED = Path(__file__).with_name("measured.csv")
+SWEEP = ["sweep", "gearmesh", "--over", "load=10:200:10", "--over", "speed=50:300:50", "--workers",
+         "1", "--out"]  # fmt: skip
+MAP = ["map", "build", "--load", "300:400", "--speed", "540:550", "--tilt", "0.002",
+       "--oil-temperature", "297.15", "--fidelity", "field", "--workers", "1", "--points", "2",
+       "--out"]  # fmt: skip
+
+
+def refused(folder, *words, left=()):
+    """The command ends with one line and status 2, and leaves just this in the folder."""
+    status, _, said = command(*words)
+    lines = [line for line in said.splitlines() if not line.startswith("warning")]
+    assert status == 2 and len(lines) == 1 and "defect" not in said, said
+    assert sorted(p.name for p in folder.rglob("*")) == sorted(left)
+    if left or "File too large" in lines[0]:
+        assert str(folder) in lines[0], "it names the file"
+    return lines[0]
+
+
+@pytest.fixture
+def out(tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    return folder
+
+
+def test_curves_engagements_and_plots_on_a_full_disk_leave_nothing(out):
+    point = ["--speed", "50", "--load", "9000", "--step", "0.1"]
+    for words in (
+        ["curve", "--speed", "545", "--tilt", "0.002", "--grid", "5x8", "--out", out / "c.csv"],
+        ["engage", *point, "--out", out / "e.csv"],
+        ["clutch", "--plot", out / "fit.png"],
+    ):
+        with full_disk(100):
+            assert "File too large" in refused(out, *words)
+
+
+def test_a_sweep_whose_journal_fills_the_disk_goes_on_later(out, monkeypatch):
+    table = out / "map.csv"
+    assert command(*SWEEP, table)[0] == 0
+    whole = table.read_bytes()
+    table.unlink()
+    solved = []
+    monkeypatch.setattr(
+        runs, "solve_task", lambda t: (solved.append(len(t.inputs)), solve_task(t))[1]
+    )
+    with full_disk(12_000):
+        refused(out, *SWEEP, table, left=["map.csv.journal"])
+    done = sum(solved) - solved[-1]
+    assert done > 0
+    solved.clear()
+    assert command(*SWEEP, table)[0] == 0
+    assert sum(solved) == 120 - done and table.read_bytes() == whole
+    assert [p.name for p in out.iterdir()] == ["map.csv"]
+
+
+def test_a_sweep_whose_table_does_not_fit_is_not_solved_again(out, monkeypatch):
+    table = out / "map.csv"
+    assert command(*SWEEP, table)[0] == 0
+    whole = table.read_bytes()
+    table.unlink()
+    with full_disk(len(whole) - 1):
+        refused(out, *SWEEP, table, left=["map.csv.journal"])
+    monkeypatch.setattr(runs, "solve_task", None)
+    assert command(*SWEEP, table)[0] == 0
+    assert table.read_bytes() == whole
+
+
+def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, monkeypatch):
+    from thrustwasher.kernels import washer_map_layout as L
+    from thrustwasher.maps import build
+
+    file, solved, real = out / "x.twm", [], build.solve_line
+    monkeypatch.setattr(build, "solve_line", lambda t: (solved.append(t), real(t))[1])
+    with full_disk(int(2.5 * 8 * L.LINE)):
+        refused(out, *MAP, file, left=["x.twm.journal"])
+    assert len(solved) == 3
+    assert command(*MAP, file)[0] == 0
+    assert len(solved) == 3 + 2 and [p.name for p in out.iterdir()] == ["x.twm"]
+
+
+def test_a_chart_that_does_not_fit_is_not_half_written(out, tmp_path):
+    (tmp_path / "in.json").write_text(json.dumps(chart_record()))
+    with full_disk(200):
+        refused(out, "chart", "--draw", tmp_path / "in.json", "--out", out)
+
+
+def test_an_fmu_that_does_not_fit_is_not_half_written(out):
+    made = out / "A.fmu"
+    made.write_bytes(b"of an earlier build")
+    with full_disk(60_000), pytest.raises(OSError, match="too large") as full:
+        archive.write(made, b"x" * 70_000)
+    assert full.value.filename == str(made) and [p.name for p in out.iterdir()] == ["A.fmu"]
+    assert made.read_bytes() == b"of an earlier build"
+
+
+def test_a_report_that_does_not_fit_leaves_the_folder_as_it_was(out, fmu_of):
+    words = ["shift", "--scene", "msl", "--step", "20 ms", "--out"]
+    for model in ("clutch", "transmission"):
+        unpack(fmu_of(model, "native-fmi2"))
+    (out / "overview.png").write_text("of an earlier run")
+    with full_disk(20_000):
+        refused(out, *words, out, left=["overview.png"])
+    assert (out / "overview.png").read_text() == "of an earlier run"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.parametrize("words", [["clutch", "--json"], ["clutch", "--help"], ["--version"]])
+def test_standard_output_that_cannot_be_written_is_said(words, monkeypatch, capsys):
+    full = open("/dev/full", "w")  # its end fails as its flush does
+    monkeypatch.setattr(sys, "stdout", full)
+    assert main(words) == 2
+    monkeypatch.undo()
+    with suppress(OSError):
+        full.close()
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and "standard output: No space left" in said
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs a folder nobody can write to")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["curve", "--speed", "545", "--tilt", "0.002", "--out", "/proc/x/c.csv"],
+        ["calibrate", str(MEASURED), "--plot", "/proc/x/fit.png"],
+        ["shift", "--out", "/proc/x"], ["shift", "--out", "/proc/x", "--ssp", "/proc/x/s.ssp"],
+        ["build", "--out", "/proc/x"], ["chart", "--out", "/proc/x"],
+        [*SWEEP, "/proc/x/t.csv"], [*MAP, "/proc/x/m.twm"],
+    ],
+)  # fmt: skip
+def test_where_nothing_may_be_written_no_work_begins(words, tmp_path):
+    assert "/proc/x" in refused(tmp_path, *words)

@@ -1,0 +1,72 @@
+"""Spoiled files are refused by name or mean what they say; nothing in between."""
+
+import json
+from pathlib import Path
+
+import files
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.stepper import DirectInstance
+
+randoms = st.randoms(use_true_random=False)
+MEASURED = Path(__file__).with_name("measured.csv")
+
+
+def spoil(deed, n):
+    """Try ``n`` spoiled files."""
+
+    @settings(max_examples=n)
+    @given(rng=randoms)
+    def one(rng):
+        deed(rng)
+
+    one()
+
+
+@pytest.mark.parametrize(
+    ("kind", "n"),
+    [(files.Scenes, 150), (files.Cards, 100), (files.Maps, 150), (files.SweepJournals, 30),
+     (files.MapJournals, 50)],
+)  # fmt: skip
+def test_a_spoiled_file_is_refused_by_name_or_means_what_it_says(kind, n, tmp_path):
+    spoil(kind(tmp_path), n)
+
+
+def test_a_spoiled_calibration_file_is_refused_or_fitted(tmp_path):
+    spoil(files.Calibrations(tmp_path, MEASURED.read_bytes()), 6)
+
+
+def test_a_chart_that_was_changed_is_not_drawn(tmp_path):
+    spoil(files.Charts(tmp_path, files.chart_record(), draw=False), 60)
+
+
+def test_half_a_chart_is_refused_in_one_line(tmp_path):
+    record = files.chart_record()
+    for key in ("models", "machine"):
+        half = {k: v for k, v in record.items() if k != key}
+        (tmp_path / "half.json").write_text(json.dumps(half))
+        status, _, said = files.command(
+            "chart", "--draw", tmp_path / "half.json", "--out", tmp_path
+        )
+        assert (status, said.count("\n")) == (2, 1) and f"'{key}'" in said and "half.json" in said
+
+
+def test_a_spoiled_fmu_is_refused_by_name(tmp_path, fmu_of):
+    spoil(files.Archives(tmp_path, fmu_of("gearmesh", "native-fmi2")), 30)
+
+
+@pytest.mark.parametrize("kind", ["direct", "native-fmi2", "native-fmi3", "python-fmi2"])
+def test_spoiled_states_are_refused_and_harm_nothing(kind, instance_of):
+    other = DirectInstance(find_spec("transmission"))
+    other.initialize()
+    foreign = [other.serialize(other.get_state()), b"", b"{}" * 500]
+    if kind.startswith("native"):
+        second = instance_of("transmission", "native-fmi2")
+        second.initialize()
+        foreign.append(second.serialize(second.get_state()))
+    clutch = find_spec("clutch")
+    one = DirectInstance(clutch) if kind == "direct" else instance_of("clutch", kind)
+    spoil(files.States(one, foreign), 150)

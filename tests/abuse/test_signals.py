@@ -1,0 +1,155 @@
+"""Ctrl-C and SIGTERM in the middle: one line, the status shells know, nothing lost or half."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from thrustwasher.cli import main
+from thrustwasher.cli._signals import Stopped, Watch
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals of POSIX")
+SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x150", "--over", "speed=50:500:x100"]
+MAP = ["map", "build", "--load", "100:900", "--speed", "400:700", "--tilt", "0.0018:0.0022",
+       "--oil-temperature", "297.15", "--fidelity", "field", "--workers", "2"]  # fmt: skip
+
+
+def started(words, folder):
+    """Start a command as a program of its own, which hears Ctrl-C whatever runs the tests."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "thrustwasher", *words], cwd=folder, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )  # fmt: skip
+
+
+def stopped(words, folder, begun, *signals):
+    """Send signals to the command and its children once it has begun; return status and lines."""
+    running = started(words, folder)
+    try:
+        while not begun() and running.poll() is None:
+            time.sleep(0.01)
+        for number in signals:
+            os.killpg(running.pid, number)
+            time.sleep(0.02)
+        said = running.communicate(timeout=60)[1]
+    finally:
+        running.kill()
+    return running.returncode, said.splitlines()
+
+
+@pytest.mark.parametrize(
+    ("number", "status", "word"),
+    [
+        (signal.SIGINT, 130, "stopped"),
+        pytest.param(signal.SIGTERM, 143, "terminated", marks=pytest.mark.slow),
+    ],
+)
+def test_a_sweep_that_is_stopped_ends_in_one_line_and_goes_on(tmp_path, number, status, word):
+    journal = tmp_path / "t.csv.journal"
+    words = [*SWEEP, "--workers", "1", "--out", "t.csv"]
+    begun = lambda: journal.exists() and journal.stat().st_size > 5000  # noqa: E731
+    assert stopped(words, tmp_path, begun, number) == (status, [f"thrustwasher sweep: {word}"])
+    assert [p.name for p in tmp_path.iterdir()] == ["t.csv.journal"]
+    again = started(words, tmp_path)
+    again.communicate(timeout=60)
+    assert again.returncode == 0
+    assert [p.name for p in tmp_path.iterdir()] == ["t.csv"]
+
+
+def test_a_map_build_that_is_stopped_twice_ends_in_one_line_and_keeps_its_lines(tmp_path):
+    journal = tmp_path / "m.twm.journal"
+    begun = lambda: journal.exists() and journal.stat().st_size > 5000  # noqa: E731
+    ended = stopped([*MAP, "--out", "m.twm"], tmp_path, begun, signal.SIGINT, signal.SIGINT)
+    assert ended == (130, ["thrustwasher map: stopped"])
+    assert [p.name for p in tmp_path.iterdir()] == ["m.twm.journal"]
+
+
+@pytest.mark.parametrize(
+    ("number", "status"),
+    [pytest.param(signal.SIGINT, 130, marks=pytest.mark.slow), (signal.SIGTERM, 143)],
+)
+def test_a_shift_that_is_stopped_leaves_the_folder_as_it_was(tmp_path, number, status, fmu_of):
+    for model in ("clutch", "transmission"):
+        fmu_of(model, "native-fmi2")
+    (tmp_path / "r").mkdir()
+    (tmp_path / "r" / "shift.csv").write_text("of an earlier run")
+    drafts = tmp_path / "r"
+    begun = lambda: len(list(drafts.iterdir())) > 1  # noqa: E731 (the report is being written)
+    words = ["shift", "--scene", "msl", "--step", "20 ms", "--out", "r"]
+    code, lines = stopped(words, tmp_path, begun, number)
+    assert code == status and len(lines) == 1
+    assert [p.name for p in drafts.iterdir()] == ["shift.csv"]
+    assert (drafts / "shift.csv").read_text() == "of an earlier run"
+
+
+@pytest.fixture
+def watch():
+    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    for number in before:
+        signal.signal(number, signal.SIG_DFL)
+    made = Watch()
+    made.begin()
+    yield made
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+def test_only_the_first_signal_disturbs_what_is_tidied_up(watch):
+    with pytest.raises(Stopped):
+        signal.raise_signal(signal.SIGTERM)
+    signal.raise_signal(signal.SIGINT)
+    assert (watch.status, watch.word) == (143, "terminated")
+
+
+def test_a_signal_a_second_later_stops_what_hangs(watch, monkeypatch):
+    with pytest.raises(Stopped):
+        signal.raise_signal(signal.SIGINT)
+    now = time.monotonic()
+    monkeypatch.setattr(time, "monotonic", lambda: now + 2.0)
+    with pytest.raises(Stopped):
+        signal.raise_signal(signal.SIGINT)
+
+
+def test_the_last_line_is_said_in_peace(watch):
+    watch.close()
+    signal.raise_signal(signal.SIGINT)
+    signal.raise_signal(signal.SIGTERM)
+    assert watch.number == 0
+
+
+def test_what_a_parent_has_switched_off_stays_off():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        watch = Watch()
+        watch.begin()
+        signal.raise_signal(signal.SIGINT)
+        assert watch.number == 0
+    finally:
+        watch.close()
+        signal.signal(signal.SIGINT, before)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def test_a_stop_that_a_library_takes_for_a_failure_is_a_stop(monkeypatch, capsys):
+    """As where Ctrl-C meets a Python FMU, which answers every exception with an error."""
+    from thrustwasher import cli
+
+    def fail(words):
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        except Stopped:
+            raise RuntimeError("step failed") from None
+
+    monkeypatch.setattr(cli, "_dispatch", fail)
+    monkeypatch.setattr(sys, "argv", ["thrustwasher", "shift"])
+    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        assert main() == 143
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    assert capsys.readouterr().err == "thrustwasher shift: terminated\n"

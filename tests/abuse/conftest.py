@@ -1,27 +1,14 @@
-"""FMUs of every kind, made when wanted; examples are the same in every run."""
+"""FMUs of every kind, made when wanted."""
 
 from functools import cache
 
 import pytest
-from hypothesis import HealthCheck, settings
 
 from thrustwasher.cli._fmu_cache import fmu_paths
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.native.link import find_linker
 from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import Instance
-
-settings.register_profile(
-    "abuse", deadline=None, derandomize=True, database=None,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
-)  # fmt: skip
-
-
-@pytest.fixture(autouse=True, scope="session")
-def same_examples():
-    settings.load_profile("abuse")
-    yield
-    settings.load_profile("default")
 
 
 @pytest.fixture(scope="session")

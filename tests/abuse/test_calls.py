@@ -2,8 +2,10 @@
 
 import calls
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+
+from examples import examples
 
 randoms = st.randoms(use_true_random=False)
 
@@ -16,13 +18,13 @@ def model(request):
     assert calls.sane_bits(request.param) == before
 
 
-@settings(max_examples=80)
+@examples(80)
 @given(rng=randoms)
 def test_any_call_is_answered_right_or_refused_by_name(model, rng):
     calls.solve_once(model, rng)
 
 
-@settings(max_examples=15)
+@examples(15)
 @given(rng=randoms)
 @pytest.mark.parametrize("rung", ["coarse", "field"])
 def test_any_washer_on_a_mesh_is_answered_right_or_refused_by_name(rung, rng):

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import files
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
+from examples import examples
 from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
 
@@ -18,7 +19,7 @@ MEASURED = Path(__file__).with_name("measured.csv")
 def spoil(deed, n):
     """Try ``n`` spoiled files."""
 
-    @settings(max_examples=n)
+    @examples(n)
     @given(rng=randoms)
     def one(rng):
         deed(rng)

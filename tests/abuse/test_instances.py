@@ -2,9 +2,10 @@
 
 import calls
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
+from examples import examples
 from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
 
@@ -25,7 +26,7 @@ def walk(spec, instance, rngs):
 def test_a_wild_master_gets_right_outputs_or_named_errors(model, kind, instance_of):
     instance = instance_of(model, kind)
 
-    @settings(max_examples=12)
+    @examples(12)
     @given(rngs=walks)
     def wild(rngs):
         instance.reset()
@@ -35,11 +36,11 @@ def test_a_wild_master_gets_right_outputs_or_named_errors(model, kind, instance_
 
 
 @pytest.mark.parametrize("kind", ["native-fmi2", "python-fmi2"])
-@pytest.mark.parametrize(("rung", "examples"), [("stribeck", 10), ("map", 4), ("field", 1)])
-def test_a_wild_master_of_a_washer_too(rung, examples, kind, instance_of):
+@pytest.mark.parametrize(("rung", "n"), [("stribeck", 10), ("map", 4), ("field", 1)])
+def test_a_wild_master_of_a_washer_too(rung, n, kind, instance_of):
     instance = instance_of("washer", kind, {"fidelity": rung})
 
-    @settings(max_examples=examples)
+    @examples(n)
     @given(rngs=walks)
     def wild(rngs):
         instance.reset()
@@ -48,7 +49,7 @@ def test_a_wild_master_of_a_washer_too(rung, examples, kind, instance_of):
     wild()
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(rng=st.randoms(use_true_random=False))
 @pytest.mark.parametrize("model", ["clutch", "gearmesh", "transmission"])
 def test_any_parameters_run_or_are_refused_by_name(model, rng):

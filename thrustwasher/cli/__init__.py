@@ -77,7 +77,7 @@ def _status_of(error: BaseException, label: str) -> int:
         return _say(label, str(error), NO_SOLUTION)
     if isinstance(error, OSError):
         full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-        where = error.filename or ("standard output" if full else "")
+        where = error.filename or (_nameless_file() if full else "")
         where = f"{where}: " if where else ""
         return _say(label, f"{where}{error.strerror or error}", WRONG_INPUT)
     if isinstance(error, MemoryError):
@@ -86,6 +86,15 @@ def _status_of(error: BaseException, label: str) -> int:
         raise error
     text = f"defect in thrustwasher: {type(error).__name__}: {error}"
     return _say(label, f"{text} (THRUSTWASHER_TRACEBACK=1 shows where)", DEFECT)
+
+
+def _nameless_file() -> str:
+    """Say what could not be written where the error does not."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        return "standard output"
+    return "a temporary file or the cache of compiled kernels (NUMBA_CACHE_DIR)"
 
 
 class _Parser(argparse.ArgumentParser):

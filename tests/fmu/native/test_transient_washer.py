@@ -1,0 +1,64 @@
+"""A native washer whose bodies store heat: bits of the kernels, rollback, and what is refused."""
+
+import pytest
+
+from thrustwasher.errors import ParameterError, SolveError
+from thrustwasher.fmu.build import build
+from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.stepper import Instance
+from thrustwasher.models.washer_params import SPEC
+
+POINT = {"load": 650.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
+IN_TIME = {"thermal_mode": "transient", "fidelity": "coarse"}
+TORQUE, MEAN = 0, 1
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory):
+    """Washers of FMI 2 and 3."""
+    folder = tmp_path_factory.mktemp("in_time")
+    return {n: build(["ThrustWasher"], out=folder, fmi=n, local=True)[0] for n in (2, 3)}
+
+
+def course():
+    """Return durations and inputs: beyond the fold, and back to light load in warmer oil."""
+    rows = [(0.2, [650.0 + 40.0 * k, 545.0, 0.002, 297.15]) for k in range(10)]
+    rows += [(1.0, [1050.0, 545.0, 0.002, 297.15])] * 5
+    return rows + [(0.5, [200.0, -545.0, 0.002, 310.0])] * 5
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_it_gives_the_bits_of_the_kernels_in_python(fmus, fmi):
+    ours = DirectInstance(SPEC, parameters=IN_TIME)
+    with Instance(fmus[fmi], parameters=IN_TIME) as theirs:
+        for instance in (ours, theirs):
+            instance.initialize(0.0, POINT)
+        time, warmest = 0.0, 0.0
+        for h, inputs in course():
+            for instance in (ours, theirs):
+                instance.set_inputs(inputs)
+                instance.step(time, h)
+            time += h
+            assert ours.outputs() == theirs.outputs()
+            warmest = max(warmest, ours.outputs()[MEAN])
+        assert warmest > 330.0 and ours.outputs()[MEAN] < warmest - 5.0
+
+
+def test_setting_inputs_warms_nothing():
+    washer = DirectInstance(SPEC, parameters=IN_TIME)
+    washer.initialize(0.0, POINT)
+    washer.step(0.0, 0.1)
+    before = washer.outputs()
+    washer.set_inputs([900.0, 545.0, 0.002, 297.15])
+    after = washer.outputs()
+    assert abs(after[MEAN] - before[MEAN]) < 0.02
+    assert after[TORQUE] > 1.05 * before[TORQUE]  # the film follows at once
+
+
+@pytest.mark.parametrize("rung", ["closed", "stribeck", "map"])
+def test_rungs_without_bodies_refuse_by_name(fmus, rung):
+    wrong = {"thermal_mode": "transient", "fidelity": rung}
+    for make in (lambda: DirectInstance(SPEC, parameters=wrong),
+                 lambda: Instance(fmus[2], parameters=wrong)):  # fmt: skip
+        with pytest.raises((ParameterError, SolveError), match="thermal_mode = transient, allowed"):
+            make().initialize(0.0, POINT)

@@ -50,3 +50,19 @@ def test_a_handed_friction_torque_chatters_after_lock_up():
     assert "turns round" in complaint(result, figures(result))
     located = run(Way("gauss-seidel"), 1e-3, instances)
     assert complaint(located, figures(located)) == ""
+
+
+def test_torques_that_look_ahead_hand_over_without_chatter(limit):
+    """A quarter of the step, less than half of the error in lock-up."""
+    way = Way("linearly-implicit", "torque")
+    result = run(way, 2e-3, instances)
+    assert complaint(result, figures(result)) == ""
+    found = [abs(errors(way, step, limit)[0]) for step in (8e-3, 2e-3)]
+    assert found[1] < 0.5 * found[0] < 0.01
+
+
+def test_a_way_with_a_tolerance_has_it_in_place_of_a_step(limit):
+    truth, apart = limit
+    found = macro_steps.sample(Way("step-doubling"), 1e-3, instances, truth, apart, 1)
+    assert found["knob"] == "master_tolerance" and found["value"] == "0.001"
+    assert not found["failures"] and found["errors"]["lock_time"]["worst"] < 5e-3

@@ -6,7 +6,9 @@
 ``asked``         which rung of a part is asked for, or which tolerance
 ``parts``         which parts there are and who passes what to whom
 ``system``        instances with their present inputs and outputs
-``master``        the list of masters; ``jacobi``, ``gauss_seidel``: one each; ``moves``: words
+``master``        the list of masters; ``jacobi``, ``gauss_seidel``, ``linearly_implicit``,
+                  ``step_doubling``: one each; ``moves``: words; ``state``, ``rollback``,
+                  ``slopes``, ``events``: what they need; ``adaptive``: runs that choose steps
 ``loop``          the loop over communication points; ``program``, ``compiled_loop``: compiled
 ``shift``         ``run_shift``: one run, and the result
 ``auto``          ``run_auto``: ``scout``, ``selection`` of rungs, a run under guard

@@ -1,4 +1,4 @@
-"""Error of a shift against its cost, over macro step, master, coupling and rung.
+"""Error of a shift against its cost, over macro step or tolerance, master, coupling and rung.
 
 The shift is the built-in ``planetary`` without washers and gear mesh: what is judged is how the
 packs and the driveline are coupled. Quantities that a shift does not forget: heat of the clutch,
@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ParameterError, SolveError
+from .master import MASTERS
 from .result import ShiftResult
 from .scene import Scene
 from .scene_file import load_scene
@@ -23,6 +24,9 @@ from .system import Stepping
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of masters that choose their steps
+QUICK_TOLERANCES = (1e-2, 1e-3)
+FIRST_STEP = 1e-3  # of those
 TRUE_STEPS, QUICK_TRUE_STEPS = (1e-4, 5e-5), (4e-4, 2e-4)
 SLOW_SLIP = 0.5  # [rad/s]; with smoothed friction less counts as locked
 MOST_TURNS = 2  # changes of the slip's sign after lock-up; more is chatter
@@ -44,6 +48,11 @@ class Way:
     rung: str = "field"
 
     @property
+    def adaptive(self) -> bool:
+        """It has a tolerance instead of a step."""
+        return MASTERS[self.master].adaptive
+
+    @property
     def name(self) -> str:
         """What the line is called."""
         what = "friction torque" if self.coupling == "torque" else (
@@ -60,14 +69,20 @@ WAYS = (
     Way("jacobi", extrapolation=False),
     Way("gauss-seidel", "torque"),
     Way("jacobi", "torque"),
+    Way("linearly-implicit", "torque"),
+    Way("step-doubling"),
+    Way("step-doubling", "torque"),
     Way("gauss-seidel", rung="stribeck"),
     Way("gauss-seidel", rung="closed"),
 )
 
 
-def scene_of(way: Way, step: float) -> Scene:
-    """Return the shift to be run."""
-    scene = load_scene("planetary").with_options(step=step, master=way.master)
+def scene_of(way: Way, knob: float) -> Scene:
+    """Return the shift to be run; ``knob``: the step [s], or the tolerance of an adaptive way."""
+    scene = load_scene("planetary").with_options(
+        step=FIRST_STEP if way.adaptive else knob, master=way.master,
+        master_tolerance=knob if way.adaptive else None,
+    )  # fmt: skip
     parts = {k: v for k, v in scene.parts.items() if k not in ("washer", "mesh")}
     gearbox = parts["transmission"]
     params = replace(
@@ -130,12 +145,19 @@ def study(
     samples = []
     for way in WAYS:
         progress(f"shift: {way.name}")
-        for step in QUICK_STEPS if quick else STEPS:
-            samples.append(sample(way, step, make, truth, uncertainty, 1 if quick else 3))
+        for knob in knobs(way, quick):
+            samples.append(sample(way, knob, make, truth, uncertainty, 1 if quick else 3))
     return {
         "scene": "planetary without washers and gear mesh", "quantities": list(QUANTITIES),
         "truth": truth, "samples": samples,
     }  # fmt: skip
+
+
+def knobs(way: Way, quick: bool) -> tuple[float, ...]:
+    """Return the steps [s] or tolerances to be tried."""
+    if way.adaptive:
+        return QUICK_TOLERANCES if quick else TOLERANCES
+    return QUICK_STEPS if quick else STEPS
 
 
 def reference(make: Make, *, quick: bool = False) -> tuple[dict[str, float], dict[str, float]]:
@@ -153,14 +175,14 @@ def reference(make: Make, *, quick: bool = False) -> tuple[dict[str, float], dic
     return truth, apart
 
 
-def run(way: Way, step: float, make: Make) -> ShiftResult:
+def run(way: Way, knob: float, make: Make) -> ShiftResult:
     """Run the shift once."""
-    scene = scene_of(way, step)
+    scene = scene_of(way, knob)
     return run_shift(scene, make(scene))
 
 
 def sample(
-    way: Way, step: float, make: Make, truth: Mapping[str, float],
+    way: Way, knob: float, make: Make, truth: Mapping[str, float],
     uncertainty: Mapping[str, float], repeats: int,
 ) -> dict[str, Any]:  # fmt: skip
     """Return one sample in the layout of all charts; the cost is per simulated second."""
@@ -170,7 +192,7 @@ def sample(
     count = 0
     try:
         for _ in range(repeats):
-            result = run(way, step, make)
+            result = run(way, knob, make)
             span = float(result.time[-1] - result.time[0])
             wall.append(result.wall_time / span)
         count = sum(c.steps for c in result.cost)
@@ -191,11 +213,13 @@ def sample(
         / (abs(truth[q["name"]]) if q["kind"] == "relative" else 1.0)
         for q in QUANTITIES
     }
+    value = f"{knob:g}" if way.adaptive else f"{1e3 * knob:g} ms"
     quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
     return {
-        "family": way.name, "label": f"{way.name}, {1e3 * step:g} ms", "knob": "macro step",
-        "value": f"{1e3 * step:g} ms", "cases": "planetary", "errors": errors,
-        "ref_uncertainty": relative, "call_median": statistics.median(wall) if wall else None,
+        "family": way.name, "label": f"{way.name}, {value}", "value": value,
+        "knob": "master_tolerance" if way.adaptive else "macro step", "cases": "planetary",
+        "errors": errors, "ref_uncertainty": relative,
+        "call_median": statistics.median(wall) if wall else None,
         "call_iqr": quartiles[2] - quartiles[0], "call_min": min(wall) if wall else None,
         "repeats": len(wall), "first_call_s": None, "setup_s": 0.0, "count": float(count),
         "count_of": "steps of all parts", "n_cases": 1, "n_failed": len(failures),

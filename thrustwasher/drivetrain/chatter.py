@@ -79,7 +79,8 @@ def find_chatter(scene: Scene, time: Array, signals: Signals, step: float) -> li
         )  # fmt: skip
         found.append(Chatter(
             pack=pack, start=float(time[close[0]]), turns=len(close), slope=capacity / smoothing,
-            inertia=1.0 / m.slip, smoothing=smoothing, step=step,
+            inertia=1.0 / m.slip, smoothing=smoothing,
+            step=min(step, float(np.median(np.diff(time)[close - 1]))),  # where it chatters
             limit=LIMITS.get(scene.master),
         ))  # fmt: skip
     return found

@@ -24,6 +24,8 @@ from thrustwasher.rivals import lockup as k
 from thrustwasher.rivals import lockup_ways as ways
 from thrustwasher.rivals import shaft as s
 
+from gearbox import Gearbox  # isort: skip
+
 PACKAGE = Path(thrustwasher.__file__).parent
 MEASURING = {"fidelity", "rivals", "cli"}  # who may call a rival, to be measured against it
 
@@ -159,6 +161,18 @@ def test_explicit_steps_and_handed_torques_lie_at_lock_up_and_located_events_do_
                    "BDF, smoothed friction"):  # fmt: skip
         assert set(found[honest].values()) == {OK}
     assert found["step doubling with rollback, friction torque"]["huge step, 50 ms"] != LIES
+
+
+def test_the_drivelines_own_integration_does_not_know_the_step():
+    """An explicit method all the same, but with an embedded error and located events."""
+    found = []
+    for steps in (1, 3, 1000):
+        box = Gearbox(ring_inertia=0.02)
+        for _ in range(steps):
+            box.step(2.0 / steps, clutch=350.0)
+        found.append([box[name] for name in ("lock_time", "lock_speed", "clutch_heat")])
+    assert found[1] == pytest.approx(found[0], rel=1e-8)
+    assert found[2] == pytest.approx(found[0], rel=1e-8)
 
 
 def test_the_sums_of_an_uneven_clutch_are_those_of_its_closed_form_where_there_is_one():

@@ -24,8 +24,8 @@ def instances(scene):
     return {n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in scene.parts.items()}
 
 
-def shift(step, coupling="capacity", master="gauss-seidel"):
-    scene = scene_of(Way(master, coupling), step).with_options(stop_time=0.9)
+def shift(step, coupling="capacity", master="gauss-seidel", stop_time=0.9):
+    scene = scene_of(Way(master, coupling), step).with_options(stop_time=stop_time)
     return run_shift(scene, instances(scene))
 
 
@@ -57,6 +57,14 @@ def test_torques_over_the_limit_chatter_and_the_run_says_so_with_the_limit(maste
     said = {c.pack: c for c in r.chatter}["clutch"]
     assert said.kappa > 10.0 * said.limit and said.good_step < 1e-4
     assert said.inertia == pytest.approx(reduced_inertia(2.2, 0.25, 0.01, 8.0), rel=1e-12)
+
+
+@pytest.mark.parametrize("step", [5e-3, 1e-2])
+def test_torques_a_step_old_swing_slower_and_are_found_all_the_same(step):
+    """Their cycle is lopsided: two steps on one side, four or five on the other."""
+    r = shift(step, "torque", "jacobi", stop_time=1.5)
+    assert turns(r) > 5
+    assert "clutch" in {c.pack for c in r.chatter}
 
 
 @pytest.mark.slow

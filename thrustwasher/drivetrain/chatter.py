@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 Signals = dict[str, Array]
 MANY = 10  # changes of sign
 LIMITS = {"gauss-seidel": 2.0, "jacobi": 1.0}  # kappa, with torques fresh or a step old
-CLOSE = 3  # steps from one change to the next; with torques a step old a swing takes six
+CLOSE = 5  # steps from one change to the next; with torques a step old a swing takes six to eight
 
 
 @dataclass(frozen=True, kw_only=True)

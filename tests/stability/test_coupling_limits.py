@@ -1,7 +1,12 @@
 """Steps at which a co-simulated loop stops being stable, bisected, against the formulas.
 
-J is the inertia that the clutch's slip sees, c = d(torque)/d(slip), kappa = H c/J for a step H. All
-parts are FMUs stepped through FMPy: a transmission with its clutch, or a body with a linear law.
+Hazard: each part is stable and right on its own; a signal held between them, or a step old, makes
+    the loop swing, grow, or settle nowhere.
+Formula: kappa = H c/J for a step H, J the inertia that the clutch's slip sees, c =
+    d(torque)/d(slip): stable below 2 with fresh torques, below 1 with torques a step old.
+Cure: capacities instead of torques, or torques with their slopes; else steps below the limit.
+    All parts are FMUs stepped through FMPy: a transmission with its clutch, or a body with a linear
+    law.
 """
 
 from pathlib import Path

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-FILES = sorted(p for p in Path(__file__).parent.glob("test_*.py") if "coupling" not in p.stem)
+FILES = sorted(Path(__file__).parent.glob("test_*.py"))
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

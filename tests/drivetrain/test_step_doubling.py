@@ -53,6 +53,15 @@ def test_the_corners_of_the_ramp_are_communication_points():
     assert start in run.time and start + run.scene.shift_duration in run.time
 
 
+@pytest.mark.parametrize("start", [0.1 + 0.2, 1.0 / 3.0, 0.7 - 1e-17])
+def test_a_run_ends_at_its_stop_time_to_the_bit(start):
+    """Lengths that are summed up miss it; no step of rounding's size may follow."""
+    scene = replace(doubled().scene, start_time=start, stop_time=start + 0.1 / 3.0)
+    run = run_shift(scene, instances(scene))
+    assert run.time[-1] == scene.stop_time
+    assert run.steps.shortest > 1e-5
+
+
 def test_lock_up_becomes_a_communication_point():
     run = doubled()
     lock = run.figures["lock_time"]
@@ -81,14 +90,13 @@ def test_a_slip_that_turns_becomes_a_communication_point():
 class Hesitant(Doubling):
     """Makes every attempt twice."""
 
-    def _attempt(self, t, h, start):
-        points = len(self.time)
-        counts = self._located
-        super()._attempt(t, h, start)
+    def _attempt(self, t, goal, start):
+        points, located = len(self.time), self._located
+        super()._attempt(t, goal, start)
         del self.time[points:]
-        self._located = counts
+        self._located = located
         self._back.give_back(start)
-        return super()._attempt(t, h, start)
+        return super()._attempt(t, goal, start)
 
 
 def test_a_step_rolled_back_leaves_no_trace(monkeypatch):

@@ -97,6 +97,14 @@ def test_step_doubling_steps_fmus_as_it_steps_kernels(fmus):
     np.testing.assert_allclose(slip, other, rtol=1e-9)
 
 
+def test_a_part_that_fails_at_any_step_ends_a_run_that_doubles_steps(fmus):
+    """Shorter steps are tried first; the message is the part's own."""
+    scene = replace(with_toy(9500.0), master="step-doubling")
+    failure, _ = run(scene, fmus, None)
+    with pytest.raises(SolveError, match=r"clutch at t = 0\.04.*MAX_ITERATIONS"):
+        raise failure
+
+
 def test_derivatives_through_fmi_correct_the_torques_as_those_of_the_kernels(fmus):
     """Python FMUs have none: there the outputs' differences serve, and the run says so."""
     scene = planetary("linearly-implicit")

@@ -102,23 +102,23 @@ class Doubling:
         """Take one step, in halves, and return the time reached."""
         t, points, start = self.time[-1], len(self.time), self._back.hold()
         stop = next(s for s in self._stops if s > t)
-        h = self._length(stop - t)
+        goal, shortest = self._goal(t, stop), 2.0 * self._control.shortest
         for _ in range(ATTEMPTS):
-            event, error = self._attempt(t, h, start)
+            event, error = self._attempt(t, goal, start)
             reached = self.time[-1]
-            if event is None and (error <= 1.0 or h <= 2.0 * self._control.shortest):
+            if event is None and (error <= 1.0 or goal - t <= shortest):
                 self._forced += error > 1.0
-                self._control.accepted(reached - t, error, h)
+                self._control.accepted(reached - t, error, goal - t)
                 self._back.drop(start)
                 return reached
             self._rejected += 1
             del self.time[points:]
             self._back.give_back(start)
             if event is not None:  # it shall lie in the second half
-                h = 4.0 / 3.0 * event
+                goal = min(stop, t + 4.0 / 3.0 * (event - t))
             else:
-                self._control.rejected(reached - t if reached > t else h, error)
-                h = min(self._length(stop - t), h)
+                self._control.rejected((reached if reached > t else goal) - t, error)
+                goal = min(self._goal(t, stop), goal)
         raise SolveError(
             f"no step at t = {t:g} s meets master_tolerance; take a shorter step or a larger one"
         )
@@ -127,55 +127,56 @@ class Doubling:
         """Return what was done."""
         return varied(np.array(self.time), self._rejected, self._located, self._forced)
 
-    def _length(self, left: float) -> float:
-        """Return the length to try: to the next stop, or so that no sliver is left before it."""
-        h = self._control.h
-        return left if left <= 1.001 * h else min(h, 0.5 * left) if left < 2.0 * h else h
+    def _goal(self, t: float, stop: float) -> float:
+        """Return where the step from ``t`` shall end: no sliver is left before the next stop."""
+        h, left = self._control.h, stop - t
+        if left <= 1.001 * h:
+            return stop
+        return t + (min(h, 0.5 * left) if left < 2.0 * h else h)
 
-    def _attempt(self, t: float, h: float, start: Held) -> tuple[float | None, float]:
-        """Make and record two halves; return an event in the first, or the error of all.
+    def _attempt(self, t: float, goal: float, start: Held) -> tuple[float | None, float]:
+        """Make and record two halves; return the time of an event in the first, or their error.
 
         A step that cannot be solved errs without limit, unless it is as short as can be.
         """
         try:
-            event = self._part(t, 0.5 * h)
-            if event is not None and event > 2.0 * self._control.shortest:
+            event = self._part(t, t + 0.5 * (goal - t))
+            if event is not None and event - t > 2.0 * self._control.shortest:
                 return event, inf
             if event is None:
-                middle = self.time[-1]
-                event = self._part(middle, t + h - middle)
+                event = self._part(self.time[-1], goal)
             if event is not None:
                 self._part(self.time[-1], event, landing=True)
-            return None, self._error(start, t, self.time[-1] - t)
+            return None, self._error(start, t, self.time[-1])
         except SolveError:
-            if h <= 2.0 * self._control.shortest:
+            if goal - t <= 2.0 * self._control.shortest:
                 raise
             return None, inf
 
-    def _part(self, t: float, h: float, landing: bool = False) -> float | None:
-        """Step and record; or stay and return the time to an event that is not at an end."""
-        start, before = self._back.hold(), self._events.seen()
+    def _part(self, t: float, goal: float, landing: bool = False) -> float | None:
+        """Step and record; or stay and return the time of an event that is not at an end."""
+        start, before, h = self._back.hold(), self._events.seen(), goal - t
         try:
-            self._step(t, h)
+            self._step(t, goal)
             if landing:
                 self._located += 1
             elif self._events.between(before, self._events.seen()):
                 event = self._events.locate(t, h, before, start.states[self._hub])
                 self._back.give_back(start)
                 if self._control.shortest < event < (1.0 - NEAR) * h:
-                    return event
-                self._step(t, h)
-            self._keep(t + h)
+                    return t + event
+                self._step(t, goal)
+            self._keep(goal)
             return None
         finally:
             self._back.drop(start)
 
-    def _error(self, start: Held, t: float, h: float) -> float:
+    def _error(self, start: Held, t: float, goal: float) -> float:
         """Return how far a whole step ends from where its halves did, 1: as far as it may."""
         end = self._back.hold()
         try:
             self._back.give_back(start)
-            self._step(t, h)
+            self._step(t, goal)
             whole, halves = self.system.transmission.outputs, end.outputs[self._hub]
             return max(
                 abs(whole[i] - halves[i]) / (relative * abs(halves[i]) + least)
@@ -185,9 +186,9 @@ class Doubling:
             self._back.give_back(end)
             self._back.drop(end)
 
-    def _step(self, t: float, h: float) -> None:
-        self.system.set_command(self._command(t + h))
-        carry_out(self._moves, t, h)
+    def _step(self, t: float, goal: float) -> None:
+        self.system.set_command(self._command(goal))
+        carry_out(self._moves, t, goal - t)
 
     def _keep(self, time: float) -> None:
         if len(self.time) >= MOST:

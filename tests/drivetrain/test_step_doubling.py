@@ -158,6 +158,26 @@ def test_a_step_that_cannot_be_solved_is_tried_shorter():
     assert run.steps.longest <= 1e-3 and run.steps.rejected > 0
 
 
+class Jumping(DirectInstance):
+    """Holds 50 N m more in every other step, however short that is."""
+
+    def outputs(self):
+        values = super().outputs()
+        values[self.output_names.index("torque_capacity")] += 50.0 * (self.calls % 2)
+        return values
+
+
+def test_steps_that_no_length_makes_good_are_counted(monkeypatch):
+    monkeypatch.setattr("thrustwasher.drivetrain.step_doubling.SHORTEST", 1.0 / 32.0)
+    scene = replace(doubled().scene, stop_time=2e-4, step=1e-4, master_tolerance=1e-9)
+    parts = instances(scene)
+    clutch = scene.parts["clutch"]
+    parts["clutch"] = Jumping(clutch.spec, parameters=clutch.parameters())
+    run = run_shift(scene, parts)
+    assert run.steps.forced > 0
+    assert any("err more than master_tolerance" in message for message in run.messages)
+
+
 def test_what_needs_fixed_steps_is_refused_by_name():
     scene = load_scene("planetary").with_options(master=MASTER)
     chosen = with_fidelities(scene, ["auto:0.01"])

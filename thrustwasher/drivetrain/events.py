@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from .linearly_implicit import SPEED
+from .parts import SPEED
 from .state import with_state
 from .system import System
 

@@ -22,12 +22,12 @@ from numpy.typing import NDArray
 
 from ..errors import SolveError
 from .moves import Correct, Move, Pull, Step
+from .parts import SPEED
 from .slopes import slope
 from .state import gives_derivatives, with_state
 from .system import ConnectedPart, System
 
 NAME = "linearly-implicit"
-SPEED = "speed"  # the input whose sign a friction torque follows
 REFRESH = 20  # steps until S, and torques that do not matter, are looked at again
 QUIET = 1e-4  # of H c/J: less does not matter
 PROBE = 1e-3  # of a torque: how far it is moved to find S

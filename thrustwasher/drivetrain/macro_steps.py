@@ -77,12 +77,9 @@ WAYS = (
 )
 
 
-def scene_of(way: Way, knob: float) -> Scene:
-    """Return the shift to be run; ``knob``: the step [s], or the tolerance of an adaptive way."""
-    scene = load_scene("planetary").with_options(
-        step=FIRST_STEP if way.adaptive else knob, master=way.master,
-        master_tolerance=knob if way.adaptive else None,
-    )  # fmt: skip
+def scene_of(way: Way, step: float) -> Scene:
+    """Return the shift to be run; ``step`` is the first one where the master chooses others."""
+    scene = load_scene("planetary").with_options(step=step, master=way.master)
     parts = {k: v for k, v in scene.parts.items() if k not in ("washer", "mesh")}
     gearbox = parts["transmission"]
     params = replace(
@@ -176,8 +173,10 @@ def reference(make: Make, *, quick: bool = False) -> tuple[dict[str, float], dic
 
 
 def run(way: Way, knob: float, make: Make) -> ShiftResult:
-    """Run the shift once."""
-    scene = scene_of(way, knob)
+    """Run the shift once; ``knob``: the step [s], or the tolerance of an adaptive way."""
+    scene = scene_of(way, FIRST_STEP if way.adaptive else knob)
+    if way.adaptive:
+        scene = scene.with_options(master_tolerance=knob)
     return run_shift(scene, make(scene))
 
 

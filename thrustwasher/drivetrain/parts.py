@@ -16,6 +16,7 @@ PARTS: dict[str, ModelSpec] = {
     "mesh": gearmesh_params.SPEC,
 }
 REQUIRED = ("transmission", "clutch", "brake")
+SPEED = "speed"  # of a friction part: the slip whose sign its torque has
 COMMAND = "shift_command"  # the transmission's input that the scene itself drives
 
 

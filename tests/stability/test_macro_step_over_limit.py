@@ -15,7 +15,7 @@ import pytest
 from thrustwasher.drivetrain.macro_steps import Way, scene_of
 from thrustwasher.drivetrain.shift import run_shift
 from thrustwasher.drivetrain.stability_masters import masters
-from thrustwasher.fidelity.stability_cells import OK, SAYS
+from thrustwasher.fidelity.stability_cells import OK, SAYS, SLOW
 from thrustwasher.fmu.direct import DirectInstance
 from thrustwasher.reference.engagement import reduced_inertia
 
@@ -72,4 +72,6 @@ def test_every_master_is_right_below_its_limit_and_never_silent_above_it():
     found = masters(instances, quick=True)
     for row in found.cells:
         for hazard, cell in zip(found.hazards, row, strict=True):
-            assert cell.verdict == OK or (hazard.startswith("torque") and cell.verdict == SAYS)
+            assert cell.verdict in (OK, SLOW) or (
+                hazard.startswith("torque") and cell.verdict == SAYS
+            )

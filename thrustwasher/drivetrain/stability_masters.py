@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from ..fidelity.stability_cells import LIES, OK, SAYS, Cell, Group, off, table
+from ..fidelity.stability_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
 from .macro_steps import MOST_TURNS, Way, scene_of
 from .master import MASTERS
 from .result import ShiftResult
@@ -17,6 +17,7 @@ from .shift import run_shift
 from .system import Stepping
 
 WRONG_HEAT = 0.02
+MANY_STEPS = 10  # of the master for each that was asked for
 SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
 STOP, LOCKED = 1.1, 0.70  # s
 TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4
@@ -74,7 +75,12 @@ def _judged(result: ShiftResult, true: float) -> Cell:
     turns = int(np.count_nonzero(np.diff(moving)))
     right = abs(error) <= WRONG_HEAT
     if right and turns <= MOST_TURNS:
-        return Cell(OK, f"{100 * abs(error):.2f} %", "")
+        taken = len(result.time) - 1
+        slow = taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step
+        words = f"{taken} steps, heat off by {100 * abs(error):.2g} %"
+        if slow:
+            return Cell(SLOW, f"{taken} steps", words)
+        return Cell(OK, f"{100 * abs(error):.2f} %", words)
     words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)
     figure = off(error) if not right else "chatters"
     return Cell(SAYS if words else LIES, figure, words or f"{turns} turns after lock-up")

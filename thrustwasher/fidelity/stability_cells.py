@@ -2,7 +2,7 @@
 
 =======  =========================================================================================
 ok       right, or off by its mesh only
-slow     right, but more than 100 sweeps, 10 solves or 10 torques a step
+slow     right, but many sweeps (100), solves (10), turns (20), or torques or steps for one (10)
 says     fails, and says so: by a status, an exception, a message, or its own error estimate
 LIES     wrong, without a word
 -        does not apply

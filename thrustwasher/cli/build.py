@@ -42,6 +42,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="write native FMUs with reference results below DIR as the FMI cross-check wants "
         "them, instead of to --out",
     )  # fmt: skip
+    parser.add_argument(
+        "--no-maps", action="store_true",
+        help="native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
+        "refused then",
+    )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object with the paths")
 
 
@@ -62,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
     platforms = chosen_platforms(arguments.platforms, target)
     paths = build(
         arguments.models or None, target=target, fmi=arguments.fmi, out=folder,
-        platforms=platforms, note=_output.note,
+        platforms=platforms, note=_output.note, maps=not arguments.no_maps,
     )  # fmt: skip
     findings = [f"{path}: {finding}" for path in paths for finding in validate(path)]
     if arguments.json:
@@ -77,6 +82,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _cross_check(arguments: argparse.Namespace, folder: Path) -> int:
     """Write the cross-check's folders and name them."""
+    if arguments.no_maps:
+        raise ParameterError("--no-maps: the cross-check takes whole FMUs")
     for option in ("target", "platforms"):
         given = getattr(arguments, option)
         if given and given != "native":

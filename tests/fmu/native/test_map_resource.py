@@ -77,6 +77,19 @@ def test_a_state_taken_to_another_instance_brings_the_map_with_it(fmus):
         assert first.outputs() == second.outputs()
 
 
+def test_without_maps_the_fmu_is_small_and_refuses_the_fidelity(tmp_path):
+    fmu = build(["ThrustWasher"], out=tmp_path, local=True, maps=False)[0]
+    assert fmu.stat().st_size <= 300_000
+    with pytest.raises((ParameterError, SolveError), match=NONE):
+        with Instance(fmu, parameters=MAP) as instance:
+            instance.initialize(0.0, POINT)
+    with Instance(fmu) as instance:
+        instance.initialize(0.0, POINT)
+        assert instance.outputs()[0] > 0.0
+    with pytest.raises(ParameterError, match="maps lie in native FMUs only"):
+        build(["ThrustWasher"], out=tmp_path, target="python", maps=False)
+
+
 def test_other_parameters_have_no_map(fmus):
     with pytest.raises((ParameterError, SolveError), match=NONE):
         with Instance(fmus[2], parameters={**MAP, "roughness": 4e-7}) as instance:

@@ -6,7 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thrustwasher import WasherParams
+from thrustwasher import ParameterError, WasherParams
+from thrustwasher.drivetrain.asked import with_fidelities
+from thrustwasher.drivetrain.auto import _without_choice
 from thrustwasher.drivetrain.scene_file import load_scene
 from thrustwasher.drivetrain.thermal_need import body_times, change_time, thermal_need
 
@@ -53,3 +55,18 @@ def test_a_scene_without_a_washer_needs_neither():
 def test_the_transient_scene_asks_for_bodies_as_cold_as_the_oil():
     params = load_scene("planetary-transient").parts["washer"].params
     assert (params.thermal_mode, params.thermal_start) == ("transient", "oil")
+
+
+def test_a_rung_without_bodies_is_refused_before_anything_is_built():
+    scene = load_scene("planetary-transient")
+    with pytest.raises(ParameterError, match=r"\[washer\]: thermal_mode = transient, allowed"):
+        with_fidelities(scene, ["washer=map"])
+
+
+def test_no_rung_is_chosen_for_bodies_that_store_heat():
+    asked = with_fidelities(load_scene("planetary-transient"), ["auto:0.01"])
+    scene, remarks = _without_choice(asked)
+    assert scene.parts["washer"].tolerance is None and scene.parts["clutch"].tolerance == 0.01
+    assert scene.parts["washer"].fidelity == "field"
+    assert remarks == ["washer: field, its default; cards speak of steady states, and "
+                       "thermal_mode is transient"]  # fmt: skip

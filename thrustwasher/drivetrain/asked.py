@@ -68,4 +68,4 @@ def with_fidelities(scene: Scene, wishes: Sequence[str]) -> Scene:
         for n in names:
             rung, tolerance = asked_for(f"part {n!r}", parts[n].spec, text)
             parts[n] = replace(parts[n], fidelity=rung, tolerance=tolerance)
-    return replace(scene, parts=parts)
+    return replace(scene, parts=parts).checked()

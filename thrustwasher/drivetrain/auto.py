@@ -44,9 +44,11 @@ def run_auto(
     ParameterError, SolveError : as in ``run_shift``; also if no rung of a part holds its tolerance
     """
     pool = Pool(make)
+    scene, remarks = _without_choice(scene)
     asked = [p.tolerance for p in scene.parts.values() if p.tolerance]
     if not asked:
-        return run_shift(scene, pool.all_of(scene), progress=progress, compiled=compiled)
+        result = run_shift(scene, pool.all_of(scene), progress=progress, compiled=compiled)
+        return replace(result, messages=[*result.messages, *remarks])
     if MASTERS[scene.master].adaptive:
         raise ParameterError(
             f"master = {scene.master!r}, allowed with a fidelity that is to be chosen: masters "
@@ -66,7 +68,20 @@ def run_auto(
     result = run_shift(
         scene, instances, guards=plans, progress=progress, compiled=compiled
     )  # fmt: skip
-    return replace(result, selection=selection)
+    return replace(result, selection=selection, messages=[*result.messages, *remarks])
+
+
+def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:
+    """Return the scene with default rungs for parts that no card speaks of, and what to say."""
+    parts, remarks = dict(scene.parts), []
+    for name, part in parts.items():
+        if part.tolerance and getattr(part.params, "thermal_mode", "") == "transient":
+            parts[name] = replace(part, tolerance=None)
+            remarks.append(
+                f"{name}: {part.fidelity}, its default; cards speak of steady states, and "
+                "thermal_mode is transient"
+            )
+    return replace(scene, parts=parts), remarks
 
 
 def _plans(scene: Scene, chosen: list[Selected], pool: Pool, steps: int) -> dict[str, Plan]:

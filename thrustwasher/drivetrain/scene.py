@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from ..errors import ParameterError
+from ..models._rules import check_together
 from ..models._spec import ModelSpec
 from .master import MASTERS
 
@@ -128,6 +129,11 @@ class Scene:
                 f"{where}: stop_time = {self.stop_time!r} s, allowed: start_time + 1 .. "
                 f"{MAX_STEPS} steps of {self.step!r} s (start_time = {self.start_time!r} s)"
             )
+        for name, part in self.parts.items():
+            try:
+                check_together(part.spec, part.params, part.fidelity)
+            except ParameterError as problem:
+                raise ParameterError(f"{where} [{name}]: {problem}") from None
         gearbox = self.parts["transmission"]
         params = replace(
             gearbox.params,

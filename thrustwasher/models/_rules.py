@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import ParameterError
 from ._params import as_numbers
+
+if TYPE_CHECKING:
+    from ._spec import ModelSpec
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,16 @@ class Rule:
             return self.exact(params)
         names = type(params).__dataclass_fields__
         return self.text.format(**{name: repr(getattr(params, name)) for name in names})
+
+
+def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
+    """Raise ParameterError for the first rule that parameters and fidelity break together."""
+    rule = getattr(import_module(f"..kernels.{spec.kernel}", __package__), "broken_rule", None)
+    if rule is None or not spec.rules:
+        return
+    numbers = [*as_numbers(params), list(spec.fidelities).index(fidelity) + 1]
+    if number := rule(np.array(numbers, float)):
+        raise ParameterError(spec.rules[number - 1].message(params))
 
 
 def check_rules(params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int]) -> None:

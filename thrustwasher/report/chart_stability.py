@@ -13,6 +13,7 @@ from matplotlib.patches import Rectangle
 from .style import new_figure, styled
 
 SHADES = {"ok": "#D5EFE3", "slow": "#FFF0CC", "says": "#D6E9F7", "LIES": "#F6C6AE", "-": "#EFEFEF"}
+LETTERS = 110  # that fit side by side into all cells of a row
 WORDS = {
     "ok": "right", "slow": "right, but costs", "says": "fails and says so",
     "LIES": "wrong without a word",
@@ -37,6 +38,7 @@ def stability_figure(groups: Sequence[Mapping[str, Any]]) -> Figure:
 def _draw_group(axes: Axes, group: Mapping[str, Any]) -> None:
     """Draw the cells of one group, the worst in bold."""
     n_rows, n_columns = len(group["methods"]), len(group["hazards"])
+    room = LETTERS // n_columns
     axes.set(xlim=(0, n_columns), ylim=(n_rows, 0))
     axes.grid(False)
     axes.set_title(f"{group['name']} (wrong: {group['judged']})")
@@ -46,9 +48,10 @@ def _draw_group(axes: Axes, group: Mapping[str, Any]) -> None:
                                      color=SHADES[cell["verdict"]]))  # fmt: skip
             lies = cell["verdict"] == "LIES"
             text = f"{cell['verdict']}  {cell['figure']}".strip()
-            axes.text(j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=8.5,
+            text = text.replace("  ", "\n") if len(text) > room else text
+            axes.text(j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=8, linespacing=0.95,
                       fontweight="bold" if lies else "normal")  # fmt: skip
-    axes.set_xticks([j + 0.5 for j in range(n_columns)], [fill(h, 18) for h in group["hazards"]],
+    axes.set_xticks([j + 0.5 for j in range(n_columns)], [fill(h, min(18, room)) for h in group["hazards"]],
                     fontsize=8)  # fmt: skip
     axes.set_yticks([i + 0.5 for i in range(n_rows)], group["methods"], fontsize=8.5)
     axes.tick_params(length=0)

@@ -49,10 +49,10 @@ def _draw_group(axes: Axes, group: Mapping[str, Any]) -> None:
             lies = cell["verdict"] == "LIES"
             text = f"{cell['verdict']}  {cell['figure']}".strip()
             text = text.replace("  ", "\n") if len(text) > room else text
-            axes.text(j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=8, linespacing=0.95,
-                      fontweight="bold" if lies else "normal")  # fmt: skip
-    axes.set_xticks([j + 0.5 for j in range(n_columns)], [fill(h, min(18, room)) for h in group["hazards"]],
-                    fontsize=8)  # fmt: skip
+            axes.text(j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=8,
+                      linespacing=0.95, fontweight="bold" if lies else "normal")  # fmt: skip
+    names = [fill(h, min(18, room)) for h in group["hazards"]]
+    axes.set_xticks([j + 0.5 for j in range(n_columns)], names, fontsize=8)
     axes.set_yticks([i + 0.5 for i in range(n_rows)], group["methods"], fontsize=8.5)
     axes.tick_params(length=0)
     for spine in axes.spines.values():

@@ -100,8 +100,8 @@ def sane_bits(model):
 class Walk:
     """An instance that is set, stepped, rolled back and reset at random, and judged."""
 
-    def __init__(self, spec, instance):
-        self.spec, self.instance = spec, instance
+    def __init__(self, spec, instance, tolerance=1e-11):
+        self.spec, self.instance, self.tolerance = spec, instance, tolerance
         self.counts = {RIGHT: 0, REFUSED: 0, UNSOLVED: 0}
         self.time, self.inputs = 0.0, {}
         self.begin()
@@ -150,7 +150,9 @@ class Walk:
             self._cure()
             return type(error).__name__
         say_if_wrong([] if legal else ["taken though outside its range"], values)
-        say_if_wrong(claims.broken(claims.outputs(spec, values, found)), values, step, found)
+        say_if_wrong(
+            claims.broken(claims.outputs(spec, values, found, self.tolerance)), values, step, found
+        )
         self.counts[RIGHT] += count
         self.time += step if math.isfinite(step) else 0.0
         self.inputs = values
@@ -160,7 +162,8 @@ class Walk:
         """After a refusal good values are taken, and the outputs are there."""
         self.instance.set_inputs(list(self.inputs.values()))
         found = dict(zip(self.instance.output_names, self.instance.outputs(), strict=True))
-        say_if_wrong(claims.broken(claims.outputs(self.spec, self.inputs, found)), self.inputs)
+        wrong = claims.broken(claims.outputs(self.spec, self.inputs, found, self.tolerance))
+        say_if_wrong(wrong, self.inputs)
 
 
 def run_once(model, rng, make):
@@ -170,7 +173,7 @@ def run_once(model, rng, make):
     known = [f.name for f in dataclasses.fields(spec.params)]
     known += [s.name for s in spec.inputs] + ["fidelity", "at the start"]
     try:
-        walk = Walk(spec, make(spec, changed))
+        walk = Walk(spec, make(spec, changed), changed.get("tolerance", 1e-11))
     except (ParameterError, SolveError) as error:
         return named(error, known)
     say_if_wrong([] if legal else ["taken though outside its range"], changed)

@@ -34,8 +34,9 @@ from thrustwasher.cli._fmu_cache import fmu_paths
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.loading import description, unpack
-from thrustwasher.fmu.registry import find_spec, package_version
+from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.kernels._jit import kernel_digest
 from thrustwasher.maps.plan import DEFAULT_BOX
 
 HERE = Path(__file__)
@@ -56,9 +57,9 @@ DEAF = 60.0  # s: a command that goes on so long after a signal is lost
 
 PAGE = """# Faults tried
 
-Written by `{command}` with version {version} on {machine}, numba {numba},
-Python {python}; seed {seed}, {seconds:.0f} s in all. `tests/abuse` runs the same campaigns with few
-examples.
+Written by `{command}` with kernels {kernels} on {machine}, numba
+{numba}, Python {python}; seed {seed}, {seconds:.0f} s in all. `tests/abuse` runs the same
+campaigns with few examples.
 
 Tried {tried}; right {right}, refused by name {refused}, **lost {lost}**.
 
@@ -357,7 +358,7 @@ def page(rows: list[Row], command: str, seed: int) -> str:
     machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"
     seconds = sum(r.seconds for r in rows)
     return PAGE.format(
-        command=command, version=package_version(), machine=machine, seed=seed,
+        command=command, kernels=kernel_digest(), machine=machine, seed=seed,
         numba=metadata.version("numba"), python=platform.python_version(), seconds=seconds,
         tried=total[0], right=total[1], refused=total[2], lost=lost,
         table="\n".join(map(line, rows)),

@@ -1,0 +1,115 @@
+"""Which lines and branches the tests walk through.
+
+    python benchmarks/coverage.py [kernels] [suite] [--below 90]
+
+Compiled kernels leave no trace of their lines, so there are two runs. ``kernels``: the kernels'
+tests as plain Python (NUMBA_DISABLE_JIT), each file for two minutes at most. ``suite``: the whole
+default suite, compiled, processes that it starts included. Prints lines and branches of each run's
+share, of both together, and every file below the limit; exit status 1 if the whole lies below it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+KERNELS = [
+    "thrustwasher/kernels/*",
+    "thrustwasher/rivals/plain2006*",
+    "thrustwasher/rivals/_jit.py",
+]
+# Too long as plain Python, though cut off after LIMIT: what they walk through others do in short.
+SLOW = {
+    "test_failed_steps",
+    "test_washer_transient",
+    "test_transmission_shaft",
+    "test_kernel_rules",
+}
+MORE = ("tests/models/test_rules.py", "tests/rivals/test_plain2006.py")
+LIMIT = 120  # s
+SETTINGS = """[run]
+branch = True
+source_pkgs = thrustwasher
+parallel = True
+sigterm = True
+patch = subprocess
+data_file = {data}
+relative_files = True
+[paths]
+source = {root}
+"""
+
+
+def plain_files() -> list[Path]:
+    """Return the tests that are run as plain Python."""
+    mine = sorted((ROOT / "tests" / "kernels").glob("test_*.py"))
+    return [*(p for p in mine if p.stem not in SLOW), *(ROOT / p for p in MORE)]
+
+
+def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str) -> None:
+    """Run tests under measurement; cut off, they leave what was measured until then."""
+    began = time.perf_counter()
+    command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q",
+               "-p", "no:cacheprovider", *words]  # fmt: skip
+    running = subprocess.Popen(
+        command, cwd=ROOT, env={**os.environ, **environment}, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    )  # fmt: skip
+    try:
+        said = running.communicate(timeout=limit)[0].strip().splitlines()[-1:]
+    except subprocess.TimeoutExpired:
+        running.terminate()
+        running.communicate()
+        said = ["cut off"]
+    print(f"{' '.join(words) or 'suite'}: {time.perf_counter() - began:.0f} s", *said, flush=True)
+
+
+def share(rc: Path, *words: str) -> str:
+    """Return lines and branches walked through, in per cent, of some files."""
+    command = [sys.executable, "-m", "coverage", "report", f"--rcfile={rc}", "--precision=1"]
+    done = subprocess.run([*command, "--format=total", *words], cwd=ROOT, capture_output=True,
+                          text=True)  # fmt: skip
+    return done.stdout.strip() or "0"
+
+
+def low(rc: Path, below: float) -> list[str]:
+    """Return the files below the limit, worst first."""
+    command = [sys.executable, "-m", "coverage", "report", f"--rcfile={rc}", "--sort=cover"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    rows = [line.split() for line in done.stdout.splitlines() if line.startswith("thrustwasher")]
+    return [f"{row[-1]:>5}  {row[0]}" for row in rows if float(row[-1].rstrip("%")) < below]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("parts", nargs="*", help="kernels, suite; default both")
+    parser.add_argument("--below", type=float, default=90.0, help="limit in per cent, default 90")
+    given = parser.parse_args()
+    parts = given.parts or ["kernels", "suite"]
+    with tempfile.TemporaryDirectory() as place:
+        rc = Path(place) / "coverage.ini"
+        rc.write_text(SETTINGS.format(data=Path(place) / "data", root=ROOT))
+        if "kernels" in parts:
+            for file in plain_files():
+                run_tests(rc, [str(file.relative_to(ROOT))], LIMIT, NUMBA_DISABLE_JIT="1")
+        if "suite" in parts:
+            run_tests(rc, [], None)
+        combine = [sys.executable, "-m", "coverage", "combine", "-q", f"--rcfile={rc}"]
+        subprocess.run(combine, cwd=ROOT, check=True)
+        kernels, whole = ",".join(KERNELS), share(rc)
+        print(f"kernels, as plain Python: {share(rc, f'--include={kernels}')} %")
+        if "suite" in parts:
+            print(f"all but the kernels, by the suite: {share(rc, f'--omit={kernels}')} %")
+            print(f"together: {whole} %")
+        print("\n".join(low(rc, given.below)))
+    return int(float(whole) < given.below and "suite" in parts)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,142 @@
+"""Every rung in a few calls: short enough to run as plain Python, so that each branch is walked."""
+
+import math
+
+import numpy as np
+import pytest
+
+from thrustwasher import ClutchParams, WasherParams, solve_clutch, solve_washer
+from thrustwasher.errors import Status
+from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.kernels import washer_step as kernel
+from thrustwasher.kernels.washer_fields import Point, size_of_work
+from thrustwasher.kernels.washer_map_step import N_MAP_WORK, look_up, map_sens
+from thrustwasher.kernels.washer_memory import size_of_state
+from thrustwasher.kernels.washer_outputs import N_ALL
+from thrustwasher.models.washer_constants import constants
+from thrustwasher.models.washer_course import follow_washer
+from thrustwasher.models.washer_map import WasherMap
+from thrustwasher.store.maps import SHIPPED
+
+GRID = (5, 8)
+POINTS = [(20.0, 900.0, 2e-3), (300.0, 545.0, 2e-3), (1500.0, 545.0, 2e-3), (300.0, 545.0, 0.0),
+          (300.0, 0.0, 2e-3), (5.0, -1500.0, 1e-4), (9000.0, 20.0, 8e-3)]  # fmt: skip
+
+
+@pytest.mark.parametrize("rung", ["closed", "stribeck"])
+@pytest.mark.parametrize("point", POINTS)
+def test_a_washer_without_mesh_carries_its_load_and_takes_power(rung, point):
+    load, speed, tilt = point
+    r = solve_washer(WasherParams(), load=load, speed=speed, tilt=tilt, fidelity=rung)
+    assert r.fluid_load + r.contact_load == pytest.approx(load, rel=1e-6)
+    assert r.friction_torque * speed >= 0.0 and r.temperature >= r.oil_temperature - 1e-9
+
+
+@pytest.mark.parametrize("rung", ["closed", "stribeck"])
+def test_a_washer_without_mesh_has_the_derivatives_of_its_steps(rung):
+    def make(load):
+        one = DirectInstance(find_spec("washer"), parameters={"fidelity": rung})
+        one.initialize(0.0, {"load": load, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0})
+        return one
+
+    here, below, above = make(200.0), make(199.8), make(200.2)
+    slope = here.directional_derivative(["friction_torque"], ["load"], [1.0])[0]
+    change = (above.outputs()[0] - below.outputs()[0]) / 0.4
+    assert slope == pytest.approx(change, rel=1e-4)
+
+
+@pytest.fixture(scope="module")
+def chart():
+    return WasherMap(WasherParams(), SHIPPED / "washer.twm")
+
+
+def test_the_map_is_odd_in_speed_carries_its_load_and_knows_its_folds(chart):
+    place = {"speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
+    loads = np.array([25.0, 300.0, 900.0, 1800.0])
+    ahead, back = (chart.look_up(load=loads, **{**place, "speed": s}) for s in (545.0, -545.0))
+    assert np.array_equal(ahead["friction_torque"], -back["friction_torque"])
+    assert [f.kind for f in chart.folds(**place)] == ["film_lost", "film_regained"]
+    assert chart.look_up(load=300.0, **{**place, "speed": 1999.0})["branch"] == -1.0
+
+
+@pytest.mark.parametrize(("load", "branch"), [(300.0, 1.0), (600.0, 3.0), (1500.0, 3.0)])
+def test_the_map_has_the_derivatives_of_its_values(chart, load, branch):
+    at, along = np.array([load, 545.0, 2e-3, 297.15]), np.array([1.0, 0.3, 0.0, 0.0])
+    w, numbers, found = np.zeros(N_MAP_WORK), np.zeros(N_ALL), np.zeros(2)
+
+    def outputs(x):
+        assert look_up(chart.data, Point(*x), branch, np.zeros(40), w, numbers, found) == 0
+        return numbers[:8].copy()
+
+    change = (outputs(at + 1e-3 * along) - outputs(at - 1e-3 * along)) / 2e-3
+    outputs(at)
+    slope = np.zeros(8)
+    assert map_sens(at, along, numbers, w, chart.data, slope) == 0
+    assert slope == pytest.approx(change, rel=1e-5, abs=1e-12)
+
+
+def test_a_map_goes_from_branch_to_branch_step_by_step():
+    one = DirectInstance(find_spec("washer"), parameters={"fidelity": "map"})
+    one.initialize(0.0, {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15})
+    lost = []
+    for i, load in enumerate([400.0, 900.0, 500.0, 200.0]):
+        one.set_inputs([load, 545.0, 2e-3, 297.15])
+        one.step(i * 1e-3, 1e-3)
+        lost.append(one.get(["distress"])[0])
+    assert lost == [0.0, 1.0, 1.0, 0.0]
+    assert one.directional_derivative(["friction_torque"], ["load"], [1.0])[0] != 0.0
+
+
+@pytest.mark.parametrize("load", [300.0, 1500.0])
+def test_a_mesh_has_the_derivatives_of_its_steps(load):
+    par = constants(WasherParams(), GRID, "field")
+    state, work = np.zeros(size_of_state(*GRID)), np.zeros(kernel.N_HEAD + size_of_work(*GRID))
+    out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
+
+    def torque(change):
+        inp = np.array([load + change, 545.0, 2e-3, 297.15, 0.0])
+        assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) == Status.OK
+        return out[0], inp
+
+    difference = (torque(0.05 * load)[0] - torque(-0.05 * load)[0]) / (0.1 * load)
+    inp, slope = torque(0.0)[1], np.zeros(kernel.NOUT)
+    along = np.array([1.0, 0.0, 0.0, 0.0, 0.0])
+    assert kernel.sens(par, inp, state, work, along, slope) == Status.OK
+    assert slope[0] == pytest.approx(difference, rel=0.05)  # of a curve over a tenth of its load
+
+
+def test_bodies_that_store_heat_warm_up_towards_their_steady_state():
+    params = WasherParams(thermal_mode="transient", thermal_start="oil")
+    course = follow_washer(params, time=[0.0, 0.5, 2.0], load=300.0, speed=545.0, tilt=2e-3,
+                           grid=GRID)  # fmt: skip
+    steady = solve_washer(WasherParams(), load=300.0, speed=545.0, tilt=2e-3, grid=GRID)
+    first, middle, last = course.temperature
+    assert first < middle < last < steady.temperature + 1e-3
+
+
+@pytest.mark.parametrize("rung", ["closed", "boundary", "stribeck", "field", "fine"])
+@pytest.mark.parametrize("point", [(9000.0, 2.0), (0.0, 50.0), (9000.0, 0.0), (2000.0, -120.0)])
+def test_a_pack_that_slips_for_ever_takes_power(rung, point):
+    load, speed = point
+    r = solve_clutch(ClutchParams(), load=load, speed=speed, fidelity=rung, throw=False)
+    assert r.friction_torque * speed >= 0.0 and r.temperature >= 297.15 - 1e-9
+    assert r.friction_torque == pytest.approx(r.contact_torque + r.viscous_torque, rel=1e-12)
+
+
+@pytest.mark.parametrize("rung", ["closed", "boundary", "stribeck", "field", "fine"])
+@pytest.mark.parametrize("course", ["linear", "constant"])
+def test_a_pack_heats_up_while_it_closes(rung, course):
+    options = ClutchParams.__dataclass_fields__["input_course"].metadata["options"]
+    course = course if course in options else next(iter(options))
+    pack = DirectInstance(find_spec("clutch"),
+                          parameters={"fidelity": rung, "input_course": course})  # fmt: skip
+    pack.initialize(0.0, {"load": 0.0, "speed": 100.0, "oil_temperature": 300.0})
+    energies = []
+    for i, (load, speed) in enumerate([(2000.0, 90.0), (6000.0, 40.0), (6000.0, 0.0), (0.0, -5.0)]):
+        pack.set_inputs([load, speed, 300.0])
+        pack.step(i * 0.02, 0.02)
+        energies.append(pack.get(["energy"])[0])
+    assert energies == sorted(energies) and energies[1] > energies[0] > 0.0
+    slope = pack.directional_derivative(["friction_torque"], ["speed"], [1.0])[0]
+    assert math.isfinite(slope) and pack.get(["temperature"])[0] >= 300.0

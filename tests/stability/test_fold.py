@@ -63,3 +63,24 @@ def test_raising_speed_at_constant_load_crosses_the_same_fold():
         cold = solve(load=790.0, speed=float(speed))
         assert is_sound(cold)
         assert cold.branch == solve(load=790.0, speed=float(-speed)).branch
+
+
+# speed, tilt, oil: curves whose lower fold is sharp, so that a descent in steps passes it
+SHARP = [
+    (900.0, 0.002, 260.0), (1500.0, 0.001, 297.15), (1176.2, 0.0010635, 324.77),
+    (607.3, 0.0014474, 299.0), (363.7, 0.0014928, 298.96), (487.8, 0.001056, 315.26),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("speed", "tilt", "kelvin"), SHARP)
+def test_the_contact_branch_reaches_down_to_its_own_fold(speed, tilt, kelvin):
+    """The lowest point of a descent lies above the fold, by up to a twentieth of the load."""
+    place = {"speed": speed, "tilt": tilt, "oil_temperature": kelvin}
+    lost, regained = (f.load for f in load_curve(WasherParams(), **place).folds)
+    hot = solve(load=1.05 * lost, **place)
+    for share in (1.0005, 1.005, 1.02, 1.05):
+        cold = solve(load=share * regained, **place, branch="contact")
+        let_go = solve(load=share * regained, **place, start=hot)
+        for r in (cold, let_go):
+            assert is_sound(r) and r.branch == "contact" and r.distress
+    assert solve(load=0.999 * regained, **place, start=hot).branch == "film"

@@ -135,9 +135,14 @@ def _climb(
 
 
 @kernel
-def _near(value: float, load: float) -> bool:
-    """Tell if a fold's load estimate is too close to the load to decide without refining."""
-    return abs(value / load - 1.0) < 0.02
+def _near(value: float, load: float, side: float) -> bool:
+    """Tell if a fold's load estimate is too close to the load to decide without refining.
+
+    The highest or lowest point of a descent lies short of the fold by up to a tenth of its load,
+    towards ``side``: -1 if it is too low (film lost), 1 if too high (film regained).
+    """
+    above = value / load - 1.0
+    return abs(above) < 0.02 or 0.0 < side * above < 0.25
 
 
 @inlined
@@ -210,7 +215,7 @@ def descend(
             lost = True
             found[MULTIPLICITY] = MULTIPLE
             found[LOST] = w1
-            if not has_film and _near(w1, pt.load):
+            if not has_film and _near(w1, pt.load, -1.0):
                 remember(b, q, 2.0)
                 status = find_fold(b, pt, s0, s2, q, info, walk)
                 if status != OK:
@@ -232,7 +237,7 @@ def descend(
         elif lost and w2 > w1 * (1.0 + NOISE):
             # film regained between s0 and s2; the contact branch is wanted
             found[REGAINED] = w1
-            if _near(w1, pt.load):
+            if _near(w1, pt.load, 1.0):
                 status = find_fold(b, pt, s0, s2, q, info, walk)
                 if status != OK:
                     return status

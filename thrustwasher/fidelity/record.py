@@ -7,7 +7,6 @@ import platform
 import subprocess
 import sys
 import time
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +21,7 @@ def surroundings(command: str) -> dict[str, Any]:
 
     from ..kernels._jit import kernel_digest
 
+    made_by = sys.modules[__name__.partition(".")[0]].__version__
     return {
         "schema": SCHEMA,
         "command": command,
@@ -32,7 +32,7 @@ def surroundings(command: str) -> dict[str, Any]:
             "numba": numba.__version__, "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
             "threads": {name: os.environ.get(name) for name in THREADS}, "load": load(),
         },
-        "package": {"version": _version(), "kernels": kernel_digest(), **_commit()},
+        "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
         "calibration_s": calibration(),
     }  # fmt: skip
 
@@ -58,15 +58,6 @@ def pin_threads() -> None:
     for name in THREADS:
         if "numpy" not in sys.modules or name.startswith("NUMBA"):
             os.environ.setdefault(name, "1")
-
-
-def _version() -> str | None:
-    """Return the installed version; None in a bare checkout."""
-    try:
-        return version("thrustwasher")
-    except PackageNotFoundError:
-        return None
-
 
 def _cpu() -> str:
     try:

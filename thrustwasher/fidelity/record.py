@@ -59,6 +59,7 @@ def pin_threads() -> None:
         if "numpy" not in sys.modules or name.startswith("NUMBA"):
             os.environ.setdefault(name, "1")
 
+
 def _cpu() -> str:
     try:
         lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()

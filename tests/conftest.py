@@ -6,6 +6,5 @@ from pathlib import Path
 os.environ.setdefault("NUMBA_CACHE_DIR", str(Path(__file__).parents[1] / ".cache"))
 os.environ.setdefault("MPLBACKEND", "Agg")
 
-# pytest looks for doctests in conftest.py too, and knows one module of that name at a time: that of
-# a folder which sorts before this file would be taken for this one
-collect_ignore = ["conftest.py"]
+# pytest looks for doctests in conftest.py too, and knows one module of that name at a time
+collect_ignore_glob = ["*conftest.py"]

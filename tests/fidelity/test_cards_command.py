@@ -7,6 +7,7 @@ from synthetic import card
 
 from thrustwasher.cli import main
 from thrustwasher.store import cards
+from thrustwasher.store.seal import sealed
 
 WASHER = ["washer", "--load", "100", "--speed", "500"]
 
@@ -31,7 +32,7 @@ def test_cards_lists_errors_costs_and_the_box(folder, capsys):
 def test_cards_names_stale_and_broken_files(folder, capsys):
     raw = json.loads((folder / "washer-fine.json").read_text())
     raw["kernels"]["sha256"] = "0" * 64
-    (folder / "washer-fine.json").write_text(json.dumps(raw))
+    (folder / "washer-fine.json").write_text(json.dumps(sealed(raw)))
     (folder / "washer-closed.json").write_text("{")
     assert main(["cards"]) == 0
     out = capsys.readouterr().out

@@ -1,6 +1,6 @@
 """Which lines and branches the tests walk through.
 
-    python benchmarks/coverage.py [kernels] [suite] [--below 90]
+    python benchmarks/covered.py [kernels] [suite] [--below 90]
 
 Compiled kernels leave no trace of their lines, so there are two runs. ``kernels``: the kernels'
 tests as plain Python (NUMBA_DISABLE_JIT), each file for a minute at most. ``suite``: the whole

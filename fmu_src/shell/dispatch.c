@@ -1,5 +1,6 @@
 /* From plain C to the compiled kernels: choose the code for this CPU, keep the host's
    floating-point settings out, unwrap the compiler's calling convention. */
+#include "cpu.h"
 #include "kernel.h"
 #include "model.h"
 
@@ -13,12 +14,9 @@
               double *, double *)
 enum { FAULT = -1000 };
 
-/* Two levels, or one whose name the build gives. */
 #ifdef TW_LEVEL
-#define JOIN_(a, b) a##_##b
-#define JOIN(a, b) JOIN_(a, b)
-#define DECLARE(entry, KIND) extern int32_t JOIN(entry, TW_LEVEL) KIND;
-#define PICK(entry) JOIN(entry, TW_LEVEL)
+#define DECLARE(entry, KIND) extern int32_t TW_JOIN(entry, TW_LEVEL) KIND;
+#define PICK(entry) TW_JOIN(entry, TW_LEVEL)
 #else
 #define DECLARE(entry, KIND) extern int32_t entry##_v2 KIND; extern int32_t entry##_v3 KIND;
 #define PICK(entry) (is_v3() ? entry##_v3 : entry##_v2)
@@ -31,53 +29,6 @@ DECLARE(tw_rule, RULE)
 #endif
 #if HAS_SENS
 DECLARE(tw_sens, SENS)
-#endif
-
-#ifndef TW_LEVEL
-/* Not by the compiler's __builtin_cpu_supports: its table does not link into a shared library
-   everywhere. */
-static void cpuid(uint32_t leaf, uint32_t r[4])
-{
-    __asm__ volatile("cpuid" : "=a"(r[0]), "=b"(r[1]), "=c"(r[2]), "=d"(r[3])
-                     : "a"(leaf), "c"(0));
-}
-
-static int has(uint32_t word, uint32_t bits)
-{
-    return (word & bits) == bits;
-}
-
-/* x86-64-v3: AVX2, FMA, BMI, F16C, MOVBE, LZCNT, and an operating system that saves AVX. */
-static int find_v3(void)
-{
-    const uint32_t fma_movbe_osxsave_avx_f16c = 1u << 12 | 1u << 22 | 1u << 27 | 1u << 28 | 1u << 29;
-    const uint32_t bmi1_avx2_bmi2 = 1u << 3 | 1u << 5 | 1u << 8, lzcnt = 1u << 5, sse_avx = 6;
-    uint32_t r[4], low, high;
-    cpuid(0, r);
-    if (r[0] < 7)
-        return 0;
-    cpuid(1, r);
-    if (!has(r[2], fma_movbe_osxsave_avx_f16c))
-        return 0;
-    __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
-    cpuid(7, r);
-    if (!has(low, sse_avx) || !has(r[1], bmi1_avx2_bmi2))
-        return 0;
-    cpuid(0x80000000u, r);
-    if (r[0] < 0x80000001u)
-        return 0;
-    cpuid(0x80000001u, r);
-    return has(r[2], lzcnt);
-}
-
-static int is_v3(void)
-{
-    static volatile int known = -1; /* the same from every thread: a race is harmless */
-    int v3 = known;
-    if (v3 < 0)
-        known = v3 = find_v3();
-    return v3;
-}
 #endif
 
 /* The host may round otherwise, flush small numbers to zero or trap: numbers would differ or the

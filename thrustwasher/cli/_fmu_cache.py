@@ -37,18 +37,12 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
 
 
 def _compile(models: list[str], target: str) -> None:
-    """Compile what is not compiled yet, and say so: it is what takes long on a new machine."""
-    from ..fmu.registry import find_spec, is_compiled
+    """Compile what is not compiled yet, as many models at once as there are processors."""
+    from ..fmu.native_contents import compile_local
+    from ..fmu.registry import find_spec
 
-    specs = [find_spec(model) for model in models]
     if target == "native":
-        from ..fmu.native.here import compile_models
-
-        compile_models(specs, note)
-        return
-    slow = [spec.name for spec in specs if not is_compiled(spec)]
-    if slow:
-        note(f"the first run compiles {', '.join(slow)}: seconds, the washer a minute or two")
+        compile_local([find_spec(model) for model in models], note)
 
 
 def cache_folder(target: str) -> Path:
@@ -65,13 +59,14 @@ def cache_folder(target: str) -> Path:
 
 
 def source_digest(target: str) -> str:
-    """Return 16 hex digits over version, sources, compilers and, if native, the processor."""
+    """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
     from ..fmu.build import source_folder
-    from ..fmu.native_contents import this_machine, tools
-    from ..fmu.registry import package_version
+    from ..fmu.native_contents import made_of
+    from ..fmu.registry import all_specs, package_version
     from ..store.maps import SUFFIX, map_folders
 
-    made_for = f"{tools()} {this_machine()}" if target == "native" else "python"
+    native = target == "native"
+    made_for = " ".join(made_of(spec, local=True) for spec in all_specs()) if native else "python"
     hashed = hashlib.sha256(f"{package_version()} {made_for}".encode())
     for root in (Path(__file__).parents[1], source_folder()):
         for path in sorted(p for p in root.rglob("*") if p.suffix in TEXTS):

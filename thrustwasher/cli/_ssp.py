@@ -25,7 +25,7 @@ def export(arguments: argparse.Namespace, scene: Any) -> int:
         )
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
-    from ..fmu.native.link import find_linker
+    from ..native.link import find_linker
 
     find_linker()
     platforms = chosen_platforms(arguments.platforms, "native")

@@ -91,7 +91,7 @@ def _cross_check(arguments: argparse.Namespace, folder: Path) -> int:
                 f"--{option} {given}: the cross-check takes native FMUs, all platforms"
             )
     from ..fmu.crosscheck import write_cross_check
-    from ..fmu.native.link import find_linker
+    from ..native.link import find_linker
 
     find_linker()
     places = write_cross_check(arguments.models or None, folder, arguments.fmi, _output.note)
@@ -107,7 +107,7 @@ def chosen_target(target: str | None, fmi: int = 2) -> str:
     """Return the target asked for, else native, else what needs no compiler."""
     if target:
         return target
-    from ..fmu.native.link import find_linker
+    from ..native.link import find_linker
 
     try:
         find_linker()
@@ -125,8 +125,8 @@ def chosen_platforms(words: str | None, target: str) -> list[str] | None:
         return None
     if target != "native":
         raise ParameterError(f"--platforms {words}: for target native only")
-    from ..fmu.native.here import this_platform
-    from ..fmu.native.targets import PLATFORMS
+    from ..native.here import this_platform
+    from ..native.targets import PLATFORMS
 
     named = [word.strip() for word in words.split(",")]
     if named == ["all"]:

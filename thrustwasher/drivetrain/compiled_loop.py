@@ -3,21 +3,21 @@
 Python lays out what one communication step consists of as a list of operations (``program``); this
 function works through the list for one point after another. Numbers and addresses in, numbers out.
 It stops where an FMU reports something and can be entered again at the operation that follows.
-
-All compiled code of the loop is in this file: what is cached goes by the time of one file.
 """
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from ..kernels._jit import kernel
+from .foreign_calls import (
+    clock_posix,
+    clock_windows,
+    number_at,
+    step2,
+    step3,
+    values2,
+    values3,
+)  # fmt: skip
 
 # Kinds of operations
 PULL, BEGIN, SET, STEP, GET, END = range(6)
@@ -32,49 +32,6 @@ AT_POINT, AT_OPERATION, LAST_STATUS = range(3)
 DONE, REPORTED, NOTICED = range(3)
 WARNING = 1
 
-INT = ir.IntType(32)
-WORD = ir.IntType(64)  # an address or a length
-DOUBLE = ir.DoubleType()
-Foreign = Callable[[int, tuple[Any, ...]], int]  # address, arguments
-
-
-def _foreign(*kinds: Any) -> Any:
-    """Return a call of the C function at an address: ``int f(kinds...)``."""
-    unpack: Any = cgutils.unpack_tuple
-
-    @intrinsic
-    def call(_typing: Any, function: Any, arguments: Any) -> Any:
-        def code(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-            address, packed = values
-            pointer = builder.inttoptr(address, ir.FunctionType(INT, kinds).as_pointer())
-            given = unpack(builder, packed, len(kinds))
-            cut = [
-                builder.trunc(v, k) if v.type == WORD and k == INT else v
-                for v, k in zip(given, kinds, strict=True)
-            ]
-            return builder.call(pointer, cut)
-
-        return types.int32(types.int64, arguments), code
-
-    return call
-
-
-@intrinsic
-def _integer_at(_typing: Any, address: Any) -> Any:
-    def code(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        return builder.load(builder.inttoptr(values[0], WORD.as_pointer()))
-
-    return types.int64(types.int64), code
-
-
-_number_at: Any = _integer_at  # the 64-bit integer at an address
-_values2: Foreign = _foreign(WORD, WORD, WORD, WORD)
-_values3: Foreign = _foreign(WORD, WORD, WORD, WORD, WORD)
-_step2: Foreign = _foreign(WORD, DOUBLE, DOUBLE, INT)
-_step3: Foreign = _foreign(WORD, DOUBLE, DOUBLE, INT, WORD, WORD, WORD, WORD)
-_clock_posix: Foreign = _foreign(INT, WORD)
-_clock_windows: Foreign = _foreign(WORD)
-
 
 @kernel
 def _seconds(clock: NDArray[np.int64], tick: float, ticks: NDArray[np.int64]) -> float:
@@ -82,9 +39,9 @@ def _seconds(clock: NDArray[np.int64], tick: float, ticks: NDArray[np.int64]) ->
     if clock[0] == 0:
         return 0.0
     if clock[1] < 0:
-        _clock_windows(clock[0], (clock[2],))
+        clock_windows(clock[0], (clock[2],))
         return float(ticks[0]) * tick
-    _clock_posix(clock[0], (clock[1], clock[2]))
+    clock_posix(clock[0], (clock[1], clock[2]))
     return float(ticks[0]) + 1e-9 * float(ticks[1])
 
 
@@ -131,8 +88,8 @@ def _call(op: NDArray[np.int64], third: bool) -> int:
     """Set or get a group of values and return the status."""
     first = (op[COMPONENT], op[REFERENCES], op[COUNT], op[BUFFER])
     if third:
-        return _values3(op[FUNCTION], (first[0], first[1], first[2], first[3], op[COUNT]))
-    return _values2(op[FUNCTION], first)
+        return values3(op[FUNCTION], (first[0], first[1], first[2], first[3], op[COUNT]))
+    return values2(op[FUNCTION], first)
 
 
 @kernel
@@ -140,11 +97,11 @@ def _step(op: NDArray[np.int64], third: bool, t: float, h: float, told: int) -> 
     """Let a part step and return the status."""
     if third:
         places = (told, told + 8, told + 16, told + 24)
-        return _step3(
+        return step3(
             op[FUNCTION],
             (op[COMPONENT], t, h, np.int64(0), places[0], places[1], places[2], places[3]),
         )
-    return _step2(op[FUNCTION], (op[COMPONENT], t, h, np.int64(0)))
+    return step2(op[FUNCTION], (op[COMPONENT], t, h, np.int64(0)))
 
 
 @kernel
@@ -152,8 +109,8 @@ def _notices(
     rows: NDArray[np.float64], i: int, changes: NDArray[np.int64], bounds: NDArray[np.float64]
 ) -> bool:
     """Tell if point ``i`` is one to look at."""
-    for column in changes:
-        if rows[i, column] != rows[i - 1, column]:
+    for k in range(len(changes)):
+        if rows[i, changes[k]] != rows[i - 1, changes[k]]:
             return True
     for j in range(len(bounds)):
         if not bounds[j, 1] <= rows[i, int(bounds[j, 0])] <= bounds[j, 2]:
@@ -208,10 +165,11 @@ def run_program(
                 status = _call(op, third[part] != 0)
                 if status <= WARNING:
                     _take(op, now, places, reals, ints, longs, bytes_)
-            if status > WARNING or _number_at(said[part]) != 0:
+            if status > WARNING or number_at(said[part]) != 0:
                 report[LAST_STATUS] = status
                 return REPORTED
-        rows[i + 1] = now
+        for k in range(len(now)):
+            rows[i + 1, k] = now[k]
         report[AT_POINT], report[AT_OPERATION] = i + 1, 0
         if _notices(rows, i + 1, changes, bounds):
             return NOTICED

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError
+from ..kernels._jit import way
 from .loop import NOTHING, Run, Watch
 from .machine import Group, has_machine, machine_of
 from .moves import Correct, Pull
@@ -19,11 +20,8 @@ from .system import ConnectedPart, renamed
 
 
 def can_compile(run: Run) -> bool:
-    """Tell if every part gives its addresses, every move is a call, and numba compiles here."""
-    from numba.core import config
-
-    settings: Any = config
-    if settings.DISABLE_JIT or sys.maxsize < 2**32:
+    """Tell if every part gives its addresses, every move is a call, and kernels are compiled."""
+    if way() == "python" or sys.maxsize < 2**32:
         return False
     if any(isinstance(move, Correct) for move in run.schedule):
         return False

@@ -1,13 +1,10 @@
-"""A zip with the same bytes for the same content: sorted, undated, written all or nothing."""
+"""A zip with the same bytes for the same content: sorted and undated."""
 
 import io
-import os
-import tempfile
 import zipfile
 from collections.abc import Mapping
-from pathlib import Path
 
-from ..errors import naming
+from ..native.files import write as write
 
 FIRST = "modelDescription.xml"
 EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -25,17 +22,3 @@ def pack(files: Mapping[str, bytes]) -> bytes:
             info.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(info, files[name], compresslevel=9)
     return buffer.getvalue()
-
-
-def write(path: Path, data: bytes) -> None:
-    """Put a file in place at once: a reader sees the old one or the new one, never a half."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with naming(path), os.fdopen(handle, "wb") as file:
-            file.write(data)
-        os.chmod(part, 0o644)
-        os.replace(part, path)
-    except BaseException:
-        os.unlink(part)
-        raise

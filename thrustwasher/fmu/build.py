@@ -5,6 +5,7 @@ from pathlib import Path
 
 from ..errors import EnvironmentProblem, ParameterError
 from ..models._spec import ModelSpec
+from ..native.here import this_platform
 from . import archive, guard, native_contents, python_contents
 from .common_contents import common_contents, readme
 from .identity import identifier, model_folder
@@ -64,8 +65,7 @@ def build(
     say = note or _silent
     places: Sequence[str] = ()
     if target == "native":
-        wanted = [native_contents.this_machine()[0]] if local else platforms
-        places = native_contents.chosen(wanted, say)
+        places = [this_platform().name] if local else native_contents.chosen(platforms, say)
     paths = []
     for spec in specs:
         folder = model_folder(spec, sources or source_folder())
@@ -132,13 +132,13 @@ def contents(
 ) -> dict[str, bytes]:  # fmt: skip
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
     native = target == "native"
-    tools = native_contents.tools() if native else guard.compiler()
+    tools = native_contents.made_of(spec, local=local) if native else guard.compiler()
     shell = source_folder() / "shell"
     guid = identifier(spec, folder, shell=shell, target=target, fmi=fmi, tools=tools)
     if native:
         own = native_contents.native_contents(
             spec, fmi=fmi, guid=guid, platforms=platforms, note=note,
-            level=native_contents.this_machine()[1] if local else None,
+            local=local,
         )  # fmt: skip
     else:
         own = python_contents.python_contents(spec, folder, guid=guid)

@@ -34,7 +34,8 @@ def guard_library(spec: ModelSpec, *, guid: str) -> bytes | None:
     if not compiler():
         return None
     from .build import source_folder
-    from .native import library, link, tables, targets
+    from ..native import link, targets
+    from .native import library, tables
 
     folder = source_folder() / "shell"
     own = [*folder.glob("guard*.[ch]"), folder / "tables.h"]
@@ -47,7 +48,7 @@ def guard_library(spec: ModelSpec, *, guid: str) -> bytes | None:
 def compiler() -> str:
     """Return name and version of what can build the guard, "" if something is missing."""
     try:
-        from .native.link import find_linker
+        from ..native.link import find_linker
 
         found, headers = find_linker(), metadata.version("fmpy")
     except (ImportError, EnvironmentProblem):

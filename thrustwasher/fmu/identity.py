@@ -27,7 +27,7 @@ def identifier(
     """
     hashed = hashlib.sha256(repr((variables(spec), enumerations(spec), spec.terminals)).encode())
     hashed.update(f"{content_digest(spec)} {target} {fmi} {package_version()} {tools}".encode())
-    for root in (Path(__file__).parent, folder, shell):
+    for root in (Path(__file__).parent, Path(__file__).parents[1] / "native", folder, shell):
         for file in _texts(root):
             hashed.update(file.relative_to(root).as_posix().encode() + file.read_bytes())
     return hashed.hexdigest()[:32]

@@ -1,14 +1,18 @@
 """What only the native target carries: one compiled library per platform."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from importlib import metadata
 
 from ..errors import ParameterError
 from ..models._spec import ModelSpec
+from ..native import digest, shipped
+from ..native.here import this_level, this_platform
+from ..native.link import Linker, find_linker, local_linker
+from ..native.objects import prepare
+from ..native.targets import PLATFORMS, Platform
 from ..store.maps import all_maps, plain
-from .native.here import this_level, this_platform
-from .native.link import find_linker
-from .native.targets import PLATFORMS, Platform
+from .registry import kernel_module, load_kernel
 from .universal import universal
 
 Note = Callable[[str], None]
@@ -32,32 +36,57 @@ def chosen(platforms: Sequence[str] | None, note: Note) -> tuple[str, ...]:
     return tuple(name for name in PLATFORMS if name in platforms)
 
 
-def this_machine() -> tuple[str, str]:
-    """Return the names of this machine's platform and of the CPU level that suits it best."""
+def local_level(spec: ModelSpec) -> str | None:
+    """Return the CPU level that is compiled for use on this machine only, None: all of them.
+
+    What is shipped has them all; what has to be compiled is compiled for this processor alone.
+    """
+    if shipped.objects_of(kernel_module(spec.kernel)):
+        return None
+    return this_level(this_platform()).name
+
+
+def tools(linker: Linker) -> str:
+    """Return names and versions of everything that links, with the C headers' package."""
+    return f"fmpy {metadata.version('fmpy')}, {linker.name} {linker.version}"
+
+
+def made_of(spec: ModelSpec, *, local: bool) -> str:
+    """Return what decides a model's libraries beside the FMU's own texts."""
+    kernel = kernel_module(spec.kernel)
+    linker = local_linker() if local else find_linker()
+    return f"{digest.digest(kernel)} {tools(linker)} {local_level(spec) if local else ''}"
+
+
+def compile_local(specs: Iterable[ModelSpec], note: Note) -> None:
+    """Compile models for use on this machine, side by side, unless they are compiled already."""
     platform = this_platform()
-    return platform.name, this_level(platform).name
-
-
-def tools() -> str:
-    """Return names and versions of everything that compiles or links."""
-    packages = ("numba", "llvmlite", "fmpy")
-    versions = [f"{name} {metadata.version(name)}" for name in packages]
-    linker = find_linker()
-    return ", ".join([*versions, f"{linker.name} {linker.version}"])
+    # The model with the most memory has the most code; begun last it would run alone at the end.
+    largest_first = sorted(specs, key=lambda spec: -load_kernel(spec.kernel).n_work)
+    missing = [spec for spec in largest_first if local_level(spec)]
+    if missing:
+        one = replace(platform, levels=(this_level(platform),))
+        prepare([kernel_module(spec.kernel) for spec in missing], [one], note)
 
 
 def native_contents(
     spec: ModelSpec, *, fmi: int, guid: str, platforms: Sequence[str], note: Note,
-    level: str | None = None,
+    local: bool = False,
 ) -> dict[str, bytes]:  # fmt: skip
-    """Return the libraries, each at its place; the two of macOS share one file in FMI 2."""
+    """Return the libraries, each at its place; the two of macOS share one file in FMI 2.
+
+    ``local``: linked and compiled for use on this machine only, the soonest way.
+    """
     from .native.library import library  # reads the shell's sources, and these lie beside ours
 
+    level, linker = (local_level(spec), local_linker()) if local else (None, None)
     found: dict[str, list[bytes]] = {}
     for name in platforms:
         note(f"{spec.name}: {name}")
         path = _place(PLATFORMS[name], fmi, spec.name)
-        made = library(spec, fmi=fmi, guid=guid, platform=name, level=level, note=note)
+        made = library(
+            spec, fmi=fmi, guid=guid, platform=name, level=level, linker=linker, note=note
+        )
         found.setdefault(path, []).append(made)
     libraries = {path: parts[0] if len(parts) == 1 else universal(parts)
                  for path, parts in found.items()}  # fmt: skip

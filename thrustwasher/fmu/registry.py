@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..kernels._jit import kernel_digest
+from ..kernels._jit import kernel_digest, way
 from ..models._spec import ModelSpec
+from ..native.library import is_ready
 
 MODELS = {
     "washer": "thrustwasher.models.washer_params:SPEC",
@@ -101,12 +102,8 @@ def kernel_table(spec: ModelSpec) -> dict[str, float]:
 
 
 def is_compiled(spec: ModelSpec) -> bool:
-    """Tell if the model's step is in numba's cache, so that its first call takes no minutes."""
-    stats = getattr(load_kernel(spec.kernel).step, "stats", None)
-    if stats is None:  # runs as plain Python: there is nothing to compile
-        return True
-    name = spec.kernel.rpartition(".")[2]
-    return any(Path(stats.cache_path or "").glob(f"{name}.step-*.nbc"))
+    """Tell if the model's kernels are compiled, so that their first call takes no minutes."""
+    return way() == "python" or is_ready(kernel_module(spec.kernel))
 
 
 def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:

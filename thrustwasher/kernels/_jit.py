@@ -1,32 +1,101 @@
-"""The one place that sets the compiler options: IEEE rules kept, 1/0 is inf, code cached.
+"""The one decorator of kernels.
 
-numba stamps cached code by its own file only: after an edit of a called function in another file it
-would go on running the old one. The cache folder is therefore named by a digest of all kernels.
+A kernel is Python that can be compiled. Called from Python it runs as machine code where the
+package's compiled library has it, else as the Python it is; numba is not imported. The environment
+variable ``THRUSTWASHER_KERNELS = jit`` lets numba compile each kernel when it is first called
+instead, for work on kernels; ``NUMBA_DISABLE_JIT = 1`` runs all as plain Python, for a debugger.
+
+In every way IEEE rules are kept and 1/0 is inf. numba stamps cached code by its own file only:
+after an edit of a called function in another file it would go on running the old one. Its cache
+folder is therefore named by a digest of all kernels.
 """
+
+from __future__ import annotations
 
 import hashlib
 import os
 import shutil
 import tempfile
 from collections.abc import Callable
-from functools import cache
+from functools import cache, update_wrapper
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-import numba
-from numba.core import config
+from ..errors import EnvironmentProblem
 
 F = TypeVar("F", bound=Callable[..., Any])
 KEPT_VERSIONS = 5
+WAYS = ("native", "jit", "emit", "python")
+
+
+@cache
+def way() -> str:
+    """Return how kernels run: "native", "jit", "emit" (only to be compiled) or "python".
+
+    Raises
+    ------
+    EnvironmentProblem : the environment asks for a way that there is not
+    """
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        return "python"
+    wanted = os.environ.get("THRUSTWASHER_KERNELS") or "native"
+    if wanted not in WAYS:
+        raise EnvironmentProblem(f"THRUSTWASHER_KERNELS = {wanted!r}, allowed: 'native' or 'jit'")
+    return wanted
+
+
+class Kernel:
+    """A kernel as Python sees it; compiled code that calls it sees numba's compiled function."""
+
+    def __init__(self, function: Callable[..., Any], inline: str) -> None:
+        self.py_func, self.inline = function, inline
+        self._run: Callable[..., Any] = self._first
+        self._dispatcher: Any = None
+        update_wrapper(self, function)
+
+    def __call__(self, *args: Any, **named: Any) -> Any:
+        """Run the kernel."""
+        return self._run(*args, **named)
+
+    def __reduce__(self) -> str:
+        """Be found by name in another process."""
+        return self.py_func.__qualname__
+
+    def __get__(self, instance: object, owner: object = None) -> Kernel:
+        """Be no method, as compiled functions are none."""
+        return self
+
+    def _first(self, *args: Any, **named: Any) -> Any:
+        """Find the way to run when it is first needed."""
+        from ..native.load import native_function
+
+        self._run = native_function(self.py_func) or self.py_func
+        return self._run(*args, **named)
+
+    @property
+    def direct(self) -> Callable[..., Any]:
+        """What a call comes to, without the way through this object."""
+        if self._run == self._first:
+            from ..native.load import native_function
+
+            self._run = native_function(self.py_func) or self.py_func
+        return self._run
+
+    @property
+    def _numba_type_(self) -> Any:
+        """Let numba compile calls of this kernel."""
+        if self._dispatcher is None:
+            self._dispatcher = jitted(self.py_func, self.inline)
+        return self._dispatcher._numba_type_
 
 
 @cache
 def kernel_digest() -> str:
     """Return the first 16 hex digits of the SHA-256 over all kernel sources."""
-    files = sorted(Path(__file__).parent.glob("*.py"))
-    return hashlib.sha256(b"".join(f.name.encode() + f.read_bytes() for f in files)).hexdigest()[
-        :16
-    ]
+    hashed = hashlib.sha256()
+    for file in sorted(Path(__file__).parent.glob("*.py")):
+        hashed.update(file.name.encode() + file.read_bytes().replace(b"\r\n", b"\n"))
+    return hashed.hexdigest()[:16]
 
 
 def _forget_old(base: str) -> None:
@@ -38,7 +107,7 @@ def _forget_old(base: str) -> None:
 
 @cache
 def cache_folder() -> str:
-    """Return the folder for compiled kernels: the user's cache, else a temporary folder."""
+    """Return the folder of what numba compiled: the user's cache, else a temporary folder."""
     base = os.environ.get("NUMBA_CACHE_DIR") or os.path.join(
         os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
         "thrustwasher",
@@ -54,29 +123,38 @@ def cache_folder() -> str:
         return os.path.join(tempfile.gettempdir(), f"thrustwasher-kernels-{kernel_digest()}")
 
 
-def _compiled(function: Callable[..., Any], inline: str = "never") -> Any:
+def jitted(function: Callable[..., Any], inline: str = "never") -> Any:
     """Compile lazily with the cache in ``cache_folder``; other users' numba cache is left alone."""
+    import numba
+    from numba.core import config
+
     settings: Any = config
     njit: Any = numba.njit
+    rules: dict[str, Any] = {
+        "fastmath": False, "error_model": "numpy", "nogil": True, "inline": inline,
+    }  # fmt: skip
+    if way() == "emit":
+        return njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **rules)(function)
     before = settings.CACHE_DIR
     settings.CACHE_DIR = cache_folder()
     try:
-        return njit(cache=True, fastmath=False, error_model="numpy", nogil=True, inline=inline)(
-            function
-        )
+        return njit(cache=True, **rules)(function)
     finally:
         settings.CACHE_DIR = before
 
 
-kernel = cast(Callable[[F], F], _compiled)
+def _made(function: Callable[..., Any], inline: str = "never") -> Any:
+    if way() == "python":
+        return function
+    return Kernel(function, inline) if way() == "native" else jitted(function, inline)
+
+
+kernel = cast(Callable[[F], F], _made)
 
 
 def _inlined(function: Callable[..., Any]) -> Any:
-    """Compile as a part of each caller: for one that is called once and calls much code itself.
-
-    numba optimises all code below a function again with that function; each layer costs seconds.
-    """
-    return _compiled(function, inline="always")
+    """Compile as a part of each caller: for one that is called once and calls much code itself."""
+    return _made(function, "always")
 
 
 inlined = cast(Callable[[F], F], _inlined)

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .washer_fields import Fields, Point
+from .washer_fields import Bench, Fields, Point, washer_fields
 from .washer_gap import CONTACT, FRICTION
-from .washer_model import WasherModel
+from .washer_model import WasherModel, washer_model
 
 # real outputs, in the order of the model's list, then what only Python shows
 TORQUE, MEAN_TEMPERATURE, FILM_THICKNESS, MAX_TEMPERATURE, RATIO = 0, 1, 2, 3, 4
@@ -57,3 +57,10 @@ def washer_outputs(
     for k in range(N_ALL):
         good = good and math.isfinite(out[k])
     return good
+
+
+@kernel
+def outputs_at(b: Bench, pt: Point, q: NDArray[np.float64], out: NDArray[np.float64]) -> bool:
+    """Fill ``out`` (N_ALL,) from the fields in ``b`` at the solution q; return True if finite."""
+    m = washer_model(b.par)
+    return washer_outputs(m, pt, q, washer_fields(m, b.work), out)

@@ -7,21 +7,25 @@ carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/
 from __future__ import annotations
 
 import math
+from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import BranchError, ParameterError, SolveError, Status
+from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
 from ..kernels import washer_step as kernel
 from ..kernels.washer_fields import size_of_work
 from ..kernels.washer_memory import Q, size_of_state
 from ..kernels.washer_newton import ITERATIONS, N_INFO
 from ..kernels.washer_simple import N_WORK
+from ..native.load import bound
 from ._buffers import work_array
 from ._params import check_number
 from ._prepare import OFFLINE
+from ._recent import Recent
 from .washer_constants import NO_MESH, SIMPLE, constants
-from .washer_error import with_card_error
+from .washer_error import Unread
 from .washer_params import SPEC, WasherParams
 from .washer_result import WasherResult
 
@@ -37,8 +41,10 @@ GRIDS = {
 ERRORS = {
     "closed": 3.0, "stribeck": 1.0, "map": 6e-3, "coarse": 2e-2, "field": 6e-3, "fine": 1e-3,
 }  # fmt: skip
+UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
+OK = Status.OK
 BRANCHES = {"film": 1.0, "contact": 3.0}
-NAMES = {1: "film", 2: "unstable", 3: "contact"}
+NAMES = {1.0: "film", 2.0: "unstable", 3.0: "contact"}
 LARGEST_GRID = (129, 512)
 N_NUMBERS = N_INFO + kernel.N_FOUND + kernel.N_WALK
 
@@ -67,16 +73,24 @@ def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]
     return n_r, n_t
 
 
+_RANGES = tuple(
+    # an FMU takes 0 from an unconnected input; here a load is wanted
+    (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
+    for s in SPEC.inputs
+)
+
+
 def check_point(
     load: float, speed: float, tilt: float, oil_temperature: float
 ) -> tuple[float, float, float, float]:
     """Return the operating point as floats, or raise ParameterError for the first bad one."""
-    values = []
-    for signal, value in zip(SPEC.inputs, (load, speed, tilt, oil_temperature), strict=True):
-        # an FMU takes 0 from an unconnected input; here a load is wanted
-        low = 1.0 if signal.name == "load" else float(signal.low or 0.0)
-        values.append(check_number(signal.name, value, signal.unit, low, float(signal.high or 0.0)))
-    return values[0], values[1], values[2], values[3]
+    a, b, c, d = (
+        check_number(name, value, unit, low, high)
+        for (name, unit, low, high), value in zip(
+            _RANGES, (load, speed, tilt, oil_temperature), strict=True
+        )
+    )
+    return a, b, c, d
 
 
 def result_from(
@@ -85,11 +99,11 @@ def result_from(
     error: float,
 ) -> WasherResult:  # fmt: skip
     """Build the result from what the kernel left at the head of ``work``."""
-    out = work[N_NUMBERS : N_NUMBERS + kernel.N_ALL].tolist()
-    q = work[N_NUMBERS + kernel.N_ALL : kernel.N_HEAD]
+    x = work[N_NUMBERS : kernel.N_HEAD].tolist()
+    n = kernel.N_ALL
     return WasherResult(
-        out[0], out[1], out[3], out[2], out[4], out[8], out[9], out[6], float(q[2]), float(q[3]),
-        NAMES.get(int(branch), "film"), lost, status, int(work[ITERATIONS]), fidelity, grid, error,
+        x[0], x[1], x[3], x[2], x[4], x[8], x[9], x[6], x[n + 2], x[n + 3],
+        NAMES.get(branch, "film"), lost, status, int(work[ITERATIONS]), fidelity, grid, error,
         *point, params, state,
     )  # fmt: skip
 
@@ -146,13 +160,13 @@ def solve_washer(
     start = None if fidelity in SIMPLE else start
     found = None
     if fidelity == "map":
-        from .washer_map import solve_by_map
-
         if grid is not None:
             raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
-        found = solve_by_map(params, point, wanted, start)
+        found = _map_solver()(params, point, wanted, start)
         fidelity = "map" if found else "field"  # outside the map
-    result = found or _solve(params, point, fidelity, nodes, wanted, start)
+    result = found or _solve(params, point, fidelity, nodes, wanted, start, grid is None)
+    if result.status is OK and grid is None:
+        return result
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
         result = _with_embedded_estimate(result, wanted)
     if throw and result.status is Status.NO_BRANCH:
@@ -167,44 +181,74 @@ def solve_washer(
             f"tilt = {point[2]:g} rad, oil_temperature = {point[3]:g} K, grid {nodes[0]} x "
             f"{nodes[1]}; tried: warm start, Newton from a guess, descent in film thickness)"
         )
-    return with_card_error(result) if grid is None else result
+    return result
+
+
+@cache
+def _map_solver() -> Any:
+    """Return what solves by look-up; maps are read only where they are wanted."""
+    from .washer_map import solve_by_map
+
+    return solve_by_map
+
+
+class _Bench:
+    """One rung for one washer, ready to be solved again: constants, memory, the kernel."""
+
+    def __init__(self, params: WasherParams, fidelity: str, nodes: tuple[int, int]) -> None:
+        par = constants(params, nodes, fidelity)
+        self.simple = fidelity in SIMPLE
+        size = N_WORK if self.simple else kernel.N_HEAD + size_of_work(*nodes)
+        self.size_of_state = 1 if self.simple else size_of_state(*nodes)
+        self.work = work_array(("washer", nodes), size)
+        self.inp, self.iout = np.zeros(5), np.zeros(3, np.int32)
+        self.step = bound(
+            kernel.step, par=par, inp=self.inp, work=self.work, out=np.zeros(kernel.NOUT),
+            iout=self.iout,
+        )  # fmt: skip
+
+
+_bench = Recent(_Bench)
 
 
 def _solve(
     params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
-    nodes: tuple[int, int], wanted: float, start: WasherResult | None,
+    nodes: tuple[int, int], wanted: float, start: WasherResult | None, card: bool = False,
 ) -> WasherResult:  # fmt: skip
-    par = constants(params, nodes, fidelity)
-    simple = fidelity in SIMPLE
-    size = N_WORK if simple else kernel.N_HEAD + size_of_work(*nodes)
-    work = work_array(("washer", nodes), size)
-    if simple:
-        state = np.zeros(1)
-    elif start is not None and start.grid == nodes and start.params == params:
+    """Solve on a mesh or without one; ``card``: the rung is one whose cards know its error."""
+    bench = _bench(params, fidelity, nodes)
+    if start is not None and not bench.simple and _continues(start, params, nodes):
         state = start._state.copy()
     else:
-        state = np.zeros(size_of_state(*nodes))
-        if start is not None and wanted == 0.0:
+        state = np.zeros(bench.size_of_state)
+        if start is not None and not bench.simple and wanted == 0.0:
             wanted = BRANCHES.get(start.branch, 0.0)
-            return _prefer(params, point, fidelity, nodes, wanted)
-    inp, out, iout = np.array((*point, wanted)), np.empty(kernel.NOUT), np.zeros(3, np.int32)
-    status = Status(kernel.step(par, inp, state, work, out, iout, 0.0, 1.0))
-    if status.is_failure and not simple:
+            return _prefer(params, point, fidelity, nodes, wanted, card)
+    bench.inp[:] = (*point, wanted)
+    code = bench.step(state, 0.0, 1.0)
+    status = OK if code == 0 else Status(code)
+    work = bench.work
+    if code >= FIRST_FAILURE and not bench.simple:
         keep_estimate(state, work)
-    branch = work[N_INFO]
     return result_from(
-        params, point, fidelity, nodes, state, work, status, branch, bool(iout[1]), ERRORS[fidelity]
-    )
+        params, point, fidelity, nodes, state, work, status, float(work[N_INFO]), bool(bench.iout[1]),
+        ERRORS[fidelity] if not card else UNREAD[fidelity],
+    )  # fmt: skip
+
+
+def _continues(start: WasherResult, params: WasherParams, nodes: tuple[int, int]) -> bool:
+    """Tell if a result's memory is one for these parameters and this grid."""
+    return start.grid == nodes and (start.params is params or start.params == params)
 
 
 def _prefer(
     params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
-    nodes: tuple[int, int], wanted: float,
+    nodes: tuple[int, int], wanted: float, card: bool = False,
 ) -> WasherResult:  # fmt: skip
     """Solve from nothing on a preferred branch, on the other if it does not exist."""
-    result = _solve(params, point, fidelity, nodes, wanted, None)
+    result = _solve(params, point, fidelity, nodes, wanted, None, card)
     if result.status is Status.NO_BRANCH:
-        return _solve(params, point, fidelity, nodes, 0.0, None)
+        return _solve(params, point, fidelity, nodes, 0.0, None, card)
     return result
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import fields
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -28,26 +28,27 @@ from ..kernels.washer_memory import FIELDS
 from ..kernels.washer_model import OK
 from ..kernels.washer_outputs import N_ALL
 from ..kernels.washer_verdict import LEAST_TILT
+from ..native.load import bound
 from ..store.maps import MapFile, find_map, read_map
-from ._buffers import work_array
 from ._params import as_numbers
+from ._recent import Recent
+from .washer_error import Unread
 from .washer_params import WasherParams
 from .washer_result import WasherResult
 from .washer_walker import Fold
 
 Array = NDArray[np.float64]
 BRANCHES = {None: 0.0, "film": 1.0, "contact": 3.0}
-ERROR = 2e-3  # of friction_torque where no card says better
-NAMES = {1: "film", 3: "contact"}
+ERROR = Unread(2e-3)  # of friction_torque where no card says better
+NAMES = {1.0: "film", 3.0: "contact"}
 OUTPUTS = (
     "friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
     "fluid_load_share", "friction_coefficient", "friction_power", "fluid_load", "contact_load",
 )  # fmt: skip
 
-SHOWN = tuple(
-    f.name for f in fields(WasherResult)
-    if f.name in (*OUTPUTS, "washer_tilt_x", "washer_tilt_y")
-)  # fmt: skip
+NAMED = {"film": 1.0, "contact": 3.0}
+NOTHING = (math.nan,) * len(OUTPUTS)
+SOLVED = Status.OK
 
 
 class WasherMap:
@@ -74,6 +75,7 @@ class WasherMap:
         self.params, self.file = params, map_for(params, path)
         self.data, self.card = self.file.data, self.file.card
         self._work = np.zeros(N_MAP_WORK + N_ALL)
+        self._torque = bound(single_look_up, data=self.data, w=self._work)
 
     @property
     def box(self) -> dict[str, tuple[float, float]]:
@@ -98,9 +100,8 @@ class WasherMap:
 
         ``branch``: 0 film up to its fold, then contact; 1 film; 3 contact.
         """
-        return float(
-            single_look_up(self.data, self._work, load, speed, tilt, oil_temperature, branch)
-        )
+        torque: float = self._torque(load, speed, tilt, oil_temperature, branch)
+        return torque
 
     def look_up(
         self, *, load: Any, speed: Any, tilt: Any, oil_temperature: Any, branch: str | None = None
@@ -156,6 +157,22 @@ class WasherMap:
         ]
 
 
+class _Solver:
+    """A washer's map, ready to be looked up again: memory and the kernels."""
+
+    def __init__(self, params: WasherParams) -> None:
+        data = washer_map(params).data
+        work, self.state = np.zeros(N_MAP_WORK), np.zeros(FIELDS)
+        self.numbers, self.branch, self.tilts = np.zeros(N_ALL), np.zeros(2), np.zeros(2)
+        self.look_up = bound(
+            look_up, data=data, state=self.state, w=work, out=self.numbers, branch=self.branch
+        )
+        self.tilt = bound(map_tilts, data=data, w=work, tilts=self.tilts)
+
+
+_solver = Recent(_Solver)
+
+
 def solve_by_map(
     params: WasherParams, point: tuple[float, float, float, float], wanted: float,
     start: WasherResult | None,
@@ -168,42 +185,38 @@ def solve_by_map(
     ------
     ParameterError : there is no map for these parameters
     """
-    washer = washer_map(params)
-    w = work_array(("map",), N_MAP_WORK + N_ALL + 4)
-    numbers, branch, tilts = w[N_MAP_WORK : N_MAP_WORK + N_ALL], w[-4:-2], w[-2:]
-    state = np.zeros(FIELDS)
-    if start is not None and start.params == params and start.branch in ("film", "contact"):
-        state[MAP_BRANCH], state[MAP_RATIO] = BRANCHES[start.branch], start.film_ratio
-    load, speed, tilt, oil = point
-    if tilt <= LEAST_TILT:
+    if point[2] <= LEAST_TILT:
+        washer_map(params)  # there has to be one
         return None
-    pt = Point(load, speed, tilt, oil)
-    status = look_up(washer.data, pt, wanted, state, w, numbers, branch)
+    solver, state = _solver(params), np.zeros(FIELDS)
+    before, ratio = 0.0, 0.0
+    if start is not None and start.branch in NAMED:
+        if start.params is params or start.params == params:
+            before, ratio = NAMED[start.branch], start.film_ratio
+    solver.state[MAP_BRANCH], solver.state[MAP_RATIO] = before, ratio
+    status = solver.look_up(point, wanted)
     if status == NOT_HERE:
         return None
-    names = dict(zip(OUTPUTS, numbers.tolist(), strict=True))
     if status != OK:
-        nothing = dict.fromkeys((*OUTPUTS, "washer_tilt_x", "washer_tilt_y"), math.nan)
-        return _result(params, point, nothing, "film", False, Status(status), state)
-    map_tilts(washer.data, w, tilts)
-    state[MAP_BRANCH], state[MAP_RATIO] = branch[0], names["film_ratio"]
-    hot = names["temperature"] - oil > HOT
-    lost = branch[0] == BRANCHES["contact"] and branch[1] == 2.0
-    found = {**names, "washer_tilt_x": tilt * float(tilts[0]),
-             "washer_tilt_y": tilt * float(tilts[1])}  # fmt: skip
-    return _result(params, point, found, NAMES[int(branch[0])], bool(hot or lost), Status.OK, state)
+        state[MAP_BRANCH], state[MAP_RATIO] = before, ratio
+        return _result(params, point, NOTHING, (math.nan, math.nan), "film", False,
+                       Status(status), state)  # fmt: skip
+    solver.tilt()
+    numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
+    tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
+    state[MAP_BRANCH], state[MAP_RATIO] = branch, numbers[4]
+    lost = numbers[1] - point[3] > HOT or (branch == 3.0 and several == 2.0)
+    return _result(params, point, numbers, tilts, NAMES[branch], lost, SOLVED, state)
 
 
 def _result(
-    params: WasherParams, point: tuple[float, float, float, float], found: dict[str, float],
-    branch: str, distress: bool, status: Status, state: Array,
+    params: WasherParams, point: tuple[float, float, float, float], x: Sequence[float],
+    tilts: Sequence[float], branch: str, distress: bool, status: Status, state: Array,
 ) -> WasherResult:  # fmt: skip
-    load, speed, tilt, oil = point
+    """Build the result from the numbers of ``OUTPUTS``."""
     return WasherResult(
-        **{name: found[name] for name in SHOWN},
-        branch=branch, distress=distress, status=status, iterations=0, fidelity="map",
-        grid=(0, 0), error_estimate=ERROR, load=load, speed=speed, tilt=tilt, oil_temperature=oil,
-        params=params, _state=state,
+        x[0], x[1], x[3], x[2], x[4], x[8], x[9], x[6], *tilts, branch, distress, status, 0, "map",
+        (0, 0), ERROR, *point, params, state,
     )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from ..kernels.contact import contact_pressure
 from ..kernels.washer_memory import FIELDS, Q
 from ..kernels.washer_model import WasherModel, washer_model
 from .washer_constants import NO_MESH, constants
+from .washer_error import ErrorEstimate
 from .washer_params import WasherParams
 
 Array = NDArray[np.float64]
@@ -51,7 +52,7 @@ class WasherResult:
     iterations: int
     fidelity: str
     grid: tuple[int, int]
-    error_estimate: float  # [-] relative, of friction_torque
+    error_estimate: float  # [-] relative, of friction_torque; see washer_error.ErrorEstimate
     load: float  # [N] as solved for
     speed: float  # [rad/s]
     tilt: float  # [rad]
@@ -83,6 +84,9 @@ class WasherResult:
             washer_temperature=washer,
             film_temperature=0.5 * (carrier + washer),
         )
+
+
+setattr(WasherResult, "error_estimate", ErrorEstimate(WasherResult.error_estimate))  # noqa: B010
 
 
 def film_gap(radius: Array, cos: Array, sin: Array, q: Array) -> Array:

@@ -20,7 +20,7 @@ from ..kernels.washer_memory import (
 )  # fmt: skip
 from ..kernels.washer_model import washer_model
 from ..kernels.washer_newton import N_INFO
-from ..kernels.washer_outputs import MEAN_TEMPERATURE, RATIO, TORQUE, washer_outputs
+from ..kernels.washer_outputs import MEAN_TEMPERATURE, RATIO, TORQUE, outputs_at
 from ._buffers import work_array
 from .washer import ERRORS, result_from
 from .washer_constants import constants
@@ -95,7 +95,7 @@ class Walker:
     def outputs(self) -> list[float]:
         """Return all outputs where the walker stands."""
         pt = self.pt._replace(load=float(self.walk[W]))
-        washer_outputs(self.m, pt, self.q, self.f, self.out)
+        outputs_at(self.bench, pt, self.q, self.out)
         return [float(x) for x in self.out]
 
     def result(self, fidelity: str) -> WasherResult:

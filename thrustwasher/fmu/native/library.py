@@ -7,16 +7,18 @@ from pathlib import Path
 
 from ...errors import ParameterError
 from ...models._spec import ModelSpec
+from ...native import digest, link, linked
+from ...native.files import Note, to_stderr
+from ...native.objects import objects
+from ...native.targets import GLIBC, PLATFORMS, Platform
 from ..build import source_folder
 from ..registry import kernel_module
-from . import calls, link, linked, tables
-from .objects import Note, objects, to_stderr
-from .targets import GLIBC, PLATFORMS, Platform
+from . import calls, tables
 
 
 def library(
     spec: ModelSpec, *, fmi: int, guid: str, platform: str, level: str | None = None,
-    note: Note = to_stderr,
+    linker: link.Linker | None = None, note: Note = to_stderr,
 ) -> bytes:  # fmt: skip
     """Return the shared library of a model for one platform.
 
@@ -32,6 +34,8 @@ def library(
         A key of ``targets.PLATFORMS``.
     level
         The one CPU level of the platform to compile for; None: all, chosen by the CPU at run time.
+    linker
+        None: that of ``link.find_linker``.
     note
         Called with a line of progress before anything that takes long.
 
@@ -48,7 +52,8 @@ def library(
     files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi)}
     files |= tables.sources(spec, fmi=fmi, guid=guid)
     exports = calls.functions(fmi)
-    return link_kernel(files, kernel_module(spec.kernel), target, spec.name, exports, note)
+    kernel = kernel_module(spec.kernel)
+    return link_kernel(files, kernel, target, spec.name, exports, linker=linker, note=note)
 
 
 def link_kernel(
@@ -57,6 +62,8 @@ def link_kernel(
     platform: Platform,
     name: str,
     exports: Iterable[str],
+    *,
+    linker: link.Linker | None = None,
     note: Note = to_stderr,
 ) -> bytes:
     """Return C files linked with the dispatch to a kernel's objects, checked for what it needs."""
@@ -64,10 +71,12 @@ def link_kernel(
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
     levels = platform.levels
     defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
+    linker = linker or link.find_linker()
     made = link.shared_library(
-        {**files, **dispatch(), **parts}, platform=platform, name=name, defines=defines, note=note
-    )
-    glibc = GLIBC if link.find_linker().is_cross else None
+        {**files, **dispatch(), **parts}, platform=platform, name=name, defines=defines,
+        linker=linker, note=note,
+    )  # fmt: skip
+    glibc = GLIBC if linker.is_cross else None
     linked.check(made, exports=exports, glibc=glibc)
     return made
 
@@ -82,7 +91,8 @@ def shell(fmi: int) -> dict[str, bytes]:
 def dispatch() -> dict[str, bytes]:
     """Return the C files between plain C and the kernels; they include the generated model.h."""
     folder = source_folder() / "shell"
-    return {name: (folder / name).read_bytes() for name in ("dispatch.c", "kernel.h", "tables.h")}
+    found = {name: (folder / name).read_bytes() for name in ("dispatch.c", "kernel.h", "tables.h")}
+    return {**found, "cpu.h": (digest.HERE / "cpu.h").read_bytes()}
 
 
 def headers(fmi: int) -> dict[str, bytes]:

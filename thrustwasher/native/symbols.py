@@ -2,7 +2,7 @@
 
 import struct
 
-from ...errors import EnvironmentProblem
+from ..errors import EnvironmentProblem
 
 _MACHO = 0xFEEDFACF
 _SYMTAB = 2  # section type in ELF and load command in Mach-O

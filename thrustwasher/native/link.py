@@ -7,14 +7,14 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
 
-from ...errors import EnvironmentProblem
-from ...kernels._jit import cache_folder
-from .objects import Note, to_stderr
+from ..errors import EnvironmentProblem
+from .files import Note, to_stderr, user_cache
 from .targets import PLATFORMS, Platform
 
 # -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
@@ -52,10 +52,29 @@ def find_linker() -> Linker:
     if importlib.util.find_spec("ziglang"):
         command = (sys.executable, "-m", "ziglang", "cc")
         return Linker("ziglang", command, metadata.version("ziglang"), tuple(PLATFORMS))
+    local = _of_this_machine()
+    if local is None:
+        raise EnvironmentProblem(MISSING)
+    return local
+
+
+@cache
+def local_linker() -> Linker:
+    """Return what links for this machine soonest: its own compiler, else that of ``find_linker``.
+
+    Raises
+    ------
+    EnvironmentProblem : there is neither; the message says what to install
+    """
+    return _of_this_machine() or find_linker()
+
+
+@cache
+def _of_this_machine() -> Linker | None:
     found = shutil.which("gcc") or shutil.which("cc")
     own = tuple(p.name for p in PLATFORMS.values() if p.machine == local_machine())
     if not found or not own:
-        raise EnvironmentProblem(MISSING)
+        return None
     shown = subprocess.run([found, "-dumpfullversion"], capture_output=True, text=True)
     return Linker(Path(found).name, (found,), shown.stdout.strip(), own)
 
@@ -72,6 +91,7 @@ def shared_library(
     platform: Platform,
     name: str,
     defines: Sequence[str] = (),
+    linker: Linker | None = None,
     note: Note = to_stderr,
 ) -> bytes:
     """Compile and link C files and objects to a shared library.
@@ -86,6 +106,8 @@ def shared_library(
         Of the library, without extension; stands inside the file on macOS only.
     defines
         Macros, "NAME" or "NAME=VALUE".
+    linker
+        None: that of ``find_linker``.
     note
         Called with a line of progress before anything that takes long.
 
@@ -97,15 +119,15 @@ def shared_library(
     flags = ["-shared", *platform.flags]
     if platform.format == "MachO":
         flags.append(f"-Wl,-install_name,@rpath/{output}")
-    return build(files, output, [*flags, *(f"-D{d}" for d in defines)], platform, note)
+    return build(files, output, [*flags, *(f"-D{d}" for d in defines)], platform, linker, note)
 
 
 def build(
     files: Mapping[str, str | bytes], output: str, flags: Sequence[str], platform: Platform,
-    note: Note = to_stderr,
+    linker: Linker | None = None, note: Note = to_stderr,
 ) -> bytes:  # fmt: skip
     """Run the compiler in a fresh folder with relative paths only; return the file ``output``."""
-    linker = find_linker()
+    linker = linker or find_linker()
     if platform.name not in linker.platforms:
         raise EnvironmentProblem(
             f"{linker.name} builds for {', '.join(linker.platforms)} only; for {platform.name}: "
@@ -130,7 +152,7 @@ def _run(
     command: Sequence[str], folder: str, platform: Platform, linker: Linker, note: Note
 ) -> tuple[int, str]:
     """Return the exit status and what was said; do not let minutes pass in silence."""
-    known = Path(cache_folder()).parent / f"{linker.name}-{linker.version}-{platform.name}"
+    known = user_cache() / f"{linker.name}-{linker.version}-{platform.name}"
     with subprocess.Popen(
         command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     ) as process:
@@ -143,6 +165,7 @@ def _run(
             )
             said, _ = process.communicate()
         if process.returncode == 0:
-            known.parent.mkdir(parents=True, exist_ok=True)
-            known.touch()
+            with suppress(OSError):  # only a note for the next time
+                known.parent.mkdir(parents=True, exist_ok=True)
+                known.touch()
         return process.returncode, said

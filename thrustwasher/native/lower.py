@@ -1,15 +1,17 @@
 """From bitcode to an object file for one platform and CPU level.
 
-``python -m ... BITCODE PLATFORM LEVEL KERNEL FILE``, the level as JSON; a process of its own uses
-another core.
+``python -m thrustwasher.native.lower BITCODE PLATFORM LEVEL KERNEL FILE``, the level as JSON; a
+process of its own uses another core.
 """
+
+from __future__ import annotations
 
 import json
 import sys
 from pathlib import Path
 from typing import Any
 
-from ...errors import EnvironmentProblem
+from ..errors import EnvironmentProblem
 from . import emit, gate
 from .targets import PLATFORMS, Level, Platform
 
@@ -39,11 +41,20 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
             function.add_function_attribute("noinline")
         elif level.attribute:
             function.add_function_attribute(level.attribute)
+    _rename(module)
     _optimise(module, machine, level)
     gate.check_module(module, kernel)
     code = bytes(machine.emit_object(module))
     gate.check_object(code, kernel)
     return code
+
+
+def _rename(module: Any) -> None:
+    """Number what is internal: the compiler's names hold addresses and would differ each time."""
+    for letter, values in (("f", module.functions), ("g", module.global_variables)):
+        inside = [v for v in values if v.linkage.name in ("internal", "private")]
+        for number, value in enumerate(inside):
+            value.name = f"{letter}.{number}"
 
 
 def _optimise(module: Any, machine: Any, level: Level) -> None:

@@ -4,17 +4,19 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-from ...errors import EnvironmentProblem
+from ..errors import EnvironmentProblem
 from .symbols import undefined
 
 # The list grows by a reviewed line, never by a pattern. The C standard's names, of doubles; and the
-# stack probe of Windows for frames above 4 kB, which the linker puts into the library itself.
+# stack probe of Windows for frames above 4 kB, which the linker puts into the library itself. The
+# third line is macOS's: memset of eight or sixteen bytes at once, in its C library since 10.5.
 ALLOWED = frozenset(
     """
     exp log log10 log2 log1p expm1 exp2 pow erf erfc tanh sinh cosh asinh sin cos tan sincos
     __sincos_stret asin acos atan atan2 sqrt fmod floor ceil cbrt hypot
     memset memcpy memmove bzero __bzero
     ___chkstk_ms
+    memset_pattern8 memset_pattern16
     """.split()
 )
 # Beginning of a symbol -> what is behind it and what to write instead.
@@ -81,7 +83,7 @@ def cause(symbol: str) -> str:
     for beginning, text in CAUSES:
         if symbol.startswith(beginning):
             return text
-    return "not on the list in thrustwasher/fmu/native/gate.py"
+    return "not on the list in thrustwasher/native/gate.py"
 
 
 def _stop(kernel: str, found: Iterable[str]) -> None:

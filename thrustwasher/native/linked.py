@@ -5,7 +5,7 @@ import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ...errors import EnvironmentProblem
+from ..errors import EnvironmentProblem
 from .symbols import elf_sections, text_at
 
 ALLOWED = {

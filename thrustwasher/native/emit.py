@@ -1,0 +1,235 @@
+"""A kernel module as one self-contained LLVM module: ``python -m thrustwasher.native.emit KERNEL FILE``.
+
+Runs in a process of its own, since numba reads its settings once, when it is imported. numba makes
+of each entry a C callback around a compiled function. The callback holds all that needs Python
+(lock, exceptions) and falls away here; what stays takes numbers and needs libm at most. The bitcode
+is not optimised and names no CPU's instructions: ``lower`` makes each platform's object of it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import re
+import sys
+import warnings
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ..errors import EnvironmentProblem
+from . import lean
+from .entries import Entry, Kind, entries
+
+SAID = 2  # exit status: the last line on stderr is the message for the user
+DONE = "entry"  # begins a line on standard output: an entry is done, "entry 3 of 24"
+# Entries of the step ABI: name in the kernel module -> name in the FMU's shell, lengths of the
+# arrays ("": a number).
+_ARRAYS = ("NPAR", "NINP", "NSTATE", "NWORK")
+ABI: dict[str, tuple[str, tuple[str, ...]]] = {
+    "derive": ("tw_derive", ("NPAR",)),
+    "broken_rule": ("tw_rule", ("NPAR",)),
+    "step": ("tw_step", (*_ARRAYS, "NOUT", "NIOUT", "", "")),
+    "sens": ("tw_sens", (*_ARRAYS, "NINP", "NOUT")),
+}
+# Reference counts of arrays. The caller owns all memory, there is nothing to count.
+_COUNTING = re.compile(
+    r"^define linkonce_odr void @(NRT_incref|NRT_decref)\([^\n]*\{\n.*?^\}\n", re.M | re.S
+)
+_NOTHING = r"define internal void @\1(ptr %p) alwaysinline {\n  ret void\n}\n"
+
+
+@dataclass(frozen=True, slots=True)
+class Callback:
+    """A C function to be made: ``types`` of its arguments, Python source of ``entry``, its names.
+
+    ``source`` defines ``entry``, which calls what ``scope`` holds.
+    """
+
+    symbol: str
+    types: tuple[str, ...]  # "float", "int", "bool" or the type an address points to
+    source: str
+    scope: dict[str, Any]
+
+
+def environment(cache: str) -> dict[str, str]:
+    """Return the environment numba has to find, nothing of the caller's settings of numba.
+
+    Without a name of the CPU numba would write for this machine's. The cache folder has to be
+    empty: numba's cache does not see the optimisation level or edits of called functions, and would
+    hand out what another setting had made. Names inside the module must not depend on the order
+    of a set.
+    """
+    own = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
+    return own | {
+        "NUMBA_CPU_NAME": "x86-64-v2", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0",
+        "NUMBA_DISABLE_INTEL_SVML": "1", "NUMBA_CACHE_DIR": cache,
+        "THRUSTWASHER_KERNELS": "emit", "PYTHONHASHSEED": "0",
+    }  # fmt: skip
+
+
+def callbacks(kernel: ModuleType) -> list[Callback]:
+    """Return all entries of a kernel module: for an FMU's shell, then for Python."""
+    shell = [
+        abi_callback(kernel, name, *about) for name, about in ABI.items() if hasattr(kernel, name)
+    ]
+    return shell + [python_callback(entry) for entry in entries(kernel.__name__)]
+
+
+def abi_callback(kernel: ModuleType, name: str, symbol: str, sizes: tuple[str, ...]) -> Callback:
+    """Return an entry of the step ABI: bare addresses of arrays whose lengths are known."""
+    kinds = tuple(("int32" if s == "NIOUT" else "float64") if s else "float" for s in sizes)
+    names = [f"a{i}" for i in range(len(sizes))]
+    given = [f"carray({n}, {size})" if size else n for n, size in zip(names, sizes, strict=True)]
+    source = f"def entry({', '.join(names)}):\n return function({', '.join(given)})\n"
+    scope = {"function": getattr(kernel, name)}
+    scope |= {size: getattr(kernel, size) for size in sizes if size}
+    return Callback(symbol, kinds, source, scope)
+
+
+def python_callback(entry: Entry) -> Callback:
+    """Return an entry for Python: addresses with lengths; what comes back is put into an array."""
+    types: list[str] = []
+    scope: dict[str, Any] = {"function": entry.function}
+
+    def given(kind: Kind) -> str:
+        place = len(types)
+        if kind.name == "tuple":
+            parts = ", ".join([given(part) for part in kind.parts])
+            if kind.made_by is None:
+                return f"({parts},)"
+            scope[kind.made_by.__name__] = kind.made_by
+            return f"{kind.made_by.__name__}({parts})"
+        if kind.name == "array":
+            types.extend([kind.item, *["int"] * kind.ndim])
+            lengths = "".join(f"a{place + 1 + k}, " for k in range(kind.ndim))
+            return f"carray(a{place}, ({lengths}))"
+        types.append(kind.name)
+        return f"a{place}"
+
+    call = f"function({', '.join([given(kind) for kind in entry.takes])})"
+    lines = [f"back = {call}"]
+    if entry.returns:
+        n = len(entry.returns)
+        lines.append(f"out = carray(a{len(types)}, ({n},))")
+        types.append("float64")
+        lines += [f"out[{k}] = back{f'[{k}]' if entry.is_tuple else ''}" for k in range(n)]
+    names = ", ".join(f"a{k}" for k in range(len(types)))
+    source = f"def entry({names}):\n " + "\n ".join([*lines, "return 0"]) + "\n"
+    return Callback(entry.symbol, tuple(types), source, scope)
+
+
+def compiled(callback: Callback) -> Any:
+    """Return numba's C callback around an entry."""
+    import numba
+
+    compiler: Any = numba  # its annotations lag behind it
+    types = compiler.types
+    numbers = {"float": types.float64, "int": types.int64, "bool": types.boolean}
+    kinds = [numbers.get(t) or types.CPointer(getattr(types, t)) for t in callback.types]
+    scope = {"carray": compiler.carray, **callback.scope}
+    exec(callback.source, scope)
+    make = compiler.cfunc(types.int32(*kinds), error_model="numpy", boundscheck=False)
+    return make(scope["entry"])
+
+
+def function_name(made: Any) -> str:
+    """Return the name of the compiled function inside a C callback."""
+    name: str = made.native_name
+    if not name.startswith("cfunc."):
+        raise unknown_numba(f"a callback is named {name[:40]!r}, not 'cfunc.' and its function")
+    return name.removeprefix("cfunc.")
+
+
+def function_in(made: Any) -> tuple[str, str]:
+    """Return (text of the module, name) of the compiled function inside a C callback."""
+    text, name = made.inspect_llvm(), function_name(made)
+    text, changed = _COUNTING.subn(_NOTHING, text)
+    if changed != 2:
+        raise unknown_numba(f"{changed} definitions of NRT_incref and NRT_decref, expected 2")
+    check_convention(text, name)
+    return text, name
+
+
+def check_convention(text: str, name: str) -> None:
+    """Stop unless a function is ``int32 f(result *, void **, arguments)``."""
+    head = rf'^define (?:[a-z_]+ )?i32 @"?{re.escape(name)}"?\(ptr [^\n]*%retptr, ptr [^\n]*%excinfo'
+    if not re.search(head, text, re.M):
+        raise unknown_numba("a compiled function is not int32 f(result *, void **, arguments)")
+
+
+def unknown_numba(what: str) -> EnvironmentProblem:
+    """Return the error for a numba that is not built as expected."""
+    import numba
+
+    return EnvironmentProblem(
+        f"numba {numba.__version__} is not known to the native build: {what}; "
+        "install another version of numba, the newest that works is in docs/fmu.md"
+    )
+
+
+def module(kernel: ModuleType, done: Callable[[int, int], None]) -> Any:
+    """Return one module with all entries, external and hidden; everything else is internal."""
+    wanted = callbacks(kernel)
+    whole = lean.module(wanted, done) if lean.is_known() else plain_module(wanted, done)
+    hide(whole, [callback.symbol for callback in wanted])
+    return whole
+
+
+def plain_module(wanted: list[Callback], done: Callable[[int, int], None]) -> Any:
+    """Return the entries' modules linked, as any numba makes them: several times slower."""
+    import llvmlite.binding as llvm
+
+    whole = None
+    for count, callback in enumerate(wanted, 1):
+        text, name = function_in(compiled(callback))
+        part = llvm.parse_assembly(text)
+        entry = part.get_function(name)
+        entry.name, entry.linkage = callback.symbol, "external"
+        if whole is None:
+            whole = part
+        else:  # what both call is there once: functions of the same name are merged
+            whole.link_in(part)
+        done(count, len(wanted))
+    return whole
+
+
+def hide(whole: Any, names: Iterable[str]) -> None:
+    """Make everything but the entries internal, and drop what no entry uses."""
+    import llvmlite.binding as llvm
+
+    for value in (*whole.functions, *whole.global_variables):
+        if value.name in names:
+            value.visibility = "hidden"
+        elif not value.is_declaration:
+            value.linkage = "internal"
+    machine = llvm.Target.from_triple(whole.triple).create_target_machine()
+    builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options())
+    passes = llvm.create_new_module_pass_manager()
+    passes.add_global_dead_code_eliminate_pass()
+    passes.run(whole, builder)
+    whole.verify()
+
+
+def main(arguments: list[str]) -> int:
+    """Write the bitcode of a kernel module."""
+    import llvmlite.binding as llvm
+
+    name, file = arguments
+    warnings.filterwarnings("ignore", message=r"[\s\S]*Cannot cache compiled function")
+    llvm.initialize_all_targets()
+    try:
+        whole = module(
+            importlib.import_module(name), lambda k, n: print(f"{DONE} {k} of {n}", flush=True)
+        )
+    except EnvironmentProblem as problem:
+        print(problem, file=sys.stderr)
+        return SAID
+    Path(file).write_bytes(whole.as_bitcode())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,175 @@
+"""Files written at once, and folders from which code may be loaded: the user's alone.
+
+Compiled code that lies where others can write is code that others can change. It is kept in a
+folder that belongs to the user and has mode 0700; where no such folder can be had, in a temporary
+one of this process, and that is said.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from functools import cache
+from pathlib import Path
+
+from ..errors import naming
+
+Note = Callable[[str], None]
+SUM = ".sha256"  # ends the name of the file that holds another one's checksum
+
+
+def to_stderr(message: str) -> None:
+    """Say a line of progress where it does not mix with results."""
+    print(message, file=sys.stderr, flush=True)
+
+
+def write(path: Path, data: bytes, mode: int = 0o644) -> None:
+    """Put a file in place at once: a reader sees the old one or the new one, never a half."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with naming(path), os.fdopen(handle, "wb") as file:
+            file.write(data)
+        os.chmod(part, mode)
+        os.replace(part, path)
+    except BaseException:
+        with suppress(OSError):
+            os.unlink(part)
+        raise
+
+
+def checksum(data: bytes) -> str:
+    """Return the SHA-256 of bytes as hex digits."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def user_cache() -> Path:
+    """Return where this user's compiled code lies; it need not exist."""
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return Path(home) / "thrustwasher"
+
+
+@cache
+def code_folder() -> Path:
+    """Return a folder for compiled code that nobody else can write to.
+
+    The user's cache if it can be made so, else a temporary folder that goes with this process.
+    """
+    folder = user_cache() / "native"
+    why = _made_private(folder)
+    if not why:
+        return folder
+    private = _temporary()
+    to_stderr(f"compiled code is not kept: {folder} {why}; it lies in {private} for this run")
+    return private
+
+
+def _made_private(folder: Path) -> str:
+    """Make a folder that is the user's alone; return why it is not, or nothing."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        why = not_private(folder)
+        if why == "can be entered by others":
+            folder.chmod(0o700)
+            why = not_private(folder)
+        with tempfile.TemporaryFile(dir=folder):
+            return why
+    except OSError as error:
+        return f"cannot be written ({error.strerror or error})"
+
+
+def not_private(folder: Path) -> str:
+    """Return why code in a folder is not trusted: "" if the folder is the user's alone.
+
+    On Windows the folders of a user's profile are closed to others by the system.
+    """
+    if sys.platform == "win32":
+        return ""
+    about = folder.stat()
+    if not stat.S_ISDIR(about.st_mode):
+        return "is no folder"
+    if about.st_uid != os.getuid():
+        return "belongs to another user"
+    return "can be entered by others" if stat.S_IMODE(about.st_mode) & 0o077 else ""
+
+
+_kept: list[tempfile.TemporaryDirectory[str]] = []
+
+
+def _temporary() -> Path:
+    """Return a folder of mode 0700 that is removed when this process ends."""
+    _kept.append(tempfile.TemporaryDirectory(prefix="thrustwasher-", ignore_cleanup_errors=True))
+    return Path(_kept[-1].name)
+
+
+def keep(path: Path, data: bytes) -> None:
+    """Write a file of compiled code and beside it its checksum."""
+    write(path, data, 0o600)
+    write(path.with_name(path.name + SUM), checksum(data).encode(), 0o600)
+
+
+def kept(path: Path) -> bytes | None:
+    """Return a file of compiled code, None if it is not there or not as it was written."""
+    try:
+        data = path.read_bytes()
+        known = path.with_name(path.name + SUM).read_text("ascii")
+    except (OSError, UnicodeDecodeError):
+        return None
+    return data if checksum(data) == known.strip() else None
+
+
+@contextmanager
+def locked(path: Path, waiting: Callable[[], None]) -> Iterator[None]:
+    """Hold a lock that other processes see; ``waiting`` is called if another one holds it.
+
+    The system lets go of it when a process ends, however it ends.
+    """
+    try:
+        handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+    except OSError:  # no lock to be had: the work may be done twice, its files appear at once
+        yield
+        return
+    try:
+        if not _try_lock(handle):
+            waiting()
+            _lock(handle)
+        yield
+    finally:
+        os.close(handle)
+
+
+if sys.platform == "win32":
+    import msvcrt
+    import time
+
+    def _try_lock(handle: int) -> bool:
+        try:
+            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+        except OSError:
+            return False
+        return True
+
+    def _lock(handle: int) -> None:
+        while not _try_lock(handle):
+            time.sleep(0.2)
+
+else:
+    import fcntl
+
+    def _try_lock(handle: int) -> bool:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        except OSError:  # a file system without locks
+            return True
+        return True
+
+    def _lock(handle: int) -> None:
+        with suppress(OSError):
+            fcntl.flock(handle, fcntl.LOCK_EX)

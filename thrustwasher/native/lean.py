@@ -1,0 +1,111 @@
+"""What numba does for each function although only the module of all of them is wanted: left out.
+
+numba is made to run every function it compiles. It links all functions below one into it and
+optimises the whole again, makes machine code of it, wraps it for Python, and keeps it on the disk:
+four fifths of the time. Here each function's own module is kept as it was written, and all are
+linked once. None of this is public in numba; ``is_known`` tells whether its parts are as expected,
+and without them the long way gives the same code.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .emit import Callback
+
+# Methods that are replaced, with their arguments in the versions this was written for.
+_EXPECTED = {
+    ("JITCodeLibrary", "finalize"): ["self"],
+    ("JITCodeLibrary", "add_linking_library"): ["self", "library"],
+    ("JITCodeLibrary", "add_llvm_module"): ["self", "ll_module"],
+    ("JITCodeLibrary", "get_pointer_to_function"): ["self", "name"],
+    ("JITCPUCodegen", "set_env"): ["self", "env_name", "env"],
+}
+_NO_COUNTING = """
+define void @NRT_incref(ptr %p) alwaysinline {
+  ret void
+}
+define void @NRT_decref(ptr %p) alwaysinline {
+  ret void
+}
+"""
+
+
+def is_known() -> bool:
+    """Tell if numba's code generator has the parts that are replaced here."""
+    from numba.core import codegen
+
+    for (owner, name), arguments in _EXPECTED.items():
+        method = getattr(getattr(codegen, owner, None), name, None)
+        if method is None or list(inspect.signature(method).parameters) != arguments:
+            return False
+    return True
+
+
+def module(wanted: Sequence[Callback], done: Callable[[int, int], None]) -> Any:
+    """Return one LLVM module with the functions of all callbacks under their symbols.
+
+    numba compiles for nothing else in this process from then on.
+    """
+    from . import emit
+
+    libraries = _gathered()
+    names = {}
+    for count, callback in enumerate(wanted, 1):
+        names[emit.function_name(emit.compiled(callback))] = callback.symbol
+        done(count, len(wanted))
+    return _linked(libraries, names)
+
+
+def _gathered() -> list[Any]:
+    """Replace the parts; return the list that each finished library of functions is added to."""
+    from numba.core import codegen
+
+    parts: Any = codegen
+    libraries: list[Any] = []
+
+    def finalize(self: Any) -> None:
+        self._finalized = True
+        libraries.append(self)
+
+    def add_llvm_module(self: Any, ll_module: Any) -> None:
+        ll_module.data_layout = self._codegen._data_layout
+        self._final_module.link_in(ll_module)
+
+    def get_pointer_to_function(self: Any, name: str) -> int:
+        """Return the address of a function that is never called."""
+        self._ensure_finalized()
+        return 1
+
+    parts.JITCodeLibrary.finalize = finalize
+    parts.JITCodeLibrary.add_llvm_module = add_llvm_module
+    parts.JITCodeLibrary.get_pointer_to_function = get_pointer_to_function
+    parts.JITCPUCodegen.set_env = lambda self, env_name, env: None
+    return libraries
+
+
+def _linked(libraries: Sequence[Any], names: dict[str, str]) -> Any:
+    """Return all modules in one, callers before what they call: a function nobody asked for yet is
+    not taken over."""
+    import llvmlite.binding as llvm
+
+    from . import emit
+
+    whole = llvm.parse_assembly(_NO_COUNTING)
+    for library in reversed(libraries):
+        part = library._final_module
+        own = {f.name for f in part.functions if not f.is_declaration}
+        for name in own & names.keys():
+            emit.check_convention(str(part), name)
+        for function in part.functions:
+            external = function.linkage == llvm.Linkage.external
+            if external and function.name in own and function.name not in names:
+                function.linkage = "linkonce_odr"
+        whole.link_in(part)
+    for name, symbol in names.items():
+        function = whole.get_function(name)
+        function.name, function.linkage = symbol, "external"
+    return whole

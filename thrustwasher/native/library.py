@@ -1,0 +1,144 @@
+"""The library of this machine: a kernel module's functions where Python can call them."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ..errors import EnvironmentProblem
+from . import files, link, linked, shipped
+from .digest import HERE
+from .entries import symbols
+from .files import Note, to_stderr
+from .here import this_level, this_platform
+from .objects import kept_folder, objects
+from .targets import GLIBC, Platform
+
+TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order
+Addresses = dict[str, int]  # symbol -> address
+
+
+@cache
+def addresses(kernel: str) -> Addresses:
+    """Return where the functions of a kernel module are, after loading its library.
+
+    It is the one shipped with the package, else one kept from an earlier run, else it is linked;
+    where nothing can link, the object is loaded by llvmlite.
+
+    Raises
+    ------
+    EnvironmentProblem : it can neither be found nor made; the message says what to do
+    """
+    platform = this_platform()
+    shown = shipped.library_file(kernel, platform.name)
+    if shown:
+        found = _loaded(kernel, shown)
+        if found:
+            return found
+    kept = _kept_file(kernel, platform)
+    if files.kept(kept) is not None:
+        found = _loaded(kernel, kept)
+        if found:
+            return found
+    return _made(kernel, platform, kept)
+
+
+def _kept_file(kernel: str, platform: Platform) -> Path:
+    return kept_folder(kernel) / f"{shipped.short(kernel)}.{platform.extension}"
+
+
+def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
+    """Link a library and load it."""
+    one = platform
+    if len(platform.levels) > 1 and not shipped.objects_of(kernel):  # for this processor alone
+        one = replace(platform, levels=(this_level(platform),))
+    code = objects(kernel, [one])
+    try:
+        data = linked_library(kernel, one, code, linker=link.local_linker())
+    except EnvironmentProblem:
+        return _by_llvm(kernel, platform, code)
+    files.keep(path, data)
+    found = _loaded(kernel, path)
+    return found or _by_llvm(kernel, platform, code)
+
+
+def linked_library(
+    kernel: str, platform: Platform, code: dict[tuple[str, str], bytes], *,
+    linker: link.Linker | None = None, note: Note = to_stderr,
+) -> bytes:  # fmt: skip
+    """Return the objects of a kernel module linked to a library for Python, checked.
+
+    Raises
+    ------
+    EnvironmentProblem : there is no compiler, or it refuses; the message says which
+    """
+    linker = linker or link.find_linker()
+    names = " ".join(f"X({name})" for name in symbols(kernel))
+    parts: dict[str, str | bytes] = {
+        f"kernel_{level}.o": content for (_, level), content in code.items()
+    }
+    parts["symbols.h"] = f"#define SYMBOLS(X) {names}\n"
+    for name in ("cpu.h", "library.c"):
+        parts[name] = (HERE / name).read_bytes()
+    levels = platform.levels
+    defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
+    made = link.shared_library(
+        parts, platform=platform, name=shipped.short(kernel), defines=defines, linker=linker,
+        note=note,
+    )  # fmt: skip
+    linked.check(made, exports=[TABLE], glibc=GLIBC if linker.is_cross else None)
+    return made
+
+
+def _loaded(kernel: str, path: Path) -> Addresses:
+    """Return the addresses in a library file; none if the system does not load it."""
+    try:
+        table: Any = getattr(ctypes.CDLL(os.fspath(path)), TABLE)
+    except (OSError, AttributeError):
+        return {}
+    names = symbols(kernel)
+    table.restype = ctypes.POINTER(ctypes.c_void_p * len(names))
+    return {name: int(value or 0) for name, value in zip(names, table().contents, strict=True)}
+
+
+_engines: list[Any] = []  # what has been loaded by llvmlite lives as long as the process
+
+
+def _by_llvm(
+    kernel: str, platform: Platform, code: dict[tuple[str, str], bytes]
+) -> Addresses:
+    """Return the addresses in an object file loaded by llvmlite."""
+    import llvmlite.binding as llvm
+
+    level = this_level(platform).name
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    machine = llvm.Target.from_default_triple().create_target_machine(jit=True)
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code[platform.name, level]))
+    engine.finalize_object()
+    _engines.append(engine)
+    found = {name: engine.get_function_address(f"{name}_{level}") for name in symbols(kernel)}
+    if not all(found.values()):
+        raise EnvironmentProblem(
+            f"{shipped.short(kernel)} cannot be loaded here; install gcc, or pip install ziglang"
+        )
+    return found
+
+
+def is_ready(kernel: str) -> bool:
+    """Tell if a kernel module's library is there, so that its first call compiles nothing."""
+    try:
+        platform = this_platform()
+    except EnvironmentProblem:
+        return False
+    if shipped.library_file(kernel, platform.name) or shipped.objects_of(kernel):
+        return True
+    return files.kept(_kept_file(kernel, platform)) is not None
+
+

@@ -1,0 +1,170 @@
+"""A kernel's compiled function as a Python function: numbers and arrays in, numbers out."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..errors import EnvironmentProblem
+from .entries import Entry, Kind, arrays_of_two, describe, library_of, symbol_of
+from .files import to_stderr
+
+# How numbers are handed to a C function; an array is its address.
+_C_TYPES = {"float": ctypes.c_double, "int": ctypes.c_int64, "bool": ctypes.c_uint8}
+_BACK = {"float": "{}", "int": "int({})", "bool": "({} != 0.0)"}
+_raised = ctypes.c_void_p()  # where a kernel would leave an exception; kernels raise none
+_result = ctypes.c_int32()  # always 0: what comes back stands in an array
+
+
+class Unfit(TypeError):
+    """An argument is no array of the kind that the compiled function takes."""
+
+
+def native_function(function: Callable[..., Any]) -> Callable[..., Any] | None:
+    """Return the compiled function of a kernel, None if no library has it.
+
+    Arguments that it does not take, such as an array that is not contiguous, go to the kernel as
+    plain Python. Where no library can be loaded, numba compiles the kernel.
+
+    Raises
+    ------
+    EnvironmentProblem : the library has to be made and cannot be; the message says what to do
+    """
+    if library_of(function.__module__, function.__name__) is None:
+        return None
+    place = _place_of(function)
+    if place is None:
+        from ..kernels._jit import jitted
+
+        jit: Callable[..., Any] = jitted(function)
+        return jit
+    entry = describe(function, arrays_of_two(function.__module__, function.__name__))
+    return python_function(entry, place)
+
+
+@cache
+def _has_platform() -> bool:
+    """Tell if libraries are made for this machine; if not, say once what happens instead."""
+    from .here import this_platform
+
+    try:
+        this_platform()
+    except EnvironmentProblem as problem:
+        to_stderr(f"{problem}; numba compiles the kernels instead, minutes at first")
+        return False
+    return True
+
+
+def address(array: Any, item: Any, ndim: int) -> int:
+    """Return where an array's numbers lie.
+
+    Raises
+    ------
+    Unfit : it is no contiguous array of this type and number of dimensions
+    """
+    if type(array) is not np.ndarray or array.ndim != ndim or array.dtype != item:
+        raise Unfit
+    try:
+        return ctypes.addressof(ctypes.c_char.from_buffer(array))
+    except (TypeError, ValueError, BufferError):  # read only, empty, or not contiguous
+        if not array.flags.c_contiguous:
+            raise Unfit from None
+        return int(array.ctypes.data)
+
+
+def bound(kernel: Any, **arrays: Any) -> Callable[..., Any]:
+    """Return a kernel that always works on these arrays, as a function of its other arguments.
+
+    Looking at arrays takes longer than most kernels: where the same are used again and again this
+    is done once. The other arguments go by position, in their order.
+    """
+    function = getattr(kernel, "py_func", kernel)
+    names = _names(function)
+    place = _place_of(function) if hasattr(kernel, "direct") else None
+    if place is None:
+        open_ = [name for name in names if name not in arrays]
+        return lambda *rest: kernel(**arrays, **dict(zip(open_, rest, strict=True)))
+    entry = describe(function, arrays_of_two(function.__module__, function.__name__))
+    return python_function(entry, place, arrays)
+
+
+def _names(function: Any) -> tuple[str, ...]:
+    names: tuple[str, ...] = function.__code__.co_varnames[: function.__code__.co_argcount]
+    return names
+
+
+def _place_of(function: Callable[..., Any]) -> int | None:
+    """Return the address of a kernel's compiled function, None if no library has it."""
+    library = library_of(function.__module__, function.__name__)
+    if library is None or not _has_platform():
+        return None
+    from .library import addresses
+
+    return addresses(library)[symbol_of(function.__module__, function.__name__)]
+
+
+def python_function(
+    entry: Entry, place: int, fixed: Mapping[str, Any] | None = None
+) -> Callable[..., Any]:
+    """Return the function at an address as one with the arguments of the kernel.
+
+    It is written as Python text for these arguments: a loop over their kinds in each call would
+    take longer than most kernels. ``fixed``: arrays by the name of their argument, which falls
+    away.
+    """
+    types: list[Any] = [ctypes.c_void_p, ctypes.c_void_p]
+    words: list[str] = []
+    plain = getattr(entry.function, "py_func", entry.function)
+    fixed = fixed or {}
+    scope: dict[str, Any] = {
+        "address": address, "Unfit": Unfit, "plain": plain, "fail": _fail, "kept": fixed,
+        "raised": ctypes.byref(_raised), "result": ctypes.byref(_result),
+    }  # fmt: skip
+
+    def give(kind: Kind, text: str, array: Any = None) -> None:
+        if kind.name == "tuple":
+            for k, part in enumerate(kind.parts):
+                give(part, f"{text}[{k}]")
+        elif kind.name == "array":
+            types.extend([ctypes.c_void_p, *[ctypes.c_int64] * kind.ndim])
+            if array is None:
+                scope[kind.item] = np.dtype(kind.item)
+                words.append(f"address({text}, {kind.item}, {kind.ndim})")
+                words.extend(f"{text}.shape[{k}]" for k in range(kind.ndim))
+            else:
+                words.append(str(address(array, np.dtype(kind.item), kind.ndim)))
+                words.extend(str(size) for size in array.shape)
+        else:
+            types.append(_C_TYPES[kind.name])
+            words.append(text if kind.name == "float" else f"int({text})")
+
+    names = _names(plain)
+    for kind, name in zip(entry.takes, names, strict=True):
+        give(kind, name, fixed.get(name))
+    n = len(entry.returns)
+    if n:
+        types.append(ctypes.c_void_p)
+        words.append("_back")
+        scope["_Back"] = ctypes.c_double * n
+    back = [_BACK[kind.name].format(f"_back[{k}]") for k, kind in enumerate(entry.returns)]
+    value = (f"({', '.join(back)},)" if entry.is_tuple else back[0]) if n else "None"
+    call = f"native(result, raised, {', '.join(words)})"
+    given = ", ".join(f"kept[{name!r}]" if name in fixed else name for name in names)
+    source = (
+        f"def {plain.__name__}({', '.join(name for name in names if name not in fixed)}):\n"
+        + (" _back = _Back()\n" if n else "")
+        + f" try:\n  _status = {call}\n except Unfit:\n  return plain({given})\n"
+        + f" if _status:\n  fail()\n return {value}\n"
+    )
+    scope["native"] = ctypes.CFUNCTYPE(ctypes.c_int32, *types)(place)
+    exec(source, scope)
+    made: Callable[..., Any] = scope[plain.__name__]
+    return made
+
+
+def _fail() -> None:
+    raise RuntimeError("a compiled kernel raised an exception, which it never should")

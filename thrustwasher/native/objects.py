@@ -1,0 +1,176 @@
+"""A kernel's object files: shipped with the package, kept from an earlier run, or compiled now."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from ..errors import EnvironmentProblem
+from . import emit, files, shipped
+from .digest import digest
+from .files import Note, to_stderr
+from .targets import Level, Platform
+
+Objects = dict[tuple[str, str], bytes]  # (platform, level) -> object file
+PACKAGE = __name__.rpartition(".")[0]
+KEPT_VERSIONS = 5
+OFTEN = 5.0  # seconds between lines of progress
+_at_once = threading.Semaphore(os.cpu_count() or 1)
+
+
+def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) -> Objects:
+    """Return (platform, level) -> object file with the entries of a kernel module.
+
+    Parameters
+    ----------
+    kernel
+        Dotted name of a module with the step ABI.
+    platforms
+        For which; what several of them need is made once.
+    note
+        Called with a line of progress before and while something takes long.
+
+    Raises
+    ------
+    EnvironmentProblem : the kernel needs what an FMU does not have, or numba is not as expected
+    """
+    wanted = {(p.name, level.name): (p, level) for p in platforms for level in p.levels}
+    found = shipped.objects_of(kernel)
+    if wanted.keys() <= found.keys():
+        return {which: found[which] for which in wanted}
+    folder = kept_folder(kernel)
+    paths = {which: folder / f"{which[0]}-{which[1]}.o" for which in wanted}
+    if any(files.kept(path) is None for path in paths.values()):
+        compile_objects(kernel, folder, wanted, note)
+    ready = {which: files.kept(path) for which, path in paths.items()}
+    return {which: data for which, data in ready.items() if data is not None}
+
+
+def prepare(kernels: Iterable[str], platforms: Sequence[Platform], note: Note = to_stderr) -> None:
+    """Make the objects of several models side by side, as many at once as there are processors."""
+    side_by_side(objects, [(kernel, platforms, note) for kernel in kernels])
+
+
+def is_ready(kernel: str, platform: Platform) -> bool:
+    """Tell if a kernel's objects for the levels of a platform need not be compiled."""
+    wanted = {(platform.name, level.name) for level in platform.levels}
+    if wanted <= shipped.objects_of(kernel).keys():
+        return True
+    folder = kept_folder(kernel)
+    return all(files.kept(folder / f"{p}-{level}.o") is not None for p, level in wanted)
+
+
+def kept_folder(kernel: str) -> Path:
+    """Return the folder of this version of a kernel in the user's cache; it need not exist."""
+    return files.code_folder() / f"{shipped.short(kernel)}-{digest(kernel)}"
+
+
+def compile_objects(
+    kernel: str, folder: Path, wanted: dict[tuple[str, str], tuple[Platform, Level]],
+    note: Note = to_stderr,
+) -> None:  # fmt: skip
+    """Compile what is missing in ``folder``; one process at a time does it."""
+    name = shipped.short(kernel)
+    _forget_old(folder, name)
+    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+
+    def waiting() -> None:
+        note(f"{name} is being compiled by another process: waiting for it")
+
+    with files.locked(folder / "lock", waiting):
+        paths = {which: folder / f"{which[0]}-{which[1]}.o" for which in wanted}
+        missing = [which for which, path in paths.items() if files.kept(path) is None]
+        if not missing:
+            return
+        start, bitcode = time.perf_counter(), folder / "module.bc"
+        if files.kept(bitcode) is None:
+            took = _last_time(folder.parent, name, kernel)
+            last = f"; last time {took:.0f} s" if took else ": seconds, the washer about a minute"
+            note(f"compiling {name}, whose source is new here{last}")
+            _make(bitcode, "emit", kernel, note=_progress(name, note))
+        side_by_side(_lower, [(paths[w], bitcode, *wanted[w], name) for w in missing])
+        took = time.perf_counter() - start
+        note(f"compiled {name} in {took:.0f} s")
+        with suppress(OSError):
+            (folder.parent / f"{name}.seconds").write_text(f"{took:.1f}", "ascii")
+
+
+def _last_time(home: Path, name: str, kernel: str) -> float:
+    """Return how long compiling took the last time here, else where the package was made [s]."""
+    with suppress(OSError, ValueError):
+        return float((home / f"{name}.seconds").read_text("ascii"))
+    about = shipped.index()["kernels"].get(kernel, {})
+    return float(about.get("seconds", 0.0))
+
+
+def _progress(name: str, note: Note) -> Callable[[str], None]:
+    """Return what is told each finished entry and says so now and then."""
+    start = last = time.perf_counter()
+
+    def told(line: str) -> None:
+        nonlocal last
+        now = time.perf_counter()
+        if line.startswith(emit.DONE) and now - last > OFTEN:
+            last = now
+            note(f"compiling {name}: {line.strip()}, {now - start:.0f} s")
+
+    return told
+
+
+def _forget_old(folder: Path, name: str) -> None:
+    """Drop the oldest versions of a kernel in the user's cache."""
+    with suppress(OSError):
+        versions = sorted(folder.parent.glob(f"{name}-*"), key=lambda f: f.stat().st_mtime)
+        for old in versions[: -KEPT_VERSIONS + 1]:
+            if old != folder:
+                shutil.rmtree(old, ignore_errors=True)
+
+
+def _lower(path: Path, bitcode: Path, platform: Platform, level: Level, name: str) -> None:
+    _make(path, "lower", str(bitcode), platform.name, json.dumps(asdict(level)), name)
+
+
+def _make(
+    path: Path, module: str, *arguments: str, note: Callable[[str], None] = lambda line: None
+) -> None:
+    """Run a module of this package in a process of its own, which writes one file."""
+    if not importlib.util.find_spec("numba"):
+        raise EnvironmentProblem("compiling kernels takes numba: pip install numba")
+    with _at_once, tempfile.TemporaryDirectory() as folder:
+        part = Path(folder) / "part"
+        surroundings = emit.environment(os.path.join(folder, "numba"))
+        surroundings["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
+        command = [sys.executable, "-m", f"{PACKAGE}.{module}", *arguments, str(part)]
+        with tempfile.TemporaryFile("w+", dir=folder) as errors:
+            with subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=errors, text=True, env=surroundings
+            ) as process:
+                for line in process.stdout or ():
+                    note(line)
+            if process.returncode:
+                errors.seek(0)
+                lines = errors.read().strip().splitlines()
+                last = lines[-1] if lines else f"it ended with {process.returncode}"
+                said = process.returncode == emit.SAID
+                raise EnvironmentProblem(last if said else f"compiling {arguments[0]}: {last}")
+        files.keep(path, part.read_bytes())
+
+
+def side_by_side(job: Callable[..., Any], arguments: Sequence[tuple[Any, ...]]) -> None:
+    """Do a job with each of the arguments, as many at once as there are processors."""
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        for result in [pool.submit(job, *given) for given in arguments]:
+            result.result()

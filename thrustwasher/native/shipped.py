@@ -1,0 +1,105 @@
+"""The compiled files inside the package: objects of all platforms, libraries for some.
+
+``index.json`` lists for each kernel module the sources it was made from, their digest, and the
+files with their checksums. A source that differs, or a file that is not as listed, and it is as if
+nothing had been shipped: what is needed is compiled again.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from .digest import HERE, PACKAGE, digest_of, read
+from .files import checksum
+
+FOLDER = HERE.parent / "data" / "native"
+INDEX = "index.json"
+EPOCH = (1980, 1, 1, 0, 0, 0)
+
+
+@cache
+def index() -> Mapping[str, Any]:
+    """Return the list of shipped files; empty if there is none that can be read."""
+    try:
+        found: dict[str, Any] = json.loads((FOLDER / INDEX).read_text("utf-8"))
+    except (OSError, ValueError):
+        return {"kernels": {}}
+    return found
+
+
+@cache
+def record(kernel: str) -> Mapping[str, Any] | None:
+    """Return what is shipped for a kernel module, None if its sources have changed since."""
+    about: dict[str, Any] | None = index()["kernels"].get(kernel)
+    if about is None:
+        return None
+    try:
+        found = {name: read(_file(name)) for name in about["sources"]}
+    except OSError:
+        return None
+    return about if digest_of(found) == about["digest"] else None
+
+
+def _file(module: str) -> Path:
+    """Return the file of a module of this package."""
+    path = HERE.parents[1].joinpath(*module.split("."))
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+def _listed(kernel: str, *place: str) -> Path | None:
+    """Return a listed file if it is fresh and as it was when it was listed."""
+    about: Any = record(kernel)
+    for key in place:
+        about = about.get(key) if about else None
+    if not about:
+        return None
+    path = FOLDER / str(about["file"])
+    try:
+        return path if checksum(path.read_bytes()) == about["sha256"] else None
+    except OSError:
+        return None
+
+
+def library_file(kernel: str, platform: str) -> Path | None:
+    """Return the shipped library of a kernel module for Python, None if there is none to use."""
+    return _listed(kernel, "libraries", platform)
+
+
+@cache
+def objects_of(kernel: str) -> Mapping[tuple[str, str], bytes]:
+    """Return (platform, level) -> object file of a kernel module; empty if none can be used."""
+    path = _listed(kernel, "objects")
+    return unpack(path.read_bytes()) if path else {}
+
+
+def pack(objects: Mapping[tuple[str, str], bytes]) -> bytes:
+    """Return a zip of objects: the same bytes for the same content."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for platform, level in sorted(objects):
+            info = zipfile.ZipInfo(f"{platform}-{level}.o", EPOCH)
+            info.create_system, info.external_attr = 3, 0o100644 << 16
+            info.compress_type = zipfile.ZIP_LZMA
+            archive.writestr(info, objects[platform, level])
+    return buffer.getvalue()
+
+
+def unpack(data: bytes) -> dict[tuple[str, str], bytes]:
+    """Return the objects in a zip of ``pack``."""
+    found = {}
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        for name in archive.namelist():
+            platform, _, level = name.removesuffix(".o").rpartition("-")
+            found[platform, level] = archive.read(name)
+    return found
+
+
+def short(kernel: str) -> str:
+    """Return the name of a kernel module for file names."""
+    return kernel.removeprefix(f"{PACKAGE}.").rpartition(".")[2]

@@ -18,10 +18,11 @@ from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 pytestmark = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled then")
 MODELS = ["ShiftTransmission", "WetClutch"]
+KINDS = ["native-fmi2", pytest.param("native-fmi3", marks=pytest.mark.fmi3), "python-fmi2"]
 STEPS = 60
 
 
-@pytest.fixture(scope="module", params=["native-fmi2", "native-fmi3", "python-fmi2"])
+@pytest.fixture(scope="module", params=KINDS)
 def fmus(request):
     """The FMUs of one kind by name, the toy among them."""
     target, _, version = request.param.partition("-fmi")

@@ -30,7 +30,9 @@ def native_toy(request, linker):
     return built_fmu(TOY.key, fmi=request.param, sources=TOY_SLAVES, local=True)
 
 
-@pytest.fixture(scope="module", params=[2, 3], ids=["fmi2", "fmi3"])
+@pytest.fixture(
+    scope="module", params=[2, pytest.param(3, marks=pytest.mark.fmi3)], ids=["fmi2", "fmi3"]
+)
 def native_gear(request, linker):
     return built_fmu("GearMesh", fmi=request.param, local=True)
 

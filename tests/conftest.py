@@ -1,10 +1,23 @@
-"""Keep compiled kernels in the checkout's own cache (its subfolder is keyed by the sources)."""
+"""Where tests keep what is built for them, and which warnings are theirs."""
 
 import os
 from pathlib import Path
 
-os.environ.setdefault("NUMBA_CACHE_DIR", str(Path(__file__).parents[1] / ".cache"))
+TESTS = Path(__file__).parent
+CACHE = TESTS.parent / ".cache"
+
+# The checkout's own cache: its subfolders are keyed by the sources.
+os.environ.setdefault("NUMBA_CACHE_DIR", str(CACHE))
+os.environ.setdefault("XDG_CACHE_HOME", str(CACHE))
 os.environ.setdefault("MPLBACKEND", "Agg")
+os.environ["SOURCE_DATE_EPOCH"] = "1767225600"  # builds repeat while somebody commits
 
 # pytest looks for doctests in conftest.py too, and knows one module of that name at a time
 collect_ignore_glob = ["*conftest.py"]
+
+
+def pytest_configure(config):
+    """Make warnings errors that tests, their helpers or the examples cause."""
+    paths = [*TESTS.rglob("*.py"), *(TESTS.parent / "examples").glob("*.py")]
+    names = {path.stem for path in paths} | {path.parent.name for path in paths}
+    config.addinivalue_line("filterwarnings", rf"error:::({'|'.join(sorted(names))})(\.|$)")

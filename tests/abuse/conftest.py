@@ -3,18 +3,15 @@
 from functools import cache
 
 import pytest
+from built import built_fmu
 
-from thrustwasher.cli._fmu_cache import fmu_paths
-from thrustwasher.fmu.build import build
 from thrustwasher.fmu.native.link import find_linker
-from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import Instance
 
 
 @pytest.fixture(scope="session")
-def fmu_of(tmp_path_factory):
+def fmu_of():
     """Return (model, "native-fmi2") -> the FMU."""
-    folder = tmp_path_factory.mktemp("fmus")
 
     @cache
     def made(model, kind):
@@ -24,10 +21,7 @@ def fmu_of(tmp_path_factory):
                 find_linker()
             except Exception as problem:
                 pytest.skip(str(problem))
-        spec = find_spec(model)
-        if fmi == "2":
-            return fmu_paths([spec.name], target)[spec.name]
-        return build([spec.name], target=target, fmi=int(fmi), out=folder, local=True)[0]
+        return built_fmu(model, target=target, fmi=int(fmi), local=True)
 
     return made
 

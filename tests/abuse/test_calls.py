@@ -4,6 +4,7 @@ import calls
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sampling import sizes
 
 from examples import examples
 
@@ -18,12 +19,17 @@ def model(request):
     assert calls.sane_bits(request.param) == before
 
 
-@examples(80)
-@given(rng=randoms)
-def test_any_call_is_answered_right_or_refused_by_name(model, rng):
-    calls.solve_once(model, rng)
+@sizes(20, 80, pytest.mark.abuse)
+def test_any_call_is_answered_right_or_refused_by_name(model, n):
+    @examples(n)
+    @given(rng=randoms)
+    def one(rng):
+        calls.solve_once(model, rng)
+
+    one()
 
 
+@pytest.mark.abuse
 @examples(15)
 @given(rng=randoms)
 @pytest.mark.parametrize("rung", ["coarse", "field"])

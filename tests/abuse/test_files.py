@@ -7,6 +7,7 @@ import files
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sampling import sizes
 
 from examples import examples
 from thrustwasher.fmu.registry import find_spec
@@ -27,21 +28,27 @@ def spoil(deed, n):
     one()
 
 
+KINDS = [(files.Scenes, 150), (files.Cards, 100), (files.Maps, 150), (files.SweepJournals, 30),
+         (files.MapJournals, 50)]  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("kind", "n"),
-    [(files.Scenes, 150), (files.Cards, 100), (files.Maps, 150), (files.SweepJournals, 30),
-     (files.MapJournals, 50)],
+    [*((kind, n // 10) for kind, n in KINDS),
+     *(pytest.param(kind, n, marks=pytest.mark.abuse) for kind, n in KINDS)],
 )  # fmt: skip
 def test_a_spoiled_file_is_refused_by_name_or_means_what_it_says(kind, n, tmp_path):
     spoil(kind(tmp_path), n)
 
 
-def test_a_spoiled_calibration_file_is_refused_or_fitted(tmp_path):
-    spoil(files.Calibrations(tmp_path, MEASURED.read_bytes()), 6)
+@sizes(2, 6, pytest.mark.abuse)
+def test_a_spoiled_calibration_file_is_refused_or_fitted(tmp_path, n):
+    spoil(files.Calibrations(tmp_path, MEASURED.read_bytes()), n)
 
 
-def test_a_chart_that_was_changed_is_not_drawn(tmp_path):
-    spoil(files.Charts(tmp_path, files.chart_record(), draw=False), 60)
+@sizes(10, 60, pytest.mark.abuse)
+def test_a_chart_that_was_changed_is_not_drawn(tmp_path, n):
+    spoil(files.Charts(tmp_path, files.chart_record(), draw=False), n)
 
 
 def test_half_a_chart_is_refused_in_one_line(tmp_path):
@@ -55,12 +62,18 @@ def test_half_a_chart_is_refused_in_one_line(tmp_path):
         assert (status, said.count("\n")) == (2, 1) and f"'{key}'" in said and "half.json" in said
 
 
-def test_a_spoiled_fmu_is_refused_by_name(tmp_path, fmu_of):
-    spoil(files.Archives(tmp_path, fmu_of("gearmesh", "native-fmi2")), 30)
+@sizes(5, 30, pytest.mark.abuse)
+def test_a_spoiled_fmu_is_refused_by_name(tmp_path, fmu_of, n):
+    spoil(files.Archives(tmp_path, fmu_of("gearmesh", "native-fmi2")), n)
 
 
-@pytest.mark.parametrize("kind", ["direct", "native-fmi2", "native-fmi3", "python-fmi2"])
-def test_spoiled_states_are_refused_and_harm_nothing(kind, instance_of):
+@pytest.mark.parametrize(
+    ("kind", "n"),
+    [("direct", 15), ("native-fmi2", 15),
+     *(pytest.param(kind, 150, marks=pytest.mark.abuse)
+       for kind in ("direct", "native-fmi2", "native-fmi3", "python-fmi2"))],
+)  # fmt: skip
+def test_spoiled_states_are_refused_and_harm_nothing(kind, n, instance_of):
     other = DirectInstance(find_spec("transmission"))
     other.initialize()
     foreign = [other.serialize(other.get_state()), b"", b"{}" * 500]
@@ -70,4 +83,4 @@ def test_spoiled_states_are_refused_and_harm_nothing(kind, instance_of):
         foreign.append(second.serialize(second.get_state()))
     clutch = find_spec("clutch")
     one = DirectInstance(clutch) if kind == "direct" else instance_of("clutch", kind)
-    spoil(files.States(one, foreign), 150)
+    spoil(files.States(one, foreign), n)

@@ -45,7 +45,7 @@ def stopped(words, folder, begun, *signals):
     ("number", "status", "word"),
     [
         (signal.SIGINT, 130, "stopped"),
-        pytest.param(signal.SIGTERM, 143, "terminated", marks=pytest.mark.slow),
+        pytest.param(signal.SIGTERM, 143, "terminated", marks=pytest.mark.abuse),
     ],
 )
 def test_a_sweep_that_is_stopped_ends_in_one_line_and_goes_on(tmp_path, number, status, word):
@@ -60,6 +60,7 @@ def test_a_sweep_that_is_stopped_ends_in_one_line_and_goes_on(tmp_path, number, 
     assert [p.name for p in tmp_path.iterdir()] == ["t.csv"]
 
 
+@pytest.mark.abuse
 def test_a_map_build_that_is_stopped_twice_ends_in_one_line_and_keeps_its_lines(tmp_path):
     journal = tmp_path / "m.twm.journal"
     begun = lambda: journal.exists() and journal.stat().st_size > 5000  # noqa: E731
@@ -70,7 +71,7 @@ def test_a_map_build_that_is_stopped_twice_ends_in_one_line_and_keeps_its_lines(
 
 @pytest.mark.parametrize(
     ("number", "status"),
-    [pytest.param(signal.SIGINT, 130, marks=pytest.mark.slow), (signal.SIGTERM, 143)],
+    [pytest.param(signal.SIGINT, 130, marks=pytest.mark.abuse), (signal.SIGTERM, 143)],
 )
 def test_a_shift_that_is_stopped_leaves_the_folder_as_it_was(tmp_path, number, status, fmu_of):
     for model in ("clutch", "transmission"):

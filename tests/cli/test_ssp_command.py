@@ -2,6 +2,7 @@
 
 import json
 import zipfile
+from functools import cache
 
 import pytest
 
@@ -23,8 +24,9 @@ def linker():
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
-    """Export a scene by name."""
+    """Export a scene by name, once."""
 
+    @cache
     def export(name):
         path = tmp_path_factory.mktemp("ssp") / f"{name}.ssp"
         words = ["shift", "--scene", name, "--ssp", str(path), "--platforms", "local"]

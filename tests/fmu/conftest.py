@@ -5,25 +5,23 @@ import subprocess
 import sys
 
 import pytest
+from built import built_fmu
 from toy.places import HERE, TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.build import build
+from thrustwasher.fmu.interface import all_specs
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
-os.environ["SOURCE_DATE_EPOCH"] = "1767225600"  # builds repeat while somebody commits
+
+@pytest.fixture(scope="session")
+def toy_fmu():
+    return built_fmu(TOY.key, target="python", sources=TOY_SLAVES)
 
 
 @pytest.fixture(scope="session")
-def toy_fmu(tmp_path_factory):
-    out = tmp_path_factory.mktemp("dist")
-    return build([TOY.key], target="python", out=out, sources=TOY_SLAVES)[0]
-
-
-@pytest.fixture(scope="session")
-def fmus(tmp_path_factory):
+def fmus():
     """Every model of this version, packed for Python."""
-    return {path.stem: path for path in build(target="python", out=tmp_path_factory.mktemp("dist"))}
+    return {spec.name: built_fmu(spec.name, target="python") for spec in all_specs()}
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ import signal
 
 import pytest
 from c_host import LIBPYTHON, load, needs_host, talk
+from sampling import sizes
 from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
@@ -60,8 +61,9 @@ def test_without_its_python_there_is_no_instance_but_a_message(environment, part
     assert "FMU_LIBPYTHON" in said.messages[-1] or "PYTHONHOME" in said.messages[-1]
 
 
-def test_processes_end_cleanly_whether_instances_are_freed_or_not(toy_fmu):
-    for i in range(4):
+@sizes(2, 4)
+def test_processes_end_cleanly_whether_instances_are_freed_or_not(toy_fmu, n):
+    for i in range(n):
         assert clean(talk(toy_fmu, *BEGUN, "steps 0 3", *["release"] * (i % 2)))
 
 

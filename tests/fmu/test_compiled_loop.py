@@ -5,6 +5,7 @@ from dataclasses import replace
 import numba
 import numpy as np
 import pytest
+from built import built_fmu
 from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
@@ -12,17 +13,17 @@ from thrustwasher.drivetrain import load_scene, run_shift, shift, with_fidelitie
 from thrustwasher.drivetrain.guard_plan import Plan, Scale
 from thrustwasher.drivetrain.scene import Part
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
-from thrustwasher.fmu.build import build
 from thrustwasher.fmu.native import link
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 pytestmark = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled then")
 MODELS = ["ShiftTransmission", "WetClutch"]
+KINDS = ["native-fmi2", pytest.param("native-fmi3", marks=pytest.mark.fmi3), "python-fmi2"]
 STEPS = 60
 
 
-@pytest.fixture(scope="module", params=["native-fmi2", "native-fmi3", "python-fmi2"])
-def fmus(request, tmp_path_factory):
+@pytest.fixture(scope="module", params=KINDS)
+def fmus(request):
     """The FMUs of one kind by name, the toy among them."""
     target, _, version = request.param.partition("-fmi")
     if target == "native":
@@ -30,9 +31,9 @@ def fmus(request, tmp_path_factory):
             link.find_linker()
         except EnvironmentProblem as problem:
             pytest.skip(str(problem))
-    options = {"target": target, "fmi": int(version), "out": tmp_path_factory.mktemp("dist")}
-    made = build(MODELS, local=target == "native", **options)
-    made += build([TOY.key], sources=TOY_SLAVES, local=target == "native", **options)
+    options = {"target": target, "fmi": int(version), "local": True}
+    made = [built_fmu(model, **options) for model in MODELS]
+    made.append(built_fmu(TOY.key, sources=TOY_SLAVES, **options))
     return {path.stem: path for path in made}
 
 

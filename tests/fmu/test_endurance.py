@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from sampling import sizes
 
 CYCLES = """
 import json, sys
@@ -60,16 +61,18 @@ def test_different_fmus_live_in_one_process_twice_each(toy_fmu, fmus, run_child)
     assert run_child(TOGETHER, toy_fmu, *others) == "done"
 
 
-def test_processes_end_cleanly(toy_fmu, run_child):
+@sizes(1, 8)
+def test_processes_end_cleanly(toy_fmu, run_child, n):
     code = CYCLES.replace("200]", "1]")
-    ends = [run_child(code, toy_fmu, 3, check=False).returncode for _ in range(8)]
-    assert ends == [0] * 8
+    ends = [run_child(code, toy_fmu, 3, check=False).returncode for _ in range(n)]
+    assert ends == [0] * n
 
 
-def test_a_process_that_forgets_to_close_ends_cleanly_too(toy_fmu, run_child):
+@sizes(1, 4)
+def test_a_process_that_forgets_to_close_ends_cleanly_too(toy_fmu, run_child, n):
     code = "import sys; from thrustwasher.fmu.stepper import Instance; f = Instance(sys.argv[1])"
-    ends = [run_child(code, toy_fmu, check=False).returncode for _ in range(4)]
-    assert ends == [0] * 4
+    ends = [run_child(code, toy_fmu, check=False).returncode for _ in range(n)]
+    assert ends == [0] * n
 
 
 PLAIN = """
@@ -85,6 +88,7 @@ fmu.freeInstance()
 """
 
 
-def test_a_host_that_unloads_the_library_ends_cleanly(toy_fmu, run_child, tmp_path):
-    run = [run_child(PLAIN, toy_fmu, tmp_path / str(i), check=False) for i in range(12)]
-    assert [done.returncode for done in run] == [0] * 12, run[-1].stderr
+@sizes(2, 12)
+def test_a_host_that_unloads_the_library_ends_cleanly(toy_fmu, run_child, tmp_path, n):
+    run = [run_child(PLAIN, toy_fmu, tmp_path / str(i), check=False) for i in range(n)]
+    assert [done.returncode for done in run] == [0] * n, run[-1].stderr

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from built import built_fmu
 from fmpy import simulate_fmu
 from fmpy.util import read_csv
 from lxml import etree
@@ -39,23 +40,22 @@ def linkable():
 pytestmark = pytest.mark.skipif(
     "linux64" not in linkable(), reason="no C compiler for Linux: pip install ziglang, or gcc"
 )
-everywhere = pytest.mark.skipif(
+can_all = pytest.mark.skipif(
     len(linkable()) < len(PLATFORMS), reason="pip install ziglang to link for every platform"
 )
-each_fmi = pytest.mark.parametrize("fmi", [2, 3])
 
 
-@pytest.fixture(scope="module")
-def packed(tmp_path_factory):
-    """Return a function: the FMU of a model for Linux, made once."""
-    made, out = {}, tmp_path_factory.mktemp("dist")
+def everywhere(test):
+    """Mark a test that builds for every platform."""
+    return pytest.mark.platforms(can_all(test))
 
-    def make(name, fmi):
-        if (name, fmi) not in made:
-            (made[name, fmi],) = build([name], fmi=fmi, out=out, platforms=["linux64"])
-        return made[name, fmi]
 
-    return make
+each_fmi = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
+
+
+def packed(name, fmi):
+    """Return the FMU of a model for Linux."""
+    return built_fmu(name, fmi=fmi, platforms=["linux64"])
 
 
 @pytest.fixture(scope="module", params=[2, 3])
@@ -71,9 +71,16 @@ def whole(request, tmp_path_factory):
 
 @pytest.mark.parametrize("name", NAMES)
 @each_fmi
-def test_checkers_find_nothing(name, fmi, packed):
+def test_our_own_check_finds_nothing(name, fmi):
+    assert validate(packed(name, fmi)) == []
+
+
+@pytest.mark.parametrize(
+    "name", [SMALL, *(pytest.param(n, marks=pytest.mark.slow) for n in NAMES if n != SMALL)]
+)
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_checkers_find_nothing(name, fmi):
     fmu = packed(name, fmi)
-    assert validate(fmu) == []
     done = subprocess.run([TOOLS / "fmpy", "validate", fmu], capture_output=True, text=True)
     assert (done.returncode, done.stdout.strip()) == (0, "No problems found."), done.stderr
     command = [TOOLS / "fmutool", "-input", fmu, "-check"]
@@ -85,7 +92,7 @@ def test_checkers_find_nothing(name, fmi, packed):
 
 @pytest.mark.parametrize("name", NAMES)
 @each_fmi
-def test_the_default_experiment_gives_the_reference_results(name, fmi, packed, tmp_path):
+def test_the_default_experiment_gives_the_reference_results(name, fmi, tmp_path):
     with zipfile.ZipFile(packed(name, fmi)) as zipped:
         zipped.extractall(tmp_path)
     expected = read_csv(tmp_path / FOLDER / f"{name}_out.csv")
@@ -143,7 +150,7 @@ def description_of(path):
         return etree.fromstring(archive.read("modelDescription.xml"))
 
 
-def test_the_description_says_derivatives_where_the_kernels_have_them(packed):
+def test_the_description_says_derivatives_where_the_kernels_have_them():
     for name in NAMES:
         has = "true" if has_derivatives(find_spec(name)) else "false"
         two, three = (description_of(packed(name, fmi)) for fmi in (2, 3))
@@ -153,7 +160,7 @@ def test_the_description_says_derivatives_where_the_kernels_have_them(packed):
 
 
 @each_fmi
-def test_building_again_elsewhere_gives_the_same_bytes(fmi, tmp_path, packed, run_child):
+def test_building_again_elsewhere_gives_the_same_bytes(fmi, tmp_path, run_child):
     code = (
         "import sys; from pathlib import Path; from thrustwasher.fmu.build import build;"
         "build(['CommandSource'], fmi=int(sys.argv[2]), out=Path(sys.argv[1]),"
@@ -191,7 +198,6 @@ def test_an_unknown_platform_is_refused(tmp_path):
 
 
 @everywhere
-@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @each_fmi
 def test_an_fmu_for_every_platform_is_small(name, fmi, tmp_path):

@@ -3,11 +3,11 @@
 import random
 
 import pytest
+from built import built_fmu
 from toy.places import TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
-from thrustwasher.fmu.build import build
 from thrustwasher.fmu.native import link
 from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
@@ -26,16 +26,15 @@ def linker():
 
 
 @pytest.fixture(scope="module", params=[2, 3], ids=["fmi2", "fmi3"])
-def native_toy(request, linker, tmp_path_factory):
-    out = tmp_path_factory.mktemp("native")
-    return build([TOY.key], fmi=request.param, out=out, sources=TOY_SLAVES, local=True)[0]
+def native_toy(request, linker):
+    return built_fmu(TOY.key, fmi=request.param, sources=TOY_SLAVES, local=True)
 
 
-@pytest.fixture(scope="module", params=[2, 3], ids=["fmi2", "fmi3"])
-def native_gear(request, linker, tmp_path_factory):
-    return build(["GearMesh"], fmi=request.param, out=tmp_path_factory.mktemp("gear"), local=True)[
-        0
-    ]
+@pytest.fixture(
+    scope="module", params=[2, pytest.param(3, marks=pytest.mark.fmi3)], ids=["fmi2", "fmi3"]
+)
+def native_gear(request, linker):
+    return built_fmu("GearMesh", fmi=request.param, local=True)
 
 
 def drawn(rng):

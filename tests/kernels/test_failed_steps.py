@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sampling import sizes
 
 from thrustwasher.errors import Status
 from thrustwasher.kernels import clutch_step, gear_step, transmission_step
@@ -38,13 +39,14 @@ def good_inputs(spec, rng):
     ])  # fmt: skip
 
 
+@sizes(5, 25)
 @pytest.mark.parametrize(("k", "spec", "changes", "fidelity"), CASES)
-def test_what_fails_leaves_no_trace(k, spec, changes, fidelity):
+def test_what_fails_leaves_no_trace(k, spec, changes, fidelity, n):
     rng = np.random.default_rng(7)
     par = filled(spec, spec.params(**changes), fidelity, k.NPAR, k.derive)
     work, out, iout = np.zeros(k.NWORK), np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
     failures = set()
-    for _ in range(25):
+    for _ in range(n):
         state = np.zeros(k.NSTATE)
         for _ in range(int(rng.integers(0, 4))):
             assert k.step(par, good_inputs(spec, rng), state, work, out, iout, 0.0, 1e-3) == 0

@@ -4,6 +4,8 @@ import json
 
 import numpy as np
 import pytest
+from sampling import sizes
+from scipy.stats import binom
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.models.clutch import solve_clutch
@@ -99,14 +101,16 @@ def test_the_constant_law_gives_the_weighted_mean():
     assert high - low == pytest.approx(2 * 1.959964 * 1e-3 / 1.5, rel=1e-2)
 
 
-def test_95_percent_intervals_hold_the_truth_in_95_percent_of_200_experiments():
+@sizes(30, 200)
+def test_95_percent_intervals_hold_the_truth_in_95_percent_of_experiments(n):
     """Between the 0.05 % and 99.95 % quantiles of the binomial distribution."""
     held = dict.fromkeys(TRUTH, 0)
-    for seed in range(200):
+    for seed in range(n):
         found = calibrate(PACK, speed=SLIP, load=LOAD, friction=noisy(seed), profile=False)
         for e in found.estimates:
             held[e.name] += e.interval[0] <= TRUTH[e.name] <= e.interval[1]
-    assert all(179 <= count <= 198 for count in held.values()), held
+    low, high = binom.interval(0.999, n, 0.95)
+    assert all(low <= count <= high for count in held.values()), held
 
 
 def test_intervals_from_profiles_and_from_slopes_agree_where_points_are_many():

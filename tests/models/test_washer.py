@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import sizes
 from scipy.interpolate import CubicSpline
 
 from thrustwasher import BranchError, ParameterError, Status, WasherParams, solve_washer
@@ -144,9 +145,12 @@ box = {
 }  # fmt: skip
 
 
-@settings(derandomize=True, deadline=None, max_examples=120)
-@given(**box)
-def test_every_point_of_the_box_has_an_answer_that_obeys(**point):
+@sizes(40, 120)
+def test_every_point_of_the_box_has_an_answer_that_obeys(n):
+    settings(derandomize=True, deadline=None, max_examples=n)(given(**box)(obeys))()
+
+
+def obeys(**point):
     r = solve_washer(WasherParams(), **point)
     assert r.status is Status.OK and r.branch in ("film", "contact")
     assert r.friction_torque * r.speed >= 0.0

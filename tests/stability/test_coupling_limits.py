@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from built import built_fmu
 from loops.running import (
     body_and_law,
     dies_out,
@@ -23,8 +24,6 @@ from loops.running import (
 )
 from loops.specs import BODY, LAW
 
-from thrustwasher.fmu.build import build
-
 SLAVES = Path(__file__).parent / "loops" / "slaves"
 WITHIN = 0.02
 
@@ -34,10 +33,9 @@ ENGINE, SLIP, FORCE, RADIUS = 150.0, 50.0, 1000.0, 0.1
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    out = tmp_path_factory.mktemp("dist")
-    made = build([BODY.key, LAW.key], target="python", sources=SLAVES, out=out, local=True)
-    made += build(["WetClutch", "ShiftTransmission"], target="python", out=out, local=True)
+def fmus():
+    made = [built_fmu(s.key, target="python", sources=SLAVES, local=True) for s in (BODY, LAW)]
+    made += [built_fmu(n, target="python", local=True) for n in ("WetClutch", "ShiftTransmission")]
     return {path.stem: path for path in made}
 
 

@@ -1,8 +1,11 @@
 """A native washer reads its map from the folder resources, and says so when it cannot."""
 
 import shutil
+import tempfile
+from pathlib import Path
 
 import pytest
+from built import built_fmu
 
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.build import build
@@ -18,16 +21,16 @@ BOX = {"load": (100.0, 900.0), "speed": (500.0, 600.0), "tilt": (0.002, 0.002),
 POINT = {"load": 300.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
 MAP = {"fidelity": "map"}
 NONE = "no map was made for these parameters"
+each_fmi = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    """Washers of FMI 2 and 3 that carry a small map, which this process finds too."""
-    folder = tmp_path_factory.mktemp("mapped")
-    make_map(WasherParams(), folder / "small.twm", box=BOX, fidelity="field", points=4)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(VARIABLE, str(folder))
-        yield {n: build(["ThrustWasher"], out=folder, fmi=n, local=True)[0] for n in (2, 3)}
+def washer():
+    """Return FMI version -> a washer that carries a small map, which this process finds too."""
+    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+        make_map(WasherParams(), Path(folder, "small.twm"), box=BOX, fidelity="field", points=4)
+        patch.setenv(VARIABLE, folder)
+        yield lambda fmi: built_fmu("ThrustWasher", fmi=fmi, local=True)
 
 
 def course():
@@ -36,10 +39,10 @@ def course():
     return [[load, 545.0 + 0.1 * k, 0.002, 297.15] for k, load in enumerate([*loads, 95.0, 300.0])]
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-def test_it_gives_the_bits_of_the_kernels_in_python(fmus, fmi):
+@each_fmi
+def test_it_gives_the_bits_of_the_kernels_in_python(washer, fmi):
     ours = DirectInstance(SPEC, parameters=MAP)
-    with Instance(fmus[fmi], parameters=MAP) as theirs:
+    with Instance(washer(fmi), parameters=MAP) as theirs:
         for instance in (ours, theirs):
             instance.initialize(0.0, POINT)
         lost = 0.0
@@ -52,18 +55,19 @@ def test_it_gives_the_bits_of_the_kernels_in_python(fmus, fmi):
         assert 20 < lost < 80  # the fold was passed and passed back
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-def test_its_derivatives_are_those_of_the_kernels(fmus, fmi):
+@each_fmi
+def test_its_derivatives_are_those_of_the_kernels(washer, fmi):
     ours = DirectInstance(SPEC, parameters=MAP)
     asked = ["friction_torque", "film_thickness"], ["load", "speed"], [1.0, 0.5]
-    with Instance(fmus[fmi], parameters=MAP) as theirs:
+    with Instance(washer(fmi), parameters=MAP) as theirs:
         for instance in (ours, theirs):
             instance.initialize(0.0, POINT)
         assert theirs.directional_derivative(*asked) == ours.directional_derivative(*asked)
 
 
-def test_a_state_taken_to_another_instance_brings_the_map_with_it(fmus):
-    with Instance(fmus[2], parameters=MAP) as first, Instance(fmus[2], parameters=MAP) as second:
+def test_a_state_taken_to_another_instance_brings_the_map_with_it(washer):
+    fmu = washer(2)
+    with Instance(fmu, parameters=MAP) as first, Instance(fmu, parameters=MAP) as second:
         first.initialize(0.0, POINT)
         first.set_inputs([600.0, 545.0, 0.002, 297.15])
         first.step(0.0, 1e-3)
@@ -90,9 +94,9 @@ def test_without_maps_the_fmu_is_small_and_refuses_the_fidelity(tmp_path):
         build(["ThrustWasher"], out=tmp_path, target="python", maps=False)
 
 
-def test_other_parameters_have_no_map(fmus):
+def test_other_parameters_have_no_map(washer):
     with pytest.raises((ParameterError, SolveError), match=NONE):
-        with Instance(fmus[2], parameters={**MAP, "roughness": 4e-7}) as instance:
+        with Instance(washer(2), parameters={**MAP, "roughness": 4e-7}) as instance:
             instance.initialize(0.0, POINT)
 
 
@@ -104,8 +108,8 @@ def moved(fmu, name, tmp_path):
 
 
 @pytest.mark.parametrize("change", ["gone", "cut", "rubbish", "bit"])
-def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(fmus, tmp_path, change):
-    folder = moved(fmus[2], "copy", tmp_path)
+def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_path, change):
+    folder = moved(washer(2), "copy", tmp_path)
     file = folder / "resources" / "map-0.bin"
     if change == "gone":
         shutil.rmtree(file.parent)
@@ -123,11 +127,11 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(fmus, tmp_path,
 
 
 @pytest.mark.parametrize("name", ["with space", "per%20cent", "mäp 測定", "plus+and#hash"])
-def test_any_folder_name_will_do(fmus, tmp_path, name):
+def test_any_folder_name_will_do(washer, tmp_path, name):
     from fmpy.fmi2 import FMU2Slave
     from fmpy.model_description import read_model_description
 
-    folder = moved(fmus[2], name, tmp_path)
+    folder = moved(washer(2), name, tmp_path)
     told = read_model_description(str(folder), validate=False)
     place = {v.name: v.valueReference for v in told.modelVariables}
     fmu = FMU2Slave(guid=told.guid, unzipDirectory=str(folder), instanceName="washer",

@@ -22,6 +22,7 @@ SAME = 1e-11
 every = pytest.mark.parametrize(
     "model", [pytest.param(m, marks=pytest.mark.slow) if m == "washer" else m for m in MODELS]
 )
+elsewhere = pytest.mark.platforms
 
 
 def emulator(ask, *given):
@@ -99,18 +100,21 @@ def assert_close(found, wanted):
 
 
 @every
+@elsewhere
 def test_windows_steps_as_the_jit_does(model, tmp_path, wine_prefix):
     before = emulator(emulate.command, PLATFORMS["win64"])
     assert_close(stepped(model, "win64", before, tmp_path), expected(model))
 
 
 @every
+@elsewhere
 def test_arm_linux_steps_as_the_jit_does(model, tmp_path):
     before = emulator(emulate.command, PLATFORMS["aarch64-linux"])
     assert_close(stepped(model, "aarch64-linux", before, tmp_path), expected(model))
 
 
 @every
+@elsewhere
 def test_an_old_processor_takes_the_other_code_and_steps_as_the_jit_does(model, tmp_path):
     before = emulator(emulate.old_processor)
     assert_close(stepped(model, "linux64", before, tmp_path), expected(model))

@@ -23,7 +23,7 @@ from shelltoy.spec import SPEC as TOY
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.registry import find_spec
 
-both = pytest.mark.parametrize("fmi", [2, 3])
+both = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 needs_valgrind = pytest.mark.skipif(
     not shutil.which("valgrind"), reason="needs valgrind (Debian package valgrind)"
 )
@@ -68,7 +68,7 @@ def test_valgrind_finds_nothing_in_the_shell(fmi):
 
 @needs_linux
 @needs_valgrind
-@pytest.mark.parametrize("model", ["clutch", "gearmesh"])
+@pytest.mark.parametrize("model", ["clutch", pytest.param("gearmesh", marks=pytest.mark.slow)])
 def test_valgrind_finds_nothing_in_the_models(model):
     replies = run(2, model_library(model, 2), everything(find_spec(model)), wrap=VALGRIND)
     assert [r.status for r in replies][-7:] == [3, 0, 0, 0, 0, 0, 0]

@@ -64,8 +64,11 @@ def run_of(spec, seed, n):
     return twin
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("model", CHEAP)
+@pytest.mark.parametrize(
+    ("model", "fmi"),
+    [*((m, 2) for m in CHEAP), ("clutch", 3),
+     *(pytest.param(m, 3, marks=pytest.mark.fmi3) for m in CHEAP if m != "clutch")],
+)  # fmt: skip
 def test_300_steps_are_the_cores_to_the_bit(model, fmi):
     twin = run_of(find_spec(model), 7, 300)
     replies = run(fmi, model_library(model, fmi), twin.script)

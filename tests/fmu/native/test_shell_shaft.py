@@ -15,7 +15,7 @@ SHAFT = {"shaft_stiffness": 1200.0, "shaft_damping": 2.0, "vehicle_inertia": 8.0
          "carrier_inertia": 0.3, "initial_twist": 0.05}  # fmt: skip
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 def test_a_swinging_shaft_is_the_cores_to_the_bit_and_its_state_is_whole(fmi):
     twin, rng = Twin(find_spec("transmission"), GUID), random.Random(5)
     twin.put(**SHAFT)

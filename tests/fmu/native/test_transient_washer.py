@@ -1,9 +1,9 @@
 """A native washer whose bodies store heat: bits of the kernels, rollback, and what is refused."""
 
 import pytest
+from built import built_fmu
 
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.build import build
 from thrustwasher.fmu.direct import DirectInstance
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.models.washer_params import SPEC
@@ -13,11 +13,8 @@ IN_TIME = {"thermal_mode": "transient", "fidelity": "coarse"}
 TORQUE, MEAN = 0, 1
 
 
-@pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    """Washers of FMI 2 and 3."""
-    folder = tmp_path_factory.mktemp("in_time")
-    return {n: build(["ThrustWasher"], out=folder, fmi=n, local=True)[0] for n in (2, 3)}
+def washer(fmi):
+    return built_fmu("ThrustWasher", fmi=fmi, local=True)
 
 
 def course():
@@ -27,10 +24,10 @@ def course():
     return rows + [(0.5, [200.0, -545.0, 0.002, 310.0])] * 5
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-def test_it_gives_the_bits_of_the_kernels_in_python(fmus, fmi):
+@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
+def test_it_gives_the_bits_of_the_kernels_in_python(fmi):
     ours = DirectInstance(SPEC, parameters=IN_TIME)
-    with Instance(fmus[fmi], parameters=IN_TIME) as theirs:
+    with Instance(washer(fmi), parameters=IN_TIME) as theirs:
         for instance in (ours, theirs):
             instance.initialize(0.0, POINT)
         time, warmest = 0.0, 0.0
@@ -56,9 +53,9 @@ def test_setting_inputs_warms_nothing():
 
 
 @pytest.mark.parametrize("rung", ["closed", "stribeck", "map"])
-def test_rungs_without_bodies_refuse_by_name(fmus, rung):
+def test_rungs_without_bodies_refuse_by_name(rung):
     wrong = {"thermal_mode": "transient", "fidelity": rung}
     for make in (lambda: DirectInstance(SPEC, parameters=wrong),
-                 lambda: Instance(fmus[2], parameters=wrong)):  # fmt: skip
+                 lambda: Instance(washer(2), parameters=wrong)):  # fmt: skip
         with pytest.raises((ParameterError, SolveError), match="thermal_mode = transient, allowed"):
             make().initialize(0.0, POINT)

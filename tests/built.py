@@ -1,0 +1,44 @@
+"""FMUs that tests share: each is built once, by the process that needs it first."""
+
+import hashlib
+import os
+from pathlib import Path
+
+from filelock import FileLock
+
+from thrustwasher.cli._fmu_cache import fmu_paths, prune, source_digest
+from thrustwasher.fmu.build import build
+from thrustwasher.fmu.guard import compiler
+from thrustwasher.fmu.registry import find_spec
+
+HOME = Path(__file__).parents[1] / ".cache" / "test-fmus"
+KEPT_ELSEWHERE = {"local": True}  # as the commands build them
+
+
+def built_fmu(model, *, target="native", fmi=2, sources=None, **options):
+    """Return the path of an FMU; the arguments are those of ``build``.
+
+    The folder is named by all that the FMU is made of; a lock lets other processes wait for it.
+    """
+    name = find_spec(model).name
+    home = HOME / _digest(target, sources, options)
+    path = home / f"{target}-fmi{fmi}" / f"{name}.fmu"
+    home.mkdir(parents=True, exist_ok=True)
+    with FileLock(home / f"{target}-fmi{fmi}-{name}.lock"):
+        if fmi == 2 and sources is None and options == KEPT_ELSEWHERE:
+            return fmu_paths([name], target)[name]
+        if not path.is_file():
+            build([model], target=target, fmi=fmi, out=home, sources=sources, **options)
+            prune(HOME)
+    os.utime(home)  # the time of the last use
+    return path
+
+
+def _digest(target, sources, options):
+    """Return 16 hex digits over sources, compilers and the way it is built."""
+    hashed = hashlib.sha256(f"{source_digest(target)} {compiler()} {sorted(options)}".encode())
+    hashed.update(repr(options).encode())
+    if sources:
+        for path in sorted(p for p in sources.parent.rglob("*") if p.suffix in (".py", ".md")):
+            hashed.update(path.relative_to(sources.parent).as_posix().encode() + path.read_bytes())
+    return hashed.hexdigest()[:16]

@@ -11,10 +11,11 @@ from importlib import metadata
 from pathlib import Path
 
 from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.native import link, tables
+from thrustwasher.fmu.native import tables
+from thrustwasher.native import link
 from thrustwasher.fmu.native.library import headers as fmi_headers
 from thrustwasher.fmu.native.library import library, shell
-from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.fmu.registry import all_specs, find_spec
 from thrustwasher.models._spec import ModelSpec
 

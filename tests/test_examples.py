@@ -43,7 +43,7 @@ def load(name):
 
 def _need_a_compiler():
     from thrustwasher.errors import EnvironmentProblem
-    from thrustwasher.fmu.native.link import find_linker
+    from thrustwasher.native.link import find_linker
 
     try:
         find_linker()

@@ -5,7 +5,7 @@ from functools import cache
 import pytest
 from built import built_fmu
 
-from thrustwasher.fmu.native.link import find_linker
+from thrustwasher.native.link import find_linker
 from thrustwasher.fmu.stepper import Instance
 
 

@@ -9,7 +9,7 @@ import pytest
 from thrustwasher.cli import _fmu_cache, main
 from thrustwasher.cli.build import chosen_target
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.fmu.native import here, link
+from thrustwasher.native import here, link
 
 PART = "CommandSource"
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -73,6 +74,23 @@ def test_summary_names_lock_and_report(tmp_path, capsys):
     text, err = capsys.readouterr()
     assert err == "", "no progress bar in a pipe"
     assert "the clutch locked at 2.11" in text and str(out / "report.html") in text
+
+
+def test_numbers_alone_leave_no_file_and_load_no_plotter(tmp_path):
+    fmu_paths(["ShiftTransmission", "WetClutch"], chosen_target(None))
+    words = ["shift", "--scene", "msl", "--step", "10 ms", "--no-report", "--json"]
+    code = (
+        "import sys; from thrustwasher.cli import main; "
+        f"status = main({words!r}); "
+        "sys.exit(status or ', '.join({'matplotlib', 'jinja2', 'pyarrow'} & set(sys.modules)) or 0)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["out"] is None
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_failure_leaves_nothing_behind(tmp_path, capsys, monkeypatch):

@@ -9,7 +9,7 @@ import pytest
 from thrustwasher.cli import main
 from thrustwasher.drivetrain import load_scene
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.fmu.native import link
+from thrustwasher.native import link
 
 pytest.importorskip("lxml", reason="FMPy reads SSP with lxml")
 

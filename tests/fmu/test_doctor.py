@@ -8,8 +8,8 @@ from toy.places import HERE
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import doctor
-from thrustwasher.fmu.native import link
-from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.native import link
+from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.kernels._jit import kernel_digest
 
 

@@ -13,7 +13,8 @@ from toy.spec import SPEC as TOY
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu import archive, guard, identity
 from thrustwasher.fmu.build import source_folder
-from thrustwasher.fmu.native import calls, library, link, tables
+from thrustwasher.fmu.native import calls, library, tables
+from thrustwasher.native import link
 from thrustwasher.fmu.python_contents import python_contents
 from thrustwasher.fmu.stepper import unpack
 

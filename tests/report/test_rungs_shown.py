@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import shift_stand_in
 
-from thrustwasher.report.rungs import Change, Rungs, Stretch, Watched, rung_figure, rung_sections
+from thrustwasher.report.rung_section import rung_figure, rung_sections
+from thrustwasher.report.rungs import Change, Rungs, Stretch, Watched
 from thrustwasher.report.shift_report import shift_page
 from thrustwasher.report.tables import cost_table
 

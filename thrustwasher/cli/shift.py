@@ -30,6 +30,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"folder for {REPORT}, the plots and {TABLE}; default shift-report",
     )  # fmt: skip
     parser.add_argument(
+        "--no-report", action="store_true", help="write no files, only say what came out"
+    )
+    parser.add_argument(
         "--step", metavar="QUANTITY", help="communication step [s], if not the scene's"
     )
     parser.add_argument(
@@ -81,31 +84,38 @@ def run(arguments: argparse.Namespace) -> int:
         return export(arguments, scene)
     if arguments.platforms:
         raise ParameterError("--platforms: for a package only (--ssp FILE.ssp)")
-    folder = _output.check_folder(arguments.out, "--out")
+    folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
     target = chosen_target(arguments.fmu)
     began = time.perf_counter()
     result = _simulate(scene, target, guard=not arguments.no_guard)
+    if folder:
+        with _output.whole_folder(folder) as draft:
+            _write(result, draft)
+    if arguments.json:
+        total, out = time.perf_counter() - began, str(folder) if folder else None
+        _output.print_json({**result.as_dict(), "total_time": total, "out": out})
+        return 0
+    _say(result, folder)
+    return 0
+
+
+def _say(result: Any, folder: Path | None) -> None:
+    """Print what happened in the shift, and where its report is."""
     from ..report import summary
     from ..report.shift_record import record_of
 
     record = record_of(result)
-    with _output.whole_folder(folder) as draft:
-        _write(record, result, draft)
-    if arguments.json:
-        total = time.perf_counter() - began
-        _output.print_json({**result.as_dict(), "total_time": total, "out": str(folder)})
-        return 0
     for text in result.selection.words() if result.selection else []:
         print(text)
     for text in [*summary.sentences(record), *summary.warnings(record)]:
         print(text)
     missing = f"{record.energy['residual_share']:.1e} of {summary.whole_name(record)}"
     print(f"Energy book: {missing} is missing.")
-    print(f"Report: {folder / REPORT}")
+    if folder:
+        print(f"Report: {folder / REPORT}")
     if result.guard:
         print(f"Guard: {result.guard.closing()}.")
-    return 0
 
 
 def _simulate(scene: Any, target: str, guard: bool) -> Any:
@@ -139,12 +149,14 @@ def _loader(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
         yield make
 
 
-def _write(record: Any, result: Any, folder: Path) -> None:
+def _write(result: Any, folder: Path) -> None:
     """Write page, plots and time series into a folder that is still a draft."""
     from ..report.html import render, save_plots
     from ..report.shift_plots import overview_figure
+    from ..report.shift_record import record_of
     from ..report.shift_report import shift_page
 
+    record = record_of(result)
     page = shift_page(record)
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)

@@ -7,7 +7,7 @@
 ``clutch_plot``    friction of a pack against slip speed
 ``fit_plot``       measured friction, the law fitted to it, residuals
 ``gearmesh_plot``  temperatures and stress factors of a gear mesh over its teeth
-``shift_record``   what the report needs from a finished shift
+``shift_record``   what the report needs from a finished shift; ``rungs``: of its rungs
 ``panel_base``     what panels over time share: lines, phases, events
 ``panels``         single panels over time: speeds, torques, temperatures
 ``film_panels``, ``energy_panels``, ``stress_panels``, ``friction_panels``, ``judder_panels``: more
@@ -17,7 +17,7 @@
 ``trust``          how far to trust it, in sentences
 ``judder``         what to say of a shaft that swings; ``chatter``: of a slip that flips
 ``summary``        what happened, in sentences made from the numbers
-``tables``         the report's tables as rows of text
+``tables``         the report's tables as rows of text; ``rung_section``: the chapter on rungs
 ``shift_report``   all of that as the chapters of a page
 ``html``           one self-contained page
 =================  =================================================================

@@ -7,7 +7,7 @@ from . import summary, tables
 from .extremes import highest, worst_film
 from .html import Card, Page, Plot, Section
 from .judder import TITLES, judder_words
-from .rungs import rung_sections
+from .rung_section import rung_sections
 from .shift_plots import (
     energy_figure,
     film_figure,

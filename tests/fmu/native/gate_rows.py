@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.fmu.native import emit, lower
-from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.native import emit, lower
+from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.kernels._jit import kernel
 
 LABS = ctypes.CDLL(None).labs

@@ -11,7 +11,7 @@ import numpy as np
 
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.native import library, tables
-from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.fmu.registry import all_specs, find_spec, kernel_module, load_kernel
 
 HERE = Path(__file__).parent

@@ -10,8 +10,8 @@ import llvmlite.binding as llvm
 import pytest
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.fmu.native import emit, gate, symbols
-from thrustwasher.fmu.native.targets import PLATFORMS
+from thrustwasher.native import emit, gate, symbols
+from thrustwasher.native.targets import PLATFORMS
 
 
 @pytest.fixture(scope="module")

@@ -11,8 +11,9 @@ import pytest
 from kernel_runs import MODELS
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError
-from thrustwasher.fmu.native import calls, emit, gate, key, library, link, linked, objects
-from thrustwasher.fmu.native.targets import GLIBC, PLATFORMS
+from thrustwasher.fmu.native import calls, library
+from thrustwasher.native import digest, emit, gate, link, linked, objects
+from thrustwasher.native.targets import GLIBC, PLATFORMS
 from thrustwasher.fmu.registry import find_spec, kernel_module
 
 GUID = "0123456789abcdef0123456789abcdef"
@@ -157,7 +158,7 @@ def emitted(folder, cpu):
         ("emit", "toy.kernel", "toy.bc"),
         ("lower", "toy.bc", "linux64", json.dumps(asdict(v3)), "toy.step", "toy.o"),
     ):
-        command = [sys.executable, "-m", f"thrustwasher.fmu.native.{module}", *given]
+        command = [sys.executable, "-m", f"thrustwasher.native.{module}", *given]
         subprocess.run(command, cwd=folder, env=surroundings, check=True, timeout=300)
     return (folder / "toy.o").read_bytes()
 

@@ -12,12 +12,12 @@ from pathlib import Path
 
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.native import tables
-from thrustwasher.native import link
 from thrustwasher.fmu.native.library import headers as fmi_headers
 from thrustwasher.fmu.native.library import library, shell
-from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.fmu.registry import all_specs, find_spec
 from thrustwasher.models._spec import ModelSpec
+from thrustwasher.native import link
+from thrustwasher.native.targets import PLATFORMS
 
 GUID = "benchmark"
 STEPS = {"washer": 20, "clutch": 2000, "gearmesh": 1000, "transmission": 2000}

@@ -5,8 +5,8 @@ from functools import cache
 import pytest
 from built import built_fmu
 
-from thrustwasher.native.link import find_linker
 from thrustwasher.fmu.stepper import Instance
+from thrustwasher.native.link import find_linker
 
 
 @pytest.fixture(scope="session")

@@ -13,8 +13,8 @@ from thrustwasher.drivetrain import load_scene, run_shift, shift, with_fidelitie
 from thrustwasher.drivetrain.guard_plan import Plan, Scale
 from thrustwasher.drivetrain.scene import Part
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
-from thrustwasher.native import link
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.native import link
 
 pytestmark = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled then")
 MODELS = ["ShiftTransmission", "WetClutch"]

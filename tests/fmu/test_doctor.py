@@ -8,9 +8,9 @@ from toy.places import HERE
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import doctor
+from thrustwasher.kernels._jit import kernel_digest
 from thrustwasher.native import link
 from thrustwasher.native.targets import PLATFORMS
-from thrustwasher.kernels._jit import kernel_digest
 
 
 def found():

@@ -14,9 +14,9 @@ from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu import archive, guard, identity
 from thrustwasher.fmu.build import source_folder
 from thrustwasher.fmu.native import calls, library, tables
-from thrustwasher.native import link
 from thrustwasher.fmu.python_contents import python_contents
 from thrustwasher.fmu.stepper import unpack
+from thrustwasher.native import link
 
 OK, ERROR = 0, 3
 GUID = "0123456789abcdef" * 2

@@ -17,11 +17,11 @@ from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu import native_contents
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.interface import all_specs, find_spec
-from thrustwasher.native.link import find_linker
-from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.fmu.reference import FOLDER
 from thrustwasher.fmu.registry import has_derivatives
 from thrustwasher.fmu.validate import validate
+from thrustwasher.native.link import find_linker
+from thrustwasher.native.targets import PLATFORMS
 
 SMALL = "GearMesh"
 LARGEST = 300_000  # bytes of an FMU with the libraries of every platform

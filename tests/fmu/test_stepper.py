@@ -8,9 +8,9 @@ from toy.places import TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
-from thrustwasher.native import link
 from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.native import link
 
 H = 1e-3
 SETTINGS = {"discs": 4, "law": "dry", "fidelity": "fine", "dry": True, "inner_radius": 0.04}

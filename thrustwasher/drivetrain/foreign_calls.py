@@ -20,7 +20,7 @@ step2: Foreign = _only_compiled  # int f(word, double, double, int)
 step3: Foreign = _only_compiled  # int f(word, double, double, int, word, word, word, word)
 clock_posix: Foreign = _only_compiled  # int f(int, word)
 clock_windows: Foreign = _only_compiled  # int f(word)
-number_at: Callable[[int], int] = _only_compiled  # the 64-bit integer at an address
+number_at: Any = _only_compiled  # the 64-bit integer at an address
 
 if way() in ("emit", "jit"):
     from llvmlite import ir

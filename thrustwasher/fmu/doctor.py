@@ -13,10 +13,10 @@ from pathlib import Path
 
 from ..errors import EnvironmentProblem, ParameterError
 from ..kernels._jit import cache_folder, kernel_digest
-from .build import source_folder
-from .native import emulate
 from ..native.link import find_linker
 from ..native.targets import PLATFORMS
+from .build import source_folder
+from .native import emulate
 from .registry import all_specs, is_compiled, load_kernel, package_version
 
 

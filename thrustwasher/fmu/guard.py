@@ -33,8 +33,8 @@ def guard_library(spec: ModelSpec, *, guid: str) -> bytes | None:
     """
     if not compiler():
         return None
-    from .build import source_folder
     from ..native import link, targets
+    from .build import source_folder
     from .native import library, tables
 
     folder = source_folder() / "shell"

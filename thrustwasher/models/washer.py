@@ -231,8 +231,8 @@ def _solve(
     if code >= FIRST_FAILURE and not bench.simple:
         keep_estimate(state, work)
     return result_from(
-        params, point, fidelity, nodes, state, work, status, float(work[N_INFO]), bool(bench.iout[1]),
-        ERRORS[fidelity] if not card else UNREAD[fidelity],
+        params, point, fidelity, nodes, state, work, status, float(work[N_INFO]),
+        bool(bench.iout[1]), UNREAD[fidelity] if card else ERRORS[fidelity],
     )  # fmt: skip
 
 

@@ -86,7 +86,8 @@ class WasherResult:
         )
 
 
-setattr(WasherResult, "error_estimate", ErrorEstimate(WasherResult.error_estimate))  # noqa: B010
+_field = WasherResult.__dict__["error_estimate"]
+setattr(WasherResult, "error_estimate", ErrorEstimate(_field))  # noqa: B010
 
 
 def film_gap(radius: Array, cos: Array, sin: Array, q: Array) -> Array:

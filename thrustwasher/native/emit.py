@@ -1,6 +1,6 @@
-"""A kernel module as one self-contained LLVM module: ``python -m thrustwasher.native.emit KERNEL FILE``.
+"""A kernel module as one self-contained LLVM module.
 
-Runs in a process of its own, since numba reads its settings once, when it is imported. numba makes
+``python -m thrustwasher.native.emit KERNEL FILE`` runs in a process of its own, since numba reads its settings once, when it is imported. numba makes
 of each entry a C callback around a compiled function. The callback holds all that needs Python
 (lock, exceptions) and falls away here; what stays takes numbers and needs libm at most. The bitcode
 is not optimised and names no CPU's instructions: ``lower`` makes each platform's object of it.
@@ -155,8 +155,8 @@ def function_in(made: Any) -> tuple[str, str]:
 
 def check_convention(text: str, name: str) -> None:
     """Stop unless a function is ``int32 f(result *, void **, arguments)``."""
-    head = rf'^define (?:[a-z_]+ )?i32 @"?{re.escape(name)}"?\(ptr [^\n]*%retptr, ptr [^\n]*%excinfo'
-    if not re.search(head, text, re.M):
+    arguments = r"\(ptr [^\n]*%retptr, ptr [^\n]*%excinfo"
+    if not re.search(rf'^define (?:[a-z_]+ )?i32 @"?{re.escape(name)}"?{arguments}', text, re.M):
         raise unknown_numba("a compiled function is not int32 f(result *, void **, arguments)")
 
 

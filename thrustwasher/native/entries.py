@@ -165,7 +165,8 @@ def symbols(library: str) -> tuple[str, ...]:
     ``library`` is the dotted name of a module; one that is not in ``CALLED`` has none.
     """
     own = library.removeprefix(f"{PACKAGE}.")
-    return tuple(sorted(symbol_of(*p.rsplit(".", 1)) for p in _places(own))) if own in CALLED else ()
+    places = _places(own) if own in CALLED else []
+    return tuple(sorted(symbol_of(*place.rsplit(".", 1)) for place in places))
 
 
 def symbol_of(module: str, name: str) -> str:

@@ -30,4 +30,3 @@ def this_level(platform: Platform) -> Level:
     has = binding.get_host_cpu_features()
     able = [x for x in platform.levels if all(has.get(f, False) for f in FEATURES.get(x.name, ()))]
     return able[-1]
-

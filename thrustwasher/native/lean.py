@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -60,6 +61,7 @@ def module(wanted: Sequence[Callback], done: Callable[[int, int], None]) -> Any:
     return _linked(libraries, names)
 
 
+@cache
 def _gathered() -> list[Any]:
     """Replace the parts; return the list that each finished library of functions is added to."""
     from numba.core import codegen
@@ -88,15 +90,17 @@ def _gathered() -> list[Any]:
 
 
 def _linked(libraries: Sequence[Any], names: dict[str, str]) -> Any:
-    """Return all modules in one, callers before what they call: a function nobody asked for yet is
-    not taken over."""
+    """Return all modules in one, callers before what they call.
+
+    A function that nobody has asked for so far would not be taken over.
+    """
     import llvmlite.binding as llvm
 
     from . import emit
 
     whole = llvm.parse_assembly(_NO_COUNTING)
     for library in reversed(libraries):
-        part = library._final_module
+        part = library._final_module.clone()
         own = {f.name for f in part.functions if not f.is_declaration}
         for name in own & names.keys():
             emit.check_convention(str(part), name)

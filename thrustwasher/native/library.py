@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -109,9 +108,7 @@ def _loaded(kernel: str, path: Path) -> Addresses:
 _engines: list[Any] = []  # what has been loaded by llvmlite lives as long as the process
 
 
-def _by_llvm(
-    kernel: str, platform: Platform, code: dict[tuple[str, str], bytes]
-) -> Addresses:
+def _by_llvm(kernel: str, platform: Platform, code: dict[tuple[str, str], bytes]) -> Addresses:
     """Return the addresses in an object file loaded by llvmlite."""
     import llvmlite.binding as llvm
 
@@ -140,5 +137,3 @@ def is_ready(kernel: str) -> bool:
     if shipped.library_file(kernel, platform.name) or shipped.objects_of(kernel):
         return True
     return files.kept(_kept_file(kernel, platform)) is not None
-
-

@@ -69,7 +69,7 @@ def address(array: Any, item: Any, ndim: int) -> int:
     if type(array) is not np.ndarray or array.ndim != ndim or array.dtype != item:
         raise Unfit
     try:
-        return ctypes.addressof(ctypes.c_char.from_buffer(array))
+        return ctypes.addressof(ctypes.c_char.from_buffer(array))  # type: ignore[arg-type]
     except (TypeError, ValueError, BufferError):  # read only, empty, or not contiguous
         if not array.flags.c_contiguous:
             raise Unfit from None

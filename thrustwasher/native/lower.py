@@ -50,7 +50,7 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
 
 
 def _rename(module: Any) -> None:
-    """Number what is internal: the compiler's names hold addresses and would differ each time."""
+    """Give numbers to what is internal: the compiler's names hold addresses and differ."""
     for letter, values in (("f", module.functions), ("g", module.global_variables)):
         inside = [v for v in values if v.linkage.name in ("internal", "private")]
         for number, value in enumerate(inside):

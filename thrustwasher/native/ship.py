@@ -35,7 +35,7 @@ def toolchain() -> dict[str, str]:
 
 
 def made(kernel: str, folder: Path) -> tuple[dict[tuple[str, str], bytes], float]:
-    """Return a kernel module's objects for all platforms, compiled now, and how long it took [s]."""
+    """Return a kernel module's objects for all platforms, compiled now, and the seconds it took."""
     wanted = {(p.name, level.name): (p, level) for p in PLATFORMS.values() for level in p.levels}
     start = time.perf_counter()
     objects.compile_objects(kernel, folder, wanted)

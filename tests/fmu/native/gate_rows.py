@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.kernels._jit import kernel
 from thrustwasher.native import emit, lower
 from thrustwasher.native.targets import PLATFORMS
-from thrustwasher.kernels._jit import kernel
 
 LABS = ctypes.CDLL(None).labs
 LABS.restype, LABS.argtypes = ctypes.c_long, [ctypes.c_long]
@@ -170,10 +170,10 @@ REFUSED = {
 
 def judged(function):
     """Return what the gate says of a kernel, "" if nothing."""
-    rows = SimpleNamespace(derive=function, NPAR=8)
+    rows = SimpleNamespace(derive=function, NPAR=8, __name__="rows")
     platform = PLATFORMS["linux64"]
     try:
-        bitcode = emit.module(rows, lambda text: None).as_bitcode()
+        bitcode = emit.module(rows, lambda done, total: None).as_bitcode()
         lower.object_code(bitcode, platform, platform.levels[0], "rows.derive")
     except EnvironmentProblem as problem:
         return str(problem)

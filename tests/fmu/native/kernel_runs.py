@@ -11,8 +11,9 @@ import numpy as np
 
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.native import library, tables
-from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.fmu.registry import all_specs, find_spec, kernel_module, load_kernel
+from thrustwasher.kernels._jit import jitted, way
+from thrustwasher.native.targets import PLATFORMS
 
 HERE = Path(__file__).parent
 EXPORTS = ("probe_derive", "probe_rule", "probe_step", "probe_sens")
@@ -35,7 +36,7 @@ def probe(model: str, level: str) -> ctypes.CDLL:
 
 
 class Jit:
-    """The entries as Python calls them."""
+    """The entries as numba compiles them when they are called."""
 
     def __init__(self, model: str) -> None:
         spec = find_spec(model)
@@ -43,7 +44,13 @@ class Jit:
         self.module = importlib.import_module(kernel_module(spec.kernel))
 
     def call(self, entry: str, *given):
-        return getattr(self.module, entry)(*given)
+        return compiled(getattr(self.module, entry))(*given)
+
+
+@cache
+def compiled(kernel):
+    """Return a kernel compiled by the JIT."""
+    return jitted(kernel.py_func) if way() == "native" else kernel
 
 
 class Native(Jit):

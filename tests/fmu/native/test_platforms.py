@@ -12,9 +12,9 @@ from kernel_runs import HERE, MODELS, Jit, Run, course, parameters
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.native import emulate, library
+from thrustwasher.fmu.registry import find_spec
 from thrustwasher.native import link
 from thrustwasher.native.targets import PLATFORMS
-from thrustwasher.fmu.registry import find_spec
 
 GUID = "0123456789abcdef0123456789abcdef"
 STEPS = 20

@@ -4,8 +4,8 @@ import shutil
 from pathlib import Path
 
 from ...errors import EnvironmentProblem
-from .link import local_machine
-from .targets import Platform
+from ...native.link import local_machine
+from ...native.targets import Platform
 
 # Debian's wine64 alone puts nothing on PATH.
 WINE = ("wine64", "wine", "/usr/lib/wine/wine64")

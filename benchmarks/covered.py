@@ -55,7 +55,7 @@ def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str)
     """Run tests under measurement; cut off, they leave what was measured until then."""
     began = time.perf_counter()
     command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q",
-               "-p", "no:cacheprovider", *words]  # fmt: skip
+               "-n", "0", "-p", "no:cacheprovider", *words]  # fmt: skip
     running = subprocess.Popen(
         command, cwd=ROOT, env={**os.environ, **environment}, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

@@ -9,7 +9,11 @@ CACHE = TESTS.parent / ".cache"
 # The checkout's own cache: its subfolders are keyed by the sources.
 os.environ.setdefault("NUMBA_CACHE_DIR", str(CACHE))
 os.environ.setdefault("XDG_CACHE_HOME", str(CACHE))
+# also where a test looks at an empty cache: ziglang compiles parts of its C library into its own
+os.environ.setdefault("ZIG_GLOBAL_CACHE_DIR", os.path.join(os.environ["XDG_CACHE_HOME"], "zig"))
 os.environ.setdefault("MPLBACKEND", "Agg")
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):  # the processes share the cores
+    os.environ.setdefault(threads, "1")
 os.environ["SOURCE_DATE_EPOCH"] = "1767225600"  # builds repeat while somebody commits
 
 # pytest looks for doctests in conftest.py too, and knows one module of that name at a time

@@ -8,16 +8,17 @@ import sys
 from pathlib import Path
 
 import pytest
+from built import built_fmu
 
 from thrustwasher.cli import main
-from thrustwasher.cli._fmu_cache import fmu_paths
 from thrustwasher.cli.build import chosen_target
 
 
 @pytest.fixture(scope="module")
 def msl(tmp_path_factory):
     """Run the scene with a known answer once, with FMUs that are there already."""
-    fmu_paths(["ShiftTransmission", "WetClutch"], chosen_target(None))
+    for model in ("ShiftTransmission", "WetClutch"):
+        built_fmu(model, target=chosen_target(None), local=True)
     folder = tmp_path_factory.mktemp("shift") / "report"
     words = ["shift", "--scene", "msl", "--out", str(folder), "--json"]
     done = subprocess.run(

@@ -4,10 +4,10 @@ import csv
 import json
 
 import pytest
+from curves import traced
 
 from thrustwasher.cli import main
 from thrustwasher.models.washer import solve_washer
-from thrustwasher.models.washer_curve import load_curve
 from thrustwasher.models.washer_params import WasherParams
 
 POINT = ["--load", "300", "--speed", "953", "--tilt", "0.002"]
@@ -72,7 +72,7 @@ def test_curve_json_names_branches_and_folds(capsys):
     record = run_json(["curve", "--speed", "545", "--tilt", "0.002"], capsys)
     assert [fold["kind"] for fold in record["folds"]] == ["film_lost", "film_regained"]
     assert {point["branch"] for point in record["points"]} == {"film", "unstable", "contact"}
-    curve = load_curve(WasherParams(), speed=545.0, tilt=0.002)
+    curve = traced()
     assert record["folds"][0]["load"] == curve.folds[0].load
     assert len(record["points"]) == len(curve.points)
 

@@ -8,8 +8,9 @@ import itertools
 import math
 
 import pytest
+from curves import traced
 
-from thrustwasher import WasherParams, load_curve, solve_washer
+from thrustwasher import WasherParams, solve_washer
 
 # load N, speed rad/s, branch; torque N m, film_ratio, temperature degC, fluid load N, gx/gt, gy/gt,
 # friction coefficient
@@ -71,7 +72,7 @@ def test_full_film_torque_goes_to_the_converged_value_with_order_two():
 
 @pytest.mark.parametrize(("fidelity", "tolerance"), [("field", 0.02), ("fine", 0.002)])
 def test_folds_are_where_the_converged_curve_has_them(fidelity, tolerance):
-    curve = load_curve(WasherParams(), speed=545.0, tilt=0.002, fidelity=fidelity)
+    curve = traced(fidelity=fidelity)
     assert [fold.kind for fold in curve.folds] == ["film_lost", "film_regained"]
     for fold in curve.folds:
         load, ratio, celsius, torque = FOLDS[fold.kind]
@@ -83,17 +84,14 @@ def test_folds_are_where_the_converged_curve_has_them(fidelity, tolerance):
 
 @pytest.mark.parametrize("speed", [953.0, 1367.0])
 def test_default_grid_finds_the_folds_of_the_fine_one(speed):
-    coarse, fine = (
-        load_curve(WasherParams(), speed=speed, tilt=0.002, fidelity=f).folds
-        for f in ("field", "fine")
-    )
+    coarse, fine = (traced(speed=speed, fidelity=f).folds for f in ("field", "fine"))
     assert [f.load for f in coarse] == pytest.approx([f.load for f in fine], rel=0.005)
     assert len(coarse) == 2
 
 
 def test_the_curve_at_136_is_single_valued():
     for fidelity in STATED:
-        curve = load_curve(WasherParams(), speed=136.0, tilt=0.002, fidelity=fidelity)
+        curve = traced(speed=136.0, fidelity=fidelity)
         assert curve.folds == []
         loads = [p.load for p in curve.points]
         assert all(b > a for a, b in itertools.pairwise(loads))
@@ -102,7 +100,7 @@ def test_the_curve_at_136_is_single_valued():
 @pytest.mark.parametrize(("speed", "ratio"), [(136.0, 3.30), (545.0, 3.05), (1367.0, 3.05)])
 def test_friction_is_least_at_a_film_ratio_of_three(speed, ratio):
     """Where contact begins: 3.03-3.08 at high speed, 3.30 at 136 rad/s."""
-    curve = load_curve(WasherParams(), speed=speed, tilt=0.002)
+    curve = traced(speed=speed, fidelity="field")
     points = [p for p in curve.points if p.film_ratio < 12.0]
     k = min(range(len(points)), key=lambda i: points[i].friction_coefficient)
     # vertex of the parabola through three points

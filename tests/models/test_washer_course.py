@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from curves import traced
 
-from thrustwasher import ParameterError, WasherParams, follow_washer, load_curve, solve_washer
+from thrustwasher import ParameterError, WasherParams, follow_washer, solve_washer
 from thrustwasher.models import washer_course
 from thrustwasher.models.washer_course import CourseError
 
@@ -16,7 +17,7 @@ AT = {"speed": 545.0, "tilt": 2e-3, "grid": GRID}
 
 def lost_load(rate, params=IN_TIME):
     """Return the load at which a load that rises by ``rate`` [N/s] loses the film."""
-    fold = load_curve(STEADY, **AT).folds[0].load
+    fold = traced(**AT).folds[0].load
     load = np.arange(0.97 * fold, 1.5 * fold, 0.002 * fold)
     c = follow_washer(params, time=(load - load[0]) / rate, load=load, **AT)
     return c.load[np.argmax(c.distress)] / fold - 1.0
@@ -32,7 +33,7 @@ def test_slow_loads_lose_the_film_at_the_fold_and_quick_ones_later():
 
 
 def test_a_slow_loop_of_load_has_the_hysteresis_of_steady_states():
-    low, high = (f.load for f in reversed(load_curve(STEADY, **AT).folds))
+    low, high = (f.load for f in reversed(traced(**AT).folds))
     there = np.linspace(0.9 * low, 1.1 * high, 60)
     load = np.concatenate((there, there[::-1]))
     time = np.arange(len(load)) * 200.0
@@ -46,7 +47,7 @@ def test_a_slow_loop_of_load_has_the_hysteresis_of_steady_states():
 
 
 def test_a_short_overload_is_survived_and_a_long_one_is_not():
-    fold = load_curve(STEADY, **AT).folds[0].load
+    fold = traced(**AT).folds[0].load
     for duration, lost in ((0.05, False), (60.0, True)):
         time = np.array([0.0, 1e-3, 1e-3 + duration, 2e-3 + duration, 60.0 + duration])
         load = fold * np.array([0.8, 1.3, 1.3, 0.8, 0.8])

@@ -4,13 +4,14 @@ import itertools
 import math
 
 import pytest
+from curves import traced
 
 from thrustwasher import ParameterError, Status, WasherParams, load_curve, solve_washer
 
 
 @pytest.fixture(scope="module")
 def curve():
-    return load_curve(WasherParams(), speed=545.0, tilt=0.002)
+    return traced()
 
 
 def test_points_go_from_thick_to_thin_over_the_whole_range(curve):
@@ -107,7 +108,7 @@ def test_bisection_in_load_finds_the_fold_of_the_continuation(curve, kind):
 
 
 def test_folds_are_the_same_turning_back():
-    forth, back = (load_curve(WasherParams(), speed=s, tilt=0.002).folds for s in (700.0, -700.0))
+    forth, back = (traced(speed=s).folds for s in (700.0, -700.0))
     for a, b in zip(forth, back, strict=True):
         assert b.load == pytest.approx(a.load, rel=1e-6)
         assert b.friction_torque == pytest.approx(-a.friction_torque, rel=1e-5)

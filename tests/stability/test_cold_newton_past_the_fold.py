@@ -11,8 +11,9 @@ Cure: a solution exists at every load; the walk goes on in film thickness throug
 
 import numpy as np
 import pytest
+from curves import traced
 
-from thrustwasher import Status, WasherParams, load_curve, solve_washer
+from thrustwasher import Status, WasherParams, solve_washer
 
 from washer_runs import is_sound, solve  # isort: skip
 
@@ -27,7 +28,7 @@ def test_there_is_an_answer_at_every_load(speed, tilt):
 
 @pytest.mark.parametrize("share", [1.0 + 1e-6, 1.0001, 1.01, 1.2, 2.0])
 def test_just_past_the_fold_the_answer_is_that_of_the_curve(share):
-    curve = load_curve(WasherParams(), speed=545.0, tilt=0.002)
+    curve = traced()
     load = share * curve.folds[0].load
     r = solve(load=load)
     assert is_sound(r) and r.branch == "contact"

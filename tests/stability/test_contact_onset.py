@@ -13,8 +13,9 @@ import itertools
 
 import numpy as np
 import pytest
+from curves import traced
 
-from thrustwasher import WasherParams, load_curve, solve_washer
+from thrustwasher import WasherParams, solve_washer
 
 from washer_runs import followed, is_sound, solve  # isort: skip
 
@@ -46,7 +47,7 @@ def test_friction_is_least_where_contact_begins(onset):
 
 def test_torque_over_film_ratio_has_no_kink():
     """Over load it is steep here (torque ~ load^31 at its knee); over the film it is smooth."""
-    points = load_curve(WasherParams(), speed=SPEED, tilt=0.002).points
+    points = traced(speed=SPEED).points
     ratio, torque = np.array([(p.film_ratio, p.friction_torque) for p in points]).T
     near = (ratio < 6.0) & (ratio > 1.0)
     slopes = np.diff(np.log(torque[near])) / np.diff(ratio[near])

@@ -9,15 +9,16 @@ Cure: the film thickness is prescribed and the load computed, a single-valued cu
 """
 
 import pytest
+from curves import traced
 
-from thrustwasher import BranchError, Status, WasherParams, load_curve
+from thrustwasher import BranchError, Status
 
 from washer_runs import followed, is_sound, solve  # isort: skip
 
 
 @pytest.fixture(scope="module", params=[545.0, 953.0, 1367.0])
 def folds(request):
-    found = load_curve(WasherParams(), speed=request.param, tilt=0.002).folds
+    found = traced(speed=request.param).folds
     return request.param, found[0].load, found[1].load
 
 
@@ -76,7 +77,7 @@ SHARP = [
 def test_the_contact_branch_reaches_down_to_its_own_fold(speed, tilt, kelvin):
     """The lowest point of a descent lies above the fold, by up to a twentieth of the load."""
     place = {"speed": speed, "tilt": tilt, "oil_temperature": kelvin}
-    lost, regained = (f.load for f in load_curve(WasherParams(), **place).folds)
+    lost, regained = (f.load for f in traced(**place).folds)
     hot = solve(load=1.05 * lost, **place)
     for share in (1.0005, 1.005, 1.02, 1.05):
         cold = solve(load=share * regained, **place, branch="contact")

@@ -12,8 +12,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from curves import traced
 
-from thrustwasher import WasherParams, load_curve
+from thrustwasher import WasherParams
 from thrustwasher.errors import Status
 from thrustwasher.kernels import washer_step as kernel
 from thrustwasher.models._params import as_numbers
@@ -55,7 +56,7 @@ def test_the_loop_closes(fine):
 
 def test_the_film_goes_and_comes_back_at_the_two_folds(fine):
     loads, _, results = fine
-    lost, regained = (f.load for f in load_curve(WasherParams(), speed=545.0, tilt=0.002).folds)
+    lost, regained = (f.load for f in traced().folds)
     steps = [(a, b, r.branch) for (a, r0), (b, r) in pairwise(zip(loads, results, strict=True))
              if r.branch != r0.branch]  # fmt: skip
     (a, b, gone), (c, d, back) = steps

@@ -10,8 +10,9 @@ Cure: temperatures are functions of the gaps and enter the derivatives: one Newt
 """
 
 import pytest
+from curves import traced
 
-from thrustwasher import Status, WasherParams, load_curve
+from thrustwasher import Status
 
 from washer_runs import is_sound, solve  # isort: skip
 
@@ -40,7 +41,7 @@ def test_thousands_of_kelvin_are_a_number_with_a_warning(speed):
 @pytest.mark.parametrize("speed", [400.0, 545.0, 953.0])
 def test_up_to_the_fold_a_cold_solve_calls_no_distress(speed, share):
     """Where substitution loses the film: from 28 % below the fold on."""
-    lost = load_curve(WasherParams(), speed=speed, tilt=0.002).folds[0].load
+    lost = traced(speed=speed).folds[0].load
     r = solve(load=share * lost, speed=speed)
     assert is_sound(r) and r.branch == "film" and not r.distress
 

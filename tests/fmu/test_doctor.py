@@ -8,7 +8,6 @@ from toy.places import HERE
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import doctor
-from thrustwasher.kernels._jit import kernel_digest
 from thrustwasher.native import link
 from thrustwasher.native.targets import PLATFORMS
 
@@ -26,7 +25,7 @@ def test_what_the_tests_run_on_works():
     checks = found()
     for name in ("thrustwasher", "Python", "numpy", "numba", "fmpy", "pythonfmu", "slave files"):
         assert checks[name].ok, checks[name].text
-    assert kernel_digest() in checks["compiled kernels"].text
+    assert "nothing has to be compiled" in checks["compiled kernels"].text
 
 
 def test_a_missing_package_is_a_finding_with_the_command_that_helps():
@@ -57,10 +56,10 @@ def test_native_platforms_are_listed_with_what_can_be_done_here():
 def test_no_compiler_is_a_finding_with_what_to_install(monkeypatch):
     monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
     monkeypatch.setattr(link.shutil, "which", lambda name: None)
-    link.find_linker.cache_clear()
+    link.forget()
     check = doctor._look("x", doctor._compiler)
     monkeypatch.undo()
-    link.find_linker.cache_clear()
+    link.forget()
     assert (
         not check.ok and "pip install 'thrustwasher[build]'" in check.text and "gcc" in check.text
     )

@@ -9,10 +9,9 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import metadata
-from pathlib import Path
 
 from ..errors import EnvironmentProblem, ParameterError
-from ..kernels._jit import cache_folder, kernel_digest
+from ..native.files import code_folder
 from ..native.link import find_linker
 from ..native.targets import PLATFORMS
 from .build import source_folder
@@ -78,12 +77,11 @@ def _models() -> str:
 
 
 def _kernels() -> str:
-    folder = Path(cache_folder())
-    number = len(list(folder.rglob("*.nbc"))) if folder.is_dir() else 0
-    _writable(str(folder if folder.is_dir() else folder.parent))
     missing = ", ".join(spec.name for spec in all_specs() if not is_compiled(spec))
-    note = f"; the first run or build compiles {missing}: seconds to minutes" if missing else ""
-    return f"{number} in {folder} (digest of the sources: {kernel_digest()}){note}"
+    if not missing:
+        return "all are those of the sources; nothing has to be compiled"
+    folder = code_folder()  # says it if it is a temporary one
+    return f"the first run compiles {missing}, seconds to a minute, and keeps them in {folder}"
 
 
 def _writable(folder: str) -> str:

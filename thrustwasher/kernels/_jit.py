@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from ..errors import EnvironmentProblem
+from ..native.load import native_function
 
 F = TypeVar("F", bound=Callable[..., Any])
 KEPT_VERSIONS = 5
@@ -47,6 +48,8 @@ def way() -> str:
 class Kernel:
     """A kernel as Python sees it; compiled code that calls it sees numba's compiled function."""
 
+    is_native = True  # its compiled function may be called without the way through this object
+
     def __init__(self, function: Callable[..., Any], inline: str) -> None:
         self.py_func, self.inline = function, inline
         self._run: Callable[..., Any] = self._first
@@ -67,19 +70,8 @@ class Kernel:
 
     def _first(self, *args: Any, **named: Any) -> Any:
         """Find the way to run when it is first needed."""
-        from ..native.load import native_function
-
-        self._run = native_function(self.py_func) or self.py_func
+        self._run = native_function(self.py_func, jitted) or self.py_func
         return self._run(*args, **named)
-
-    @property
-    def direct(self) -> Callable[..., Any]:
-        """What a call comes to, without the way through this object."""
-        if self._run == self._first:
-            from ..native.load import native_function
-
-            self._run = native_function(self.py_func) or self.py_func
-        return self._run
 
     @property
     def _numba_type_(self) -> Any:

@@ -215,8 +215,8 @@ def _result(
 ) -> WasherResult:  # fmt: skip
     """Build the result from the numbers of ``OUTPUTS``."""
     return WasherResult(
-        x[0], x[1], x[3], x[2], x[4], x[8], x[9], x[6], tilts[0], tilts[1], branch, distress, status, 0, "map",
-        (0, 0), ERROR, *point, params, state,
+        x[0], x[1], x[3], x[2], x[4], x[8], x[9], x[6], tilts[0], tilts[1], branch,
+        distress, status, 0, "map", (0, 0), ERROR, *point, params, state,
     )  # fmt: skip
 
 

@@ -1,9 +1,10 @@
 """A kernel module as one self-contained LLVM module.
 
-``python -m thrustwasher.native.emit KERNEL FILE`` runs in a process of its own, since numba reads its settings once, when it is imported. numba makes
-of each entry a C callback around a compiled function. The callback holds all that needs Python
-(lock, exceptions) and falls away here; what stays takes numbers and needs libm at most. The bitcode
-is not optimised and names no CPU's instructions: ``lower`` makes each platform's object of it.
+``python -m thrustwasher.native.emit KERNEL FILE`` runs in a process of its own, since numba reads
+its settings once, when it is imported. numba makes of each entry a C callback around a compiled
+function. The callback holds all that needs Python (lock, exceptions) and falls away here; what
+stays takes numbers and needs libm at most. The bitcode is not optimised and names no CPU's
+instructions: ``lower`` makes each platform's object of it.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ def code_folder() -> Path:
     why = _made_private(folder)
     if not why:
         return folder
-    private = _temporary()
+    private = private_folder()
     to_stderr(f"compiled code is not kept: {folder} {why}; it lies in {private} for this run")
     return private
 
@@ -101,7 +101,8 @@ def not_private(folder: Path) -> str:
 _kept: list[tempfile.TemporaryDirectory[str]] = []
 
 
-def _temporary() -> Path:
+@cache
+def private_folder() -> Path:
     """Return a folder of mode 0700 that is removed when this process ends."""
     _kept.append(tempfile.TemporaryDirectory(prefix="thrustwasher-", ignore_cleanup_errors=True))
     return Path(_kept[-1].name)

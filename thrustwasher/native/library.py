@@ -61,9 +61,16 @@ def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
         data = linked_library(kernel, one, code, linker=link.local_linker())
     except EnvironmentProblem:
         return _by_llvm(kernel, platform, code)
-    files.keep(path, data)
-    found = _loaded(kernel, path)
-    return found or _by_llvm(kernel, platform, code)
+    for place in (path, files.private_folder() / path.name):
+        try:
+            files.keep(place, data)
+        except OSError as error:
+            to_stderr(f"{place} is not kept: {error.strerror or error}")
+            continue
+        found = _loaded(kernel, place)
+        if found:
+            return found
+    return _by_llvm(kernel, platform, code)
 
 
 def linked_library(

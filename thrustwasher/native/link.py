@@ -79,6 +79,12 @@ def _of_this_machine() -> Linker | None:
     return Linker(Path(found).name, (found,), shown.stdout.strip(), own)
 
 
+def forget() -> None:
+    """Look for compilers anew the next time."""
+    for found in (find_linker, local_linker, _of_this_machine):
+        found.cache_clear()
+
+
 def local_machine() -> tuple[str, str]:
     """Return the system and machine of this computer as ``Platform.machine`` names them."""
     machine = this.machine()

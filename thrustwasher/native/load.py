@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from typing import Any
 
@@ -16,6 +16,7 @@ from .files import to_stderr
 # How numbers are handed to a C function; an array is its address.
 _C_TYPES = {"float": ctypes.c_double, "int": ctypes.c_int64, "bool": ctypes.c_uint8}
 _BACK = {"float": "{}", "int": "int({})", "bool": "({} != 0.0)"}
+_ITEMS = {name: np.dtype(name) for name in ("float64", "int32", "int64", "uint8")}
 _raised = ctypes.c_void_p()  # where a kernel would leave an exception; kernels raise none
 _result = ctypes.c_int32()  # always 0: what comes back stands in an array
 
@@ -24,11 +25,13 @@ class Unfit(TypeError):
     """An argument is no array of the kind that the compiled function takes."""
 
 
-def native_function(function: Callable[..., Any]) -> Callable[..., Any] | None:
+def native_function(
+    function: Callable[..., Any], elsewhere: Callable[..., Any]
+) -> Callable[..., Any] | None:
     """Return the compiled function of a kernel, None if no library has it.
 
     Arguments that it does not take, such as an array that is not contiguous, go to the kernel as
-    plain Python. Where no library can be loaded, numba compiles the kernel.
+    plain Python. Where no libraries are made for this machine, ``elsewhere`` compiles the kernel.
 
     Raises
     ------
@@ -38,10 +41,8 @@ def native_function(function: Callable[..., Any]) -> Callable[..., Any] | None:
         return None
     place = _place_of(function)
     if place is None:
-        from ..kernels._jit import jitted
-
-        jit: Callable[..., Any] = jitted(function)
-        return jit
+        compiled: Callable[..., Any] = elsewhere(function)
+        return compiled
     entry = describe(function, arrays_of_two(function.__module__, function.__name__))
     return python_function(entry, place)
 
@@ -84,7 +85,7 @@ def bound(kernel: Any, **arrays: Any) -> Callable[..., Any]:
     """
     function = getattr(kernel, "py_func", kernel)
     names = _names(function)
-    place = _place_of(function) if hasattr(kernel, "direct") else None
+    place = _place_of(function) if getattr(kernel, "is_native", False) else None
     if place is None:
         open_ = [name for name in names if name not in arrays]
         return lambda *rest: kernel(**arrays, **dict(zip(open_, rest, strict=True)))
@@ -116,54 +117,53 @@ def python_function(
     take longer than most kernels. ``fixed``: arrays by the name of their argument, which falls
     away.
     """
-    types: list[Any] = [ctypes.c_void_p, ctypes.c_void_p]
-    words: list[str] = []
     plain = getattr(entry.function, "py_func", entry.function)
-    fixed = fixed or {}
-    scope: dict[str, Any] = {
-        "address": address, "Unfit": Unfit, "plain": plain, "fail": _fail, "kept": fixed,
-        "raised": ctypes.byref(_raised), "result": ctypes.byref(_result),
-    }  # fmt: skip
-
-    def give(kind: Kind, text: str, array: Any = None) -> None:
-        if kind.name == "tuple":
-            for k, part in enumerate(kind.parts):
-                give(part, f"{text}[{k}]")
-        elif kind.name == "array":
-            types.extend([ctypes.c_void_p, *[ctypes.c_int64] * kind.ndim])
-            if array is None:
-                scope[kind.item] = np.dtype(kind.item)
-                words.append(f"address({text}, {kind.item}, {kind.ndim})")
-                words.extend(f"{text}.shape[{k}]" for k in range(kind.ndim))
-            else:
-                words.append(str(address(array, np.dtype(kind.item), kind.ndim)))
-                words.extend(str(size) for size in array.shape)
-        else:
-            types.append(_C_TYPES[kind.name])
-            words.append(text if kind.name == "float" else f"int({text})")
-
-    names = _names(plain)
+    names, fixed = _names(plain), fixed or {}
+    types: list[Any] = [ctypes.c_void_p, ctypes.c_void_p]
+    words = ["result", "raised"]
     for kind, name in zip(entry.takes, names, strict=True):
-        give(kind, name, fixed.get(name))
+        for c_type, word in _words(kind, name, fixed.get(name)):
+            types.append(c_type)
+            words.append(word)
     n = len(entry.returns)
     if n:
         types.append(ctypes.c_void_p)
         words.append("_back")
-        scope["_Back"] = ctypes.c_double * n
     back = [_BACK[kind.name].format(f"_back[{k}]") for k, kind in enumerate(entry.returns)]
     value = (f"({', '.join(back)},)" if entry.is_tuple else back[0]) if n else "None"
-    call = f"native(result, raised, {', '.join(words)})"
     given = ", ".join(f"kept[{name!r}]" if name in fixed else name for name in names)
     source = (
         f"def {plain.__name__}({', '.join(name for name in names if name not in fixed)}):\n"
         + (" _back = _Back()\n" if n else "")
-        + f" try:\n  _status = {call}\n except Unfit:\n  return plain({given})\n"
+        + f" try:\n  _status = native({', '.join(words)})\n"
+        + f" except Unfit:\n  return plain({given})\n"
         + f" if _status:\n  fail()\n return {value}\n"
     )
-    scope["native"] = ctypes.CFUNCTYPE(ctypes.c_int32, *types)(place)
+    scope: dict[str, Any] = {
+        "native": ctypes.CFUNCTYPE(ctypes.c_int32, *types)(place), "plain": plain, "kept": fixed,
+        "address": address, "Unfit": Unfit, "fail": _fail, "_Back": ctypes.c_double * n,
+        "raised": ctypes.byref(_raised), "result": ctypes.byref(_result), **_ITEMS,
+    }  # fmt: skip
     exec(source, scope)
     made: Callable[..., Any] = scope[plain.__name__]
     return made
+
+
+def _words(kind: Kind, text: str, array: Any = None) -> Iterator[tuple[Any, str]]:
+    """Give C type and Python text of all that an argument is handed over as."""
+    if kind.name == "tuple":
+        for k, part in enumerate(kind.parts):
+            yield from _words(part, f"{text}[{k}]")
+    elif kind.name != "array":
+        yield _C_TYPES[kind.name], text if kind.name == "float" else f"int({text})"
+    elif array is None:
+        yield ctypes.c_void_p, f"address({text}, {kind.item}, {kind.ndim})"
+        for k in range(kind.ndim):
+            yield ctypes.c_int64, f"{text}.shape[{k}]"
+    else:
+        yield ctypes.c_void_p, str(address(array, _ITEMS[kind.item], kind.ndim))
+        for size in array.shape:
+            yield ctypes.c_int64, str(size)
 
 
 def _fail() -> None:

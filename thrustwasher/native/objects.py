@@ -84,6 +84,19 @@ def compile_objects(
 ) -> None:  # fmt: skip
     """Compile what is missing in ``folder``; one process at a time does it."""
     name = shipped.short(kernel)
+    try:
+        _compile_missing(kernel, name, folder, wanted, note)
+    except OSError as error:
+        raise EnvironmentProblem(
+            f"compiling {name}: {error.filename or folder}: {error.strerror or error}; free room "
+            "there, or let XDG_CACHE_HOME name another folder"
+        ) from None
+
+
+def _compile_missing(
+    kernel: str, name: str, folder: Path, wanted: dict[tuple[str, str], tuple[Platform, Level]],
+    note: Note,
+) -> None:  # fmt: skip
     _forget_old(folder, name)
     folder.mkdir(parents=True, exist_ok=True, mode=0o700)
 

@@ -13,7 +13,7 @@ import platform as machine
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -44,10 +44,12 @@ def made(kernel: str, folder: Path) -> tuple[dict[tuple[str, str], bytes], float
     return {which: data for which, data in code.items() if data is not None}, took
 
 
-def libraries(kernel: str, code: dict[tuple[str, str], bytes]) -> dict[str, bytes]:
+def libraries(
+    kernel: str, code: Mapping[tuple[str, str], bytes], platforms: Sequence[str] = LIBRARIES
+) -> dict[str, bytes]:
     """Return the libraries for Python that go with the objects: platform -> content."""
     found = {}
-    for name in LIBRARIES:
+    for name in platforms:
         own = {which: data for which, data in code.items() if which[0] == name}
         found[name] = linked_library(kernel, PLATFORMS[name], own)
     return found
@@ -72,9 +74,9 @@ def ship(kernels: Sequence[str]) -> None:
             path.unlink()
 
 
-def _list(index: dict[str, Any]) -> None:
+def _list(index: dict[str, Any], folder: Path = shipped.FOLDER) -> None:
     text = json.dumps(index, indent=1, sort_keys=True) + "\n"
-    files.write(shipped.FOLDER / shipped.INDEX, text.encode())
+    files.write(folder / shipped.INDEX, text.encode())
 
 
 def _write(kernel: str, code: dict[tuple[str, str], bytes], took: float) -> dict[str, Any]:
@@ -83,13 +85,34 @@ def _write(kernel: str, code: dict[tuple[str, str], bytes], took: float) -> dict
     files.write(shipped.FOLDER / f"{name}.zip", packed)
     about: dict[str, Any] = {
         "digest": digest(kernel), "sources": sorted(sources(kernel)), "seconds": round(took, 1),
-        "objects": {"file": f"{name}.zip", "sha256": files.checksum(packed)}, "libraries": {},
+        "objects": {"file": f"{name}.zip", "sha256": files.checksum(packed)},
     }  # fmt: skip
-    for platform, data in libraries(kernel, code).items():
-        file = f"{name}-{platform}.{PLATFORMS[platform].extension}"
-        files.write(shipped.FOLDER / file, data)
-        about["libraries"][platform] = {"file": file, "sha256": files.checksum(data)}
+    about["libraries"] = _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES)
     return about
+
+
+def _write_libraries(
+    folder: Path, kernel: str, name: str, code: Mapping[tuple[str, str], bytes],
+    platforms: Sequence[str],
+) -> dict[str, Any]:  # fmt: skip
+    found = {}
+    for platform, data in libraries(kernel, code, platforms).items():
+        file = f"{name}-{platform}.{PLATFORMS[platform].extension}"
+        files.write(folder / file, data)
+        found[platform] = {"file": file, "sha256": files.checksum(data)}
+    return found
+
+
+def relist(folder: Path, platforms: Sequence[str]) -> None:
+    """Leave only the libraries for some platforms in a copy of the compiled files."""
+    index = json.loads((folder / shipped.INDEX).read_text("utf-8"))
+    for kernel, about in index["kernels"].items():
+        for old in about["libraries"].values():
+            (folder / old["file"]).unlink()
+        code = shipped.unpack((folder / about["objects"]["file"]).read_bytes())
+        name = about["objects"]["file"].removesuffix(".zip")
+        about["libraries"] = _write_libraries(folder, kernel, name, code, platforms)
+    _list(index, folder)
 
 
 def check(kernels: Sequence[str]) -> list[str]:

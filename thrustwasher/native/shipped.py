@@ -30,7 +30,7 @@ def index() -> Mapping[str, Any]:
         found: dict[str, Any] = json.loads((FOLDER / INDEX).read_text("utf-8"))
     except (OSError, ValueError):
         return {"kernels": {}}
-    return found
+    return found if isinstance(found, dict) and "kernels" in found else {"kernels": {}}
 
 
 @cache

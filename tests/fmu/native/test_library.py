@@ -80,10 +80,10 @@ def test_another_platform_is_refused_by_name():
 def without_zig(monkeypatch):
     """A machine without the package ziglang."""
     monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
-    link.find_linker.cache_clear()
+    link.forget()
     yield monkeypatch
     monkeypatch.undo()
-    link.find_linker.cache_clear()
+    link.forget()
 
 
 def test_without_ziglang_the_local_compiler_builds_for_this_platform_only(without_zig):

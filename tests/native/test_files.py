@@ -1,0 +1,101 @@
+"""Compiled code is kept where only its user can write, and is checked before it is loaded."""
+
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from thrustwasher.native import files
+
+posix = pytest.mark.skipif(sys.platform == "win32", reason="modes of folders are POSIX")
+
+
+@pytest.fixture
+def fresh(monkeypatch, tmp_path):
+    """A cache of its own, nothing remembered."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    files.code_folder.cache_clear()
+    yield tmp_path / "cache" / "thrustwasher" / "native"
+    files.code_folder.cache_clear()
+
+
+@posix
+def test_the_folder_is_made_for_the_user_alone(fresh):
+    assert files.code_folder() == fresh
+    assert fresh.stat().st_mode & 0o777 == 0o700
+
+
+@posix
+def test_a_folder_others_can_enter_is_closed_first(fresh):
+    fresh.mkdir(parents=True)
+    fresh.chmod(0o755)
+    assert files.code_folder() == fresh and files.not_private(fresh) == ""
+
+
+@posix
+def test_a_folder_of_somebody_else_is_not_used_and_it_is_said(fresh, monkeypatch, capsys):
+    fresh.mkdir(parents=True, mode=0o700)
+    monkeypatch.setattr(files.os, "getuid", lambda: 54321)
+    folder = files.code_folder()
+    assert folder != fresh and folder.is_dir()
+    said = capsys.readouterr().err
+    assert "belongs to another user" in said and str(folder) in said and said.count("\n") == 1
+
+
+def test_where_nothing_can_be_written_a_temporary_folder_serves(fresh, capsys):
+    fresh.parent.parent.mkdir()
+    fresh.parent.write_text("a file where the folder should be")
+    assert files.not_private(files.code_folder()) == ""
+    assert "cannot be written" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("spoil", ["flip", "cut", "no sum"])
+def test_a_file_that_is_not_as_it_was_written_is_not_there(tmp_path, spoil):
+    path = tmp_path / "code.o"
+    files.keep(path, b"machine code")
+    assert files.kept(path) == b"machine code"
+    if spoil == "flip":
+        path.write_bytes(b"machine c0de")
+    elif spoil == "cut":
+        path.write_bytes(b"machine")
+    else:
+        path.with_name("code.o.sha256").unlink()
+    assert files.kept(path) is None
+
+
+def test_a_failed_write_leaves_no_part_behind(tmp_path, monkeypatch):
+    monkeypatch.setattr(files.os, "replace", lambda *_: (_ for _ in ()).throw(OSError("full")))
+    with pytest.raises(OSError, match="full"):
+        files.write(tmp_path / "a", b"x")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_two_holders_of_a_lock_take_turns(tmp_path):
+    order, waited = [], threading.Event()
+
+    def second():
+        with files.locked(tmp_path / "lock", waited.set):
+            order.append("second")
+
+    with files.locked(tmp_path / "lock", lambda: order.append("waiting")):
+        thread = threading.Thread(target=second)
+        thread.start()
+        assert waited.wait(30)
+        order.append("first")
+    thread.join(30)
+    assert order == ["first", "second"]
+
+
+def test_a_lock_ends_with_its_process(tmp_path):
+    code = (
+        "import sys; from pathlib import Path; from thrustwasher.native import files\n"
+        f"files.locked(Path({str(tmp_path / 'lock')!r}), print).__enter__()\nsys.exit(0)"
+    )
+    root = str(Path(__file__).parents[2])
+    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": root})
+    waited = []
+    with files.locked(tmp_path / "lock", lambda: waited.append(True)):
+        assert waited == []

@@ -1,0 +1,261 @@
+"""The library that Python loads: shipped, kept, linked or loaded by llvmlite; always the same."""
+
+import ctypes
+import io
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.native import files, library, link, objects, shipped
+from thrustwasher.native.entries import CALLED, dotted, symbols
+from thrustwasher.native.here import this_platform
+from thrustwasher.native.targets import PLATFORMS
+
+ROOT = Path(__file__).parents[2]
+KERNELS = [dotted(name) for name in CALLED]
+GEAR = "thrustwasher.kernels.gear_step"
+LARGEST = 3_000_000  # bytes of compiled files in the repository
+
+linux = pytest.mark.skipif(
+    link.local_machine() != ("Linux", "x86_64"), reason="the shipped library is for Linux on x86-64"
+)
+
+
+def child(code, cache, **environment):
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache)}
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300,
+        env={**surroundings, **environment},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("kernel", KERNELS)
+def test_what_is_shipped_is_made_from_these_sources_for_every_platform(kernel):
+    assert shipped.record(kernel) is not None, "renew it: python -m thrustwasher.native.ship"
+    wanted = {(p.name, level.name) for p in PLATFORMS.values() for level in p.levels}
+    assert shipped.objects_of(kernel).keys() == wanted
+    assert shipped.library_file(kernel, "linux64")
+
+
+def test_what_is_shipped_is_small_and_all_listed():
+    found = sorted(path for path in shipped.FOLDER.iterdir())
+    listed = {shipped.INDEX}
+    for about in shipped.index()["kernels"].values():
+        listed |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
+    assert {path.name for path in found} == listed
+    assert sum(path.stat().st_size for path in found) < LARGEST
+
+
+def test_the_same_objects_are_packed_to_the_same_bytes():
+    given = {("linux64", "v2"): b"a" * 1000, ("win64", "v2"): b"b"}
+    data = shipped.pack(given)
+    assert data == shipped.pack(dict(reversed(given.items()))) and shipped.unpack(data) == given
+    assert zipfile.ZipFile(io.BytesIO(data)).testzip() is None
+
+
+@pytest.fixture
+def spoiled(monkeypatch, tmp_path):
+    """A copy of the shipped files that a test may spoil."""
+    shutil.copytree(shipped.FOLDER, tmp_path / "native")
+    monkeypatch.setattr(shipped, "FOLDER", tmp_path / "native")
+    forget()
+    yield tmp_path / "native"
+    monkeypatch.undo()
+    forget()
+
+
+def forget():
+    for found in (shipped.index, shipped.record, shipped.objects_of):
+        found.cache_clear()
+
+
+def test_a_damaged_file_is_not_used(spoiled):
+    name = shipped.record(GEAR)["objects"]["file"]
+    data = bytearray((spoiled / name).read_bytes())
+    data[len(data) // 2] ^= 1
+    (spoiled / name).write_bytes(data)
+    assert shipped.objects_of(GEAR) == {}
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]"])
+def test_a_damaged_list_is_as_if_nothing_was_shipped(spoiled, text):
+    (spoiled / shipped.INDEX).write_text(text)
+    forget()
+    assert shipped.record(GEAR) is None and shipped.library_file(GEAR, "linux64") is None
+
+
+def test_an_edited_source_makes_the_shipped_code_stale(monkeypatch):
+    forget()
+    true = shipped.read
+    monkeypatch.setattr(
+        shipped, "read", lambda p: true(p) + (b"# edited" if p.name == "gear_heat.py" else b"")
+    )
+    assert shipped.record(GEAR) is None
+    assert shipped.record("thrustwasher.kernels.command_step") is not None
+    forget()
+
+
+def call(addresses):
+    """Return what a gear function at an address returns."""
+    kinds = [ctypes.c_void_p] * 2 + [ctypes.c_double] * 2 + [ctypes.c_void_p]
+    function = ctypes.CFUNCTYPE(ctypes.c_int32, *kinds)
+    back, unused = (ctypes.c_double * 1)(), ctypes.c_void_p()
+    place = addresses["tw_call_gear_geometry_slide_roll"]
+    status = function(place)(ctypes.byref(unused), ctypes.byref(unused), 2.0, 0.1, back)
+    return status, back[0]
+
+
+@linux
+def test_a_linked_library_and_one_loaded_by_llvmlite_are_the_shipped_one(tmp_path):
+    platform = this_platform()
+    code = objects.objects(GEAR, [platform])
+    path = tmp_path / "gear.so"
+    path.write_bytes(library.linked_library(GEAR, platform, code, linker=link.local_linker()))
+    linked = library._loaded(GEAR, path)
+    loaded = library._by_llvm(GEAR, platform, code)
+    assert call(linked) == call(loaded) == call(library.addresses(GEAR))
+    assert linked.keys() == set(symbols(GEAR))
+
+
+WITHOUT = """
+import sys
+from thrustwasher.native import link, shipped
+from thrustwasher.errors import EnvironmentProblem
+shipped.library_file = lambda kernel, platform: None
+def none():
+    raise EnvironmentProblem("no compiler")
+if {no_linker}:
+    link.local_linker = none
+from thrustwasher import GearMeshParams, solve_gearmesh
+print(solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0).friction_torque.hex())
+print("llvmlite" in sys.modules, "numba" in sys.modules)
+"""
+
+
+@linux
+@pytest.mark.parametrize("no_linker", [False, True])
+def test_without_a_library_it_is_linked_or_loaded_by_llvmlite_and_kept(tmp_path, no_linker):
+    shown = child(WITHOUT.format(no_linker="False"), tmp_path / "a")
+    assert shown.returncode == 0, shown.stderr
+    done = child(WITHOUT.format(no_linker=no_linker), tmp_path / "b")
+    assert done.returncode == 0, done.stderr
+    number, modules = done.stdout.splitlines()
+    assert number == shown.stdout.splitlines()[0]
+    assert modules == f"{no_linker} False"
+    kept = list((tmp_path / "b").rglob("gear_step.so"))
+    assert len(kept) == (0 if no_linker else 1)
+
+
+STALE = """
+from thrustwasher.native import shipped
+shipped.index = lambda: {"kernels": {}}
+from thrustwasher.kernels import command_step as k
+import numpy as np
+print(k.derive(np.zeros(k.NPAR)))
+"""
+
+
+@linux
+def test_stale_code_is_compiled_once_with_a_word(tmp_path):
+    first, second = child(STALE, tmp_path), child(STALE, tmp_path)
+    assert first.stdout == second.stdout == "0\n", first.stderr
+    assert "compiling command_step" in first.stderr and "compiled command_step in" in first.stderr
+    assert second.stderr == ""
+
+
+@linux
+def test_two_processes_compile_once(tmp_path):
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
+    both = [
+        subprocess.Popen([sys.executable, "-c", STALE], stderr=subprocess.PIPE, text=True,
+                         stdout=subprocess.PIPE, env=surroundings)
+        for _ in range(2)
+    ]  # fmt: skip
+    said = [process.communicate(timeout=300) for process in both]
+    assert [out for out, _ in said] == ["0\n", "0\n"]
+    assert sum("compiled command_step" in err for _, err in said) == 1
+
+
+@linux
+def test_a_home_that_cannot_be_written_serves_with_one_line(tmp_path):
+    (tmp_path / "thrustwasher").write_text("no folder")
+    done = child(STALE, tmp_path)
+    assert done.stdout == "0\n", done.stderr
+    lines = [line for line in done.stderr.splitlines() if "is not kept" in line]
+    assert len(lines) == 1
+
+
+@linux
+def test_a_full_disk_is_said_in_one_line_and_the_library_loads_all_the_same(tmp_path):
+    full = (
+        "from thrustwasher.native import files\n"
+        "true = files.keep\n"
+        "def keep(path, data):\n"
+        "    if path.suffix == '.so' and 'cache' in str(path):\n"
+        "        raise OSError(28, 'No space left on device', str(path))\n"
+        "    true(path, data)\n"
+        "files.keep = keep\n"
+    )
+    done = child(full + STALE, tmp_path / "cache")
+    assert done.stdout == "0\n", done.stderr
+    assert sum("No space left" in line for line in done.stderr.splitlines()) == 1
+
+
+def test_an_error_of_the_disk_while_compiling_names_the_folder(monkeypatch, tmp_path):
+    def full(path, data):
+        raise OSError(28, "No space left on device", str(path))
+
+    monkeypatch.setattr(files, "keep", full)
+    wanted = {("linux64", "v2"): (PLATFORMS["linux64"], PLATFORMS["linux64"].levels[0])}
+    with pytest.raises(EnvironmentProblem, match=r"No space left .* XDG_CACHE_HOME") as caught:
+        objects.compile_objects("thrustwasher.kernels.command_step", tmp_path / "x", wanted)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_machine_nothing_is_made_for_lets_numba_compile(tmp_path):
+    code = (
+        "import platform\nplatform.machine = lambda: 'riscv64'\n"
+        "from thrustwasher.kernels.roelands import viscosity\n"
+        "print(viscosity(350.0, 6.3e-5, 3.5, 1.05)[0] > 0.0)\n"
+    )
+    done = child(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
+    assert done.stdout == "True\n", done.stderr
+    assert done.stderr.count("\n") == 1 and "riscv64" in done.stderr
+
+
+@pytest.mark.slow
+def test_the_long_way_of_emission_gives_the_same_numbers(tmp_path):
+    """With a numba whose inside is not as expected."""
+    code = (
+        "import sys, importlib\nimport llvmlite.binding as llvm\n"
+        "from thrustwasher.native import emit, lean\nllvm.initialize_all_targets()\n"
+        "lean.is_known = lambda: False\n"
+        "whole = emit.module(importlib.import_module('thrustwasher.kernels.gear_step'), print)\n"
+        "open(sys.argv[1], 'wb').write(whole.as_bitcode())\n"
+    )
+    from thrustwasher.native import emit, lower
+
+    path, platform = tmp_path / "long.bc", PLATFORMS["linux64"]
+    surroundings = {**emit.environment(str(tmp_path / "numba")), "PYTHONPATH": str(ROOT)}
+    subprocess.run([sys.executable, "-c", code, str(path)], env=surroundings, check=True,
+                   stdout=subprocess.DEVNULL)  # fmt: skip
+    made = {("linux64", x.name): lower.object_code(path.read_bytes(), platform, x, "gear")
+            for x in platform.levels}  # fmt: skip
+    file = tmp_path / "gear.so"
+    file.write_bytes(library.linked_library(GEAR, platform, made, linker=link.local_linker()))
+    assert call(library._loaded(GEAR, file)) == call(library.addresses(GEAR))
+    assert np.isfinite(call(library.addresses(GEAR))[1])
+
+
+@pytest.mark.slow
+def test_everything_shipped_is_made_again_with_the_same_bytes():
+    from thrustwasher.native import ship
+
+    assert ship.check(KERNELS) == []

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import errno
+import gc
 import os
 import re
 import sys
@@ -36,6 +37,7 @@ COMMANDS = (
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message
+RARELY = 100_000  # new objects between two searches for garbage: imports and plots leave hardly any
 EPILOG = (
     "Numbers are SI (kelvin, radian, pascal); with a unit they may be anything sensible: "
     '"24 degC", "3000 rpm", "1 MPa", "0.1 deg". '
@@ -53,6 +55,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if argv is None:  # a program of its own, no function in somebody's process
             watch.begin()
+            gc.set_threshold(RARELY)
         status = _dispatch(words)
         watch.close()
         sys.stdout.flush()

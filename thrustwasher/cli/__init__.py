@@ -14,7 +14,6 @@ import re
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any, NoReturn
 
 from ..errors import EnvironmentProblem, ParameterError, SolveError
@@ -153,6 +152,8 @@ def _overview() -> _Parser:
 
 def _version() -> str:
     """Return the installed version, or say that this is a bare checkout."""
+    from importlib.metadata import PackageNotFoundError, version
+
     try:
         return version("thrustwasher")
     except PackageNotFoundError:

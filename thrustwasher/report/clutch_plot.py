@@ -88,13 +88,17 @@ def clutch_figure(
     if ploughing is not None:
         handles, words = panels["torque"].get_legend_handles_labels()
         legend_below(figure, handles, words, columns=3)
-    heading(
-        figure,
-        f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
-        f"oil {format_quantity(point['oil_temperature'], 'K')}; "
-        f"dot: {here:.4g} rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}",
-    )
+    heading(figure, _heading(result, point))
     return figure
+
+
+def _heading(result: Any, point: Mapping[str, float]) -> str:
+    """Return load, oil and the operating point in words."""
+    return (
+        f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
+        f"oil {format_quantity(point['oil_temperature'], 'K')}; dot: {abs(point['speed']):.4g} "
+        f"rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}"
+    )
 
 
 def _draw_shares(

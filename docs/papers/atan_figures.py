@@ -40,7 +40,9 @@ from thrustwasher.report.style import (
     PURPLE,
     RED,
     SKY,
+    heading,
     label,
+    legend_below,
     new_figure,
     styled,
 )
@@ -75,7 +77,7 @@ def sweep(preset: str, viscosity_at: str, ratio: float, surface: str) -> list[An
 @styled
 def four_panels(preset: str, number: int, draw: Draw, highest: float | None = None) -> Figure:
     """Return one of the paper's figures with its panels a to d."""
-    figure, panels = new_figure(10.0, 7.4, 2, 2, sharex=True, sharey=True)
+    figure, panels = new_figure(10.0, 7.4, 2, 2, head=1, foot=1, sharex=True, sharey=True)
     for axes, (letter, viscosity_at, ratio) in zip(panels, PANELS, strict=True):
         draw(axes, TEETH, {s: sweep(preset, viscosity_at, ratio, s) for s in ("rough", "fine")})
         axes.set_title(f"{letter}: ratio {ratio:g}, viscosity at the {viscosity_at} temperature")
@@ -83,8 +85,8 @@ def four_panels(preset: str, number: int, draw: Draw, highest: float | None = No
         axes.label_outer()
         if highest:
             axes.set_ylim(0.0, highest)
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    figure.suptitle(f"Atan (2005), Fig. {number}, redrawn: {READINGS[preset]}")
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=4)
+    heading(figure, f"Atan (2005), Fig. {number}, redrawn: {READINGS[preset]}")
     return figure
 
 

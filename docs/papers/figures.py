@@ -36,6 +36,7 @@ from thrustwasher.report.style import (
     ORANGE,
     RED,
     label,
+    legend_below,
     new_figure,
     styled,
 )  # fmt: skip
@@ -223,12 +224,12 @@ def finish(axes: Axes, plot: Plot, title: str) -> None:
 @styled
 def figure_over_speeds(plot: Plot) -> Figure:
     """Return one of Figures 6-14: four speeds."""
-    figure, (axes,) = new_figure(7.4, 4.6)
+    figure, (axes,) = new_figure(7.4, 4.6, foot=2)
     for speed, (colour, marker) in SPEEDS.items():
         draw(axes, trace(speed), plot, colour, marker, f"{speed:g} rad/s")
     finish(axes, plot, f"{plot.title} (Fig. {plot.number}; tilt 0.002 rad)")
     handles = [*axes.get_legend_handles_labels()[0], *KINDS]
-    figure.legend(handles=handles, loc="outside lower center", ncols=5)
+    legend_below(figure, handles, [h.get_label() for h in handles], columns=5)
     return figure
 
 
@@ -238,7 +239,7 @@ def figure_over_friction() -> Figure:
     plot = Plot(15, "Dry friction", "friction coefficient [1]", lambda r: r.friction_coefficient,
                 log=True, limits=(0.015, 0.6), **STRIBECK)  # fmt: skip
     looks = {0.1: (BLUE, "o"), 0.2: (GREEN, "s"), 0.4: (RED, "D")}
-    figure, panels = new_figure(8.6, 4.9, 1, 2, sharey=True)
+    figure, panels = new_figure(8.6, 4.9, 1, 2, foot=2, sharey=True)
     for axes, speed in zip(panels, (136.0, 545.0), strict=True):
         for friction, (colour, marker) in looks.items():
             draw(axes, trace(speed, friction), plot, colour, marker, f"f = {friction:g}")
@@ -246,7 +247,7 @@ def figure_over_friction() -> Figure:
         axes.set_xlabel("ZN/P [1]")
     panels[1].set_ylabel("")
     handles = [*panels[0].get_legend_handles_labels()[0], *KINDS]
-    figure.legend(handles=handles, loc="outside lower center", ncols=4)
+    legend_below(figure, handles, [h.get_label() for h in handles], columns=4)
     return figure
 
 

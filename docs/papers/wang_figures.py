@@ -26,6 +26,7 @@ from thrustwasher.report.style import (
     PURPLE,
     RED,
     label,
+    legend_below,
     new_figure,
     styled,
 )  # fmt: skip
@@ -56,7 +57,7 @@ def over_speed(pack: ClutchParams, pressure: float = 1e6) -> tuple[np.ndarray, n
 @styled
 def figure_4() -> Figure:
     """Return speed and coefficient over the time of a braking of 1.2 s."""
-    figure, (axes,) = new_figure(7.4, 4.2)
+    figure, (axes,) = new_figure(7.4, 4.2, foot=1, right=0.8)
     mu = over_speed(PACK)[1]
     passed = np.concatenate([[0.0], np.cumsum(0.5 * (1.0 / mu[1:] + 1.0 / mu[:-1]))])
     time = 1.2 * (1.0 - passed / passed[-1])
@@ -72,14 +73,16 @@ def figure_4() -> Figure:
     right.plot([0.0, 1.2], [3000.0, 0.0], color=GREY, lw=0.9, ls=":", label="linear fall")
     right.set_ylabel("slip [rpm]")
     right.set_ylim(0.0, 3300.0)
-    figure.legend(loc="outside lower center", ncols=3)
+    handles, names = axes.get_legend_handles_labels()
+    more = right.get_legend_handles_labels()
+    legend_below(figure, handles + more[0], names + more[1], columns=3)
     return figure
 
 
 @styled
 def figure_7() -> Figure:
     """Return the coefficient over W/2R for several shear ratios: Eq 11, and Eq 12 for k = 0.1."""
-    figure, panels = new_figure(9.2, 4.4, 1, 2, sharey=True)
+    figure, panels = new_figure(9.2, 4.4, 1, 2, foot=1, sharey=True)
     across = np.linspace(1e-3, 1.0, 400)
     for axes, weight, name in zip(panels, (1.0, 0.1), ("Eq 11 (k = 1)", "Eq 12, k = 0.1")):  # noqa: B905
         for ratio, colour in RATIOS:
@@ -92,14 +95,14 @@ def figure_7() -> Figure:
         axes.set_xlim(0.0, 1.0)
         axes.set_ylim(0.0, 1.25)
     panels[0].set_ylabel("friction coefficient [1]")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=5)
     return figure
 
 
 @styled
 def figure_9() -> Figure:
     """Return the coefficient over penetration for several asperity radii, S = 0.5."""
-    figure, panels = new_figure(9.2, 4.4, 1, 2)
+    figure, panels = new_figure(9.2, 4.4, 1, 2, foot=1)
     depth = np.linspace(1e-9, 2e-6, 300)
     for axes, weight in zip(panels, (1.0, PACK.plough_weight), strict=True):
         for radius, colour in RADII:
@@ -110,7 +113,7 @@ def figure_9() -> Figure:
         axes.set_xlim(0.0, 2.0)
         axes.set_ylim(bottom=0.0)
     panels[0].set_ylabel("friction coefficient [1]")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=3)
     return figure
 
 

@@ -40,7 +40,7 @@ def test_json_is_one_object_and_nothing_else(msl):
 def test_folder_holds_page_plots_and_series(msl):
     folder, _ = msl
     names = {path.name for path in folder.iterdir()}
-    assert {"report.html", "shift.csv", "overview.png", "speeds.png", "energy.png"} <= names
+    assert {"report.html", "shift.csv", "overview.png", "speeds.svg", "energy.svg"} <= names
     assert [name for name in names if name.startswith(".")] == []
     with (folder / "shift.csv").open(encoding="utf-8") as stream:
         rows = csv.reader(stream)

@@ -1,5 +1,6 @@
 """Cards are read strictly, speak for their own kernels and parameters, and never stop a solve."""
 
+import ast
 import json
 from dataclasses import replace
 
@@ -116,6 +117,15 @@ def test_only_what_a_rung_imports_makes_its_card_stale():
     files = set(files_of("washer", "field"))
     assert {"washer_newton.py", "contact.py", "banded.py", "washer_step.py"} <= files
     assert not {f for f in files if f.startswith(("clutch", "gear", "transmission"))}
+
+
+@pytest.mark.parametrize("path", sorted(digests.KERNELS.glob("*.py")), ids=lambda p: p.stem)
+def test_imports_are_found_as_python_finds_them(path):
+    wanted = set()
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level == 1:
+            wanted |= {node.module} if node.module else {alias.name for alias in node.names}
+    assert set(digests.imports(path.stem)) == wanted
 
 
 def test_line_ends_do_not_change_a_digest(tmp_path, monkeypatch):

@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from thrustwasher.cli import main
+from thrustwasher.report.chart_cost import count_figure
 
 QUANTITY = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
 
@@ -119,6 +120,14 @@ def test_orders_and_what_goes_wrong_without_a_word_are_said(drawn):
 def test_failures_are_drawn_not_dropped(drawn):
     svg = (drawn / "chart-washer.svg").read_text()
     assert "map: 1 of 2 fail" in svg and "old: 2 of 2 fail" in svg
+
+
+def test_samples_of_one_cost_have_an_axis_that_is_wide_enough(record):
+    survey = json.loads(record.read_text("utf-8"))["models"]["washer"]
+    assert {s["count"] for s in survey["samples"]} == {3.0}
+    (axes,) = count_figure("washer", survey).axes
+    low, high = axes.get_xlim()
+    assert low < 2.0 and 4.0 < high
 
 
 def test_html_is_escaped_and_needs_nothing_else(drawn):

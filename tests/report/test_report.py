@@ -1,7 +1,9 @@
 """The report says what its record says, in one page that needs nothing else."""
 
+import base64
 import io
 import re
+import xml.etree.ElementTree as ET
 from dataclasses import replace
 from html.parser import HTMLParser
 
@@ -181,9 +183,16 @@ def replace_fidelity(part):
 
 def test_every_plot_becomes_a_file(record, tmp_path):
     page = shift_report.shift_page(record)
-    paths = save_plots(page, tmp_path)
-    assert len(paths) == len({p.name for p in paths}) == sum(len(s.plots) for s in page.sections)
-    assert all(path.read_bytes()[:4] == b"\x89PNG" for path in paths)
+    text = render(page)
+    save_plots(page, tmp_path)
+    paths = list(tmp_path.iterdir())
+    assert len(paths) == sum(len(s.plots) for s in page.sections)
+    for path in paths:
+        if path.suffix == ".png":
+            assert base64.b64encode(path.read_bytes()).decode("ascii") in text
+        else:
+            assert path.suffix == ".svg" and path.read_text("utf-8") in text
+            ET.parse(path)
 
 
 def test_three_sentences_tell_the_shift(record):

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import argparse
 import errno
+import gc
 import os
 import re
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any, NoReturn
 
 from ..errors import EnvironmentProblem, ParameterError, SolveError
@@ -36,6 +36,7 @@ COMMANDS = (
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message
+RARELY = 100_000  # new objects between two searches for garbage: imports and plots leave hardly any
 EPILOG = (
     "Numbers are SI (kelvin, radian, pascal); with a unit they may be anything sensible: "
     '"24 degC", "3000 rpm", "1 MPa", "0.1 deg". '
@@ -53,6 +54,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if argv is None:  # a program of its own, no function in somebody's process
             watch.begin()
+            gc.set_threshold(RARELY)
         status = _dispatch(words)
         watch.close()
         sys.stdout.flush()
@@ -150,6 +152,8 @@ def _overview() -> _Parser:
 
 def _version() -> str:
     """Return the installed version, or say that this is a bare checkout."""
+    from importlib.metadata import PackageNotFoundError, version
+
     try:
         return version("thrustwasher")
     except PackageNotFoundError:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 import time
 from pathlib import Path
@@ -161,9 +160,9 @@ def _read(path: str) -> dict[str, Any]:
 
 def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     """Write record, page and drawings; all of them or none. ``extra``: text of stability.md."""
-    os.environ.setdefault("MPLBACKEND", "Agg")
     from ..fidelity.pareto import front
-    from ..report.chart_page import html, markdown, page_of, save_drawings
+    from ..report.chart_page import markdown, page_of
+    from ..report.html import render, save_plots
     from ..store.seal import sealed
 
     fronts = {
@@ -181,7 +180,7 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
             json.dumps(sealed(record), indent=1, allow_nan=False), "utf-8"
         )
         (draft / "chart.md").write_text(markdown(page), "utf-8")
-        (draft / "chart.html").write_text(html(page), "utf-8")
+        (draft / "chart.html").write_text(render(page), "utf-8")
         if extra:
             (draft / "stability.md").write_text(extra, "utf-8")
-        save_drawings(page, draft)
+        save_plots(page, draft)

@@ -151,7 +151,7 @@ def _loader(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
 
 def _write(result: Any, folder: Path) -> None:
     """Write page, plots and time series into a folder that is still a draft."""
-    from ..report.html import render, save_plots
+    from ..report.html import picture, render, save_plots
     from ..report.shift_plots import overview_figure
     from ..report.shift_record import record_of
     from ..report.shift_report import shift_page
@@ -160,5 +160,5 @@ def _write(result: Any, folder: Path) -> None:
     page = shift_page(record)
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)
-    overview_figure(record).savefig(folder / OVERVIEW, dpi=110)
+    (folder / OVERVIEW).write_bytes(picture(overview_figure(record), dpi=110))
     result.write_csv(folder / TABLE)

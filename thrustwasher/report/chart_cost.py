@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -10,7 +11,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .chart_text import staircase
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
+from .style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    label,
+    legend_below,
+    new_figure,
+    styled,
+)  # fmt: skip
 
 COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
 RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)
@@ -19,6 +33,7 @@ WORDS = {
     "slip_energy": "slip energy", "lock_time": "lock time", "peak_temperature": "peak temperature",
     "end_temperature": "interface temperature at the end",
 }  # fmt: skip
+SIDE_BY_SIDE = 3  # names in a row of the legend
 Sampled = Mapping[str, Any]
 
 
@@ -34,7 +49,7 @@ def cost_figure(
     fronts : indices of the samples that nothing beats, by quantity
     """
     quantities = survey["quantities"]
-    figure, panels = new_figure(11.0, 5.0, 1, len(quantities))
+    figure, panels = new_figure(11.0, 5.0, 1, len(quantities), foot=_rows(survey["samples"]))
     across = survey["cost_of"]
     for axes, quantity in zip(panels, quantities, strict=True):
         draw_samples(axes, survey["samples"], quantity, fronts[quantity["name"]])
@@ -42,8 +57,13 @@ def cost_figure(
         words = WORDS.get(quantity["name"], quantity["name"])
         label(axes, f"{model}: {words}", across, f"error [{unit}]")
     handles, names = panels[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=3)
+    legend_below(figure, handles, names, columns=SIDE_BY_SIDE)
     return figure
+
+
+def _rows(samples: Sequence[Sampled]) -> int:
+    """Return how many rows the legend takes: a name for each family, one for the front."""
+    return -(-(len({s["family"] for s in samples}) + 1) // SIDE_BY_SIDE)
 
 
 def draw_samples(
@@ -56,6 +76,7 @@ def draw_samples(
     known = [s for s in samples if _drawable(s, name, cost)]
     floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
     low = _draw_floor(axes, known, name, floor)
+    _set_span(axes, [s[cost] for s in samples if s[cost]])
     families = list(dict.fromkeys(s["family"] for s in samples))
     free = RIVALS if set(families) & set(COLOURS) else (BLUE, SKY, *RIVALS)
     rivals = iter(free * 4)
@@ -83,6 +104,14 @@ def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -
                       ha="right", xycoords=axes.get_yaxis_transform(), fontsize=8, color=GREY,
                       textcoords="offset points")  # fmt: skip
     return 0.6 * low
+
+
+def _set_span(axes: Axes, costs: Sequence[float]) -> None:
+    """Set the range of costs: half a decade at least, with room for words beside the marks."""
+    low, high = min(costs, default=1.0), max(costs, default=1.0)
+    wide = max(0.5, math.log10(high / low))
+    more = 0.5 * (wide - math.log10(high / low))
+    axes.set_xlim(low / 10.0 ** (more + 0.06 * wide), high * 10.0 ** (more + 0.12 * wide))
 
 
 def _drawable(sample: Sampled, name: str, cost: str) -> bool:
@@ -129,7 +158,8 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
 @styled
 def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Figure:
     """Return the errors of a shift over its cost, a panel per quantity; lines follow the step."""
-    figure, panels = new_figure(11.0, 5.6, 1, len(study["quantities"]))
+    foot = _rows(study["samples"])
+    figure, panels = new_figure(11.0, 5.6, 1, len(study["quantities"]), foot=foot)
     for axes, quantity in zip(panels, study["quantities"], strict=True):
         name = quantity["name"]
         draw_samples(axes, study["samples"], quantity, fronts[name], crosses=False)
@@ -141,7 +171,7 @@ def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) 
                 axes.plot([s["call_median"]], [error], marker="x", ms=9, color=RED, mew=1.6)
     handles, names = panels[0].get_legend_handles_labels()
     names = [n.replace(": worst, hollow rms", "") for n in names]
-    figure.legend(handles, names, loc="outside lower center", ncols=3)
+    legend_below(figure, handles, names, columns=SIDE_BY_SIDE)
     return figure
 
 

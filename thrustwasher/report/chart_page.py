@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
-
-from matplotlib import rc_context
 
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, steps_figure
 from .chart_stability import stability_figure
-from .html import Page, Plot, Section, Table, render
+from .html import Page, Plot, Section, Table
 
 TITLE = "Speed against accuracy"
 HOW = (
@@ -135,18 +132,6 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
     )
 
 
-def save_drawings(page: Page, folder: Path) -> list[Path]:
-    """Write every plot as SVG into the folder."""
-    paths = []
-    for section in page.sections:
-        for plot in section.plots:
-            path = folder / f"{plot.file}.svg"
-            with rc_context({"svg.fonttype": "none", "svg.hashsalt": plot.file}):
-                plot.figure.savefig(path, metadata={"Date": None, "Creator": None})
-            paths.append(path)
-    return paths
-
-
 def markdown(page: Page) -> str:
     """Return the page as Markdown beside its drawings."""
     lines = [f"# {page.title}", "", *page.summary, ""]
@@ -155,15 +140,10 @@ def markdown(page: Page) -> str:
         lines += [f"## {section.title}", ""]
         lines += [f"{t}\n" for t in section.texts]
         for plot in section.plots:
-            lines += [f"![{section.title}]({plot.file}.svg)", "", plot.caption, ""]
+            lines += [f"![{section.title}]({plot.name})", "", plot.caption, ""]
         for table in section.tables:
             lines += [f"**{table.title}**", ""] if table.title else []
             lines += ["| " + " | ".join(table.heads) + " |", "|" + "---|" * len(table.heads)]
             lines += ["| " + " | ".join(row) + " |" for row in table.rows]
             lines.append("")
     return "\n".join([*lines, page.footer, ""])
-
-
-def html(page: Page) -> str:
-    """Return the page as one file that works offline."""
-    return render(page)

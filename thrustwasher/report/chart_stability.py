@@ -10,9 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from .style import new_figure, styled
+from .style import legend_below, new_figure, styled
 
 SHADES = {"ok": "#D5EFE3", "slow": "#FFF0CC", "says": "#D6E9F7", "LIES": "#F6C6AE", "-": "#EFEFEF"}
+LETTER = 0.06  # inch of a letter in a method's name
 LETTERS = 110  # that fit side by side into all cells of a row
 WORDS = {
     "ok": "right", "slow": "right, but costs", "says": "fails and says so",
@@ -24,14 +25,16 @@ WORDS = {
 def stability_figure(groups: Sequence[Mapping[str, Any]]) -> Figure:
     """Return a panel of cells for each group: methods down, hazards across."""
     rows = [len(g["methods"]) for g in groups]
+    longest = max(len(name) for g in groups for name in g["methods"])
     figure, panels = new_figure(
-        11.0, 0.42 * sum(rows) + 1.15 * len(groups), len(groups), 1, height_ratios=rows
-    )
+        11.0, 0.42 * sum(rows) + 1.15 * len(groups), len(groups), 1, foot=1,
+        left=0.2 + LETTER * longest, height_ratios=rows,
+    )  # fmt: skip
     for axes, group in zip(panels, groups, strict=True):
         _draw_group(axes, group)
     handles = [Rectangle((0, 0), 1, 1, color=SHADES[v]) for v in WORDS]
     names = [f"{v}: {text}" for v, text in WORDS.items()]
-    figure.legend(handles, names, loc="outside lower center", ncols=4)
+    legend_below(figure, handles, names, columns=4)
     return figure
 
 

@@ -10,7 +10,22 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
+from .style import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    PURPLE,
+    RED,
+    SECOND,
+    SKY,
+    TOP,
+    heading,
+    label,
+    legend_below,
+    new_figure,
+    styled,
+)  # fmt: skip
 
 RPM = 30.0 / math.pi
 
@@ -35,9 +50,11 @@ def clutch_figure(
         shares, which leaves out the shear ratio too
     """
     names = ["shear", "friction", "torque"] if ploughing is not None else ["friction", "torque"]
-    figure, _ = new_figure(10.4 if ploughing is not None else 9.6, 4.4)
-    figure.clear()
-    panels = dict(zip(names, figure.subplots(1, len(names)), strict=True))
+    figure, axes = new_figure(
+        10.4 if ploughing is not None else 9.6, 4.4, 1, len(names),
+        head=1, foot=int(ploughing is not None), top=TOP + SECOND,
+    )  # fmt: skip
+    panels = dict(zip(names, axes, strict=True))
     here, friction = abs(point["speed"]), [r.friction_coefficient for r in sweep]
     capacity = [r.torque_capacity for r in sweep]
     base = [min(ploughing or 0.0, mu) for mu in friction]
@@ -46,7 +63,7 @@ def clutch_figure(
     if ploughing is not None:
         panels["shear"].plot(speeds, [r.shear_ratio for r in sweep], color=PURPLE)
         panels["shear"].plot([here], [result.shear_ratio], "o", color=BLACK, zorder=5)
-        label(panels["shear"], "Shear ratio", "", "shear ratio $s/s_m$ [1]")
+        label(panels["shear"], "Shear ratio", "", "shear ratio $s/s_m$ [1]", above=SECOND)
         _draw_shares(panels["friction"], speeds, base, friction)
         _draw_shares(panels["torque"], speeds, ploughed, contact)
         panels["torque"].fill_between(
@@ -59,21 +76,29 @@ def clutch_figure(
         panels[name].plot(speeds, values, color=colour)
         panels[name].axhline(values[0], color=BLACK, lw=0.9, ls=":")
         panels[name].plot([here], [value], "o", color=BLACK, zorder=5)
-    label(panels["friction"], "Friction coefficient", "", "friction coefficient [1]")
-    label(panels["torque"], "Torque of the pack", "", "friction torque, magnitude [N·m]")
+    for name, title, up in (
+        ("friction", "Friction coefficient", "friction coefficient [1]"),
+        ("torque", "Torque of the pack", "friction torque, magnitude [N·m]"),
+    ):
+        label(panels[name], title, "", up, above=SECOND)
     _name_rest(panels["friction"], f"at rest {friction[0]:.4g}", friction[0])
     _name_rest(panels["torque"], f"static {format_quantity(capacity[0], 'N.m')}", capacity[0])
     for axis in panels.values():
         _scale(axis, speeds[-1])
     if ploughing is not None:
         handles, words = panels["torque"].get_legend_handles_labels()
-        figure.legend(handles, words, loc="outside lower center", ncols=3)
-    figure.suptitle(
-        f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
-        f"oil {format_quantity(point['oil_temperature'], 'K')}; "
-        f"dot: {here:.4g} rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}"
-    )
+        legend_below(figure, handles, words, columns=3)
+    heading(figure, _heading(result, point))
     return figure
+
+
+def _heading(result: Any, point: Mapping[str, float]) -> str:
+    """Return load, oil and the operating point in words."""
+    return (
+        f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
+        f"oil {format_quantity(point['oil_temperature'], 'K')}; dot: {abs(point['speed']):.4g} "
+        f"rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}"
+    )
 
 
 def _draw_shares(

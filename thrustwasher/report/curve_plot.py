@@ -10,7 +10,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREY, ORANGE, RED, decade_ticks, label, new_figure, styled
+from .style import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    RED,
+    SIGMA,
+    decade_ticks,
+    heading,
+    label,
+    legend_below,
+    new_figure,
+    styled,
+)  # fmt: skip
 
 CELSIUS = 273.15
 LOWEST_RATIO = 0.1  # film ratios below, even negative ones, leave the logarithmic axis
@@ -31,9 +44,9 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
     curve : a load curve with ``points`` and ``folds``
     point : speed [rad/s], tilt [rad], oil_temperature [K]
     """
-    figure, axes = new_figure(10.0, 7.6, 2, 2)
+    figure, axes = new_figure(10.0, 7.6, 2, 2, head=2, foot=1)
     panels = (
-        ("film_ratio", "Film ratio: how much film is left", r"film ratio $h/\sigma$ [1]", 0.0),
+        ("film_ratio", "Film ratio: how much film is left", f"film ratio h/{SIGMA} [1]", 0.0),
         ("friction_torque", "Friction torque", "friction torque [N·m]", 0.0),
         ("temperature", "Mean film temperature", "temperature [°C]", CELSIUS),
         (
@@ -60,8 +73,8 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
             words, (1.0, ratio), (-2, 2), xycoords=axes[0].get_yaxis_transform(),
             textcoords="offset points", ha="right", fontsize=8, color="#7A5400",
         )  # fmt: skip
-    figure.legend(*_legend(axes[0]), loc="outside lower center", ncols=5)
-    figure.suptitle(_heading(curve.folds, point))
+    legend_below(figure, *_legend(axes[0]), columns=5)
+    heading(figure, _heading(curve.folds, point))
     return figure
 
 

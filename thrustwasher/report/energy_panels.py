@@ -10,7 +10,19 @@ from matplotlib.axes import Axes
 from .panel_base import draw_phases, thin
 from .panels import COLOURS
 from .shift_record import PACKS, Record
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, beside, label
+from .style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    beside,
+    label,
+    powers_of_ten,
+)  # fmt: skip
 
 Array = np.ndarray[Any, Any]
 LEAST_POWER = 0.1  # [W] the foot of the logarithmic axis
@@ -68,5 +80,6 @@ def draw_heat_flow(axis: Axes, record: Record) -> None:
             axis.plot(record.time, shown, color=colour, label=words)
     axis.set_yscale("log")
     axis.set_ylim(bottom=LEAST_POWER)
+    powers_of_ten(axis)
     label(axis, "Heat flow", "", "power [W]")
     beside(axis)

@@ -6,7 +6,19 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from .style import BLACK, BLUE, GREY, ORANGE, RED, SKY, decade_ticks, label, new_figure, styled
+from .style import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    RED,
+    SIGMA,
+    SKY,
+    decade_ticks,
+    label,
+    new_figure,
+    styled,
+)
 
 CELSIUS = 273.15
 
@@ -37,7 +49,7 @@ def engagement_figure(result: Any) -> Figure:
             textcoords="offset points", ha="right", va="bottom", fontsize=8, color=GREY,
         )  # fmt: skip
     decade_ticks(film)
-    label(film, "Film between the faces", "time [ms]", r"film ratio $h/\sigma$ [1]")
+    label(film, "Film between the faces", "time [ms]", f"film ratio h/{SIGMA} [1]")
 
     heat.plot(t, result.temperature - CELSIUS, color=RED)
     label(heat, "Interface temperature", "time [ms]", "temperature [°C]")

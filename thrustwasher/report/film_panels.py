@@ -11,7 +11,7 @@ from .extremes import distressed
 from .panel_base import draw_phase_lines, thin
 from .panels import COLOURS
 from .shift_record import PACKS, Record
-from .style import BLACK, GREEN, ORANGE, RED, SKY, beside, label
+from .style import BLACK, GREEN, ORANGE, RED, SIGMA, SKY, beside, label
 
 Array = np.ndarray[Any, Any]
 LOWEST_RATIO = 0.05  # film ratios at or below this are drawn on this line
@@ -38,7 +38,7 @@ def draw_films(axis: Axes, record: Record) -> bool:
     if np.any(lost):
         axis.plot(record.time[lost], np.full(np.sum(lost), 0.82 * high), "|", color=BLACK, ms=7,
                   mew=1.2, label="washer's film lost (distress)", zorder=4)  # fmt: skip
-    up = r"film ratio $h/\sigma$ [1]"
+    up = f"film ratio h/{SIGMA} [1]"
     label(axis, "Film ratios: does oil or do asperities carry?", "", up)
     beside(axis)
     return True

@@ -14,7 +14,22 @@ from numpy.typing import NDArray
 from ..models.clutch_calibration_text import counted
 from ..models.clutch_friction import friction_radius
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, label, new_figure, styled
+from .style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    RED,
+    SECOND,
+    SKY,
+    TOP,
+    heading,
+    label,
+    new_figure,
+    styled,
+)  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -52,23 +67,26 @@ def calibration_figure(found: Any, columns: Mapping[str, Sequence[float]]) -> Fi
     for axis in (middle, right):
         axis.axhline(0.0, color=BLACK, lw=0.9)
         axis.axhspan(-found.rms, found.rms, color=GREY, alpha=0.18, lw=0.0)
-    label(top, "Friction: points and fitted law", "slip speed [m/s]", "friction coefficient [1]")
+    label(top, "Friction: points and fitted law", "slip speed [m/s]", "friction coefficient [1]",
+          above=SECOND)  # fmt: skip
     label(middle, "Residuals over slip speed", "slip speed [m/s]", "measured - fitted [1]")
     label(right, "Residuals over load", "load [N]", "")
     top.legend(loc="upper right", ncols=2)
     middle.set_xlim(top.get_xlim())
-    figure.suptitle(_heading(found), fontsize=10)
+    heading(figure, _heading(found), fontsize=10)
     return figure
 
 
 def _panels() -> tuple[Figure, list[Axes]]:
     """Return one wide panel above two."""
-    figure, _ = new_figure(9.6, 7.0)
-    figure.clear()
-    grid = figure.add_gridspec(2, 2, height_ratios=(1.7, 1.0))
-    top = figure.add_subplot(grid[0, :])
-    left = figure.add_subplot(grid[1, 0])
-    return figure, [top, left, figure.add_subplot(grid[1, 1], sharey=left)]
+    figure, (top, spare, left, right) = new_figure(
+        9.6, 7.0, 2, 2, head=2, top=TOP + SECOND, height_ratios=(1.7, 1.0)
+    )
+    place, end = top.get_position(), spare.get_position().x1
+    top.set_position((place.x0, place.y0, end - place.x0, place.height))
+    spare.remove()
+    right.sharey(left)
+    return figure, [top, left, right]
 
 
 def _groups(load: Array) -> dict[str, Array]:

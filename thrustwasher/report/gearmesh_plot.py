@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, label, new_figure, styled
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, heading, label, new_figure, styled
 
 CELSIUS = 273.15
 # Surface -> words, colour of its asperities, dashes, marker.
@@ -39,7 +39,7 @@ def gearmesh_figure(
     result : the gear mesh result at ``point``, marked at ``here`` teeth
     point : power [W], speed [rad/s], oil_temperature [K]
     """
-    figure, axes = new_figure(13.2, 4.3, 1, 3)
+    figure, axes = new_figure(13.2, 4.3, 1, 3, head=1)
     draw_temperatures(axes[0], teeth, sweeps)
     draw_ratios(axes[1], teeth, sweeps)
     draw_factors(axes[2], teeth, sweeps)
@@ -50,11 +50,12 @@ def gearmesh_figure(
         factor = getattr(result, f"modification_factor_{steel}")
         if factor > LEAST_FACTOR:
             axes[2].plot([here], [factor], **dot)
-    figure.suptitle(
+    heading(
+        figure,
         f"Gear mesh at the start of contact: {format_quantity(point['power'], 'W')}, "
         f"{format_quantity(point['speed'], 'rad/s')}, oil "
         f"{format_quantity(point['oil_temperature'], 'K')}; dots: {here} teeth, "
-        f"asperities at {format_quantity(result.asperity_temperature, 'K')}"
+        f"asperities at {format_quantity(result.asperity_temperature, 'K')}",
     )
     return figure
 

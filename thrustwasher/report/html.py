@@ -7,6 +7,7 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ _TEMPLATE = Path(__file__).with_name("template.html")
 
 @dataclass(frozen=True, kw_only=True)
 class Plot:
-    """A figure with the sentence below it; ``file`` is the stem of its PNG."""
+    """A figure with the sentence below it; ``file`` is the stem of its file beside the page."""
 
     file: str
     figure: Figure
@@ -27,11 +28,24 @@ class Plot:
     bitmap: bool = False  # shaded maps are smaller as pictures than as drawings
 
     @property
+    def name(self) -> str:
+        """The name of the file."""
+        return f"{self.file}.{'png' if self.bitmap else 'svg'}"
+
+    @cached_property
+    def content(self) -> bytes:
+        """The content of the file, which is also what the page shows: drawn once."""
+        return picture(self.figure) if self.bitmap else _drawing(self.figure, self.file).encode()
+
+    @property
     def markup(self) -> Any:
         """The figure as it stands in the page."""
         from markupsafe import Markup
 
-        return Markup(_picture(self.figure) if self.bitmap else _drawing(self.figure, self.file))
+        if self.bitmap:
+            data = base64.b64encode(self.content).decode("ascii")
+            return Markup(f'<img alt="" src="data:image/png;base64,{data}">')
+        return Markup(self.content.decode())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,19 +102,15 @@ def render(page: Page) -> str:
     return template.render({name: getattr(page, name) for name in page.__dataclass_fields__})
 
 
-def save_plots(page: Page, folder: Path) -> list[Path]:
-    """Write every plot of the page as PNG into the folder."""
-    paths = []
+def save_plots(page: Page, folder: Path) -> None:
+    """Write every plot of the page into the folder: drawings as SVG, shaded maps as PNG."""
     for section in page.sections:
         for plot in section.plots:
-            path = folder / f"{plot.file}.png"
-            plot.figure.savefig(path, dpi=130)
-            paths.append(path)
-    return paths
+            (folder / plot.name).write_bytes(plot.content)
 
 
 def _drawing(figure: Figure, prefix: str) -> str:
-    """Return inline SVG whose identifiers begin with ``prefix``: many drawings share one page."""
+    """Return SVG whose identifiers begin with ``prefix``: many drawings share one page."""
     stream = io.StringIO()
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": prefix}):
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
@@ -110,9 +120,8 @@ def _drawing(figure: Figure, prefix: str) -> str:
     return re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{prefix}-", svg)
 
 
-def _picture(figure: Figure) -> str:
-    """Return an image element with the PNG inside."""
+def picture(figure: Figure, dpi: int = 100) -> bytes:
+    """Return a PNG; packing it tighter takes twice the time for a tenth less."""
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", dpi=100)
-    data = base64.b64encode(stream.getvalue()).decode("ascii")
-    return f'<img alt="" src="data:image/png;base64,{data}">'
+    figure.savefig(stream, format="png", dpi=dpi, pil_kwargs={"compress_level": 3})
+    return stream.getvalue()

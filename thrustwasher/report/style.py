@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.transforms import blended_transform_factory
 
 # Okabe & Ito's palette, safe for the usual kinds of colour blindness; yellow is too pale for lines.
 BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 SKY, PURPLE, BLACK, GREY = "#56B4E9", "#CC79A7", "#222222", "#8A8A8A"
+SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 
 _RC: Any = {
     "font.family": "sans-serif",
@@ -40,7 +43,12 @@ _RC: Any = {
     "figure.dpi": 130,
     "figure.facecolor": "white",
     "path.simplify_threshold": 0.2,
+    "axes.titley": 1.0,
 }
+LEFT, RIGHT, TOP, BOTTOM = 0.8, 0.2, 0.36, 0.56  # inch around the panels
+ACROSS, DOWN = 0.82, 0.86  # inch between panels
+SECOND = 0.44  # inch of a second axis at the top: ticks and label
+LINE, EDGE = 0.21, 0.08  # inch of a line above or below the panels; kept free at the very edge
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -50,11 +58,48 @@ def styled(function: F) -> F:
 
 
 def new_figure(
-    width: float, height: float, rows: int = 1, columns: int = 1, **options: Any
+    width: float,
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    *,
+    head: int = 0,
+    foot: int = 0,
+    left: float = LEFT,
+    right: float = RIGHT,
+    top: float = TOP,
+    **options: Any,
 ) -> tuple[Figure, list[Axes]]:
-    """Return a figure [inch] that arranges itself, and its axes row by row."""
-    figure = Figure(figsize=(width, height), layout="constrained")
-    return figure, list(np.atleast_1d(figure.subplots(rows, columns, **options)).ravel())
+    """Return a figure [inch] and its axes row by row; margins and gaps are fixed lengths.
+
+    Parameters
+    ----------
+    head, foot : lines of text that ``heading`` and rows that ``legend_below`` will take
+    left, right, top : margins beside and above the panels [inch]
+    """
+    figure = Figure(figsize=(width, height))
+    bottom = BOTTOM + LINE * foot
+    top += LINE * head
+    wide = (width - left - right - (columns - 1) * ACROSS) / columns
+    tall = (height - bottom - top - (rows - 1) * DOWN) / rows
+    grid = {
+        "left": left / width, "right": 1.0 - right / width, "wspace": ACROSS / wide,
+        "bottom": bottom / height, "top": 1.0 - top / height, "hspace": DOWN / tall,
+    }  # fmt: skip
+    axes = figure.subplots(rows, columns, gridspec_kw=grid, **options)
+    return figure, list(np.atleast_1d(axes).ravel())
+
+
+def heading(figure: Figure, text: str, **options: Any) -> None:
+    """Write lines above all panels."""
+    figure.suptitle(text, y=1.0 - EDGE / figure.get_figheight(), va="top", **options)
+
+
+def legend_below(
+    figure: Figure, handles: Sequence[Any], names: Sequence[str], columns: int
+) -> None:
+    """Put one legend below all panels."""
+    figure.legend(handles, names, loc="lower center", ncols=columns, borderaxespad=0.3)
 
 
 def time_figure(
@@ -67,7 +112,12 @@ def time_figure(
         left=0.085, right=0.735, top=1.0 - 0.32 / height, bottom=0.5 / height, hspace=0.22
     )
     panels = list(np.atleast_1d(axes).ravel())
-    panels[-1].xaxis.set_label_text("time [s]")
+    for axis in panels:
+        place = blended_transform_factory(figure.transFigure, axis.transAxes)
+        axis.yaxis.set_label_coords(0.025, 0.5, transform=place)
+    tall = height * panels[-1].get_position().height
+    panels[-1].set_xlabel("time [s]")
+    panels[-1].xaxis.set_label_coords(0.5, -0.26 / tall)
     return figure, panels
 
 
@@ -76,12 +126,26 @@ def beside(axes: Axes, **options: Any) -> None:
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, **options)
 
 
-def label(axes: Axes, title: str, across: str, up: str) -> None:
-    """Set title and axis labels; a label carries its unit in brackets, "" leaves it as it is."""
-    axes.set_title(title)
+def label(axes: Axes, title: str, across: str, up: str, *, above: float = 0.0) -> None:
+    """Set title and axis labels; a label carries its unit in brackets, "" leaves it as it is.
+
+    ``above`` [inch] is what an axis at the top takes between panel and title.
+    """
+    axes.set_title(title, pad=6.0 + 72.0 * above)
     axes.set_ylabel(up)
     if across:
         axes.set_xlabel(across)
+
+
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def powers_of_ten(axes: Axes) -> None:
+    """Label a logarithmic axis of many decades by plain text, which needs no formula typeset."""
+    axes.yaxis.set_major_formatter(
+        lambda value, _: "10" + f"{round(math.log10(value))}".translate(RAISED)
+    )
+    axes.minorticks_off()
 
 
 TICKS = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), tuple(map(float, range(1, 10))))

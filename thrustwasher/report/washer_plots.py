@@ -10,26 +10,26 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, RED, label, new_figure, styled
+from .style import BLACK, RED, SIGMA, heading, label, new_figure, styled
 
 Array = np.ndarray[Any, Any]
 CELSIUS = 273.15
-ANGLES = np.linspace(0.0, 2.0 * np.pi, 241)
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 129)  # finer around than any grid but the finest
 
 
 @styled
-def field_figure(result: Any, point: Mapping[str, float], heading: str = "") -> Figure:
+def field_figure(result: Any, point: Mapping[str, float], words: str = "") -> Figure:
     """Return four maps of a solved washer.
 
     Parameters
     ----------
     result : a washer result with ``fields()``
     point : load [N], speed [rad/s], tilt [rad], oil_temperature [K]
-    heading : str
+    words : str
         Put before the operating point in the title.
     """
     fields = result.fields()
-    figure, axes = new_figure(9.6, 8.6, 2, 2)
+    figure, axes = new_figure(9.6, 8.6, 2, 2, head=2, right=0.5)
     maps = (
         ("Film thickness", "µm", fields.film_thickness * 1e6, "cividis"),
         ("Film pressure", "MPa", fields.pressure / 1e6, "viridis"),
@@ -42,7 +42,7 @@ def field_figure(result: Any, point: Mapping[str, float], heading: str = "") -> 
     if not np.any(fields.contact_pressure > 0.0):
         axes[2].text(0.5, 0.5, "no contact", transform=axes[2].transAxes, ha="center", va="center")
     _draw_rotation(axes[0], fields, point["speed"])
-    figure.suptitle(_heading(result, point, heading), fontsize=10.5)
+    heading(figure, _heading(result, point, words), fontsize=10.5)
     return figure
 
 
@@ -77,7 +77,7 @@ def _mark_film(axis: Axes, fields: Any, result: Any) -> None:
     levels = [] if ratio is None else [v for v in (1.0, 3.0) if ratio.min() < v < ratio.max()]
     if ratio is not None and levels:
         lines = axis.contour(x, y, ratio, levels=levels, colors="white", linewidths=1.2)
-        axis.clabel(lines, fmt=lambda v: rf"$h/\sigma$ = {v:g}", fontsize=8)
+        axis.clabel(lines, fmt=lambda v: f"h/{SIGMA} = {v:g}", fontsize=8)
 
 
 def _draw_rotation(axis: Axes, fields: Any, speed: float) -> None:
@@ -93,11 +93,11 @@ def _draw_rotation(axis: Axes, fields: Any, speed: float) -> None:
     axis.text(0.0, 0.0, "washer\nturns", ha="center", va="center", fontsize=7.5)
 
 
-def _heading(result: Any, point: Mapping[str, float], heading: str) -> str:
+def _heading(result: Any, point: Mapping[str, float], words: str) -> str:
     """Return two lines: the operating point, the answer."""
     rpm = point["speed"] * 30.0 / np.pi
     where = (
-        f"{heading or 'Thrust washer'}: load {format_quantity(point['load'], 'N')}, "
+        f"{words or 'Thrust washer'}: load {format_quantity(point['load'], 'N')}, "
         f"speed {point['speed']:.4g} rad/s ({rpm:.4g} rpm), "
         f"tilt {format_quantity(point['tilt'], 'rad')}, "
         f"oil {format_quantity(point['oil_temperature'], 'K')}"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import json
+import re
 from collections.abc import Iterable
 from dataclasses import fields
 from functools import cache
@@ -14,6 +14,9 @@ from typing import Any
 PACKAGE = Path(__file__).parents[1]
 KERNELS, DATA = PACKAGE / "kernels", PACKAGE / "data"
 DECORATOR = "_jit"  # says how kernels are run; the numbers are those of the functions it decorates
+# "from .module import ..." and "from . import module, ...", on one line or in brackets.
+IMPORT = re.compile(r"^[ \t]*from[ \t]+\.(\w*)[ \t]+import[ \t]+(\([^)]*\)|.*)", re.MULTILINE)
+NAME = re.compile(r"\w+")
 
 
 def params_digest(params: Any) -> str:
@@ -54,18 +57,17 @@ def closure(*modules: str) -> tuple[str, ...]:
         name = waiting.pop()
         if name not in found:
             found.add(name)
-            waiting += _imports(name)
+            waiting += imports(name)
     return tuple(sorted(f"{name}.py" for name in found))
 
 
 @cache
-def _imports(module: str) -> tuple[str, ...]:
+def imports(module: str) -> tuple[str, ...]:
     """Return the modules of the same package that one of them imports, wherever it does so."""
+    text = (KERNELS / f"{module}.py").read_text("utf-8")
     names: list[str] = []
-    for node in ast.walk(ast.parse((KERNELS / f"{module}.py").read_text("utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.level == 1:
-            inside = [node.module] if node.module else [alias.name for alias in node.names]
-            names += [n.split(".")[0] for n in inside]
+    for source, inside in IMPORT.findall(text):
+        names += [source] if source else NAME.findall(inside)
     return tuple(n for n in names if n != DECORATOR and (KERNELS / f"{n}.py").is_file())
 
 

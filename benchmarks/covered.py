@@ -1,11 +1,18 @@
 """Which lines and branches the tests walk through.
 
-    python benchmarks/covered.py [kernels] [suite] [--below 90]
+    python benchmarks/covered.py all FOLDER [--below 90]
 
-Compiled kernels leave no trace of their lines, so there are two runs. ``kernels``: the kernels'
-tests as plain Python (NUMBA_DISABLE_JIT), each file for a minute at most. ``suite``: the whole
-default suite, compiled, processes that it starts included. Prints lines and branches of each run's
-share, of both together, and every file below the limit; exit status 1 if the whole lies below it.
+Compiled kernels leave no trace of their lines, so there are two kinds of runs. ``kernels FOLDER``:
+the kernels' tests as plain Python (NUMBA_DISABLE_JIT), each file for a minute at most. The suite,
+compiled, processes that it starts included, is run by whoever wants it, any part of it:
+
+    python benchmarks/covered.py start FOLDER
+    python -m coverage run --rcfile=FOLDER/rc -m pytest
+    python benchmarks/covered.py kernels FOLDER
+    python benchmarks/covered.py report FOLDER --below 90
+
+``all`` does just this. The report has lines and branches of the kernels, of the rest, of all
+together, and every file below the limit; exit status 1 if the whole lies below it.
 """
 
 from __future__ import annotations
@@ -14,7 +21,6 @@ import argparse
 import os
 import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
@@ -55,7 +61,7 @@ def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str)
     """Run tests under measurement; cut off, they leave what was measured until then."""
     began = time.perf_counter()
     command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q",
-               "-n", "0", "-p", "no:cacheprovider", *words]  # fmt: skip
+               *(("-n", "0", "-p", "no:cacheprovider", *words) if words else ())]  # fmt: skip
     running = subprocess.Popen(
         command, cwd=ROOT, env={**os.environ, **environment}, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -85,30 +91,42 @@ def low(rc: Path, below: float) -> list[str]:
     return [f"{row[-1]:>5}  {row[0]}" for row in rows if float(row[-1].rstrip("%")) < below]
 
 
+def start(folder: Path) -> None:
+    """Write what coverage is told; every process that runs tests adds a file beside it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "rc").write_text(SETTINGS.format(data=folder.resolve() / "data", root=ROOT))
+
+
+def report(folder: Path, below: float) -> int:
+    """Join what was measured and print it."""
+    rc = folder / "rc"
+    combine = [sys.executable, "-m", "coverage", "combine", "-q", f"--rcfile={rc}"]
+    subprocess.run(combine, cwd=ROOT, check=True)
+    kernels, whole = ",".join(KERNELS), share(rc)
+    print(f"lines and branches, kernels: {share(rc, f'--include={kernels}')} %")
+    print(f"all but the kernels: {share(rc, f'--omit={kernels}')} %")
+    print(f"together: {whole} %")
+    print("\n".join(low(rc, below)))
+    return int(float(whole) < below)
+
+
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("parts", nargs="*", help="kernels, suite; default both")
+    """Do what the command line asks for."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("part", choices=["start", "kernels", "report", "all"])
+    parser.add_argument("folder", type=Path, help="where the measurements lie")
     parser.add_argument("--below", type=float, default=90.0, help="limit in per cent, default 90")
     given = parser.parse_args()
-    parts = given.parts or ["kernels", "suite"]
-    with tempfile.TemporaryDirectory() as place:
-        rc = Path(place) / "coverage.ini"
-        rc.write_text(SETTINGS.format(data=Path(place) / "data", root=ROOT))
-        if "kernels" in parts:
-            for file in plain_files():
-                words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
-                run_tests(rc, words, LIMIT, NUMBA_DISABLE_JIT="1")
-        if "suite" in parts:
-            run_tests(rc, [], None)
-        combine = [sys.executable, "-m", "coverage", "combine", "-q", f"--rcfile={rc}"]
-        subprocess.run(combine, cwd=ROOT, check=True)
-        kernels, whole = ",".join(KERNELS), share(rc)
-        print(f"kernels, as plain Python: {share(rc, f'--include={kernels}')} %")
-        if "suite" in parts:
-            print(f"all but the kernels, by the suite: {share(rc, f'--omit={kernels}')} %")
-            print(f"together: {whole} %")
-        print("\n".join(low(rc, given.below)))
-    return int(float(whole) < given.below and "suite" in parts)
+    rc = given.folder / "rc"
+    if given.part in ("start", "all"):
+        start(given.folder)
+    if given.part in ("kernels", "all"):
+        for file in plain_files():
+            words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
+            run_tests(rc, words, LIMIT, NUMBA_DISABLE_JIT="1")
+    if given.part == "all":
+        run_tests(rc, [], None)
+    return report(given.folder, given.below) if given.part in ("report", "all") else 0
 
 
 if __name__ == "__main__":

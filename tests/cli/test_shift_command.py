@@ -78,7 +78,8 @@ def test_summary_names_lock_and_report(tmp_path, capsys):
 
 
 def test_numbers_alone_leave_no_file_and_load_no_plotter(tmp_path):
-    fmu_paths(["ShiftTransmission", "WetClutch"], chosen_target(None))
+    for model in ("ShiftTransmission", "WetClutch"):
+        built_fmu(model, target=chosen_target(None), local=True)
     words = ["shift", "--scene", "msl", "--step", "10 ms", "--no-report", "--json"]
     code = (
         "import sys; from thrustwasher.cli import main; "

@@ -1,0 +1,44 @@
+"""Compiled here, by whatever numba is installed, the kernels give the shipped numbers."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SOLVES = """
+import sys
+from thrustwasher.native import shipped
+if "here" in sys.argv:
+    shipped.index = lambda: {"kernels": {}}
+from thrustwasher import *
+washer = WasherParams()
+for load, speed, rung in ((300, 953, "field"), (900, 545, "field"), (100, 136, "coarse"),
+                          (300, 545, "map"), (300, 953, "stribeck"), (300, 953, "closed")):
+    r = solve_washer(washer, load=load, speed=speed, tilt=0.002, fidelity=rung)
+    print(r.friction_torque.hex(), r.temperature.hex(), r.film_ratio.hex())
+for fold in load_curve(washer, speed=545.0, tilt=0.002, grid=(9, 20)).folds:
+    print(fold.load.hex(), fold.friction_torque.hex())
+for rung in ("closed", "boundary", "stribeck", "field", "fine"):
+    c = solve_clutch(ClutchParams(), load=9000.0, speed=50.0, fidelity=rung)
+    g = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)
+    print(c.friction_torque.hex(), c.temperature.hex(), g.flash_rise.hex())
+"""
+
+
+@pytest.mark.slow
+def test_compiled_here_the_kernels_give_the_shipped_numbers(tmp_path):
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
+    shown = []
+    for where in ("shipped", "here"):
+        done = subprocess.run(
+            [sys.executable, "-c", SOLVES, where], capture_output=True, text=True,
+            env=surroundings, timeout=1200,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        assert ("compiled washer_step in" in done.stderr) == (where == "here")
+        shown.append([float.fromhex(word) for word in done.stdout.split()])
+    assert len(shown[0]) > 30
+    assert shown[1] == pytest.approx(shown[0], rel=1e-11)

@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 
+import numpy as np
 import pytest
 from synthetic import card, errors
 
@@ -220,7 +221,8 @@ def test_a_solution_carried_to_another_mesh_is_the_one_found_there(load, branch)
 
 
 def test_what_python_adds_to_a_call_is_taken_off():
-    assert empty_step()(1.0, 2.0) == 0
+    arrays = [np.zeros(6) for _ in range(5)]
+    assert empty_step()(*arrays, np.zeros(3, np.int32), 0.0, 1.0) == 0
     timing = less(Timing(1.25, 0.5, 1.0, 9, 2.0), 0.25)
     assert (timing.median, timing.iqr, timing.least) == (1.0, 0.5, 0.75)
     assert less(timing, 5.0).median > 0.0

@@ -7,6 +7,7 @@ import platform
 import subprocess
 import sys
 import time
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,6 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 
 def surroundings(command: str) -> dict[str, Any]:
     """Return command, date, machine and versions, as JSON types."""
-    import numba
     import numpy
 
     from ..kernels._jit import kernel_digest
@@ -29,7 +29,7 @@ def surroundings(command: str) -> dict[str, Any]:
         "machine": {
             "cpu": _cpu(), "cores": os.cpu_count(), "os": platform.platform(terse=True),
             "python": platform.python_version(), "numpy": numpy.__version__,
-            "numba": numba.__version__, "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
+            "numba": metadata.version("numba"), "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
             "threads": {name: os.environ.get(name) for name in THREADS}, "load": load(),
         },
         "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},

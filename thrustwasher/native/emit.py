@@ -167,7 +167,7 @@ def unknown_numba(what: str) -> EnvironmentProblem:
 
     return EnvironmentProblem(
         f"numba {numba.__version__} is not known to the native build: {what}; "
-        "install another version of numba, the newest that works is in docs/fmu.md"
+        "install another one: 0.61 to 0.68 are known to work"
     )
 
 

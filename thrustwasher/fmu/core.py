@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import fields
 from enum import IntEnum
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ..models._spec import ModelSpec
 from ..models._tables import fill_table, wants_table
+from ..native.load import bound
 from .interface import Variable, enumerations, variables
 from .registry import content_digest, count_places, find_broken_rule, load_kernel
 from .snapshot import Snapshot
@@ -34,13 +36,18 @@ class Core:
 
     def __init__(self, spec: ModelSpec) -> None:
         kernel = load_kernel(spec.kernel)
-        self.spec, self._derive, self._step = spec, kernel.derive, kernel.step
+        self.spec, self._derive = spec, kernel.derive
         self._broken_rule = find_broken_rule(spec)
         self._n_param = kernel.n_param
         self.variables = variables(spec)
         self.par, self.inp = np.zeros(kernel.n_par), np.zeros(kernel.n_inp)
         self.state, self.work = np.zeros(kernel.n_state), np.zeros(kernel.n_work)
         self.out, self.iout = np.zeros(kernel.n_out), np.zeros(kernel.n_iout, np.int32)
+        self._step_into = partial(kernel.step, self.par, self.inp, self.state, self.work)
+        self._step = bound(
+            kernel.step, par=self.par, inp=self.inp, state=self.state, work=self.work,
+            out=self.out, iout=self.iout,
+        )  # fmt: skip
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.n_out)
         self._arrays: dict[str, Any] = {
@@ -233,9 +240,7 @@ class Core:
         """Call the kernel; after a failure ``state`` and the outputs are what they were."""
         state, out, iout = self._undo
         state[:], out[:], iout[:] = self.state, self.out, self.iout
-        rc = self._step(
-            self.par, self.inp, self.state, self.work, self.out, self.iout, self.time, h
-        )
+        rc = self._step(self.time, h)
         if rc < FIRST_FAILURE and self.out.dot(self._zeros) != 0.0:  # NaN if any is not finite
             rc = Status.NOT_FINITE
         if rc < FIRST_FAILURE:
@@ -246,7 +251,7 @@ class Core:
     def solve_aside(self) -> None:
         """Let ``work`` belong to the present point; outputs and memory stay as they are."""
         out, iout = self.out.copy(), self.iout.copy()
-        self._step(self.par, self.inp, self.state, self.work, out, iout, self.time, 0.0)
+        self._step_into(out, iout, self.time, 0.0)
 
     def _story(self, rc: int, where: str) -> str:
         point = self._point(show=())

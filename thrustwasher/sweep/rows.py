@@ -20,6 +20,7 @@ from ..errors import FIRST_FAILURE, ParameterError, Status
 from ..models._prepare import filled
 from ..models._spec import REGIMES, ModelSpec, Signal
 from ..models._tables import fill_table, wants_table
+from ..native.load import bound
 from .plan import load_spec
 
 Array = NDArray[np.float64]
@@ -75,13 +76,14 @@ def _walk_kernel(
 ) -> None:
     """Fill the rows of one line by steps of the model's kernel."""
     kernel = _kernel(spec.kernel)
-    step, state = kernel.step, np.zeros(kernel.NSTATE)
+    state = np.zeros(kernel.NSTATE)
     par = _constants(spec.key, fidelity, params)
     work = _work_with_table(spec.key, fidelity, params) if wants_table(spec, par) else (
         _work(spec.kernel)
     )  # fmt: skip
+    step = bound(kernel.step, par=par, state=state, work=work)
     for point, row, flag in zip(inputs, numbers, flags, strict=True):
-        status = step(par, point, state, work, row, flag, 0.0, 1.0)
+        status = step(point, row, flag, 0.0, 1.0)
         if status >= FIRST_FAILURE:
             flag[-1] = status
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import types
-from dataclasses import fields, is_dataclass
+from dataclasses import fields
 from functools import cache
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
@@ -11,11 +11,17 @@ from ..errors import ParameterError
 
 T = TypeVar("T")
 LARGEST = 1e300
+SCALARS = (float, int, str, bool)
 
 
 @cache
 def _hints(cls: Any) -> dict[str, Any]:
     return get_type_hints(cls)
+
+
+@cache
+def _parts(kind: Any) -> tuple[Any, tuple[Any, ...]]:
+    return get_origin(kind), get_args(kind)
 
 
 def build(cls: type[T], raw: Any, where: str) -> T:
@@ -46,7 +52,9 @@ def build(cls: type[T], raw: Any, where: str) -> T:
 
 def _value(kind: Any, raw: Any, where: str) -> Any:
     """Return ``raw`` as the annotation ``kind`` says."""
-    origin, inner = get_origin(kind), get_args(kind)
+    if kind in SCALARS:
+        return _scalar(kind, raw, where)
+    origin, inner = _parts(kind)
     if kind is Any:
         return raw
     if origin in (Union, types.UnionType):
@@ -59,9 +67,7 @@ def _value(kind: Any, raw: Any, where: str) -> Any:
         if not isinstance(raw, dict):
             raise ParameterError(f"{where}: an object is wanted, got {_shown(raw)}")
         return {k: _value(inner[1], item, f"{where}: {k}") for k, item in raw.items()}
-    if is_dataclass(kind):
-        return build(kind, raw, where)  # type: ignore[arg-type]
-    return _scalar(kind, raw, where)
+    return build(kind, raw, where)
 
 
 def _either(kinds: tuple[Any, ...], raw: Any, where: str) -> Any:

@@ -10,19 +10,21 @@ instructions: ``lower`` makes each platform's object of it.
 from __future__ import annotations
 
 import importlib
+import itertools
 import os
 import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from ..errors import EnvironmentProblem
 from . import lean
-from .entries import Entry, Kind, entries
+from .entries import ITEMS, Entry, Kind, entries
 
 SAID = 2  # exit status: the last line on stderr is the message for the user
 DONE = "entry"  # begins a line on standard output: an entry is done, "entry 3 of 24"
@@ -50,7 +52,7 @@ class Callback:
     """
 
     symbol: str
-    types: tuple[str, ...]  # "float", "int", "bool" or the type an address points to
+    types: tuple[str, ...]  # "float", or the type an address points to
     source: str
     scope: dict[str, Any]
 
@@ -91,35 +93,54 @@ def abi_callback(kernel: ModuleType, name: str, symbol: str, sizes: tuple[str, .
 
 
 def python_callback(entry: Entry) -> Callback:
-    """Return an entry for Python: addresses with lengths; what comes back is put into an array."""
-    types: list[str] = []
+    """Return an entry for Python, which takes one block of 64-bit words.
+
+    A number is a word, an array its address and its lengths. What comes back follows them. The
+    block is handed over twice, as whole numbers and as numbers.
+    """
     scope: dict[str, Any] = {"function": entry.function}
+    places = itertools.count()
 
     def given(kind: Kind) -> str:
-        place = len(types)
         if kind.name == "tuple":
             parts = ", ".join([given(part) for part in kind.parts])
             if kind.made_by is None:
                 return f"({parts},)"
             scope[kind.made_by.__name__] = kind.made_by
             return f"{kind.made_by.__name__}({parts})"
+        place = next(places)
         if kind.name == "array":
-            types.extend([kind.item, *["int"] * kind.ndim])
-            lengths = "".join(f"a{place + 1 + k}, " for k in range(kind.ndim))
-            return f"carray(a{place}, ({lengths}))"
-        types.append(kind.name)
-        return f"a{place}"
+            lengths = "".join(f"words[{next(places)}], " for _ in range(kind.ndim))
+            return f"carray(at_{kind.item}(words[{place}]), ({lengths}))"
+        return {"float": f"numbers[{place}]", "int": f"words[{place}]"}.get(
+            kind.name, f"words[{place}] != 0"
+        )
 
     call = f"function({', '.join([given(kind) for kind in entry.takes])})"
+    first, n = next(places), len(entry.returns)
     lines = [f"back = {call}"]
-    if entry.returns:
-        n = len(entry.returns)
-        lines.append(f"out = carray(a{len(types)}, ({n},))")
-        types.append("float64")
-        lines += [f"out[{k}] = back{f'[{k}]' if entry.is_tuple else ''}" for k in range(n)]
-    names = ", ".join(f"a{k}" for k in range(len(types)))
-    source = f"def entry({names}):\n " + "\n ".join([*lines, "return 0"]) + "\n"
-    return Callback(entry.symbol, tuple(types), source, scope)
+    lines += [f"numbers[{first + k}] = back{f'[{k}]' if entry.is_tuple else ''}" for k in range(n)]
+    source = "def entry(words, numbers):\n " + "\n ".join([*lines, "return 0"]) + "\n"
+    return Callback(entry.symbol, ("int64", "float64"), source, scope)
+
+
+@cache
+def _pointer(item: str) -> Any:
+    """Return what makes of an address in a whole number one of numbers of a type."""
+    import numba
+    from numba.extending import intrinsic
+
+    types: Any = numba.types
+    kind = types.CPointer(getattr(types, item))
+
+    @intrinsic
+    def at(_typing: Any, address: Any) -> Any:
+        def code(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+            return builder.inttoptr(values[0], context.get_value_type(kind))
+
+        return kind(types.int64), code
+
+    return at
 
 
 def compiled(callback: Callback) -> Any:
@@ -128,9 +149,10 @@ def compiled(callback: Callback) -> Any:
 
     compiler: Any = numba  # its annotations lag behind it
     types = compiler.types
-    numbers = {"float": types.float64, "int": types.int64, "bool": types.boolean}
-    kinds = [numbers.get(t) or types.CPointer(getattr(types, t)) for t in callback.types]
+    kinds = [types.float64 if t == "float" else types.CPointer(getattr(types, t))
+             for t in callback.types]  # fmt: skip
     scope = {"carray": compiler.carray, **callback.scope}
+    scope |= {f"at_{item}": _pointer(item) for item in ITEMS if f"at_{item}(" in callback.source}
     exec(callback.source, scope)
     make = compiler.cfunc(types.int32(*kinds), error_model="numpy", boundscheck=False)
     return make(scope["entry"])

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, get_args, get_origin, get_type_hints
 
+ITEMS = ("float64", "int32", "int64", "uint8")  # of arrays
 PACKAGE = __name__.partition(".")[0]
 # module with a model's step, below the package -> functions, each with its arrays of two dimensions
 CALLED: dict[str, tuple[str, ...]] = {

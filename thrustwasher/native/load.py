@@ -10,15 +10,24 @@ from typing import Any
 import numpy as np
 
 from ..errors import EnvironmentProblem
-from .entries import Entry, Kind, arrays_of_two, describe, library_of, symbol_of
+from .entries import (
+    ITEMS,
+    Entry,
+    Kind,
+    arrays_of_two,
+    describe,
+    library_of,
+    symbol_of,
+)  # fmt: skip
 from .files import to_stderr
 
-# How numbers are handed to a C function; an array is its address.
-_C_TYPES = {"float": ctypes.c_double, "int": ctypes.c_int64, "bool": ctypes.c_uint8}
-_BACK = {"float": "{}", "int": "int({})", "bool": "({} != 0.0)"}
-_ITEMS = {name: np.dtype(name) for name in ("float64", "int32", "int64", "uint8")}
+_BACK = {"float": "_numbers[{}]", "int": "int(_numbers[{}])", "bool": "_numbers[{}] != 0.0"}
+_ITEMS = {name: np.dtype(name) for name in ITEMS}
+_Native = ctypes.CFUNCTYPE(
+    ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p
+)
 _raised = ctypes.c_void_p()  # where a kernel would leave an exception; kernels raise none
-_result = ctypes.c_int32()  # always 0: what comes back stands in an array
+_result = ctypes.c_int32()  # always 0: what comes back stands in the block
 
 
 class Unfit(TypeError):
@@ -113,57 +122,57 @@ def python_function(
 ) -> Callable[..., Any]:
     """Return the function at an address as one with the arguments of the kernel.
 
-    It is written as Python text for these arguments: a loop over their kinds in each call would
-    take longer than most kernels. ``fixed``: arrays by the name of their argument, which falls
-    away.
+    The function takes one block of 64-bit words: a number is a word, an array its address and its
+    lengths; what comes back follows. The way there is written as Python text for these arguments: a
+    loop over their kinds in each call would take longer than most kernels. ``fixed``: arrays by the
+    name of their argument, which falls away; their block is kept, so that one thread at a time may
+    call.
     """
     plain = getattr(entry.function, "py_func", entry.function)
     names, fixed = _names(plain), fixed or {}
-    types: list[Any] = [ctypes.c_void_p, ctypes.c_void_p]
-    words = ["result", "raised"]
+    words: list[tuple[str, str]] = []
     for kind, name in zip(entry.takes, names, strict=True):
-        for c_type, word in _words(kind, name, fixed.get(name)):
-            types.append(c_type)
-            words.append(word)
-    n = len(entry.returns)
-    if n:
-        types.append(ctypes.c_void_p)
-        words.append("_back")
-    back = [_BACK[kind.name].format(f"_back[{k}]") for k, kind in enumerate(entry.returns)]
+        words += _words(kind, f"_kept[{name!r}]" if name in fixed else name)
+    first, n = len(words), len(entry.returns)
+    back = [_BACK[kind.name].format(first + k) for k, kind in enumerate(entry.returns)]
     value = (f"({', '.join(back)},)" if entry.is_tuple else back[0]) if n else "None"
-    given = ", ".join(f"kept[{name!r}]" if name in fixed else name for name in names)
-    source = (
-        f"def {plain.__name__}({', '.join(name for name in names if name not in fixed)}):\n"
-        + (" _back = _Back()\n" if n else "")
-        + f" try:\n  _status = native({', '.join(words)})\n"
-        + f" except Unfit:\n  return plain({given})\n"
-        + f" if _status:\n  fail()\n return {value}\n"
-    )
     scope: dict[str, Any] = {
-        "native": ctypes.CFUNCTYPE(ctypes.c_int32, *types)(place), "plain": plain, "kept": fixed,
-        "address": address, "Unfit": Unfit, "fail": _fail, "_Back": ctypes.c_double * n,
-        "raised": ctypes.byref(_raised), "result": ctypes.byref(_result), **_ITEMS,
+        "_native": _Native(place), "_plain": plain, "_kept": fixed, "_address": address,
+        "_Unfit": Unfit, "_fail": _fail, "_Words": ctypes.c_int64 * (first + n),
+        "_Numbers": ctypes.c_double * (first + n), "_raised": ctypes.byref(_raised),
+        "_result": ctypes.byref(_result), **{f"_{name}": item for name, item in _ITEMS.items()},
     }  # fmt: skip
+    steps = [f"{array}[{k}] = {text}" for k, (array, text) in enumerate(words)]
+    make = ["_words = _Words()", "_numbers = _Numbers.from_buffer(_words)"]
+    if fixed:  # the block stays, and what stands in it
+        exec("\n".join([*make, *(step for step in steps if "_kept[" in step)]), scope)
+        make, steps = [], [step for step in steps if "_kept[" not in step]
+    given = ", ".join(f"_kept[{name!r}]" if name in fixed else name for name in names)
+    source = "\n ".join([
+        f"def {plain.__name__}({', '.join(name for name in names if name not in fixed)}):",
+        *make, "try:", *(f" {step}" for step in steps or ["pass"]),
+        "except _Unfit:", f" return _plain({given})",
+        "if _native(_result, _raised, _words, _words):", " _fail()",
+        f"return {value}",
+    ])  # fmt: skip
     exec(source, scope)
     made: Callable[..., Any] = scope[plain.__name__]
     return made
 
 
-def _words(kind: Kind, text: str, array: Any = None) -> Iterator[tuple[Any, str]]:
-    """Give C type and Python text of all that an argument is handed over as."""
+def _words(kind: Kind, text: str) -> Iterator[tuple[str, str]]:
+    """Give, for each word of an argument, the array it is written to and its Python text."""
     if kind.name == "tuple":
         for k, part in enumerate(kind.parts):
             yield from _words(part, f"{text}[{k}]")
-    elif kind.name != "array":
-        yield _C_TYPES[kind.name], text if kind.name == "float" else f"int({text})"
-    elif array is None:
-        yield ctypes.c_void_p, f"address({text}, {kind.item}, {kind.ndim})"
+    elif kind.name == "float":
+        yield "_numbers", text
+    elif kind.name == "array":
+        yield "_words", f"_address({text}, _{kind.item}, {kind.ndim})"
         for k in range(kind.ndim):
-            yield ctypes.c_int64, f"{text}.shape[{k}]"
+            yield "_words", f"{text}.shape[{k}]"
     else:
-        yield ctypes.c_void_p, str(address(array, _ITEMS[kind.item], kind.ndim))
-        for size in array.shape:
-            yield ctypes.c_int64, str(size)
+        yield "_words", f"int({text})"
 
 
 def _fail() -> None:

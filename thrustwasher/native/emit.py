@@ -189,7 +189,7 @@ def unknown_numba(what: str) -> EnvironmentProblem:
 
     return EnvironmentProblem(
         f"numba {numba.__version__} is not known to the native build: {what}; "
-        "install another one: 0.61 to 0.68 are known to work"
+        "install another one: 0.62 to 0.68 are known to work"
     )
 
 

@@ -6,7 +6,7 @@ from importlib import metadata
 
 from ..errors import ParameterError
 from ..models._spec import ModelSpec
-from ..native import digest, shipped
+from ..native import shipped
 from ..native.here import this_level, this_platform
 from ..native.link import Linker, find_linker, local_linker
 from ..native.objects import prepare
@@ -41,7 +41,7 @@ def local_level(spec: ModelSpec) -> str | None:
 
     What is shipped has them all; what has to be compiled is compiled for this processor alone.
     """
-    if shipped.objects_of(kernel_module(spec.kernel)):
+    if shipped.has_objects(kernel_module(spec.kernel)):
         return None
     return this_level(this_platform()).name
 
@@ -55,7 +55,7 @@ def made_of(spec: ModelSpec, *, local: bool) -> str:
     """Return what decides a model's libraries beside the FMU's own texts."""
     kernel = kernel_module(spec.kernel)
     linker = local_linker() if local else find_linker()
-    return f"{digest.digest(kernel)} {tools(linker)} {local_level(spec) if local else ''}"
+    return f"{shipped.digest_now(kernel)} {tools(linker)} {local_level(spec) if local else ''}"
 
 
 def compile_local(specs: Iterable[ModelSpec], note: Note) -> None:

@@ -54,7 +54,7 @@ def _kept_file(kernel: str, platform: Platform) -> Path:
 def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
     """Link a library and load it."""
     one = platform
-    if len(platform.levels) > 1 and not shipped.objects_of(kernel):  # for this processor alone
+    if len(platform.levels) > 1 and not shipped.has_objects(kernel):  # for this processor alone
         one = replace(platform, levels=(this_level(platform),))
     code = objects(kernel, [one])
     try:
@@ -141,6 +141,6 @@ def is_ready(kernel: str) -> bool:
         platform = this_platform()
     except EnvironmentProblem:
         return False
-    if shipped.library_file(kernel, platform.name) or shipped.objects_of(kernel):
+    if shipped.library_file(kernel, platform.name) or shipped.has_objects(kernel):
         return True
     return files.kept(_kept_file(kernel, platform)) is not None

@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from .digest import HERE, PACKAGE, digest_of, read
+from .digest import HERE, PACKAGE, digest, digest_of, read
 from .files import checksum
 
 FOLDER = HERE.parent / "data" / "native"
@@ -46,6 +46,12 @@ def record(kernel: str) -> Mapping[str, Any] | None:
     return about if digest_of(found) == about["digest"] else None
 
 
+def digest_now(kernel: str) -> str:
+    """Return the digest of a kernel module's sources; quick where they are those shipped."""
+    about = record(kernel)
+    return str(about["digest"]) if about else digest(kernel)
+
+
 def _file(module: str) -> Path:
     """Return the file of a module of this package."""
     path = HERE.parents[1].joinpath(*module.split("."))
@@ -69,6 +75,11 @@ def _listed(kernel: str, *place: str) -> Path | None:
 def library_file(kernel: str, platform: str) -> Path | None:
     """Return the shipped library of a kernel module for Python, None if there is none to use."""
     return _listed(kernel, "libraries", platform)
+
+
+def has_objects(kernel: str) -> bool:
+    """Tell if the objects of a kernel module are shipped and can be used."""
+    return _listed(kernel, "objects") is not None
 
 
 @cache

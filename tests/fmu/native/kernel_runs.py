@@ -35,13 +35,20 @@ def probe(model: str, level: str) -> ctypes.CDLL:
     return ctypes.CDLL(str(path))
 
 
-class Jit:
-    """The entries as numba compiles them when they are called."""
+class Python:
+    """The entries as Python calls them."""
 
     def __init__(self, model: str) -> None:
         spec = find_spec(model)
         self.sizes = load_kernel(spec.kernel)
         self.module = importlib.import_module(kernel_module(spec.kernel))
+
+    def call(self, entry: str, *given):
+        return getattr(self.module, entry)(*given)
+
+
+class Jit(Python):
+    """The entries as numba compiles them when they are called."""
 
     def call(self, entry: str, *given):
         return compiled(getattr(self.module, entry))(*given)
@@ -53,7 +60,7 @@ def compiled(kernel):
     return jitted(kernel.py_func) if way() == "native" else kernel
 
 
-class Native(Jit):
+class Native(Python):
     """The same entries in a compiled library."""
 
     def __init__(self, model: str, level: str) -> None:
@@ -69,7 +76,7 @@ class Native(Jit):
 class Run:
     """One instance: parameters at their start values, memory empty."""
 
-    def __init__(self, entries: Jit) -> None:
+    def __init__(self, entries: Python) -> None:
         self.entries, k = entries, entries.sizes
         self.par, self.state, self.work = np.zeros(k.n_par), np.zeros(k.n_state), np.zeros(k.n_work)
         self.out, self.iout = np.zeros(k.n_out), np.zeros(k.n_iout, np.int32)

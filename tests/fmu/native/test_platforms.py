@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from kernel_runs import HERE, MODELS, Jit, Run, course, parameters
+from kernel_runs import HERE, MODELS, Python, Run, course, parameters
 
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.interface import variables
@@ -72,7 +72,7 @@ def stepped(model: str, platform: str, before, folder) -> np.ndarray:
 
 
 def expected(model: str) -> np.ndarray:
-    run = Run(Jit(model))
+    run = Run(Python(model))
     run.start(parameters(model))
     rows, dt = course(model, STEPS)
     found = []
@@ -102,21 +102,21 @@ def assert_close(found, wanted):
 
 @every
 @elsewhere
-def test_windows_steps_as_the_jit_does(model, tmp_path, wine_prefix):
+def test_windows_steps_as_in_python(model, tmp_path, wine_prefix):
     before = emulator(emulate.command, PLATFORMS["win64"])
     assert_close(stepped(model, "win64", before, tmp_path), expected(model))
 
 
 @every
 @elsewhere
-def test_arm_linux_steps_as_the_jit_does(model, tmp_path):
+def test_arm_linux_steps_as_in_python(model, tmp_path):
     before = emulator(emulate.command, PLATFORMS["aarch64-linux"])
     assert_close(stepped(model, "aarch64-linux", before, tmp_path), expected(model))
 
 
 @every
 @elsewhere
-def test_an_old_processor_takes_the_other_code_and_steps_as_the_jit_does(model, tmp_path):
+def test_an_old_processor_takes_the_other_code_and_steps_as_in_python(model, tmp_path):
     before = emulator(emulate.old_processor)
     assert_close(stepped(model, "linux64", before, tmp_path), expected(model))
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import hashlib
 import os
 import shutil
-import tempfile
 import time
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
+from ..native.files import code_folder
 from ._output import note
 
 KEPT = 3  # versions
@@ -47,15 +47,7 @@ def _compile(models: list[str], target: str) -> None:
 
 def cache_folder(target: str) -> Path:
     """Return the folder of the FMUs of this very source: the user's cache, else a temporary one."""
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    digest = source_digest(target)
-    folder = Path(base) / "thrustwasher" / "built" / digest
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except OSError:
-        return Path(tempfile.gettempdir()) / "thrustwasher-built" / digest
+    return code_folder("built") / source_digest(target)
 
 
 def source_digest(target: str) -> str:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import EnvironmentProblem, ParameterError, naming
+from ..native.files import code_folder
 
 KEPT = 20  # unpacked FMUs
 IN_USE = 86400.0  # s; a folder used within this time may be open in another process
@@ -65,14 +66,8 @@ def unpack(path: str | os.PathLike[str]) -> Path:
 @cache
 def _unpacked(path: str, _changed: int, _size: int) -> Path:
     digest = hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
-    cache_home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    home = Path(cache_home) / "thrustwasher" / "fmus"
-    try:
-        home.mkdir(parents=True, exist_ok=True)
-        part = Path(tempfile.mkdtemp(dir=home))
-    except OSError:
-        home = Path(tempfile.mkdtemp(prefix="thrustwasher-fmus-"))
-        part = Path(tempfile.mkdtemp(dir=home))
+    home = code_folder("fmus")
+    part = Path(tempfile.mkdtemp(dir=home))
     folder = home / f"{Path(path).stem}-{digest}"
     if not (folder / "modelDescription.xml").is_file():
         try:

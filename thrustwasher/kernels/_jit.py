@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from ..errors import EnvironmentProblem
+from ..native.files import code_folder, private_folder
 from ..native.load import native_function
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -99,11 +100,8 @@ def _forget_old(base: str) -> None:
 
 @cache
 def cache_folder() -> str:
-    """Return the folder of what numba compiled: the user's cache, else a temporary folder."""
-    base = os.environ.get("NUMBA_CACHE_DIR") or os.path.join(
-        os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
-        "thrustwasher",
-    )
+    """Return the folder of what numba compiled: NUMBA_CACHE_DIR, else the user's cache."""
+    base = os.environ.get("NUMBA_CACHE_DIR") or str(code_folder("jit"))
     folder = os.path.join(base, f"kernels-{kernel_digest()}")
     try:
         if not os.path.isdir(folder):
@@ -112,7 +110,7 @@ def cache_folder() -> str:
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except OSError:
-        return os.path.join(tempfile.gettempdir(), f"thrustwasher-kernels-{kernel_digest()}")
+        return str(private_folder() / f"kernels-{kernel_digest()}")
 
 
 def jitted(function: Callable[..., Any], inline: str = "never") -> Any:

@@ -54,19 +54,34 @@ def user_cache() -> Path:
     return Path(home) / "thrustwasher"
 
 
-@cache
-def code_folder() -> Path:
+def code_folder(name: str = "native") -> Path:
     """Return a folder for compiled code that nobody else can write to.
 
-    The user's cache if it can be made so, else a temporary folder that goes with this process.
+    It is ``name`` in the user's cache if that can be made so, else a temporary folder that goes
+    with this process; then a line on standard error says why, once.
     """
-    folder = user_cache() / "native"
+    return _code_folder(user_cache(), name)
+
+
+@cache
+def _code_folder(home: Path, name: str) -> Path:
+    folder = home / name
     why = _made_private(folder)
     if not why:
         return folder
-    private = private_folder()
-    to_stderr(f"compiled code is not kept: {folder} {why}; it lies in {private} for this run")
-    return private
+    _say_once(f"compiled code is not kept: {folder} {why}; it lies in {private_folder()} meanwhile")
+    (private_folder() / name).mkdir(exist_ok=True, mode=0o700)
+    return private_folder() / name
+
+
+_said: list[str] = []
+
+
+def _say_once(text: str) -> None:
+    """Say why code is not kept; other kinds of code find the same."""
+    if not _said:
+        to_stderr(text)
+        _said.append(text)
 
 
 def _made_private(folder: Path) -> str:

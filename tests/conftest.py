@@ -3,6 +3,8 @@
 import os
 from pathlib import Path
 
+from hypothesis import settings
+
 TESTS = Path(__file__).parent
 CACHE = TESTS.parent / ".cache"
 
@@ -15,6 +17,10 @@ os.environ.setdefault("MPLBACKEND", "Agg")
 for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):  # the processes share the cores
     os.environ.setdefault(threads, "1")
 os.environ["SOURCE_DATE_EPOCH"] = "1767225600"  # builds repeat while somebody commits
+
+# the same examples in every run; benchmarks/abuse.py tries others
+settings.register_profile("fixed", derandomize=True)
+settings.load_profile("fixed")
 
 # pytest looks for doctests in conftest.py too, and knows one module of that name at a time
 collect_ignore_glob = ["*conftest.py"]

@@ -9,7 +9,7 @@ from thrustwasher.fmu.licences import PLACE, licences
 SAID = {
     "license.txt": b"thrustwasher authors",
     "numba.txt": b"Anaconda",
-    "llvmlite.txt": b"Anaconda",
+    "llvmlite.txt": b"All rights reserved",
     "llvm.txt": b"LLVM Exceptions",
     "fmi-headers.txt": b"Modelica Association",
     "pythonfmu.txt": b"MIT",

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +30,8 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     module = llvm.parse_bitcode(bitcode)
+    if not _takes_attributes():
+        level = replace(level, attribute="")
     machine = llvm.Target.from_triple(platform.triple).create_target_machine(
         cpu=level.cpu, features="", opt=3, reloc="pic", codemodel="default"
     )
@@ -47,6 +51,24 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
     code = bytes(machine.emit_object(module))
     gate.check_object(code, kernel)
     return code
+
+
+@cache
+def _takes_attributes() -> bool:
+    """Tell if a function's attributes can be set: llvmlite 0.45 to 0.47 put them elsewhere.
+
+    Without them code gets larger, the numbers stay.
+    """
+    import llvmlite.binding as llvm
+
+    module = llvm.parse_assembly("define void @f() {\n ret void\n}\n")
+    for function in module.functions:
+        function.add_function_attribute("optsize")
+    try:
+        module.verify()
+    except RuntimeError:
+        return False
+    return True
 
 
 def _rename(module: Any) -> None:

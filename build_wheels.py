@@ -14,7 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from thrustwasher.native import ship
+from thrustwasher.native import link, ship, shipped
+from thrustwasher.native.entries import CALLED, dotted
 from thrustwasher.native.targets import PLATFORMS
 
 HERE = Path(__file__).parent
@@ -61,6 +62,11 @@ def main() -> None:
     parser.add_argument("platforms", nargs="*", metavar="PLATFORM", help=f"{', '.join(TAGS)}, any")
     given = parser.parse_args()
     assert TAGS.keys() == PLATFORMS.keys()
+    stale = [name for name in CALLED if not shipped.has_objects(dotted(name))]
+    if stale:
+        sys.exit(f"stale: {', '.join(stale)}; first: python -m thrustwasher.native.ship")
+    if not link.find_linker().is_cross:
+        sys.exit("wheels are linked by the package ziglang: pip install ziglang")
     for platform in given.platforms or [*TAGS, ANY]:
         if platform not in TAGS and platform != ANY:
             parser.error(f"PLATFORM {platform!r}, allowed: {', '.join(TAGS)}, any")

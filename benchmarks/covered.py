@@ -56,8 +56,11 @@ def plain_files() -> list[Path]:
     return [*(p for p in mine if p.stem not in SLOW), *(ROOT / p for p in MORE)]
 
 
-def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str) -> None:
-    """Run tests under measurement; cut off, they leave what was measured until then."""
+def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str) -> bool:
+    """Run tests under measurement; cut off, they leave what was measured until then.
+
+    Returns False if a test failed.
+    """
     began = time.perf_counter()
     command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q",
                *(("-n", "0", "-p", "no:cacheprovider", *words) if words else ())]  # fmt: skip
@@ -66,12 +69,14 @@ def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str)
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
     )  # fmt: skip
     try:
-        said = running.communicate(timeout=limit)[0].strip().splitlines()[-1:]
+        whole = running.communicate(timeout=limit)[0]
+        said = whole.strip().splitlines()[-1:] if running.returncode == 0 else [whole]
     except subprocess.TimeoutExpired:
         running.terminate()
         running.communicate()
-        said = ["cut off"]
+        said, running.returncode = ["cut off"], 0
     print(f"{' '.join(words) or 'suite'}: {time.perf_counter() - began:.0f} s", *said, flush=True)
+    return running.returncode == 0
 
 
 def share(rc: Path, *words: str) -> str:
@@ -122,13 +127,16 @@ def main() -> int:
     rc = given.folder / "rc"
     if given.part in ("start", "all"):
         start(given.folder)
+    good = True
     if given.part in ("kernels", "all"):
         for file in plain_files():
             words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
-            run_tests(given.folder / "rc-cut-off", words, LIMIT, NUMBA_DISABLE_JIT="1")
+            cut = given.folder / "rc-cut-off"
+            good = run_tests(cut, words, LIMIT, NUMBA_DISABLE_JIT="1") and good
     if given.part == "all":
-        run_tests(rc, [], None)
-    return report(given.folder, given.below) if given.part in ("report", "all") else 0
+        good = run_tests(rc, [], None) and good
+    low_share = report(given.folder, given.below) if given.part in ("report", "all") else 0
+    return low_share or int(not good)
 
 
 if __name__ == "__main__":

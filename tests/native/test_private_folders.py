@@ -93,11 +93,43 @@ def test_two_holders_of_a_lock_take_turns(tmp_path):
 
 def test_a_lock_ends_with_its_process(tmp_path):
     code = (
-        "import sys; from pathlib import Path; from thrustwasher.native import files\n"
-        f"files.locked(Path({str(tmp_path / 'lock')!r}), print).__enter__()\nsys.exit(0)"
+        "import time; from pathlib import Path; from thrustwasher.native import files\n"
+        f"held = files.locked(Path({str(tmp_path / 'lock')!r}), print)\n"
+        "held.__enter__()\nprint('held', flush=True)\ntime.sleep(600)"
     )
-    root = str(Path(__file__).parents[2])
-    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": root})
+    process = subprocess.Popen(
+        [sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+    )  # fmt: skip
+    assert process.stdout.readline() == "held\n"
     waited = []
-    with files.locked(tmp_path / "lock", lambda: waited.append(True)):
-        assert waited == []
+
+    def end():
+        waited.append(True)
+        process.kill()
+
+    with files.locked(tmp_path / "lock", end):
+        assert waited == [True]
+    process.communicate(timeout=30)
+
+
+@posix
+def test_a_folder_others_could_write_to_and_a_link_are_not_used(fresh, tmp_path, capsys):
+    fresh.mkdir(parents=True)
+    fresh.chmod(0o777)
+    assert files.code_folder() != fresh
+    assert "could be written by others" in capsys.readouterr().err
+    (tmp_path / "link").symlink_to(tmp_path)
+    assert files.not_private(tmp_path / "link") == "is no folder"
+
+
+@posix
+def test_a_file_others_could_write_is_not_there(tmp_path):
+    files.keep(tmp_path / "a.o", b"code")
+    (tmp_path / "a.o").chmod(0o666)
+    assert files.kept(tmp_path / "a.o") is None
+
+
+def test_without_a_home_code_lies_in_no_folder_of_that_name(monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", "somewhere/relative")
+    assert files.user_cache().is_absolute()

@@ -12,8 +12,8 @@ import pytest
 
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.kernels.gear_geometry import slide_roll
-from thrustwasher.native import files, library, link, objects, shipped
-from thrustwasher.native.entries import CALLED, describe, dotted, symbols
+from thrustwasher.native import digest, files, library, link, objects, shipped
+from thrustwasher.native.entries import CALLED, called_modules, describe, dotted, symbols
 from thrustwasher.native.here import this_platform
 from thrustwasher.native.load import python_function
 from thrustwasher.native.targets import PLATFORMS
@@ -42,6 +42,14 @@ def test_what_is_shipped_is_made_from_these_sources_for_every_platform(kernel):
     wanted = {(p.name, level.name) for p in PLATFORMS.values() for level in p.levels}
     assert shipped.objects_of(kernel).keys() == wanted
     assert shipped.library_file(kernel, "linux64")
+
+
+@pytest.mark.parametrize("kernel", KERNELS)
+def test_all_that_is_compiled_is_in_the_digest(kernel):
+    listed = set(shipped.record(kernel)["sources"])
+    assert set(called_modules(kernel)) <= listed
+    for module in called_modules(kernel):
+        assert digest.sources(module).keys() <= listed
 
 
 def test_what_is_shipped_is_small_and_all_listed():
@@ -84,7 +92,10 @@ def test_a_damaged_file_is_not_used(spoiled):
     assert shipped.objects_of(GEAR) == {}
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]"])
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", "[" * 100_000, '{"kernels": []}', '{"kernels": {"' + GEAR + '": {}}}',
+             '{"kernels": {"' + GEAR + '": {"sources": [3], "digest": 1, "objects": 2}}}'],
+)  # fmt: skip
 def test_a_damaged_list_is_as_if_nothing_was_shipped(spoiled, text):
     (spoiled / shipped.INDEX).write_text(text)
     forget()
@@ -203,6 +214,15 @@ def test_a_full_disk_is_said_in_one_line_and_the_library_loads_all_the_same(tmp_
     done = child(full + STALE, tmp_path / "cache")
     assert done.stdout == "0\n", done.stderr
     assert sum("No space left" in line for line in done.stderr.splitlines()) == 1
+
+
+@linux
+def test_a_source_that_changes_while_it_is_compiled_is_not_kept_under_the_old_name(tmp_path):
+    wanted = {("linux64", "v2"): (PLATFORMS["linux64"], PLATFORMS["linux64"].levels[0])}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(objects, "digest", lambda kernel: "0" * 16)
+        with pytest.raises(EnvironmentProblem, match="its source changed meanwhile"):
+            objects.compile_objects("thrustwasher.kernels.command_step", tmp_path / "x", wanted)
 
 
 def test_an_error_of_the_disk_while_compiling_names_the_folder(monkeypatch, tmp_path):

@@ -27,12 +27,12 @@ from ..native.load import native_function
 
 F = TypeVar("F", bound=Callable[..., Any])
 KEPT_VERSIONS = 5
-WAYS = ("native", "jit", "emit", "python")
+WAYS = ("native", "jit", "python")
 
 
 @cache
 def way() -> str:
-    """Return how kernels run: "native", "jit", "emit" (only to be compiled) or "python".
+    """Return how kernels run: one of ``WAYS``, or "emit" where they are only compiled.
 
     Raises
     ------
@@ -41,8 +41,10 @@ def way() -> str:
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return "python"
     wanted = os.environ.get("THRUSTWASHER_KERNELS") or "native"
-    if wanted not in WAYS:
-        raise EnvironmentProblem(f"THRUSTWASHER_KERNELS = {wanted!r}, allowed: 'native' or 'jit'")
+    only_compiled = wanted == "emit" and os.environ.get("NUMBA_OPT") == "0"
+    if wanted not in WAYS and not only_compiled:
+        allowed = " or ".join(map(repr, WAYS))
+        raise EnvironmentProblem(f"THRUSTWASHER_KERNELS = {wanted!r}, allowed: {allowed}")
     return wanted
 
 

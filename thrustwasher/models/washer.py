@@ -238,7 +238,9 @@ def _solve(
 
 def _continues(start: WasherResult, params: WasherParams, nodes: tuple[int, int]) -> bool:
     """Tell if a result's memory is one for these parameters and this grid."""
-    return start.grid == nodes and (start.params is params or start.params == params)
+    if start.grid != nodes or start._state.size != size_of_state(*nodes):
+        return False
+    return start.params is params or start.params == params
 
 
 def _prefer(

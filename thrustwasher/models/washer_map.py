@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import threading
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
@@ -51,6 +52,14 @@ NOTHING = (math.nan,) * len(OUTPUTS)
 SOLVED = Status.OK
 
 
+class _Memory(threading.local):
+    """What looking up in a map writes to: each thread has its own."""
+
+    def __init__(self, data: Array) -> None:
+        self.work = np.zeros(N_MAP_WORK + N_ALL)
+        self.torque = bound(single_look_up, data=data, w=self.work)
+
+
 class WasherMap:
     """All steady states of one washer in a box of load, speed, tilt and oil temperature.
 
@@ -74,8 +83,16 @@ class WasherMap:
     def __init__(self, params: WasherParams, path: str | os.PathLike[str] | None = None) -> None:
         self.params, self.file = params, map_for(params, path)
         self.data, self.card = self.file.data, self.file.card
-        self._work = np.zeros(N_MAP_WORK + N_ALL)
-        self._torque = bound(single_look_up, data=self.data, w=self._work)
+        self._own = _Memory(self.data)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the memory: a copy has its own."""
+        return {name: value for name, value in self.__dict__.items() if name != "_own"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take over all but the memory."""
+        self.__dict__.update(state)
+        self._own = _Memory(self.data)
 
     @property
     def box(self) -> dict[str, tuple[float, float]]:
@@ -100,7 +117,7 @@ class WasherMap:
 
         ``branch``: 0 film up to its fold, then contact; 1 film; 3 contact.
         """
-        torque: float = self._torque(load, speed, tilt, oil_temperature, branch)
+        torque: float = self._own.torque(load, speed, tilt, oil_temperature, branch)
         return torque
 
     def look_up(
@@ -125,7 +142,7 @@ class WasherMap:
         rows = np.column_stack([np.asarray(x, dtype=np.float64).ravel() for x in inputs])
         out = np.empty((len(rows), N_ALL))
         found = np.empty((len(rows), 2))
-        look_up_rows(self.data, rows, BRANCHES[branch], self._work, out, found)
+        look_up_rows(self.data, rows, BRANCHES[branch], self._own.work, out, found)
         shape = inputs[0].shape
         columns = {name: out[:, k].reshape(shape) for k, name in enumerate(OUTPUTS)}
         columns["branch"] = found[:, 0].reshape(shape)
@@ -148,7 +165,7 @@ class WasherMap:
                 f"{oil_temperature:g} K, allowed: inside the map's box {self.box}"
             )
         found = np.zeros((4, N_ALL + 2))
-        count = int(map_folds(self.data, speed, tilt, oil_temperature, self._work,
+        count = int(map_folds(self.data, speed, tilt, oil_temperature, self._own.work,
                               found))  # fmt: skip
         kinds = ("film_lost", "film_regained")
         return [

@@ -23,6 +23,17 @@ static int has(uint32_t word, uint32_t bits)
     return (word & bits) == bits;
 }
 
+#ifdef TW_LEAST
+/* x86-64-v2: SSE3, SSSE3, SSE4.1, SSE4.2, POPCNT and CMPXCHG16B. */
+static int is_v2(void)
+{
+    const uint32_t all = 1u << 0 | 1u << 9 | 1u << 13 | 1u << 19 | 1u << 20 | 1u << 23;
+    uint32_t r[4];
+    cpuid(1, r);
+    return has(r[2], all);
+}
+#endif
+
 /* x86-64-v3: AVX2, FMA, BMI, F16C, MOVBE, LZCNT, and an operating system that saves AVX. */
 static int find_v3(void)
 {

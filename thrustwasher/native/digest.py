@@ -12,7 +12,10 @@ import importlib.util
 import threading
 from collections.abc import Iterable, Mapping
 from functools import cache
+from importlib.machinery import ModuleSpec
 from pathlib import Path
+
+from .entries import called_modules
 
 PACKAGE = __name__.partition(".")[0]
 HERE = Path(__file__).parent
@@ -51,19 +54,31 @@ def read(path: Path) -> bytes:
 
 
 def sources(kernel: str) -> dict[str, Path]:
-    """Return module -> file of a kernel module and of all modules of its kind it imports."""
+    """Return module -> file of all that is compiled into a kernel module's library.
+
+    That is the module, those of the functions that Python calls, and all modules of their kind that
+    these import.
+    """
     found: dict[str, Path] = {}
-    roots, todo = {kernel.partition(".")[0], PACKAGE}, [kernel]
+    roots, todo = {kernel.partition(".")[0], PACKAGE}, [kernel, *called_modules(kernel)]
     while todo:
         name = todo.pop()
         if name in found or not _is_compiled(name):
             continue
-        spec = importlib.util.find_spec(name)
+        spec = _found(name)
         if spec and spec.origin and name.partition(".")[0] in roots:
             found[name] = Path(spec.origin)
             package = name if found[name].name == "__init__.py" else spec.parent or ""
             todo += _imported(found[name].read_bytes(), package)
     return found
+
+
+def _found(name: str) -> ModuleSpec | None:
+    """Return where a module is; None where a name is no module but something in one."""
+    try:
+        return importlib.util.find_spec(name)
+    except ModuleNotFoundError:
+        return None
 
 
 def _is_compiled(name: str) -> bool:
@@ -80,7 +95,7 @@ def _imported(source: bytes, package: str) -> Iterable[str]:
         if isinstance(node, ast.ImportFrom):
             given = "." * node.level + (node.module or "")
             module = importlib.util.resolve_name(given, package)
-            names += [module] if node.module else [f"{module}.{a.name}" for a in node.names]
+            names += [module, *(f"{module}.{alias.name}" for alias in node.names)]
         elif isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
     return names

@@ -1,9 +1,9 @@
 """A kernel module as one self-contained LLVM module.
 
-``python -m thrustwasher.native.emit KERNEL FILE`` runs in a process of its own, since numba reads
-its settings once, when it is imported. numba makes of each entry a C callback around a compiled
-function. The callback holds all that needs Python (lock, exceptions) and falls away here; what
-stays takes numbers and needs libm at most. The bitcode is not optimised and names no CPU's
+``python -m thrustwasher.native.emit KERNEL DIGEST FILE`` runs in a process of its own, since numba
+reads its settings once, when it is imported. numba makes of each entry a C callback around a
+compiled function. The callback holds all that needs Python (lock, exceptions) and falls away here;
+what stays takes numbers and needs libm at most. The bitcode is not optimised and names no CPU's
 instructions: ``lower`` makes each platform's object of it.
 """
 
@@ -24,6 +24,7 @@ from typing import Any
 
 from ..errors import EnvironmentProblem
 from . import lean
+from .digest import digest
 from .entries import ITEMS, Entry, Kind, entries
 
 SAID = 2  # exit status: the last line on stderr is the message for the user
@@ -240,13 +241,16 @@ def main(arguments: list[str]) -> int:
     """Write the bitcode of a kernel module."""
     import llvmlite.binding as llvm
 
-    name, file = arguments
+    name, wanted, file = arguments
     warnings.filterwarnings("ignore", message=r"[\s\S]*Cannot cache compiled function")
     llvm.initialize_all_targets()
     try:
         whole = module(
             importlib.import_module(name), lambda k, n: print(f"{DONE} {k} of {n}", flush=True)
         )
+        digest.cache_clear()
+        if digest(name) != wanted:
+            raise EnvironmentProblem(f"{name}: its source changed meanwhile; start again")
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
         return SAID

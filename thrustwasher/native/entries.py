@@ -170,6 +170,13 @@ def symbols(library: str) -> tuple[str, ...]:
     return tuple(sorted(symbol_of(*place.rsplit(".", 1)) for place in places))
 
 
+def called_modules(library: str) -> list[str]:
+    """Return the modules whose functions are in a library because Python calls them."""
+    own = library.removeprefix(f"{PACKAGE}.")
+    places = _places(own) if own in CALLED else []
+    return sorted({dotted(place.rpartition(".")[0]) for place in places})
+
+
 def symbol_of(module: str, name: str) -> str:
     """Return the name a function has in its library."""
     return f"tw_call_{module.rpartition('.')[2]}_{name}"

@@ -7,8 +7,10 @@ one of this process, and that is said.
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import os
+import shutil
 import stat
 import sys
 import tempfile
@@ -20,6 +22,7 @@ from pathlib import Path
 from ..errors import naming
 
 Note = Callable[[str], None]
+READABLE = "can be read by others"
 SUM = ".sha256"  # ends the name of the file that holds another one's checksum
 
 
@@ -51,6 +54,8 @@ def checksum(data: bytes) -> str:
 def user_cache() -> Path:
     """Return where this user's compiled code lies; it need not exist."""
     home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    if not os.path.isabs(home):  # without a home, "~" is a folder like any other
+        home = str(private_folder())
     return Path(home) / "thrustwasher"
 
 
@@ -89,7 +94,7 @@ def _made_private(folder: Path) -> str:
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         why = not_private(folder)
-        if why == "can be entered by others":
+        if why == READABLE:  # what lies there is the user's own
             folder.chmod(0o700)
             why = not_private(folder)
         with tempfile.TemporaryFile(dir=folder):
@@ -105,22 +110,27 @@ def not_private(folder: Path) -> str:
     """
     if sys.platform == "win32":
         return ""
-    about = folder.stat()
+    about = folder.lstat()
     if not stat.S_ISDIR(about.st_mode):
         return "is no folder"
     if about.st_uid != os.getuid():
         return "belongs to another user"
-    return "can be entered by others" if stat.S_IMODE(about.st_mode) & 0o077 else ""
-
-
-_kept: list[tempfile.TemporaryDirectory[str]] = []
+    if about.st_mode & 0o022:
+        return "could be written by others"
+    return READABLE if about.st_mode & 0o055 else ""
 
 
 @cache
 def private_folder() -> Path:
-    """Return a folder of mode 0700 that is removed when this process ends."""
-    _kept.append(tempfile.TemporaryDirectory(prefix="thrustwasher-", ignore_cleanup_errors=True))
-    return Path(_kept[-1].name)
+    """Return a folder of mode 0700 that is removed when this process ends, not one it forks."""
+    folder, process = tempfile.mkdtemp(prefix="thrustwasher-"), os.getpid()
+
+    def remove() -> None:
+        if os.getpid() == process:
+            shutil.rmtree(folder, ignore_errors=True)
+
+    atexit.register(remove)
+    return Path(folder)
 
 
 def keep(path: Path, data: bytes) -> None:
@@ -130,9 +140,16 @@ def keep(path: Path, data: bytes) -> None:
 
 
 def kept(path: Path) -> bytes | None:
-    """Return a file of compiled code, None if it is not there or not as it was written."""
+    """Return a file of compiled code, None if it is not there or not as it was written.
+
+    Nor is it taken where somebody else may have written it.
+    """
     try:
-        data = path.read_bytes()
+        with path.open("rb") as file:
+            about = os.fstat(file.fileno())
+            data = file.read()
+        if sys.platform != "win32" and (about.st_uid != os.getuid() or about.st_mode & 0o022):
+            return None
         known = path.with_name(path.name + SUM).read_text("ascii")
     except (OSError, UnicodeDecodeError):
         return None

@@ -1,4 +1,6 @@
-/* The library that Python loads: one function that gives the addresses of all others. */
+/* The library that Python loads: one function that gives the addresses of all others, or 0 if
+   this processor is too old for them. */
+#define TW_LEAST
 #include "cpu.h"
 #include "symbols.h" /* generated: SYMBOLS(X), X once for each function, in order */
 
@@ -31,6 +33,8 @@ static const Function FUNCTIONS_V3[] = {SYMBOLS(PLACE_V3)};
 
 const Function *tw_table(void)
 {
+    if (!is_v2())
+        return 0;
     return is_v3() ? FUNCTIONS_V3 : FUNCTIONS_V2;
 }
 #endif

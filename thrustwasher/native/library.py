@@ -22,8 +22,27 @@ TABLE = "tw_table"  # the one function a library shows: the addresses of the oth
 Addresses = dict[str, int]  # symbol -> address
 
 
-@cache
+_failed: dict[str, EnvironmentProblem] = {}  # what cannot be had is not tried at every call
+
+
 def addresses(kernel: str) -> Addresses:
+    """Return where the functions of a kernel module are, after loading its library; see ``_found``.
+
+    Raises
+    ------
+    EnvironmentProblem : it can neither be found nor made; the message says what to do
+    """
+    if kernel in _failed:
+        raise _failed[kernel]
+    try:
+        return _found(kernel)
+    except EnvironmentProblem as problem:
+        _failed[kernel] = problem
+        raise
+
+
+@cache
+def _found(kernel: str) -> Addresses:
     """Return where the functions of a kernel module are, after loading its library.
 
     It is the one shipped with the package, else one kept from an earlier run, else it is linked;
@@ -109,7 +128,13 @@ def _loaded(kernel: str, path: Path) -> Addresses:
         return {}
     names = symbols(kernel)
     table.restype = ctypes.POINTER(ctypes.c_void_p * len(names))
-    return {name: int(value or 0) for name, value in zip(names, table().contents, strict=True)}
+    found = table()
+    if not found:
+        raise EnvironmentProblem(
+            "this processor lacks SSE4.2, which compiled kernels use; set THRUSTWASHER_KERNELS=jit "
+            "to let numba compile them for it"
+        )
+    return {name: int(value or 0) for name, value in zip(names, found.contents, strict=True)}
 
 
 _engines: list[Any] = []  # what has been loaded by llvmlite lives as long as the process

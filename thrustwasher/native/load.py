@@ -33,6 +33,9 @@ _result = ctypes.c_int32()  # always 0: what comes back stands in the block
 class Unfit(TypeError):
     """An argument is no array of the kind that the compiled function takes."""
 
+    def __init__(self, item: Any, ndim: int) -> None:
+        super().__init__(f"a contiguous array of {item} with {ndim} dimensions is wanted")
+
 
 def native_function(
     function: Callable[..., Any], elsewhere: Callable[..., Any]
@@ -40,7 +43,8 @@ def native_function(
     """Return the compiled function of a kernel, None if no library has it.
 
     Arguments that it does not take, such as an array that is not contiguous, go to the kernel as
-    plain Python. Where no libraries are made for this machine, ``elsewhere`` compiles the kernel.
+    plain Python. Arrays are handed over by their address, read only ones too. Where no libraries
+    are made for this machine, ``elsewhere`` compiles the kernel.
 
     Raises
     ------
@@ -52,8 +56,7 @@ def native_function(
     if place is None:
         compiled: Callable[..., Any] = elsewhere(function)
         return compiled
-    entry = describe(function, arrays_of_two(function.__module__, function.__name__))
-    return python_function(entry, place)
+    return python_function(_entry_of(function), place)
 
 
 @cache
@@ -77,12 +80,12 @@ def address(array: Any, item: Any, ndim: int) -> int:
     Unfit : it is no contiguous array of this type and number of dimensions
     """
     if type(array) is not np.ndarray or array.ndim != ndim or array.dtype != item:
-        raise Unfit
+        raise Unfit(item, ndim)
     try:
         return ctypes.addressof(ctypes.c_char.from_buffer(array))  # type: ignore[arg-type]
     except (TypeError, ValueError, BufferError):  # read only, empty, or not contiguous
         if not array.flags.c_contiguous:
-            raise Unfit from None
+            raise Unfit(item, ndim) from None
         return int(array.ctypes.data)
 
 
@@ -94,12 +97,18 @@ def bound(kernel: Any, **arrays: Any) -> Callable[..., Any]:
     """
     function = getattr(kernel, "py_func", kernel)
     names = _names(function)
+    assert arrays.keys() <= set(names), f"{function.__name__} takes {', '.join(names)}"
     place = _place_of(function) if getattr(kernel, "is_native", False) else None
     if place is None:
         open_ = [name for name in names if name not in arrays]
         return lambda *rest: kernel(**arrays, **dict(zip(open_, rest, strict=True)))
-    entry = describe(function, arrays_of_two(function.__module__, function.__name__))
-    return python_function(entry, place, arrays)
+    return python_function(_entry_of(function), place, arrays)
+
+
+@cache
+def _entry_of(function: Callable[..., Any]) -> Entry:
+    """Return what a kernel takes and gives; reading its annotations takes a while."""
+    return describe(function, arrays_of_two(function.__module__, function.__name__))
 
 
 def _names(function: Any) -> tuple[str, ...]:
@@ -156,7 +165,7 @@ def python_function(
         f"return {value}",
     ])  # fmt: skip
     exec(source, scope)
-    made: Callable[..., Any] = scope[plain.__name__]
+    made: Callable[..., Any] = scope.pop(plain.__name__)  # or its arrays would outlive it
     return made
 
 

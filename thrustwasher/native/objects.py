@@ -56,7 +56,10 @@ def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) 
     if any(files.kept(path) is None for path in paths.values()):
         compile_objects(kernel, folder, wanted, note)
     ready = {which: files.kept(path) for which, path in paths.items()}
-    return {which: data for which, data in ready.items() if data is not None}
+    made = {which: data for which, data in ready.items() if data is not None}
+    if made.keys() != wanted.keys():
+        raise EnvironmentProblem(f"{folder}: what was compiled is not there any more; start again")
+    return made
 
 
 def prepare(kernels: Iterable[str], platforms: Sequence[Platform], note: Note = to_stderr) -> None:
@@ -98,7 +101,7 @@ def _compile_missing(
     note: Note,
 ) -> None:  # fmt: skip
     _forget_old(folder, name)
-    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+    folder.mkdir(exist_ok=True, mode=0o700)
 
     def waiting() -> None:
         note(f"{name} is being compiled by another process: waiting for it")
@@ -113,7 +116,7 @@ def _compile_missing(
             took = _last_time(folder.parent, name, kernel)
             last = f"; last time {took:.0f} s" if took else ": seconds, the washer about a minute"
             note(f"compiling {name}, whose source is new here{last}")
-            _make(bitcode, "emit", kernel, note=_progress(name, note))
+            _make(bitcode, "emit", kernel, digest(kernel), note=_progress(name, note))
         side_by_side(_lower, [(paths[w], bitcode, *wanted[w], name) for w in missing])
         took = time.perf_counter() - start
         note(f"compiled {name} in {took:.0f} s")
@@ -166,7 +169,8 @@ def _make(
         part = Path(folder) / "part"
         surroundings = emit.environment(os.path.join(folder, "numba"))
         surroundings["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
-        command = [sys.executable, "-m", f"{PACKAGE}.{module}", *arguments, str(part)]
+        # -P: modules are those of this package, not what lies in the working directory
+        command = [sys.executable, "-P", "-m", f"{PACKAGE}.{module}", *arguments, str(part)]
         with tempfile.TemporaryFile("w+", dir=folder) as errors:
             with subprocess.Popen(
                 command, stdout=subprocess.PIPE, stderr=errors, text=True, env=surroundings

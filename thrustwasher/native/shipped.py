@@ -28,9 +28,10 @@ def index() -> Mapping[str, Any]:
     """Return the list of shipped files; empty if there is none that can be read."""
     try:
         found: dict[str, Any] = json.loads((FOLDER / INDEX).read_text("utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {"kernels": {}}
-    return found if isinstance(found, dict) and "kernels" in found else {"kernels": {}}
+    known = isinstance(found, dict) and isinstance(found.get("kernels"), dict)
+    return found if known else {"kernels": {}}
 
 
 @cache
@@ -41,9 +42,9 @@ def record(kernel: str) -> Mapping[str, Any] | None:
         return None
     try:
         found = {name: read(_file(name)) for name in about["sources"]}
-    except OSError:
+        return about if digest_of(found) == about["digest"] else None
+    except (OSError, KeyError, TypeError, AttributeError, ValueError):  # changed by hand
         return None
-    return about if digest_of(found) == about["digest"] else None
 
 
 def digest_now(kernel: str) -> str:
@@ -61,14 +62,12 @@ def _file(module: str) -> Path:
 def _listed(kernel: str, *place: str) -> Path | None:
     """Return a listed file if it is fresh and as it was when it was listed."""
     about: Any = record(kernel)
-    for key in place:
-        about = about.get(key) if about else None
-    if not about:
-        return None
-    path = FOLDER / str(about["file"])
     try:
+        for key in place:
+            about = about[key]
+        path = FOLDER / about["file"]
         return path if checksum(path.read_bytes()) == about["sha256"] else None
-    except OSError:
+    except (OSError, KeyError, TypeError):
         return None
 
 
@@ -96,8 +95,8 @@ def pack(objects: Mapping[tuple[str, str], bytes]) -> bytes:
         for platform, level in sorted(objects):
             info = zipfile.ZipInfo(f"{platform}-{level}.o", EPOCH)
             info.create_system, info.external_attr = 3, 0o100644 << 16
-            info.compress_type = zipfile.ZIP_LZMA
-            archive.writestr(info, objects[platform, level])
+            info.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(info, objects[platform, level], compresslevel=9)
     return buffer.getvalue()
 
 

@@ -130,13 +130,8 @@ def main() -> int:
     good = True
     if given.part in ("kernels", "all"):
         for file in plain_files():
-            words = [
-                str(file.relative_to(ROOT)),
-                "-m",
-                "",
-                "-W",
-                "ignore::RuntimeWarning",
-            ]  # of inf
+            words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
+            words += ["-m", ""] if "rivals" in file.parts else []  # all of them are slow
             cut = given.folder / "rc-cut-off"
             good = run_tests(cut, words, LIMIT, NUMBA_DISABLE_JIT="1") and good
     if given.part == "all":

@@ -45,6 +45,7 @@ parallel = True
 patch = subprocess
 data_file = {data}
 relative_files = True
+disable_warnings = module-not-imported, no-data-collected
 [paths]
 source = {root}
 """

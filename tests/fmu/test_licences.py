@@ -21,7 +21,7 @@ NATIVE = {*BOTH, "numba.txt", "llvmlite.txt", "llvm.txt", "fmi-headers.txt"}
 @pytest.mark.parametrize(
     ("target", "platforms", "names"),
     [
-        ("python", (), {*BOTH, "pythonfmu.txt", "fmi-headers.txt", "llvm.txt"}),
+        ("python", (), {*BOTH, "pythonfmu.txt"}),
         ("native", ("linux64",), NATIVE),
         ("native", ("linux64", "win64"), {*NATIVE, "mingw-w64.txt"}),
     ],
@@ -38,11 +38,6 @@ def test_the_notices_of_a_target_are_these(target, platforms, names):
         assert SAID[name] in found[name], name
     for name in found.keys() - {"overview.txt"}:
         assert name.encode() in found["overview.txt"]
-
-
-def test_an_fmu_without_a_guard_carries_no_notice_for_it(monkeypatch):
-    monkeypatch.setattr(module, "compiler", lambda: "")
-    assert licences("python").keys() == {f"{PLACE}/{name}" for name in (*BOTH, "pythonfmu.txt")}
 
 
 def test_the_notice_of_the_headers_is_that_of_a_bsd_licence():

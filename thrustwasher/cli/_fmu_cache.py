@@ -15,7 +15,7 @@ from ._output import note
 
 KEPT = 3  # versions
 IN_USE = 86400.0  # s; a version used within this time may be needed by another process
-TEXTS = (".py", ".json", ".npz", ".md", ".c", ".h")
+TEXTS = (".py", ".json", ".npz", ".md", ".html", ".svg", ".png", ".c", ".h")
 
 
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
@@ -38,7 +38,7 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
 
 def _compile(models: list[str], target: str) -> None:
     """Compile what is not compiled yet, as many models at once as there are processors."""
-    from ..fmu.native_contents import compile_local
+    from ..fmu.native.library import compile_local
     from ..fmu.registry import find_spec
 
     if target == "native":
@@ -52,9 +52,9 @@ def cache_folder(target: str) -> Path:
 
 def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
-    from ..fmu.build import source_folder
-    from ..fmu.native_contents import made_of
+    from ..fmu.native.library import made_of
     from ..fmu.registry import all_specs, package_version
+    from ..fmu.sources import source_folder
     from ..store.maps import SUFFIX, map_folders
 
     native = target == "native"

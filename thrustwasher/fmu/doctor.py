@@ -10,13 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import metadata
 
-from ..errors import EnvironmentProblem, ParameterError
+from ..errors import ParameterError
 from ..native.files import code_folder
 from ..native.link import find_linker
-from ..native.targets import PLATFORMS
-from .build import source_folder
-from .native import emulate
 from .registry import all_specs, is_compiled, load_kernel, package_version
+from .sources import source_folder
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +39,6 @@ def diagnose() -> list[Check]:
         ("Python FMU, this process", _binary),
         ("Python FMU, C hosts", _shared_library),
         ("native FMUs, compiler", _compiler),
-        *((f"native FMUs, {name}", _platform(name)) for name in PLATFORMS),
         ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
     ]
     return [_look(name, look) for name, look in looks]
@@ -112,25 +109,10 @@ def _shared_library() -> str:
             "this Python has no shared libpython; a host that is no Python cannot run Python FMUs "
             "with it; use a Python built with --enable-shared, or native FMUs"
         )
-    return f"with this Python first on PATH, or FMU_LIBPYTHON={library}"
+    return f"if they load {library} first (LD_PRELOAD)"
 
 
 def _compiler() -> str:
     linker = find_linker()
     text = f"{linker.name} {linker.version}, builds for {', '.join(linker.platforms)}"
     return text if linker.is_cross else f"{text}; for all platforms: pip install ziglang"
-
-
-def _platform(name: str) -> Callable[[], str]:
-    """Say if a platform's FMUs can be built here, and tried out."""
-
-    def look() -> str:
-        if name not in find_linker().platforms:
-            raise EnvironmentProblem("is not built here: pip install ziglang")
-        try:
-            before = emulate.command(PLATFORMS[name])
-        except EnvironmentProblem as problem:
-            return f"is built; cannot be tried here: {problem}"
-        return f"is built; runs here {'with ' + before[0] if before else 'as it is'}"
-
-    return look

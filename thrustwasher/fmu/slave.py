@@ -3,9 +3,8 @@
 What shapes it: an exception that leaves a callback makes pythonfmu drop references twice, and the
 second one on an instance ends the process. Therefore no callback ever raises, not even for Ctrl-C.
 A callback other than ``do_step`` cannot report failure at all; so a failure is logged as an error,
-latched in ``solver_status``, and the next step is refused until it is cured. The guard, the C
-library in front of pythonfmu's, turns a logged error into fmi2Error; where there is no guard, on
-Windows, the latch alone must do. ``__init__`` may raise: the instantiation then returns NULL.
+latched in ``solver_status``, and the next step is refused until it is cured. ``__init__`` may
+raise: the instantiation then returns NULL.
 """
 
 import _ctypes
@@ -27,7 +26,7 @@ from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, SolveErr
 from .core import Core, Mode
 from .registry import content_digest, find_spec, package_version
 from .snapshot import Snapshot, from_bytes
-from .xml import LOG_CATEGORIES, description
+from .xml_parts import LOG_CATEGORIES
 
 _at_exit: set[str] = set()  # libraries that release their pointer when the process ends
 
@@ -63,9 +62,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         super().__init__(**kwargs)
         _forget_repeated_path(self.resources)
         spec = find_spec(self.model)
-        self.guarded = _is_guarded(self.resources)
-        if not self.guarded:
-            _settle_library(self.resources, spec.name)
+        _settle_library(self.resources, spec.name)
         if type(self).digest != content_digest(spec):
             theirs, ours = type(self).version, package_version()
             cure = "" if theirs == ours else f"pip install thrustwasher=={theirs}, or "
@@ -74,8 +71,8 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
                 f"{type(self).digest}), this Python has {ours} (content {content_digest(spec)}): "
                 f"{cure}build the FMU again"
             )
-            if not self.guarded:  # pythonfmu drops messages unless the host has logging on
-                logging.getLogger("thrustwasher").error("%s", problem)
+            # pythonfmu drops messages unless the host has logging on
+            logging.getLogger("thrustwasher").error("%s", problem)
             raise problem
         self.core = Core(spec)
         self.warned = 0
@@ -100,11 +97,9 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     @_safe
     def exit_initialization_mode(self) -> None:
         """Check the rules between parameters and solve the start point."""
-        if not self.guarded:  # the host cannot be told of a failure and will go on to steps
-            self.core.mode = Mode.STEPPING
+        self.core.mode = Mode.STEPPING  # the host cannot be told of a failure and will go on
         self.core.prepare()
         self.core.refresh()
-        self.core.mode = Mode.STEPPING
         self.core.note_switches()  # how a run starts is no event
         self._warn()
 
@@ -231,10 +226,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
                       f"{status.advice}", Fmi2Status.warning, "logStatusWarning")  # fmt: skip
         self.warned = status
 
-    def to_xml(self, model_options: Any = None) -> Any:
-        """Return the description from the model's list of variables."""
-        return description(self.core.spec, guid=type(self).guid)
-
 
 def _forget_repeated_path(folder: str | None) -> None:
     """Keep one entry of the FMU's folder in sys.path: pythonfmu adds one per instantiation."""
@@ -243,14 +234,8 @@ def _forget_repeated_path(folder: str | None) -> None:
         sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != folder]
 
 
-def _is_guarded(folder: str | None) -> bool:
-    """Tell if the guard is in front of pythonfmu's library, which then has another name."""
-    binaries = Path(folder or "").parent / "binaries" / "linux64"
-    return sys.platform == "linux" and (binaries / "impl.so").is_file()
-
-
 def _settle_library(folder: str | None, model: str) -> None:
-    """Without a guard: release pythonfmu's global pointer before its destructors do so twice.
+    """Release pythonfmu's global pointer before its destructors do so twice.
 
     They run when the library is unloaded or the process ends, and release the pointer again if it
     is still set: "corrupted double-linked list". In a Python host the pointer has nothing left to

@@ -15,8 +15,7 @@ from typing import Any, Self
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .direct import DirectInstance, number, unknown
 from .loading import WARNING, Message, Messages, capabilities, description, instantiate, unpack
-from .machine import Machine, machine_of
-from .protocol import Direction, Fmi2, Fmi3, Protocol, Table
+from .protocol import Direction, Fmi2, Fmi3, Machine, Protocol, Table, machine_of
 
 __all__ = ["DirectInstance", "Instance", "unpack"]
 

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import struct
 import subprocess
 import sys
 from dataclasses import asdict
@@ -182,3 +183,23 @@ def test_numba_with_another_convention_is_refused_plainly():
     Made.native_name = "cfunc.step"
     with pytest.raises(EnvironmentProblem, match="is not int32 f"):
         emit.function_in(Made())
+
+
+X86_64, ARM64 = 0x01000007, 0x0100000C
+
+
+def mach_o(processor, subtype, length):
+    return struct.pack("<III", 0xFEEDFACF, processor, subtype) + bytes(length - 12)
+
+
+def test_each_part_of_a_macos_file_lies_at_a_whole_page_as_the_table_says():
+    parts = [mach_o(X86_64, 3, 20_000), mach_o(ARM64, 0, 5_001)]
+    data = library.universal(parts)
+    magic, n = struct.unpack_from(">II", data)
+    assert (magic, n) == (0xCAFEBABE, 2)
+    entries = [struct.unpack_from(">IIIII", data, 8 + 20 * i) for i in range(n)]
+    assert [e[:2] for e in entries] == [(X86_64, 3), (ARM64, 0)]
+    for part, (_, _, offset, size, align) in zip(parts, entries, strict=True):
+        assert offset % (1 << align) == 0 and offset % 0x4000 == 0
+        assert data[offset : offset + size] == part
+    assert len(data) == entries[-1][2] + entries[-1][3]

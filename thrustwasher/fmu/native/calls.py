@@ -1,7 +1,7 @@
-"""Which FMI function may be called when: one table, as data, for every target.
+"""Which FMI function may be called when: one table, as data.
 
-The C tables of the native shell and of the Python target's guard are written from it, and the
-tests walk through it: every function in every mode.
+The C tables of the native shell are written from it, and the tests walk through it: every function
+in every mode.
 """
 
 INSTANTIATED, INITIALIZING, STEPPING, TERMINATED = 1, 2, 4, 8

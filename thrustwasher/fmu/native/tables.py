@@ -1,4 +1,4 @@
-"""The tables of a model as C source: everything the shell or the guard knows about it."""
+"""The tables of a model as C source: everything the shell knows about it."""
 
 import importlib
 from collections.abc import Iterable, Sequence
@@ -8,12 +8,13 @@ from ...errors import FIRST_FAILURE, Status
 from ...models._spec import ModelSpec
 from ..interface import Variable, enumerations, variables
 from ..registry import count_places, kernel_module, kernel_table, load_kernel
-from ..xml import LOG_CATEGORIES, log_categories
+from ..xml_parts import LOG_CATEGORIES, log_categories
 from . import calls
 
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
-COMMON = ("life.c", "resource.c", "values.c", "text.c", "stories.c", "state.c", "derivative.c")
+COMMON = ("lifecycle.c", "resource.c", "values.c", "text.c", "messages.c", "state.c",
+          "derivative.c")  # fmt: skip
 PROTOCOL = {
     2: ("fmi2.c", "fmi2_values.c"),
     3: ("fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c"),

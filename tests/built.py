@@ -6,8 +6,9 @@ from pathlib import Path
 
 from filelock import FileLock
 
-from thrustwasher.cli._fmu_cache import fmu_paths, prune, source_digest
+from thrustwasher.cli._fmu_cache import fmu_paths, source_digest
 from thrustwasher.fmu.build import build
+from thrustwasher.fmu.loading import prune
 from thrustwasher.fmu.native.library import tools
 from thrustwasher.fmu.registry import find_spec
 from thrustwasher.native.link import find_linker
@@ -30,7 +31,7 @@ def built_fmu(model, *, target="native", fmi=2, sources=None, **options):
             return fmu_paths([name], target)[name]
         if not path.is_file():
             build([model], target=target, fmi=fmi, out=home, sources=sources, **options)
-            prune(HOME)
+            prune(HOME, 3)
     os.utime(home)  # the time of the last use
     return path
 

@@ -36,8 +36,7 @@ def diagnose() -> list[Check]:
         ("compiled kernels", _kernels),
         ("temporary folder", lambda: _writable(tempfile.gettempdir())),
         ("slave files", lambda: str(source_folder())),
-        ("Python FMU, this process", _binary),
-        ("Python FMU, C hosts", _shared_library),
+        ("Python FMU", _binary),
         ("native FMUs, compiler", _compiler),
         ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
     ]
@@ -91,25 +90,18 @@ def _writable(folder: str) -> str:
 
 def _binary() -> str:
     system, machine = platform.system(), platform.machine().lower()
-    if system == "Linux" and machine in ("x86_64", "amd64"):
-        return "runs in FMPy and other Python hosts"
-    if system == "Windows" and machine in ("x86_64", "amd64"):
-        return "pythonfmu's library is inside; not tested on Windows"
-    raise ParameterError(
-        f"pythonfmu has no library for {system} on {machine}; use the Python API here"
-    )
-
-
-def _shared_library() -> str:
-    name = sysconfig.get_config_var("INSTSONAME") or ""
-    folder = sysconfig.get_config_var("LIBDIR") or ""
-    library = os.path.join(folder, name)
-    if sys.platform == "linux" and not (".so" in name and os.path.exists(library)):
+    if system not in ("Linux", "Windows") or machine not in ("x86_64", "amd64"):
         raise ParameterError(
-            "this Python has no shared libpython; a host that is no Python cannot run Python FMUs "
-            "with it; use a Python built with --enable-shared, or native FMUs"
+            f"pythonfmu has no library for {system} on {machine}; use the Python API here"
         )
-    return f"if they load {library} first (LD_PRELOAD)"
+    if system == "Windows":
+        return "pythonfmu's library is inside; not tested on Windows"
+    name, folder = (sysconfig.get_config_var(v) or "" for v in ("INSTSONAME", "LIBDIR"))
+    library = os.path.join(folder, name)
+    others = f"others have to load {library} first (LD_PRELOAD)"
+    if not (".so" in name and os.path.exists(library)):
+        others = "this Python has no shared library for others"
+    return f"runs in FMPy and other Python hosts; {others}"
 
 
 def _compiler() -> str:

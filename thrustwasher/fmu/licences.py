@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from importlib import metadata
+from importlib.util import find_spec
 from pathlib import Path
 
 from ..errors import EnvironmentProblem
@@ -44,27 +45,23 @@ def listed_licences(target: str, platforms: Sequence[str] = ()) -> list[tuple[st
     parts = PYTHON
     if target == "native":
         mingw = MINGW if "win64" in platforms else {}
-        parts = NATIVE | (ZIG if _has("ziglang") else {}) | mingw
+        parts = NATIVE | (ZIG if find_spec("ziglang") else {}) | mingw
     return [(name, part, licence, where) for part, (name, licence, where) in parts.items()]
 
 
 def _text(name: str) -> bytes:
     """Return one notice, from the package it belongs to."""
     if name == "license.txt":
-        return _own()
+        beside = Path(__file__).parents[2] / "LICENSE"
+        return _read(beside) if beside.is_file() else _distributed("thrustwasher", "LICENSE")
     if name == "fmi-headers.txt":
         return _headers()
+    if name == "llvm.txt":
+        return _distributed("llvmlite", "LICENSE.thirdparty")
     inside = {"zig.txt": "LICENSE", "mingw-w64.txt": "lib/libc/mingw/COPYING"}
     if name in inside:
         return _read(_package("ziglang") / inside[name])
-    if name == "llvm.txt":
-        return _distributed("llvmlite", "LICENSE.thirdparty")
     return _distributed(name.removesuffix(".txt"), "LICENSE")
-
-
-def _own() -> bytes:
-    beside = Path(__file__).parents[2] / "LICENSE"
-    return _read(beside) if beside.is_file() else _distributed("thrustwasher", "LICENSE")
 
 
 def _headers() -> bytes:
@@ -75,14 +72,6 @@ def _headers() -> bytes:
         raise EnvironmentProblem("the FMI headers of FMPy carry no notice; install another FMPy")
     lines = [line.strip() for line in found[0].splitlines()]
     return ("\n".join(lines) + "\n").encode()
-
-
-def _has(package: str) -> bool:
-    try:
-        metadata.distribution(package)
-    except metadata.PackageNotFoundError:
-        return False
-    return True
 
 
 def _package(name: str) -> Path:

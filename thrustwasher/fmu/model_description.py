@@ -38,10 +38,8 @@ DERIVATIVES = {
 }
 # FMI 3: enumerations are read and written as 64-bit integers, whole numbers as 32-bit ones.
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
-SECTIONS = {
-    2: {"outputs": "Outputs", "initial": "InitialUnknowns"},
-    3: {"outputs": "Output", "initial": "InitialUnknown"},
-}
+LISTS = {"outputs": "Outputs", "initial": "InitialUnknowns"}  # of FMI 2
+ELEMENTS = {"outputs": "Output", "initial": "InitialUnknown"}  # of FMI 3
 
 
 def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = False) -> Element:
@@ -54,7 +52,7 @@ def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = Fal
     SubElement(root, "CoSimulation", flags)
     found = variables(spec)
     parts.add_units(root, found)
-    (_types2 if second else _types3)(SubElement(root, "TypeDefinitions"), spec, found)
+    _types(root, spec, found, second)
     parts.add_log_categories(root, spec)
     parts.add_experiment(root, spec)
     listed = SubElement(root, "ModelVariables")
@@ -64,51 +62,41 @@ def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = Fal
             SubElement(SubElement(listed, "ScalarVariable", head), v.type, value)
         else:
             SubElement(listed, TYPES[v.type], head | value)
-    (_structure2 if second else _structure3)(SubElement(root, "ModelStructure"), found)
+    _structure(root, found, second)
     return root
 
 
-def _types2(definitions: Element, spec: ModelSpec, found: tuple[Variable, ...]) -> None:
+def _types(root: Element, spec: ModelSpec, found: tuple[Variable, ...], second: bool) -> None:
+    definitions = SubElement(root, "TypeDefinitions")
     for t in parts.used_types(found):
-        simple = SubElement(definitions, "SimpleType", {"name": t.name})
-        SubElement(simple, "Real", parts.type_attributes(t))
-    for name in sorted(enumerations(spec)):
-        simple = SubElement(definitions, "SimpleType", {"name": name})
-        _items(SubElement(simple, "Enumeration"), spec, name)
+        name, said = {"name": t.name}, parts.type_attributes(t)
+        if second:
+            SubElement(SubElement(definitions, "SimpleType", name), "Real", said)
+        else:
+            SubElement(definitions, "Float64Type", name | said)
+    for type_name, items in sorted(enumerations(spec).items()):
+        name = {"name": type_name}
+        if second:
+            listed = SubElement(SubElement(definitions, "SimpleType", name), "Enumeration")
+        else:
+            listed = SubElement(definitions, "EnumerationType", name)
+        for item in items:
+            SubElement(listed, "Item", {"name": item.name, "value": str(item.value),
+                                        "description": item.help})  # fmt: skip
 
 
-def _types3(definitions: Element, spec: ModelSpec, found: tuple[Variable, ...]) -> None:
-    for t in parts.used_types(found):
-        SubElement(definitions, "Float64Type", {"name": t.name, **parts.type_attributes(t)})
-    for name in sorted(enumerations(spec)):
-        _items(SubElement(definitions, "EnumerationType", {"name": name}), spec, name)
-
-
-def _items(listed: Element, spec: ModelSpec, name: str) -> None:
-    for item in enumerations(spec)[name]:
-        SubElement(listed, "Item", {"name": item.name, "value": str(item.value),
-                                    "description": item.help})  # fmt: skip
-
-
-def _structure2(structure: Element, found: tuple[Variable, ...]) -> None:
-    """FMI 2 counts variables from 1 here, and has a list of its own for each part."""
-    sections = {part: SubElement(structure, name) for part, name in SECTIONS[2].items()}
+def _structure(root: Element, found: tuple[Variable, ...], second: bool) -> None:
+    """FMI 2 counts variables from 1 here, and has a list for each part."""
+    structure = SubElement(root, "ModelStructure")
+    key, first = ("index", 1) if second else ("valueReference", 0)
+    sections = {part: SubElement(structure, name) for part, name in LISTS.items() if second}
     for part, unknown, known in parts.unknowns(found):
-        reference = {"index": str(unknown.reference + 1)}
-        numbers = [v.reference + 1 for v in known]
-        SubElement(sections[part], "Unknown", reference | _dependencies(numbers))
-
-
-def _structure3(structure: Element, found: tuple[Variable, ...]) -> None:
-    for part, unknown, known in parts.unknowns(found):
-        reference = {"valueReference": str(unknown.reference)}
-        numbers = [v.reference for v in known]
-        SubElement(structure, SECTIONS[3][part], reference | _dependencies(numbers))
-
-
-def _dependencies(numbers: list[int]) -> dict[str, str]:
-    return {"dependencies": " ".join(map(str, numbers)),
-            "dependenciesKind": " ".join("dependent" for _ in numbers)}  # fmt: skip
+        where, tag = (sections[part], "Unknown") if second else (structure, ELEMENTS[part])
+        SubElement(where, tag, {
+            key: str(unknown.reference + first),
+            "dependencies": " ".join(str(v.reference + first) for v in known),
+            "dependenciesKind": " ".join("dependent" for _ in known),
+        })  # fmt: skip
 
 
 def terminals_and_icons(spec: ModelSpec, *, icon: bool = True) -> Element:

@@ -7,7 +7,7 @@ through FMPy. FMPy has declared the argument types of all functions when it load
 import ctypes
 from collections.abc import Callable, Sequence
 from operator import itemgetter
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 # C types of values -> how a compiled loop calls them.
 KINDS = {
@@ -16,76 +16,42 @@ KINDS = {
 }  # fmt: skip
 
 
+# Of both versions: type of a variable -> (name in calls, C type).
+TYPES: dict[int, dict[str, tuple[str, Any]]] = {
+    2: {"Real": ("Real", ctypes.c_double), "Integer": ("Integer", ctypes.c_int),
+        "Enumeration": ("Integer", ctypes.c_int), "Boolean": ("Boolean", ctypes.c_int)},
+    3: {"Float64": ("Float64", ctypes.c_double), "Int32": ("Int32", ctypes.c_int32),
+        "Enumeration": ("Int64", ctypes.c_int64), "Boolean": ("Boolean", ctypes.c_bool)},
+}  # fmt: skip
+
+
 class Protocol:
-    """What both versions share; a version names its types and spells its calls."""
+    """Co-simulation of FMI 2.0 or 3.0, without event mode and early return."""
 
-    prefix = ""
-    types: ClassVar[dict[str, tuple[str, Any]]] = {}  # of a variable -> (name in calls, C type)
-    lengths = 0  # times the number of values is handed over beside the values
-
-    def __init__(self, fmu: Any) -> None:
-        self.fmu = fmu
+    def __init__(self, fmu: Any, version: int) -> None:
+        self.fmu, self._version = fmu, version
+        self.types = TYPES[version]
+        self.lengths = version - 2  # times the number of values is handed over beside the values
+        self._do_step = self.function("DoStep")
+        self._told = (ctypes.c_bool(), ctypes.c_bool(), ctypes.c_bool(), ctypes.c_double())
+        self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._told))
 
     def begin(self, start_time: float) -> None:
         """Enter initialization at a time."""
-        raise NotImplementedError
+        if self._version == 2:
+            self.fmu.setupExperiment(startTime=start_time)
+            self.fmu.enterInitializationMode()
+        else:
+            self.fmu.enterInitializationMode(startTime=start_time)
 
     def step(self, t: float, h: float) -> int:
         """Advance and return the status."""
-        raise NotImplementedError
+        return self._do_step(self.fmu.component, t, h, *self._rest)
 
     def function(self, name: str) -> Callable[..., int]:
         """Return a function of the library; it returns the status as a number."""
-        found: Callable[..., int] = getattr(self.fmu.dll, f"{self.prefix}{name}")
+        found: Callable[..., int] = getattr(self.fmu.dll, f"fmi{self._version}{name}")
         return found
-
-
-class Fmi2(Protocol):
-    """FMI 2.0 co-simulation."""
-
-    prefix = "fmi2"
-    types: ClassVar = {
-        "Real": ("Real", ctypes.c_double), "Integer": ("Integer", ctypes.c_int),
-        "Enumeration": ("Integer", ctypes.c_int), "Boolean": ("Boolean", ctypes.c_int),
-    }  # fmt: skip
-
-    def __init__(self, fmu: Any) -> None:
-        super().__init__(fmu)
-        self._do_step = self.function("DoStep")
-
-    def begin(self, start_time: float) -> None:
-        """Enter initialization at a time."""
-        self.fmu.setupExperiment(startTime=start_time)
-        self.fmu.enterInitializationMode()
-
-    def step(self, t: float, h: float) -> int:
-        """Advance and return the status."""
-        return self._do_step(self.fmu.component, t, h, 0)
-
-
-class Fmi3(Protocol):
-    """FMI 3.0 co-simulation, without event mode and early return."""
-
-    prefix = "fmi3"
-    types: ClassVar = {
-        "Float64": ("Float64", ctypes.c_double), "Int32": ("Int32", ctypes.c_int32),
-        "Enumeration": ("Int64", ctypes.c_int64), "Boolean": ("Boolean", ctypes.c_bool),
-    }  # fmt: skip
-    lengths = 1
-
-    def __init__(self, fmu: Any) -> None:
-        super().__init__(fmu)
-        self._do_step = self.function("DoStep")
-        self._told = (ctypes.c_bool(), ctypes.c_bool(), ctypes.c_bool(), ctypes.c_double())
-        self._pointers = tuple(ctypes.byref(x) for x in self._told)
-
-    def begin(self, start_time: float) -> None:
-        """Enter initialization at a time."""
-        self.fmu.enterInitializationMode(startTime=start_time)
-
-    def step(self, t: float, h: float) -> int:
-        """Advance and return the status."""
-        return self._do_step(self.fmu.component, t, h, False, *self._pointers)
 
 
 def _references(found: Sequence[Any]) -> Any:

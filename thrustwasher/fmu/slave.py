@@ -51,6 +51,29 @@ def _safe(callback: Callable[..., Any]) -> Callable[..., Any]:
     return guarded
 
 
+def _setter(kind: str) -> Callable[..., Any]:
+    """Return the callback that takes over all values of a kind or none."""
+
+    def set_values(self: "Slave", vrs: list[int], values: list[Any]) -> None:
+        self.core.set(vrs, values, kind)
+
+    return _safe(set_values)
+
+
+def _getter(kind: str, convert: Callable[[float], Any]) -> Callable[..., Any]:
+    """Return the callback that reads values of a kind, solving first where needed."""
+
+    def get_values(self: "Slave", vrs: list[int]) -> list[Any]:
+        try:
+            found = self.core.get(vrs, kind)
+        except BaseException as problem:  # reported; then the last good ones
+            self.report(problem)
+            found = self.core.stored(vrs)
+        return [convert(value) for value in found]
+
+    return get_values
+
+
 class Slave(Fmi2Slave):  # type: ignore[misc]
     """Base class; a model's slave file names the model and what it was built with."""
 
@@ -126,50 +149,12 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
 
     # Values
 
-    @_safe
-    def set_real(self, vrs: list[int], values: list[float]) -> None:
-        """Take over all values or none."""
-        self.core.set(vrs, values, "Real")
+    set_real, set_boolean = _setter("Real"), _setter("Boolean")
+    set_integer = _setter("Integer")  # enumerations are integers here
+    set_string = _setter("String")  # refuses: there are no texts
 
-    @_safe
-    def set_integer(self, vrs: list[int], values: list[int]) -> None:
-        """Take over all values or none; enumerations are integers here."""
-        self.core.set(vrs, values, "Integer")
-
-    @_safe
-    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
-        """Take over all values or none."""
-        self.core.set(vrs, values, "Boolean")
-
-    @_safe
-    def set_string(self, vrs: list[int], values: list[str]) -> None:
-        """Refuse: there are no texts."""
-        self.core.set(vrs, [0.0] * len(vrs), "String")
-
-    def get_real(self, vrs: list[int]) -> list[float]:
-        """Return real values, solving first where needed."""
-        return self._read(vrs, "Real")
-
-    def get_integer(self, vrs: list[int]) -> list[int]:
-        """Return integers and enumerations."""
-        return [int(value) for value in self._read(vrs, "Integer")]
-
-    def get_boolean(self, vrs: list[int]) -> list[bool]:
-        """Return Booleans."""
-        return [bool(value) for value in self._read(vrs, "Boolean")]
-
-    def get_string(self, vrs: list[int]) -> list[str]:
-        """Refuse: there are no texts."""
-        self._read(vrs, "String")
-        return [""] * len(vrs)
-
-    def _read(self, vrs: list[int], kind: str) -> list[float]:
-        """Return values; after a failure, reported, the last good ones."""
-        try:
-            return self.core.get(vrs, kind)
-        except BaseException as problem:
-            self.report(problem)
-            return self.core.stored(vrs)
+    get_real, get_integer = _getter("Real", float), _getter("Integer", int)
+    get_boolean, get_string = _getter("Boolean", bool), _getter("String", lambda _: "")
 
     # State
 

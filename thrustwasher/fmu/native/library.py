@@ -105,24 +105,11 @@ def library(
     spec: ModelSpec, *, fmi: int, guid: str, platform: str, level: str | None = None,
     linker: Linker | None = None, note: Note = to_stderr,
 ) -> bytes:  # fmt: skip
-    """Return the shared library of a model for one platform.
+    """Return the shared library of a model for one platform, a key of ``PLATFORMS``.
 
-    Parameters
-    ----------
-    spec
-        The model.
-    fmi
-        2 or 3.
-    guid
-        Compiled in: a description of another build is refused.
-    platform
-        A key of ``targets.PLATFORMS``.
-    level
-        The one CPU level of the platform to compile for; None: all, chosen by the CPU at run time.
-    linker
-        None: that of ``find_linker``.
-    note
-        Called with a line of progress before anything that takes long.
+    ``guid`` is compiled in: a description of another build is refused. ``level`` is the one CPU
+    level to compile for; None: all, chosen by the CPU at run time. ``note`` is called with a line
+    of progress before anything that takes long.
 
     Raises
     ------

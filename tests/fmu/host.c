@@ -10,8 +10,7 @@
 #define CALLS(X) \
     X(GetVersion) X(Instantiate) X(FreeInstance) X(SetupExperiment) X(EnterInitializationMode) \
     X(ExitInitializationMode) X(DoStep) X(GetReal) X(SetReal) X(GetInteger) X(SetInteger) \
-    X(GetFMUstate) X(SetFMUstate) X(FreeFMUstate) X(SerializedFMUstateSize) X(SerializeFMUstate) \
-    X(DeSerializeFMUstate) X(GetRealStatus) X(GetBooleanStatus)
+    X(GetRealStatus) X(GetBooleanStatus)
 #define MEMBER(name) fmi2##name##TYPE *name;
 
 enum { MOST = 64 };
@@ -22,9 +21,6 @@ typedef struct {
     fmi2Component c;
 } Fmu;
 static Fmu fmus[8], *f = fmus;
-static fmi2FMUstate states[8];
-static fmi2Byte bytes[1 << 20];
-static size_t n_bytes;
 static char *words[2 * MOST];
 static int n_words;
 
@@ -67,10 +63,9 @@ static int initialize(void) {
     return rc | f->ExitInitializationMode(f->c);
 }
 
-static int release(void) { /* its states go with it */
+static int release(void) {
     f->FreeInstance(f->c);
     f->c = NULL;
-    memset(states, 0, sizeof states);
     return 0;
 }
 static int step(void) { return f->DoStep(f->c, number(1), number(2), fmi2True); }
@@ -112,42 +107,11 @@ static int last(void) { /* prints the last successful time and "terminated" */
     return printf("%g %d ", t, ended), rc;
 }
 
-static int get_state(void) { return f->GetFMUstate(f->c, &states[whole(1)]); }
-static int set_state(void) { return f->SetFMUstate(f->c, states[whole(1)]); }
-static int free_state(void) { return f->FreeFMUstate(f->c, &states[whole(1)]); }
-static int to_bytes(void) {
-    int rc = f->SerializedFMUstateSize(f->c, states[whole(1)], &n_bytes);
-    return rc ? rc : (int)f->SerializeFMUstate(f->c, states[whole(1)], bytes, n_bytes);
-}
-static int from_bytes(void) {
-    return f->DeSerializeFMUstate(f->c, bytes, n_bytes, &states[whole(1)]);
-}
-static long resident(void) {
-    long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (!file || fscanf(file, "%*d %ld", &pages) != 1) exit(8);
-    fclose(file);
-    return pages * 4096;
-}
-
-static int cycles(void) { /* COUNT: prints bytes per cycle once a tenth is over */
-    int n = (int)number(1), rc = 0;
-    long start = resident();
-    n_words = 1;
-    for (int i = 0; i < n && !rc; i++) {
-        if (i == n / 10) start = resident();
-        rc = instantiate() || initialize() || f->DoStep(f->c, 0.0, 1e-3, fmi2True) || release();
-    }
-    fprintf(stderr, "%ld\n", (resident() - start) / (n - n / 10));
-    return rc;
-}
-
 #define ENTRY(name) {#name, name},
 static const struct { const char *name; int (*call)(void); } COMMANDS[] = {
     ENTRY(load) ENTRY(use) ENTRY(version) ENTRY(instantiate) ENTRY(initialize) ENTRY(release)
     ENTRY(step) ENTRY(steps) ENTRY(set_real) ENTRY(get_real) ENTRY(set_integer) ENTRY(get_integer)
-    ENTRY(last) ENTRY(get_state) ENTRY(set_state) ENTRY(free_state) ENTRY(to_bytes)
-    ENTRY(from_bytes) ENTRY(cycles) ENTRY(unload)
+    ENTRY(last) ENTRY(unload)
 };
 
 int main(void) {

@@ -66,19 +66,6 @@ def test_two_models_in_one_process_do_not_meet(toy_fmu, fmus):
     assert clean(said) and said.values("get_real") == alone * 2
 
 
-def test_a_state_that_is_set_again_gives_the_same_run_to_the_bit(toy_fmu):
-    run = ["steps 5 10", "get_real 11 12 13 14"]
-    again = ["to_bytes 0", "from_bytes 1", "free_state 0", "set_state 1", *run, "last"]
-    said = talk(toy_fmu, *BEGUN, "steps 0 5", "get_state 0", *run, "set_state 0", *run, *again)
-    first, *others = said.values("get_real")
-    assert clean(said) and others == [first, first] and said.values("last") == [["0.015", "0"]]
-
-
-def test_instances_come_and_go_without_eating_memory(toy_fmu):
-    said = talk(toy_fmu, "cycles 300")
-    assert clean(said) and int(said.errors) < 20_000  # bytes per instance
-
-
 @pytest.mark.parametrize("logging", [0, 1])
 @pytest.mark.parametrize(
     ("wrong", "right", "why"),

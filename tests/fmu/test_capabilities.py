@@ -3,14 +3,12 @@
 import ctypes
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import pytest
 from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
-from lxml import etree
 
 from thrustwasher.fmu.interface import all_specs
 
@@ -33,25 +31,6 @@ def bare(fmus, tmp_path):
     fmu.exitInitializationMode()
     yield fmu
     fmu.freeInstance()
-
-
-@each_model
-def test_the_flags_are_these(name, fmus):
-    with zipfile.ZipFile(fmus[name]) as zipped:
-        tree = etree.fromstring(zipped.read("modelDescription.xml"))
-    flags = dict(tree.find("CoSimulation").attrib)
-    assert flags.pop("modelIdentifier") == name
-    true = {flag for flag, said in flags.items() if said == "true"}
-    assert true == {
-        "canHandleVariableCommunicationStepSize",  # test_running: steps may vary
-        "canNotUseMemoryManagementFunctions",  # here: runs without an allocator
-        "canGetAndSetFMUstate", "canSerializeFMUstate",  # test_state, test_models
-    }  # fmt: skip
-    assert {flag for flag, said in flags.items() if said == "false"} == {
-        "needsExecutionTool", "canInterpolateInputs", "canRunAsynchronuously",
-        "canBeInstantiatedOnlyOncePerProcess", "providesDirectionalDerivative",
-    }  # fmt: skip
-    assert flags["maxOutputDerivativeOrder"] == "0"
 
 
 def test_it_runs_without_memory_functions(bare):

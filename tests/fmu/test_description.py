@@ -165,6 +165,21 @@ def test_the_structure_is_that_of_fmi_2_by_value_references(spec):
 
 
 @each_spec
+def test_the_flags_of_fmi_2_are_these(spec):
+    flags = dict(written(spec).find("CoSimulation").attrib)
+    assert flags.pop("modelIdentifier") == spec.name
+    assert flags.pop("maxOutputDerivativeOrder") == "0"
+    assert {flag for flag, said in flags.items() if said == "true"} == {
+        "canHandleVariableCommunicationStepSize", "canNotUseMemoryManagementFunctions",
+        "canGetAndSetFMUstate", "canSerializeFMUstate",
+    }  # fmt: skip
+    assert {flag for flag, said in flags.items() if said == "false"} == {
+        "needsExecutionTool", "canInterpolateInputs", "canRunAsynchronuously",
+        "canBeInstantiatedOnlyOncePerProcess", "providesDirectionalDerivative",
+    }  # fmt: skip
+
+
+@each_spec
 def test_the_flags_of_fmi_3_are_these(spec):
     flags = dict(written(spec, 3, derivatives=True).find("CoSimulation").attrib)
     assert flags.pop("modelIdentifier") == spec.name

@@ -15,11 +15,6 @@ from thrustwasher.fmu.interface import all_specs
 from thrustwasher.fmu.sources import identifier, source_folder
 
 
-def test_building_twice_in_different_folders_gives_the_same_bytes(tmp_path, toy_fmu):
-    again = build([TOY.key], target="python", out=tmp_path / "elsewhere", sources=TOY_SLAVES)[0]
-    assert again.read_bytes() == toy_fmu.read_bytes()
-
-
 def test_building_in_another_process_gives_the_same_bytes(tmp_path, toy_fmu, run_child):
     code = (
         "import sys; from pathlib import Path; from thrustwasher.fmu.build import build;"

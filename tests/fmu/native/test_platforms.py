@@ -141,11 +141,3 @@ def test_arm_linux_steps_as_in_python(model, tmp_path):
 def test_an_old_processor_takes_the_other_code_and_steps_as_in_python(model, tmp_path):
     before = old_processor()
     assert_close(stepped(model, "linux64", before, tmp_path), expected(model))
-
-
-@every
-def test_this_machine_steps_to_the_bit(model, tmp_path):
-    """The host's way through the shell changes no bit, whatever it is compiled with."""
-    if link.local_machine() != PLATFORMS["linux64"].machine:
-        pytest.skip("needs Linux on x86-64")
-    assert stepped(model, "linux64", (), tmp_path).tobytes() == expected(model).tobytes()

@@ -1,4 +1,4 @@
-"""The page inside an FMU: everything a user must know, nothing from outside."""
+"""Documentation of an FMU: all a user must know, nothing from outside; a notice for each part."""
 
 import re
 from html import escape
@@ -7,9 +7,10 @@ from html.parser import HTMLParser
 import pytest
 from toy.spec import SPEC as TOY
 
-from thrustwasher.errors import Status
+from thrustwasher.errors import EnvironmentProblem, Status
+from thrustwasher.fmu import licences as module
 from thrustwasher.fmu.interface import all_specs, find_spec, variables
-from thrustwasher.fmu.licences import listed_licences
+from thrustwasher.fmu.licences import PLACE, licences, listed_licences
 from thrustwasher.fmu.markup import markup
 from thrustwasher.fmu.page import accuracy, page
 from thrustwasher.fmu.sources import model_folder, source_folder
@@ -19,6 +20,16 @@ from thrustwasher.store.cards import load_cards
 QUICK = [TOY, find_spec("WetClutch"), find_spec("GearMesh"), find_spec("ShiftTransmission")]
 each_spec = pytest.mark.parametrize("spec", QUICK, ids=lambda s: s.name)
 VOID = {"meta", "img"}
+SAID = {
+    "license.txt": b"thrustwasher authors",
+    "numba.txt": b"Anaconda",
+    "llvmlite.txt": b"All rights reserved",
+    "llvm.txt": b"LLVM Exceptions",
+    "fmi-headers.txt": b"Modelica Association",
+    "pythonfmu.txt": b"MIT",
+}
+BOTH = {"license.txt", "overview.txt"}
+NATIVE = {*BOTH, "numba.txt", "llvmlite.txt", "llvm.txt", "fmi-headers.txt"}
 _pages = {}
 
 
@@ -128,3 +139,37 @@ def test_markup_knows_headings_lists_code_and_paragraphs():
         "<h2>T</h2>\n<p>A <code>b&lt;c</code> d e.</p>\n<ul><li>one two</li><li>three</li></ul>\n"
         "<pre>x &lt; 1\n\ny</pre>\n<p>End.</p>"
     )
+
+
+@pytest.mark.parametrize(
+    ("target", "platforms", "names"),
+    [
+        ("python", (), {*BOTH, "pythonfmu.txt"}),
+        ("native", ("linux64",), NATIVE),
+        ("native", ("linux64", "win64"), {*NATIVE, "mingw-w64.txt"}),
+    ],
+)
+def test_the_notices_of_a_target_are_these(target, platforms, names):
+    if "win64" in platforms:
+        pytest.importorskip("ziglang", reason="pip install ziglang to link for Windows")
+    found = {
+        path.removeprefix(f"{PLACE}/"): text for path, text in licences(target, platforms).items()
+    }
+    assert found.keys() - {"zig.txt"} == names
+    assert all(len(text.strip()) > 200 for text in found.values())
+    for name in found.keys() & SAID.keys():
+        assert SAID[name] in found[name], name
+    for name in found.keys() - {"overview.txt"}:
+        assert name.encode() in found["overview.txt"]
+
+
+def test_the_notice_of_the_headers_is_that_of_a_bsd_licence():
+    notice = licences("native")[f"{PLACE}/fmi-headers.txt"].decode()
+    assert notice.startswith("Copyright") and notice.endswith("POSSIBILITY OF SUCH DAMAGE.\n")
+    assert "Redistributions in binary form must reproduce the above copyright notice" in notice
+
+
+def test_a_missing_notice_stops_the_build(monkeypatch):
+    monkeypatch.setattr(module.metadata, "files", lambda package: [])
+    with pytest.raises(EnvironmentProblem, match="install numba again"):
+        licences("native")

@@ -7,6 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ..errors import EnvironmentProblem
+from .sources import PACKAGE
 
 PLACE = "documentation/licenses"
 SUMMARY = """Parts of this FMU and their licences; the full texts are beside this file.
@@ -52,7 +53,7 @@ def listed_licences(target: str, platforms: Sequence[str] = ()) -> list[tuple[st
 def _text(name: str) -> bytes:
     """Return one notice, from the package it belongs to."""
     if name == "license.txt":
-        beside = Path(__file__).parents[2] / "LICENSE"
+        beside = PACKAGE.parent / "LICENSE"
         return _read(beside) if beside.is_file() else _distributed("thrustwasher", "LICENSE")
     if name == "fmi-headers.txt":
         return _headers()

@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+from importlib.resources import files
 from pathlib import Path
 
 from ..errors import EnvironmentProblem
@@ -9,8 +10,8 @@ from ..models._spec import ModelSpec
 from .interface import enumerations, variables
 from .registry import content_digest, package_version
 
-PACKAGE = Path(__file__).parents[1]
-OWN = (Path(__file__).parent, PACKAGE / "native")  # what packs and links
+PACKAGE = Path(str(files(__name__.partition(".")[0])))
+OWN = (PACKAGE / "fmu", PACKAGE / "native")  # what packs and links
 SHARED = ("shell", "documentation")  # folders beside those of the models
 TEXTS = (".py", ".c", ".h", ".md", ".html", ".svg", ".png")
 

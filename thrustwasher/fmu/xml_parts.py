@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from math import pi
-from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ..models._spec import ModelSpec
 from ..units import exponents
 from .interface import Variable
 from .registry import package_version
+from .sources import PACKAGE
 
 LOG_CATEGORIES = {
     "logStatusWarning": "Results that need care, such as distress or too hot",
@@ -96,7 +96,7 @@ def generation_date() -> str:
 
 
 def _last_commit() -> str:
-    root = Path(__file__).parents[2]
+    root = PACKAGE.parent
     if not (root / ".git").exists():
         return ""
     command = ["git", "-C", str(root), "log", "-1", "--format=%ct"]

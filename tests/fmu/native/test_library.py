@@ -14,6 +14,7 @@ from kernel_runs import MODELS
 from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.native import calls, library
 from thrustwasher.fmu.registry import find_spec, kernel_module
+from thrustwasher.fmu.sources import PACKAGE
 from thrustwasher.native import digest, emit, gate, link, linked
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
@@ -59,7 +60,7 @@ def test_the_identity_is_inside():
 @each_platform
 def test_no_path_of_this_machine_is_inside(platform):
     code = made(platform)
-    for path in (str(Path(library.__file__).parents[3]), str(Path.home()), "/tmp/"):
+    for path in (str(PACKAGE.parent), str(Path.home()), "/tmp/"):
         assert path.encode() not in code, path
 
 
@@ -153,7 +154,7 @@ def emitted(folder, cpu):
     shutil.copytree(TOY, folder / "toy")
     surroundings = emit.environment(str(folder / "numba"))
     surroundings["NUMBA_CPU_NAME"] = cpu
-    surroundings["PYTHONPATH"] = f"{folder}:{Path(library.__file__).parents[3]}"
+    surroundings["PYTHONPATH"] = f"{folder}:{PACKAGE.parent}"
     v3 = PLATFORMS["linux64"].levels[1]
     for module, *given in (
         ("emit", "toy.kernel", digest.digest("toy.kernel"), "toy.bc"),

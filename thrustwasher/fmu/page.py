@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from jinja2 import Environment, StrictUndefined
-
 from ..errors import Status
 from ..fidelity.words import shown_error
 from ..models._spec import ModelSpec
@@ -31,6 +29,8 @@ def page(
     False the model is not run for the slope of its torque, and need not be compiled for this
     Python.
     """
+    from jinja2 import Environment, StrictUndefined  # late: what is built already needs none
+
     found = variables(spec)
     icon = folder / "icon.png"
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True)

@@ -6,10 +6,12 @@ from pathlib import Path
 
 from filelock import FileLock
 
-from thrustwasher.cli._fmu_cache import fmu_paths, prune, source_digest
+from thrustwasher.cli._fmu_cache import fmu_paths, source_digest
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.guard import compiler
+from thrustwasher.fmu.loading import prune
+from thrustwasher.fmu.native.library import tools
 from thrustwasher.fmu.registry import find_spec
+from thrustwasher.native.link import find_linker
 
 HOME = Path(__file__).parents[1] / ".cache" / "test-fmus"
 AS_COMMANDS_DO = {"local": True}  # these lie where the commands look for them
@@ -29,14 +31,15 @@ def built_fmu(model, *, target="native", fmi=2, sources=None, **options):
             return fmu_paths([name], target)[name]
         if not path.is_file():
             build([model], target=target, fmi=fmi, out=home, sources=sources, **options)
-            prune(HOME)
+            prune(HOME, 3)
     os.utime(home)  # the time of the last use
     return path
 
 
 def _digest(target, sources, options):
     """Return 16 hex digits over sources, compilers and the way it is built."""
-    hashed = hashlib.sha256(f"{source_digest(target)} {compiler()} {options}".encode())
+    compilers = tools(find_linker()) if target == "native" else ""
+    hashed = hashlib.sha256(f"{source_digest(target)} {compilers} {options}".encode())
     if sources:
         for path in sorted(p for p in sources.parent.rglob("*") if p.suffix in (".py", ".md")):
             hashed.update(path.relative_to(sources.parent).as_posix().encode() + path.read_bytes())

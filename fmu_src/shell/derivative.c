@@ -37,7 +37,7 @@ static int refresh_work(Instance *m) {
     if (prepare(m)) return BAD;
     int rc = solve(m, m->now.time, 0.0);
     if (rc) {
-        tell_story(m, rc, m->now.time, 0.0);
+        tell_failure(m, rc, m->now.time, 0.0);
         return BAD;
     }
     memcpy(&m->now.solution, &m->undo, sizeof m->undo);

@@ -61,7 +61,7 @@ typedef struct {
 typedef struct { const char *name; uint32_t takes; int form; } Kind;
 enum { FORM_DOUBLE, FORM_INT32, FORM_INT64, FORM_BYTE, FORM_NONE };
 
-/* life.c */
+/* lifecycle.c */
 void name_log(Log *log, const char *name, int on); /* switched on: every category */
 Instance *instantiate(const Log *log, const char *guid, const char *resources);
 void free_instance(void *instance);
@@ -138,8 +138,8 @@ void tell(const Log *log, int status, int category, const Text *t);
 int fail(const Instance *m, const char *format, ...); /* says it as an error and returns BAD */
 int choose_categories(Instance *m, int on, size_t n, const char *const names[]);
 
-/* stories.c: what is said about a run */
-void tell_story(const Instance *m, int32_t status, double t, double h);
+/* messages.c: what is said about a run */
+void tell_failure(const Instance *m, int32_t status, double t, double h);
 void tell_rule(const Instance *m, const char *rule);
 void tell_refusal(Instance *m, const Variable *v, double value);
 void tell_late_step(const Instance *m, double t, double expected);

@@ -146,9 +146,6 @@ def test_what_cannot_be_built_sends_nobody_in_a_circle(tmp_path, capsys):
         (["--target", "python", "--platforms", "all"], "native"),
         (["--platforms", "linux64,amiga"], "'amiga'"),
         (["--target", "stone"], "stone"),
-        (["--cross-check", "/proc/none"], "--cross-check"),
-        (["--cross-check", str(tmp_path), "--target", "python"], "--target python"),
-        (["--cross-check", str(tmp_path), "--platforms", "local"], "--platforms local"),
     ):
         assert main(["build", *words, "--out", str(tmp_path)]) == 2
         assert named in one_line(capsys)

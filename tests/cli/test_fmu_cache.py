@@ -1,7 +1,5 @@
 """FMUs for this machine: built once per version, never stale, with or without a compiler."""
 
-import os
-import time
 import zipfile
 
 import pytest
@@ -27,7 +25,8 @@ def no_linker(monkeypatch):
         raise EnvironmentProblem("pip install something")
 
     monkeypatch.setattr(link, "find_linker", find_linker)
-    monkeypatch.setattr("thrustwasher.fmu.native_contents.local_linker", find_linker)
+    for name in ("find_linker", "local_linker"):
+        monkeypatch.setattr(f"thrustwasher.fmu.native.library.{name}", find_linker)
 
 
 @pytest.fixture
@@ -77,31 +76,21 @@ def test_build_without_a_compiler_says_so_too(no_linker, tmp_path, capsys):
 @pytest.mark.parametrize("changed", ["tools", "local_level"])
 def test_another_compiler_or_processor_is_another_version(changed, linker, monkeypatch):
     before = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
-    monkeypatch.setattr(f"thrustwasher.fmu.native_contents.{changed}", lambda given: "other")
+    monkeypatch.setattr(f"thrustwasher.fmu.native.library.{changed}", lambda given: "other")
     after = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
     assert after[0] != before[0] and after[1] == before[1]
 
 
 def test_any_source_counts(tmp_path, monkeypatch):
     (tmp_path / "shell").mkdir()
-    monkeypatch.setattr("thrustwasher.fmu.build.source_folder", lambda: tmp_path)
+    monkeypatch.setattr("thrustwasher.fmu.sources.source_folder", lambda: tmp_path)
     seen = set()
-    for name in ("slave.py", "readme.md", "shell/life.c", "shell/shell.h"):
+    for name in ("slave.py", "readme.md", "shell/lifecycle.c", "shell/shell.h"):
         (tmp_path / name).write_text("x")
         seen.add(_fmu_cache.source_digest("python"))
-    (tmp_path / "shell/life.c").write_text("y")
+    (tmp_path / "shell/lifecycle.c").write_text("y")
     seen.add(_fmu_cache.source_digest("python"))
     assert len(seen) == 5
-
-
-def test_old_versions_go_after_a_day(tmp_path):
-    now = time.time()
-    for i, age in enumerate([0, 1, 2, 3, 2e5, 3e5]):
-        folder = tmp_path / str(i)
-        folder.mkdir()
-        os.utime(folder, (now - age, now - age))
-    _fmu_cache.prune(tmp_path)
-    assert sorted(f.name for f in tmp_path.iterdir()) == ["0", "1", "2", "3"]
 
 
 def test_a_new_map_is_another_version(tmp_path, monkeypatch):

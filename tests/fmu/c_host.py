@@ -1,4 +1,4 @@
-"""Scripts for host.c, the host that is no Python, in an environment that holds next to nothing."""
+"""Scripts for host.c, a host that is no Python, in an environment of libpython and little else."""
 
 import os
 import re
@@ -30,7 +30,7 @@ def program():
     made = Path(_folder.name) / "host"
     headers = Path(fmpy.__file__).parent / "c-code"
     command = ["gcc", "-O2", "-Wall", "-Wextra", "-Werror", f"-I{headers}", HERE / "host.c", "-o",
-               made, "-ldl", "-lpthread"]  # fmt: skip
+               made, "-ldl"]  # fmt: skip
     subprocess.run(command, check=True, timeout=60)
     return made
 
@@ -43,6 +43,7 @@ class Said:
     messages: list
     code: int
     errors: str
+    unloaded: bool = False
 
     def __getitem__(self, name):
         """Return the statuses of all calls of one name."""
@@ -60,6 +61,8 @@ def talk(fmu, *script, also=(), **environment):
     text = "\n".join([*lines, "use 0", *script, ""])
     done = subprocess.run([program()], input=text, env=bare(**environment), capture_output=True,
                           text=True, timeout=300, cwd="/")  # fmt: skip
+    if "undefined symbol: Py" in done.stdout or "undefined symbol: _Py" in done.stdout:
+        return Said([], [], done.returncode, done.stdout, unloaded=True)
     calls, messages = [], []
     for line in done.stdout.splitlines():
         if line.startswith("message "):
@@ -78,11 +81,12 @@ def load(fmu):
 
 
 def bare(**changes):
-    """Return the environment: where this Python and these sources are, and nothing else."""
+    """Return the environment: this Python, its library, these sources, and nothing else."""
     found = {
         "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin", "HOME": os.path.expanduser("~"),
         "PYTHONPATH": f"{HERE}:{HERE.parents[1]}", "PYTHONDONTWRITEBYTECODE": "1",
         "NUMBA_CACHE_DIR": os.environ.get("NUMBA_CACHE_DIR"),
         "NUMBA_DISABLE_JIT": os.environ.get("NUMBA_DISABLE_JIT"),
+        "LD_PRELOAD": str(LIBPYTHON),
     }  # fmt: skip
     return {name: value for name, value in (found | changes).items() if value is not None}

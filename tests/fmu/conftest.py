@@ -9,8 +9,10 @@ from built import built_fmu
 from toy.places import HERE, TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
+from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.interface import all_specs
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.native.link import find_linker
 
 
 @pytest.fixture(scope="session")
@@ -22,6 +24,16 @@ def toy_fmu():
 def fmus():
     """Every model of this version, packed for Python."""
     return {spec.name: built_fmu(spec.name, target="python") for spec in all_specs()}
+
+
+@pytest.fixture(scope="session")
+def natives():
+    """Every model of this version, compiled for this machine."""
+    try:
+        find_linker()
+    except EnvironmentProblem as problem:
+        pytest.skip(str(problem))
+    return {spec.name: built_fmu(spec.name, local=True) for spec in all_specs()}
 
 
 @pytest.fixture

@@ -1,22 +1,16 @@
-/* A host that is no Python. Reads calls from standard input, one per line, and prints each with what
+/* A host that is no Python, but may have loaded its library. Reads calls from standard input, one per line, and prints each with what
    came back: "step 0 1e-3" gives "step 0". What the FMU says is printed as "message STATUS TEXT". */
 #include <dlfcn.h>
-#include <pthread.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "fmi2Functions.h"
 
 #define CALLS(X) \
-    X(GetVersion) X(Instantiate) X(FreeInstance) X(SetDebugLogging) X(SetupExperiment) \
-    X(EnterInitializationMode) X(ExitInitializationMode) X(Terminate) X(Reset) X(DoStep) \
-    X(GetReal) X(SetReal) X(GetInteger) X(SetInteger) X(GetBoolean) X(SetBoolean) X(GetString) \
-    X(GetFMUstate) X(SetFMUstate) X(FreeFMUstate) X(SerializedFMUstateSize) X(SerializeFMUstate) \
-    X(DeSerializeFMUstate) X(GetRealStatus) X(GetBooleanStatus) X(CancelStep) \
-    X(GetDirectionalDerivative)
+    X(GetVersion) X(Instantiate) X(FreeInstance) X(SetupExperiment) X(EnterInitializationMode) \
+    X(ExitInitializationMode) X(DoStep) X(GetReal) X(SetReal) X(GetInteger) X(SetInteger) \
+    X(GetRealStatus) X(GetBooleanStatus)
 #define MEMBER(name) fmi2##name##TYPE *name;
 
 enum { MOST = 64 };
@@ -27,9 +21,6 @@ typedef struct {
     fmi2Component c;
 } Fmu;
 static Fmu fmus[8], *f = fmus;
-static fmi2FMUstate states[8];
-static fmi2Byte bytes[1 << 20];
-static size_t n_bytes;
 static char *words[2 * MOST];
 static int n_words;
 
@@ -42,7 +33,6 @@ static const fmi2CallbackFunctions callbacks = {logger, calloc, free, NULL, NULL
 
 static double number(int i) { return i < n_words ? strtod(words[i], NULL) : 0.0; }
 static unsigned long whole(int i) { return i < n_words ? strtoul(words[i], NULL, 10) : 0; }
-static const char *word(int i) { return i < n_words && strcmp(words[i], "-") ? words[i] : NULL; }
 
 static int load(void) { /* LIBRARY GUID RESOURCES, into the slot in use */
     f->library = dlopen(words[1], RTLD_NOW | RTLD_LOCAL);
@@ -67,38 +57,21 @@ static int instantiate(void) { /* [logging] */
     return f->c == NULL;
 }
 
-static int odd(void) { /* GUID RESOURCES TYPE: 0 if refused */
-    return f->Instantiate("odd", (fmi2Type)number(3), word(1), word(2), &callbacks, 0, 0) != NULL;
-}
-
 static int initialize(void) {
     int rc = f->SetupExperiment(f->c, 0, 0.0, 0.0, 0, 0.0);
     rc |= f->EnterInitializationMode(f->c);
     return rc | f->ExitInitializationMode(f->c);
 }
 
-static int interrupt(void) { return raise(SIGINT); }
-static int release(void) { /* its states go with it */
+static int release(void) {
     f->FreeInstance(f->c);
     f->c = NULL;
-    memset(states, 0, sizeof states);
     return 0;
 }
-static int setup(void) { return f->SetupExperiment(f->c, 0, 0.0, number(1), 0, 0.0); }
-static int enter(void) { return f->EnterInitializationMode(f->c); }
-static int leave(void) { return f->ExitInitializationMode(f->c); }
-static int terminate(void) { return f->Terminate(f->c); }
-static int reset(void) { return f->Reset(f->c); }
 static int step(void) { return f->DoStep(f->c, number(1), number(2), fmi2True); }
-static int cancel(void) { return f->CancelStep(f->c); }
-
-static int steps(void) { /* FIRST COUNT: of 1 ms each; prints nanoseconds per step */
-    struct timespec a, b;
+static int steps(void) { /* FIRST COUNT: of 1 ms each */
     int rc = 0, first = (int)number(1), n = (int)number(2);
-    clock_gettime(CLOCK_MONOTONIC, &a);
     for (int i = first; i < first + n; i++) rc |= f->DoStep(f->c, i * 1e-3, 1e-3, fmi2True);
-    clock_gettime(CLOCK_MONOTONIC, &b);
-    fprintf(stderr, "%.0f\n", ((b.tv_sec - a.tv_sec) * 1e9 + (b.tv_nsec - a.tv_nsec)) / n);
     return rc;
 }
 
@@ -125,16 +98,6 @@ static int steps(void) { /* FIRST COUNT: of 1 ms each; prints nanoseconds per st
     }
 VALUES(Real, real, "%.17g", atof)
 VALUES(Integer, integer, "%d", atol)
-VALUES(Boolean, boolean, "%d", atol)
-
-static int nulls(void) { /* prints what NULL arrays and a NULL instance return */
-    fmi2ValueReference vr = 0;
-    fmi2String text = NULL;
-    printf("%d %d %d %d ", f->GetReal(f->c, &vr, 1, NULL), f->SetReal(f->c, NULL, 1, NULL),
-           f->GetString(f->c, &vr, 1, &text), f->GetFMUstate(f->c, NULL));
-    f->FreeInstance(NULL);
-    return f->DoStep(NULL, 0.0, 1e-3, fmi2True) != fmi2Error || f->GetReal(f->c, NULL, 0, NULL);
-}
 
 static int last(void) { /* prints the last successful time and "terminated" */
     fmi2Real t = -1.0;
@@ -144,79 +107,14 @@ static int last(void) { /* prints the last successful time and "terminated" */
     return printf("%g %d ", t, ended), rc;
 }
 
-static int derivative(void) {
-    fmi2Real seed = 1.0, found = 0.0;
-    fmi2ValueReference known = 1, unknown = (fmi2ValueReference)whole(1);
-    return f->GetDirectionalDerivative(f->c, &unknown, 1, &known, 1, &seed, &found);
-}
-
-static int get_state(void) { return f->GetFMUstate(f->c, &states[whole(1)]); }
-static int set_state(void) { return f->SetFMUstate(f->c, states[whole(1)]); }
-static int free_state(void) { return f->FreeFMUstate(f->c, &states[whole(1)]); }
-static int to_bytes(void) {
-    int rc = f->SerializedFMUstateSize(f->c, states[whole(1)], &n_bytes);
-    return rc ? rc : (int)f->SerializeFMUstate(f->c, states[whole(1)], bytes, n_bytes);
-}
-static int from_bytes(void) { /* STATE [bytes fewer] */
-    return f->DeSerializeFMUstate(f->c, bytes, n_bytes - whole(2), &states[whole(1)]);
-}
-static int flip(void) { return bytes[whole(1)] ^= 4, 0; }
-
-static long resident(void) {
-    long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (!file || fscanf(file, "%*d %ld", &pages) != 1) exit(8);
-    fclose(file);
-    return pages * 4096;
-}
-
-static int cycles(void) { /* COUNT: prints bytes per cycle once a tenth is over */
-    int n = (int)number(1), rc = 0;
-    long start = resident();
-    n_words = 1;
-    for (int i = 0; i < n && !rc; i++) {
-        if (i == n / 10) start = resident();
-        rc = instantiate() || initialize() || f->DoStep(f->c, 0.0, 1e-3, fmi2True) || release();
-    }
-    fprintf(stderr, "%ld\n", (resident() - start) / (n - n / 10));
-    return rc;
-}
-
-static void *live(void *slot) { /* a whole life in one thread */
-    Fmu own = *(Fmu *)slot;
-    own.c = own.Instantiate("thread", fmi2CoSimulation, own.guid, own.resources, &callbacks, 0, 0);
-    if (!own.c) return slot;
-    int rc = own.SetupExperiment(own.c, 0, 0.0, 0.0, 0, 0.0);
-    rc |= own.EnterInitializationMode(own.c) | own.ExitInitializationMode(own.c);
-    for (int i = 0; i < 50; i++) rc |= own.DoStep(own.c, i * 1e-3, 1e-3, fmi2True);
-    own.FreeInstance(own.c);
-    return rc ? slot : NULL;
-}
-
-static int threads(void) { /* COUNT: the slots 0 and 1 in turn */
-    pthread_t made[16];
-    int rc = 0;
-    for (unsigned long i = 0; i < whole(1); i++) pthread_create(&made[i], NULL, live, &fmus[i % 2]);
-    for (unsigned long i = 0; i < whole(1); i++) {
-        void *end = NULL;
-        pthread_join(made[i], &end);
-        rc |= end != NULL;
-    }
-    return rc;
-}
-
 #define ENTRY(name) {#name, name},
 static const struct { const char *name; int (*call)(void); } COMMANDS[] = {
-    ENTRY(load) ENTRY(use) ENTRY(version) ENTRY(instantiate) ENTRY(odd) ENTRY(initialize)
-    ENTRY(release) ENTRY(setup) ENTRY(enter) ENTRY(leave) ENTRY(terminate) ENTRY(reset) ENTRY(step)
-    ENTRY(cancel) ENTRY(steps) ENTRY(set_real) ENTRY(get_real) ENTRY(set_integer)
-    ENTRY(get_integer) ENTRY(set_boolean) ENTRY(get_boolean) ENTRY(nulls) ENTRY(last)
-    ENTRY(derivative) ENTRY(get_state) ENTRY(set_state) ENTRY(free_state) ENTRY(to_bytes)
-    ENTRY(from_bytes) ENTRY(flip) ENTRY(cycles) ENTRY(threads) ENTRY(interrupt) ENTRY(unload)
+    ENTRY(load) ENTRY(use) ENTRY(version) ENTRY(instantiate) ENTRY(initialize) ENTRY(release)
+    ENTRY(step) ENTRY(steps) ENTRY(set_real) ENTRY(get_real) ENTRY(set_integer) ENTRY(get_integer)
+    ENTRY(last) ENTRY(unload)
 };
 
 int main(void) {
-    signal(SIGINT, SIG_DFL); /* a shell's background jobs inherit that it is ignored */
     static char line[1 << 16];
     while (fgets(line, sizeof line, stdin)) {
         n_words = 0;

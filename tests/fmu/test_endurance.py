@@ -1,9 +1,11 @@
-"""Thousands of instances in one process, and processes that end cleanly."""
+"""Thousands of instances, processes that end cleanly, and masters gone wild (hostile.py)."""
 
 import json
 
 import pytest
 from sampling import sizes
+
+from thrustwasher.fmu.interface import all_specs
 
 CYCLES = """
 import json, sys
@@ -92,3 +94,16 @@ fmu.freeInstance()
 def test_a_host_that_unloads_the_library_ends_cleanly(toy_fmu, run_child, tmp_path, n):
     run = [run_child(PLAIN, toy_fmu, tmp_path / str(i), check=False) for i in range(n)]
     assert [done.returncode for done in run] == [0] * n, run[-1].stderr
+
+
+CALLS = {"ThrustWasher": 200}
+
+
+@pytest.mark.parametrize("name", [spec.name for spec in all_specs()])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.abuse)])
+def test_random_calls_neither_crash_nor_give_nan(name, seed, natives, run_child):
+    calls = CALLS.get(name, 2000)
+    said = run_child("import hostile; hostile.main()", natives[name], seed, calls).splitlines()[-1]
+    good, refused = map(int, said.split())
+    assert good + refused == calls
+    assert min(good, refused) > calls // 20  # sane and insane calls both occur

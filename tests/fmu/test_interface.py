@@ -7,8 +7,8 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, Status
 from thrustwasher.fmu.interface import all_specs, enumerations, find_spec, variables
-from thrustwasher.fmu.units import exponents
 from thrustwasher.models._params import as_numbers
+from thrustwasher.units import exponents
 
 SPECS = [TOY, *all_specs()]
 each_spec = pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.name)

@@ -1,38 +1,30 @@
-"""What the host is told: events once, advice once per change, counts on request, errors always."""
+"""What native FMUs tell: events once, advice once per change, counts on request, errors always."""
 
 import ctypes
 
 import pytest
-from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 from thrustwasher.errors import Status
 from thrustwasher.fmu.interface import all_specs
-from thrustwasher.fmu.xml import log_categories
+from thrustwasher.fmu.loading import Messages, description, instantiate, unpack
+from thrustwasher.fmu.xml_parts import log_categories
 
 OK, WARNING, ERROR = 0, 1, 3
 H = 1e-3
 
 
 class Listener:
-    """An FMU in FMPy that keeps what it logs as (status, category, text)."""
+    """A native FMU that keeps what it logs as (status, category, text)."""
 
-    def __init__(self, path, folder, logging=True):
-        self.said = []
-        described = read_model_description(str(path))
+    def __init__(self, path, logging=True):
+        self.said = Messages()
+        folder = unpack(path)
+        described = description(folder)
         self.references = {v.name: v.valueReference for v in described.modelVariables}
-        unpacked = extract(str(path), str(folder))
-        self.fmu = FMU2Slave(guid=described.guid, unzipDirectory=unpacked, instanceName="heard",
-                             modelIdentifier=described.coSimulation.modelIdentifier)  # fmt: skip
-        callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(self.hear)
-        callbacks.allocateMemory = defaultCallbacks.allocateMemory
-        callbacks.freeMemory = defaultCallbacks.freeMemory
-        self.fmu.instantiate(callbacks=callbacks, loggingOn=logging)
-
-    def hear(self, _, _name, status, category, text):
-        self.said.append((status, category.decode(), text.decode()))
+        self.fmu = instantiate(folder, described, "heard", self.said)
+        if not logging:
+            self.fmu.fmi2SetDebugLogging(self.fmu.component, 0, 0, None)
 
     def begin(self, **inputs):
         self.fmu.setupExperiment()
@@ -52,11 +44,11 @@ class Listener:
 
 
 @pytest.fixture
-def listen(fmus, tmp_path):
+def listen(natives):
     made = []
 
     def open_(name, **options):
-        made.append(Listener(fmus[name], tmp_path / str(len(made)), **options))
+        made.append(Listener(natives[name], **options))
         return made[-1]
 
     yield open_

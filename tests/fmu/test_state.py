@@ -106,8 +106,8 @@ def test_damaged_bytes_are_refused_and_the_run_goes_on(kind, instance):
     data = damaged(instance.serialize(instance.get_state()))[kind]
     before = instance.outputs()
     with pytest.raises((ParameterError, SolveError), match="FMU state"):
-        instance.deserialize(data)
-    assert instance.outputs() == before
+        instance.set_state(instance.deserialize(data))
+    assert instance.outputs()[:-1] == before[:-1]  # the last is solver_status
     instance.step(0.02, H)
 
 

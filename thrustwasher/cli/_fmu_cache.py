@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import shutil
 import time
 from collections.abc import Iterable
 from contextlib import suppress
@@ -14,13 +13,13 @@ from ..native.files import code_folder
 from ._output import note
 
 KEPT = 3  # versions
-IN_USE = 86400.0  # s; a version used within this time may be needed by another process
-TEXTS = (".py", ".json", ".npz", ".md", ".c", ".h")
+TEXTS = (".py", ".json", ".npz", ".md", ".html", ".svg", ".png", ".c", ".h")
 
 
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
     """Return the FMU of each model for this machine, building those that are not there yet."""
     from ..fmu.build import build
+    from ..fmu.loading import prune
 
     folder = cache_folder(target)
     paths = {model: folder / f"{target}-fmi2" / f"{model}.fmu" for model in models}
@@ -30,7 +29,7 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
         _compile(missing, target)
         build(missing, target=target, out=folder, local=True)
         note(f"built {', '.join(missing)} in {time.perf_counter() - began:.0f} s")
-        prune(folder.parent)
+        prune(folder.parent, KEPT)
     with suppress(OSError):
         os.utime(folder)
     return paths
@@ -38,7 +37,7 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
 
 def _compile(models: list[str], target: str) -> None:
     """Compile what is not compiled yet, as many models at once as there are processors."""
-    from ..fmu.native_contents import compile_local
+    from ..fmu.native.library import compile_local
     from ..fmu.registry import find_spec
 
     if target == "native":
@@ -52,9 +51,9 @@ def cache_folder(target: str) -> Path:
 
 def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
-    from ..fmu.build import source_folder
-    from ..fmu.native_contents import made_of
+    from ..fmu.native.library import made_of
     from ..fmu.registry import all_specs, package_version
+    from ..fmu.sources import source_folder
     from ..store.maps import SUFFIX, map_folders
 
     native = target == "native"
@@ -66,14 +65,3 @@ def source_digest(target: str) -> str:
     for path in (path for folder in map_folders() for path in sorted(folder.glob(f"*{SUFFIX}"))):
         hashed.update(path.read_bytes())  # every map goes into the washer's FMU
     return hashed.hexdigest()[:16]
-
-
-def prune(home: Path) -> None:
-    """Remove versions that were not used for a day, except the ``KEPT`` used last."""
-    used = []
-    for folder in home.iterdir():
-        with suppress(OSError):  # another process prunes too
-            used.append((folder.stat().st_mtime, folder))
-    for last, folder in sorted(used, reverse=True)[KEPT:]:
-        if time.time() - last > IN_USE:
-            shutil.rmtree(folder, ignore_errors=True)

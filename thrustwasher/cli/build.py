@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from ..errors import EnvironmentProblem, ParameterError
 from . import _output
@@ -38,11 +37,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
     )  # fmt: skip
     parser.add_argument(
-        "--cross-check", metavar="DIR",
-        help="write native FMUs with reference results below DIR as the FMI cross-check wants "
-        "them, instead of to --out",
-    )  # fmt: skip
-    parser.add_argument(
         "--no-maps", action="store_true",
         help="native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
         "refused then",
@@ -52,17 +46,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build, then name the files."""
-    option = "--cross-check" if arguments.cross_check else "--out"
-    folder = _output.check_folder(arguments.cross_check or arguments.out, option)
+    folder = _output.check_folder(arguments.out, "--out")
 
-    from ..fmu.build import build
+    from ..fmu.build import build, validate
     from ..fmu.registry import find_spec
-    from ..fmu.validate import validate
 
     for model in arguments.models:
         find_spec(model)
-    if arguments.cross_check:
-        return _cross_check(arguments, folder)
     target = chosen_target(arguments.target, arguments.fmi)
     platforms = chosen_platforms(arguments.platforms, target)
     paths = build(
@@ -78,29 +68,6 @@ def run(arguments: argparse.Namespace) -> int:
     for finding in findings:
         _output.note(finding)
     return 3 if findings else 0
-
-
-def _cross_check(arguments: argparse.Namespace, folder: Path) -> int:
-    """Write the cross-check's folders and name them."""
-    if arguments.no_maps:
-        raise ParameterError("--no-maps: the cross-check takes whole FMUs")
-    for option in ("target", "platforms"):
-        given = getattr(arguments, option)
-        if given and given != "native":
-            raise ParameterError(
-                f"--{option} {given}: the cross-check takes native FMUs, all platforms"
-            )
-    from ..fmu.crosscheck import write_cross_check
-    from ..native.link import find_linker
-
-    find_linker()
-    places = write_cross_check(arguments.models or None, folder, arguments.fmi, _output.note)
-    if arguments.json:
-        _output.print_json({"folders": [str(place) for place in places]})
-    else:
-        for place in places:
-            print(place)
-    return 0
 
 
 def chosen_target(target: str | None, fmi: int = 2) -> str:

@@ -1,18 +1,26 @@
 """From a model's list, binaries and documents to an FMU file."""
 
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Sequence
 from pathlib import Path
 
-from ..errors import EnvironmentProblem, ParameterError
+from ..errors import ParameterError
 from ..models._spec import ModelSpec
+from ..native.files import Note
 from ..native.here import this_platform
-from . import archive, guard, native_contents, python_contents
-from .common_contents import common_contents, readme
-from .identity import identifier, model_folder
+from . import archive
 from .interface import all_specs, find_spec
+from .licences import licences
+from .model_description import description, terminals_and_icons
+from .native.library import chosen, made_of, native_contents
+from .page import accuracy, page
+from .python_contents import python_contents
+from .reference import reference_files
+from .registry import has_derivatives
+from .sources import identifier, model_folder, source_folder
+from .xml_parts import text
 
 TARGETS = ("native", "python")
-Note = Callable[[str], None]
 
 
 def build(
@@ -65,7 +73,7 @@ def build(
     say = note or _silent
     places: Sequence[str] = ()
     if target == "native":
-        places = [this_platform().name] if local else native_contents.chosen(platforms, say)
+        places = [this_platform().name] if local else chosen(platforms, say)
     paths = []
     for spec in specs:
         folder = model_folder(spec, sources or source_folder())
@@ -89,7 +97,7 @@ def pack_native(
     ``platforms`` and ``note`` are those of ``build``.
     """
     say = note or _silent
-    places = native_contents.chosen(platforms, say)
+    places = chosen(platforms, say)
     folder = model_folder(spec, source_folder())
     return archive.pack(
         contents(
@@ -115,37 +123,50 @@ def _check(target: str, fmi: int, platforms: Sequence[str] | None, maps: bool) -
         raise ParameterError("platforms are chosen for target native only; use --target native")
 
 
-def source_folder() -> Path:
-    """Return the folder of the slaves: beside the package in a source tree, else in it."""
-    package = Path(__file__).parents[1]
-    for folder in (package / "_fmu_src", package.parent / "fmu_src"):
-        if folder.is_dir():
-            return folder
-    raise EnvironmentProblem(
-        "the folder fmu_src is missing beside the package; install thrustwasher again"
-    )
-
-
 def contents(
     spec: ModelSpec, folder: Path, *, target: str, fmi: int, platforms: Sequence[str], note: Note,
     local: bool = False, reference: bool = True,
 ) -> dict[str, bytes]:  # fmt: skip
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
     native = target == "native"
-    tools = native_contents.made_of(spec, local=local) if native else guard.compiler()
-    shell = source_folder() / "shell"
-    guid = identifier(spec, folder, shell=shell, target=target, fmi=fmi, tools=tools)
+    tools = made_of(spec, local=local) if native else ""
+    guid = identifier(spec, folder, target=target, fmi=fmi, tools=f"{tools} {accuracy(spec)}")
     if native:
-        own = native_contents.native_contents(
-            spec, fmi=fmi, guid=guid, platforms=platforms, note=note,
-            local=local,
+        own = native_contents(
+            spec, fmi=fmi, guid=guid, platforms=platforms, note=note, local=local
         )  # fmt: skip
     else:
-        own = python_contents.python_contents(spec, folder, guid=guid)
+        own = python_contents(spec, folder, guid=guid)
     reference = reference and not local
     note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
-    shared = common_contents(
-        spec, target=target, fmi=fmi, guid=guid, equations=readme(folder), platforms=platforms,
-        runs=reference,
-    )  # fmt: skip
-    return shared | own
+    derivatives = native and has_derivatives(spec)
+    told = page(spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms,
+                runs=reference)  # fmt: skip
+    return {
+        "modelDescription.xml": text(
+            description(spec, fmi=fmi, guid=guid, derivatives=derivatives)
+        ),
+        "documentation/index.html": told.encode(),
+        **_icons(spec, folder, fmi),
+        **licences(target, platforms),
+        **(reference_files(spec) if reference else {}),
+        **own,
+    }
+
+
+def _icons(spec: ModelSpec, folder: Path, fmi: int) -> dict[str, bytes]:
+    """Return the terminals and the model's picture; only FMI 2 tools look for ``model.png``."""
+    file, place = folder / "icon.png", "terminalsAndIcons"
+    listed = text(terminals_and_icons(spec, icon=file.is_file()))
+    found = {f"{place}/terminalsAndIcons.xml": listed}
+    if file.is_file():
+        names = (f"{place}/icon.png", "model.png")[: 2 if fmi == 2 else 1]
+        found |= dict.fromkeys(names, file.read_bytes())
+    return found
+
+
+def validate(path: str | os.PathLike[str]) -> list[str]:
+    """Return FMPy's findings on an FMU; an empty list is a pass."""
+    from fmpy.validation import validate_fmu
+
+    return [str(finding) for finding in validate_fmu(str(path))]

@@ -38,7 +38,6 @@ class Core:
         kernel = load_kernel(spec.kernel)
         self.spec, self._derive = spec, kernel.derive
         self._broken_rule = find_broken_rule(spec)
-        self._n_param = kernel.n_param
         self.variables = variables(spec)
         self.par, self.inp = np.zeros(kernel.n_par), np.zeros(kernel.n_inp)
         self.state, self.work = np.zeros(kernel.n_state), np.zeros(kernel.n_work)
@@ -155,7 +154,7 @@ class Core:
         if self.prepared:
             return
         failed, self.latch = self.latch, Status.BAD_INPUT
-        params = self.spec.params(**self._named_parameters())  # raises, naming the rule
+        params = self._parameters()  # raises, naming the rule
         number = self._broken_rule(self.par) if self._broken_rule and self.spec.rules else 0
         if number:  # one that concerns the fidelity too
             raise ParameterError(self.spec.rules[number - 1].message(params))
@@ -168,21 +167,19 @@ class Core:
     def _load_table(self) -> None:
         """Put the model's table into ``work`` if the fidelity reads one."""
         if wants_table(self.spec, self.par):
-            params = self.spec.params(**self._named_parameters())
-            fill_table(self.spec, params, self.par, self.work)
+            fill_table(self.spec, self._parameters(), self.par, self.work)
 
-    def _named_parameters(self) -> dict[str, Any]:
+    def _parameters(self) -> Any:
+        """Return the parameters as the model's dataclass, which checks the rules between them."""
         named: dict[str, Any] = {}
-        for f, value in zip(
-            fields(self.spec.params), self.par[: self._n_param].tolist(), strict=False
-        ):
+        for f, value in zip(fields(self.spec.params), self.par.tolist(), strict=False):
             kind = f.metadata["kind"]
             if kind == "enumeration":
                 value = list(f.metadata["options"])[int(value) - 1]
             elif kind != "real":
                 value = bool(value) if kind == "boolean" else int(value)
             named[f.name] = value
-        return named
+        return self.spec.params(**named)
 
     def refresh(self) -> None:
         """Bring the outputs up to date, at most once per change; a failure is latched."""

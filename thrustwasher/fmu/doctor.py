@@ -10,13 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import metadata
 
-from ..errors import EnvironmentProblem, ParameterError
+from ..errors import ParameterError
 from ..native.files import code_folder
 from ..native.link import find_linker
-from ..native.targets import PLATFORMS
-from .build import source_folder
-from .native import emulate
 from .registry import all_specs, is_compiled, load_kernel, package_version
+from .sources import source_folder
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,10 +36,8 @@ def diagnose() -> list[Check]:
         ("compiled kernels", _kernels),
         ("temporary folder", lambda: _writable(tempfile.gettempdir())),
         ("slave files", lambda: str(source_folder())),
-        ("Python FMU, this process", _binary),
-        ("Python FMU, C hosts", _shared_library),
+        ("Python FMU", _binary),
         ("native FMUs, compiler", _compiler),
-        *((f"native FMUs, {name}", _platform(name)) for name in PLATFORMS),
         ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
     ]
     return [_look(name, look) for name, look in looks]
@@ -94,43 +90,21 @@ def _writable(folder: str) -> str:
 
 def _binary() -> str:
     system, machine = platform.system(), platform.machine().lower()
-    if system == "Linux" and machine in ("x86_64", "amd64"):
-        return "runs in FMPy and other Python hosts"
-    if system == "Windows" and machine in ("x86_64", "amd64"):
-        return "pythonfmu's library is inside; not tested on Windows"
-    raise ParameterError(
-        f"pythonfmu has no library for {system} on {machine}; use the Python API here"
-    )
-
-
-def _shared_library() -> str:
-    name = sysconfig.get_config_var("INSTSONAME") or ""
-    folder = sysconfig.get_config_var("LIBDIR") or ""
-    library = os.path.join(folder, name)
-    if sys.platform == "linux" and not (".so" in name and os.path.exists(library)):
+    if system not in ("Linux", "Windows") or machine not in ("x86_64", "amd64"):
         raise ParameterError(
-            "this Python has no shared libpython; a host that is no Python cannot run Python FMUs "
-            "with it; use a Python built with --enable-shared, or native FMUs"
+            f"pythonfmu has no library for {system} on {machine}; use the Python API here"
         )
-    return f"with this Python first on PATH, or FMU_LIBPYTHON={library}"
+    if system == "Windows":
+        return "pythonfmu's library is inside; not tested on Windows"
+    name, folder = (sysconfig.get_config_var(v) or "" for v in ("INSTSONAME", "LIBDIR"))
+    library = os.path.join(folder, name)
+    others = f"others have to load {library} first (LD_PRELOAD)"
+    if not (".so" in name and os.path.exists(library)):
+        others = "this Python has no shared library for others"
+    return f"runs in FMPy and other Python hosts; {others}"
 
 
 def _compiler() -> str:
     linker = find_linker()
     text = f"{linker.name} {linker.version}, builds for {', '.join(linker.platforms)}"
     return text if linker.is_cross else f"{text}; for all platforms: pip install ziglang"
-
-
-def _platform(name: str) -> Callable[[], str]:
-    """Say if a platform's FMUs can be built here, and tried out."""
-
-    def look() -> str:
-        if name not in find_linker().platforms:
-            raise EnvironmentProblem("is not built here: pip install ziglang")
-        try:
-            before = emulate.command(PLATFORMS[name])
-        except EnvironmentProblem as problem:
-            return f"is built; cannot be tried here: {problem}"
-        return f"is built; runs here {'with ' + before[0] if before else 'as it is'}"
-
-    return look

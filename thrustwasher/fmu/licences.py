@@ -3,10 +3,11 @@
 import re
 from collections.abc import Sequence
 from importlib import metadata
+from importlib.util import find_spec
 from pathlib import Path
 
 from ..errors import EnvironmentProblem
-from .guard import compiler
+from .sources import PACKAGE
 
 PLACE = "documentation/licenses"
 SUMMARY = """Parts of this FMU and their licences; the full texts are beside this file.
@@ -26,43 +27,42 @@ NATIVE = {
 ZIG = {"start-up code of zig": ("zig.txt", "MIT", "in every library")}
 MINGW = {"start-up code of mingw-w64": ("mingw-w64.txt", "ZPL-2.1 and others", "in win64")}
 PYTHON = {
-    "slave and guard": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
+    "slave": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
     "library and modules of pythonfmu": ("pythonfmu.txt", "MIT", "binaries, resources"),
 }
-GUARD = ("FMI headers", "code from LLVM and compiler-rt")  # of these it has something too
 
 
 def licences(target: str, platforms: Sequence[str] = ()) -> dict[str, bytes]:
     """Return the notices of everything in an FMU, by path; none is empty."""
-    zig = ZIG if _has("ziglang") else {}
-    inside = {part: NATIVE[part] for part in GUARD} | zig if compiler() else {}
-    parts = PYTHON | {part: (*given[:2], "in the guard") for part, given in inside.items()}
-    if target == "native":
-        mingw = MINGW if "win64" in platforms else {}
-        parts = NATIVE | zig | mingw
-    files = {name: _text(name) for name, _, _ in parts.values()}
-    lines = [f"{name}: {part}, {licence} ({what})" for part, (name, licence, what) in parts.items()]
+    rows = listed_licences(target, platforms)
+    files = {row[0]: _text(row[0]) for row in rows}
+    lines = [f"{name}: {part}, {licence} ({where})" for name, part, licence, where in rows]
     files["overview.txt"] = SUMMARY.format(parts="\n".join([*lines, ""])).encode()
     return {f"{PLACE}/{name}": content for name, content in files.items()}
+
+
+def listed_licences(target: str, platforms: Sequence[str] = ()) -> list[tuple[str, str, str, str]]:
+    """Return (file, part, licence, where) of each part of an FMU."""
+    parts = PYTHON
+    if target == "native":
+        mingw = MINGW if "win64" in platforms else {}
+        parts = NATIVE | (ZIG if find_spec("ziglang") else {}) | mingw
+    return [(name, part, licence, where) for part, (name, licence, where) in parts.items()]
 
 
 def _text(name: str) -> bytes:
     """Return one notice, from the package it belongs to."""
     if name == "license.txt":
-        return _own()
+        beside = PACKAGE.parent / "LICENSE"
+        return _read(beside) if beside.is_file() else _distributed("thrustwasher", "LICENSE")
     if name == "fmi-headers.txt":
         return _headers()
+    if name == "llvm.txt":
+        return _distributed("llvmlite", "LICENSE.thirdparty")
     inside = {"zig.txt": "LICENSE", "mingw-w64.txt": "lib/libc/mingw/COPYING"}
     if name in inside:
         return _read(_package("ziglang") / inside[name])
-    if name == "llvm.txt":
-        return _distributed("llvmlite", "LICENSE.thirdparty")
     return _distributed(name.removesuffix(".txt"), "LICENSE")
-
-
-def _own() -> bytes:
-    beside = Path(__file__).parents[2] / "LICENSE"
-    return _read(beside) if beside.is_file() else _distributed("thrustwasher", "LICENSE")
 
 
 def _headers() -> bytes:
@@ -73,14 +73,6 @@ def _headers() -> bytes:
         raise EnvironmentProblem("the FMI headers of FMPy carry no notice; install another FMPy")
     lines = [line.strip() for line in found[0].splitlines()]
     return ("\n".join(lines) + "\n").encode()
-
-
-def _has(package: str) -> bool:
-    try:
-        metadata.distribution(package)
-    except metadata.PackageNotFoundError:
-        return False
-    return True
 
 
 def _package(name: str) -> Path:

@@ -101,14 +101,14 @@ def _extract(path: str, folder: Path) -> None:
         ) from None
 
 
-def prune(home: Path) -> None:
-    """Remove folders that were not used for a day, except the ``KEPT`` used last."""
+def prune(home: Path, kept: int = KEPT) -> None:
+    """Remove folders that were not used for a day, except the ``kept`` used last."""
     used = []
     for folder in home.iterdir():
         with suppress(OSError):  # another process prunes too
             if folder.is_dir():
                 used.append((folder.stat().st_mtime, folder))
-    for last, folder in sorted(used, reverse=True)[KEPT:]:
+    for last, folder in sorted(used, reverse=True)[kept:]:
         if time.time() - last > IN_USE:
             gone = folder.with_name(f".{folder.name}.{os.getpid()}")
             with suppress(OSError):

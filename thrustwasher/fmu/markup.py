@@ -1,18 +1,40 @@
-"""The little of Markdown that the models' own pages use, as HTML."""
+"""Tables, lists and the little of Markdown that the models' own pages use, as HTML."""
 
+import base64
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
+from pathlib import Path
 
 FENCE = "```"
+TYPES = {".png": "image/png", ".svg": "image/svg+xml"}
 
 
-def markup(text: str, *, level: int = 1) -> str:
-    """Return headings, paragraphs, bullet lists, ``code`` and fenced blocks as HTML.
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table; every cell is text, not HTML."""
+    lines = ["".join(f"<th>{escape(cell)}</th>" for cell in head)]
+    lines += ["".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows]
+    return "<table>" + "\n".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
 
-    ``level`` is the level of a heading with one hash.
+
+def list_of(lines: Iterable[str]) -> str:
+    """Return a list with bullets; every line is text, not HTML."""
+    return "<ul>" + "\n".join(f"<li>{escape(line)}</li>" for line in lines) + "</ul>"
+
+
+def data_uri(picture: Path) -> str:
+    """Return a picture as an address that holds it whole."""
+    content = base64.b64encode(picture.read_bytes()).decode("ascii")
+    return f"data:{TYPES[picture.suffix]};base64,{content}"
+
+
+def markup(text: str, folder: Path, *, level: int = 1) -> str:
+    """Return headings, paragraphs, bullet lists, ``code``, fenced blocks and pictures as HTML.
+
+    Pictures, each a paragraph of its own, are files in ``folder``. ``level`` is the level of a
+    heading with one hash.
     """
-    return "\n".join(_block(kind, lines, level) for kind, lines in _blocks(text))
+    return "\n".join(_block(kind, lines, folder, level) for kind, lines in _blocks(text))
 
 
 def _blocks(text: str) -> Iterator[tuple[str, list[str]]]:
@@ -23,21 +45,26 @@ def _blocks(text: str) -> Iterator[tuple[str, list[str]]]:
             continue
         for block in filter(str.strip, re.split(r"\n\s*\n", part)):
             lines = block.strip("\n").split("\n")
-            marks = {"#": "heading", "-": "list"}
+            marks = {"#": "heading", "-": "list", "!": "picture"}
             yield marks.get(lines[0][0], "text"), lines
 
 
-def _block(kind: str, lines: list[str], level: int) -> str:
+def _block(kind: str, lines: list[str], folder: Path, level: int) -> str:
+    whole = "\n".join(lines)
     if kind == "code":
-        return f"<pre>{escape(chr(10).join(lines))}</pre>"
+        return f"<pre>{escape(whole)}</pre>"
     if kind == "heading":
         hashes, _, title = lines[0].partition(" ")
         tag = f"h{len(hashes) + level - 1}"
         return f"<{tag}>{_inline(title)}</{tag}>"
     if kind == "list":
-        items = re.split(r"^- ", "\n".join(lines), flags=re.MULTILINE)[1:]
+        items = re.split(r"^- ", whole, flags=re.MULTILINE)[1:]
         return "<ul>" + "".join(f"<li>{_inline(item)}</li>" for item in items) + "</ul>"
-    return f"<p>{_inline(chr(10).join(lines))}</p>"
+    picture = re.fullmatch(r"!\[(.*)\]\((.*)\)", " ".join(lines))
+    if picture:
+        said, file = escape(picture[1]), data_uri(folder / picture[2])
+        return f'<figure><img alt="{said}" src="{file}"><figcaption>{said}</figcaption></figure>'
+    return f"<p>{_inline(whole)}</p>"
 
 
 def _inline(text: str) -> str:

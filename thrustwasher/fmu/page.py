@@ -1,80 +1,59 @@
-"""documentation/index.html of an FMU: one page without scripts and outside links."""
+"""documentation/index.html of an FMU: the template in fmu_src filled from the model's lists."""
 
-import base64
 from collections.abc import Sequence
-from html import escape
+from pathlib import Path
 
 from ..errors import Status
+from ..fidelity.words import shown_error
 from ..models._spec import ModelSpec
-from . import page_text as said
-from .accuracy import CARDS, NOTE
-from .curve import curve
-from .icon import icon
+from ..store.cards import Card, load_cards
 from .interface import Variable, enumerations, variables
-from .markup import markup
+from .licences import listed_licences
+from .markup import data_uri, markup, table
 from .reference import FOLDER
 from .registry import package_version
-from .tags import table
+from .sources import source_folder
 from .wiring import wiring
 
-Parts = list[str]
+Rows = list[tuple[str, ...]]
+QUANTITIES = ("friction_torque", "temperature", "film_thickness", "film_ratio")  # of the cards
 
 
 def page(
-    spec: ModelSpec, *, target: str, fmi: int, guid: str, equations: str, platforms: Sequence[str],
+    spec: ModelSpec, folder: Path, *, target: str, fmi: int, guid: str, platforms: Sequence[str],
     runs: bool = True,
 ) -> str:  # fmt: skip
     """Return the page.
 
-    ``equations`` is the model's readme, its first line the title. With ``runs`` = False the model
-    is not run for it, and need not be compiled for this Python: no curve, no slope.
+    ``folder`` holds the model's icon and readme, whose first line is the title. With ``runs`` =
+    False the model is not run for the slope of its torque, and need not be compiled for this
+    Python.
     """
+    from jinja2 import Environment, StrictUndefined  # late: what is built already needs none
+
     found = variables(spec)
-    parts = [
-        *_head(spec), curve(spec) if runs else "", *_needs(target, platforms),
-        "<h2>Inputs</h2>", _variables(found, "input"),
-        "<h2>Outputs</h2>", _outputs(found),
-        "<h2>How to wire it</h2>", wiring(spec, runs=runs),
-        "<h2>Parameters</h2>", _variables(found, "parameter"),
-        "<h2>Enumerations</h2>", _enumerations(spec),
-        "<h2>When something goes wrong</h2>", said.FAILS[target], _statuses(),
-        "<h2>To check an installation</h2>", said.CHECK.format(folder=FOLDER, model=spec.name),
-        *_accuracy(spec), "<h2>Equations and validity</h2>", _equations(equations),
-        *_origin(target, fmi, guid),
-    ]  # fmt: skip
-    title = f"<title>{escape(spec.name)}</title><style>{said.STYLE}</style>"
-    head = f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{title}</head>'
-    return head + "<body>\n" + "\n".join(parts) + "\n</body></html>\n"
+    icon = folder / "icon.png"
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True)
+    template = (source_folder() / "documentation" / "index.html").read_text("utf-8")
+    return environment.from_string(template).render(
+        spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
+        version=package_version(), reference=FOLDER,
+        table=table,
+        icon=data_uri(icon) if icon.is_file() else "",
+        inputs=_settable(found, "input"), parameters=_settable(found, "parameter"),
+        outputs=[(v.name, _unit(v), v.help) for v in found if v.causality == "output"],
+        enumerations=[(name, str(i.value), i.name, i.help)
+                      for name, items in enumerations(spec).items() for i in items],
+        wiring=wiring(spec, runs=runs), statuses=_statuses(),
+        accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
+        accuracy=accuracy(spec), equations=_equations(folder),
+        licences=listed_licences(target, platforms),
+    )  # fmt: skip
 
 
-def _head(spec: ModelSpec) -> Parts:
-    picture = base64.b64encode(icon(spec.name)).decode("ascii")
-    return [
-        f"<h1>{escape(spec.name)}</h1><p>{escape(spec.help)}.</p>",
-        f'<p><img alt="icon" width="120" height="120" src="data:image/png;base64,{picture}"></p>',
-    ]
-
-
-def _needs(target: str, platforms: Sequence[str]) -> Parts:
-    needs = said.NEEDS[target].format(
-        version=escape(package_version()), platforms=escape(", ".join(platforms))
-    )
-    hosts = table(("host", "state"), said.HOSTS[target])
-    unsigned = said.UNSIGNED if target == "native" else ""
-    return ["<h2>What it needs</h2>", needs, "<h2>Tested on, not tested on</h2>", hosts, unsigned]
-
-
-def _variables(found: tuple[Variable, ...], causality: str) -> str:
+def _settable(found: tuple[Variable, ...], causality: str) -> Rows:
     shown = [v for v in found if v.causality == causality]
-    rows = [(v.name, _unit(v), _allowed(v), f"{v.start:g}", v.help) for v in shown]
-    return (
-        "<p>None.</p>" if not rows else table(("name", "unit", "allowed", "start", "meaning"), rows)
-    )
-
-
-def _outputs(found: tuple[Variable, ...]) -> str:
-    outputs = [(v.name, _unit(v), v.help) for v in found if v.causality == "output"]
-    return table(("name", "unit", "meaning"), outputs)
+    return [(v.name, _unit(v), _allowed(v), f"{v.start:g}", v.help) for v in shown]
 
 
 def _unit(v: Variable) -> str:
@@ -85,40 +64,40 @@ def _allowed(v: Variable) -> str:
     return f"{v.low:g} .. {v.high:g}" if v.low is not None and v.high is not None else ""
 
 
-def _enumerations(spec: ModelSpec) -> str:
-    found = enumerations(spec).items()
-    rows = [(name, str(i.value), i.name, i.help) for name, items in found for i in items]
-    return table(("enumeration", "number", "item", "meaning"), rows)
-
-
-def _statuses() -> str:
-    rows = [
+def _statuses() -> Rows:
+    return [
         (str(int(s)), s.name, "failure" if s.is_failure else "advice" if s else "-", s.advice)
         for s in sorted(Status)
     ]
-    head = ("solver_status", "name", "kind", "what it means, what to do")
-    told = "<p>Advice comes with a solution and one warning; a failure with an error.</p>"
-    return told + table(head, rows)
 
 
-def _accuracy(spec: ModelSpec) -> Parts:
-    card = CARDS.get(spec.name)
-    if not card:
-        return []
-    rows = [(m.quantity, m.against, m.worst) for m in card]
-    head = ("quantity", "measured against", "largest difference")
-    return ["<h2>Accuracy</h2>", table(head, rows), f"<p>{escape(NOTE)}</p>"]
-
-
-def _equations(readme: str) -> str:
-    title, _, rest = readme.partition("\n")
-    return markup(rest if title.startswith("# ") else readme, level=2)
-
-
-def _origin(target: str, fmi: int, guid: str) -> Parts:
-    version = escape(package_version())
+def accuracy(spec: ModelSpec) -> Rows:
+    """Return what the model's cards say of the default parameters: a row for each card."""
+    rungs = list(spec.fidelities)
+    found = [card for card in load_cards(spec.key)
+             if card.params.name == "default" and card.fidelity in rungs]  # fmt: skip
+    found.sort(key=lambda card: (rungs.index(card.fidelity), card.chart or ""))
     return [
-        "<h2>Origin</h2>",
-        f"<p>thrustwasher {version}, target {target}, FMI {fmi}.0 co-simulation, GUID {guid}. "
-        "Licences of everything inside: the folder licenses beside this page.</p>",
+        (
+            f"{card.fidelity} {card.chart or ''}".strip(),
+            ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in card.envelope.items()),
+            str(card.held_out.n),
+            *(_worst(card, quantity) for quantity in QUANTITIES),
+            f"version {card.package.version}",
+        )
+        for card in found
     ]
+
+
+def _worst(card: Card, quantity: str) -> str:
+    """Return the largest error of a quantity in any cell of a card."""
+    errors = card.errors.get(quantity)
+    found = [e for row in errors.worst for e in row if e is not None] if errors else []
+    return shown_error(max(found), errors.kind, errors.unit) if errors and found else "-"
+
+
+def _equations(folder: Path) -> str:
+    file = folder / "readme.md"
+    readme = file.read_text("utf-8") if file.is_file() else ""
+    title, _, rest = readme.partition("\n")
+    return markup(rest if title.startswith("# ") else readme, folder, level=2)

@@ -1,4 +1,4 @@
-"""The two FMI versions as one face: how values travel, what a step is, where a state lies.
+"""The two FMI versions as one face: how values travel, what a step is, at which addresses.
 
 Calls that every step makes go to the library directly, with arrays made once; the rest goes
 through FMPy. FMPy has declared the argument types of all functions when it loaded the library.
@@ -7,79 +7,51 @@ through FMPy. FMPy has declared the argument types of all functions when it load
 import ctypes
 from collections.abc import Callable, Sequence
 from operator import itemgetter
-from typing import Any, ClassVar
+from typing import Any, NamedTuple
+
+# C types of values -> how a compiled loop calls them.
+KINDS = {
+    ctypes.c_double: "real", ctypes.c_int: "int32", ctypes.c_int32: "int32",
+    ctypes.c_int64: "int64", ctypes.c_bool: "byte",
+}  # fmt: skip
+
+
+# Of both versions: type of a variable -> (name in calls, C type).
+TYPES: dict[int, dict[str, tuple[str, Any]]] = {
+    2: {"Real": ("Real", ctypes.c_double), "Integer": ("Integer", ctypes.c_int),
+        "Enumeration": ("Integer", ctypes.c_int), "Boolean": ("Boolean", ctypes.c_int)},
+    3: {"Float64": ("Float64", ctypes.c_double), "Int32": ("Int32", ctypes.c_int32),
+        "Enumeration": ("Int64", ctypes.c_int64), "Boolean": ("Boolean", ctypes.c_bool)},
+}  # fmt: skip
 
 
 class Protocol:
-    """What both versions share; a version names its types and spells its calls."""
+    """Co-simulation of FMI 2.0 or 3.0, without event mode and early return."""
 
-    prefix = ""
-    types: ClassVar[dict[str, tuple[str, Any]]] = {}  # of a variable -> (name in calls, C type)
-    lengths = 0  # times the number of values is handed over beside the values
-
-    def __init__(self, fmu: Any) -> None:
-        self.fmu = fmu
+    def __init__(self, fmu: Any, version: int) -> None:
+        self.fmu, self._version = fmu, version
+        self.types = TYPES[version]
+        self.lengths = version - 2  # times the number of values is handed over beside the values
+        self._do_step = self.function("DoStep")
+        self._told = (ctypes.c_bool(), ctypes.c_bool(), ctypes.c_bool(), ctypes.c_double())
+        self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._told))
 
     def begin(self, start_time: float) -> None:
         """Enter initialization at a time."""
-        raise NotImplementedError
+        if self._version == 2:
+            self.fmu.setupExperiment(startTime=start_time)
+            self.fmu.enterInitializationMode()
+        else:
+            self.fmu.enterInitializationMode(startTime=start_time)
 
     def step(self, t: float, h: float) -> int:
         """Advance and return the status."""
-        raise NotImplementedError
+        return self._do_step(self.fmu.component, t, h, *self._rest)
 
     def function(self, name: str) -> Callable[..., int]:
         """Return a function of the library; it returns the status as a number."""
-        found: Callable[..., int] = getattr(self.fmu.dll, f"{self.prefix}{name}")
+        found: Callable[..., int] = getattr(self.fmu.dll, f"fmi{self._version}{name}")
         return found
-
-
-class Fmi2(Protocol):
-    """FMI 2.0 co-simulation."""
-
-    prefix = "fmi2"
-    types: ClassVar = {
-        "Real": ("Real", ctypes.c_double), "Integer": ("Integer", ctypes.c_int),
-        "Enumeration": ("Integer", ctypes.c_int), "Boolean": ("Boolean", ctypes.c_int),
-    }  # fmt: skip
-
-    def __init__(self, fmu: Any) -> None:
-        super().__init__(fmu)
-        self._do_step = self.function("DoStep")
-
-    def begin(self, start_time: float) -> None:
-        """Enter initialization at a time."""
-        self.fmu.setupExperiment(startTime=start_time)
-        self.fmu.enterInitializationMode()
-
-    def step(self, t: float, h: float) -> int:
-        """Advance and return the status."""
-        return self._do_step(self.fmu.component, t, h, 0)
-
-
-class Fmi3(Protocol):
-    """FMI 3.0 co-simulation, without event mode and early return."""
-
-    prefix = "fmi3"
-    types: ClassVar = {
-        "Float64": ("Float64", ctypes.c_double), "Int32": ("Int32", ctypes.c_int32),
-        "Enumeration": ("Int64", ctypes.c_int64), "Boolean": ("Boolean", ctypes.c_bool),
-    }  # fmt: skip
-    lengths = 1
-
-    def __init__(self, fmu: Any) -> None:
-        super().__init__(fmu)
-        self._do_step = self.function("DoStep")
-        self._told = (ctypes.c_bool(), ctypes.c_bool(), ctypes.c_bool(), ctypes.c_double())
-        self._pointers = tuple(ctypes.byref(x) for x in self._told)
-
-    def begin(self, start_time: float) -> None:
-        """Enter initialization at a time."""
-        self.fmu.enterInitializationMode(startTime=start_time)
-
-    def step(self, t: float, h: float) -> int:
-        """Advance and return the status."""
-        return self._do_step(self.fmu.component, t, h, False, *self._pointers)
 
 
 def _references(found: Sequence[Any]) -> Any:
@@ -159,3 +131,49 @@ class Direction:
     def get(self) -> int:
         """Compute the derivatives and return the status."""
         return self._call(*self._arguments)
+
+
+class MachineGroup(NamedTuple):
+    """A call that sets or gets values of one type."""
+
+    function: int
+    references: int
+    """Address of the value references."""
+    places: list[int]
+    """Where the values stand among all inputs or outputs."""
+    kind: str
+
+
+class Machine(NamedTuple):
+    """What a compiled master needs to step an instance: addresses, valid as long as it lives."""
+
+    third: bool
+    """FMI 3: lengths go along with values; a step hands four more places over."""
+    component: int
+    step: int
+    setters: list[MachineGroup]
+    getters: list[MachineGroup]
+    said: int
+    """Address of a number that is not 0 once the FMU has logged something."""
+
+
+def machine_of(protocol: Protocol, inputs: Table, outputs: Table, said: Any) -> Machine:
+    """Return the addresses of an instance."""
+    return Machine(
+        third=protocol.lengths > 0,
+        component=int(protocol.fmu.component),
+        step=_address(protocol.function("DoStep")),
+        setters=[_group(g, g.set_function) for g in inputs.groups],
+        getters=[_group(g, g.get_function) for g in outputs.groups],
+        said=ctypes.addressof(said),
+    )
+
+
+def _group(group: Group, function: Any) -> MachineGroup:
+    kind = KINDS[group.values._type_]
+    references = ctypes.addressof(group.references)
+    return MachineGroup(_address(function), references, group.places, kind)
+
+
+def _address(function: Any) -> int:
+    return int(ctypes.cast(function, ctypes.c_void_p).value or 0)

@@ -1,18 +1,19 @@
-"""What only the Python target carries: guard, pythonfmu's library and modules, and the slave."""
+"""What only the Python target carries: pythonfmu's libraries and modules, and the slave."""
 
 from importlib import metadata
 from pathlib import Path
 
 from ..models._spec import ModelSpec
-from .guard import BARE, GUARDED, guard_library
 from .registry import content_digest, package_version
 
-DEPENDENCIES = """This FMU calls Python and the package thrustwasher {version}.
+NEEDS = """This FMU calls Python and the package thrustwasher {version}.
 Install both on the machine that runs it: pip install thrustwasher=={version}
-The libraries in binaries/ (on Linux: impl.so) and the modules in resources/pythonfmu are of
-pythonfmu {pythonfmu}, MIT.
-{linux}Windows, x86-64: python3.dll on PATH and the Visual C++ runtime; not tested. There is no
-guard: calls are not checked, and a step that fails returns fmi2Discard.
+The libraries in binaries/ and the modules in resources/pythonfmu are of pythonfmu {pythonfmu}, MIT.
+Linux, x86-64: the importing process must have libpython's symbols loaded, as every Python has;
+another host loads the shared library first, for example LD_PRELOAD=libpython3.x.so.
+Windows, x86-64: python3.dll on PATH and the Visual C++ runtime; not tested.
+Only a step can fail: it returns fmi2Discard. Calls that set and read values return fmi2OK; that a
+value was refused is said to the logger, in solver_status and by the next step.
 """
 
 
@@ -22,24 +23,13 @@ def python_contents(spec: ModelSpec, folder: Path, *, guid: str) -> dict[str, by
     template = (folder / "slave.py").read_text("utf-8")
     slave = template.replace("@VERSION@", package_version()).replace("@GUID@", guid)
     slave = slave.replace("@DIGEST@", content_digest(spec))
-    guard = guard_library(spec, guid=guid)
-    needs = DEPENDENCIES.format(version=package_version(), linux=GUARDED if guard else BARE,
-                                pythonfmu=metadata.version("pythonfmu"))  # fmt: skip
+    needs = NEEDS.format(version=package_version(), pythonfmu=metadata.version("pythonfmu"))
     return {
         "documentation/externalDependencies.txt": needs.encode(),
         f"resources/{module}.py": slave.encode(),
         "resources/slavemodule.txt": module.encode(),
-        **_binaries(spec.name, guard),
+        **_pythonfmu(spec.name),
     }
-
-
-def _binaries(model: str, guard: bytes | None) -> dict[str, bytes]:
-    """Return the guard in front of pythonfmu's library, if there is one, and what lies behind."""
-    files = _pythonfmu(model)
-    if guard:
-        name = f"binaries/linux64/{model}.so"
-        files["binaries/linux64/impl.so"], files[name] = files[name], guard
-    return files
 
 
 def _pythonfmu(model: str) -> dict[str, bytes]:

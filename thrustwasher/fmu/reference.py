@@ -55,24 +55,23 @@ def input_rows(spec: ModelSpec) -> Rows:
     return [list(row) for row in spec.course] or [[0.0, *starts]]
 
 
-def reference_run(spec: ModelSpec, *, rounded: bool = True) -> Rows:
+def reference_run(spec: ModelSpec) -> Rows:
     """Return rows of time and all outputs over the default experiment.
 
-    ``rounded``: numbers of less than a millionth of the nominal value become 0.
+    Numbers of less than a millionth of the nominal value become 0.
     """
     stop, h = default_experiment(spec)
     course = np.array(input_rows(spec))
     times = h * np.arange(round(stop / h) + 1)
     columns = [np.interp(times, course[:, 0], values) for values in course.T[1:]]
     points = np.reshape(columns, (len(columns), len(times))).T.tolist()
-    shown = _rounded if rounded else lambda spec, values: values
     with DirectInstance(spec) as model:
         model.initialize(0.0, dict(zip(model.input_names, points[0], strict=True)))
-        rows = [[0.0, *shown(spec, model.outputs())]]
+        rows = [[0.0, *_rounded(spec, model.outputs())]]
         for i, point in enumerate(points[:-1]):
             model.set_inputs(point)
             model.step(i * h, h)
-            rows.append([(i + 1) * h, *shown(spec, model.outputs())])
+            rows.append([(i + 1) * h, *_rounded(spec, model.outputs())])
     return rows
 
 
@@ -81,8 +80,8 @@ def _rounded(spec: ModelSpec, values: list[float]) -> list[float]:
     return [0.0 if abs(x) < 1e-6 * (signal.nominal or 0.0) else x for signal, x in pairs]
 
 
-def table(names: list[str], rows: Rows, digits: int = 9) -> bytes:
+def table(names: list[str], rows: Rows) -> bytes:
     """Return comma-separated values, time first."""
     head = ",".join(f'"{name}"' for name in ("time", *names))
-    lines = [",".join(f"{x:.{digits}g}" for x in row) for row in rows]
+    lines = [",".join(f"{x:.9g}" for x in row) for row in rows]
     return "\n".join([head, *lines, ""]).encode()

@@ -3,9 +3,8 @@
 What shapes it: an exception that leaves a callback makes pythonfmu drop references twice, and the
 second one on an instance ends the process. Therefore no callback ever raises, not even for Ctrl-C.
 A callback other than ``do_step`` cannot report failure at all; so a failure is logged as an error,
-latched in ``solver_status``, and the next step is refused until it is cured. The guard, the C
-library in front of pythonfmu's, turns a logged error into fmi2Error; where there is no guard, on
-Windows, the latch alone must do. ``__init__`` may raise: the instantiation then returns NULL.
+latched in ``solver_status``, and the next step is refused until it is cured. ``__init__`` may
+raise: the instantiation then returns NULL.
 """
 
 import _ctypes
@@ -27,7 +26,7 @@ from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, SolveErr
 from .core import Core, Mode
 from .registry import content_digest, find_spec, package_version
 from .snapshot import Snapshot, from_bytes
-from .xml import LOG_CATEGORIES, description
+from .xml_parts import LOG_CATEGORIES
 
 _at_exit: set[str] = set()  # libraries that release their pointer when the process ends
 
@@ -52,6 +51,29 @@ def _safe(callback: Callable[..., Any]) -> Callable[..., Any]:
     return guarded
 
 
+def _setter(kind: str) -> Callable[..., Any]:
+    """Return the callback that takes over all values of a kind or none."""
+
+    def set_values(self: "Slave", vrs: list[int], values: list[Any]) -> None:
+        self.core.set(vrs, values, kind)
+
+    return _safe(set_values)
+
+
+def _getter(kind: str, convert: Callable[[float], Any]) -> Callable[..., Any]:
+    """Return the callback that reads values of a kind, solving first where needed."""
+
+    def get_values(self: "Slave", vrs: list[int]) -> list[Any]:
+        try:
+            found = self.core.get(vrs, kind)
+        except BaseException as problem:  # reported; then the last good ones
+            self.report(problem)
+            found = self.core.stored(vrs)
+        return [convert(value) for value in found]
+
+    return get_values
+
+
 class Slave(Fmi2Slave):  # type: ignore[misc]
     """Base class; a model's slave file names the model and what it was built with."""
 
@@ -63,9 +85,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         super().__init__(**kwargs)
         _forget_repeated_path(self.resources)
         spec = find_spec(self.model)
-        self.guarded = _is_guarded(self.resources)
-        if not self.guarded:
-            _settle_library(self.resources, spec.name)
+        _settle_library(self.resources, spec.name)
         if type(self).digest != content_digest(spec):
             theirs, ours = type(self).version, package_version()
             cure = "" if theirs == ours else f"pip install thrustwasher=={theirs}, or "
@@ -74,8 +94,8 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
                 f"{type(self).digest}), this Python has {ours} (content {content_digest(spec)}): "
                 f"{cure}build the FMU again"
             )
-            if not self.guarded:  # pythonfmu drops messages unless the host has logging on
-                logging.getLogger("thrustwasher").error("%s", problem)
+            # pythonfmu drops messages unless the host has logging on
+            logging.getLogger("thrustwasher").error("%s", problem)
             raise problem
         self.core = Core(spec)
         self.warned = 0
@@ -100,11 +120,9 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     @_safe
     def exit_initialization_mode(self) -> None:
         """Check the rules between parameters and solve the start point."""
-        if not self.guarded:  # the host cannot be told of a failure and will go on to steps
-            self.core.mode = Mode.STEPPING
+        self.core.mode = Mode.STEPPING  # the host cannot be told of a failure and will go on
         self.core.prepare()
         self.core.refresh()
-        self.core.mode = Mode.STEPPING
         self.core.note_switches()  # how a run starts is no event
         self._warn()
 
@@ -131,50 +149,12 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
 
     # Values
 
-    @_safe
-    def set_real(self, vrs: list[int], values: list[float]) -> None:
-        """Take over all values or none."""
-        self.core.set(vrs, values, "Real")
+    set_real, set_boolean = _setter("Real"), _setter("Boolean")
+    set_integer = _setter("Integer")  # enumerations are integers here
+    set_string = _setter("String")  # refuses: there are no texts
 
-    @_safe
-    def set_integer(self, vrs: list[int], values: list[int]) -> None:
-        """Take over all values or none; enumerations are integers here."""
-        self.core.set(vrs, values, "Integer")
-
-    @_safe
-    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
-        """Take over all values or none."""
-        self.core.set(vrs, values, "Boolean")
-
-    @_safe
-    def set_string(self, vrs: list[int], values: list[str]) -> None:
-        """Refuse: there are no texts."""
-        self.core.set(vrs, [0.0] * len(vrs), "String")
-
-    def get_real(self, vrs: list[int]) -> list[float]:
-        """Return real values, solving first where needed."""
-        return self._read(vrs, "Real")
-
-    def get_integer(self, vrs: list[int]) -> list[int]:
-        """Return integers and enumerations."""
-        return [int(value) for value in self._read(vrs, "Integer")]
-
-    def get_boolean(self, vrs: list[int]) -> list[bool]:
-        """Return Booleans."""
-        return [bool(value) for value in self._read(vrs, "Boolean")]
-
-    def get_string(self, vrs: list[int]) -> list[str]:
-        """Refuse: there are no texts."""
-        self._read(vrs, "String")
-        return [""] * len(vrs)
-
-    def _read(self, vrs: list[int], kind: str) -> list[float]:
-        """Return values; after a failure, reported, the last good ones."""
-        try:
-            return self.core.get(vrs, kind)
-        except BaseException as problem:
-            self.report(problem)
-            return self.core.stored(vrs)
+    get_real, get_integer = _getter("Real", float), _getter("Integer", int)
+    get_boolean, get_string = _getter("Boolean", bool), _getter("String", lambda _: "")
 
     # State
 
@@ -231,10 +211,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
                       f"{status.advice}", Fmi2Status.warning, "logStatusWarning")  # fmt: skip
         self.warned = status
 
-    def to_xml(self, model_options: Any = None) -> Any:
-        """Return the description from the model's list of variables."""
-        return description(self.core.spec, guid=type(self).guid)
-
 
 def _forget_repeated_path(folder: str | None) -> None:
     """Keep one entry of the FMU's folder in sys.path: pythonfmu adds one per instantiation."""
@@ -243,14 +219,8 @@ def _forget_repeated_path(folder: str | None) -> None:
         sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != folder]
 
 
-def _is_guarded(folder: str | None) -> bool:
-    """Tell if the guard is in front of pythonfmu's library, which then has another name."""
-    binaries = Path(folder or "").parent / "binaries" / "linux64"
-    return sys.platform == "linux" and (binaries / "impl.so").is_file()
-
-
 def _settle_library(folder: str | None, model: str) -> None:
-    """Without a guard: release pythonfmu's global pointer before its destructors do so twice.
+    """Release pythonfmu's global pointer before its destructors do so twice.
 
     They run when the library is unloaded or the process ends, and release the pointer again if it
     is still set: "corrupted double-linked list". In a Python host the pointer has nothing left to

@@ -15,8 +15,7 @@ from typing import Any, Self
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .direct import DirectInstance, number, unknown
 from .loading import WARNING, Message, Messages, capabilities, description, instantiate, unpack
-from .machine import Machine, machine_of
-from .protocol import Direction, Fmi2, Fmi3, Protocol, Table
+from .protocol import Direction, Machine, Protocol, Table, machine_of
 
 __all__ = ["DirectInstance", "Instance", "unpack"]
 
@@ -75,8 +74,7 @@ class Instance:
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
         self._fmu: Any = instantiate(folder, self.description, name or self.path.stem,
                                      self._messages)  # fmt: skip
-        version = Fmi3 if self.description.fmiVersion.startswith("3") else Fmi2
-        self._protocol: Protocol = version(self._fmu)
+        self._protocol = Protocol(self._fmu, int(self.description.fmiVersion[0]))
         self._inputs, self._outputs = (Table(self._protocol, vs) for vs in (inputs, outputs))
         self._directions: dict[tuple[tuple[str, ...], tuple[str, ...]], Direction] = {}
         self._parameters = dict(parameters or {})

@@ -5,7 +5,7 @@ from html import escape
 
 from ..models._spec import ModelSpec
 from .direct import DirectInstance
-from .tags import list_of, table
+from .markup import list_of, table
 
 WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
 GENERAL = (

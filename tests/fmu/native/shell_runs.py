@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 from shelltoy.spec import SPEC as TOY
 
-from thrustwasher.fmu.build import source_folder
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.native import tables
 from thrustwasher.fmu.native.library import library as native_library
 from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.sources import source_folder
 
 HERE = Path(__file__).parent
 GUID = "0123456789abcdef0123456789abcdef"

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import struct
 import subprocess
 import sys
 from dataclasses import asdict
@@ -13,6 +14,7 @@ from kernel_runs import MODELS
 from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.native import calls, library
 from thrustwasher.fmu.registry import find_spec, kernel_module
+from thrustwasher.fmu.sources import PACKAGE
 from thrustwasher.native import digest, emit, gate, link, linked
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
@@ -58,7 +60,7 @@ def test_the_identity_is_inside():
 @each_platform
 def test_no_path_of_this_machine_is_inside(platform):
     code = made(platform)
-    for path in (str(Path(library.__file__).parents[3]), str(Path.home()), "/tmp/"):
+    for path in (str(PACKAGE.parent), str(Path.home()), "/tmp/"):
         assert path.encode() not in code, path
 
 
@@ -152,7 +154,7 @@ def emitted(folder, cpu):
     shutil.copytree(TOY, folder / "toy")
     surroundings = emit.environment(str(folder / "numba"))
     surroundings["NUMBA_CPU_NAME"] = cpu
-    surroundings["PYTHONPATH"] = f"{folder}:{Path(library.__file__).parents[3]}"
+    surroundings["PYTHONPATH"] = f"{folder}:{PACKAGE.parent}"
     v3 = PLATFORMS["linux64"].levels[1]
     for module, *given in (
         ("emit", "toy.kernel", digest.digest("toy.kernel"), "toy.bc"),
@@ -182,3 +184,23 @@ def test_numba_with_another_convention_is_refused_plainly():
     Made.native_name = "cfunc.step"
     with pytest.raises(EnvironmentProblem, match="is not int32 f"):
         emit.function_in(Made())
+
+
+X86_64, ARM64 = 0x01000007, 0x0100000C
+
+
+def mach_o(processor, subtype, length):
+    return struct.pack("<III", 0xFEEDFACF, processor, subtype) + bytes(length - 12)
+
+
+def test_each_part_of_a_macos_file_lies_at_a_whole_page_as_the_table_says():
+    parts = [mach_o(X86_64, 3, 20_000), mach_o(ARM64, 0, 5_001)]
+    data = library.universal(parts)
+    magic, n = struct.unpack_from(">II", data)
+    assert (magic, n) == (0xCAFEBABE, 2)
+    entries = [struct.unpack_from(">IIIII", data, 8 + 20 * i) for i in range(n)]
+    assert [e[:2] for e in entries] == [(X86_64, 3), (ARM64, 0)]
+    for part, (_, _, offset, size, align) in zip(parts, entries, strict=True):
+        assert offset % (1 << align) == 0 and offset % 0x4000 == 0
+        assert data[offset : offset + size] == part
+    assert len(data) == entries[-1][2] + entries[-1][3]

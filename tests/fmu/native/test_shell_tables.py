@@ -11,6 +11,7 @@ from shelltoy.spec import SPEC as TOY
 from thrustwasher.fmu.interface import variables
 from thrustwasher.fmu.native import calls, tables
 from thrustwasher.fmu.registry import all_specs
+from thrustwasher.fmu.sources import source_folder
 
 HEADERS = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
 EXCHANGE_ONLY = {  # functions of FMI 2.0 that co-simulation has not
@@ -40,7 +41,7 @@ def test_every_name_in_a_rule_is_a_parameter_and_every_file_is_there():
         known = {v.name for v in variables(spec) if v.causality == "parameter"}
         for rule in spec.rules:
             assert set(re.findall(r"\{(\w+)\}", rule.text)) <= known, rule.text
-    shell = Path(tables.__file__).parents[3] / "fmu_src" / "shell"
+    shell = source_folder() / "shell"
     for fmi in (2, 3):
         assert all((shell / name).is_file() for name in tables.shell_files(fmi))
 

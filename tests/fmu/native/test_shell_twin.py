@@ -69,17 +69,3 @@ def test_the_core_and_the_shell_answer_alike_to_whatever_is_asked(fmi, seed):
     replies = run(fmi, toy_library(fmi), twin.script)
     twin.check(replies)
     assert sum(r.status == 0 for r in replies) > 100 and sum(r.status == 3 for r in replies) > 50
-
-
-@both
-def test_a_run_of_300_steps_is_the_same_to_the_bit(fmi):
-    twin = Twin(TOY, GUID)
-    twin.put(discs=5, inner_radius=0.04, heat_capacity=3.0)
-    twin.begin()
-    twin.put(**GOOD)
-    twin.leave()
-    for i in range(300):
-        twin.put(load=4000.0 * math.sin(0.01 * i) ** 2, speed=100.0 * math.cos(0.03 * i))
-        twin.step(i * H, H)
-        twin.take()
-    twin.check(run(fmi, toy_library(fmi), twin.script))

@@ -1,7 +1,7 @@
-"""Which FMI function may be called when: one table, as data, for every target.
+"""Which FMI function may be called when: one table, as data.
 
-The C tables of the native shell and of the Python target's guard are written from it, and the
-tests walk through it: every function in every mode.
+The C tables of the native shell are written from it, and the tests walk through it: every function
+in every mode.
 """
 
 INSTANTIATED, INITIALIZING, STEPPING, TERMINATED = 1, 2, 4, 8
@@ -68,34 +68,21 @@ DECLINED = {
         "CancelStep": "no step is ever pending (canRunAsynchronuously is false)",
     },
     3: {
-        "EnterEventMode": _NO_EVENTS,
-        "EnterStepMode": _NO_EVENTS,
-        "EvaluateDiscreteStates": _NO_EVENTS,
-        "UpdateDiscreteStates": _NO_EVENTS,
-        "EnterConfigurationMode": _NO_STRUCTURE,
-        "ExitConfigurationMode": _NO_STRUCTURE,
-        "GetIntervalDecimal": _NO_CLOCKS,
-        "GetIntervalFraction": _NO_CLOCKS,
-        "GetShiftDecimal": _NO_CLOCKS,
-        "GetShiftFraction": _NO_CLOCKS,
-        "SetIntervalDecimal": _NO_CLOCKS,
-        "SetIntervalFraction": _NO_CLOCKS,
-        "SetShiftDecimal": _NO_CLOCKS,
-        "SetShiftFraction": _NO_CLOCKS,
-        "ActivateModelPartition": _NO_CLOCKS,
-        "EnterContinuousTimeMode": _NO_EXCHANGE,
-        "CompletedIntegratorStep": _NO_EXCHANGE,
-        "SetTime": _NO_EXCHANGE,
-        "SetContinuousStates": _NO_EXCHANGE,
-        "GetContinuousStateDerivatives": _NO_EXCHANGE,
-        "GetEventIndicators": _NO_EXCHANGE,
-        "GetContinuousStates": _NO_EXCHANGE,
-        "GetNominalsOfContinuousStates": _NO_EXCHANGE,
-        "GetNumberOfEventIndicators": _NO_EXCHANGE,
-        "GetNumberOfContinuousStates": _NO_EXCHANGE,
+        **dict.fromkeys(("EnterEventMode", "EnterStepMode", "EvaluateDiscreteStates",
+                         "UpdateDiscreteStates"), _NO_EVENTS),
+        **dict.fromkeys(("EnterConfigurationMode", "ExitConfigurationMode"), _NO_STRUCTURE),
+        **dict.fromkeys(("GetIntervalDecimal", "GetIntervalFraction", "GetShiftDecimal",
+                         "GetShiftFraction", "SetIntervalDecimal", "SetIntervalFraction",
+                         "SetShiftDecimal", "SetShiftFraction", "ActivateModelPartition"),
+                        _NO_CLOCKS),
+        **dict.fromkeys(("EnterContinuousTimeMode", "CompletedIntegratorStep", "SetTime",
+                         "SetContinuousStates", "GetContinuousStateDerivatives",
+                         "GetEventIndicators", "GetContinuousStates",
+                         "GetNominalsOfContinuousStates", "GetNumberOfEventIndicators",
+                         "GetNumberOfContinuousStates"), _NO_EXCHANGE),
         "GetOutputDerivatives": _NO_OUTPUT_DERIVATIVE,
     },
-}
+}  # fmt: skip
 
 CALLS: dict[int, dict[str, int]] = {
     2: {

@@ -1,19 +1,19 @@
-"""The tables of a model as C source: everything the shell or the guard knows about it."""
+"""The tables of a model as C source: everything the shell knows about it."""
 
-import importlib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
 from ...models._spec import ModelSpec
 from ..interface import Variable, enumerations, variables
-from ..registry import count_places, kernel_module, kernel_table, load_kernel
-from ..xml import LOG_CATEGORIES, log_categories
+from ..registry import count_places, find_broken_rule, has_derivatives, kernel_table, load_kernel
+from ..xml_parts import LOG_CATEGORIES, log_categories
 from . import calls
 
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
-COMMON = ("life.c", "resource.c", "values.c", "text.c", "stories.c", "state.c", "derivative.c")
+COMMON = ("lifecycle.c", "resource.c", "values.c", "text.c", "messages.c", "state.c",
+          "derivative.c")  # fmt: skip
 PROTOCOL = {
     2: ("fmi2.c", "fmi2_values.c"),
     3: ("fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c"),
@@ -107,7 +107,8 @@ def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, li
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
         **{f"TABLE_{name}": value for name, value in kernel_table(spec).items()},
-        "HAS_RULES": int(_has(spec, "broken_rule")), "HAS_SENS": int(_has(spec, "sens")),
+        "HAS_RULES": int(find_broken_rule(spec) is not None),
+        "HAS_SENS": int(has_derivatives(spec)),
     }  # fmt: skip
     shown = [v for v in found if v.causality == "input" or v.name in ("film_ratio", "engine_speed")]
     return "\n".join([
@@ -123,10 +124,6 @@ def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, li
         *(f"extern const {kind} {name}[];" for name, (kind, _) in lists.items()), "",
         "#endif", "",
     ])  # fmt: skip
-
-
-def _has(spec: ModelSpec, entry: str) -> bool:
-    return hasattr(importlib.import_module(kernel_module(spec.kernel)), entry)
 
 
 def _tables(lists: dict[str, tuple[str, list[str]]]) -> str:

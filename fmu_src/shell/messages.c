@@ -23,7 +23,7 @@ static void add_point(Text *t, const Instance *m, int with_outputs) {
     }
 }
 
-void tell_story(const Instance *m, int32_t status, double t, double h) {
+void tell_failure(const Instance *m, int32_t status, double t, double h) {
     Text text = {0};
     add(&text, "%s at t = ", MODEL_NAME);
     add_number(&text, t);

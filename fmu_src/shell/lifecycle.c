@@ -1,4 +1,4 @@
-/* The life of an instance: from its start values over initialization to steps. */
+/* The lifecycle of an instance: from its start values over initialization to steps. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,7 +150,7 @@ int refresh(Instance *m) {
         if (m->unsolved) m->now.latch = m->unsolved;
     }
     m->now.dirty = m->unsolved != 0;
-    if (m->unsolved) tell_story(m, m->unsolved, m->now.time, 0.0);
+    if (m->unsolved) tell_failure(m, m->unsolved, m->now.time, 0.0);
     return m->unsolved ? BAD : GOOD;
 }
 
@@ -204,7 +204,7 @@ int advance(Instance *m, double t, double h) {
     int rc = solve(m, t, h);
     if (rc) {
         m->now.latch = rc;
-        tell_story(m, rc, t, h);
+        tell_failure(m, rc, t, h);
         return BAD;
     }
     m->now.time = t + h;

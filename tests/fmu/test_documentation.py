@@ -1,36 +1,43 @@
-"""The page inside an FMU: everything a user must know, nothing from outside."""
+"""Documentation of an FMU: all a user must know, nothing from outside; a notice for each part."""
 
 import re
+from html import escape
 from html.parser import HTMLParser
-from pathlib import Path
 
 import pytest
 from toy.spec import SPEC as TOY
 
-from thrustwasher.errors import Status
-from thrustwasher.fmu.accuracy import CARDS
-from thrustwasher.fmu.build import source_folder
-from thrustwasher.fmu.common_contents import readme
-from thrustwasher.fmu.curve import COURSES, SWEEPS
-from thrustwasher.fmu.drawing import Line, drawing, ticks
-from thrustwasher.fmu.identity import model_folder
+from thrustwasher.errors import EnvironmentProblem, Status
+from thrustwasher.fmu import licences as module
 from thrustwasher.fmu.interface import all_specs, find_spec, variables
+from thrustwasher.fmu.licences import PLACE, licences, listed_licences
 from thrustwasher.fmu.markup import markup
-from thrustwasher.fmu.page import page
+from thrustwasher.fmu.page import accuracy, page
+from thrustwasher.fmu.sources import model_folder, source_folder
 from thrustwasher.fmu.wiring import slope
+from thrustwasher.store.cards import load_cards
 
 QUICK = [TOY, find_spec("WetClutch"), find_spec("GearMesh"), find_spec("ShiftTransmission")]
 each_spec = pytest.mark.parametrize("spec", QUICK, ids=lambda s: s.name)
-ACCURACY = Path(__file__).parents[2] / "docs" / "accuracy.md"
-VOID = {"meta", "img", "rect", "path", "polyline"}
+VOID = {"meta", "img"}
+SAID = {
+    "license.txt": b"thrustwasher authors",
+    "numba.txt": b"Anaconda",
+    "llvmlite.txt": b"All rights reserved",
+    "llvm.txt": b"LLVM Exceptions",
+    "fmi-headers.txt": b"Modelica Association",
+    "pythonfmu.txt": b"MIT",
+}
+BOTH = {"license.txt", "overview.txt"}
+NATIVE = {*BOTH, "numba.txt", "llvmlite.txt", "llvm.txt", "fmi-headers.txt"}
 _pages = {}
 
 
 def shown(spec, target="native"):
     if (spec.name, target) not in _pages:
         _pages[spec.name, target] = page(
-            spec, target=target, fmi=2, guid="1234abcd", platforms=("linux64", "win64"),
-            equations=readme(model_folder(spec, source_folder())),
+            spec, model_folder(spec, source_folder()), target=target, fmi=2, guid="1234abcd",
+            platforms=("linux64", "win64"),
         )  # fmt: skip
     return _pages[spec.name, target]
 
@@ -74,7 +81,9 @@ def test_every_variable_status_and_plug_is_named(spec):
     for status in Status:
         assert f"<td>{status.name}</td>" in text
     assert all(f"<td>{t.name}</td><td>{t.kind}</td>" in text for t in spec.terminals)
-    assert "1234abcd" in text and "<svg" in text and "<polyline" in text
+    for file, part, licence, _ in listed_licences("native", ("linux64", "win64")):
+        assert f"<td>{file}</td><td>{escape(part)}</td><td>{licence}</td>" in text
+    assert "1234abcd" in text
 
 
 @each_spec
@@ -89,7 +98,9 @@ def test_what_was_run_and_what_was_not_is_said(spec):
 
 @pytest.mark.parametrize("spec", all_specs(), ids=lambda s: s.name)
 def test_the_equations_and_their_source_are_there(spec):
-    text = readme(model_folder(spec, source_folder()))
+    folder = model_folder(spec, source_folder())
+    text = (folder / "readme.md").read_text("utf-8")
+    assert "](curve.svg)" in text and 'src="data:image/svg+xml;base64,' in markup(text, folder)
     assert text.startswith(f"# {spec.name}\n")
     assert "Source" in text and "## Validity" in text and text.count("```") >= 4
     known = {v.name for other in all_specs() for v in variables(other)}
@@ -99,19 +110,19 @@ def test_the_equations_and_their_source_are_there(spec):
     assert named <= known | options
 
 
-@pytest.mark.skipif(not ACCURACY.is_file(), reason="the documents are in the source tree only")
-@pytest.mark.parametrize("name", [n for n in CARDS if n != "ShiftTransmission"])
-def test_the_figures_of_the_card_stand_in_the_document(name):
-    text = ACCURACY.read_text("utf-8")
-    for row in CARDS[name]:
-        for figure in row.worst.split(" / "):
-            number = re.escape(figure.split()[0])  # in the document one unit may serve several
-            assert re.search(rf"(?<![\d.]){number}(?![\d])", text), figure
-
-
-def test_every_model_has_a_card_and_a_curve_of_its_own():
-    names = {spec.name for spec in all_specs() if spec.course}
-    assert names == set(CARDS) == set(SWEEPS) | set(COURSES)
+@pytest.mark.parametrize("name", ["washer", "clutch", "gearmesh"])
+def test_the_figures_of_accuracy_are_those_of_the_cards(name):
+    cards = [card for card in load_cards(name) if card.params.name == "default"]
+    rows = accuracy(find_spec(name))
+    assert {row[0] for row in rows} == {f"{c.fidelity} {c.chart or ''}".strip() for c in cards}
+    assert [row[2] for row in rows] and sum(int(row[2]) for row in rows) == sum(
+        card.held_out.n for card in cards
+    )
+    one = next(card for card in cards if card.fidelity == "field")
+    worst = max(e for row in one.errors["friction_torque"].worst for e in row if e is not None)
+    row = next(row for row in rows if row[0] == f"field {one.chart or ''}".strip())
+    assert float(row[3].removesuffix(" %")) == pytest.approx(100.0 * worst, rel=0.05)
+    assert f"<td>{row[3]}</td>" in shown(find_spec(name)).replace("\n", "")
 
 
 def test_the_stiffest_spring_of_a_clutch_is_at_zero_slip():
@@ -122,17 +133,43 @@ def test_the_stiffest_spring_of_a_clutch_is_at_zero_slip():
     assert slope(clutch, point | {"speed": 60.0}) < 0.0  # friction falls: nothing cures it
 
 
-def test_a_drawing_has_a_line_for_each_and_round_ticks():
-    text = drawing("a & b", "x [m]", "y [1]", [Line("one", [0, 1], [1, 2]), Line("two", [0], [3])])
-    assert text.count("<polyline") == 2 and "a &amp; b" in text
-    assert ticks([0.0, 1000.0]) == [0, 200, 400, 600, 800, 1000]
-    assert ticks([80.0, 100.0])[0] >= 80 and ticks([20.0, 100.0])[0] == 0.0
-    assert len(ticks([5.0, 5.0])) >= 2
-
-
 def test_markup_knows_headings_lists_code_and_paragraphs():
     text = "# T\n\nA `b<c` d\ne.\n\n- one\n  two\n- three\n\n```\nx < 1\n\ny\n```\n\nEnd."
-    assert markup(text, level=2) == (
+    assert markup(text, source_folder(), level=2) == (
         "<h2>T</h2>\n<p>A <code>b&lt;c</code> d e.</p>\n<ul><li>one two</li><li>three</li></ul>\n"
         "<pre>x &lt; 1\n\ny</pre>\n<p>End.</p>"
     )
+
+
+@pytest.mark.parametrize(
+    ("target", "platforms", "names"),
+    [
+        ("python", (), {*BOTH, "pythonfmu.txt"}),
+        ("native", ("linux64",), NATIVE),
+        ("native", ("linux64", "win64"), {*NATIVE, "mingw-w64.txt"}),
+    ],
+)
+def test_the_notices_of_a_target_are_these(target, platforms, names):
+    if "win64" in platforms:
+        pytest.importorskip("ziglang", reason="pip install ziglang to link for Windows")
+    found = {
+        path.removeprefix(f"{PLACE}/"): text for path, text in licences(target, platforms).items()
+    }
+    assert found.keys() - {"zig.txt"} == names
+    assert all(len(text.strip()) > 200 for text in found.values())
+    for name in found.keys() & SAID.keys():
+        assert SAID[name] in found[name], name
+    for name in found.keys() - {"overview.txt"}:
+        assert name.encode() in found["overview.txt"]
+
+
+def test_the_notice_of_the_headers_is_that_of_a_bsd_licence():
+    notice = licences("native")[f"{PLACE}/fmi-headers.txt"].decode()
+    assert notice.startswith("Copyright") and notice.endswith("POSSIBILITY OF SUCH DAMAGE.\n")
+    assert "Redistributions in binary form must reproduce the above copyright notice" in notice
+
+
+def test_a_missing_notice_stops_the_build(monkeypatch):
+    monkeypatch.setattr(module.metadata, "files", lambda package: [])
+    with pytest.raises(EnvironmentProblem, match="install numba again"):
+        licences("native")

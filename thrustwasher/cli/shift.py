@@ -46,11 +46,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fidelity", metavar="[PART=]RUNG", action="append", default=[],
         help="a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "
-        "the cheapest that holds 1 %% and guards it; may be repeated",
+        "the cheapest that holds 1 %% and checks it after the run; may be repeated",
     )  # fmt: skip
     parser.add_argument(
-        "--no-guard", action="store_true", help="with auto: do not watch the run, keep the choice"
-    )
+        "--no-guard", action="store_true",
+        help="with auto: do not check the choice after the run, keep it",
+    )  # fmt: skip
     parser.add_argument(
         "--fmu", choices=["native", "python"],
         help="kind of FMU; default native, or python if nothing here compiles",

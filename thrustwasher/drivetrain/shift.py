@@ -9,24 +9,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
-from . import book, course
-from .adaptive import check_adaptive, run_adaptive
-from .agreement import check_agreement
-from .chatter import find_chatter
-from .costs import Meter
-from .figures import key_figures
-from .guard import Guard
-from .guard_plan import Plan
-from .judder_search import find_judder
-from .loop import Loop, PythonLoop, Run
-from .master import MASTERS
-from .moves import Correct
-from .parts import PACK_INPUTS, links
-from .recorder import Recorder
+from ..models._params import as_numbers
+from .cosim.instances import Stepping, WithParameters
+from .cosim.loop import Loop, PythonLoop, Recorder, Run, Steps
+from .cosim.schedule import Correct
+from .cosim.system import ConnectedPart, System
+from .key_figures.energy_balance import energy_balance
+from .key_figures.events_and_phases import find_events, find_phases
+from .key_figures.figures import key_figures
+from .masters.master import MASTERS
+from .masters.step_doubling import Doubling
+from .oscillation.chatter import find_chatter
+from .oscillation.judder import find_judder
 from .result import Cost, ShiftResult
-from .scene import Scene
-from .steps import Steps, fixed
-from .system import ConnectedPart, Stepping, System
+from .scene.scene import Part, Scene
+from .scene.wiring import PACK_INPUTS, links
 from .thermal_need import thermal_need
 
 Progress = Callable[[int, int], None]
@@ -39,7 +36,6 @@ def run_shift(
     *,
     step: float | None = None,
     master: str | None = None,
-    guards: Mapping[str, Plan] | None = None,
     progress: Progress | None = None,
     compiled: bool | None = None,
 ) -> ShiftResult:
@@ -52,7 +48,6 @@ def run_shift(
     instances : one per part of the scene, made with ``scene.parts[name].parameters()`` and not
         initialized since they were made or reset; they are neither closed nor reset here
     step, master : other values than the scene's
-    guards : part -> how its rung is watched and what may take over (``run_auto`` makes them)
     progress : called as ``progress(done, total)`` a hundred times at most, and at the end
     compiled : step the instances in one compiled function; default: if all of them are FMUs. The
         numbers are the same to the bit
@@ -65,31 +60,50 @@ def run_shift(
     made_for, scene = scene, scene.with_options(step=step, master=master)
     messages = _remarks(made_for, scene)
     system = connected(scene, instances)
-    plans = guards or {}
-    if MASTERS[scene.master].adaptive:
-        check_adaptive(scene, bool(plans), compiled)
-        system.initialize(scene.start_time)
-        check_agreement(made_for, instances)
-        meter, begin = Meter(scene, system, {}), perf_counter()
-        run, steps = run_adaptive(scene, system, progress)
-        wall = perf_counter() - begin
-        return _result(scene, run, steps, wall, meter.costs(wall, None), messages, None)
-    run = _laid_out(scene, system, messages)
+    adaptive = MASTERS[scene.master].adaptive
+    if adaptive and compiled:
+        raise ParameterError(
+            f"compiled = True with master = {scene.master!r}, allowed: with masters of fixed steps"
+        )
+    run = None if adaptive else _laid_out(scene, system, messages)
     system.initialize(scene.start_time)
-    check_agreement(made_for, instances)
-    run.recorder.keep(0)
-    guard = Guard(run, plans, lambda now: loop_for(now, compiled)) if plans else None
-    advance = guard.advance if guard else loop_for(run, compiled).advance
-    meter, n = Meter(scene, system, plans), len(run.time) - 1
-    begin = perf_counter()
-    _drive(advance, n, progress)
+    check_instances(made_for, instances)
+    before = {n: (part.instance.calls, part.instance.wall_time) for n, part in system.parts.items()}
+    if run is None:
+        begin = perf_counter()
+        run, steps = run_adaptive(scene, system, progress)
+    else:
+        run.recorder.keep(0)
+        loop, n = loop_for(run, compiled), len(run.time) - 1
+        steps = Steps(n, 0, run.h, run.h, 0, 0)
+        begin = perf_counter()
+        _drive(loop.advance, n, progress)
     wall = perf_counter() - begin
-    costs = meter.costs(wall, guard)
-    return _result(scene, run, fixed(n, run.h), wall, costs, messages, guard)
+    return _result(scene, run, steps, wall, _costs(scene, system, before, wall), messages)
+
+
+def run_adaptive(scene: Scene, system: System, progress: Progress | None) -> tuple[Run, Steps]:
+    """Step an initialized system to the end with a master that chooses its steps itself."""
+    begin, end = scene.start_time, scene.stop_time
+    corners = (scene.shift_start, scene.shift_start + scene.shift_duration)
+    stops = [*(t for t in corners if begin < t < end), end]
+    master = Doubling(system, scene.master_tolerance, scene.command, stops, scene.step)
+    master.begin(begin)
+    time, said = begin, 0
+    while time < end:
+        time = master.advance()
+        percent = int(100.0 * (time - begin) / (end - begin))
+        if progress is not None and percent > said:
+            said = percent
+            progress(percent, 100)
+    steps, recorder = master.steps(), master.recorder
+    recorder.rows = recorder.rows[: len(master.time)]
+    commands = np.array([scene.command(t) for t in master.time])
+    return Run(system, [], np.array(master.time), steps.longest, commands, recorder), steps
 
 
 def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
-    """Return times, commands, moves and rows of a run; say it if the step had to be adapted."""
+    """Return times, commands, schedule and rows of a run; say it if the step had to be adapted."""
     span = scene.stop_time - scene.start_time
     n = max(1, round(span / scene.step))
     h = span / n
@@ -101,16 +115,30 @@ def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
     return Run(system, schedule, time, h, commands, Recorder(system, n + 1))
 
 
+def _costs(
+    scene: Scene, system: System, before: Mapping[str, tuple[int, float]], wall: float
+) -> list[Cost]:
+    """Return what every part's steps cost, by its own counts since those ``before``."""
+    found = []
+    for name, part in system.parts.items():
+        instance, (calls, seconds) = part.instance, before[name]
+        spent = instance.wall_time - seconds
+        found.append(Cost(
+            part=name, model=part.spec.name, fidelity=scene.parts[name].fidelity,
+            steps=instance.calls - calls, wall_time=spent, share=spent / wall,
+            instantiate=instance.instantiate_time, initialize=instance.initialize_time,
+        ))  # fmt: skip
+    return found
+
+
 def _result(
-    scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str],
-    guard: Guard | None,
-) -> ShiftResult:  # fmt: skip
+    scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str]
+) -> ShiftResult:
     """Read everything from the rows of a finished run."""
     time, signals = run.time, run.recorder.signals()
-    found = course.events(scene, time, signals)
-    swing = find_judder(scene, time, signals)
-    log = guard.log() if guard else None
-    spent = sum(c.wall_time for c in cost) + (log.seconds if log else 0.0)
+    events = find_events(scene, time, signals)
+    judder = find_judder(scene, time, signals)
+    need = thermal_need(scene, time, signals)
     return ShiftResult(
         scene=scene,
         step=run.h,
@@ -118,39 +146,39 @@ def _result(
         master=scene.master,
         time=time,
         signals=signals,
-        events=found,
-        phases=course.phases(scene, signals, found),
-        energy=book.energy(signals),
-        key_figures=key_figures(scene, time, signals, found, swing),
+        events=events,
+        phases=find_phases(scene, signals, events),
+        energy=energy_balance(signals),
+        key_figures=key_figures(scene, time, signals, events, judder),
         cost=cost,
         wall_time=wall,
-        overhead=wall - spent,
+        overhead=wall - sum(c.wall_time for c in cost),
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
         messages=[
             *messages,
             *_said(run),
             *steps.words(),
             *_advice(time, signals),
-            *_thermal(scene, time, signals),
+            *([] if need is None else [need]),
         ],
-        guard=log,
-        judder=swing,
+        judder=judder,
         chatter=find_chatter(scene, time, signals, run.h),
     )
 
 
 def _said(run: Run) -> list[str]:
     """Return what the master itself has to say."""
-    return [line for m in run.schedule if isinstance(m, Correct) for line in m.change.words()]
+    corrections = [action for action in run.schedule if isinstance(action, Correct)]
+    return [line for action in corrections for line in action.change.words()]
 
 
-def _drive(advance: Callable[[int, int], int], n: int, progress: Progress | None) -> None:
+def _drive(advance: Callable[[int, int], None], n: int, progress: Progress | None) -> None:
     """Carry the run to its end in stretches that a person at a terminal does not notice."""
     done, stretch = 0, max(1, n // 100)
     while done < n:
         begin, stop = perf_counter(), min(done + stretch, n)
-        while done < stop:
-            done = advance(done, stop)
+        advance(done, stop)
+        done = stop
         if progress is not None:
             progress(done, n)
         if perf_counter() - begin < STRETCH:
@@ -161,7 +189,7 @@ def loop_for(run: Run, compiled: bool | None) -> Loop:
     """Return the compiled loop where it can run, else the one in Python."""
     if compiled is False:
         return PythonLoop(run)
-    from .program import CompiledLoop, can_compile
+    from .cosim.compiled_layout import CompiledLoop, can_compile
 
     if can_compile(run):
         return CompiledLoop(run)
@@ -188,6 +216,39 @@ def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
     return system
 
 
+def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
+    """Compare the parameters of initialized instances with those of the scene's parts.
+
+    Inputs and outputs of a model are the same in every scene: an instance of another one would run
+    without a complaint and answer another question. Instances without a ``get`` (stand-ins for a
+    model) are taken as they are.
+
+    Raises
+    ------
+    ParameterError : names the part, the parameter, both values and how to make the instance
+    """
+    for name, part in scene.parts.items():
+        instance = instances[name]
+        if not isinstance(instance, WithParameters):
+            continue
+        wanted = _numbers(part)
+        found = instance.get(list(wanted))
+        for key, has in zip(wanted, found, strict=True):
+            if has != wanted[key]:
+                raise ParameterError(
+                    f"{name}: the instance was made with {key} = {has:.9g}, scene "
+                    f"{scene.name!r} has {wanted[key]:.9g}; make it with "
+                    f"scene.parts[{name!r}].parameters()"
+                )
+
+
+def _numbers(part: Part) -> dict[str, float]:
+    """Return all parameters of a part as an instance holds them: enumerations count from 1."""
+    names = [n for n in part.parameters() if n != "fidelity"]
+    rung = list(part.spec.fidelities).index(part.fidelity) + 1.0
+    return {**dict(zip(names, as_numbers(part.params), strict=True)), "fidelity": rung}
+
+
 def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     """Return what a reader has to know before looking at any number."""
     remarks = []
@@ -203,14 +264,6 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     if "washer" not in scene.parts and gearbox.washers:
         remarks.append("there is no washer model in this scene: the washers run without drag")
     return remarks
-
-
-def _thermal(
-    scene: Scene, time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]
-) -> list[str]:
-    """Say which thermal mode the washer needs, if there is one."""
-    need = thermal_need(scene, time, signals)
-    return [] if need is None else [need]
 
 
 def _advice(time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]) -> list[str]:

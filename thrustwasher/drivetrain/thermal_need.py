@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..models.washer_params import WasherParams
 from ..reference.heat_times import stack_times
-from .scene import Scene
+from .scene.scene import Scene
 
 SLOW = 5.0  # a course that takes so many of the slowest time constants is followed by steady states
 MIDDLE = (0.1, 0.9)  # share of all change of power that counts

@@ -111,14 +111,12 @@ class Record:
     wall_time: float
     messages: Sequence[str] = ()
     judder: Any = None
-    """How the output shaft swings (``drivetrain.judder.Judder``); None: not at all."""
+    """How the output shaft swings (``drivetrain.oscillation.judder.Judder``); None: not at all."""
     chatter: Sequence[Any] = ()
-    """Packs whose slip flips from step to step (``drivetrain.chatter.Chatter``)."""
+    """Packs whose slip flips from step to step (``drivetrain.oscillation.chatter.Chatter``)."""
     rungs: Rungs | None = None
     steps: Steps | None = None
     """None: all as long as ``step``."""
-    looks: float = 0.0
-    """[s] of wall clock for the guard's looks."""
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -201,7 +199,6 @@ def record_of(result: Any) -> Record:
         chatter=result.chatter,
         rungs=rungs_of(result),
         steps=_steps(result.steps),
-        looks=result.guard.seconds if result.guard else 0.0,
     )
 
 

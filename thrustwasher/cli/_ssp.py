@@ -52,10 +52,11 @@ def _contents(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
     from ..fmu.build import pack_native
     from ..fmu.registry import package_version
     from ..fmu.xml_parts import generation_date
-    from .shift import loaded
+    from ._fmu_cache import fmu_instances
 
     scene = prepared(scene)
-    with loaded(scene, "native") as instances:
+    with fmu_instances(scene, "native") as make:
+        instances = {name: make(name, part) for name, part in scene.parts.items()}
         system = plan(scene, start_values(scene, instances))
     tool = f"thrustwasher {package_version()}"
     found = files(system, tool=tool, date=generation_date())

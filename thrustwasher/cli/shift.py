@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -122,32 +120,10 @@ def _say(result: Any, folder: Path | None) -> None:
 def _simulate(scene: Any, target: str, guard: bool) -> Any:
     """Return the finished shift; the FMUs are built, loaded and freed here."""
     from ..drivetrain import run_auto
+    from ._fmu_cache import fmu_instances
 
-    with _loader(scene, target) as make:
+    with fmu_instances(scene, target) as make:
         return run_auto(scene, make, guard=guard, progress=progress_bar(scene.name))
-
-
-@contextmanager
-def loaded(scene: Any, target: str) -> Iterator[dict[str, Any]]:
-    """Give an FMU instance for every part of a scene."""
-    with _loader(scene, target) as make:
-        yield {name: make(name, part) for name, part in scene.parts.items()}
-
-
-@contextmanager
-def _loader(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
-    """Give a function that makes an FMU instance of a part; all are freed in the end."""
-    from ..fmu.stepper import Instance
-    from ._fmu_cache import fmu_paths
-
-    paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
-    with ExitStack() as alive:
-
-        def make(name: str, part: Any) -> Any:
-            path = paths[part.spec.name]
-            return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
-
-        yield make
 
 
 def _write(result: Any, folder: Path) -> None:

@@ -199,24 +199,6 @@ def test_a_part_asks_the_cards_if_its_finest_rung_moves_the_figures(monkeypatch)
     assert len(set(kelvin)) == 1, "the same for both packs: by the hotter one's range"
 
 
-def test_a_choice_that_does_not_hold_is_run_again_a_rung_higher(monkeypatch):
-    r, _ = run(monkeypatch)
-    assert [(c.part, c.rung, c.above, c.holds) for c in r.guard.checks] == [
-        ("washer", "closed", "field", False), ("washer", "field", "fine", True),
-    ]  # fmt: skip
-    assert [c.worst.share for c in r.guard.checks] == pytest.approx([0.1, 0.0])
-    assert r.guard.again == ["run again with washer field"]
-    assert r.scene.parts["washer"].fidelity == "field"
-    torque, speed = (r.signals[f"washer.{name}"] for name in ("friction_torque", "speed"))
-    assert torque[1:] == pytest.approx(7.5e-5 * speed[1:])
-
-
-def test_without_guard_the_choice_stands(monkeypatch):
-    r, _ = run(monkeypatch, guard=False)
-    assert r.guard is None and r.selection is not None
-    assert [c.fidelity for c in r.cost if c.part == "washer"] == ["closed"]
-
-
 def test_a_run_repeats_to_the_bit(monkeypatch):
     a, b = (run(monkeypatch)[0] for _ in range(2))
     assert [c.worst for c in a.guard.checks] == [c.worst for c in b.guard.checks]

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from thrustwasher.drivetrain.macro_steps import Way, masters, scene_of
-from thrustwasher.drivetrain.shift import run_shift
+from thrustwasher.drivetrain.run import run_shift
 from thrustwasher.fidelity.stability_cells import OK, SAYS, SLOW
 from thrustwasher.fmu.direct import DirectInstance
 from thrustwasher.reference.engagement import reduced_inertia

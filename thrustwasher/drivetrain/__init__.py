@@ -1,10 +1,10 @@
 """Scenes, connected instances, masters and what a shift run leaves.
 
 =================  ================================================================================
-``scene``          what is simulated: scenes, their files (``scenes/``) and the wiring
+``scene``          what is simulated: scenes, their files (``scenes/``), connections
 ``cosim``          connected instances and the loop over communication points
 ``masters``        who steps when, with which inputs
-``shift``          ``run_shift``: one run, and the result
+``run``            ``run_shift``: one run, and the result
 ``result``         ``ShiftResult``
 ``key_figures``    events, phases, energy balance and key figures of a run
 ``oscillation``    judder and chatter
@@ -18,10 +18,10 @@
 from .key_figures.events_and_phases import Event, Phase
 from .key_figures.figure_list import FIGURES, KeyFigure
 from .result import Cost, ShiftResult
+from .run import run_shift
 from .scene.fidelity_option import with_fidelities
 from .scene.scene import Part, Published, Scene
 from .scene.scene_file import builtin_scenes, load_scene
-from .shift import run_shift
 from .tolerance.run_to_tolerance import run_auto
 
 __all__ = [

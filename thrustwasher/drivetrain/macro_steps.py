@@ -21,9 +21,10 @@ from ..fidelity.stability_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, t
 from .cosim.instances import Stepping
 from .masters.master import MASTERS
 from .result import ShiftResult
+from .run import run_shift
+from .scene.connections import PACKS
 from .scene.scene import Scene
 from .scene.scene_file import load_scene
-from .shift import run_shift
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
@@ -103,7 +104,7 @@ def scene_of(way: Way, step: float) -> Scene:
         gearbox.params, washers=0, coupling=way.coupling, capacity_extrapolation=way.extrapolation
     )
     parts["transmission"] = replace(gearbox, params=params)
-    for pack in ("clutch", "brake"):
+    for pack in PACKS:
         parts[pack] = replace(parts[pack], fidelity=way.rung)
     return replace(scene, parts=parts)
 
@@ -160,7 +161,7 @@ def study(
     quick : few steps, one repeat
     """
     progress("shift: reference")
-    truth, uncertainty = reference(make, quick=quick)
+    truth, uncertainty = small_step_limit(make, quick=quick)
     samples = []
     for way in WAYS:
         progress(f"shift: {way.name}")
@@ -179,7 +180,9 @@ def knobs(way: Way, quick: bool) -> tuple[float, ...]:
     return QUICK_STEPS if quick else STEPS
 
 
-def reference(make: Make, *, quick: bool = False) -> tuple[dict[str, float], dict[str, float]]:
+def small_step_limit(
+    make: Make, *, quick: bool = False
+) -> tuple[dict[str, float], dict[str, float]]:
     """Return the figures both masters tend to, and how far these limits are apart.
 
     Two steps of each master are extrapolated with first order; the mean of the limits counts.
@@ -273,7 +276,7 @@ def masters(make: Make, *, quick: bool = False) -> Group:
 def _smooth_run(make: Make, master: str, coupling: str, step: float) -> ShiftResult:
     scene = scene_of(Way(master, coupling), step)
     parts = dict(scene.parts)
-    for pack in ("clutch", "brake"):
+    for pack in PACKS:
         smooth = replace(parts[pack].params, speed_smoothing=SMOOTHING)
         parts[pack] = replace(parts[pack], params=smooth)
     scene = replace(scene, parts=parts).with_options(stop_time=STOP)

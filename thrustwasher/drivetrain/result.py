@@ -19,8 +19,8 @@ from .key_figures.figure_list import KeyFigure
 from .masters.master import MASTERS
 from .oscillation.chatter import Chatter
 from .oscillation.judder import Judder
+from .scene.connections import PARTS
 from .scene.scene import Scene
-from .scene.wiring import PARTS
 from .tolerance.selection_record import GuardRecord, Selection
 
 

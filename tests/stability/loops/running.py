@@ -5,7 +5,7 @@ import numpy as np
 from thrustwasher.drivetrain.cosim.loop import PythonLoop, Recorder, Run
 from thrustwasher.drivetrain.cosim.system import ConnectedPart, System
 from thrustwasher.drivetrain.masters.master import MASTERS
-from thrustwasher.drivetrain.scene.wiring import Link
+from thrustwasher.drivetrain.scene.connections import Link
 from thrustwasher.fmu.interface import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 

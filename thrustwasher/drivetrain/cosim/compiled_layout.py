@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError
 from ...kernels._jit import way
-from ..scene.wiring import COMMAND
-from .instances import CCall, has_c_addresses, with_c_addresses
+from ..scene.connections import COMMAND
+from .instances import CCall, capable, has_c_addresses
 from .loop import Run
 from .schedule import Correct, Pull
 from .system import ConnectedPart, renamed
@@ -37,7 +37,7 @@ class Layout:
         self._kinds = {"real": c.REAL, "int32": c.INT32, "int64": c.INT64, "byte": c.BYTE}
         self.run, self.codes = run, c
         self.parts = list(run.system.parts.values())
-        self.addresses = [with_c_addresses(p.instance).machine() for p in self.parts]
+        self.addresses = [capable(p.instance).machine() for p in self.parts]
         room = sum(len(p.input_names) + len(p.output_names) for p in self.parts)
         types = (np.float64, np.int32, np.int64, np.uint8)
         self.buffers: list[NDArray[Any]] = [np.zeros(room, t) for t in types]
@@ -141,7 +141,7 @@ class CompiledLoop:
         c, report = self.layout.codes, self._report
         part, stage = self.layout.stage(int(report[c.AT_OPERATION]) - 1)
         try:
-            with_c_addresses(part.instance).judge(stage, int(report[c.LAST_STATUS]))
+            capable(part.instance).judge(stage, int(report[c.LAST_STATUS]))
         except (ParameterError, SolveError) as problem:
             time = float(self.run.time[report[c.AT_POINT]])
             raise renamed(problem, part.name, time) from problem

@@ -9,7 +9,7 @@ the compiled loop.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol, cast, runtime_checkable
+from typing import Any, Protocol, cast
 
 
 class Stepping(Protocol):
@@ -35,8 +35,38 @@ class Stepping(Protocol):
         """Return all outputs, in the order of ``output_names``."""
 
 
-class WithState(Protocol):
-    """What an instance that saves its state has beside the methods of ``Stepping``."""
+class CCall(Protocol):
+    """A C function that sets or gets the values of one type."""
+
+    function: int
+    """Its address."""
+    references: int
+    """Address of the value references."""
+    places: list[int]
+    """Where the values stand among all inputs or all outputs."""
+    kind: str
+    """C type of a value: "real", "int32", "int64" or "byte"."""
+
+
+class CAddresses(Protocol):
+    """The addresses of an instance."""
+
+    third: bool
+    """True for the calls of FMI 3, False for those of FMI 2."""
+    component: int
+    """The instance, the first argument of every call."""
+    step: int
+    """The function that steps."""
+    setters: Sequence[CCall]
+    """Calls that set all inputs."""
+    getters: Sequence[CCall]
+    """Calls that get all outputs."""
+    said: int
+    """A 64-bit number that is not 0 once the instance has logged something."""
+
+
+class Capable(Stepping, Protocol):
+    """All that an instance may be able to do; ask before: ``saves_state`` and the like."""
 
     def get_state(self) -> Any:
         """Return a handle of the complete state."""
@@ -47,77 +77,16 @@ class WithState(Protocol):
     def free_state(self, state: Any) -> None:
         """Give a state back."""
 
-
-class WithDerivatives(Protocol):
-    """What an instance with directional derivatives has beside the methods of ``Stepping``."""
-
     def directional_derivative(
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
     ) -> list[float]:
         """Return how outputs change along a direction of the inputs, memory held."""
 
-
-@runtime_checkable
-class WithParameters(Protocol):
-    """An instance that tells the values of its variables."""
-
     def get(self, names: Sequence[str]) -> list[float]:
-        """Return variables by name."""
-
-
-class CCall(Protocol):
-    """A C function that sets or gets the values of one type."""
-
-    @property
-    def function(self) -> int:
-        """Address of the function."""
-
-    @property
-    def references(self) -> int:
-        """Address of the value references."""
-
-    @property
-    def places(self) -> list[int]:
-        """Where the values stand among all inputs or all outputs."""
-
-    @property
-    def kind(self) -> str:
-        """C type of a value: "real", "int32", "int64" or "byte"."""
-
-
-class CAddresses(Protocol):
-    """The addresses of an instance."""
-
-    @property
-    def third(self) -> bool:
-        """True for the calls of FMI 3, False for those of FMI 2."""
-
-    @property
-    def component(self) -> int:
-        """Address of the instance, the first argument of every call."""
-
-    @property
-    def step(self) -> int:
-        """Address of the function that steps."""
-
-    @property
-    def setters(self) -> Sequence[CCall]:
-        """Calls that set all inputs."""
-
-    @property
-    def getters(self) -> Sequence[CCall]:
-        """Calls that get all outputs."""
-
-    @property
-    def said(self) -> int:
-        """Address of a 64-bit number that is not 0 once the instance has logged something."""
-
-
-class WithCAddresses(Protocol):
-    """What an instance that the compiled loop can step has beside the methods of ``Stepping``."""
+        """Return variables by name, parameters among them."""
 
     def machine(self) -> CAddresses:
-        """Return the addresses, valid until the instance is closed."""
+        """Return the addresses of the C functions, valid until the instance is closed."""
 
     def judge(self, stage: str, status: int) -> None:
         """Raise what a call with this status means; ``stage``: "set", "step" or "get"."""
@@ -133,16 +102,16 @@ def gives_derivatives(instance: Stepping) -> bool:
     return bool(getattr(instance, "gives_derivatives", False))
 
 
+def tells_values(instance: Stepping) -> bool:
+    """Tell if an instance returns variables by name."""
+    return hasattr(instance, "get")
+
+
 def has_c_addresses(instance: Stepping) -> bool:
     """Tell if an instance gives the addresses of its C functions."""
     return hasattr(instance, "machine") and hasattr(instance, "judge")
 
 
-def with_derivatives(instance: Stepping) -> WithDerivatives:
-    """Return the same instance as one that gives directional derivatives."""
-    return cast(WithDerivatives, instance)
-
-
-def with_c_addresses(instance: Stepping) -> WithCAddresses:
-    """Return the same instance as one that gives the addresses of its C functions."""
-    return cast(WithCAddresses, instance)
+def capable(instance: Stepping) -> Capable:
+    """Return the same instance as one that can do all of it."""
+    return cast(Capable, instance)

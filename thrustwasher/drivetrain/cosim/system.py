@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import cast
 
 from ...errors import ParameterError, SolveError
 from ...models._spec import ModelSpec
-from ..scene.wiring import COMMAND, Link
-from .instances import Stepping, WithState, saves_state
+from ..scene.connections import COMMAND, Link
+from .instances import Capable, Stepping, capable, saves_state
 
 INITIAL_SWEEPS = 4
 
@@ -73,14 +72,14 @@ def renamed(problem: Exception, part: str, time: float) -> SolveError:
     return SolveError(f"{part} at t = {time:g} s: {problem}")
 
 
-def with_state(part: ConnectedPart, master: str) -> WithState:
+def with_state(part: ConnectedPart, master: str) -> Capable:
     """Return a part's instance as one that saves its state; ParameterError if it cannot."""
     if not saves_state(part.instance):
         raise ParameterError(
             f"master = {master!r}: {part.name} cannot save its state, allowed: with parts that can "
             "(canGetAndSetFMUstate); 'gauss-seidel' and 'jacobi' need no state"
         )
-    return cast(WithState, part.instance)
+    return capable(part.instance)
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 =====================  ============================================================================
 ``figure_list``        the key figures there are: name, words, unit
-``figures``            their values
+``key_figures``        their values
 ``part_figures``       those of packs, washer and mesh
 ``events_and_phases``  what happened when
 ``energy_balance``     where the energy went

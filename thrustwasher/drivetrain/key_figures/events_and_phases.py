@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...kernels.clutch_layout import HOT_LIMIT
 from ..oscillation.judder import FEW
+from ..scene.connections import PACKS
 from ..scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -70,7 +71,7 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
             if kind == "brake_locked":
                 when = _standstill(time, signals, int(i))
             found.append(Event(when, kind, text))
-    for pack in ("clutch", "brake"):
+    for pack in PACKS:
         hot = np.flatnonzero(signals[f"{pack}.temperature"] > HOT_LIMIT)
         if len(hot):
             when = float(time[hot[0]])

@@ -1,4 +1,4 @@
-"""The list of key figures: name, what it says, unit. Values come from ``figures``.
+"""The list of key figures: name, what it says, unit. Values come from ``key_figures``.
 
 ``{pack}`` stands for the pack that engages, ``{other}`` for the one that lets go.
 """

@@ -21,10 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError
-from ..cosim.instances import gives_derivatives, saves_state, with_derivatives
+from ..cosim.instances import capable, gives_derivatives, saves_state
 from ..cosim.schedule import Correct, Pull, Schedule, Step
 from ..cosim.system import ConnectedPart, System, with_state
-from ..scene.wiring import SPEED
+from ..scene.connections import SPEED
 
 NAME = "linearly-implicit"
 REFRESH = 20  # steps until S, and torques that do not matter, are looked at again
@@ -133,9 +133,9 @@ class Correction:
         try:
             hub.step(t, h)
             ahead = hub.outputs
-            asked = h, [ahead[k] for k in self._whole]
-            if asked != self._probed or self._age >= REFRESH:
-                self._probed, self._age = asked, 0
+            wanted = h, [ahead[k] for k in self._whole]
+            if wanted != self._probed or self._age >= REFRESH:
+                self._probed, self._age = wanted, 0
                 columns = []
                 for wire in self.wires:
                     instance.set_state(start)
@@ -199,7 +199,7 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
     ParameterError if the instance can do neither.
     """
     if gives_derivatives(part.instance):
-        return with_derivatives(part.instance).directional_derivative([output], [given], [1.0])[0]
+        return capable(part.instance).directional_derivative([output], [given], [1.0])[0]
     if not saves_state(part.instance):
         raise ParameterError(
             f"master = 'linearly-implicit': {part.name} has neither directional derivatives nor a "

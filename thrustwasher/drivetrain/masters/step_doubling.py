@@ -20,7 +20,7 @@ from ...errors import SolveError
 from ..cosim.loop import Recorder, Steps
 from ..cosim.schedule import carry_out, gauss_seidel
 from ..cosim.system import System, with_state
-from ..scene.wiring import SPEED
+from ..scene.connections import SPEED
 
 NAME = "step-doubling"
 LONGEST, SHORTEST = 16.0, 1.0 / 1024.0  # steps, as shares of the first one

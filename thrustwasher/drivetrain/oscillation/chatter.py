@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...reference.torsion import planetary
+from ..scene.connections import PACKS
 from ..scene.scene import Scene
-from .torsion import PACKS
 
 Array = NDArray[np.float64]
 Signals = dict[str, Array]

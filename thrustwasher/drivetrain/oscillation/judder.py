@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..key_figures.figure_list import Found
+from ..scene.connections import PACKS
 from ..scene.scene import Scene
 from .damped_oscillation import Oscillation, fit_oscillation
 from .torsion import (
-    PACKS,
     capacity_slopes,
     damping_limit_of,
     handed_over,
@@ -56,7 +56,7 @@ class Judder:
     amplitude: float
     """[N m] of the shaft torque at its greatest, half of the way from crest to trough."""
     locks: int
-    """How often the pack stuck in the oscillation's course."""
+    """How often the pack stuck meanwhile."""
     slope: float
     """[N m s/rad] of the pack's torque over its slip."""
     damping: float

@@ -21,7 +21,6 @@ from ...models.clutch import prepare
 
 Array = NDArray[np.float64]
 Matrix = NDArray[np.complex128]
-PACKS = ("clutch", "brake")
 HALVINGS = 40
 
 

@@ -4,6 +4,6 @@
 ``scene``            ``Scene`` and its parts, checked
 ``scene_file``       TOML file -> ``Scene``; the built-in ones lie in ``../scenes``
 ``fidelity_option``  which rung of a part is asked for, or which tolerance
-``wiring``           which parts there are, of which models, and who passes what to whom
+``connections``      which parts there are, of which models, and who passes what to whom
 ===================  ==============================================================================
 """

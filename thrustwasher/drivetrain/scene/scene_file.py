@@ -19,9 +19,9 @@ from ...models._params import allowed
 from ...models._spec import ModelSpec
 from ...units import parse_quantity
 from ..key_figures.figure_list import FIGURES
+from .connections import PARTS, REQUIRED
 from .fidelity_option import rung_and_tolerance
 from .scene import STEP_RANGE, TOLERANCE_RANGE, Part, Published, Scene
-from .wiring import PARTS, REQUIRED
 
 # Key -> (unit, least, largest); texts have no unit.
 TEXTS = ("title", "description", "base", "master", "fidelity")

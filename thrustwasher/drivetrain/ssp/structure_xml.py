@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ...models._spec import ModelSpec, Signal
 from ...units import exponents
-from ..scene.wiring import Link
+from ..scene.connections import PLACES, Link
 from .system_structure import Border, Component, Structure
 
 SSP = "http://ssp-standard.org/SSP1/SystemStructure"
@@ -20,11 +20,6 @@ SPACES = {
     "xmlns:ssv": f"{SSP}ParameterValues",
     "xmlns:oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
     "xmlns:osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
-}  # fmt: skip
-# Where the parts are drawn: centre; a part is 40 wide and 30 high.
-PLACES = {
-    "command": (-120.0, 0.0), "transmission": (0.0, 0.0), "clutch": (120.0, 90.0),
-    "brake": (120.0, 30.0), "washer": (120.0, -30.0), "mesh": (120.0, -90.0),
 }  # fmt: skip
 
 

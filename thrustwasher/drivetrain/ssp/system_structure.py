@@ -18,27 +18,13 @@ from ...models import command_params
 from ...models._spec import ModelSpec, Signal
 from ...models._tailored import tailored
 from ..cosim.instances import Stepping
+from ..run import connected
+from ..scene.connections import COMMAND, SHOWN, SOURCE, Link, links
 from ..scene.scene import Part, Scene
-from ..scene.wiring import COMMAND, Link, links
-from ..shift import connected
 
 MASTER = "jacobi"
-SOURCE = "command"  # the part that sends the shift command
 OIL = "oil_temperature"
 Starts = Mapping[str, Mapping[str, float]]
-# What the system shows at its border: part, outputs.
-SHOWN = (
-    ("command", ("command",)),
-    ("transmission", ("engine_speed", "output_speed", "ring_speed", "clutch_speed",
-                      "clutch_reaction", "brake_reaction", "clutch_locked", "brake_locked",
-                      "lock_time", "lock_speed", "clutch_heat", "brake_heat", "washer_heat",
-                      "mesh_heat", "energy_residual", "vehicle_speed",
-                      "shaft_torque")),
-    ("clutch", ("temperature", "film_ratio", "energy")),
-    ("brake", ("temperature", "film_ratio", "energy")),
-    ("washer", ("temperature_max", "film_ratio", "friction_power", "distress")),
-    ("mesh", ("temperature", "film_ratio", "friction_power")),
-)  # fmt: skip
 
 
 class Component(NamedTuple):

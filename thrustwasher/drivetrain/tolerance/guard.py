@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 from ...errors import ParameterError, SolveError, Status
 from ..cosim.instances import Stepping
 from ..result import ShiftResult
+from ..scene.connections import SPEED, WITHOUT_PAST
 from ..scene.scene import Part
-from ..scene.wiring import SPEED
-from .selection import WITHOUT_PAST, above, still_verified
+from .selection import above, still_verified
 from .selection_record import Check, Difference, Scale, Selected
 from .trial_run import Pool
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 from ...errors import ParameterError, SolveError
 from ..masters.master import MASTERS
 from ..result import ShiftResult
+from ..run import Progress, run_shift
 from ..scene.scene import Scene
-from ..shift import Progress, run_shift
 from .guard import check_part
 from .selection import select
 from .selection_record import Check, GuardRecord, Selected, Selection

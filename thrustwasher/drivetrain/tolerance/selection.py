@@ -7,15 +7,14 @@ others the cards decide, over the inputs that the trial runs have seen.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from ...errors import ParameterError, SolveError
 from ...fidelity.choose import Choice, choose
 from ...models._spec import ModelSpec
 from ...store.cards import fresh_cards
+from ..scene.connections import DIRECT, PACKS, QUANTITIES, WITHOUT_PAST
 from ..scene.scene import Part, Scene
 from .selection_record import Box, Scale, Selected
-from .trial_run import DIRECT, TrialRuns, farthest, finest_of
+from .trial_run import TrialRuns, farthest, finest_of
 
 # Of the tolerance asked for the rungs have this share; the step has 0.3, the rest is spare. A
 # torque that is judged by itself has all of it: it follows from the inputs of the moment.
@@ -23,14 +22,6 @@ MODEL_SHARE = 0.6
 SAFETY = 1.5  # on the cards' errors where no guard checks what lies between their points
 FLOOR = 0.1  # of the scene's range: below it differences count as if the value were this large
 LEAST_RISE = 1.0  # K; a temperature that hardly moves is not compared more closely
-# Models whose outputs follow from the inputs of the moment; a pack has a past: film, temperature.
-WITHOUT_PAST = ("washer", "gearmesh")
-# What a part is judged by: quantity of its cards, output that the guard compares.
-QUANTITIES: Mapping[str, tuple[tuple[str, str], ...]] = {
-    "washer": (("friction_torque", "friction_torque"),),
-    "clutch": (("friction_torque", "torque_capacity"), ("temperature", "temperature")),
-    "gearmesh": (("friction_torque", "friction_torque"),),
-}
 
 
 def select(scene: Scene, trials: TrialRuns, steps: int, guarded: bool = True) -> list[Selected]:
@@ -46,10 +37,10 @@ def select(scene: Scene, trials: TrialRuns, steps: int, guarded: bool = True) ->
     ------
     SolveError : no rung of a part holds its tolerance; the best one is named
     """
-    asked = {name: part for name, part in scene.parts.items() if part.tolerance}
+    open_ = {name: part for name, part in scene.parts.items() if part.tolerance}
     return [
         _by_trial(name, part, trials) or _by_cards(name, part, trials, steps, guarded)
-        for name, part in asked.items()
+        for name, part in open_.items()
     ]
 
 
@@ -151,7 +142,7 @@ def _choose(
 def _scale(part: str, output: str, quantity: str, trials: TrialRuns) -> Scale:
     low, high = trials.seen(part, output)
     if quantity == "temperature":  # of the hotter pack: what a scene is judged by
-        ranges = [trials.seen(pack, output) for pack in ("clutch", "brake")]
+        ranges = [trials.seen(pack, output) for pack in PACKS]
         return Scale(output, max(LEAST_RISE, *(b - a for a, b in ranges)), relative=False)
     return Scale(output, FLOOR * max(abs(low), abs(high)) or 1e-12)
 

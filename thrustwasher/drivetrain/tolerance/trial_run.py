@@ -19,12 +19,12 @@ import numpy as np
 from ...models._spec import ModelSpec
 from ..cosim.instances import Stepping
 from ..result import ShiftResult
+from ..run import run_shift
+from ..scene.connections import DIRECT
 from ..scene.scene import Part, Scene
-from ..shift import run_shift
 from .selection_record import Box, StepShare
 
 CHEAP = ("stribeck", "closed")  # what a trial run takes, the first that a part has
-DIRECT = ("washer",)  # parts whose own torque is judged, beside what it does to the shift
 MARGIN = 0.2  # of the width of the box, added on each side
 STRIDE, LEAST_STEPS = 4, 100  # a trial's steps are as many times as long; at least so many steps
 ORDER = 1.0  # taken for all figures: steps of packs couple with 2, of parts that drag with 1

@@ -10,20 +10,20 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from ..models._params import as_numbers
-from .cosim.instances import Stepping, WithParameters
+from .cosim.instances import Stepping, capable, tells_values
 from .cosim.loop import Loop, PythonLoop, Recorder, Run, Steps
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, System
 from .key_figures.energy_balance import energy_balance
 from .key_figures.events_and_phases import find_events, find_phases
-from .key_figures.figures import key_figures
+from .key_figures.key_figures import key_figures
 from .masters.master import MASTERS
 from .masters.step_doubling import Doubling
 from .oscillation.chatter import find_chatter
 from .oscillation.judder import find_judder
 from .result import Cost, ShiftResult
+from .scene.connections import PACK_INPUTS, links
 from .scene.scene import Part, Scene
-from .scene.wiring import PACK_INPUTS, links
 from .thermal_need import thermal_need
 
 Progress = Callable[[int, int], None]
@@ -229,10 +229,10 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
     """
     for name, part in scene.parts.items():
         instance = instances[name]
-        if not isinstance(instance, WithParameters):
+        if not tells_values(instance):
             continue
         wanted = _numbers(part)
-        found = instance.get(list(wanted))
+        found = capable(instance).get(list(wanted))
         for key, has in zip(wanted, found, strict=True):
             if has != wanted[key]:
                 raise ParameterError(

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from .html import Section, Table
-from .rungs import Check, Rungs
+from .shift_record import Record
 
 
-def rung_sections(rungs: Rungs | None) -> list[Section]:
+def rung_sections(record: Record) -> list[Section]:
     """Return the section on rungs, if any were chosen."""
-    if rungs is None:
+    chosen, guard = record.selection, record.guard
+    if chosen is None:
         return []
     texts = [
-        *rungs.reasons,
+        *chosen.words(),
         "Trial runs with cheap rungs and long steps found the inputs to choose for; they took "
-        f"{1e3 * rungs.trial_seconds:.3g} ms.",
+        f"{1e3 * chosen.trial_seconds:.3g} ms.",
     ]
-    if not rungs.checks:
+    if guard is None:
         texts.append("The choice was not checked after the run.")
         return [Section(anchor="rungs", title="Rungs", texts=texts)]
     texts.append(
@@ -23,23 +26,22 @@ def rung_sections(rungs: Rungs | None) -> list[Section]:
         "and solved the rung above at recorded points: those with the extremes, those after "
         "changes of regime, and others spread over the run."
     )
-    if rungs.again:
-        texts += [f"{text[0].upper()}{text[1:]}." for text in rungs.again]
-        texts.append(f"The earlier runs took {1e3 * rungs.earlier_seconds:.3g} ms.")
-    else:
-        texts.append("Nothing had to be run again.")
-    for check in rungs.checks:
+    again = [*guard.again, *([guard.stopped] if guard.stopped else [])]
+    texts += [f"{text[0].upper()}{text[1:]}." for text in again] or ["Nothing had to run again."]
+    if guard.again:
+        texts.append(f"The earlier runs took {1e3 * guard.earlier_seconds:.3g} ms.")
+    for check in guard.checks:
         if check.outside:
             texts.append(f"{check.part}, {check.rung}: {check.outside}.")
         texts += [f"{check.part}: {check.above} gave no solution {text}" for text in check.failed]
-    tables = [_check_table(rungs.checks)]
+    tables = [_check_table(guard.checks)]
     return [Section(anchor="rungs", title="Rungs and their check", texts=texts, tables=tables)]
 
 
-def _check_table(checks: list[Check]) -> Table:
+def _check_table(checks: list[Any]) -> Table:
     """Return a row per check, in the order they were made."""
     rows = [
-        (c.part, c.rung, c.above, str(c.points), str(len(c.failed)), f"{100.0 * c.worst:.3g}",
+        (c.part, c.rung, c.above, str(c.points), str(len(c.failed)), f"{100.0 * c.worst.share:.3g}",
          f"{100.0 * c.tolerance:.3g}", "yes" if c.holds else "no", f"{1e3 * c.seconds:.2f}")
         for c in checks
     ]  # fmt: skip

@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .rungs import Rungs, rungs_of
-
 Array = np.ndarray[Any, Any]
 PACKS = ("clutch", "brake")
 
@@ -114,7 +112,10 @@ class Record:
     """How the output shaft swings (``drivetrain.oscillation.judder.Judder``); None: not at all."""
     chatter: Sequence[Any] = ()
     """Packs whose slip flips from step to step (``drivetrain.oscillation.chatter.Chatter``)."""
-    rungs: Rungs | None = None
+    selection: Any = None
+    """Why the rungs are what they are (``drivetrain.tolerance``); None: they were named."""
+    guard: Any = None
+    """How they were checked after the run, and what was run again; None: they were not."""
     steps: Steps | None = None
     """None: all as long as ``step``."""
 
@@ -197,7 +198,8 @@ def record_of(result: Any) -> Record:
         messages=result.messages,
         judder=result.judder,
         chatter=result.chatter,
-        rungs=rungs_of(result),
+        selection=result.selection,
+        guard=result.guard,
         steps=_steps(result.steps),
     )
 

@@ -3,8 +3,8 @@
 python benchmarks/shift.py [--tolerance 0.01] [--scene planetary] [--repeats 9] [--converged]
 
 Native FMUs through FMPy, one process, one thread; medians over repeats, quartiles in brackets. The
-time of a run is that of its communication steps with the guard's looks; scout runs and choice stand
-apart, because they are made once for a scene, and so do building, loading and the first solve.
+time of a run is that of its communication steps; trial runs, choice and check stand apart, because
+they are made once for a scene, and so do building, loading and the first solve.
 ``--converged`` also runs the finest rung of every part at an eighth of the step, which takes
 minutes: the truth that both runs are compared with. Counts need no machine.
 """
@@ -99,10 +99,10 @@ def compare(run: ShiftResult, others: dict[str, ShiftResult]) -> None:
 
 
 def calls(r: ShiftResult) -> str:
-    """Return the calls of each part and rung, looks included."""
-    looks = sum(p.checks + p.failed for p in r.guard.posts) if r.guard else 0
+    """Return the calls of each part and rung, and the points of the check."""
+    points = sum(c.points + len(c.failed) for c in r.guard.checks) if r.guard else 0
     counted = [f"{c.part} {c.fidelity} {c.steps}" for c in r.cost]
-    return ", ".join([*counted, f"looks {looks}"])
+    return ", ".join([*counted, f"points of the check {points}"])
 
 
 def converged(scene: Scene) -> ShiftResult:
@@ -131,10 +131,11 @@ def main() -> None:
     print(*(quick[-1].selection.words() if quick[-1].selection else []), sep="\n")
     print(f"\ndefault rungs: {said(times[0])}; {calls(slow[-1])}")
     print(f"at {given.tolerance:g}: {said(times[1])}, {ratio:.1f} times faster; {calls(quick[-1])}")
-    scouts = [r.selection.scout_seconds for r in quick if r.selection]
-    print(f"with scouts and choice: {said(whole)}, of which scouts {said(scouts)}")
+    trials = [r.selection.trial_seconds for r in quick if r.selection]
+    print(f"with trial runs, choice and check: {said(whole)}, of which trial runs {said(trials)}")
     if quick[-1].guard:
-        print(f"guard: {quick[-1].guard.closing()}\n")
+        checks = [r.guard.seconds for r in quick if r.guard]
+        print(f"guard, {said(checks)}: {quick[-1].guard.closing()}\n")
     others = {"default rungs, off by": slow[-1]}
     if given.converged:
         others["converged, off by"] = converged(default)

@@ -15,9 +15,7 @@ FILE_LINES, FUNCTION_LINES, KERNEL_LINES = 400, 50, 120
 # What is over the guidance today, in lines. A number may fall, never rise; a new entry needs a
 # reason beside it.
 LONG_FILES: dict[str, int] = {}
-LONG_FUNCTIONS: dict[str, int] = {
-    "drivetrain/shift.py:run_shift": 81,  # the loop and what is made of it, read from the top
-}
+LONG_FUNCTIONS: dict[str, int] = {}
 
 
 def sources():

@@ -154,6 +154,16 @@ def test_a_tolerance_is_answered_with_a_rung_and_its_reason_for_every_part(tmp_p
     assert 'id="rungs"' in page
 
 
+def test_json_says_what_was_checked_how_far_off_it_was_and_what_ran_again(capsys):
+    words = ["shift", "--step", "4 ms", "--no-report", "--json", "--fidelity", "auto:0.05"]
+    assert main(words) == 0
+    told = json.loads(capsys.readouterr().out)["guard"]
+    assert [c["part"] for c in told["checks"]] == ["washer"] and told["run_again"] == []
+    (check,) = told["checks"]
+    assert check["holds"] and 20 <= check["points"] <= 40 and check["failed"] == []
+    assert 0.0 < check["worst"]["share"] < check["tolerance"] == 0.05
+
+
 @pytest.mark.parametrize(
     ("wish", "told"),
     [("auto:9", "auto:TOLERANCE"), ("map=field", "no part 'map'"), ("quick", "'quick', allowed")],

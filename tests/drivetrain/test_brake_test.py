@@ -7,7 +7,7 @@ import pytest
 from scene_runs import shift
 
 from thrustwasher.drivetrain import load_scene
-from thrustwasher.drivetrain.pack_figures import area_of, radius_of
+from thrustwasher.drivetrain.key_figures.part_figures import area_of, radius_of
 from thrustwasher.errors import ParameterError
 
 SCENES = {"brake-test": 30.0, "brake-test-sample": 0.036}

@@ -7,7 +7,7 @@ import pytest
 from scene_runs import NO_DRAG, instances
 
 from thrustwasher.drivetrain import load_scene, run_shift
-from thrustwasher.drivetrain.pack_figures import radius_of
+from thrustwasher.drivetrain.key_figures.part_figures import radius_of
 
 
 @pytest.fixture(scope="module")

@@ -7,9 +7,9 @@ import pytest
 from scene_runs import shift, slow_without_jit
 
 from thrustwasher.drivetrain import load_scene
-from thrustwasher.drivetrain.master import MASTERS
-from thrustwasher.drivetrain.pack_slope import capacity_slopes
-from thrustwasher.drivetrain.torsion import (
+from thrustwasher.drivetrain.masters.master import MASTERS
+from thrustwasher.drivetrain.oscillation.torsion import (
+    capacity_slopes,
     damping_limit_of,
     handed_over,
     matrix,

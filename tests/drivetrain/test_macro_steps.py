@@ -13,7 +13,7 @@ NAMES = ("lock_time", "slip_energy", "peak_temperature")
 
 @pytest.fixture(scope="module")
 def limit():
-    return macro_steps.reference(instances, quick=True)
+    return macro_steps.small_step_limit(instances, quick=True)
 
 
 def errors(way, step, limit):

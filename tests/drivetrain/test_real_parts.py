@@ -38,6 +38,8 @@ def test_the_book_closes_and_coupling_is_tight():
     assert e["coupling_difference_share"] <= 1e-3
     assert e["brake_coupling_difference_share"] <= 1e-3
     assert min(e[name] for name in ("clutch", "brake", "washers", "meshes")) > 0.0
+    parts = ("kinetic", "load_work", "clutch", "brake", "washers", "meshes")
+    assert sum(e[n] for n in parts) + e["residual"] == pytest.approx(e["engine_work"], rel=1e-12)
 
 
 def test_halving_the_step_changes_little():

@@ -90,17 +90,6 @@ def test_a_part_that_fails_is_named_with_the_time():
         run_shift(scene, parts)
 
 
-def test_a_missing_or_outdated_instance_is_named():
-    scene = load_scene("planetary").with_options(stop_time=0.05)
-    parts = instances(scene)
-    parts["washer"].output_names = ["friction_torque"]
-    with pytest.raises(ParameterError, match=r"washer: the instance has the outputs .* build it"):
-        run_shift(scene, parts)
-    del parts["washer"]
-    with pytest.raises(ParameterError, match="instances: washer missing"):
-        run_shift(scene, parts)
-
-
 def test_a_step_that_does_not_divide_the_time_is_adapted_and_said():
     r = shift("msl", stop_time=0.1, step=3e-3)
     assert len(r.time) == 34 and r.time[-1] == pytest.approx(0.1, rel=1e-15)

@@ -8,7 +8,9 @@ from scene_runs import instances as direct_instances
 from scene_runs import slow_without_jit
 from ssp_master import NS, components, connections, description, run, values
 
-from thrustwasher.drivetrain import builtin_scenes, load_scene, run_shift, ssp
+from thrustwasher.drivetrain import builtin_scenes, load_scene, run_shift
+from thrustwasher.drivetrain.ssp.package import files
+from thrustwasher.drivetrain.ssp.system_structure import plan, prepared, start_values
 from thrustwasher.fmu import archive
 from thrustwasher.fmu.direct import DirectInstance
 
@@ -17,11 +19,11 @@ FIGURES = ("lock_time", "lock_speed", "clutch_heat", "brake_heat", "engine_speed
 
 
 def planned(name, starts=None):
-    return ssp.plan(ssp.prepared(load_scene(name)), starts or {})
+    return plan(prepared(load_scene(name)), starts or {})
 
 
 def packed(system):
-    return archive.pack(ssp.files(system, tool="thrustwasher", date="2026-01-01T00:00:00Z"))
+    return archive.pack(files(system, tool="thrustwasher", date="2026-01-01T00:00:00Z"))
 
 
 def schema(name):
@@ -36,7 +38,7 @@ def schema(name):
 def test_the_description_is_valid(name, file):
     from lxml import etree
 
-    made = ssp.files(planned(name), tool="thrustwasher", date="2026-01-01T00:00:00Z")
+    made = files(planned(name), tool="thrustwasher", date="2026-01-01T00:00:00Z")
     root = etree.fromstring(made[file])
     whole, inline = (schema(f"SystemStructure{n}.xsd") for n in ("Description", "ParameterValues"))
     assert whole.validate(root), whole.error_log
@@ -49,7 +51,7 @@ def test_the_description_is_valid(name, file):
 
 @pytest.mark.parametrize("name", SCENES)
 def test_every_parameter_of_the_scene_stands_in_the_package(name):
-    scene = ssp.prepared(load_scene(name))
+    scene = prepared(load_scene(name))
     found = components(description(packed(planned(name))))
     assert set(found) == {"command", *scene.parts}
     for part, given in scene.parts.items():
@@ -108,7 +110,7 @@ def test_defaults_of_the_parts_are_the_scenes(name):
 
 
 def test_the_page_names_parts_step_and_delay():
-    page = ssp.files(planned("planetary"), tool="thrustwasher 9", date="2026-01-01T00:00:00Z")
+    page = files(planned("planetary"), tool="thrustwasher 9", date="2026-01-01T00:00:00Z")
     text = page["documentation/index.html"].decode()
     for word in ("0.001 s", "torque_age", "WetClutch", "washer_temperature_max", "Parts.ssd"):
         assert word in text
@@ -125,8 +127,8 @@ def test_the_package_has_the_same_bytes_for_the_same_scene():
 )
 def test_another_master_runs_the_same_shift(name):
     """Only what stands in the package is used: defaults, connections, start values."""
-    scene = ssp.prepared(load_scene(name))
-    system = ssp.plan(scene, ssp.start_values(scene, direct_instances(scene)))
+    scene = prepared(load_scene(name))
+    system = plan(scene, start_values(scene, direct_instances(scene)))
     root = description(packed(system))
     rows = run(root, {part.name: DirectInstance(part.spec) for part in system.components})
     own = run_shift(scene, direct_instances(scene)).signals

@@ -9,9 +9,8 @@ from built import built_fmu
 from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
-from thrustwasher.drivetrain import load_scene, run_shift, shift, with_fidelities
-from thrustwasher.drivetrain.guard_plan import Plan, Scale
-from thrustwasher.drivetrain.scene import Part
+from thrustwasher.drivetrain import load_scene, run_shift
+from thrustwasher.drivetrain.scene.scene import Part
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.native import link
@@ -148,35 +147,13 @@ def test_a_failure_is_told_as_by_the_python_loop(fmus, force, kind, text):
 
 
 def test_a_warning_does_not_stop_a_run_and_is_kept(fmus, monkeypatch):
-    monkeypatch.setattr(shift, "key_figures", lambda *_: [])  # a toy has none
+    monkeypatch.setattr("thrustwasher.drivetrain.run.key_figures", lambda *_: [])  # a toy has none
     scene = with_toy(8000.0, heat_capacity=1.0)
     (slow, told), (quick, retold) = (run(scene, fmus, compiled) for compiled in (False, True))
     assert same(slow, quick)
     assert max(quick.signals["clutch.solver_status"]) > 0.0
     assert len(told["clutch"].warnings) == 1
     assert retold["clutch"].warnings == told["clutch"].warnings
-
-
-def watched(fmus, compiled, tolerance):
-    """Run under guard: the clutch without heat, its moving film above."""
-    scene = with_fidelities(planetary(), ["clutch=boundary"])
-    upper = replace(scene.parts["clutch"], fidelity="field")
-    with Instance(fmus["WetClutch"], parameters=upper.parameters()) as field:
-        plan = Plan(base="boundary", above="field", instance=field, tolerance=tolerance,
-                    scales=[Scale("torque_capacity", 1.0)], every=(7, 2))  # fmt: skip
-        return run(scene, fmus, compiled, guards={"clutch": plan})[0]
-
-
-@pytest.mark.parametrize("tolerance", [0.01, 1e9])
-def test_a_guarded_run_is_equal_to_the_bit_too(fmus, tolerance):
-    slow, quick = (watched(fmus, compiled, tolerance) for compiled in (False, True))
-    assert same(slow, quick)
-    assert quick.guard.switches == slow.guard.switches
-    assert len(quick.guard.switches) == (tolerance < 1.0)
-    assert quick.guard.posts[0].checks == slow.guard.posts[0].checks > 3
-    assert [(c.part, c.fidelity, c.steps) for c in quick.cost] == [
-        (c.part, c.fidelity, c.steps) for c in slow.cost
-    ]
 
 
 def test_progress_is_told_to_the_end(fmus):

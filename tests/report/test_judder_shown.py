@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from shift_stand_in import record
 
-from thrustwasher.drivetrain.judder import Judder
+from thrustwasher.drivetrain.oscillation.judder import Judder
 from thrustwasher.report import summary
 from thrustwasher.report.judder import judder_text, judder_words
 from thrustwasher.report.shift_plots import judder_figure

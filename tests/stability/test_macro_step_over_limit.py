@@ -12,9 +12,8 @@ Cure: the default coupling hands over capacities, which know no c: ten times the
 import numpy as np
 import pytest
 
-from thrustwasher.drivetrain.macro_steps import Way, scene_of
-from thrustwasher.drivetrain.shift import run_shift
-from thrustwasher.drivetrain.stability_masters import masters
+from thrustwasher.drivetrain.macro_steps import Way, masters, scene_of
+from thrustwasher.drivetrain.run import run_shift
 from thrustwasher.fidelity.stability_cells import OK, SAYS, SLOW
 from thrustwasher.fmu.direct import DirectInstance
 from thrustwasher.reference.engagement import reduced_inertia

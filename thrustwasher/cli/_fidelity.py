@@ -44,10 +44,10 @@ def rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -
     """
     if asked in spec.fidelities:
         return asked
-    from ..drivetrain.asked import asked_for
+    from ..drivetrain.scene.fidelity_option import rung_and_tolerance
     from ..fidelity.choose import choose
 
-    _, tolerance = asked_for(spec.key, spec, asked)
+    _, tolerance = rung_and_tolerance(spec.key, spec, asked)
     choice = choose(spec.key, dict(point), tol=float(tolerance or 0.0), params=params)
     _output.note(str(choice))
     return choice.fidelity

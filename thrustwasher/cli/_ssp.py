@@ -47,17 +47,19 @@ def export(arguments: argparse.Namespace, scene: Any) -> int:
 
 def _contents(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
-    from ..drivetrain import ssp
+    from ..drivetrain.ssp.package import files
+    from ..drivetrain.ssp.system_structure import plan, prepared, start_values
     from ..fmu.build import pack_native
     from ..fmu.registry import package_version
     from ..fmu.xml_parts import generation_date
-    from .shift import loaded
+    from ._fmu_cache import fmu_instances
 
-    scene = ssp.prepared(scene)
-    with loaded(scene, "native") as instances:
-        system = ssp.plan(scene, ssp.start_values(scene, instances))
+    scene = prepared(scene)
+    with fmu_instances(scene, "native") as make:
+        instances = {name: make(name, part) for name, part in scene.parts.items()}
+        system = plan(scene, start_values(scene, instances))
     tool = f"thrustwasher {package_version()}"
-    found = ssp.files(system, tool=tool, date=generation_date())
+    found = files(system, tool=tool, date=generation_date())
     for part in system.components:
         found[part.source] = pack_native(part.spec, platforms=platforms, note=_output.note)
     return found

@@ -91,7 +91,7 @@ def _stability_alone(arguments: argparse.Namespace) -> int:
 
 def _stability(*, quick: bool) -> dict[str, Any]:
     """Return the stability map with the masters of the driveline, and the limits of coupling."""
-    from ..drivetrain.stability_masters import masters
+    from ..drivetrain.macro_steps import masters
     from ..fidelity.stability import stability
     from ..fidelity.stability_limits import as_rows, limits
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -46,11 +44,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fidelity", metavar="[PART=]RUNG", action="append", default=[],
         help="a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "
-        "the cheapest that holds 1 %% and guards it; may be repeated",
+        "the cheapest that holds 1 %% and checks it after the run; may be repeated",
     )  # fmt: skip
     parser.add_argument(
-        "--no-guard", action="store_true", help="with auto: do not watch the run, keep the choice"
-    )
+        "--no-guard", action="store_true",
+        help="with auto: do not check the choice after the run, keep it",
+    )  # fmt: skip
     parser.add_argument(
         "--fmu", choices=["native", "python"],
         help="kind of FMU; default native, or python if nothing here compiles",
@@ -121,32 +120,10 @@ def _say(result: Any, folder: Path | None) -> None:
 def _simulate(scene: Any, target: str, guard: bool) -> Any:
     """Return the finished shift; the FMUs are built, loaded and freed here."""
     from ..drivetrain import run_auto
+    from ._fmu_cache import fmu_instances
 
-    with _loader(scene, target) as make:
+    with fmu_instances(scene, target) as make:
         return run_auto(scene, make, guard=guard, progress=progress_bar(scene.name))
-
-
-@contextmanager
-def loaded(scene: Any, target: str) -> Iterator[dict[str, Any]]:
-    """Give an FMU instance for every part of a scene."""
-    with _loader(scene, target) as make:
-        yield {name: make(name, part) for name, part in scene.parts.items()}
-
-
-@contextmanager
-def _loader(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
-    """Give a function that makes an FMU instance of a part; all are freed in the end."""
-    from ..fmu.stepper import Instance
-    from ._fmu_cache import fmu_paths
-
-    paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
-    with ExitStack() as alive:
-
-        def make(name: str, part: Any) -> Any:
-            path = paths[part.spec.name]
-            return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
-
-        yield make
 
 
 def _write(result: Any, folder: Path) -> None:

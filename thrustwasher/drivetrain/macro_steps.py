@@ -1,8 +1,9 @@
-"""Error of a shift against its cost, over macro step or tolerance, master, coupling and rung.
+"""Error of a shift against its cost, and where masters fail: over step, master, coupling and rung.
 
 The shift is the built-in ``planetary`` without washers and gear mesh: what is judged is how the
-packs and the driveline are coupled. Quantities that a shift does not forget: heat of the clutch,
-time of lock-up, peak temperature.
+packs and the driveline are coupled. ``study`` holds every way to couple them against its limit of
+small steps, in quantities that a shift does not forget: heat of the clutch, time of lock-up, peak
+temperature. ``masters`` judges the package's own masters as other methods are judged.
 """
 
 from __future__ import annotations
@@ -10,17 +11,20 @@ from __future__ import annotations
 import statistics
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError
-from .master import MASTERS
+from ..fidelity.stability_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+from .cosim.instances import Stepping
+from .masters.master import MASTERS
 from .result import ShiftResult
-from .scene import Scene
-from .scene_file import load_scene
-from .shift import run_shift
-from .system import Stepping
+from .run import run_shift
+from .scene.connections import PACKS
+from .scene.scene import Scene
+from .scene.scene_file import load_scene
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
@@ -35,6 +39,20 @@ QUANTITIES: tuple[dict[str, Any], ...] = (
     {"name": "lock_time", "kind": "absolute", "unit": "s", "floor": None},
     {"name": "peak_temperature", "kind": "absolute", "unit": "K", "floor": None},
 )
+# Of ``masters``: what is wrong, and what is tried.
+WRONG_HEAT = 0.02
+MANY_STEPS = 10  # of the master for each that was asked for
+SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
+STOP, LOCKED = 1.1, 0.70  # s
+TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4  # of masters
+HAZARDS = {
+    "capacity, 1 ms": ("capacity", 1e-3),
+    "capacity, 5 ms": ("capacity", 5e-3),
+    "capacity, 10 ms": ("capacity", 1e-2),
+    "torque, 0.2 ms": ("torque", 2e-4),
+    "torque, 2 ms": ("torque", 2e-3),
+    "torque, 10 ms": ("torque", 1e-2),
+}
 Make = Callable[[Scene], Mapping[str, Stepping]]
 
 
@@ -86,7 +104,7 @@ def scene_of(way: Way, step: float) -> Scene:
         gearbox.params, washers=0, coupling=way.coupling, capacity_extrapolation=way.extrapolation
     )
     parts["transmission"] = replace(gearbox, params=params)
-    for pack in ("clutch", "brake"):
+    for pack in PACKS:
         parts[pack] = replace(parts[pack], fidelity=way.rung)
     return replace(scene, parts=parts)
 
@@ -122,9 +140,14 @@ def complaint(result: ShiftResult, found: Mapping[str, float]) -> str:
         return "does not lock"
     slip, time = result.signals["transmission.clutch_speed"], result.time
     after = slip[time > found["lock_time"]]
-    moving = np.sign(after[np.abs(after) > 1e-3])
-    turns = int(np.count_nonzero(np.diff(moving)))
+    turns = turns_of(after)
     return f"chatters: the slip turns round {turns} times" if turns > MOST_TURNS else ""
+
+
+def turns_of(slip: Any) -> int:
+    """Return how often a slip changes its sign."""
+    moving = np.sign(slip[np.abs(slip) > 1e-3])
+    return int(np.count_nonzero(np.diff(moving)))
 
 
 def study(
@@ -138,7 +161,7 @@ def study(
     quick : few steps, one repeat
     """
     progress("shift: reference")
-    truth, uncertainty = reference(make, quick=quick)
+    truth, uncertainty = small_step_limit(make, quick=quick)
     samples = []
     for way in WAYS:
         progress(f"shift: {way.name}")
@@ -157,7 +180,9 @@ def knobs(way: Way, quick: bool) -> tuple[float, ...]:
     return QUICK_STEPS if quick else STEPS
 
 
-def reference(make: Make, *, quick: bool = False) -> tuple[dict[str, float], dict[str, float]]:
+def small_step_limit(
+    make: Make, *, quick: bool = False
+) -> tuple[dict[str, float], dict[str, float]]:
     """Return the figures both masters tend to, and how far these limits are apart.
 
     Two steps of each master are extrapolated with first order; the mean of the limits counts.
@@ -225,3 +250,56 @@ def sample(
         "failures": failures, "is_rival": False, "slowest_call_s": None, "slowest_case": None,
         "build_s": 0.0,
     }  # fmt: skip
+
+
+def masters(make: Make, *, quick: bool = False) -> Group:
+    """Judge every master and coupling of the default shift by the clutch's heat and chatter.
+
+    ``make`` gives an instance for each part of a scene. Washers and gear mesh are left out. Each
+    coupling is held against its own limit of small steps: smoothed friction is another model.
+    ``quick``: that limit is taken from longer steps.
+    """
+
+    @cache
+    def true_heat(coupling: str) -> float:
+        step = QUICK_TRUE_STEP if quick else TRUE_STEP
+        return _heat(_smooth_run(make, "gauss-seidel", coupling, step))
+
+    def judge(master: str, hazard: tuple[str, float]) -> Cell:
+        return _judged(_smooth_run(make, master, *hazard), true_heat(hazard[0]))
+
+    named = {f"master {name}": name for name in MASTERS}
+    judged = f"clutch's heat off by more than {100 * WRONG_HEAT:g} %, or chatter"
+    return table("the default shift", judged, named, HAZARDS, judge)
+
+
+def _smooth_run(make: Make, master: str, coupling: str, step: float) -> ShiftResult:
+    scene = scene_of(Way(master, coupling), step)
+    parts = dict(scene.parts)
+    for pack in PACKS:
+        smooth = replace(parts[pack].params, speed_smoothing=SMOOTHING)
+        parts[pack] = replace(parts[pack], params=smooth)
+    scene = replace(scene, parts=parts).with_options(stop_time=STOP)
+    return run_shift(scene, make(scene))
+
+
+def _heat(result: ShiftResult) -> float:
+    return figures(result)["slip_energy"]
+
+
+def _judged(result: ShiftResult, true: float) -> Cell:
+    """Look at the heat, at the slip after lock-up, and at what the run says itself."""
+    error = _heat(result) / true - 1.0
+    slip = result.signals["transmission.clutch_speed"][result.time > LOCKED]
+    turns = turns_of(slip)
+    right = abs(error) <= WRONG_HEAT
+    if right and turns <= MOST_TURNS:
+        taken = len(result.time) - 1
+        slow = taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step
+        words = f"{taken} steps, heat off by {100 * abs(error):.2g} %"
+        if slow:
+            return Cell(SLOW, f"{taken} steps", words)
+        return Cell(OK, f"{100 * abs(error):.2f} %", words)
+    words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)
+    figure = off(error) if not right else "chatters"
+    return Cell(SAYS if words else LIES, figure, words or f"{turns} turns after lock-up")

@@ -1,4 +1,4 @@
-"""What a shift run leaves: time series, events, energy book, key figures, cost."""
+"""What a shift run leaves: time series, events, energy balance, key figures, cost."""
 
 from __future__ import annotations
 
@@ -7,37 +7,21 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
-from .chatter import Chatter
-from .figure_list import KeyFigure
-from .guard_plan import GuardLog
-from .judder import Judder
-from .master import MASTERS
-from .parts import PARTS
-from .scene import Scene
-from .selection_record import Selection
-from .steps import Steps
-
-
-class Event(NamedTuple):
-    """Something that happened at one time [s]."""
-
-    time: float
-    kind: str
-    text: str
-
-
-class Phase(NamedTuple):
-    """A stretch of the shift [s]."""
-
-    name: str
-    start: float
-    end: float
+from .cosim.loop import Steps
+from .key_figures.events_and_phases import Event, Phase
+from .key_figures.figure_list import KeyFigure
+from .masters.master import MASTERS
+from .oscillation.chatter import Chatter
+from .oscillation.judder import Judder
+from .scene.connections import PARTS
+from .scene.scene import Scene
+from .tolerance.selection_record import GuardRecord, Selection
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,8 +65,8 @@ class ShiftResult:
     real_time_factor: float
     """Simulated time over wall-clock time."""
     messages: list[str]
-    guard: GuardLog | None = None
-    """What the guard saw and did; None: there was none."""
+    guard: GuardRecord | None = None
+    """How the chosen rungs were checked afterwards, and what was run again; None: they were not."""
     judder: Judder | None = None
     """How the output shaft swings while a pack slips; None: it is rigid or does not swing."""
     chatter: Sequence[Chatter] = ()

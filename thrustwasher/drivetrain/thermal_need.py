@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from ..models.washer_params import WasherParams
 from ..reference.heat_times import stack_times
-from .scene import Scene
+from .scene.scene import Scene
 
-SLOW = 5.0  # a course that takes so many of the slowest time constants is followed by steady states
+SLOW = 5.0  # a change that takes so many of the slowest time constants is followed by steady states
 MIDDLE = (0.1, 0.9)  # share of all change of power that counts
 
 
@@ -46,14 +46,14 @@ def thermal_need(
     span = f"the washer's bodies settle within {quickest:.2g} .. {slowest:.2g} s"
     if not np.isfinite(change):
         return f"{span}; its friction power does not change: steady temperatures are right"
-    course = f"{span}, its friction power changes within {change:.2g} s"
+    stretch = f"{span}, its friction power changes within {change:.2g} s"
     if change < SLOW * slowest:
         if transient:
-            return f"{course}: thermal_mode transient is needed here, and it ran"
+            return f"{stretch}: thermal_mode transient is needed here, and it ran"
         return (
-            f"{course}: its temperatures here are those of steady states, an upper bound while it "
+            f"{stretch}: its temperatures here are those of steady states, an upper bound while it "
             'warms up; [washer] thermal_mode = "transient" follows them'
         )
     if transient:
-        return f"{course}: thermal_mode quasi_steady would do here, and costs less"
-    return f"{course}: steady temperatures are right"
+        return f"{stretch}: thermal_mode quasi_steady would do here, and costs less"
+    return f"{stretch}: steady temperatures are right"

@@ -110,7 +110,9 @@ CALLED: dict[str, tuple[str, ...]] = {
         "kernels.command_step.derive",
         "kernels.command_step.step",
     ),
-    "drivetrain.compiled_loop": ("drivetrain.compiled_loop.run_program operations bounds rows",),
+    "drivetrain.cosim.compiled_loop": (
+        "drivetrain.cosim.compiled_loop.run_operations operations rows",
+    ),
 }
 
 

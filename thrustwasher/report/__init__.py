@@ -7,7 +7,7 @@
 ``clutch_plot``    friction of a pack against slip speed
 ``fit_plot``       measured friction, the law fitted to it, residuals
 ``gearmesh_plot``  temperatures and stress factors of a gear mesh over its teeth
-``shift_record``   what the report needs from a finished shift; ``rungs``: of its rungs
+``shift_record``   what the report needs from a finished shift
 ``panel_base``     what panels over time share: lines, phases, events
 ``panels``         single panels over time: speeds, torques, temperatures
 ``film_panels``, ``energy_panels``, ``stress_panels``, ``friction_panels``, ``judder_panels``: more

@@ -1,92 +1,53 @@
-"""The report's section on rungs: which ran when, why, and what the guard saw."""
+"""The report's section on rungs: which ran, why, how far off they were and what was run again."""
 
 from __future__ import annotations
 
-from matplotlib.figure import Figure
+from typing import Any
 
-from .html import Plot, Section, Table
-from .rungs import Rungs
-from .style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, beside, label, styled, time_figure
-
-COLOURS = {"closed": GREY, "boundary": PURPLE, "stribeck": GREEN, "map": SKY, "field": BLUE,
-           "fine": ORANGE}  # fmt: skip
-REASONS = {
-    "outside": "not verified at the coming inputs",
-    "difference": "too far from the rung above",
-    "calm": "ten looks running without a difference",
-}
+from .html import Section, Table
+from .shift_record import Record
 
 
-def rung_sections(rungs: Rungs | None, wall_time: float) -> list[Section]:
-    """Return the section on rungs, if any were chosen or watched."""
-    if rungs is None:
+def rung_sections(record: Record) -> list[Section]:
+    """Return the section on rungs, if any were chosen."""
+    chosen, guard = record.selection, record.guard
+    if chosen is None:
         return []
-    texts = list(rungs.reasons)
-    if rungs.scout_seconds:
-        texts.append(
-            f"Two scout runs with cheap rungs and long steps found the inputs to choose for; "
-            f"they took {1e3 * rungs.scout_seconds:.3g} ms."
-        )
-    if not rungs.watched:
-        texts.append("No guard: the choice was not watched while the shift ran.")
+    texts = [
+        *chosen.words(),
+        "Trial runs with cheap rungs and long steps found the inputs to choose for; they took "
+        f"{1e3 * chosen.trial_seconds:.3g} ms.",
+    ]
+    if guard is None:
+        texts.append("The choice was not checked after the run.")
         return [Section(anchor="rungs", title="Rungs", texts=texts)]
-    texts.append(f"{rungs.closing}.")
-    plot = Plot(
-        file="rungs", figure=rung_figure(rungs),
-        caption="Which rung served when. It changes at a communication point, and in the step that "
-        "follows the outputs of both are mixed.",
-    )  # fmt: skip
-    tables = [_watched_table(rungs, wall_time)]
-    if rungs.changes:
-        tables.append(_change_table(rungs))
-    return [Section(anchor="rungs", title="Rungs and their guard", texts=texts, plots=[plot],
-                    tables=tables)]  # fmt: skip
+    texts.append(
+        "After the run the guard compared its inputs with those that the rungs were chosen for, "
+        "and solved the rung above at recorded points: those with the extremes, those after "
+        "changes of regime, and others spread over the run."
+    )
+    again = [*guard.again, *([guard.stopped] if guard.stopped else [])]
+    texts += [f"{text[0].upper()}{text[1:]}." for text in again] or ["Nothing had to run again."]
+    if guard.again:
+        texts.append(f"The earlier runs took {1e3 * guard.earlier_seconds:.3g} ms.")
+    for check in guard.checks:
+        if check.outside:
+            texts.append(f"{check.part}, {check.rung}: {check.outside}.")
+        texts += [f"{check.part}: {check.above} gave no solution {text}" for text in check.failed]
+    tables = [_check_table(guard.checks)]
+    return [Section(anchor="rungs", title="Rungs and their check", texts=texts, tables=tables)]
 
 
-@styled
-def rung_figure(rungs: Rungs) -> Figure:
-    """Return a bar per part, coloured by the rung that served."""
-    parts = [w.part for w in rungs.watched]
-    figure, (axis,) = time_figure(0.9 + 0.4 * len(parts))
-    named: set[str] = set()
-    for s in rungs.stretches:
-        name = None if s.rung in named else s.rung
-        named.add(s.rung)
-        colour = COLOURS.get(s.rung, GREY)
-        axis.barh(parts.index(s.part), s.end - s.start, left=s.start, height=0.6, color=colour,
-                  label=name)  # fmt: skip
-    axis.set_yticks(range(len(parts)), parts)
-    axis.set_ylim(len(parts) - 0.5, -0.5)
-    axis.set_xlim(min(s.start for s in rungs.stretches), max(s.end for s in rungs.stretches))
-    label(axis, "The rung that served", "", "")
-    beside(axis)
-    return figure
-
-
-def _watched_table(rungs: Rungs, wall_time: float) -> Table:
+def _check_table(checks: list[Any]) -> Table:
+    """Return a row per check, in the order they were made."""
     rows = [
-        (w.part, w.base, w.above, str(w.checks), f"{100.0 * w.worst:.3g}",
-         f"{100.0 * w.tolerance:.3g}", f"{1e3 * w.seconds:.2f}",
-         f"{100.0 * w.seconds / wall_time:.1f}")
-        for w in rungs.watched
+        (c.part, c.rung, c.above, str(c.points), str(len(c.failed)), f"{100.0 * c.worst.share:.3g}",
+         f"{100.0 * c.tolerance:.3g}", "yes" if c.holds else "no", f"{1e3 * c.seconds:.2f}")
+        for c in checks
     ]  # fmt: skip
     return Table(
-        heads=("", "chosen", "compared with", "looks", "worst difference [%]", "allowed [%]",
-               "time of looks [ms]", "of the run [%]"),
+        heads=("", "rung", "compared with", "points", "without solution", "worst difference [%]",
+               "allowed [%]", "holds", "time [ms]"),
         rows=rows,
-        numbers=(3, 4, 5, 6, 7),
-    )  # fmt: skip
-
-
-def _change_table(rungs: Rungs) -> Table:
-    rows = [
-        (f"{c.time:.4g}", c.part, c.before, c.after, REASONS.get(c.reason, c.reason), c.output,
-         f"{c.served:.6g}", f"{c.other:.6g}")
-        for c in rungs.changes
-    ]  # fmt: skip
-    return Table(
-        heads=("at time [s]", "part", "from", "to", "why", "output", "in the rung before",
-               "in the other"),
-        rows=rows,
-        numbers=(0, 6, 7),
+        numbers=(3, 4, 5, 6, 8),
     )  # fmt: skip

@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .rungs import Rungs, rungs_of
-
 Array = np.ndarray[Any, Any]
 PACKS = ("clutch", "brake")
 
@@ -111,14 +109,15 @@ class Record:
     wall_time: float
     messages: Sequence[str] = ()
     judder: Any = None
-    """How the output shaft swings (``drivetrain.judder.Judder``); None: not at all."""
+    """How the output shaft swings (``drivetrain.oscillation.judder.Judder``); None: not at all."""
     chatter: Sequence[Any] = ()
-    """Packs whose slip flips from step to step (``drivetrain.chatter.Chatter``)."""
-    rungs: Rungs | None = None
+    """Packs whose slip flips from step to step (``drivetrain.oscillation.chatter.Chatter``)."""
+    selection: Any = None
+    """Why the rungs are what they are (``drivetrain.tolerance``); None: they were named."""
+    guard: Any = None
+    """How they were checked after the run, and what was run again; None: they were not."""
     steps: Steps | None = None
     """None: all as long as ``step``."""
-    looks: float = 0.0
-    """[s] of wall clock for the guard's looks."""
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -199,9 +198,9 @@ def record_of(result: Any) -> Record:
         messages=result.messages,
         judder=result.judder,
         chatter=result.chatter,
-        rungs=rungs_of(result),
+        selection=result.selection,
+        guard=result.guard,
         steps=_steps(result.steps),
-        looks=result.guard.seconds if result.guard else 0.0,
     )
 
 

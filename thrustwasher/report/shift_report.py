@@ -45,7 +45,7 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
             caption="Integrated by the driveline itself inside its steps.",
         )]),
         Section(anchor="key-figures", title="Key figures", tables=[tables.key_table(record)]),
-        *rung_sections(record.rungs, record.wall_time),
+        *rung_sections(record),
         _cost_section(record),
         Section(
             anchor="parameters", title="What was simulated",

@@ -94,15 +94,12 @@ def published_table(record: Record) -> Table:
 def cost_table(record: Record) -> Table:
     """Return what each FMU took, and the rest."""
     used = sum(cost.steps for cost in record.costs)
-    rest = max(record.wall_time - used - record.looks, 0.0)
+    rest = max(record.wall_time - used, 0.0)
     rows = [
         (c.name, c.fidelity, _ms(c.instantiate), _ms(c.initialize), str(c.calls), _ms(c.steps),
          _us(c.steps, c.calls), _percent(c.steps, record.wall_time))
         for c in record.costs
     ]  # fmt: skip
-    if record.looks:
-        rows.append(("guard, its looks", "", "", "", "", _ms(record.looks), "",
-                     _percent(record.looks, record.wall_time)))  # fmt: skip
     rows.append(
         ("master, the rest", "", "", "", "", _ms(rest), "", _percent(rest, record.wall_time))
     )

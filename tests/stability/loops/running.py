@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from thrustwasher.drivetrain.loop import PythonLoop, Run
-from thrustwasher.drivetrain.master import MASTERS
-from thrustwasher.drivetrain.parts import Link
-from thrustwasher.drivetrain.recorder import Recorder
-from thrustwasher.drivetrain.system import ConnectedPart, System
+from thrustwasher.drivetrain.cosim.loop import PythonLoop, Recorder, Run
+from thrustwasher.drivetrain.cosim.system import ConnectedPart, System
+from thrustwasher.drivetrain.masters.master import MASTERS
+from thrustwasher.drivetrain.scene.connections import Link
 from thrustwasher.fmu.interface import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 

@@ -1,0 +1,121 @@
+"""The loop over communication points, in Python; any instance can be stepped so."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .schedule import Schedule, carry_out
+from .system import ConnectedPart, System
+
+
+class Recorder:
+    """Inputs and outputs of all parts: a row per point, each part's inputs before its outputs."""
+
+    def __init__(self, system: System, n: int) -> None:
+        self.parts = list(system.parts.values())
+        self.first: dict[str, int] = {}
+        width = 0
+        for part in self.parts:
+            self.first[part.name] = width
+            width += len(part.input_names) + len(part.output_names)
+        self.rows: NDArray[np.float64] = np.empty((n, width))
+
+    def keep(self, i: int) -> None:
+        """Copy the present values to row ``i``."""
+        row, at = self.rows[i], 0
+        for part in self.parts:
+            for values in (part.inputs, part.outputs):
+                row[at : at + len(values)] = values
+                at += len(values)
+
+    def make_room(self, i: int) -> None:
+        """See to it that there is a row ``i``, for runs whose points are not known beforehand."""
+        if i >= len(self.rows):
+            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
+
+    def give_back(self, row: NDArray[np.float64]) -> None:
+        """Let the parts have the values of a row for their present ones."""
+        values, at = row.tolist(), 0
+        for part in self.parts:
+            between = at + len(part.input_names)
+            end = between + len(part.output_names)
+            part.inputs, part.outputs, at = values[at:between], values[between:end], end
+
+    def input_place(self, part: ConnectedPart, slot: int) -> int:
+        """Return the column of an input."""
+        return self.first[part.name] + slot
+
+    def output_place(self, part: ConnectedPart, slot: int) -> int:
+        """Return the column of an output."""
+        return self.first[part.name] + len(part.input_names) + slot
+
+    def signals(self) -> dict[str, NDArray[np.float64]]:
+        """Return the columns by name."""
+        names = [
+            f"{part.name}.{name}" for part in self.parts
+            for name in (*part.input_names, *part.output_names)
+        ]  # fmt: skip
+        return {name: self.rows[:, i] for i, name in enumerate(names)}
+
+
+class Steps(NamedTuple):
+    """Communication steps taken and rolled back, and the lengths [s] of those taken."""
+
+    accepted: int
+    rejected: int
+    shortest: float
+    longest: float
+    located: int
+    """Events that became communication points."""
+    forced: int
+    """Steps of the least length that were taken although they err more than the tolerance."""
+
+    def words(self) -> list[str]:
+        """Say what a reader has to know."""
+        if not self.forced:
+            return []
+        return [
+            f"{self.forced} steps of the least length err more than master_tolerance; something "
+            "jumps there"
+        ]
+
+
+class Run(NamedTuple):
+    """What a loop works on."""
+
+    system: System
+    schedule: Schedule
+    time: NDArray[np.float64]
+    h: float
+    commands: NDArray[np.float64]
+    """The shift command at each time."""
+    recorder: Recorder
+
+
+class Loop(Protocol):
+    """A way to carry a run from one communication point to another."""
+
+    def advance(self, i: int, stop: int) -> None:
+        """Step from point ``i`` to point ``stop`` and record every point on the way.
+
+        ParameterError or SolveError names the part and the time where it failed.
+        """
+
+
+class PythonLoop:
+    """Steps the parts one call after another."""
+
+    def __init__(self, run: Run) -> None:
+        self.run = run
+
+    def advance(self, i: int, stop: int) -> None:
+        """Step from point ``i`` to point ``stop``."""
+        system, schedule, time, h, commands, recorder = self.run
+        for k in range(i, stop):
+            t = float(time[k])
+            system.set_command(float(commands[k + 1]))
+            carry_out(schedule, t, h)
+            recorder.keep(k + 1)

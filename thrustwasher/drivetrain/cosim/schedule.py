@@ -1,0 +1,64 @@
+"""What a master does in a communication step: a list of actions, the same in every step."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+from .system import ConnectedPart, System
+
+
+class Pull(NamedTuple):
+    """A part takes its inputs over from the last outputs of the other parts."""
+
+    part: ConnectedPart
+
+
+class Change(Protocol):
+    """Changes the present inputs of a part before it steps."""
+
+    def __call__(self, t: float, h: float) -> None:
+        """Change them for the step from ``t`` to ``t + h``."""
+
+    def words(self) -> list[str]:
+        """Say what a reader of the run has to know."""
+
+
+class Correct(NamedTuple):
+    """The inputs of a part are changed before it steps."""
+
+    part: ConnectedPart
+    change: Change
+
+
+class Step(NamedTuple):
+    """A part advances with its present inputs."""
+
+    part: ConnectedPart
+
+
+Schedule = list[Pull | Correct | Step]
+
+
+def gauss_seidel(system: System) -> Schedule:
+    """Return the sequential schedule: friction parts, then the transmission with fresh torques."""
+    return [
+        action for part in (*system.friction_parts, system.transmission)
+        for action in (Pull(part), Step(part))
+    ]  # fmt: skip
+
+
+def jacobi(system: System) -> Schedule:
+    """Return the parallel schedule: all parts step with the outputs of the last point."""
+    parts = list(system.parts.values())
+    return [*map(Pull, parts), *map(Step, parts)]
+
+
+def carry_out(schedule: Schedule, t: float, h: float) -> None:
+    """Do what a schedule says for the step from ``t`` to ``t + h``."""
+    for action in schedule:
+        if isinstance(action, Step):
+            action.part.step(t, h)
+        elif isinstance(action, Pull):
+            action.part.pull()
+        else:
+            action.change(t, h)

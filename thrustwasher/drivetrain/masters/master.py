@@ -1,0 +1,44 @@
+"""Co-simulation masters: who steps when, with which inputs.
+
+A master is a function that returns the schedule of one communication step. A new one is such a
+function and a line in ``MASTERS``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from ..cosim import schedule
+from ..cosim.schedule import Schedule
+from ..cosim.system import System
+from . import linearly_implicit, step_doubling
+
+
+class Master(NamedTuple):
+    """One way to step a system."""
+
+    schedule: Callable[[System], Schedule]
+    torque_age: int
+    """How many steps the torques that the transmission receives are old."""
+    help: str
+    adaptive: bool = False
+    """It chooses its steps itself; communication points then lie anywhere."""
+
+
+MASTERS: dict[str, Master] = {
+    "gauss-seidel": Master(
+        schedule.gauss_seidel, 0, "friction parts first, the transmission with fresh torques"
+    ),
+    "jacobi": Master(
+        schedule.jacobi, 1, "all parts step at once with the inputs of the last point"
+    ),
+    linearly_implicit.NAME: Master(
+        linearly_implicit.schedule, 0,
+        "as gauss-seidel, torques corrected to the end of the step by their derivatives",
+    ),
+    step_doubling.NAME: Master(
+        schedule.gauss_seidel, 0,
+        "as gauss-seidel, steps as long as master_tolerance allows, with rollback", adaptive=True,
+    ),
+}  # fmt: skip

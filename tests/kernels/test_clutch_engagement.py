@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from thrustwasher import ClutchParams, ParameterError, engage_clutch
 from thrustwasher.kernels import clutch_layout as k
 from thrustwasher.kernels.clutch_friction import shear_thinned, sheared_share
-from thrustwasher.kernels.clutch_rates import pack_rates
+from thrustwasher.kernels.clutch_rates import pack_slopes
 from thrustwasher.reference.heated_plate import insulated_plate_rise, semi_infinite_rise
 from thrustwasher.reference.squeeze_film import pumped_flow, squeeze_group, squeeze_time
 
@@ -290,10 +290,10 @@ def test_the_slopes_are_those_of_the_rates(params, u, load):
     """Central differences of film rate and power over film ratio and temperature."""
     pack = Pack(**params)
     slip, temperature, d = 200.0, 320.0, 1e-5
-    rates = pack_rates(pack.par, load, slip, u, temperature)
+    rates = pack_slopes(pack.par, load, slip, u, temperature)[0]
     for (du, dt), places in (((d, 0.0), (1, 4)), ((0.0, 1e2 * d), (2, 5))):
-        up = pack_rates(pack.par, load, slip, u + du, temperature + dt)
-        down = pack_rates(pack.par, load, slip, u - du, temperature - dt)
+        up = pack_slopes(pack.par, load, slip, u + du, temperature + dt)[0]
+        down = pack_slopes(pack.par, load, slip, u - du, temperature - dt)[0]
         for value, place in zip((0, 3), places, strict=True):
             slope = (up[value] - down[value]) / (2.0 * (du + dt))
             scale = abs(rates[value]) * 1e-3

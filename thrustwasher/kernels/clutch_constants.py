@@ -3,16 +3,13 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import clutch_layout as L
-from ._jit import kernel
+from ._jit import Array, kernel
 from .boundary import ploughing
 from .lining import pressure_scale
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 from .squeeze import squeeze_group
-
-Array = NDArray[np.float64]
 
 
 @kernel
@@ -91,7 +88,7 @@ def derive_rings(par: Array, n: int) -> None:
     ri, ro = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
     scale = par[L.D_RADIUS] * 3.0 * (ro + ri) / (2.0 * (ro * ro + ro * ri + ri * ri))
     still = (ro - ri) * (ro + ri) / (2.0 * math.log(ro / ri))
-    par[L.D_RINGS] = float(n)
+    par[L.D_RINGS], par[L.D_FIRST] = float(n), float(L.D_BLOCKS)
     total = 0.0
     for k in range(n):
         ring = par[L.D_BLOCKS + k * L.N_PACK : L.D_BLOCKS + (k + 1) * L.N_PACK]
@@ -127,7 +124,7 @@ def derive(par: Array) -> int:
     derive_friction(par)
     derive_film(par)
     derive_heat(par)
-    par[L.D_RINGS] = 0.0
+    par[L.D_RINGS], par[L.D_FIRST], par[L.D_SQUEEZE] = 1.0, 0.0, 1.0
     if par[L.P_FIDELITY] == L.FINE:
         derive_rings(par, L.N_RINGS)
     for i in range(L.N_PARAM, L.NPAR):

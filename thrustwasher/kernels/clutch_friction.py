@@ -4,16 +4,14 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import clutch_layout as L
-from ._jit import kernel
+from ._jit import Array, kernel
 from .boundary import shear_and_slope
 from .film import INV_SQRT2PI, mean_gap
 from .lining_table import area_integrals, contact_integral, separation_and_slope
 from .roelands import viscosity
 
-Array = NDArray[np.float64]
 FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
 
 

@@ -1,14 +1,13 @@
 """Rules between the clutch's parameters: which of them, taken together, describe no pack."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import clutch_layout as L
-from ._jit import kernel
+from ._jit import Array, kernel
 
 
 @kernel
-def broken_rule(par: NDArray[np.float64]) -> int:
+def broken_rule(par: Array) -> int:
     """Return the number, from 1, of the first rule the parameters break; 0 if they keep all.
 
     Every parameter lies in its own range. The numbers are places in the model's list of texts.

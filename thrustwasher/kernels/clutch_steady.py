@@ -1,17 +1,13 @@
 # mypy: disable-error-code="no-any-return"
 """A pack that slips at constant load and speed for ever: the temperature where cooling wins."""
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import clutch_layout as L
-from ._jit import kernel
+from ._jit import Array, kernel
 from .clutch_constants import derive
 from .clutch_friction import coefficient_of, contact_torque, viscous_torque
 
 __all__ = ["derive", "steady_temperature", "steady_torques"]
 
-Array = NDArray[np.float64]
 MAX_STEPS = 200
 
 

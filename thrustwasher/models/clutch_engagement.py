@@ -15,7 +15,7 @@ from ._course import course_of, rising
 from ._params import check_number
 from ._spec import REGIMES
 from .clutch import prepare
-from .clutch_course import Lumped, Rings
+from .clutch_course import PackCourse
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
 
 __all__ = ["Engagement", "engage_clutch"]
@@ -100,7 +100,7 @@ def engage_clutch(
     slips = course_of("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
     par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
-    pack = (Rings if fidelity == "fine" else Lumped)(par, forces[0], oil)
+    pack = PackCourse(par, forces[0], oil)
     for i in range(len(points)):
         if i and pack.status == k.OK:
             course = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)

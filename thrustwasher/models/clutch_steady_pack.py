@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from ..kernels import clutch_friction, clutch_layout, clutch_rings, clutch_steady
+from ..kernels import clutch_friction, clutch_layout, clutch_rates, clutch_steady
 
 
 class SteadyPack(NamedTuple):
@@ -26,10 +26,10 @@ def steady_pack(par: Any, load: float, slip: float, oil: float, ratio: float) ->
         return _part(par, load, slip, oil, ratio)
     shares, parts = [], []
     for k in range(int(par[clutch_layout.D_RINGS])):
-        ring = clutch_rings.ring_of(par, k)
+        ring = clutch_rates.ring_of(par, k)
         shares.append(float(ring[clutch_layout.D_AREA] / par[clutch_layout.D_AREA]))
         parts.append(_part(ring, load * shares[-1], slip, oil, ratio))
-    levers = [s * float(clutch_rings.ring_of(par, k)[clutch_layout.D_RADIUS])
+    levers = [s * float(clutch_rates.ring_of(par, k)[clutch_layout.D_RADIUS])
               for k, s in enumerate(shares)]  # fmt: skip
 
     def mean(name: str, weights: list[float]) -> float:

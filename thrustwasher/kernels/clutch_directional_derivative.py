@@ -9,18 +9,16 @@ there the present inputs also end the stretch since the last step, and its chang
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import clutch_layout as L
-from ._jit import kernel
-from .clutch_follow import engage_and_follow, follow
-from .clutch_friction import coefficient_slopes, settled_slope
-from .clutch_point import fill_outputs, load_memory, moves_film, settle
-from .clutch_stage import surface_temperature
+from ._jit import Array, kernel
+from .clutch_advance import integrate, is_integrated, load_memory, settle, settle_film
+from .clutch_friction import coefficient_slopes
+from .clutch_outputs import fill_outputs, ring_outputs
+from .clutch_rates import n_unknowns, surfaces
+from .clutch_rosenbrock_derivatives import follow
 from .corners import sign_of
 from .heating import exponential_weights
-
-Array = NDArray[np.float64]
 
 
 @kernel
@@ -32,7 +30,7 @@ def heat_of_a_ramp(par: Array, inp: Array, state: Array, seed: Array) -> float:
     load, slip, modes = inp[L.I_LOAD], inp[L.I_SPEED], int(par[L.D_MODES])
     temperature, rise = state[L.S_HEAT], 0.0
     for i in range(modes):
-        temperature += state[np.uintp(L.S_MODES + i)]
+        temperature += state[np.uintp(L.S_HEAT + 1 + i)]
     for i in range(modes + 1):
         _, _, second = exponential_weights(par[np.uintp(L.D_DECAY + i)] * state[L.S_DURATION])
         rise += par[np.uintp(L.D_GAIN + i)] * second * state[L.S_DURATION]
@@ -72,35 +70,41 @@ def followed(
 ) -> tuple[float, float, int]:
     """Return changes of film ratio and interface [K] over the stretch since the last step; status.
 
-    Leaves in ``work`` what a step of dt = 0 leaves there; ``scratch`` is as long as the outputs.
+    Leaves in ``work`` what a step of dt = 0 leaves there, the changes of rings' interfaces in
+    W_SURFACE_CHANGE; ``scratch`` is as long as the outputs.
     """
     load, slip, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
     course = (state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil)
     duration = state[L.S_DURATION]
     status = L.OK
-    if moves_film(par):
+    if is_integrated(par):
+        n = n_unknowns(par)
         status = load_memory(par, load, oil, state, work)
         change = (seed[L.I_LOAD], seed[L.I_SPEED], seed[L.I_OIL])
         if work[L.W_DURATION] == 0.0 and work[L.W_SUBSTEPS] == 1.0:
             # the stretch was one substep, still as it was: W_NOW is its start again, for a while
-            for i in range(L.NY):
+            for i in range(n):
                 work[np.uintp(L.W_VARIED + i)] = 0.0
             follow(par, course, change, 0.0, 1.0, duration, work)
-            for i in range(L.NY):
+            for i in range(n):
                 work[np.uintp(L.W_NOW + i)] = work[np.uintp(L.W_TRIAL + i)]
+            status = max(status, settle_film(par, load, work))
         else:
-            status = engage_and_follow(par, course, change, duration, state[L.S_SUBSTEP], work)
-            fill_outputs(par, load, slip, work, scratch)
-        return work[L.W_VARIED + L.Y_FILM], surface_temperature(par, work, L.W_VARIED), status
+            first = state[L.S_SUBSTEP]
+            status = integrate(par, course, change, duration, first, True, work)
+            status = max(status, settle_film(par, load, work))
+            if par[L.P_FIDELITY] != L.FINE:
+                fill_outputs(par, load, slip, work, scratch)
+        surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
+        film = work[np.uintp(L.W_VARIED + L.Y_FILM)] + work[L.W_SETTLED_LOAD] * seed[L.I_LOAD]
+        return film, work[L.W_SURFACE_CHANGE], status
     if work[L.W_DURATION] != 0.0:
         status = load_memory(par, load, oil, state, work)
         if status == L.OK:
             status = settle(par, course, duration, state[L.S_POWER], work)
         if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
             work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
-        _, work[L.W_SETTLED_LOAD], _, _ = settled_slope(
-            par, load, work[np.uintp(L.W_NOW + L.Y_FILM)]
-        )
+        settle_film(par, load, work)
         fill_outputs(par, load, slip, work, scratch)
     film = work[L.W_SETTLED_LOAD] * seed[L.I_LOAD]
     if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
@@ -109,22 +113,12 @@ def followed(
 
 
 @kernel
-def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
-    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
-
-    ``work`` is as the last successful step with these inputs left it. At zero slip what depends on
-    the size of the slip alone counts as flat there; at other corners the side counts that the
-    point is on. Returns 0 or the status of a failure.
-    """
-    slip = inp[L.I_SPEED]
-    load_change, slip_change, oil_change = seed[L.I_LOAD], seed[L.I_SPEED], seed[L.I_OIL]
-    started = state[L.S_STARTED] != 0.0
-    follows_oil = par[L.P_FIDELITY] == L.BOUNDARY_ONLY or not started
-    film, heat = work[L.W_SETTLED_LOAD] * load_change, oil_change if follows_oil else 0.0
-    status = L.OK
-    if started and par[L.P_INPUT_COURSE] == L.LINEAR_COURSE:
-        film, heat, status = followed(par, inp, state, work, seed, dout)
-    dry, wet, capacity = torque_change(par, slip, load_change, slip_change, film, heat, work)
+def lumped_change(
+    par: Array, inp: Array, seed: Array, film: float, heat: float, work: Array, dout: Array
+) -> None:
+    """Fill the change of a lumped pack's outputs; ``film``, ``heat``: as in torque_change."""
+    slip, slip_change = inp[L.I_SPEED], seed[L.I_SPEED]
+    dry, wet, capacity = torque_change(par, slip, seed[L.I_LOAD], slip_change, film, heat, work)
     torque = math.copysign(work[L.W_VISCOUS], slip) + work[L.W_CONTACT] * work[L.W_SMOOTH]
     dout[L.O_TORQUE], dout[L.O_CONTACT_TORQUE], dout[L.O_VISCOUS_TORQUE] = dry + wet, dry, wet
     dout[L.O_CAPACITY] = capacity
@@ -136,7 +130,36 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     dout[L.O_FILM], dout[L.O_RATIO] = film * par[L.P_ROUGHNESS], film
     dout[L.O_CONTACT_SHARE] = work[L.W_SHARE_FILM] * film
     dout[L.O_VISCOSITY] = work[L.W_VISCOSITY_HEAT] * heat
-    dout[L.O_TEMPERATURE] = oil_change if follows_oil else 0.0
+
+
+@kernel
+def directional_derivative(
+    par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array
+) -> int:
+    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
+
+    ``work`` is as the last successful step with these inputs left it. At zero slip what depends on
+    the size of the slip alone counts as flat there; at other corners the side counts that the
+    point is on. Returns 0 or the status of a failure.
+    """
+    started = state[L.S_STARTED] != 0.0
+    follows_oil = par[L.P_FIDELITY] == L.BOUNDARY_ONLY or not started
+    heat = seed[L.I_OIL] if follows_oil else 0.0
+    film = work[L.W_SETTLED_LOAD] * seed[L.I_LOAD]
+    status = L.OK
+    for k in range(int(par[L.D_RINGS])):
+        work[np.uintp(L.W_SURFACE_CHANGE + k)] = heat
+    if started and par[L.P_INPUT_COURSE] == L.LINEAR_COURSE:
+        film, heat, status = followed(par, inp, state, work, seed, dout)
+    if par[L.P_FIDELITY] == L.FINE:
+        surfaces(par, work, L.W_NOW, L.W_SURFACE)
+        point = (inp[L.I_LOAD], inp[L.I_SPEED], work[np.uintp(L.W_NOW + L.Y_FILM)])
+        scratch = work[L.W_VARIED : L.W_VARIED + L.NOUT]
+        change = (seed[L.I_LOAD], seed[L.I_SPEED], film)
+        ring_outputs(par, point, change, work, scratch, dout)
+    else:
+        lumped_change(par, inp, seed, film, heat, work, dout)
+    dout[L.O_TEMPERATURE] = seed[L.I_OIL] if follows_oil else 0.0
     dout[L.O_ENERGY] = 0.0
     if status == L.OK:
         for i in range(L.NOUT):

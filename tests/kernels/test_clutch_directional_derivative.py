@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import clutch_follow, clutch_integrate
 from thrustwasher.kernels import clutch_layout as L
+from thrustwasher.kernels import clutch_rosenbrock, clutch_rosenbrock_derivatives
 from thrustwasher.kernels import clutch_step as k
-from thrustwasher.kernels.clutch_point import load_memory
+from thrustwasher.kernels.clutch_advance import load_memory
+from thrustwasher.kernels.clutch_rates import n_unknowns
 from thrustwasher.models.clutch import prepare
 from thrustwasher.models.clutch_params import FRICTION_LAWS, SPEC, ClutchParams
 
@@ -126,19 +127,22 @@ def passed(unit, point, sizes, seed):
     work[L.W_VARIED : L.W_VARIED + L.NY] = 0.0
     done = 0.0
     for share in sizes:
-        clutch_integrate._substep(par, course, done, share, state[L.S_DURATION], work)
-        clutch_follow.follow(par, course, seed, done, share, state[L.S_DURATION], work)
+        clutch_rosenbrock.substep(par, course, done, share, state[L.S_DURATION], work)
+        clutch_rosenbrock_derivatives.follow(
+            par, course, seed, done, share, state[L.S_DURATION], work
+        )
         work[: L.NY] = work[L.W_TRIAL : L.W_TRIAL + L.NY]
         done += share
-    counted = [L.Y_FILM, *range(L.Y_HEAT, L.Y_HEAT + 1 + int(par[L.D_MODES]))]
+    counted = [L.Y_FILM, *range(L.Y_HEAT, n_unknowns(par))]
     return work[counted], work[L.W_VARIED + np.array(counted)]
 
 
+@pytest.mark.parametrize("rung", ["field", "fine"])
 @pytest.mark.parametrize("sizes", [(1.0,), (0.5, 0.5), (0.02, 0.12, 0.3, 0.56), (0.1,) * 10])
-def test_a_moving_film_is_followed_through_any_substeps(sizes):
+def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
     rng = np.random.default_rng(8)
     for _ in range(5):
-        unit = random_pack(rng, ["field"], input_course="linear", film_dynamics=True)
+        unit = random_pack(rng, [rung], input_course="linear", film_dynamics=True)
         point, scale = engaging(unit, rng)
         for seed in np.diag(scale):
             _, found = passed(unit, point, sizes, tuple(seed.tolist()))
@@ -161,7 +165,7 @@ def test_a_pack_that_opens_at_another_instant_is_another_pack():
     point, place = np.array([3.0, 50.0, 330.0]), NAMES.index("film_ratio")
     found = unit.gradient(point)[place, 0]
     wanted = differences(unit, point, [1.0, 1.0, 1.0], 1.5)[place, 0]
-    tolerance = clutch_integrate.TOLERANCE_FILM * (1.0 + unit.step(point)[place])
+    tolerance = clutch_rosenbrock.TOLERANCE_FILM * (1.0 + unit.step(point)[place])
     assert abs(found - wanted) * 3.0 < 4.0 * tolerance < 0.01 * abs(3.0 * found)
 
 

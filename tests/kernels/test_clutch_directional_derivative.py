@@ -233,7 +233,7 @@ def test_slipping_backwards_is_the_mirror_image():
 
 def test_a_settled_film_gives_way_as_the_asperities_say():
     """F_5/2 of the film ratio is in proportion to the load."""
-    from thrustwasher.kernels.lining_table import contact_integral
+    from thrustwasher.kernels.greenwood_tripp import contact_integral
 
     unit = pack("stribeck")
     ratio = unit.step([5e3, 10.0, 320.0])[NAMES.index("film_ratio")]

@@ -11,7 +11,8 @@ from .clutch_friction import coefficient_of, settled_ratio, settled_slope
 from .clutch_rates import moves_film, n_unknowns, surfaces
 from .clutch_rosenbrock import Course, attempt
 from .clutch_rosenbrock_derivatives import Change, follow
-from .heating import exponential_weights
+from .lumped_body import exponential_weights
+from .status import MAX_ITERATIONS, OK
 
 MAX_SUBSTEPS = 20_000
 LEAST_SHARE = 1e-13  # of the time gone by: no smaller substeps
@@ -21,7 +22,7 @@ FIRST_SHARE = 1e-25  # of the stretch: the same at its start
 @kernel
 def load_memory(par: Array, load: float, oil: float, state: Array, work: Array) -> int:
     """Copy the memory to W_NOW, or set the start: film open or settled, steel as warm as oil."""
-    status = L.OK
+    status = OK
     work[L.W_SETTLED_LOAD] = 0.0
     n, each = n_unknowns(par), 1 + int(par[L.D_MODES])
     if state[L.S_STARTED] != 0.0:
@@ -50,7 +51,7 @@ def store_memory(par: Array, work: Array, base: int, state: Array) -> None:
 def settle_film(par: Array, load: float, work: Array) -> int:
     """Put the settled film to W_NOW where the film is no state; return a status."""
     if moves_film(par):
-        return L.OK
+        return OK
     work[np.uintp(L.W_NOW + L.Y_FILM)], work[L.W_SETTLED_LOAD], status, _ = settled_slope(
         par, load, work[np.uintp(L.W_NOW + L.Y_FILM)]
     )
@@ -118,7 +119,7 @@ def advance(
     """Bring W_NOW through a stretch over which load, slip and oil temperature run straight."""
     if is_integrated(par):
         status = integrate(par, course, (0.0, 0.0, 0.0), duration, first, False, work)
-        return status if status != L.OK else settle_film(par, course[3], work)
+        return status if status != OK else settle_film(par, course[3], work)
     return settle(par, course, duration, power_start, work)
 
 
@@ -152,7 +153,7 @@ def integrate(
         if closing:
             share = remaining
         taken, factor, status = attempt(par, course, duration, done, share, least, work)
-        if status != L.OK:
+        if status != OK:
             return status
         if taken:
             if follows:
@@ -166,9 +167,9 @@ def integrate(
                 work[L.W_PROPOSED] = max(work[L.W_PROPOSED], proposed) if count > 0 else proposed
                 work[L.W_SUBSTEPS] = float(count + 1) - refused
                 work[L.W_REFUSED] = refused
-                return L.OK
+                return OK
             work[L.W_PROPOSED] = proposed
         else:
             refused += 1.0
         share = max(share * factor, least)
-    return L.MAX_ITERATIONS
+    return MAX_ITERATIONS

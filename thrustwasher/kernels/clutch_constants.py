@@ -1,4 +1,4 @@
-"""Constants of a pack behind its parameters: areas, friction, film, heat."""
+"""Constants of a pack behind its parameters, and rules between these."""
 
 import math
 
@@ -7,9 +7,10 @@ import numpy as np
 from . import clutch_layout as L
 from ._jit import Array, kernel
 from .boundary import ploughing
-from .lining import pressure_scale
+from .flow_factors import squeeze_group
+from .greenwood_tripp import pressure_scale
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
-from .squeeze import squeeze_group
+from .status import NOT_FINITE, OK
 
 
 @kernel
@@ -129,5 +130,23 @@ def derive(par: Array) -> int:
         derive_rings(par, L.N_RINGS)
     for i in range(L.N_PARAM, L.NPAR):
         if not math.isfinite(par[np.uintp(i)]):
-            return L.NOT_FINITE
-    return L.OK
+            return NOT_FINITE
+    return OK
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return the number, from 1, of the first rule the parameters break; 0 if they keep all.
+
+    Every parameter lies in its own range. The numbers are places in the model's list of texts.
+    """
+    if not par[L.P_INNER_RADIUS] < par[L.P_OUTER_RADIUS]:
+        return 1
+    if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
+        last = 0.0
+        for k in range(L.N_TABLE):
+            speed = par[np.uintp(L.P_TABLE_SPEED_1 + 2 * k)]
+            if not speed > last:
+                return 2 + k
+            last = speed
+    return 0

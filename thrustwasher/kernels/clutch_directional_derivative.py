@@ -17,8 +17,9 @@ from .clutch_friction import coefficient_slopes
 from .clutch_outputs import fill_outputs, ring_outputs
 from .clutch_rates import n_unknowns, surfaces
 from .clutch_rosenbrock_derivatives import follow
-from .corners import sign_of
-from .heating import exponential_weights
+from .lumped_body import exponential_weights
+from .smoothing import sign_of
+from .status import NOT_FINITE, OK
 
 
 @kernel
@@ -76,7 +77,7 @@ def followed(
     load, slip, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
     course = (state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil)
     duration = state[L.S_DURATION]
-    status = L.OK
+    status = OK
     if is_integrated(par):
         n = n_unknowns(par)
         status = load_memory(par, load, oil, state, work)
@@ -100,7 +101,7 @@ def followed(
         return film, work[L.W_SURFACE_CHANGE], status
     if work[L.W_DURATION] != 0.0:
         status = load_memory(par, load, oil, state, work)
-        if status == L.OK:
+        if status == OK:
             status = settle(par, course, duration, state[L.S_POWER], work)
         if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
             work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
@@ -146,7 +147,7 @@ def directional_derivative(
     follows_oil = par[L.P_FIDELITY] == L.BOUNDARY_ONLY or not started
     heat = seed[L.I_OIL] if follows_oil else 0.0
     film = work[L.W_SETTLED_LOAD] * seed[L.I_LOAD]
-    status = L.OK
+    status = OK
     for k in range(int(par[L.D_RINGS])):
         work[np.uintp(L.W_SURFACE_CHANGE + k)] = heat
     if started and par[L.P_INPUT_COURSE] == L.LINEAR_COURSE:
@@ -161,8 +162,8 @@ def directional_derivative(
         lumped_change(par, inp, seed, film, heat, work, dout)
     dout[L.O_TEMPERATURE] = seed[L.I_OIL] if follows_oil else 0.0
     dout[L.O_ENERGY] = 0.0
-    if status == L.OK:
+    if status == OK:
         for i in range(L.NOUT):
             if not math.isfinite(dout[np.uintp(i)]):
-                status = L.NOT_FINITE
+                status = NOT_FINITE
     return status

@@ -100,7 +100,6 @@ CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD, FINE = range(1, 6)  # fidelity
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 N_TABLE = 5  # points above standstill
 LINEAR_COURSE = 2  # input_course
-OK, OUTSIDE_VERIFIED, HOT, MAX_ITERATIONS, NOT_FINITE, BAD_INPUT = 0, 1, 2, 10, 14, 15
 HOT_LIMIT = 523.0  # K
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open

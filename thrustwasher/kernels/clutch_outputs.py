@@ -9,7 +9,7 @@ from . import clutch_layout as L
 from ._jit import Array, kernel
 from .clutch_friction import coefficient_slopes, contact_slopes, viscous_slopes
 from .clutch_rates import moves_film, ring_of, surfaces
-from .corners import sign_of
+from .smoothing import sign_of
 
 
 @kernel

@@ -13,9 +13,8 @@ import numpy as np
 from . import clutch_layout as L
 from ._jit import Array, kernel
 from .clutch_friction import coefficient_slopes, contact_slopes, viscous_slopes
-from .corners import sign_of
-from .film import INV_SQRT2, INV_SQRT2PI
-from .squeeze import gap_flow
+from .flow_factors import INV_SQRT2, INV_SQRT2PI, gap_flow
+from .smoothing import sign_of
 
 LEAST_CDF = 1e-3
 

@@ -15,6 +15,7 @@ import numpy as np
 from . import clutch_layout as L
 from ._jit import Array, kernel
 from .clutch_rates import n_unknowns, pack_rates, surfaces
+from .status import NOT_FINITE, OK
 
 Course = tuple[float, float, float, float, float, float]
 GAMMA = 0.25
@@ -229,8 +230,8 @@ def attempt(
     if not math.isfinite(error):
         error = 1e6
         if share <= least:
-            return False, 0.1, L.NOT_FINITE
+            return False, 0.1, NOT_FINITE
     factor = 6.0 if error < 1e-5 else min(6.0, max(0.1, 0.9 / math.sqrt(math.sqrt(error))))
     if error <= 1.0 or share <= least:
-        return True, factor, L.OK
-    return False, min(factor, 0.9), L.OK
+        return True, factor, OK
+    return False, min(factor, 0.9), OK

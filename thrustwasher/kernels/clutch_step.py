@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from . import clutch_layout as L
 from ._jit import Array, kernel
 from .clutch_advance import advance, load_memory, settle_film, store_memory, warm_up
-from .clutch_constants import derive
+from .clutch_constants import broken_rule, derive
 from .clutch_directional_derivative import directional_derivative as sens
 from .clutch_friction import regime_of
 from .clutch_outputs import fill_outputs, mean_surface
 from .clutch_rates import n_unknowns, pack_rates, surfaces
-from .clutch_rules import broken_rule
+from .status import BAD_INPUT, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 
 __all__ = [
     "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "broken_rule", "derive", "sens",
@@ -53,8 +53,8 @@ def step(
         math.isfinite(load) and load >= 0.0 and math.isfinite(slip) and math.isfinite(oil)
         and math.isfinite(dt) and dt >= 0.0 and oil > 0.0
     ):  # fmt: skip
-        iout[L.IO_STATUS] = L.BAD_INPUT
-        return L.BAD_INPUT
+        iout[L.IO_STATUS] = BAD_INPUT
+        return BAD_INPUT
     started = state[L.S_STARTED] != 0.0
     linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
     work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
@@ -63,15 +63,15 @@ def step(
     if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
         work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
     if linear:
-        if started and status == L.OK:
+        if started and status == OK:
             course = (state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil)
             status = advance(
                 par, course, state[L.S_DURATION], state[L.S_POWER], state[L.S_SUBSTEP], work
             )
-    elif dt > 0.0 and status == L.OK:
+    elif dt > 0.0 and status == OK:
         course = (load, slip, oil, load, slip, oil)
         status = advance(par, course, dt, 0.0, state[L.S_SUBSTEP], work)
-    if status == L.OK:
+    if status == OK:
         status = settle_film(par, load, work)
     fill_outputs(par, load, slip, work, out)
     power = out[L.O_POWER] / par[L.P_FACES]
@@ -92,23 +92,23 @@ def step(
         if par[L.P_FIDELITY] != L.FINE:
             hottest = temperature
     out[L.O_TEMPERATURE], out[L.O_ENERGY] = temperature, energy
-    if status == L.OK and not _is_finite(par, work, unknowns, out):
-        status = L.NOT_FINITE
+    if status == OK and not _is_finite(par, work, unknowns, out):
+        status = NOT_FINITE
     # Heat does not come back: where the advance was too large the output waits.
     energy = max(energy, state[L.S_SHOWN_ENERGY])
     out[L.O_ENERGY] = energy
-    if dt > 0.0 and status == L.OK:
+    if dt > 0.0 and status == OK:
         store_memory(par, work, unknowns, state)
         state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL] = load, slip, oil
         state[L.S_POWER], state[L.S_DURATION], state[L.S_SUBSTEP] = power, dt, work[L.W_PROPOSED]
         state[L.S_SHOWN_TEMPERATURE], state[L.S_SHOWN_ENERGY] = temperature, energy
     iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
-    advice = L.OK
+    advice = OK
     if out[L.O_RATIO] < L.LEAST_RATIO:
-        advice = L.OUTSIDE_VERIFIED
+        advice = OUTSIDE_VERIFIED
     if hottest > L.HOT_LIMIT:
-        advice = L.HOT
-    iout[L.IO_STATUS] = advice if status == L.OK else status
+        advice = HOT
+    iout[L.IO_STATUS] = advice if status == OK else status
     return status
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import Status
 from ..kernels import clutch_advance, clutch_outputs, clutch_rates
 from ..kernels import clutch_layout as k
 
@@ -20,7 +21,7 @@ class PackCourse:
     def __init__(self, par: Any, load: float, oil: float) -> None:
         self.par, self.work, self.out = par, np.zeros(k.NWORK), np.zeros(k.NOUT)
         self.status = int(clutch_advance.load_memory(par, load, oil, np.zeros(k.NSTATE), self.work))
-        if self.status == k.OK and not clutch_rates.moves_film(par):
+        if self.status == Status.OK and not clutch_rates.moves_film(par):
             self.work[k.W_NOW + k.Y_FILM] = 1.0
             self.status = int(clutch_advance.settle_film(par, load, self.work))
 

@@ -102,7 +102,7 @@ def engage_clutch(
     par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
     pack = PackCourse(par, forces[0], oil)
     for i in range(len(points)):
-        if i and pack.status == k.OK:
+        if i and pack.status == Status.OK:
             course = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
             substeps += pack.advance(course, points[i] - points[i - 1])
         if not Status(pack.status).is_failure:

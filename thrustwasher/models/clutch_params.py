@@ -142,7 +142,7 @@ class ClutchParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        from ..kernels.clutch_rules import broken_rule
+        from ..kernels.clutch_constants import broken_rule
 
         check_rules(self, RULES, broken_rule)
 

@@ -149,7 +149,7 @@ class GearMeshParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        from ..kernels.gear_rules import broken_rule
+        from ..kernels.gear_constants import broken_rule
 
         check_rules(self, RULES, broken_rule)
 

@@ -15,7 +15,7 @@ def _shape(p: Any) -> tuple[float, float, float, float]:
 
 
 def _interference(p: Any) -> str:
-    from ..kernels import gear_geometry as g
+    from ..kernels import gear_constants as g
 
     least = math.floor(g.least_teeth(p.gear_ratio, p.pressure_angle, p.addendum)) + 1
     return (
@@ -27,7 +27,7 @@ def _interference(p: Any) -> str:
 
 
 def _contact_ratio(p: Any) -> str:
-    from ..kernels import gear_geometry as g
+    from ..kernels import gear_constants as g
 
     contact = sum(g.path_lengths(*_shape(p), g.start_of_contact(*_shape(p))))
     return (
@@ -50,7 +50,7 @@ def _base_friction(p: Any) -> str:
 
 
 def _slide_roll(p: Any) -> str:
-    from ..kernels import gear_geometry as g
+    from ..kernels import gear_constants as g
 
     found = g.slide_roll(p.gear_ratio, g.start_of_contact(*_shape(p)))
     return (

@@ -27,7 +27,7 @@ ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
         "closed": ("gear_point",),
         "stribeck": ("gear_point",),
         "field": ("gear_point",),
-        "fine": ("gear_fine",),
+        "fine": ("gear_line_of_action",),
     },
 }
 # The file that sends each rung to its kernels and names the meshes; not what it imports, or every

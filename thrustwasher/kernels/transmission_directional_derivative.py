@@ -7,14 +7,13 @@ Speeds and energies are states; torques follow the inputs at once, loads the tor
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import transmission_layout as L
-from ._jit import kernel
-from .corners import sign_of
-from .transmission_motion import brake_capacity, clutch_capacity, clutch_share
+from ._jit import Array, kernel
+from .smoothing import sign_of
+from .status import NOT_FINITE, OK
+from .transmission_dynamics import brake_capacity, clutch_capacity, clutch_share
 
-Array = NDArray[np.float64]
 LEAST_WASHER_LOAD = 1.0  # N
 
 
@@ -73,7 +72,9 @@ def share_change(
 
 
 @kernel
-def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
+def directional_derivative(
+    par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array
+) -> int:
     """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
 
     ``work`` is as the last successful step with these inputs left it; its modes stay. A torque of
@@ -114,5 +115,5 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     dout[L.O_SUN_THRUST] = force * par[L.P_PLANETS] * par[L.D_TAN_HELIX]
     for i in range(L.NOUT):
         if not math.isfinite(dout[np.uintp(i)]):
-            return L.NOT_FINITE
-    return L.OK
+            return NOT_FINITE
+    return OK

@@ -6,14 +6,12 @@ a pack locks or breaks away; the instant is located on the local solution.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import transmission_layout as L
-from ._jit import kernel
-from .transmission_integrate import trial_step
-from .transmission_modes import decide, dip, guard, locate, slip_of
-
-Array = NDArray[np.float64]
+from ._jit import Array, kernel
+from .status import MAX_ITERATIONS, NO_EVENT, NOT_FINITE, OK
+from .transmission_dynamics import trial_step
+from .transmission_stick_slip import decide, dip, guard, locate, slip_of
 
 MAX_TRIALS = 20000
 MAX_EVENTS = 200
@@ -144,13 +142,13 @@ def run(par: Array, work: Array, t: float, dt: float, started: bool) -> int:
     events = 0
     for _ in range(MAX_TRIALS):
         if s >= dt:
-            return L.OK
+            return OK
         clutch, brake = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
         h = min(h, end - s)
         ratio = trial_step(par, work, s, h)
         if not ratio <= 1.0:
             if not h > 1e-12 * dt:
-                return L.NOT_FINITE
+                return NOT_FINITE
             h *= max(0.1, 0.9 * ratio**-0.2) if ratio < 1e30 else 0.1
             continue
         if h > LEAST_SHARE * dt and returns(par, work, s, h):
@@ -160,7 +158,7 @@ def run(par: Array, work: Array, t: float, dt: float, started: bool) -> int:
         if pack >= 0:
             events += 1
             if events > MAX_EVENTS:
-                return L.NO_EVENT
+                return NO_EVENT
             trial_step(par, work, s, fraction * h)
             s += fraction * h
         else:
@@ -182,7 +180,7 @@ def run(par: Array, work: Array, t: float, dt: float, started: bool) -> int:
             if pack >= 0 or s < dt:
                 decide(par, work, s, exclude)
                 note_events(par, work, clutch, brake, t + s)
-    return L.MAX_ITERATIONS
+    return MAX_ITERATIONS
 
 
 @kernel

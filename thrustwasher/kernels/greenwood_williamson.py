@@ -3,7 +3,7 @@
 import math
 
 from ._jit import kernel
-from .corners import soft_least, soft_most, soft_most_slope
+from .smoothing import soft_least, soft_most, soft_most_slope
 
 INV_SQRT2 = 0.7071067811865476
 INV_SQRT2PI = 0.3989422804014327

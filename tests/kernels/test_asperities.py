@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from thrustwasher.kernels.asperity import asperity_args, asperity_force
-from thrustwasher.kernels.contact import (
+from thrustwasher.kernels.asperities import (
     D_MIN,
     N_CONTACT_WORK,
     N_TABLE,
+    asperity_args,
+    asperity_force,
     contact_pressure,
     contact_table,
 )

@@ -1,11 +1,54 @@
-"""Greenwood & Tripp quickly: a table of F_5/2, closed F_1 and F_2, the separation of a pressure."""
+"""Contact of a rough lining: Greenwood & Tripp's integrals over the heights.
+
+F_n(u) = integral over s > u of (s - u)^n pdf(s) ds, pdf the standard normal density: F_5/2 and
+F_3/2 by quadrature, F_5/2 from a table, F_1 and F_2 closed, the separation of a pressure.
+"""
 
 import math
 
 import numpy as np
 
 from ._jit import kernel
-from .lining import NODES, REACH, WEIGHTS, height_integrals
+from .status import MAX_ITERATIONS
+
+N_NODES = 48
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(N_NODES)
+NODES = 0.5 * (_NODES + 1.0)
+WEIGHTS = 0.5 * _WEIGHTS
+REACH = 9.0  # the density is cut where it has fallen by exp(-REACH^2/2) = 3e-18
+
+
+@kernel
+def height_integrals(u: float) -> tuple[float, float]:
+    """Return F_5/2(u) and F_3/2(u) [-]; dF_5/2/du = -5/2 F_3/2.
+
+    With s - u = w^2 the integrand is smooth, and Gauss-Legendre on the part of w that counts
+    gives both to about 1e-12, for u from -1000 to 30.
+    """
+    low = math.sqrt(max(0.0, -u - REACH))
+    high = math.sqrt(
+        REACH - u if u < 0.0 else REACH * REACH / (math.sqrt(u * u + REACH * REACH) + u)
+    )
+    five = 0.0
+    three = 0.0
+    for i in range(N_NODES):
+        w = low + (high - low) * NODES[np.uintp(i)]
+        t = w * w
+        density = math.exp(-0.5 * (u + t) * (u + t)) / math.sqrt(2.0 * math.pi)
+        term = WEIGHTS[np.uintp(i)] * 2.0 * w * w * w * w * density
+        three += term
+        five += term * t
+    return five * (high - low), three * (high - low)
+
+
+@kernel
+def pressure_scale(roughness: float, modulus: float, density: float, radius: float) -> float:
+    """Return the factor [Pa] of F_5/2 in Greenwood & Tripp's pressure."""
+    group = density * radius * roughness
+    return 16.0 * math.sqrt(2.0) * math.pi / 15.0 * group * group * math.sqrt(
+        roughness / radius
+    ) * modulus  # fmt: skip
+
 
 U_MIN, U_MAX = -8.0, 14.0
 N_KNOTS = 353
@@ -13,7 +56,6 @@ FAR_BELOW = -30.0
 STEP = (U_MAX - U_MIN) / (N_KNOTS - 1)
 INV_SQRT2 = 0.7071067811865476
 INV_SQRT2PI = 0.3989422804014327
-OK, MAX_ITERATIONS = 0, 10
 N_TRIES = 60
 
 

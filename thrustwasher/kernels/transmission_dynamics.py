@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""Motion of the planetary set: torques and accelerations for given modes of clutch and brake.
+"""Dynamics of the planetary set: torques and accelerations for given modes of clutch and brake.
 
 Unknowns are the speeds of sun and carrier; the ring follows from the teeth, so that a ring without
 inertia is an ordinary case. Clutch and drag act on the same slip: the drag is carried along as the
@@ -12,12 +12,10 @@ has a speed of its own and meets the load. Without, the carrier is the vehicle.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import transmission_layout as L
-from ._jit import kernel
-
-Array = NDArray[np.float64]
+from ._jit import Array, kernel
+from .status import NOT_FINITE, OK
 
 
 @kernel
@@ -51,8 +49,8 @@ def derive(par: Array) -> int:
     par[L.D_SLIP_BB] = c * c * i_cc - 2.0 * b * c * i_sc + b * b * i_ss
     for i in range(L.N_PARAM, L.NPAR):
         if not math.isfinite(par[np.uintp(i)]):
-            return L.NOT_FINITE
-    return L.OK
+            return NOT_FINITE
+    return OK
 
 
 @kernel
@@ -212,3 +210,72 @@ def spring_energy(par: Array, twist: float) -> float:
     """Return the energy of the shaft's spring [J] since the start at a twist [rad]."""
     start = par[L.P_INITIAL_TWIST]
     return 0.5 * par[L.P_SHAFT_STIFFNESS] * (twist - start) * (twist + start)
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return the number, from 1, of the first rule the parameters break; 0 if they keep all.
+
+    Every parameter lies in its own range. The numbers are places in the model's list of texts.
+    """
+    sun, planet, ring = par[L.P_SUN_TEETH], par[L.P_PLANET_TEETH], par[L.P_RING_TEETH]
+    if not ring > sun:
+        return 1
+    if planet != 0.0 and not abs(ring - sun - 2.0 * planet) <= 2.0:
+        return 2
+    if par[L.P_SHAFT_STIFFNESS] == 0.0:
+        if par[L.P_SHAFT_DAMPING] != 0.0:
+            return 3
+        if par[L.P_INITIAL_TWIST] != 0.0:
+            return 4
+    return 0
+
+
+# Dormand & Prince (1980): stage times, stage weights row by row, and fifth minus fourth order.
+C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
+A = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [1 / 5, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3 / 40, 9 / 40, 0.0, 0.0, 0.0, 0.0],
+    [44 / 45, -56 / 15, 32 / 9, 0.0, 0.0, 0.0],
+    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0.0, 0.0],
+    [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0.0],
+    [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+])  # fmt: skip
+B_ERROR = np.array([
+    71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40,
+])  # fmt: skip
+SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
+TWIST_SCALE = 0.01  # rad
+ENERGY_SCALE = 100.0  # J
+
+
+@kernel
+def trial_step(par: Array, work: Array, s: float, h: float) -> float:
+    """Fill ``work[W_NEW:]`` with the solution ``h`` seconds after ``s``; return the error ratio.
+
+    The error ratio is the embedded estimate over the tolerance, 1 is just acceptable. The slope at
+    the end lies in the last stage.
+    """
+    for stage in range(L.N_STAGES):
+        for i in range(L.N_Y):
+            total = 0.0
+            for k in range(stage):
+                slope = work[np.uintp(L.W_SLOPES + k * L.N_Y + i)]
+                total += A[np.uintp(stage), np.uintp(k)] * slope
+            work[np.uintp(L.W_STAGE + i)] = work[np.uintp(L.W_Y + i)] + h * total
+        rates(par, work, s + C[np.uintp(stage)] * h, L.W_STAGE, L.W_SLOPES + stage * L.N_Y)
+    worst = 0.0
+    for i in range(L.N_Y):
+        error = 0.0
+        for k in range(L.N_STAGES):
+            error += B_ERROR[np.uintp(k)] * work[np.uintp(L.W_SLOPES + k * L.N_Y + i)]
+        new = work[np.uintp(L.W_STAGE + i)]  # the last stage is the fifth-order result
+        work[np.uintp(L.W_NEW + i)] = new
+        scale = ENERGY_SCALE
+        if i == L.Y_TWIST:
+            scale = TWIST_SCALE
+        elif i <= L.Y_VEHICLE:
+            scale = SPEED_SCALE
+        worst = max(worst, abs(h * error) / (par[L.P_TOLERANCE] * (scale + abs(new))))
+    return worst

@@ -7,8 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.kernels.lining import height_integrals, pressure_scale
-from thrustwasher.kernels.lining_table import area_integrals, contact_integral, separation
+from thrustwasher.kernels.greenwood_tripp import (
+    area_integrals,
+    contact_integral,
+    height_integrals,
+    pressure_scale,
+    separation,
+)
 
 
 @pytest.mark.parametrize(

@@ -5,12 +5,9 @@ Most laws are products of powers, so relative changes add up. The flank's temper
 of an equation: its change follows from that equation's slopes at the root.
 """
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import gear_layout as L
-from ._jit import kernel
-from .corners import smoothstep_slope, soft_size, soft_size_slope
+from ._jit import Array, kernel
+from .gear_contact import thermal_stress
 from .gear_heat import LOWEST_OIL, settled_rise
 from .gear_point import (
     LEAST_LINE_LOAD,
@@ -24,10 +21,9 @@ from .gear_point import (
     ULTIMATE_4340,
     viscosity_follows,
 )
-from .gear_stress import thermal_stress
-from .rough_area import bounded_slopes
+from .greenwood_williamson import bounded_slopes
+from .smoothing import smoothstep_slope, soft_size, soft_size_slope
 
-Array = NDArray[np.float64]
 SCALES_1020 = (
     MECHANICAL_1020 / THERMAL_1020,
     1.0 / (MECHANICAL_1020 * ULTIMATE_1020),

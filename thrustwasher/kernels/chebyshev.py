@@ -9,9 +9,8 @@ numbers, itself the Chebyshev coefficients over a fourth coordinate.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._jit import kernel
+from ._jit import Array, kernel
 
 N_AXES = 3
 N_NODES = 4  # of a patch
@@ -27,9 +26,7 @@ def nodes_of(patches: int) -> int:
 
 
 @kernel
-def enter_cell(
-    cell: NDArray[np.float64], axis: int, x: float, low: float, high: float, patches: int
-) -> None:
+def enter_cell(cell: Array, axis: int, x: float, low: float, high: float, patches: int) -> None:
     """Write weights and slopes of one axis at ``x``; beyond ``low .. high`` it extrapolates."""
     base = axis * N_AXIS
     if patches < 1:
@@ -57,8 +54,8 @@ def enter_cell(
 
 @kernel
 def contract(
-    data: NDArray[np.float64], at: int, step1: int, step2: int, step3: int,
-    cell: NDArray[np.float64], slope_of: int, width: int, out: NDArray[np.float64], to: int,
+    data: Array, at: int, step1: int, step2: int, step3: int,
+    cell: Array, slope_of: int, width: int, out: Array, to: int,
 ) -> None:  # fmt: skip
     """Interpolate ``width`` numbers of the lines into ``out[to:]``.
 
@@ -91,7 +88,7 @@ def contract(
 
 
 @kernel
-def polynomial(c: NDArray[np.float64], at: int, u: float) -> float:
+def polynomial(c: Array, at: int, u: float) -> float:
     """Return the Chebyshev sum of ``N_TERMS`` coefficients at ``u`` (Clenshaw)."""
     one, two = 0.0, 0.0
     for k in range(N_TERMS - 1, 0, -1):
@@ -100,7 +97,7 @@ def polynomial(c: NDArray[np.float64], at: int, u: float) -> float:
 
 
 @kernel
-def polynomial_slope(c: NDArray[np.float64], at: int, u: float) -> tuple[float, float]:
+def polynomial_slope(c: Array, at: int, u: float) -> tuple[float, float]:
     """Return value and slope over ``u`` of a Chebyshev sum."""
     before, now = 1.0, u  # T of the last two orders
     slope_before, slope_now = 0.0, 1.0

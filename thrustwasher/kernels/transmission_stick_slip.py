@@ -9,21 +9,18 @@ mobility of the driveline exactly one combination holds, apart from ties.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import transmission_layout as L
-from ._jit import kernel
-from .transmission_integrate import trial_step
-from .transmission_motion import (
+from ._jit import Array, kernel
+from .transmission_dynamics import (
     brake_capacity,
     clutch_capacity,
     clutch_slip,
     output_torque,
     ring_speed,
     solve_torques,
+    trial_step,
 )
-
-Array = NDArray[np.float64]
 
 MAX_ROOT_STEPS = 100
 

@@ -11,9 +11,8 @@ from ..errors import ParameterError, SolveError, Status
 from ..kernels import clutch_advance, clutch_outputs, clutch_rates
 from ..kernels import clutch_layout as k
 from ..kernels.clutch_constants import derive_rings
-from ..models.clutch import prepare, solve_clutch
+from ..models.clutch import prepare, solve_clutch, steady_pack
 from ..models.clutch_params import ClutchParams
-from ..models.clutch_steady_pack import steady_pack
 from .reference_values import ReferenceValues, extrapolated
 
 Array = NDArray[np.float64]

@@ -16,7 +16,7 @@ from ..errors import SolveError, Status
 from ..kernels.clutch_constants import derive_rings
 from ..kernels.clutch_layout import HOT_LIMIT, O_FILM, O_RATIO, O_TEMPERATURE, O_TORQUE
 from ..models.clutch import prepare
-from ..models.clutch_course import PackCourse
+from ..models.clutch_engagement import PackCourse
 from .courses import course
 from .reference_clutch import RINGS, reference_clutch
 from .truths import QUANTITIES, Point, Source, Truth, Values

@@ -1,21 +1,100 @@
-"""A calibration in words and as plain data."""
+"""A friction law fitted to measurements: numbers, sentences, plain data."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
-if TYPE_CHECKING:
-    from .clutch_calibration import Calibration, Estimate
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from .clutch_fit import Problem
+from .clutch_friction import friction_slopes
+from .clutch_identifiability import Information, LoadTest, counted
+from .clutch_params import ClutchParams
+
+Array = NDArray[np.float64]
 NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
 CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
 
 
-def counted(number: int, noun: str) -> str:
-    """Return "1 point" or "2 points"."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """One fitted number with its uncertainty, SI units."""
+
+    name: str
+    unit: str
+    value: float
+    standard_error: float
+    """Infinite where the points do not tell it."""
+    interval: tuple[float, float]
+    """Linearised, within the allowed range; that whole range if not identifiable."""
+    profile_interval: tuple[float, float] | None
+    """From the rise of the sum of squares, the other constants refitted; None if not computed."""
+    identifiable: bool
+    at_bound: str
+    """ "lower", "upper" or "" (inside the allowed range)."""
+    reason: str
+    """Why it is not identifiable, or what stops it at a bound; "" if there is nothing to say."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Calibration:
+    """A friction law fitted to measurements; ``str()`` of it is a summary in sentences."""
+
+    params: ClutchParams
+    """The pack with the fitted values, for solve_clutch and FMUs."""
+    estimates: tuple[Estimate, ...]
+    """In the order of ``fit``."""
+    end_frictions: tuple[Estimate, ...]
+    """Coefficient at rest and at very high slip: often told where single constants are not."""
+    correlation: Array
+    """(constants, constants); NaN where a constant is not told."""
+    confounded: tuple[str, ...]
+    """Combinations of constants that the points cannot tell apart, a sentence each."""
+    residuals: Array
+    """(points,) measured less fitted coefficient."""
+    rms: float
+    degrees_of_freedom: int
+    reduced_chi_square: float | None
+    """None without ``friction_error``."""
+    load_test: LoadTest
+    warnings: tuple[str, ...]
+    """Sentences on points that the law cannot follow, the gravest first; empty for a sound fit."""
+    confidence: float
+    _problem: Problem = field(repr=False)
+    _best: Array = field(repr=False)
+    _told: Information = field(repr=False)
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Return the estimate of one constant."""
+        return next(e for e in (*self.estimates, *self.end_frictions) if e.name == name)
+
+    def band(self, slip_speed: ArrayLike) -> tuple[Array, Array]:
+        """Return (coefficient, half width of its confidence band) at slip speeds [m/s].
+
+        The half width is infinite where the points do not tell the curve; so it is below the
+        slowest point if the corner at stick_speed may lie there.
+        """
+        speed = np.abs(np.atleast_1d(np.asarray(slip_speed, float)))
+        problem, told = self._problem, self._told
+        curve = problem.curve(self._best, speed)
+        rows = friction_slopes(problem.values(self._best), speed, problem.names)
+        if not np.isfinite(told.quantile):
+            return curve, np.full(speed.shape, np.inf)
+        half = told.quantile * np.array([told.error_of(row) for row in rows])
+        if any(e.name == "stick_speed" and not e.identifiable for e in self.estimates):
+            half[speed < problem.speed.min()] = np.inf
+        return curve, half
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return what JSON can hold; None stands for infinite and for not known."""
+        return as_dict(self)
+
+    def __str__(self) -> str:
+        """Return the summary."""
+        return summary(self)
 
 
 def spanned(low: float, high: float) -> str:

@@ -105,7 +105,9 @@ def main() -> None:
         ("clutch field, contact rise", engagement(), {"contact_rise": True}),
         ("clutch field, impermeable lining", engagement(), {"permeability": 0.0}),
     ]
-    cases += [(f"clutch {f}", engagement(), {"fidelity": f}) for f in ("stribeck", "boundary")]
+    cases += [
+        (f"clutch {f}", engagement(), {"fidelity": f}) for f in ("fine", "stribeck", "boundary")
+    ]
     for name, course, parameters in cases:
         measure(name, run, "WetClutch", course, parameters)
     run = runner("GearMesh")

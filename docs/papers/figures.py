@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from thrustwasher import WasherParams, load_curve, solve_washer
-from thrustwasher.kernels.roelands import viscosity
+from thrustwasher.kernels.viscosity import viscosity
 from thrustwasher.report.style import (
     BLACK,
     BLUE,

@@ -344,7 +344,7 @@ def engaged(rung, rings=None, **changes):
 
 @pytest.mark.parametrize("changes", [{}, {"contact_rise": True}])
 def test_one_ring_is_the_lumped_pack(changes):
-    """Another integrator, the same equations: torque, temperature and heat to its tolerance."""
+    """Own arrays, half the tolerance: torque, temperature and heat to that tolerance."""
     one = engaged("fine", 1, **changes)
     lumped = Part("clutch", "field", input_course="linear", **changes)
     for t in COURSE:

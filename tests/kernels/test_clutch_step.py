@@ -8,6 +8,7 @@ from clutch_pack import Pack
 from hypothesis import given
 from hypothesis import strategies as st
 
+from thrustwasher.errors import Status
 from thrustwasher.kernels import clutch_layout as k
 from thrustwasher.kernels.clutch_friction import ADHESIVE, BOUNDARY, FILM, MIXED
 from thrustwasher.models.clutch_params import SPEC, ClutchParams
@@ -122,7 +123,7 @@ def test_bad_input_is_a_status_and_leaves_the_state(bad):
     pack = Pack("stribeck")
     pack.step(100.0, 10.0, 1e-3)
     before = pack.state.copy()
-    assert pack.step(*bad, 1e-3) == k.BAD_INPUT == pack.iout[k.IO_STATUS]
+    assert pack.step(*bad, 1e-3) == Status.BAD_INPUT == pack.iout[k.IO_STATUS]
     assert (pack.state == before).all()
     assert pack.step(100.0, 10.0, 1e-3) == 0
 
@@ -131,4 +132,4 @@ def test_an_interface_above_523_k_is_said():
     pack = Pack("stribeck")
     for _ in range(200):
         assert pack.step(9000.0, 300.0, 0.05) == 0
-    assert pack.out[k.O_TEMPERATURE] > 523.0 and pack.iout[k.IO_STATUS] == k.HOT
+    assert pack.out[k.O_TEMPERATURE] > 523.0 and pack.iout[k.IO_STATUS] == Status.HOT

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from thrustwasher.kernels import gear_geometry as g
+from thrustwasher.kernels import gear_constants as g
 from thrustwasher.reference import involute_mesh, mesh_loss
 
 PHI = math.radians(20.0)

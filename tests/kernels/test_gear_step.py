@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from thrustwasher.errors import Status
 from thrustwasher.kernels import gear_layout as L
 from thrustwasher.kernels import gear_step as k
 from thrustwasher.models.gearmesh import prepare
@@ -122,16 +123,17 @@ def test_the_film_switch_is_passed_in_the_smoothness_test():
 @pytest.mark.parametrize("bad", [(np.nan, 1.0), (1.0, np.inf), (1.0, 1.0, np.nan), (1.0, 1.0, 0.0)])
 def test_bad_input_is_a_status(bad):
     mesh = Mesh()
-    assert mesh.step(*bad) == L.BAD_INPUT == mesh.iout[L.IO_STATUS]
+    assert mesh.step(*bad) == Status.BAD_INPUT == mesh.iout[L.IO_STATUS]
     assert mesh.step(40.0, 180.0) == 0
 
 
 def test_advice_is_given_for_hot_films_and_stretched_laws_and_not_in_between():
     mesh = Mesh()
     for point, advice in (
-        ((40.0, 180.0, 299.85), L.OK), ((40.0, 180.0, 250.0), L.HOT),
-        ((40.0, 1.0, 250.0), L.OUTSIDE_VERIFIED), ((40.0, 180.0, 430.0), L.OUTSIDE_VERIFIED),
-        ((9e4, 180.0, 330.0), L.OUTSIDE_VERIFIED),
+        ((40.0, 180.0, 299.85), Status.OK), ((40.0, 180.0, 250.0), Status.HOT),
+        ((40.0, 1.0, 250.0), Status.OUTSIDE_VERIFIED),
+        ((40.0, 180.0, 430.0), Status.OUTSIDE_VERIFIED),
+        ((9e4, 180.0, 330.0), Status.OUTSIDE_VERIFIED),
     ):  # fmt: skip
         assert mesh.step(*point) == 0
         assert mesh.iout[L.IO_STATUS] == advice, point

@@ -136,8 +136,8 @@ def test_status_numbers_are_those_of_the_enumeration(module):
 PLAIN = """
 import json
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.kernels.film import mean_gap, flow_conductance
-from thrustwasher.kernels.roelands import viscosity
+from thrustwasher.kernels.flow_factors import mean_gap, flow_conductance
+from thrustwasher.kernels.viscosity import viscosity
 r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, grid=(5, 8), throw=False)
 b = solve_washer(WasherParams(heat_split=0.3), load=900.0, speed=136.0, tilt=0.002, grid=(5, 8),
                  start=None, throw=False)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thrustwasher.kernels.banded import N_SIDES
-from thrustwasher.kernels.film import flow_conductance, mean_gap, shear_flow
+from thrustwasher.kernels.flow_factors import flow_conductance, mean_gap, shear_flow
 from thrustwasher.kernels.washer_fields import Point
 from thrustwasher.kernels.washer_film import RING, evaluate_film, film_residual, film_solve
 from thrustwasher.kernels.washer_gap import evaluate_gaps, evaluate_viscosity

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thrustwasher.models.clutch_calibration import calibrate
-from thrustwasher.models.clutch_calibration_text import spanned
+from thrustwasher.models.clutch_calibration_result import spanned
 from thrustwasher.models.clutch_friction import friction_over, friction_radius, law_values
 from thrustwasher.models.clutch_params import ClutchParams
 

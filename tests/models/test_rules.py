@@ -117,10 +117,10 @@ def test_rules_and_constants_do_not_read_each_other(spec):
 
 
 def test_limits_in_texts_are_those_of_the_kernels():
-    from thrustwasher.kernels import gear_rules, washer_rules
+    from thrustwasher.kernels import gear_constants, washer_rules
 
     assert washer_params.LEAST_ROUGHNESS == washer_rules.LEAST_ROUGHNESS
     assert f"{washer_rules.LARGEST_SPREAD:g} x" in washer_params.RULES[1].text
-    span = f"{gear_rules.LEAST_EFFECTIVE:.4g} .. {gear_rules.LARGEST_EFFECTIVE:.4g}"
+    span = f"{gear_constants.LEAST_EFFECTIVE:.4g} .. {gear_constants.LARGEST_EFFECTIVE:.4g}"
     assert span in gearmesh_params.RULES[2].text
-    assert f"above {gear_rules.LEAST_SLIDE_ROLL} " in gearmesh_params.RULES[4].text
+    assert f"above {gear_constants.LEAST_SLIDE_ROLL} " in gearmesh_params.RULES[4].text

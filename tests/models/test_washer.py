@@ -12,8 +12,8 @@ from sampling import sizes
 from scipy.interpolate import CubicSpline
 
 from thrustwasher import BranchError, ParameterError, Status, WasherParams, solve_washer
-from thrustwasher.kernels.contact import contact_pressure
-from thrustwasher.kernels.roelands import viscosity
+from thrustwasher.kernels.asperities import contact_pressure
+from thrustwasher.kernels.viscosity import viscosity
 from thrustwasher.kernels.washer_model import washer_model
 from thrustwasher.models.washer import constants
 from thrustwasher.models.washer_params import CONDUCTION

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import banded, contact, roelands, washer_map_rows
+from thrustwasher.kernels import asperities, banded, viscosity, washer_map_rows
 from thrustwasher.kernels._jit import way
-from thrustwasher.kernels.corners import sign_of
+from thrustwasher.kernels.smoothing import sign_of
 from thrustwasher.native import entries, load
 
 ROOT = Path(__file__).parents[2]
@@ -44,10 +44,10 @@ def test_a_solve_imports_neither_compiler_nor_scipy():
 
 
 def test_a_kernel_in_a_library_runs_as_compiled_code():
-    native = load.native_function(roelands.viscosity.py_func, None)
+    native = load.native_function(viscosity.viscosity.py_func, None)
     given = (350.0, 6.3e-5, 3.5, 1.05)
     assert native.__code__.co_filename == "<string>"
-    assert native(*given) == pytest.approx(roelands.viscosity.py_func(*given), rel=1e-14)
+    assert native(*given) == pytest.approx(viscosity.viscosity.py_func(*given), rel=1e-14)
 
 
 def test_a_kernel_in_no_library_runs_as_python():
@@ -67,12 +67,12 @@ def test_arrays_of_two_dimensions_are_known():
 
 
 def test_what_comes_back_has_the_types_of_the_annotations():
-    first, second = contact.contact_pressure(3.0, np.linspace(0.0, 1.0, 4000))
+    first, second = asperities.contact_pressure(3.0, np.linspace(0.0, 1.0, 4000))
     assert type(first) is float and type(second) is float
 
 
 def test_a_kernel_is_found_by_name_in_another_process():
-    assert pickle.loads(pickle.dumps(roelands.viscosity)) is roelands.viscosity
+    assert pickle.loads(pickle.dumps(viscosity.viscosity)) is viscosity.viscosity
 
 
 def test_a_bound_kernel_works_on_its_arrays():
@@ -117,7 +117,7 @@ def test_the_jit_gives_the_same_bits(tmp_path):
 def test_an_unknown_way_is_refused_by_name():
     code = (
         "from thrustwasher.errors import EnvironmentProblem\n"
-        "try:\n import thrustwasher.kernels.film\n"
+        "try:\n import thrustwasher.kernels.flow_factors\n"
         "except EnvironmentProblem as problem:\n print(problem)\n"
     )
     assert "THRUSTWASHER_KERNELS" in child(code, THRUSTWASHER_KERNELS="fast")

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.kernels.gear_geometry import slide_roll
+from thrustwasher.kernels.gear_constants import slide_roll
 from thrustwasher.native import digest, files, library, link, objects, shipped
 from thrustwasher.native.entries import CALLED, called_modules, describe, dotted, symbols
 from thrustwasher.native.here import this_platform
@@ -135,7 +135,7 @@ WITHOUT = """
 import sys
 from thrustwasher.native import link, shipped
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.kernels.gear_geometry import slide_roll
+from thrustwasher.kernels.gear_constants import slide_roll
 shipped.library_file = lambda kernel, platform: None
 def none():
     raise EnvironmentProblem("no compiler")
@@ -239,7 +239,7 @@ def test_an_error_of_the_disk_while_compiling_names_the_folder(monkeypatch, tmp_
 def test_a_machine_nothing_is_made_for_lets_numba_compile(tmp_path):
     code = (
         "import platform\nplatform.machine = lambda: 'riscv64'\n"
-        "from thrustwasher.kernels.roelands import viscosity\n"
+        "from thrustwasher.kernels.viscosity import viscosity\n"
         "print(viscosity(350.0, 6.3e-5, 3.5, 1.05)[0] > 0.0)\n"
     )
     done = child(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from thrustwasher.kernels.banded import N_SIDES
-from thrustwasher.kernels.film import flow_conductance, mean_gap
+from thrustwasher.kernels.flow_factors import flow_conductance, mean_gap
 from thrustwasher.kernels.washer_fields import size_of_work, washer_fields
 from thrustwasher.kernels.washer_film import film_residual, film_solve
 from thrustwasher.kernels.washer_model import washer_model

@@ -21,7 +21,7 @@ from thrustwasher import (
     solve_gearmesh,
 )
 from thrustwasher.kernels.gear_heat import LOWEST_OIL, oil_viscosity
-from thrustwasher.kernels.roelands import viscosity
+from thrustwasher.kernels.viscosity import viscosity
 
 from washer_runs import is_sound, solve  # isort: skip
 

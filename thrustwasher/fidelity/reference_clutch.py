@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..kernels import clutch_fine, clutch_rings
+from ..kernels import clutch_advance, clutch_outputs, clutch_rates
 from ..kernels import clutch_layout as k
 from ..kernels.clutch_constants import derive_rings
-from ..models.clutch import prepare, solve_clutch
+from ..models.clutch import prepare, solve_clutch, steady_pack
 from ..models.clutch_params import ClutchParams
-from ..models.clutch_steady_pack import steady_pack
 from .reference_values import ReferenceValues, extrapolated
 
 Array = NDArray[np.float64]
@@ -91,20 +90,21 @@ def _course(
 
     par, work = prepare(params, "fine"), np.zeros(k.NWORK)
     derive_rings(par, n)
-    status = int(clutch_fine.load_rings(par, force[0], oil, np.zeros(k.NSTATE), work))
-    gains = [par[k.D_GAIN] * par[k.D_AREA] / clutch_rings.ring_of(par, i)[k.D_AREA]
+    status = int(clutch_advance.load_memory(par, force[0], oil, np.zeros(k.NSTATE), work))
+    gains = [par[k.D_GAIN] * par[k.D_AREA] / clutch_rates.ring_of(par, i)[k.D_AREA]
              for i in range(n)]  # fmt: skip
 
     def rates(at: float, y: Array, a: int) -> Array:
         x = (at - t[a]) / (t[a + 1] - t[a])
         work[k.W_SURFACE : k.W_SURFACE + n] = y[2:]
         here = force[a] + (force[a + 1] - force[a]) * x, slip[a] + (slip[a + 1] - slip[a]) * x
-        film, _, _ = clutch_rings.ring_rates(par, *here, y[0], work)
-        powers = work[k.W_AT : k.W_AT + n * k.N_AT].reshape(n, k.N_AT)[:, clutch_rings.POWER]
+        clutch_rates.pack_rates(par, *here, y[0], work, k.W_KEPT)
+        film, first = work[k.W_KEPT + k.R_RATE], k.W_KEPT + k.R_RINGS + k.R_POWER
+        powers = work[first : first + n * k.N_OF_RING : k.N_OF_RING]
         heat = np.array(gains) * powers - par[k.D_DECAY] * (y[2:] - oil)
         return np.concatenate(([film, powers.sum()], heat))
 
-    y = np.concatenate(([work[k.W_Z + k.Z_FILM], 0.0], np.full(n, oil)))
+    y = np.concatenate(([work[k.W_NOW + k.Y_FILM], 0.0], np.full(n, oil)))
     for a in range(len(t) - 1):  # courses have corners at their points
         found = solve_ivp(rates, (t[a], t[a + 1]), y, method="Radau", args=(a,), rtol=TOLERANCE,
                           atol=TOLERANCE * np.r_[1.0, 1e3, np.full(n, 10.0)])  # fmt: skip
@@ -116,11 +116,11 @@ def _course(
         y = found.y[:, -1]
     out = np.zeros(k.NOUT)
     work[k.W_SURFACE : k.W_SURFACE + n] = y[2:]
-    work[k.W_SURFACE + k.MAX_RINGS : k.W_SURFACE + 2 * k.MAX_RINGS] = 0.0
+    work[k.W_SURFACE_CHANGE : k.W_SURFACE_CHANGE + n] = 0.0
     point = (float(force[-1]), float(slip[-1]), float(y[0]))
-    clutch_rings.ring_outputs(par, point, (0.0, 0.0, 0.0), work, out, np.zeros(k.NOUT))
+    clutch_outputs.ring_outputs(par, point, (0.0, 0.0, 0.0), work, out, np.zeros(k.NOUT))
     return {
         "friction_torque": float(out[k.O_TORQUE]), "film_ratio": float(y[0]),
-        "temperature": float(clutch_rings.mean_surface(par, work)[0]),
+        "temperature": float(clutch_outputs.mean_surface(par, work)[0]),
         "energy": float(params.faces * y[1]),
     }  # fmt: skip

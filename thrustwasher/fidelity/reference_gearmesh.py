@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import SolveError
 from ..kernels import gear_layout as k
-from ..kernels.gear_path import N_NODES, place_mesh
+from ..kernels.gear_line_of_action import N_NODES, place_mesh
 from ..kernels.gear_point import mesh_point
 from ..models.gearmesh import pinion_torque, prepare, solve_gearmesh
 from ..models.gearmesh_params import GearMeshParams

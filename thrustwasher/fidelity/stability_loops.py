@@ -62,7 +62,7 @@ def heat_loop() -> Group:
 
 def closed_forms() -> Group:
     """Judge closed forms at the ends of their ranges, as printed and as the package has them."""
-    from ..kernels.heating import exponential_weights
+    from ..kernels.lumped_body import exponential_weights
     from ..kernels.washer_wedge import lift
     from ..reference.narrow_ring import narrow_ring_load
 

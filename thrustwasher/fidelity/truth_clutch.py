@@ -16,7 +16,7 @@ from ..errors import SolveError, Status
 from ..kernels.clutch_constants import derive_rings
 from ..kernels.clutch_layout import HOT_LIMIT, O_FILM, O_RATIO, O_TEMPERATURE, O_TORQUE
 from ..models.clutch import prepare
-from ..models.clutch_course import Rings
+from ..models.clutch_engagement import PackCourse
 from .courses import course
 from .reference_clutch import RINGS, reference_clutch
 from .truths import QUANTITIES, Point, Source, Truth, Values
@@ -66,7 +66,7 @@ def _course(params: Any, n: int, point: Point) -> Array:
     derive_rings(par, n)
     time, load, slip = course(point["load"], point["speed"])
     rows = np.empty((len(PLACES), len(time)))
-    pack = Rings(par, load[0], oil)
+    pack = PackCourse(par, load[0], oil)
     for i in range(len(time)):
         if i:
             ends = (load[i - 1], slip[i - 1], oil, load[i], slip[i], oil)
@@ -79,6 +79,6 @@ def _course(params: Any, n: int, point: Point) -> Array:
 
 
 SOURCE = Source(
-    clutch_truths, ("clutch_fine", "clutch_steady", "clutch_constants"), "reference", None,
+    clutch_truths, ("clutch_advance", "clutch_steady", "clutch_constants"), "reference", None,
     (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {HOT_LIMIT:g} K",),
 )  # fmt: skip

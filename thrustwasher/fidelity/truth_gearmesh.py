@@ -24,6 +24,6 @@ def gearmesh_truths(params: Any, point: Point) -> list[Truth]:
 
 
 SOURCE = Source(
-    gearmesh_truths, ("gear_fine", "gear_constants"), "reference", None,
+    gearmesh_truths, ("gear_line_of_action", "gear_constants"), "reference", None,
     ("adaptive quadrature over the line of action", "search for the hottest position"),
 )  # fmt: skip

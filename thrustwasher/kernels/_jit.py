@@ -21,10 +21,14 @@ from functools import cache, update_wrapper
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..errors import EnvironmentProblem
 from ..native.files import code_folder, private_folder
 from ..native.load import native_function
 
+Array = NDArray[np.float64]
 F = TypeVar("F", bound=Callable[..., Any])
 KEPT_VERSIONS = 5
 WAYS = ("native", "jit", "python")

@@ -7,15 +7,14 @@ column j. A general one by rows: ``a[i * (2 * band + 1) + band + k]`` is row i, 
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._jit import kernel
+from ._jit import Array, kernel
 
 N_SIDES = 8  # right sides solved together: a full vector register
 
 
 @kernel
-def cholesky(a: NDArray[np.float64], n: int, band: int) -> bool:
+def cholesky(a: Array, n: int, band: int) -> bool:
     """Replace ``a`` by its Cholesky factor; return False if it is not positive definite.
 
     Columns go in pairs: each pair updates the rest in one pass, which halves the memory traffic.
@@ -59,7 +58,7 @@ def cholesky(a: NDArray[np.float64], n: int, band: int) -> bool:
 
 
 @kernel
-def mirror(a: NDArray[np.float64], n: int, band: int) -> None:
+def mirror(a: Array, n: int, band: int) -> None:
     """Write the factor in ``a[: n w]``, w = band + 1, once more behind it: by rows, last row first.
 
     The way back of a solve is then the way forth with everything reversed, along memory.
@@ -73,7 +72,7 @@ def mirror(a: NDArray[np.float64], n: int, band: int) -> None:
 
 
 @kernel
-def _forth(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
+def _forth(a: Array, b: Array, n: int, band: int) -> None:
     """Solve with the lower factor ``a`` (by columns) in place of ``b``.
 
     Columns go in fours, which takes ``b`` through the registers a quarter as often.
@@ -104,7 +103,7 @@ def _forth(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) ->
 
 
 @kernel
-def _reverse(b: NDArray[np.float64], n: int) -> None:
+def _reverse(b: Array, n: int) -> None:
     for k in range(n // 2):
         x = b[np.uintp(k)]
         b[np.uintp(k)] = b[np.uintp(n - 1 - k)]
@@ -112,7 +111,7 @@ def _reverse(b: NDArray[np.float64], n: int) -> None:
 
 
 @kernel
-def cholesky_solve(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
+def cholesky_solve(a: Array, b: Array, n: int, band: int) -> None:
     """Replace the right side ``b`` (n,) by the solution; ``a`` is of `cholesky` and `mirror`."""
     size = n * (band + 1)
     _forth(a, b, n, band)
@@ -122,7 +121,7 @@ def cholesky_solve(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band:
 
 
 @kernel
-def cholesky_solve_many(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
+def cholesky_solve_many(a: Array, b: Array, n: int, band: int) -> None:
     """Solve for ``N_SIDES`` right sides at once; ``b[row * N_SIDES + side]``, in place."""
     w = band + 1
     for j in range(n):
@@ -152,7 +151,7 @@ def cholesky_solve_many(a: NDArray[np.float64], b: NDArray[np.float64], n: int, 
 
 
 @kernel
-def lu(a: NDArray[np.float64], n: int, band: int) -> bool:
+def lu(a: Array, n: int, band: int) -> bool:
     """Replace ``a`` by its LU factors, no row exchange; return False at a zero pivot.
 
     Holds for matrices dominated by their diagonal, as conduction with a falling source is.
@@ -173,7 +172,7 @@ def lu(a: NDArray[np.float64], n: int, band: int) -> bool:
 
 
 @kernel
-def lu_solve(a: NDArray[np.float64], b: NDArray[np.float64], n: int, band: int) -> None:
+def lu_solve(a: Array, b: Array, n: int, band: int) -> None:
     """Replace the right side ``b`` (n,) by the solution, given the factors of `lu`."""
     w = 2 * band + 1
     for i in range(n):

@@ -1,18 +1,16 @@
-"""Constants of a pack behind its parameters: areas, friction, film, heat."""
+"""Constants of a pack behind its parameters, and rules between these."""
 
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import clutch_layout as L
-from ._jit import kernel
+from ._jit import Array, kernel
 from .boundary import ploughing
-from .lining import pressure_scale
+from .flow_factors import squeeze_group
+from .greenwood_tripp import pressure_scale
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
-from .squeeze import squeeze_group
-
-Array = NDArray[np.float64]
+from .status import NOT_FINITE, OK
 
 
 @kernel
@@ -91,7 +89,7 @@ def derive_rings(par: Array, n: int) -> None:
     ri, ro = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
     scale = par[L.D_RADIUS] * 3.0 * (ro + ri) / (2.0 * (ro * ro + ro * ri + ri * ri))
     still = (ro - ri) * (ro + ri) / (2.0 * math.log(ro / ri))
-    par[L.D_RINGS] = float(n)
+    par[L.D_RINGS], par[L.D_FIRST] = float(n), float(L.D_BLOCKS)
     total = 0.0
     for k in range(n):
         ring = par[L.D_BLOCKS + k * L.N_PACK : L.D_BLOCKS + (k + 1) * L.N_PACK]
@@ -127,10 +125,28 @@ def derive(par: Array) -> int:
     derive_friction(par)
     derive_film(par)
     derive_heat(par)
-    par[L.D_RINGS] = 0.0
+    par[L.D_RINGS], par[L.D_FIRST], par[L.D_SQUEEZE] = 1.0, 0.0, 1.0
     if par[L.P_FIDELITY] == L.FINE:
         derive_rings(par, L.N_RINGS)
     for i in range(L.N_PARAM, L.NPAR):
         if not math.isfinite(par[np.uintp(i)]):
-            return L.NOT_FINITE
-    return L.OK
+            return NOT_FINITE
+    return OK
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return the number, from 1, of the first rule the parameters break; 0 if they keep all.
+
+    Every parameter lies in its own range. The numbers are places in the model's list of texts.
+    """
+    if not par[L.P_INNER_RADIUS] < par[L.P_OUTER_RADIUS]:
+        return 1
+    if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
+        last = 0.0
+        for k in range(L.N_TABLE):
+            speed = par[np.uintp(L.P_TABLE_SPEED_1 + 2 * k)]
+            if not speed > last:
+                return 2 + k
+            last = speed
+    return 0

@@ -4,16 +4,15 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import clutch_layout as L
-from ._jit import kernel
+from ._jit import Array, kernel
 from .boundary import shear_and_slope
-from .film import INV_SQRT2PI, mean_gap
-from .lining_table import area_integrals, contact_integral, separation_and_slope
-from .roelands import viscosity
+from .flow_factors import INV_SQRT2PI, mean_gap
+from .greenwood_tripp import area_integrals, contact_integral, separation_and_slope
+from .status import OK
+from .viscosity import viscosity
 
-Array = NDArray[np.float64]
 FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
 
 
@@ -98,7 +97,7 @@ def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, 
     """
     pressure = load / par[L.D_AREA]
     if pressure < L.OPEN_PRESSURE:
-        return par[L.D_OPEN_RATIO], 0.0, L.OK, 0
+        return par[L.D_OPEN_RATIO], 0.0, OK, 0
     ratio, slope, status, iterations = separation_and_slope(pressure / par[L.D_PRESSURE], guess)
     return ratio, slope / load, status, iterations
 

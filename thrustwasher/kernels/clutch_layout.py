@@ -27,34 +27,32 @@ N_MODES = 8  # of heat conduction across half a steel plate
 D_DECAY = N_PARAM + 15  # decay rate [1/s] of the lumped heat, then of each mode
 D_GAIN = D_DECAY + 1 + N_MODES  # their rise [K/s] per W into a face
 N_PACK = D_GAIN + 1 + N_MODES
-# The rung `fine` behind them: the number of rings, each ring's weight in the squeezed film, then a
-# block like all of the above for each ring.
+# Behind them the rings the pack is resolved into: their number, the place of the first one's
+# block, each ring's weight in the squeezed film, then for the rung `fine` a block like all of the
+# above for each ring. A lumped pack is one ring, whose block is the beginning of ``par`` itself.
 MAX_RINGS, N_RINGS = 8, 4  # at most, and those of the rung
-D_RINGS, D_SQUEEZE, D_BLOCKS = N_PACK, N_PACK + 1, N_PACK + 1 + MAX_RINGS
+D_RINGS, D_FIRST, D_SQUEEZE = N_PACK, N_PACK + 1, N_PACK + 2
+D_BLOCKS = D_SQUEEZE + MAX_RINGS
 NPAR = D_BLOCKS + MAX_RINGS * N_PACK
 
 I_LOAD, I_SPEED, I_OIL = range(3)
 NINP = 3
 
+# The unknowns of a pack: film ratio, energy of a face, then ring by ring the plate's mean
+# temperature and its modes, without gaps.
+Y_FILM, Y_ENERGY, Y_HEAT = range(3)
+N_HEAT = MAX_RINGS * (1 + N_MODES)
+NY = Y_HEAT + N_HEAT
+
 # Memory. What has to do with a point in time belongs to the last one whose inputs are known.
-(
-    S_STARTED, S_FILM, S_ENERGY, S_HEAT,
-) = range(4)  # fmt: skip
-S_MODES = 4
+S_STARTED, S_FILM, S_ENERGY, S_HEAT = range(4)  # the last three: unknowns in their order
 (
     S_SHOWN_TEMPERATURE, S_SHOWN_ENERGY, S_POWER, S_LOAD, S_SLIP, S_OIL, S_DURATION, S_SUBSTEP,
-) = range(S_MODES + N_MODES, S_MODES + N_MODES + 8)  # fmt: skip
-# Of the rung `fine`, ring by ring: mean temperature and modes of the plate.
-S_RINGS = S_MODES + N_MODES + 8
-N_BODY = 1 + N_MODES
-NSTATE = S_RINGS + MAX_RINGS * N_BODY
+) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 8)  # fmt: skip
+NSTATE = S_HEAT + N_HEAT + 8
 
-# The unknowns of the moving film: film ratio, energy of a face, lumped temperature, modes.
-Y_FILM, Y_ENERGY, Y_HEAT = range(3)
-NY = 3 + N_MODES
 N_STAGES = 6
-W_NOW, W_TRIAL, W_RATE = 0, NY, 2 * NY
-W_STAGES = 3 * NY
+W_NOW, W_TRIAL, W_RATE, W_STAGES = 0, NY, 2 * NY, 3 * NY
 W_SUBSTEPS = W_STAGES + N_STAGES * NY  # counts: accepted and refused substeps
 W_REFUSED = W_SUBSTEPS + 1
 W_PROPOSED = W_SUBSTEPS + 2  # size [s] the next substep should have
@@ -66,25 +64,29 @@ W_DURATION = W_SUBSTEPS + 3  # the step [s] that all this belongs to
     W_VISCOUS, W_VISCOUS_SLIP, W_VISCOUS_FILM, W_VISCOUS_HEAT,
     W_FRICTION_SLIP, W_FRICTION_HEAT, W_SHARE_FILM, W_VISCOSITY_HEAT, W_SMOOTH, W_SETTLED_LOAD,
 ) = range(W_SUBSTEPS + 4, W_SUBSTEPS + 19)  # fmt: skip
-# Slopes at each stage of the last substep, then where the drift of the rates was read: of the film
-# rate over film ratio and temperature, of the power over both; of rate, power over the load; of the
-# power over the slip.
-W_KEPT, N_KEPT = W_SUBSTEPS + 19, 7
-W_VARIED = W_KEPT + (N_STAGES + 1) * N_KEPT  # changes of the unknowns with the inputs
-W_VARIED_DRIFT = W_VARIED + NY
-W_VARIED_STAGES = W_VARIED + 2 * NY
-# Of the rung `fine`: unknowns, changes of them, trial values and changes, the stages' rates and
-# theirs; then the rings' numbers at hand.
-NZ = 2 + MAX_RINGS * N_BODY  # film ratio, energy of a face, then each ring
-Z_FILM, Z_ENERGY, Z_RINGS = range(3)
-N_FINE_STAGES, N_AT = 5, 12
-W_Z = W_VARIED_STAGES + N_STAGES * NY
-W_DZ, W_BASE, W_DBASE, W_K, W_DK = (
-    W_Z + NZ, W_Z + 2 * NZ, W_Z + 3 * NZ, W_Z + 4 * NZ, W_Z + (4 + N_FINE_STAGES) * NZ,
+# Rates and their slopes at a point: film rate, its slopes over film ratio and load; then for each
+# ring the power of a face [W], its slopes over film ratio, temperature, load of the pack and slip,
+# and the slope of the film rate over the ring's temperature.
+R_RATE, R_RATE_U, R_RATE_F, R_RINGS = range(4)
+R_POWER, R_POWER_U, R_POWER_T, R_POWER_F, R_POWER_S, R_RATE_T = range(6)
+N_OF_RING = 6
+N_RATES = R_RINGS + MAX_RINGS * N_OF_RING
+# They are kept for each stage of the last substep, for where the drift of the rates was read, for a
+# neighbouring state, and as changes of the slopes.
+W_KEPT = W_SUBSTEPS + 19
+DRIFTED, NEIGHBOUR, BENT = N_STAGES, N_STAGES + 1, N_STAGES + 2
+W_NEIGHBOUR, W_BENT = W_KEPT + NEIGHBOUR * N_RATES, W_KEPT + BENT * N_RATES
+W_VARIED = W_KEPT + (BENT + 1) * N_RATES  # changes of the unknowns with the inputs
+W_VARIED_DRIFT, W_VARIED_STAGES = W_VARIED + NY, W_VARIED + 2 * NY
+# Interface temperatures of the rings, or their changes; changes of their powers; what a substep's
+# linear systems have in common for each ring, and the right side.
+W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
+W_SURFACE_CHANGE, W_POWER_CHANGE = W_SURFACE + MAX_RINGS, W_SURFACE + 2 * MAX_RINGS
+W_GAIN, W_DIAGONAL, W_FILM_PIVOT, W_DETERMINANT, W_HELD = (
+    W_SURFACE + 3 * MAX_RINGS, W_SURFACE + 4 * MAX_RINGS, W_SURFACE + 5 * MAX_RINGS,
+    W_SURFACE + 6 * MAX_RINGS, W_SURFACE + 7 * MAX_RINGS,
 )  # fmt: skip
-W_AT = W_DK + N_FINE_STAGES * NZ
-W_SURFACE = W_AT + MAX_RINGS * N_AT  # interface temperatures of the rings, their changes
-NWORK = W_SURFACE + 2 * MAX_RINGS
+NWORK = W_SURFACE + 8 * MAX_RINGS
 
 (
     O_TORQUE, O_TEMPERATURE, O_FILM, O_CAPACITY, O_COEFFICIENT, O_RATIO, O_POWER, O_ENERGY,
@@ -98,7 +100,6 @@ CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD, FINE = range(1, 6)  # fidelity
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 N_TABLE = 5  # points above standstill
 LINEAR_COURSE = 2  # input_course
-OK, OUTSIDE_VERIFIED, HOT, MAX_ITERATIONS, NOT_FINITE, BAD_INPUT = 0, 1, 2, 10, 14, 15
 HOT_LIMIT = 523.0  # K
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open

@@ -1,17 +1,14 @@
 # mypy: disable-error-code="no-any-return"
 """A pack that slips at constant load and speed for ever: the temperature where cooling wins."""
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import clutch_layout as L
-from ._jit import kernel
+from ._jit import Array, kernel
 from .clutch_constants import derive
 from .clutch_friction import coefficient_of, contact_torque, viscous_torque
+from .status import MAX_ITERATIONS, NOT_FINITE, OK
 
 __all__ = ["derive", "steady_temperature", "steady_torques"]
 
-Array = NDArray[np.float64]
 MAX_STEPS = 200
 
 
@@ -42,7 +39,7 @@ def steady_temperature(
     temperature there may be more, and one of them is found.
     """
     if par[L.P_FIDELITY] == L.BOUNDARY_ONLY or slip == 0.0:
-        return oil, L.OK, 0
+        return oil, OK, 0
     scale = abs(slip) / (par[L.P_FACES] * par[L.D_COOLING])
     low, high, bracketed = oil, oil, False
     t = oil
@@ -50,9 +47,9 @@ def steady_temperature(
         contact, viscous, slope = steady_torques(par, load, slip, u, t)
         balanced = oil + scale * (contact + viscous)
         if not balanced < 1e300:
-            return t, L.NOT_FINITE, n
+            return t, NOT_FINITE, n
         if abs(balanced - t) <= 1e-13 * t or (bracketed and high - low <= 4e-16 * high):
-            return t, L.OK, n + 1
+            return t, OK, n + 1
         if balanced > t:
             low = t
             if not bracketed:
@@ -62,4 +59,4 @@ def steady_temperature(
             high, bracketed = t, True
         newton = t - (balanced - t) / (scale * slope - 1.0)
         t = newton if low < newton < high else 0.5 * (low + high)
-    return t, L.MAX_ITERATIONS, MAX_STEPS
+    return t, MAX_ITERATIONS, MAX_STEPS

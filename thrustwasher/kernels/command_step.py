@@ -3,15 +3,14 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ._jit import kernel
+from ._jit import Array, kernel
+from .status import OK
 
-Array = NDArray[np.float64]
 IntArray = NDArray[np.int32]
 
 P_START, P_DURATION, P_BEFORE, P_AFTER, P_LEAD, P_FIDELITY = range(6)
 N_PARAM, NPAR = 6, 6
 NINP, NSTATE, NWORK, NOUT, NIOUT = 0, 0, 1, 1, 1
-OK = 0
 
 
 @kernel

@@ -2,14 +2,11 @@
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ._jit import kernel
+from ._jit import Array, kernel
 
 
 @kernel
-def dense_solve(a: NDArray[np.float64], b: NDArray[np.float64], n: int, n_rhs: int) -> bool:
+def dense_solve(a: Array, b: Array, n: int, n_rhs: int) -> bool:
     """Solve ``a x = b`` in place; return False if a pivot is zero or not finite.
 
     Parameters

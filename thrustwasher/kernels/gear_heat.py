@@ -3,7 +3,7 @@
 import math
 
 from ._jit import kernel
-from .corners import soft_least
+from .smoothing import soft_least
 
 ELLIPTIC = 0.7859834  # Blok's factor for heat spread as Hertz's pressure
 LOWEST_OIL = 233.15  # K; the viscosity law counts colder oil as this

@@ -44,7 +44,6 @@ IO_REGIME, IO_STATUS = range(2)
 NIOUT = 2
 
 FILM, MIXED, BOUNDARY = range(1, 4)  # regimes
-OK, OUTSIDE_VERIFIED, HOT, MAX_ITERATIONS, NOT_FINITE, BAD_INPUT = 0, 1, 2, 10, 14, 15
 # Numbers of the enumerations.
 CLOSED, STRIBECK, FIELD, FINE = range(1, 5)  # fidelity
 ROUGH = 1  # surface

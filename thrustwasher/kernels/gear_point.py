@@ -7,14 +7,19 @@ speed at least 1 mrad/s, rounded, so that every number stays finite with a conti
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import gear_layout as L
-from ._jit import kernel
-from .corners import floored, smoothstep, soft_size
-from .gear_contact import film_thickness, hertz_width, surface_stress
-from .gear_friction import iso_and_slope, li_seireg, li_seireg_slope
+from ._jit import Array, kernel
+from .gear_contact import (
+    film_thickness,
+    hertz_width,
+    iso_and_slope,
+    li_seireg,
+    li_seireg_slope,
+    modification,
+    surface_stress,
+    thermal_stress,
+    utilization,
+)
 from .gear_heat import (
     blok_rise,
     closed_flank,
@@ -24,10 +29,9 @@ from .gear_heat import (
     oil_viscosity,
     surface_factor,
 )
-from .gear_stress import modification, thermal_stress, utilization
-from .rough_area import LARGEST_RATIO, area_and_slope, bounded_ratio
-
-Array = NDArray[np.float64]
+from .greenwood_williamson import LARGEST_RATIO, area_and_slope, bounded_ratio
+from .smoothing import floored, smoothstep, soft_size
+from .status import HOT, OK, OUTSIDE_VERIFIED
 
 LEAST_LINE_LOAD = 1.0  # N/m
 LEAST_SPEED = 1e-3  # rad/s
@@ -102,7 +106,7 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
     taken = par[L.D_SHARE] * sliding * width  # heat into the pinion per stress, [m2/s]
     factor = taken * surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
     warm, thins, exponent = viscosity_follows(par)
-    status, iterations = L.OK, 0
+    status, iterations = OK, 0
     if par[L.P_FIDELITY] == L.STRIBECK:
         surface, stress, slope = closed_flank(
             oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
@@ -226,10 +230,10 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
     field[L.F_FRICTION], field[L.F_FLASH] = friction, rise
     field[L.F_WEIGHT] = contact_weight(par, field[L.F_RATIO])
     stress_asperities(par, oil, field)
-    if status == L.OK:
+    if status == OK:
         if field[L.F_FILM_TEMPERATURE] > HOT_FILM:
-            status = L.HOT
+            status = HOT
         elif outside(par, oil, field):
-            status = L.OUTSIDE_VERIFIED
+            status = OUTSIDE_VERIFIED
     field[L.F_STATUS], field[L.F_ITERATIONS] = float(status), float(iterations)
     return status

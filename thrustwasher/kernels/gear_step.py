@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import gear_layout as L
-from ._jit import kernel
-from .corners import soft_size, soft_size_slope
+from ._jit import Array, kernel
+from .gear_constants import broken_rule as broken_rule
 from .gear_constants import derive as derive
-from .gear_fine import mesh_changes, solve_mesh
+from .gear_line_of_action import mesh_changes, solve_mesh
 from .gear_point import LEAST_LINE_LOAD
-from .gear_rules import broken_rule as broken_rule
+from .smoothing import soft_size, soft_size_slope
+from .status import BAD_INPUT, NOT_FINITE, OK
 
-Array = NDArray[np.float64]
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT = L.NOUT, L.NIOUT
 
@@ -46,8 +46,8 @@ def step(
         math.isfinite(load) and math.isfinite(speed) and math.isfinite(oil) and dt >= 0.0
         and oil > 0.0
     ):  # fmt: skip
-        iout[L.IO_STATUS] = L.BAD_INPUT
-        return L.BAD_INPUT
+        iout[L.IO_STATUS] = BAD_INPUT
+        return BAD_INPUT
     status = solve_mesh(par, load, speed, oil, work)
     # The loss grows from zero load with a continuous slope, over twice the least line load.
     pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
@@ -59,7 +59,7 @@ def step(
     for i in range(L.NOUT):
         out[np.uintp(i)] = work[np.uintp(i)]
         if not math.isfinite(out[np.uintp(i)]):
-            status = L.NOT_FINITE
+            status = NOT_FINITE
     iout[L.IO_STATUS] = status
     return status if status >= 10 else 0
 
@@ -86,5 +86,5 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
     for i in range(L.NOUT):
         if not math.isfinite(dout[np.uintp(i)]):
-            return L.NOT_FINITE
-    return L.OK
+            return NOT_FINITE
+    return OK

@@ -1,16 +1,11 @@
 """Quadrature weights of the not-a-knot cubic spline through given nodes."""
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ._jit import kernel
+from ._jit import Array, kernel
 from .dense import dense_solve
 
 
 @kernel
-def spline_weights(
-    x: NDArray[np.float64], weights: NDArray[np.float64], n: int, work: NDArray[np.float64]
-) -> bool:
+def spline_weights(x: Array, weights: Array, n: int, work: Array) -> bool:
     """Fill ``weights`` so that sum(weights f) is the integral of the spline through (x, f).
 
     Parameters

@@ -70,5 +70,3 @@ NIOUT = 4
 
 TORQUE_COUPLING = 2
 STUCK = 0.0  # modes of a pack: 1 slips forward, -1 slips backward, 0 sticks
-OK, STALLED = 0, 4
-MAX_ITERATIONS, NO_EVENT, NOT_FINITE, BAD_INPUT = 10, 13, 14, 15

@@ -6,19 +6,16 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from . import transmission_dynamics as dynamics
 from . import transmission_layout as L
-from . import transmission_motion as motion
-from ._jit import kernel
-from .transmission_course import is_at_rest, run
-from .transmission_rules import broken_rule as broken_rule
-from .transmission_sens import LEAST_WASHER_LOAD
-from .transmission_sens import sens as sens
-
-Array = NDArray[np.float64]
+from ._jit import Array, kernel
+from .status import BAD_INPUT, NOT_FINITE, OK, STALLED
+from .transmission_directional_derivative import LEAST_WASHER_LOAD
+from .transmission_integrate_step import is_at_rest, run
 
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
-derive = motion.derive
+derive, broken_rule = dynamics.derive, dynamics.broken_rule
 
 
 @kernel
@@ -85,7 +82,7 @@ def kinetic_start(par: Array, state: Array, dt: float) -> float:
         return -1.0
     sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
     carrier = (sun + r * ring) / (1.0 + r)
-    return float(motion.kinetic_energy(par, sun, carrier, carrier))
+    return float(dynamics.kinetic_energy(par, sun, carrier, carrier))
 
 
 @kernel
@@ -97,8 +94,8 @@ def keep(inp: Array, state: Array, work: Array, start: float, dt: float) -> None
         state[np.uintp(L.S_Y + i)] = work[np.uintp(L.W_Y + i)]
     state[L.S_LAST_CLUTCH], state[L.S_LAST_BRAKE] = inp[L.I_CLUTCH], inp[L.I_BRAKE]
     state[L.S_LAST_DURATION] = dt
-    state[L.S_CLUTCH_NOW] = motion.clutch_capacity(work, dt)
-    state[L.S_BRAKE_NOW] = motion.brake_capacity(work, dt)
+    state[L.S_CLUTCH_NOW] = dynamics.clutch_capacity(work, dt)
+    state[L.S_BRAKE_NOW] = dynamics.brake_capacity(work, dt)
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
     for i in range(4):
         state[np.uintp(L.S_LOCK_TIME + i)] = work[np.uintp(L.W_EVENTS + i)]
@@ -109,9 +106,9 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     """Fill speeds, torques and loads at ``s`` seconds into the step."""
     r = par[L.D_RATIO]
     sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
-    resists = motion.output_torque(par, work, L.W_Y)
-    motion.solve_torques(par, work, s, resists)
-    clutch = motion.clutch_share(par, work, s)
+    resists = dynamics.output_torque(par, work, L.W_Y)
+    dynamics.solve_torques(par, work, s, resists)
+    clutch = dynamics.clutch_share(par, work, s)
     drag = (work[L.W_CLUTCH] - clutch) * (1.0 + r) / r
     tau = work[L.W_ENGINE] - clutch - drag - par[L.P_SUN_INERTIA] * work[L.W_SUN_RATE]
     force = abs(tau) / (par[L.P_PLANETS] * par[L.D_SUN_RADIUS])
@@ -119,9 +116,9 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     command = inp[L.I_COMMAND]
     spin = par[L.D_SPIN] * (sun - carrier)
     out[L.O_CLUTCH_LOAD] = command * par[L.P_CLUTCH_FORCE]
-    out[L.O_CLUTCH_SPEED] = motion.clutch_slip(r, sun, carrier)
+    out[L.O_CLUTCH_SPEED] = dynamics.clutch_slip(r, sun, carrier)
     out[L.O_BRAKE_LOAD] = (1.0 - command) * par[L.P_BRAKE_FORCE]
-    out[L.O_BRAKE_SPEED] = motion.ring_speed(r, sun, carrier)
+    out[L.O_BRAKE_SPEED] = dynamics.ring_speed(r, sun, carrier)
     out[L.O_WASHER_LOAD] = max(
         LEAST_WASHER_LOAD, par[L.P_THRUST_SHARE] * couple / (2.0 * par[L.P_WASHER_RADIUS])
     )
@@ -130,10 +127,10 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     out[L.O_MESH_LOAD] = force * par[L.D_PLANET_RADIUS]
     out[L.O_MESH_SPEED] = spin
     out[L.O_ENGINE_SPEED], out[L.O_OUTPUT_SPEED] = sun, carrier
-    out[L.O_RING_SPEED] = motion.ring_speed(r, sun, carrier)
+    out[L.O_RING_SPEED] = dynamics.ring_speed(r, sun, carrier)
     out[L.O_DRIVE_TORQUE] = work[L.W_ENGINE]
-    vehicle = motion.vehicle_speed(par, work, L.W_Y)
-    out[L.O_RESISTANCE_TORQUE] = motion.load_torque(par, vehicle)
+    vehicle = dynamics.vehicle_speed(par, work, L.W_Y)
+    out[L.O_RESISTANCE_TORQUE] = dynamics.load_torque(par, vehicle)
     out[L.O_VEHICLE_SPEED], out[L.O_SHAFT_TORQUE] = vehicle, resists
     out[L.O_SHAFT_TWIST] = work[L.W_Y + L.Y_TWIST]
     out[L.O_CLUTCH_REACTION], out[L.O_BRAKE_REACTION] = clutch, work[L.W_BRAKE]
@@ -150,8 +147,8 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
     The residual is what the entries leave unexplained.
     """
     sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
-    vehicle = motion.vehicle_speed(par, work, L.W_Y)
-    kinetic = motion.kinetic_energy(par, sun, carrier, vehicle)
+    vehicle = dynamics.vehicle_speed(par, work, L.W_Y)
+    kinetic = dynamics.kinetic_energy(par, sun, carrier, vehicle)
     if start < 0.0:
         start = kinetic
     out[L.O_ENGINE_WORK] = work[L.W_Y + L.Y_ENGINE]
@@ -162,7 +159,7 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
     out[L.O_WASHER_HEAT] = work[L.W_Y + L.Y_WASHER]
     out[L.O_MESH_HEAT] = work[L.W_Y + L.Y_MESH]
     out[L.O_SHAFT_HEAT] = work[L.W_Y + L.Y_SHAFT]
-    out[L.O_SHAFT_ENERGY] = motion.spring_energy(par, work[L.W_Y + L.Y_TWIST])
+    out[L.O_SHAFT_ENERGY] = dynamics.spring_energy(par, work[L.W_Y + L.Y_TWIST])
     spent = out[L.O_KINETIC_CHANGE] + out[L.O_LOAD_WORK] + out[L.O_CLUTCH_HEAT]
     spent += out[L.O_BRAKE_HEAT] + out[L.O_WASHER_HEAT] + out[L.O_MESH_HEAT]
     spent += out[L.O_SHAFT_HEAT] + out[L.O_SHAFT_ENERGY]
@@ -188,28 +185,28 @@ def step(
     """
     for i in range(L.NINP):
         if not math.isfinite(inp[np.uintp(i)]):
-            iout[L.IO_STATUS] = L.BAD_INPUT
-            return L.BAD_INPUT
+            iout[L.IO_STATUS] = BAD_INPUT
+            return BAD_INPUT
     if not (
         math.isfinite(t) and math.isfinite(dt) and dt >= 0.0 and 0.0 <= inp[L.I_COMMAND] <= 1.0
     ):
-        iout[L.IO_STATUS] = L.BAD_INPUT
-        return L.BAD_INPUT
+        iout[L.IO_STATUS] = BAD_INPUT
+        return BAD_INPUT
     begin(par, inp, state, work)
     receive(par, inp, state, work, dt)
     status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
     start = kinetic_start(par, state, dt)
     show_motion(par, inp, work, out, dt)
     show_energy(par, start, work, out)
-    if status == L.OK and not _is_finite(work, out, dt):
-        status = L.NOT_FINITE
-    if status == L.OK and dt > 0.0:
+    if status == OK and not _is_finite(work, out, dt):
+        status = NOT_FINITE
+    if status == OK and dt > 0.0:
         keep(inp, state, work, start, dt)
-    clutch_holds = motion.clutch_capacity(work, dt) > 0.0
+    clutch_holds = dynamics.clutch_capacity(work, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0
     iout[L.IO_EVENTS] = int(work[L.W_EVENTS + 3])
-    iout[L.IO_STATUS] = L.STALLED if status == L.OK and is_at_rest(par, work) else status
+    iout[L.IO_STATUS] = STALLED if status == OK and is_at_rest(par, work) else status
     return status
 
 
@@ -221,8 +218,8 @@ def _is_finite(work: Array, out: Array, dt: float) -> bool:
         good = good and math.isfinite(work[np.uintp(L.W_Y + i)])
     for i in range(4):
         good = good and math.isfinite(work[np.uintp(L.W_EVENTS + i)])
-    good = good and math.isfinite(motion.clutch_capacity(work, dt))
-    good = good and math.isfinite(motion.brake_capacity(work, dt))
+    good = good and math.isfinite(dynamics.clutch_capacity(work, dt))
+    good = good and math.isfinite(dynamics.brake_capacity(work, dt))
     for i in range(L.NOUT):
         good = good and math.isfinite(out[np.uintp(i)])
     return good

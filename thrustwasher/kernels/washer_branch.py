@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import inlined, kernel
-from .roelands import viscosity
+from .viscosity import viscosity
 from .washer_curve import (
     ACCURACY,
     SHARE,

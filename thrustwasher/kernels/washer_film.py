@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ._jit import kernel
 from .banded import N_SIDES, cholesky, cholesky_solve_many
-from .film import flow_conductance, mean_gap, shear_flow
+from .flow_factors import flow_conductance, mean_gap, shear_flow
 from .washer_fields import Fields, Point
 from .washer_model import WasherModel
 

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .contact import contact_pressure
-from .film import mean_gap
-from .roelands import viscosity
+from .asperities import contact_pressure
+from .flow_factors import mean_gap
+from .viscosity import viscosity
 from .washer_fields import Fields, Point
 from .washer_model import Plates, WasherModel
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .film import mean_gap
-from .roelands import LN10, viscosity
+from .flow_factors import mean_gap
+from .viscosity import LN10, viscosity
 from .washer_gap import dry_friction
 from .washer_model import SIGMA1, SIGMA2, Plates
 from .washer_wedge import lift, rim_contact, shear_moment

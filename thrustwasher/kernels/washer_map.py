@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .chart import N_TERMS, contract, enter_cell, polynomial_slope
-from .roelands import viscosity
+from .chebyshev import N_TERMS, contract, enter_cell, polynomial_slope
+from .viscosity import viscosity
 from .washer_fields import Point
 from .washer_map_layout import (
     AXES,

@@ -19,7 +19,7 @@ and two short ones, the washer's tilts about x and y over that of the gear, whic
 All of them stay finite as the speed goes to 0, where the load rests on the asperities.
 """
 
-from .chart import N_CELL, N_TERMS
+from .chebyshev import N_CELL, N_TERMS
 
 N_PIECES = 5
 N_CURVES = 6

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .chart import N_TERMS, polynomial, polynomial_slope
+from .chebyshev import N_TERMS, polynomial, polynomial_slope
 from .washer_fields import Point
 from .washer_map import (
     AT_PIECE,

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .asperity import asperity_args
-from .contact import N_CONTACT_WORK, N_TABLE, contact_table
+from .asperities import N_CONTACT_WORK, N_TABLE, asperity_args, contact_table
 from .spline import spline_weights
 
 N_PARAM = 36  # 35 fields of WasherParams, then the fidelity

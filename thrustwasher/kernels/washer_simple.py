@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .contact import N_CONTACT_WORK
+from .asperities import N_CONTACT_WORK
 from .washer_branch import (
     ANY,
     BRANCH,

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._jit import kernel
-from .contact import contact_pressure
-from .film import flow_conductance
+from .asperities import contact_pressure
+from .flow_factors import flow_conductance
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 from .washer_model import SUMMIT1, SUMMIT_SIGMA1, TABLES, WEDGE
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import SolveError
 from ..kernels import washer_map_layout as L
-from ..kernels.chart import N_TERMS
+from ..kernels.chebyshev import N_TERMS
 from ..kernels.washer_curve import ACCURACY, S, recall, remember
 from ..kernels.washer_fields import Point
 from ..kernels.washer_gap import CONTACT, FRICTION

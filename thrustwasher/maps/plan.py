@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
-from ..kernels.chart import N_NODES, nodes_of
-from ..kernels.roelands import viscosity
+from ..kernels.chebyshev import N_NODES, nodes_of
+from ..kernels.viscosity import viscosity
 from ..kernels.washer_model import N_STEADY, SIGMA1
 from ..models._params import as_numbers
 from ..models.washer_constants import constants

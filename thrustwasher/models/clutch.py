@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import ParameterError, SolveError, Status
-from ..kernels import boundary, clutch_friction, clutch_layout, clutch_steady
+from ..kernels import boundary, clutch_friction, clutch_rates, clutch_steady
+from ..kernels import clutch_layout as k
 from ._params import check_number
 from ._prepare import filled
 from ._spec import REGIMES
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
-from .clutch_steady_pack import steady_pack
 
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
@@ -116,7 +116,58 @@ def boundary_friction(
 
 def prepare(params: ClutchParams, fidelity: str) -> Any:
     """Return the parameter array of the kernel, constants included."""
-    return filled(SPEC, params, fidelity, clutch_layout.NPAR, clutch_steady.derive)
+    return filled(SPEC, params, fidelity, k.NPAR, clutch_steady.derive)
+
+
+class SteadyPack(NamedTuple):
+    """Torques [N m >= 0], temperatures [K] and friction of a pack."""
+
+    contact: float
+    viscous: float
+    temperature: float  # mean by area
+    hottest: float
+    coefficient: float
+    shear_ratio: float
+    status: int
+    iterations: int
+
+
+def steady_pack(par: Any, load: float, slip: float, oil: float, ratio: float) -> SteadyPack:
+    """Return the steady state at a settled film of ``ratio`` roughnesses."""
+    if par[k.P_FIDELITY] != k.FINE:
+        return _part(par, load, slip, oil, ratio)
+    shares, parts = [], []
+    for n in range(int(par[k.D_RINGS])):
+        ring = clutch_rates.ring_of(par, n)
+        shares.append(float(ring[k.D_AREA] / par[k.D_AREA]))
+        parts.append(_part(ring, load * shares[-1], slip, oil, ratio))
+    levers = [s * float(clutch_rates.ring_of(par, n)[k.D_RADIUS])
+              for n, s in enumerate(shares)]  # fmt: skip
+
+    def mean(name: str, weights: list[float]) -> float:
+        pairs = zip(weights, parts, strict=True)
+        return sum(w * float(getattr(p, name)) for w, p in pairs) / sum(weights)
+
+    return SteadyPack(
+        contact=sum(p.contact for p in parts),
+        viscous=sum(p.viscous for p in parts),
+        temperature=mean("temperature", shares),
+        hottest=max(p.hottest for p in parts),
+        coefficient=mean("coefficient", levers),
+        shear_ratio=mean("shear_ratio", levers),
+        status=max(p.status for p in parts),
+        iterations=sum(p.iterations for p in parts),
+    )
+
+
+def _part(par: Any, load: float, slip: float, oil: float, ratio: float) -> SteadyPack:
+    temperature, status, rounds = clutch_steady.steady_temperature(par, load, slip, oil, ratio)
+    contact, viscous, _ = clutch_steady.steady_torques(par, load, slip, ratio, temperature)
+    return SteadyPack(
+        float(contact), float(viscous), float(temperature), float(temperature),
+        float(clutch_friction.coefficient_of(par, slip, temperature)[0]),
+        float(clutch_friction.shear_of(par, slip, temperature)[0]), int(status), int(rounds),
+    )  # fmt: skip
 
 
 def solve_clutch(
@@ -180,9 +231,9 @@ def solve_clutch(
     status = max(Status(film), Status(s.status))
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
-    if not status.is_failure and ratio < clutch_layout.LEAST_RATIO:
+    if not status.is_failure and ratio < k.LEAST_RATIO:
         status = Status.OUTSIDE_VERIFIED
-    if not status.is_failure and s.hottest > clutch_layout.HOT_LIMIT:
+    if not status.is_failure and s.hottest > k.HOT_LIMIT:
         status = Status.HOT
     sign = math.copysign(1.0, speed) if speed else 0.0
     torque = sign * (contact + viscous)

@@ -3,107 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .clutch_calibration_input import checked_names, checked_points, checked_start
+from .clutch_calibration_result import Calibration, Estimate
 from .clutch_fit import Problem, best_fit, profile_end, settled
 from .clutch_friction import CONSTANT_LAW, end_frictions, friction_slopes
-from .clutch_information import Information, information
-from .clutch_load_test import LoadTest, load_test
+from .clutch_identifiability import (
+    Information,
+    Verdict,
+    confounded,
+    information,
+    load_test,
+    verdicts,
+)
 from .clutch_params import ClutchParams
-from .clutch_verdicts import Verdict, confounded, verdicts
 from .clutch_warnings import warnings
 
 __all__ = ["Calibration", "Estimate", "calibrate"]
 
 Array = NDArray[np.float64]
 DEFAULT_FIT = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
-
-
-@dataclass(frozen=True, slots=True)
-class Estimate:
-    """One fitted number with its uncertainty, SI units."""
-
-    name: str
-    unit: str
-    value: float
-    standard_error: float
-    """Infinite where the points do not tell it."""
-    interval: tuple[float, float]
-    """Linearised, within the allowed range; that whole range if not identifiable."""
-    profile_interval: tuple[float, float] | None
-    """From the rise of the sum of squares, the other constants refitted; None if not computed."""
-    identifiable: bool
-    at_bound: str
-    """ "lower", "upper" or "" (inside the allowed range)."""
-    reason: str
-    """Why it is not identifiable, or what stops it at a bound; "" if there is nothing to say."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Calibration:
-    """A friction law fitted to measurements; ``str()`` of it is a summary in sentences."""
-
-    params: ClutchParams
-    """The pack with the fitted values, for solve_clutch and FMUs."""
-    estimates: tuple[Estimate, ...]
-    """In the order of ``fit``."""
-    end_frictions: tuple[Estimate, ...]
-    """Coefficient at rest and at very high slip: often told where single constants are not."""
-    correlation: Array
-    """(constants, constants); NaN where a constant is not told."""
-    confounded: tuple[str, ...]
-    """Combinations of constants that the points cannot tell apart, a sentence each."""
-    residuals: Array
-    """(points,) measured less fitted coefficient."""
-    rms: float
-    degrees_of_freedom: int
-    reduced_chi_square: float | None
-    """None without ``friction_error``."""
-    load_test: LoadTest
-    warnings: tuple[str, ...]
-    """Sentences on points that the law cannot follow, the gravest first; empty for a sound fit."""
-    confidence: float
-    _problem: Problem = field(repr=False)
-    _best: Array = field(repr=False)
-    _told: Information = field(repr=False)
-
-    def __getitem__(self, name: str) -> Estimate:
-        """Return the estimate of one constant."""
-        return next(e for e in (*self.estimates, *self.end_frictions) if e.name == name)
-
-    def band(self, slip_speed: ArrayLike) -> tuple[Array, Array]:
-        """Return (coefficient, half width of its confidence band) at slip speeds [m/s].
-
-        The half width is infinite where the points do not tell the curve; so it is below the
-        slowest point if the corner at stick_speed may lie there.
-        """
-        speed = np.abs(np.atleast_1d(np.asarray(slip_speed, float)))
-        problem, told = self._problem, self._told
-        curve = problem.curve(self._best, speed)
-        rows = friction_slopes(problem.values(self._best), speed, problem.names)
-        if not np.isfinite(told.quantile):
-            return curve, np.full(speed.shape, np.inf)
-        half = told.quantile * np.array([told.error_of(row) for row in rows])
-        if any(e.name == "stick_speed" and not e.identifiable for e in self.estimates):
-            half[speed < problem.speed.min()] = np.inf
-        return curve, half
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return what JSON can hold; None stands for infinite and for not known."""
-        from .clutch_calibration_text import as_dict
-
-        return as_dict(self)
-
-    def __str__(self) -> str:
-        """Return the summary."""
-        from .clutch_calibration_text import summary
-
-        return summary(self)
 
 
 def calibrate(

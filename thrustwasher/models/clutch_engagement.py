@@ -9,18 +9,46 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import SolveError, Status
-from ..kernels import clutch_friction
+from ..kernels import clutch_advance, clutch_friction, clutch_outputs, clutch_rates
 from ..kernels import clutch_layout as k
 from ._course import course_of, rising
 from ._params import check_number
 from ._spec import REGIMES
 from .clutch import prepare
-from .clutch_course import Lumped, Rings
 from .clutch_params import LOAD, OIL, SPEC, SPEED, ClutchParams
 
 __all__ = ["Engagement", "engage_clutch"]
 
 Array = NDArray[np.float64]
+
+
+Course = tuple[float, float, float, float, float, float]
+
+
+class PackCourse:
+    """A pack on its way; ``status`` tells how the last call went."""
+
+    def __init__(self, par: Any, load: float, oil: float) -> None:
+        self.par, self.work, self.out = par, np.zeros(k.NWORK), np.zeros(k.NOUT)
+        self.status = int(clutch_advance.load_memory(par, load, oil, np.zeros(k.NSTATE), self.work))
+        if self.status == Status.OK and not clutch_rates.moves_film(par):
+            self.work[k.W_NOW + k.Y_FILM] = 1.0
+            self.status = int(clutch_advance.settle_film(par, load, self.work))
+
+    def advance(self, course: Course, duration: float) -> int:
+        """Go along a stretch; return the number of substeps."""
+        power = self.out[k.O_POWER] / self.par[k.P_FACES]
+        self.status = int(clutch_advance.advance(
+            self.par, course, duration, power, self.work[k.W_PROPOSED], self.work
+        ))  # fmt: skip
+        return int(self.work[k.W_SUBSTEPS])
+
+    def show(self, load: float, slip: float) -> Array:
+        """Return the real outputs at the present point."""
+        clutch_outputs.fill_outputs(self.par, load, slip, self.work, self.out)
+        self.out[k.O_TEMPERATURE], _ = clutch_outputs.mean_surface(self.par, self.work)
+        self.out[k.O_ENERGY] = self.par[k.P_FACES] * self.work[k.W_NOW + k.Y_ENERGY]
+        return self.out
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,9 +128,9 @@ def engage_clutch(
     slips = course_of("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
     par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
-    pack = (Rings if fidelity == "fine" else Lumped)(par, forces[0], oil)
+    pack = PackCourse(par, forces[0], oil)
     for i in range(len(points)):
-        if i and pack.status == k.OK:
+        if i and pack.status == Status.OK:
             course = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
             substeps += pack.advance(course, points[i] - points[i - 1])
         if not Status(pack.status).is_failure:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels.boundary import ploughing
-from .clutch_params import ClutchParams
+from .clutch_params import ClutchParams, mean_radius
 
 Array = NDArray[np.float64]
 
@@ -37,8 +37,7 @@ def friction_radius(params: ClutchParams) -> float:
     """Return the radius [m] at which slip becomes slip speed and force becomes torque."""
     if params.effective_radius > 0.0:
         return params.effective_radius
-    ri, ro = params.inner_radius, params.outer_radius
-    return 2.0 * (ro**3 - ri**3) / (3.0 * (ro**2 - ri**2))
+    return mean_radius(params.inner_radius, params.outer_radius)
 
 
 def shares(values: Mapping[str, float]) -> tuple[float, float]:

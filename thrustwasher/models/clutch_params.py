@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -142,7 +143,7 @@ class ClutchParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        from ..kernels.clutch_rules import broken_rule
+        from ..kernels.clutch_constants import broken_rule
 
         check_rules(self, RULES, broken_rule)
 
@@ -255,3 +256,14 @@ SPEC = ModelSpec(
     course=((0.0, 0.0, 120.0, 320.0), (0.2, 5000.0, 120.0, 320.0), (0.7, 5000.0, 0.0, 320.0),
             (1.0, 4000.0, 0.0, 320.0)),
 )  # fmt: skip
+
+
+def lining_area(inner_radius: float, outer_radius: float, faces: int) -> float:
+    """Return the area of all friction faces of a pack [m2]."""
+    return faces * math.pi * (outer_radius**2 - inner_radius**2)
+
+
+def mean_radius(inner_radius: float, outer_radius: float) -> float:
+    """Return the radius friction acts at under even pressure [m]."""
+    outer, inner = outer_radius, inner_radius
+    return 2.0 * (outer**3 - inner**3) / (3.0 * (outer**2 - inner**2))

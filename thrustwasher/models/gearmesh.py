@@ -11,11 +11,10 @@ import numpy as np
 from ..errors import ParameterError, SolveError, Status
 from ..kernels import gear_layout as k
 from ..kernels.gear_constants import derive
-from ..kernels.gear_fine import solve_mesh
+from ..kernels.gear_line_of_action import solve_mesh
 from ._params import check_number
 from ._prepare import filled
-from .gearmesh_params import PRESETS, SPEC, GearMeshParams
-from .gearmesh_spec import LOAD, OIL, SPEED
+from .gearmesh_params import LOAD, OIL, PRESETS, SPEC, SPEED, GearMeshParams
 
 __all__ = ["PRESETS", "GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 

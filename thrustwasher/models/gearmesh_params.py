@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError
-from ._params import check_ranges, choice, count, quantity
-from ._rules import check_rules
-from .gearmesh_rules import RULES
-from .gearmesh_spec import gearmesh_spec
+from ._params import as_numbers, check_ranges, choice, count, quantity
+from ._rules import Rule, check_rules
+from ._spec import ModelSpec, Signal, Terminal
 
 SURFACES = {
     "rough": "rough ground: composite RMS 2.26 um, effective roughness 4.5e-5",
@@ -63,6 +63,74 @@ PRESETS: dict[str, dict[str, Any]] = {
     },
     "iso": {"friction_law": "iso"},
 }  # fmt: skip
+
+
+_ALWAYS = "so large that a pair is always in contact"
+
+
+def _shape(p: Any) -> tuple[float, float, float, float]:
+    return p.gear_ratio, float(p.pinion_teeth), p.pressure_angle, p.addendum
+
+
+def _interference(p: Any) -> str:
+    from ..kernels import gear_constants as g
+
+    least = math.floor(g.least_teeth(p.gear_ratio, p.pressure_angle, p.addendum)) + 1
+    return (
+        f"pinion_teeth = {p.pinion_teeth!r}, allowed: {least} and more for gear_ratio = "
+        f"{p.gear_ratio:g}, pressure_angle = {math.degrees(p.pressure_angle):g} deg, addendum "
+        f"= {p.addendum:g} (with fewer the gear's tips cut below the pinion's involute: "
+        "interference)"
+    )
+
+
+def _contact_ratio(p: Any) -> str:
+    from ..kernels import gear_constants as g
+
+    contact = sum(g.path_lengths(*_shape(p), g.start_of_contact(*_shape(p))))
+    return (
+        f"addendum = {p.addendum!r}, allowed: {_ALWAYS}; the contact ratio is {contact:.4g}, "
+        "allowed: 1 and more"
+    )
+
+
+def _base_friction(p: Any) -> str:
+    import numpy as np
+
+    from ..kernels.gear_constants import effective_roughness
+
+    s = effective_roughness(np.array(as_numbers(p)))
+    return (
+        f"f0 = {p.f0!r}, allowed: {0.0864 - 1372.0 * s:.4g} .. 1 for effective_roughness = {s:g} "
+        "(below, a thick film would have negative friction)"
+    )
+
+
+def _slide_roll(p: Any) -> str:
+    from ..kernels import gear_constants as g
+
+    found = g.slide_roll(p.gear_ratio, g.start_of_contact(*_shape(p)))
+    return (
+        "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, here "
+        f"{found:.4g} at the start of contact (pinion_teeth = {p.pinion_teeth!r}); use "
+        "friction_law = 'iso'"
+    )
+
+
+RULES = (
+    Rule("pinion_teeth = {pinion_teeth}, allowed: more for gear_ratio = {gear_ratio}, "
+         "pressure_angle = {pressure_angle} rad, addendum = {addendum} (with so few the gear's "
+         "tips cut below the pinion's involute: interference)", _interference),
+    Rule(f"addendum = {{addendum}}, allowed: {_ALWAYS} (contact ratio 1 and more)",
+         _contact_ratio),
+    Rule("effective_roughness = {effective_roughness}, allowed: 7.459e-06 .. 6.297e-05 for "
+         "friction_law = 'li-seireg' (0: that of the surface)"),
+    Rule("f0 = {f0}, allowed: 0.0864 - 1372 effective_roughness .. 1 "
+         "(below, a thick film would have negative friction)", _base_friction),
+    Rule("friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, not reached "
+         "at the start of contact (pinion_teeth = {pinion_teeth}); use friction_law = 'iso'",
+         _slide_roll),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,7 +217,7 @@ class GearMeshParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        from ..kernels.gear_rules import broken_rule
+        from ..kernels.gear_constants import broken_rule
 
         check_rules(self, RULES, broken_rule)
 
@@ -165,4 +233,75 @@ class GearMeshParams:
         return cls(**(PRESETS[name] | changes))
 
 
-SPEC = gearmesh_spec(GearMeshParams)
+LOAD = Signal(name="load", unit="N.m", help="torque on the pinion, its sign does not matter",
+              low=-1e5, high=1e5, nominal=40.0, start=0.0)  # fmt: skip
+SPEED = Signal(name="speed", unit="rad/s", help="speed of the pinion, either sign",
+               low=-5000.0, high=5000.0, nominal=180.0, start=0.0)  # fmt: skip
+OIL = Signal(name="oil_temperature", unit="K", help="temperature of oil and gear bodies",
+             low=233.15, high=473.15, nominal=300.0, start=299.85)  # fmt: skip
+_ALL = ("load", "speed", "oil_temperature")
+
+
+def _out(name: str, unit: str, nominal: float, text: str, **extra: Any) -> Signal:
+    return Signal(**{"depends": _ALL, **extra}, name=name, unit=unit, nominal=nominal, help=text)
+
+
+OUTPUTS = (
+    _out("friction_torque", "N.m", 1.0, "mesh loss as a torque on the pinion, sign of speed"),
+    _out("temperature", "K", 300.0, "temperature of the pinion's asperities where contact starts"),
+    _out("film_thickness", "m", 1e-6, "least film thickness where contact starts"),
+    _out("surface_temperature", "K", 300.0, "temperature of the flank where contact starts"),
+    _out("contact_stress", "Pa", 2e8, "Hertz contact stress where contact starts",
+         depends=("load",)),
+    _out("thermal_stress", "Pa", 1e8, "stress from the asperity's temperature rise"),
+    _out("modification_factor", "1", 1.0, "squared thermal over contact stress, each by its limit"),
+    _out("allowable_ratio", "1", 1.0, "share of contact stress allowed beside thermal stress"),
+    _out("film_temperature", "K", 300.0, "highest temperature of the oil film"),
+    _out("flash_rise", "K", 10.0, "temperature rise by friction over the nominal area",
+         relative=True),
+    _out("film_ratio", "1", 1.0, "film thickness over composite RMS roughness"),
+    _out("friction_coefficient", "1", 0.1, "coefficient of friction of the flanks"),
+    _out("friction_power", "W", 100.0, "heat made by the mesh, torque times speed"),
+    _out("modification_factor_aisi1020", "1", 1.0, "modification factor for low-carbon AISI 1020"),
+    _out("modification_factor_aisi4340", "1", 1.0, "modification factor for high-carbon AISI 4340"),
+    _out("allowable_ratio_aisi1020", "1", 1.0, "share of contact stress allowed for AISI 1020"),
+    _out("allowable_ratio_aisi4340", "1", 1.0, "share of contact stress allowed for AISI 4340"),
+    _out("stress_utilization_aisi1020", "1", 1.0, "combined stress over endurance of AISI 1020"),
+    _out("stress_utilization_aisi4340", "1", 1.0, "combined stress over endurance of AISI 4340"),
+    Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
+           help="lubrication regime where contact starts"),
+    Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus", depends=_ALL,
+           help="how the last solution was obtained"),
+)  # fmt: skip
+
+SPEC = ModelSpec(
+    key="gearmesh",
+    name="GearMesh",
+    help="Spur gear mesh: loss torque, contact, flank and asperity temperature, endurance",
+    params=GearMeshParams,
+    fidelities={
+        "closed": "Hertz contact, Blok flash temperature, constant friction, oil as supplied",
+        "stribeck": "the same as field, viscosity and flank's temperature in closed form",
+        "field": "friction over the film, viscosity found with the flank's temperature",
+        "fine": "the same at every position of the line of action, the loss their sum",
+    },
+    default_fidelity="field",
+    inputs=(LOAD, SPEED, OIL),
+    outputs=OUTPUTS,
+    kernel="gear_step",
+    rules=RULES,
+    terminals=(
+        Terminal(name="shaft", kind="thrustwasher.MeshFlange",
+                 help="Speed and torque of the pinion in, its friction torque out",
+                 members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
+                          ("load", "load", "signal"))),
+        Terminal(name="oil", kind="thrustwasher.HeatPort",
+                 help="Oil temperature in, friction power out",
+                 members=(("oil_temperature", "T", "signal"),
+                          ("friction_power", "Q_flow", "outflow"))),
+    ),
+    # Run up under torque, work, coast down through standstill into reverse.
+    course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 60.0, 120.0, 330.0),
+            (0.9, 20.0, 0.0, 330.0), (1.0, -20.0, -30.0, 330.0)),
+    counts=(("viscosity iterations", "gear_layout:F_ITERATIONS"),),
+)  # fmt: skip

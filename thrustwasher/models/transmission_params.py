@@ -76,7 +76,7 @@ class TransmissionParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        from ..kernels.transmission_rules import broken_rule
+        from ..kernels.transmission_dynamics import broken_rule
 
         check_rules(self, RULES, broken_rule)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
-from ..kernels.contact import contact_pressure
+from ..kernels.asperities import contact_pressure
 from ..kernels.washer_memory import FIELDS, Q
 from ..kernels.washer_model import WasherModel, washer_model
 from .washer_constants import NO_MESH, constants

@@ -41,7 +41,7 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
             continue
         if function.linkage.name == "external":
             function.name = f"{function.name}_{level.name}"
-        if level.attribute and any(f"kernels{len(m)}{m}" in function.name for m in level.quick):
+        if level.attribute and is_quick(function.name, level):
             function.add_function_attribute("noinline")
         elif level.attribute:
             function.add_function_attribute(level.attribute)
@@ -51,6 +51,11 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
     code = bytes(machine.emit_object(module))
     gate.check_object(code, kernel)
     return code
+
+
+def is_quick(symbol: str, level: Level) -> bool:
+    """Tell if a function, by the name that numba gave it, is of a module that keeps all speed."""
+    return any(f"kernels{len(module)}{module}" in symbol for module in level.quick)
 
 
 @cache

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ..models.clutch_calibration_text import counted
 from ..models.clutch_friction import friction_radius
+from ..models.clutch_identifiability import counted
 from ..units import format_quantity
 from .style import (
     BLACK,

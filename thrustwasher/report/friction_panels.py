@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..models.pack_geometry import mean_radius
+from ..models.clutch_params import mean_radius
 from .shift_record import Record
 from .style import BLACK, BLUE, GREY, ORANGE, beside, label
 

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.contact import contact_pressure
-from ..kernels.film import mean_gap
+from ..kernels.asperities import contact_pressure
+from ..kernels.flow_factors import mean_gap
 from ..kernels.washer_gap import dry_friction
 from ..kernels.washer_model import WasherModel
 from ._jit import rival

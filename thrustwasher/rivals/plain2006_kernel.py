@@ -5,9 +5,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.contact import contact_pressure
-from ..kernels.film import flow_conductance, mean_gap, shear_flow
-from ..kernels.roelands import viscosity
+from ..kernels.asperities import contact_pressure
+from ..kernels.flow_factors import flow_conductance, mean_gap, shear_flow
+from ..kernels.viscosity import viscosity
 from ..kernels.washer_gap import dry_friction
 from ..kernels.washer_model import WasherModel, washer_model
 from ._jit import rival

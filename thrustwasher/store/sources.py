@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .digests import KERNELS, closure
 
-_CLUTCH = ("clutch_steady", "clutch_point")
+_CLUTCH = ("clutch_steady", "clutch_advance")
 _WASHER_FIELD = ("washer_solve", "washer_outputs", "washer_model")
 # model -> rung -> the modules that compute; what they import is found by itself
 ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
@@ -21,13 +21,13 @@ ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
         "boundary": _CLUTCH,
         "stribeck": _CLUTCH,
         "field": _CLUTCH,
-        "fine": ("clutch_fine", "clutch_steady"),
+        "fine": ("clutch_step", "clutch_steady"),
     },
     "gearmesh": {
         "closed": ("gear_point",),
         "stribeck": ("gear_point",),
         "field": ("gear_point",),
-        "fine": ("gear_fine",),
+        "fine": ("gear_line_of_action",),
     },
 }
 # The file that sends each rung to its kernels and names the meshes; not what it imports, or every

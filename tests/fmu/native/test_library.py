@@ -139,7 +139,7 @@ def test_an_edit_of_an_imported_kernel_gives_another_name():
     found = {n: digest.read(p) for n, p in digest.sources("thrustwasher.kernels.gear_step").items()}
     before = digest.digest_of(found)
     assert before == digest.digest("thrustwasher.kernels.gear_step")
-    assert before != digest.digest_of(found | {"thrustwasher.kernels.corners": b"# edited"})
+    assert before != digest.digest_of(found | {"thrustwasher.kernels.smoothing": b"# edited"})
 
 
 def test_line_ends_do_not_count(tmp_path):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models.pack_geometry import lining_area, mean_radius
+from ...models.clutch_params import lining_area, mean_radius
 from ..scene.scene import Scene
 from .events_and_phases import turning
 from .figure_list import FILM_SPEED, Found

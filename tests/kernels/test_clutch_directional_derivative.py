@@ -1,0 +1,249 @@
+"""The clutch's derivatives over its inputs: against differences, at every rung, law and option."""
+
+import numpy as np
+import pytest
+
+from thrustwasher.kernels import clutch_layout as L
+from thrustwasher.kernels import clutch_rosenbrock, clutch_rosenbrock_derivatives
+from thrustwasher.kernels import clutch_step as k
+from thrustwasher.kernels.clutch_advance import load_memory
+from thrustwasher.kernels.clutch_rates import n_unknowns
+from thrustwasher.models.clutch import prepare
+from thrustwasher.models.clutch_params import FRICTION_LAWS, SPEC, ClutchParams
+
+from slopes import Unit, differences, disagreement  # isort: skip
+
+NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
+DEPENDS = np.array([[i.name in s.depends for i in SPEC.inputs] for s in SPEC.outputs[: k.NOUT]])
+RUNGS = list(SPEC.fidelities)
+OPTIONS = {
+    "friction_law": list(FRICTION_LAWS),
+    "kink_width": [0.0, 0.3],
+    "shear_temperature_slope": [0.0, -1e-3, 3e-3],
+    "starts_pressed": [False, True],
+    "film_dynamics": [True, True, True, False],
+    "shear_heating": [False, True],
+    "oil_flow": [0.0, 1e-5, 1e-4],
+    "contact_rise": [False, True],
+    "viscosity_constant": [0.0, 3.545],
+    "viscosity_scale": [6.31e-5, 1e-2],
+    "speed_smoothing": [0.1, 5.0],
+}
+
+
+def pack(fidelity="field", **changes):
+    return Unit(k, prepare(ClutchParams(**changes), fidelity))
+
+
+def random_pack(rng, rungs=RUNGS, **fixed):
+    changes = {name: values[rng.integers(len(values))] for name, values in OPTIONS.items()}
+    return pack(str(rng.choice(rungs)), **changes | fixed)
+
+
+def random_point(rng):
+    load = 10.0 ** rng.choice([rng.uniform(0.0, 6.0), rng.uniform(2.5, 4.5)])
+    slip = 10.0 ** rng.uniform(-4.0, 3.5) * rng.choice([-1.0, 0.0, 1.0, 1.0])
+    return np.array([load, slip, rng.uniform(250.0, 450.0)])
+
+
+def scale_at(point):
+    return [0.5 * point[0], abs(point[1]) + 1e-4, 30.0]
+
+
+def worn_in(unit, rng):
+    """Let the pack live through some steps, or none."""
+    dt = 10.0 ** rng.uniform(-3.5, -1.5)
+    for _ in range(int(rng.integers(0, 4))):
+        point = random_point(rng)
+        for _ in range(int(rng.integers(1, 12))):
+            unit.step(point, dt=dt)
+
+
+@pytest.mark.parametrize("rung", RUNGS)
+@pytest.mark.parametrize("seed", range(3))
+def test_derivatives_are_those_of_differences_under_any_option(rung, seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(20):
+        unit = random_pack(rng, [rung])
+        worn_in(unit, rng)
+        point = random_point(rng)
+        assert disagreement(unit, point, scale_at(point)).max() < 1e-6
+
+
+@pytest.mark.parametrize("rung", RUNGS)
+@pytest.mark.parametrize("load", [0.5, 9.0, 11.0, 5e3, 9e5])
+def test_derivatives_hold_at_zero_slip_from_open_to_crushed(rung, load):
+    """The pack is open up to 9.8 N. Around zero slip sizes are flat, torques rise."""
+    unit = pack(rung, starts_pressed=True)
+    for slip in (0.0, 1e-6, -1e-6):
+        point = np.array([load, slip, 320.0])
+        assert disagreement(unit, point, [0.1 * load, 1e-4, 30.0]).max() < 1e-6
+    torque = unit.gradient([load, 0.0, 320.0])[NAMES.index("friction_torque"), 1]
+    assert torque > 0.0
+
+
+@pytest.mark.parametrize("rung", ["closed", "boundary", "stribeck"])
+def test_inputs_that_run_straight_heat_at_once_where_the_film_is_settled(rung):
+    rng = np.random.default_rng(5)
+    for _ in range(25):
+        unit = random_pack(rng, [rung], input_course="linear")
+        worn_in(unit, rng)
+        point = random_point(rng)
+        assert disagreement(unit, point, scale_at(point)).max() < 1e-6
+
+
+def engaging(unit, rng):
+    """Press a pack for some steps; return the next point and scales of change."""
+    dt, load = 10.0 ** rng.uniform(-3.5, -2.0), 10.0 ** rng.uniform(3.0, 4.5)
+    slip, oil = rng.uniform(5.0, 300.0), rng.uniform(280.0, 400.0)
+    n = int(rng.integers(2, 60))
+    for i in range(n + 1):
+        way = np.exp(-i * dt / 0.05)
+        point = np.array([load * (1.0 - way), slip * np.exp(-i * dt / 0.3), oil])
+        if i < n:
+            unit.step(point, dt=dt)
+    return point, [0.1 * load, 0.1 * slip, 10.0]
+
+
+def test_a_moving_film_is_followed_over_the_stretch_it_has_just_passed():
+    """Where the stretch was one substep: then its size does not change with the inputs."""
+    rng = np.random.default_rng(6)
+    compared = 0
+    for _ in range(60):
+        unit = random_pack(rng, ["field"], input_course="linear", film_dynamics=True)
+        point, scale = engaging(unit, rng)
+        unit.step(point)
+        if unit.work[L.W_SUBSTEPS] == 1.0:
+            assert disagreement(unit, point, scale).max() < 1e-6
+            compared += 1
+    assert compared > 20
+
+
+def passed(unit, point, sizes, seed):
+    """Return film and heat after substeps of given sizes, and how they change along ``seed``."""
+    par, state, work, inputs = unit.par, unit.state, unit.work, [float(x) for x in point]
+    load_memory(par, inputs[0], inputs[2], state, work)
+    course = (state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], *inputs)
+    work[L.W_VARIED : L.W_VARIED + L.NY] = 0.0
+    done = 0.0
+    for share in sizes:
+        clutch_rosenbrock.substep(par, course, done, share, state[L.S_DURATION], work)
+        clutch_rosenbrock_derivatives.follow(
+            par, course, seed, done, share, state[L.S_DURATION], work
+        )
+        work[: L.NY] = work[L.W_TRIAL : L.W_TRIAL + L.NY]
+        done += share
+    counted = [L.Y_FILM, *range(L.Y_HEAT, n_unknowns(par))]
+    return work[counted], work[L.W_VARIED + np.array(counted)]
+
+
+@pytest.mark.parametrize("rung", ["field", "fine"])
+@pytest.mark.parametrize("sizes", [(1.0,), (0.5, 0.5), (0.02, 0.12, 0.3, 0.56), (0.1,) * 10])
+def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
+    rng = np.random.default_rng(8)
+    for _ in range(5):
+        unit = random_pack(rng, [rung], input_course="linear", film_dynamics=True)
+        point, scale = engaging(unit, rng)
+        for seed in np.diag(scale):
+            _, found = passed(unit, point, sizes, tuple(seed.tolist()))
+            best = np.inf
+            for h in (1e-1, 1e-2, 1e-3):
+                ends = [passed(unit, point + x * h * seed, sizes, (0.0,) * 3)[0]
+                        for x in (1.0, -1.0, 0.5, -0.5)]  # fmt: skip
+                wanted = (8.0 * (ends[2] - ends[3]) - (ends[0] - ends[1])) / (6.0 * h)
+                wrong, size = np.abs(found - wanted), np.abs(wanted)
+                film = wrong[0] / max(size[0], 1e-9)  # a change by less is none
+                best = min(best, max(film, wrong[1:].max() / size[1:].max()))
+            assert best < 1e-6
+
+
+def test_a_pack_that_opens_at_another_instant_is_another_pack():
+    """The rate of the film jumps where the load passes the limit; substeps keep their tolerance."""
+    unit = pack("field", input_course="linear")
+    for load in (40.0, 40.0, 60.0):
+        unit.step([load, 50.0, 330.0], dt=5e-3)
+    point, place = np.array([3.0, 50.0, 330.0]), NAMES.index("film_ratio")
+    found = unit.gradient(point)[place, 0]
+    wanted = differences(unit, point, [1.0, 1.0, 1.0], 1.5)[place, 0]
+    tolerance = clutch_rosenbrock.TOLERANCE_FILM * (1.0 + unit.step(point)[place])
+    assert abs(found - wanted) * 3.0 < 4.0 * tolerance < 0.01 * abs(3.0 * found)
+
+
+def test_derivatives_of_a_running_course_need_no_solve_before():
+    """Right after a step ``work`` belongs to its start; the derivative is that of now."""
+    rng = np.random.default_rng(9)
+    for rung in ("stribeck", "field"):
+        unit = random_pack(rng, [rung], input_course="linear", film_dynamics=True)
+        point, _ = engaging(unit, rng)
+        unit.step(point, dt=1e-3)
+        seed = np.array([100.0, -1.0, 2.0])
+        at_once = unit.sens(point, seed)
+        unit.step(point)
+        assert unit.sens(point, seed) == pytest.approx(at_once, rel=1e-12)
+
+
+@pytest.mark.parametrize("course", ["held", "linear"])
+def test_only_listed_inputs_count_and_all_of_them(course):
+    rng = np.random.default_rng(10)
+    seen = np.zeros_like(DEPENDS)
+    for n in range(200):
+        unit = random_pack(rng, input_course=course)
+        if n % 2:
+            worn_in(unit, rng)
+        found = unit.gradient(random_point(rng))
+        assert (found[~DEPENDS] == 0.0).all()
+        seen |= found != 0.0
+    # a film follows slip and oil only over a stretch that inputs run through
+    over_time = [NAMES.index(n) for n in ("film_thickness", "film_ratio", "contact_share")]
+    missing = DEPENDS & ~seen
+    if course == "linear":
+        assert not missing.any()
+    else:
+        missing[over_time, 1:] = False
+        missing[NAMES.index("viscosity"), :2] = False
+        missing[NAMES.index("friction_coefficient"), 0] = False
+        assert not missing.any()
+
+
+def test_the_derivative_is_linear_in_its_direction():
+    rng = np.random.default_rng(11)
+    for course in ("held", "linear"):
+        for _ in range(15):
+            unit = random_pack(rng, input_course=course)
+            worn_in(unit, rng)
+            point, seed = random_point(rng), rng.standard_normal(3) * [100.0, 1.0, 1.0]
+            parts = unit.gradient(point) * seed
+            wrong = np.abs(unit.sens(point, seed) - parts.sum(1))
+            assert (wrong <= 1e-7 * np.abs(parts).sum(1)).all()
+            if course == "held":
+                assert (wrong <= 1e-12 * np.abs(parts).sum(1)).all()
+
+
+def test_slipping_backwards_is_the_mirror_image():
+    rng = np.random.default_rng(12)
+    odd = ("friction_torque", "contact_torque", "viscous_torque")
+    signs = np.array([-1.0 if n in odd else 1.0 for n in NAMES])[:, None]
+    for _ in range(20):
+        unit = random_pack(rng)
+        worn_in(unit, rng)
+        point = random_point(rng)
+        here = unit.gradient(point)
+        assert (unit.gradient(point * [1, -1, 1]) == signs * here * [1, -1, 1]).all()
+
+
+def test_a_settled_film_gives_way_as_the_asperities_say():
+    """F_5/2 of the film ratio is in proportion to the load."""
+    from thrustwasher.kernels.greenwood_tripp import contact_integral
+
+    unit = pack("stribeck")
+    ratio = unit.step([5e3, 10.0, 320.0])[NAMES.index("film_ratio")]
+    value, slope = contact_integral(ratio)
+    found = unit.gradient([5e3, 10.0, 320.0])[NAMES.index("film_ratio"), 0]
+    assert found == pytest.approx(value / slope / 5e3, rel=1e-12)
+
+
+def test_what_is_no_number_is_refused():
+    unit, inp = pack(), np.array([5e3, 10.0, 320.0])
+    unit.step(inp)
+    seed, dout = np.array([np.nan, 0.0, 0.0]), np.zeros(k.NOUT)
+    assert k.sens(unit.par, inp, unit.state, unit.work, seed, dout) == 14

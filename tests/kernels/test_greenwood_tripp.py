@@ -1,0 +1,101 @@
+"""Contact of the lining against parabolic cylinder functions, and the separation root."""
+
+import math
+
+import mpmath as mp
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from thrustwasher.kernels.greenwood_tripp import (
+    area_integrals,
+    contact_integral,
+    height_integrals,
+    pressure_scale,
+    separation,
+)
+
+
+@pytest.mark.parametrize(
+    "u", [-300.0, -50.0, -9.5, -8.5, -5.0, -1.0, 0.0, 0.25, 1.5, 3.0, 8.0, 10.0]
+)
+def test_height_integrals_agree_with_cylinder_functions(u):
+    """F_n(u) = Gamma(n + 1)/sqrt(2 pi) exp(-u^2/4) D_{-n-1}(u)."""
+    mp.mp.dps = 30
+    big = mp.mpf(u)
+    for n, found in zip((2.5, 1.5), height_integrals(u), strict=True):
+        front = mp.gamma(n + 1) / mp.sqrt(2 * mp.pi) * mp.exp(-big * big / 4)
+        assert found == pytest.approx(float(front * mp.pcfd(-n - 1, big)), rel=1e-11)
+
+
+def test_tabled_values_come_back():
+    assert height_integrals(0.0)[0] == pytest.approx(0.6166342, abs=5e-8)
+    assert height_integrals(0.25)[0] == pytest.approx(0.3919785, abs=5e-8)
+    assert height_integrals(1.5)[0] == pytest.approx(0.0228631, abs=5e-8)
+
+
+def test_default_lining_settles_at_the_known_separation():
+    scale = pressure_scale(8.41e-6, 2.7e7, 7e7, 8e-4)
+    assert separation(0.6e6 / scale, 1.0)[0] == pytest.approx(0.5749, abs=2e-4)
+
+
+@given(st.floats(-20.0, 7.5), st.floats(-30.0, 8.0))
+def test_separation_is_found_from_every_start(u, guess):
+    found, status, iterations = separation(height_integrals(u)[0], guess)
+    assert status == 0 and iterations < 20
+    assert found == pytest.approx(u, abs=1e-9)
+
+
+def test_no_pressure_and_absurd_pressure_have_an_answer():
+    assert separation(0.0, 1.0) == (11.0, 0, 0)
+    crushed, status, _ = separation(1e30, 1.0)
+    assert status == 0 and crushed == pytest.approx(-1e12, rel=1e-12)
+    assert math.isfinite(separation(1e-29, -900.0)[0])
+
+
+@pytest.mark.parametrize(
+    "u",
+    [
+        -2e3,
+        -45.0,
+        -30.1,
+        -29.9,
+        -12.0,
+        -7.99,
+        -6.3,
+        -2.51,
+        -0.04,
+        0.5749,
+        2.2,
+        4.9,
+        5.1,
+        9.0,
+        13.97,
+    ],
+)
+def test_the_table_gives_the_integral_and_its_slope(u):
+    mp.mp.dps = 30
+    big = mp.mpf(u)
+
+    def exact(n):
+        return mp.gamma(n + 1) / mp.sqrt(2 * mp.pi) * mp.exp(-big * big / 4) * mp.pcfd(-n - 1, big)
+
+    value, slope = contact_integral(u)
+    assert value == pytest.approx(float(exact(2.5)), rel=1e-10)
+    assert slope == pytest.approx(float(-2.5 * exact(1.5)), rel=1e-8)
+
+
+def test_the_table_ends_in_the_quadrature_below_and_in_nothing_above():
+    assert contact_integral(-8.0 - 1e-12)[0] == pytest.approx(contact_integral(-8.0)[0], rel=1e-10)
+    assert contact_integral(14.0) == (0.0, 0.0) and math.isnan(contact_integral(math.nan)[0])
+
+
+@pytest.mark.parametrize("u", [-30.0, -3.0, 0.0, 0.5749, 1.5, 4.99, 5.01, 8.0, 20.0, 36.0])
+def test_the_area_integrals_are_exact_to_13_digits(u):
+    """F_2 and F_1 from the error function, in arithmetic of 60 digits."""
+    mp.mp.dps = 60
+    big = mp.mpf(u)
+    tail, pdf = mp.erfc(big / mp.sqrt(2)) / 2, mp.npdf(big)
+    second, first = area_integrals(u)
+    assert second == pytest.approx(float((1 + big**2) * tail - big * pdf), rel=2e-13)
+    assert first == pytest.approx(float(pdf - big * tail), rel=1e-13)

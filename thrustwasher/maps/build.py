@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..errors import EnvironmentProblem, SolveError
 from ..kernels import washer_map_layout as L
 from ..kernels._jit import kernel_digest
-from ..kernels.washer_outputs import FLUID_LOAD
+from ..kernels.washer_layout import O_FLUID_LOAD
 from ..models.washer import GRIDS
 from ..processes import local_processes
 from ..store.digests import params_digest
@@ -123,13 +123,13 @@ def find_reach(plan: MapPlan) -> float:
             for oil in {oils[0], oils[-1]}:
                 task = _task(plan, 1.0, COARSE, speed, tilt, oil)
                 line = Line(task, COARSE)
-                load = line.walker.outputs()[FLUID_LOAD]
+                load = line.at.outputs()[O_FLUID_LOAD]
                 if load <= light:
                     continue
                 while load > light:
                     before, last = line.ratio, load
                     line.to(1.3 * line.ratio)
-                    load = line.walker.outputs()[FLUID_LOAD]
+                    load = line.at.outputs()[O_FLUID_LOAD]
                 share = math.log(last / light) / math.log(last / load)
                 ratio = before * (line.ratio / before) ** share
                 largest = max(largest, (ratio**2 - L.LEAST_REACH**2) / task.scale)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..errors import BranchError, SolveError
 from ..models.washer import solve_washer
-from ..models.washer_curve import load_curve
+from ..models.washer_load_curve import load_curve
 from ..models.washer_map import WasherMap
 from ..models.washer_params import WasherParams
 from .build import executor

@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
 from ..kernels.chart import N_NODES, nodes_of
 from ..kernels.roelands import viscosity
-from ..kernels.washer_model import N_STEADY, SIGMA1
+from ..kernels.washer_layout import D_SIGMA1, N_STEADY
 from ..models._params import as_numbers
 from ..models.washer_constants import constants
 from ..models.washer_params import SPEC, WasherParams
@@ -69,7 +69,7 @@ class MapPlan:
         head[L.LOAD_MIN], head[L.LOAD_MAX] = self.box["load"]
         head[L.MARKS : L.MARKS + 3] = self.marks
         head[L.SPEED_MAX] = self.box["speed"][1]
-        head[L.SIGMA] = constants(self.params, COARSE)[SIGMA1]
+        head[L.SIGMA] = constants(self.params, COARSE)[D_SIGMA1]
         return head
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import BranchError, ParameterError, Status
+from thrustwasher.kernels.washer_layout import N_ALL
 from thrustwasher.kernels.washer_map_step import N_MAP_WORK, look_up, map_sens
-from thrustwasher.kernels.washer_outputs import N_ALL
 from thrustwasher.kernels.washer_workspace import Point
 from thrustwasher.models.washer import solve_washer
 from thrustwasher.models.washer_load_curve import load_curve

@@ -6,17 +6,17 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import SolveError
 from ..kernels import washer_layout as L
 from ..kernels import washer_map_layout as M
+from ..kernels._jit import Array
 from ..kernels.chart import N_TERMS
 from ..kernels.washer_workspace import Point
 from ..models.washer_load_curve import Continuation
 from ..models.washer_params import WasherParams
+from .plan import COARSE, ONSET
 
-Array = NDArray[np.float64]
 TINY = 1e-290
 ENTRY = 6.0  # film ratio at which a walk begins
 LARGEST_STEP = 0.35  # [sigma] near contact
@@ -35,9 +35,7 @@ class LineTask:
     oil_temperature: float  # K
     scale: float  # viscosity x speed [Pa]
     thickest: float  # film ratio
-    onset: float
     marks: tuple[float, float, float]  # N
-    coarse: tuple[int, int]  # grid on which the marks are looked for
     grid: tuple[int, int]
 
 
@@ -109,12 +107,6 @@ class Line:
         ]  # fmt: skip
 
 
-def guess_marks(task: LineTask) -> list[float]:
-    """Return about the film ratios at which the contact carries the marks, from the coarse grid."""
-    line = Line(task, task.coarse)
-    return [line.to_contact(load) for load in task.marks]
-
-
 def solve_line(task: LineTask) -> Array:
     """Return one line of the map, (LINE,).
 
@@ -123,17 +115,18 @@ def solve_line(task: LineTask) -> Array:
     SolveError : a node could not be solved, or the load of a thick film does not fall with its
         thickness
     """
-    guesses = guess_marks(task)
+    line = Line(task, COARSE)
+    guesses = [line.to_contact(load) for load in task.marks]
     line = Line(task, task.grid)
     kept = line.at.copy()
     pieces = np.empty((M.N_PIECES, N_TERMS, M.N_CURVES + 2))
-    edges = [task.thickest, task.onset]
+    edges = [task.thickest, ONSET]
     for k in range(N_TERMS - 1, -1, -1):  # thick films from thin to thick
         line.to(_ratios(edges, M.THICK)[k])
         pieces[M.THICK, k] = line.values()
     line.at.come_back(kept)
     marks = [line.to_contact(w, g) for w, g in zip(task.marks, guesses, strict=True)]
-    edges += [marks[0] + M.MIDDLE * (task.onset - marks[0]), *marks]
+    edges += [marks[0] + M.MIDDLE * (ONSET - marks[0]), *marks]
     for piece in range(M.N_PIECES - 1, M.THICK, -1):  # back up, from where the marks ended
         for k in range(N_TERMS - 1, -1, -1):
             line.to(_ratios(edges, piece)[k])

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
+from ..kernels._jit import Array
 from ..kernels.chart import N_NODES, nodes_of
 from ..kernels.roelands import viscosity
 from ..kernels.washer_layout import D_SIGMA1, N_STEADY
@@ -18,7 +18,6 @@ from ..models._params import as_numbers
 from ..models.washer_constants import constants
 from ..models.washer_params import SPEC, WasherParams
 
-Array = NDArray[np.float64]
 INPUTS = ("load", "speed", "tilt", "oil_temperature")
 DEFAULT_BOX = {
     "load": (20.0, 1850.0), "speed": (0.0, 1400.0), "tilt": (1e-3, 3e-3),

@@ -223,7 +223,9 @@ def _solve(
     status = OK if code == 0 else Status(code)
     work = ready.work
     if code >= FIRST_FAILURE and not ready.simple:
-        keep_estimate(state, work)
+        estimate = work[L.AT_POSITIONS : L.N_HEAD]  # so that fields() shows it
+        if np.all(np.isfinite(estimate)):
+            state[L.S_POSITIONS :][:4] = estimate
     return result_from(
         params, point, fidelity, nodes, state, work, status, float(work[L.AT_FOUND]),
         bool(ready.iout[1]), UNREAD[fidelity] if card else ERRORS[fidelity],
@@ -246,13 +248,6 @@ def _prefer(
     if result.status is Status.NO_BRANCH:
         return _solve(params, point, fidelity, nodes, 0.0, None, card)
     return result
-
-
-def keep_estimate(state: Array, work: Array) -> None:
-    """Put the positions of a failed solve into ``state`` so that fields() shows them."""
-    q = work[L.AT_POSITIONS : L.N_HEAD]
-    if np.all(np.isfinite(q)):
-        state[L.S_POSITIONS :][:4] = q
 
 
 def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:

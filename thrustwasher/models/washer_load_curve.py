@@ -20,24 +20,13 @@ from ._params import check_number
 from .washer import ERRORS, check_point, resolve_grid, result_from
 from .washer_constants import NO_MESH, constants
 from .washer_params import WasherParams
-from .washer_result import BRANCH_NAMES, WasherResult
+from .washer_result import BRANCH_NAMES, Fold, WasherResult
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
 FINEST = 0.1  # [sigma] between points near contact
 _NUMBERS = {name: number for number, name in BRANCH_NAMES.items()}
 SHALLOW = 3e-4  # relative drop of the load that makes a fold; solve_washer uses the same
-
-
-@dataclass(frozen=True, slots=True)
-class Fold:
-    """Where two branches meet and end."""
-
-    kind: str  # "film_lost" (load rising) or "film_regained" (load falling)
-    load: float  # [N]
-    film_ratio: float  # [-]
-    temperature: float  # [K]
-    friction_torque: float  # [N m]
 
 
 @dataclass(frozen=True, slots=True)

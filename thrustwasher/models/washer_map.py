@@ -25,9 +25,8 @@ from ..store.maps import MapFile, find_map, read_map
 from ._params import as_numbers
 from ._recent import Recent
 from .washer_constants import NO_MESH
-from .washer_load_curve import Fold
 from .washer_params import WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult
+from .washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult
 
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
 OUTPUTS = (

@@ -35,6 +35,17 @@ class WasherFields:
 
 
 @dataclass(frozen=True, slots=True)
+class Fold:
+    """Where two branches meet and end."""
+
+    kind: str  # "film_lost" (load rising) or "film_regained" (load falling)
+    load: float  # [N]
+    film_ratio: float  # [-]
+    temperature: float  # [K]
+    friction_torque: float  # [N m]
+
+
+@dataclass(frozen=True, slots=True)
 class WasherResult:
     """Steady state of the washer at one operating point; SI units."""
 

@@ -10,7 +10,6 @@ from thrustwasher import WasherParams, solve_washer
 from thrustwasher.errors import Status
 from thrustwasher.kernels import washer_layout as L
 from thrustwasher.kernels import washer_step as k
-from thrustwasher.kernels import washer_transient as t
 from thrustwasher.kernels.washer_heat import conduct, store
 from thrustwasher.kernels.washer_model import washer_model
 from thrustwasher.kernels.washer_workspace import (
@@ -220,16 +219,3 @@ def test_directional_derivatives_are_slopes_over_a_short_step(place):
     difference = (outputs(size)[1] - outputs(-size)[1]) / (2.0 * size)
     for i in (TORQUE, FILM, SHARE, MEAN):
         assert slope[i] == pytest.approx(difference[i], rel=1e-2), i
-
-
-def test_an_input_that_is_no_number_is_refused_and_leaves_the_memory():
-    w = Washer()
-    assert w.go(1e-3) == 0
-    kept = w.state.copy()
-    assert w.go(1e-3, load=np.nan) == Status.BAD_INPUT
-    assert (w.state == kept).all()
-
-
-def test_the_substep_error_is_what_a_method_of_first_order_would_be_off():
-    assert pytest.approx(1.0 - np.sqrt(0.5)) == t.GAMMA
-    assert pytest.approx((1.0 - t.GAMMA) / t.GAMMA) == t.AHEAD

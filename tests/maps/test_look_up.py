@@ -76,15 +76,6 @@ def test_a_branch_that_is_not_there_is_refused(found_first, small):
         solve_washer(PARAMS, load=0.98 * regained, **PLACE, fidelity="map", branch="contact")
 
 
-def test_torque_is_odd_in_speed_and_takes_power(small):
-    loads = np.linspace(110.0, 890.0, 25)
-    ahead, back = (small.look_up(load=loads, **{**PLACE, "speed": s}) for s in (545.0, -545.0))
-    assert np.array_equal(ahead["friction_torque"], -back["friction_torque"])
-    for name in ("temperature", "film_ratio", "friction_power", "branch"):
-        assert np.array_equal(ahead[name], back[name])
-    assert np.all(ahead["friction_power"] > 0.0)
-
-
 def test_rows_and_single_look_ups_are_the_same(small):
     loads = np.linspace(110.0, 890.0, 9)
     rows = small.look_up(load=loads, **PLACE)["friction_torque"]

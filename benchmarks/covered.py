@@ -33,8 +33,8 @@ KERNELS = [
 # Minutes as plain Python, each; the tests on small meshes and of rungs in short walk the same ways.
 SLOW = {
     "test_failed_steps", "test_kernel_rules", "test_transmission_shaft", "test_washer_film",
-    "test_washer_heat", "test_washer_newton", "test_washer_sens", "test_washer_step",
-    "test_washer_transient",
+    "test_washer_heat", "test_washer_newton", "test_washer_directional_derivative",
+    "test_washer_step", "test_washer_transient",
 }  # fmt: skip
 MORE = ("tests/models/test_rules.py", "tests/rivals/test_plain2006.py")
 LIMIT = 60  # s

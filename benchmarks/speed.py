@@ -17,11 +17,11 @@ from functools import partial
 import numpy as np
 
 from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
-from thrustwasher.kernels import washer_gap, washer_heat, washer_newton
-from thrustwasher.kernels.washer_curve import cold_start
-from thrustwasher.kernels.washer_fields import Bench, Point, size_of_work, washer_fields
+from thrustwasher.kernels import washer_gap, washer_heat, washer_layout, washer_newton
+from thrustwasher.kernels.washer_continuation import cold_start
 from thrustwasher.kernels.washer_film import evaluate_film, film_residual, film_solve
 from thrustwasher.kernels.washer_model import washer_model
+from thrustwasher.kernels.washer_workspace import Point, fields_of, size_of_work, workspace_of
 from thrustwasher.models.washer_constants import constants
 
 PARAMS = WasherParams()
@@ -103,13 +103,13 @@ def starts() -> None:
 
 def profile() -> None:
     """Print microseconds of the parts of one warm iteration at 545 rad/s, 300 N."""
-    b = Bench(constants(PARAMS, (10, 32)), np.zeros(size_of_work(10, 32)))
-    m = washer_model(b.par)
-    f = washer_fields(m, b.work)
-    pt, q, info = Point(300.0, 545.0, 0.002, 297.15), np.zeros(4), np.zeros(washer_newton.N_INFO)
-    cold_start(b, pt, 13.0, q)
-    washer_newton.newton(b, pt, washer_newton.LOAD, 300.0, q, -100.0, 1e-9, 40.0, info)
-    empty, _ = timed(lambda: washer_newton.smooth_film(b, q), 2000)
+    par = constants(PARAMS, (10, 32))
+    w = workspace_of(par, np.zeros(washer_layout.N_HEAD + size_of_work(10, 32)))
+    m, f, q = washer_model(par), fields_of(w), w.q
+    pt = Point(300.0, 545.0, 0.002, 297.15)
+    cold_start(w, pt, 13.0)
+    washer_newton.newton(w, pt, washer_newton.LOAD, 300.0, -100.0, 1e-9, 40.0)
+    empty, _ = timed(lambda: washer_newton.smooth_film(w), 2000)
     parts: list[tuple[str, Callable[[], object]]] = [
         ("gaps and contact", lambda: washer_gap.evaluate_gaps(m, pt, q, f)),
         ("viscosity", lambda: washer_gap.evaluate_viscosity(m, pt, f)),

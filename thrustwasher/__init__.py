@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from .models.clutch_engagement import Engagement, engage_clutch
     from .models.gearmesh import GearMeshParams, GearMeshResult, solve_gearmesh
     from .models.washer import WasherParams, WasherResult, solve_washer
-    from .models.washer_course import WasherCourse, follow_washer
-    from .models.washer_curve import LoadCurve, load_curve
+    from .models.washer_load_curve import LoadCurve, load_curve
+    from .models.washer_transient import WasherCourse, follow_washer
     from .sweep.run import run_sweep
     from .sweep.table import SweepTable
 
@@ -31,8 +31,8 @@ _HOMES = {
     "models.gearmesh": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "models.clutch_engagement": ("Engagement", "engage_clutch"),
     "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
-    "models.washer_course": ("WasherCourse", "follow_washer"),
-    "models.washer_curve": ("LoadCurve", "load_curve"),
+    "models.washer_transient": ("WasherCourse", "follow_washer"),
+    "models.washer_load_curve": ("LoadCurve", "load_curve"),
     "sweep.run": ("run_sweep",),
     "sweep.table": ("SweepTable",),
 }

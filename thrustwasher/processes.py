@@ -8,6 +8,7 @@ import signal
 import threading
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Any
 
@@ -43,6 +44,27 @@ def local_processes(n: int) -> Iterator[Executor]:
     except BaseException:
         _stop_now(executor)
         raise
+
+
+@contextmanager
+def processes_if_many(n: int) -> Iterator[Executor | None]:
+    """Give ``n`` fresh processes, or None for one.
+
+    Raises
+    ------
+    EnvironmentProblem : a worker process has ended before its work was done
+    """
+    if n <= 1:
+        yield None
+        return
+    try:
+        with local_processes(n) as pool:
+            yield pool
+    except BrokenProcessPool:
+        raise EnvironmentProblem(
+            "a worker process has ended before its work was done (too little memory?); what is "
+            "solved is kept: run the same again, with fewer workers"
+        ) from None
 
 
 def _settle_in() -> None:

@@ -18,7 +18,14 @@ from thrustwasher import (
 )
 from thrustwasher.errors import Status
 from thrustwasher.fmu.interface import enumerations
-from thrustwasher.kernels import clutch_layout, clutch_step, gear_layout, gear_step, washer_step
+from thrustwasher.kernels import (
+    clutch_layout,
+    clutch_step,
+    gear_layout,
+    gear_step,
+    washer_layout,
+    washer_step,
+)
 from thrustwasher.kernels.clutch_constants import derive_rings
 from thrustwasher.models import clutch_params, gearmesh_params, washer_params
 from thrustwasher.models._params import as_numbers
@@ -95,7 +102,7 @@ def test_the_fmu_counts_rungs_from_one(model, rung):
 
 
 def test_kernels_count_rungs_as_the_list_does():
-    of = {"washer": washer_step, "clutch": clutch_layout, "gearmesh": gear_layout}
+    of = {"washer": washer_layout, "clutch": clutch_layout, "gearmesh": gear_layout}
     names = {"boundary": "BOUNDARY_ONLY"}
     for model, rung in RUNGS:
         number = getattr(of[model], names.get(rung, rung.upper()))

@@ -10,13 +10,12 @@ from thrustwasher.errors import Status
 from thrustwasher.fmu.registry import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.kernels import washer_step as kernel
-from thrustwasher.kernels.washer_fields import Point, size_of_work
+from thrustwasher.kernels.washer_layout import N_ALL, N_HEAD
 from thrustwasher.kernels.washer_map_step import N_MAP_WORK, look_up, map_sens
-from thrustwasher.kernels.washer_memory import size_of_state
-from thrustwasher.kernels.washer_outputs import N_ALL
+from thrustwasher.kernels.washer_workspace import Point, size_of_state, size_of_work
 from thrustwasher.models.washer_constants import constants
-from thrustwasher.models.washer_course import follow_washer
 from thrustwasher.models.washer_map import WasherMap
+from thrustwasher.models.washer_transient import follow_washer
 from thrustwasher.store.maps import SHIPPED
 
 GRID = (5, 8)
@@ -91,7 +90,7 @@ def test_a_map_goes_from_branch_to_branch_step_by_step():
 @pytest.mark.parametrize("load", [300.0, 1500.0])
 def test_a_mesh_has_the_derivatives_of_its_steps(load):
     par = constants(WasherParams(), GRID, "field")
-    state, work = np.zeros(size_of_state(*GRID)), np.zeros(kernel.N_HEAD + size_of_work(*GRID))
+    state, work = np.zeros(size_of_state(*GRID)), np.zeros(N_HEAD + size_of_work(*GRID))
     out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
 
     def torque(change):

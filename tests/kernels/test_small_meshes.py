@@ -8,8 +8,8 @@ import pytest
 from thrustwasher.errors import BranchError, Status
 from thrustwasher.kernels import washer_map_layout as L
 from thrustwasher.kernels import washer_step as kernel
-from thrustwasher.kernels.washer_fields import size_of_work
-from thrustwasher.kernels.washer_memory import size_of_state
+from thrustwasher.kernels.washer_layout import N_HEAD
+from thrustwasher.kernels.washer_workspace import size_of_state, size_of_work
 from thrustwasher.models.washer import solve_washer
 from thrustwasher.models.washer_constants import constants
 from thrustwasher.models.washer_params import WasherParams
@@ -69,7 +69,7 @@ def test_other_laws_balance_too(law):
 
 def test_steps_go_on_from_their_memory_and_fail_without_harming_it():
     par = constants(PARAMS, GRID, "field")
-    state, work = np.zeros(size_of_state(*GRID)), np.zeros(kernel.N_HEAD + size_of_work(*GRID))
+    state, work = np.zeros(size_of_state(*GRID)), np.zeros(N_HEAD + size_of_work(*GRID))
     out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
     loads = []
     for load in (300.0, 320.0):
@@ -84,7 +84,7 @@ def test_steps_go_on_from_their_memory_and_fail_without_harming_it():
 
 
 def test_the_curve_has_its_folds():
-    from thrustwasher.models.washer_curve import load_curve
+    from thrustwasher.models.washer_load_curve import load_curve
 
     curve = load_curve(PARAMS, speed=545.0, tilt=2e-3, grid=GRID)
     assert [f.kind for f in curve.folds] == ["film_lost", "film_regained"]

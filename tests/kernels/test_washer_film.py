@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.banded import N_SIDES
 from thrustwasher.kernels.flow_factors import flow_conductance, mean_gap, shear_flow
-from thrustwasher.kernels.washer_fields import Point
-from thrustwasher.kernels.washer_film import RING, evaluate_film, film_residual, film_solve
+from thrustwasher.kernels.washer_film import evaluate_film, film_residual, film_solve
 from thrustwasher.kernels.washer_gap import evaluate_gaps, evaluate_viscosity
+from thrustwasher.kernels.washer_layout import AT_FIXED, RING
+from thrustwasher.kernels.washer_workspace import Point
 from thrustwasher.reference.couette import couette_torque
 from thrustwasher.reference.narrow_ring import narrow_ring_load
 from thrustwasher.reference.thin_wedge import wedge_moment, wedge_pressure
@@ -35,7 +35,7 @@ def solve_without_cavitation(b):
     b.f.place[(n_t + 1) // 2 :] = np.arange(1, n_t, 2)[::-1]
     b.f.small[RING] = 1.0
     assert film_solve(b.m, b.f.p, b.f)
-    return b.f.film_rhs[::N_SIDES].reshape(n_t, b.m.n_r).T.copy()
+    return b.f.film_rhs[:, AT_FIXED].reshape(n_t, b.m.n_r).T.copy()
 
 
 def solve_with_cavitation(b):
@@ -44,7 +44,7 @@ def solve_with_cavitation(b):
         if error <= 1e-12 * p_max and p_max > 0.0:
             return b.node("p")
         assert film_solve(b.m, b.f.p, b.f)
-        b.f.p[:] = b.f.film_rhs[::N_SIDES]
+        b.f.p[:] = b.f.film_rhs[:, AT_FIXED]
     raise AssertionError(f"active set not found, {error} of {p_max} Pa")
 
 
@@ -207,7 +207,7 @@ def test_slopes_over_the_positions_are_the_differences(ratio, surfaces):
     rng = np.random.default_rng(3)
     n_temp = f.temp.size
     base_temp = rng.uniform(0.0, 30.0, n_temp)
-    f.sens[:] = rng.normal(size=4 * n_temp) * np.repeat([3e6, 0.0, 6e4, 6e4], n_temp)
+    f.following[:] = rng.normal(size=(4, n_temp)) * np.array([[3e6], [0.0], [6e4], [6e4]])
     f.dtemp[:] = 0.0
 
     def pressure_at(positions, temp):
@@ -220,7 +220,7 @@ def test_slopes_over_the_positions_are_the_differences(ratio, surfaces):
     solve_with_cavitation(b)
     film_residual(m, f.p, f)
     assert film_solve(m, f.p, f)
-    slopes = f.film_rhs.reshape(-1, N_SIDES).copy()
+    slopes = f.film_rhs.copy()
     wet = f.wet.copy()
     kept = f.p.copy()
     np.testing.assert_allclose(slopes[:, 0], kept, rtol=1e-9, atol=1e-9 * kept.max())
@@ -230,11 +230,11 @@ def test_slopes_over_the_positions_are_the_differences(ratio, surfaces):
         for sign in (1.0, -1.0):
             moved = q.copy()
             moved[side - 1] += sign * unit
-            step = f.sens[(side - 1) * n_temp : side * n_temp] * sign * unit
+            step = f.following[side - 1] * sign * unit
             pressure_at(moved, base_temp + step)
             f.wet[:] = wet
             assert film_solve(m, kept, f)
-            found.append(f.film_rhs[::N_SIDES].copy())
+            found.append(f.film_rhs[:, AT_FIXED].copy())
         differences = (found[0] - found[1]) / (2.0 * unit)
         scale = np.abs(slopes[:, side]).max()
         np.testing.assert_allclose(slopes[:, side], differences, rtol=0, atol=2e-6 * scale + 1e-9)
@@ -257,13 +257,13 @@ def test_step_of_the_temperature_moves_the_pressure_as_much_as_it_should():
         film_residual(m, f.p, f)
         f.dtemp[:] = share * step
         assert film_solve(m, f.p, f)
-        told = f.film_rhs[::N_SIDES].copy()
+        told = f.film_rhs[:, AT_FIXED].copy()
         f.temp[:], wet = start + share * step, f.wet.copy()
         evaluate_viscosity(m, BASE, f)
         f.dtemp[:] = 0.0
         f.wet[:] = wet
         assert film_solve(m, np.ascontiguousarray(before.T).ravel(), f)
-        errors.append(np.abs(f.film_rhs[::N_SIDES] - told).max())
+        errors.append(np.abs(f.film_rhs[:, AT_FIXED] - told).max())
     assert math.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
 
 

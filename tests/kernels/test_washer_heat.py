@@ -3,16 +3,11 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.washer_fields import Point
-from thrustwasher.kernels.washer_gap import (
-    CONTACT,
-    FRICTION,
-    dry_friction,
-    evaluate_gaps,
-    evaluate_viscosity,
-)
+from thrustwasher.kernels import washer_layout as L
+from thrustwasher.kernels.washer_gap import dry_friction, evaluate_gaps, evaluate_viscosity
 from thrustwasher.kernels.washer_heat import factor_heat, heat_residual, heat_slopes, solve_heat
 from thrustwasher.kernels.washer_newton import evaluate
+from thrustwasher.kernels.washer_workspace import Point
 from thrustwasher.reference.annulus_heat import annulus_rise
 from thrustwasher.reference.heat_stack import stack_rise
 
@@ -25,7 +20,7 @@ def heat_given(b, heat, first=1e-5, second=5e-6):
     """Prescribe gaps and a heat flow [W/m2] (n_r, n_theta) that depends on no temperature."""
     f, m = b.f, b.m
     f.ht[:], f.ht2[:] = first, second
-    f.pc[:], f.dmu[:], f.small[FRICTION] = 0.0, 0.0, 0.0
+    f.pc[:], f.dmu[:], f.small[L.FRICTION] = 0.0, 0.0, 0.0
     f.mu[:] = (heat * first / (BASE.speed * b.radius) ** 2).T.ravel()
     f.temp[:] = 0.0
     heat_residual(m, BASE, f.temp, f)
@@ -45,7 +40,7 @@ def touching(b, first=0.3, second=1.2):
     """Return positions where film 1 carries contact within the range of the friction law."""
     q = tilted(b.m, first, gy=0.00166, gx=-1.2e-5, second=second)
     evaluate_gaps(b.m, BASE, q, b.f)
-    assert 260.5 < b.f.small[CONTACT] < 1725.6
+    assert 260.5 < b.f.small[L.CONTACT] < 1725.6
     return q
 
 
@@ -96,7 +91,7 @@ def test_heat_made_is_heat_out_at_any_temperature(split):
     assert f.heat.sum() == pytest.approx(out - made, rel=1e-10)
     shear = np.outer(m.weight1, m.weight_t) * (BASE.speed * b.radius) ** 2 * b.node("mu")
     rub = np.outer(m.weight1, m.weight_t) * BASE.speed * b.radius * b.node("pc")
-    friction = dry_friction(m, f.small[CONTACT])[0]
+    friction = dry_friction(m.par, f.small[L.CONTACT])[0]
     assert made == pytest.approx((shear / b.node("ht")).sum() + friction * rub.sum(), rel=1e-12)
     settle(m, BASE, q, f)
     assert np.abs(f.heat).sum() < 1e-9 * made
@@ -147,7 +142,7 @@ def test_slopes_over_the_positions_are_the_differences(split, law):
     f.temp[:] = np.random.default_rng(4).uniform(0.0, 60.0, f.temp.size)
     evaluate_viscosity(m, BASE, f)
     heat_slopes(m, BASE, f.temp, f)
-    told = -f.sens.reshape(4, -1).copy()
+    told = -f.following.copy()
     for c in range(4):
         unit = m.sigma1 * (1.0 if c < 2 else 1.0 / m.outer_radius) * 1e-5
         found = []
@@ -164,15 +159,15 @@ def test_slopes_over_the_positions_are_the_differences(split, law):
 
 def test_dry_friction_has_its_published_ends_and_its_slope():
     m = bench((5, 8)).m
-    assert dry_friction(m, 260.5)[0] == pytest.approx(0.201870, abs=5e-7)
-    assert dry_friction(m, 1725.6)[0] == pytest.approx(0.107333, abs=5e-7)
-    assert dry_friction(m, 0.0) == (dry_friction(m, 260.5)[0], 0.0)
-    assert dry_friction(m, 1e5) == (dry_friction(m, 1725.6)[0], 0.0)
-    value, slope = dry_friction(m, 900.0)
+    assert dry_friction(m.par, 260.5)[0] == pytest.approx(0.201870, abs=5e-7)
+    assert dry_friction(m.par, 1725.6)[0] == pytest.approx(0.107333, abs=5e-7)
+    assert dry_friction(m.par, 0.0) == (dry_friction(m.par, 260.5)[0], 0.0)
+    assert dry_friction(m.par, 1e5) == (dry_friction(m.par, 1725.6)[0], 0.0)
+    value, slope = dry_friction(m.par, 900.0)
     assert value == pytest.approx(0.48 - 0.05 * np.log(900.0), rel=1e-14)
-    differences = (dry_friction(m, 900.01)[0] - dry_friction(m, 899.99)[0]) / 0.02
+    differences = (dry_friction(m.par, 900.01)[0] - dry_friction(m.par, 899.99)[0]) / 0.02
     assert slope == pytest.approx(differences, rel=1e-7)
-    assert dry_friction(bench((5, 8), friction_law="constant").m, 900.0) == (0.15, 0.0)
+    assert dry_friction(bench((5, 8), friction_law="constant").m.par, 900.0) == (0.15, 0.0)
 
 
 @pytest.mark.parametrize("option", ["carrier", "rotating"])

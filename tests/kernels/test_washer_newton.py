@@ -3,34 +3,23 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.banded import N_SIDES
-from thrustwasher.kernels.washer_curve import cold_start
-from thrustwasher.kernels.washer_fields import Point
+from thrustwasher.kernels import washer_layout as L
+from thrustwasher.kernels.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
+from thrustwasher.kernels.washer_continuation import cold_start
 from thrustwasher.kernels.washer_film import film_residual, film_solve
-from thrustwasher.kernels.washer_gap import CONTACT, FORCE, STIFF, evaluate_gaps
+from thrustwasher.kernels.washer_gap import evaluate_gaps
 from thrustwasher.kernels.washer_heat import solve_heat
 from thrustwasher.kernels.washer_newton import (
-    BALANCE,
-    FACTORED,
     FILM,
-    ITERATIONS,
     LOAD,
-    LOAD_SLOPE,
-    MAX_ITERATIONS,
-    N_INFO,
     NO_FLOOR,
-    NOT_FINITE,
-    OK,
-    REACHED_LOAD,
-    RESIDUAL,
-    SINGULAR,
-    SLOPES,
     _balance,
     _linearise,
     make_factor,
     newton,
     smooth_film,
-)  # fmt: skip
+)
+from thrustwasher.kernels.washer_workspace import Point, forget_factor, square, vector
 
 from washer_setup import BASE, bench, full_gear, settle, tilted  # isort: skip
 
@@ -54,15 +43,15 @@ def unit(m, c):
 def balances(b, pt, q):
     settle(b.m, pt, q, b.f)
     _balance(b.m, b.f.p, b.f)
-    return b.f.small[BALANCE : BALANCE + 4].copy()
+    return vector(b.f.small, L.BALANCE).copy()
 
 
 def converged(mode, target, b, pt, ratio=6.0, tolerance=1e-9, limit=60.0):
-    q, info = np.zeros(4), np.zeros(N_INFO)
-    cold_start(b.whole, pt, ratio, q)
-    settle(b.m, pt, q, b.f)
-    status = newton(b.whole, pt, mode, target, q, NO_FLOOR, tolerance, limit, info)
-    return q, info, status
+    b.w.info[:] = 0.0
+    cold_start(b.w, pt, ratio)
+    settle(b.m, pt, b.w.q, b.f)
+    status = newton(b.w, pt, mode, target, NO_FLOOR, tolerance, limit)
+    return b.w.q.copy(), b.w.info, status
 
 
 @pytest.mark.parametrize("name", STATES)
@@ -71,7 +60,7 @@ def test_contact_stiffness_is_the_difference_of_the_contact_forces(name):
     b = bench(GRID, **surfaces)
     q = tilted(b.m, **place)
     evaluate_gaps(b.m, BASE, q, b.f)
-    told = b.f.small[STIFF : STIFF + 16].reshape(4, 4).copy()
+    told = square(b.f.small, L.STIFFNESS).copy()
     np.testing.assert_array_equal(told, told.T)
     for c in range(4):
         e = 1e-5 * unit(b.m, c)
@@ -80,7 +69,7 @@ def test_contact_stiffness_is_the_difference_of_the_contact_forces(name):
             moved = q.copy()
             moved[c] += sign * e
             evaluate_gaps(b.m, BASE, moved, b.f)
-            found.append(b.f.small[FORCE : FORCE + 4].copy())
+            found.append(vector(b.f.small, L.FORCES).copy())
         differences = (found[0] - found[1]) / (2.0 * e)
         scale = np.sqrt(abs(told[c, c]) * np.abs(np.diag(told))).max() + 1e-30
         np.testing.assert_allclose(told[:, c], differences, rtol=1e-6, atol=1e-7 * scale)
@@ -100,7 +89,7 @@ def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(
     film_residual(m, f.p, f)
     assert film_solve(m, f.p, f)
     _linearise(m, f)
-    told = f.small[SLOPES : SLOPES + 16].reshape(4, 4).copy()
+    told = square(f.small, L.SLOPES).copy()
     scaled = np.array([1.0, 1.0, 1.0 / m.outer_radius, 1.0 / m.outer_radius])
     for c in range(4):
         e = 2e-5 * unit(m, c)
@@ -120,14 +109,14 @@ def test_load_slope_is_the_slope_of_the_curve():
     loads, told = [], 0.0
     for step in (0.0, 1e-3, -1e-3):
         target = (5.0 + step) * b.m.sigma1
-        q, info, status = converged(FILM, target, b, BASE, ratio=5.0, tolerance=1e-12, limit=30.0)
-        assert status in (OK, MAX_ITERATIONS) and info[RESIDUAL] < 1e-10
-        assert smooth_film(b.whole, q) == pytest.approx(target, rel=1e-10)
+        _, info, status = converged(FILM, target, b, BASE, ratio=5.0, tolerance=1e-12, limit=30.0)
+        assert status in (OK, MAX_ITERATIONS) and info[L.RESIDUAL] < 1e-10
+        assert smooth_film(b.w) == pytest.approx(target, rel=1e-10)
         if step == 0.0:
-            b.f.tag[0] = 0.0  # heat slopes made at the point itself
-            newton(b.whole, BASE, FILM, target, q, NO_FLOOR, 1e-9, 10.0, info)
-            told = info[LOAD_SLOPE]
-        loads.append(info[REACHED_LOAD])
+            forget_factor(b.w)  # heat slopes made at the point itself
+            newton(b.w, BASE, FILM, target, NO_FLOOR, 1e-9, 10.0)
+            told = info[L.LOAD_SLOPE]
+        loads.append(info[L.REACHED_LOAD])
     assert told == pytest.approx((loads[1] - loads[2]) / (2e-3 * b.m.sigma1), rel=1e-4)
 
 
@@ -138,11 +127,11 @@ def test_convergence_is_quadratic_with_a_fresh_factor():
     q, info, status = converged(LOAD, 300.0, b, pt, ratio=15.0)
     assert status == OK
     start = (q * np.array([1.03, 1.03, 1.0, 1.0]), b.f.temp.copy(), b.f.p.copy())
-    q, residuals = start[0].copy(), []
+    b.w.q[:], residuals = start[0], []
     for _ in range(5):
-        b.f.tag[0] = 0.0
-        newton(b.whole, pt, LOAD, 300.0, q, NO_FLOOR, 1e-16, 1.0, info)
-        residuals.append(info[RESIDUAL])
+        forget_factor(b.w)
+        newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-16, 1.0)
+        residuals.append(info[L.RESIDUAL])
     logs = np.log(residuals[:4])
     assert residuals[3] < 1e-9
     assert (logs[2] - logs[1]) / (logs[1] - logs[0]) > 1.5
@@ -173,8 +162,8 @@ def test_isothermal_film_scales_with_viscosity_times_speed():
         b = bench(GRID, film_heat_fraction=0.0, viscosity_scale=scale)
         pt = BASE._replace(speed=speed)
         q = tilted(b.m, 12.0, second=9.0)
-        loads.append(balances(b, pt, q)[0] - b.f.small[FORCE])
-        assert b.f.small[CONTACT] < 1e-9 * loads[0]
+        loads.append(balances(b, pt, q)[0] - b.f.small[L.FORCES])
+        assert b.f.small[L.CONTACT] < 1e-9 * loads[0]
     assert loads[1] == pytest.approx(4.0 * loads[0], rel=1e-9)
     assert loads[2] == pytest.approx(2.0 * loads[0], rel=1e-9)
 
@@ -182,25 +171,24 @@ def test_isothermal_film_scales_with_viscosity_times_speed():
 @pytest.mark.parametrize("name", ["q", "temp", "p"])
 def test_a_start_that_is_no_number_is_a_failure(name):
     b = bench(GRID)
-    q, info, _ = converged(LOAD, 300.0, b, BASE)
-    {"q": q, "temp": b.f.temp, "p": b.f.p}[name][1] = np.nan
-    status = newton(b.whole, BASE, LOAD, 300.0, q, NO_FLOOR, 1e-9, 10.0, info)
+    converged(LOAD, 300.0, b, BASE)
+    {"q": b.w.q, "temp": b.f.temp, "p": b.f.p}[name][1] = np.nan
+    status = newton(b.w, BASE, LOAD, 300.0, NO_FLOOR, 1e-9, 10.0)
     assert status in (NOT_FINITE, SINGULAR, MAX_ITERATIONS)
 
 
 def test_iterations_end_at_their_limit():
     b = bench(GRID)
     _, info, status = converged(LOAD, 300.0, b, BASE, limit=2.0)
-    assert status == MAX_ITERATIONS and info[ITERATIONS] == 2.0 and info[FACTORED] >= 1.0
+    assert status == MAX_ITERATIONS and info[L.ITERATIONS] == 2.0 and info[L.FACTORED] >= 1.0
 
 
 def test_newton_starts_from_a_thick_film():
     """Thicker than 8.3 sigma everywhere it has no stiffness unless it starts with a pressure."""
     b = bench(GRID)
-    q, info = np.zeros(4), np.zeros(N_INFO)
     pt = Point(300.0, 953.0, 0.002, 297.15)
-    cold_start(b.whole, pt, 15.0, q)
-    assert newton(b.whole, pt, LOAD, 300.0, q, NO_FLOOR, 1e-9, 40.0, info) == OK
+    cold_start(b.w, pt, 15.0)
+    assert newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-9, 40.0) == OK
 
 
 def test_pressure_told_is_the_pressure_kept():
@@ -212,4 +200,4 @@ def test_pressure_told_is_the_pressure_kept():
     make_factor(b.m, BASE, q, b.f.temp, b.f)
     b.f.dtemp[:] = 0.0
     assert film_solve(b.m, b.f.p, b.f)
-    np.testing.assert_allclose(b.f.film_rhs[::N_SIDES], b.f.p, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(b.f.film_rhs[:, L.AT_FIXED], b.f.p, rtol=1e-9, atol=1e-6)

@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import Status
+from thrustwasher.kernels import washer_layout as L
 from thrustwasher.kernels import washer_step as kernel
+from thrustwasher.kernels.washer_regime_and_status import BOUNDARY, FILM
 from thrustwasher.models._params import as_numbers
 from thrustwasher.models.washer_params import WasherParams
 
 BASE = np.array([300.0, 545.0, 0.002, 297.15])
 
 
-def parameters(fidelity=float(kernel.FIELD)):
+def parameters(fidelity=float(L.FIELD)):
     par = np.zeros(kernel.NPAR)
     par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), fidelity]
     assert kernel.derive(par) == Status.OK
@@ -113,7 +115,7 @@ def test_bad_input_changes_nothing(place, value):
     before, inputs = washer.state.copy(), BASE.copy()
     inputs[place] = value
     status, _, iout = washer.step(inputs)
-    assert status == Status.BAD_INPUT == iout[kernel.STATUS_OUT]
+    assert status == Status.BAD_INPUT == iout[L.IO_STATUS]
     assert washer.state.tobytes() == before.tobytes()
     assert washer.step(BASE)[0] == Status.OK
 
@@ -134,8 +136,8 @@ def test_distress_and_regime_are_told():
     told = []
     for load in (300.0, 700.0, 900.0, 600.0, 400.0):
         _, _, iout = washer.step(np.array([load, 545.0, 0.002, 297.15]))
-        told.append((int(iout[kernel.REGIME_OUT]), int(iout[kernel.STATUS_OUT])))
-    film, boundary = (kernel.FILM, Status.OK), (kernel.BOUNDARY, Status.DISTRESS)
+        told.append((int(iout[L.IO_REGIME]), int(iout[L.IO_STATUS])))
+    film, boundary = (FILM, Status.OK), (BOUNDARY, Status.DISTRESS)
     assert told[0] == film and told[1] == film and told[2] == boundary and told[3] == boundary
     assert told[4] == film
 
@@ -143,6 +145,6 @@ def test_distress_and_regime_are_told():
 def test_outside_the_verified_range_is_told():
     status, _, iout = Instance().step(np.array([5000.0, 545.0, 0.002, 297.15]))
     assert status == Status.OK
-    assert iout[kernel.STATUS_OUT] in (Status.OUTSIDE_VERIFIED, Status.DISTRESS)
+    assert iout[L.IO_STATUS] in (Status.OUTSIDE_VERIFIED, Status.DISTRESS)
     _, _, iout = Instance().step(np.array([100.0, 545.0, 0.002, 250.0]))
-    assert iout[kernel.STATUS_OUT] == Status.OUTSIDE_VERIFIED
+    assert iout[L.IO_STATUS] == Status.OUTSIDE_VERIFIED

@@ -8,12 +8,16 @@ from scipy.linalg import expm
 
 from thrustwasher import WasherParams, solve_washer
 from thrustwasher.errors import Status
+from thrustwasher.kernels import washer_layout as L
 from thrustwasher.kernels import washer_step as k
-from thrustwasher.kernels import washer_transient as t
-from thrustwasher.kernels.washer_fields import RATE, size_of_work, washer_fields
 from thrustwasher.kernels.washer_heat import conduct, store
-from thrustwasher.kernels.washer_memory import FIELDS, SUBSTEP, size_of_state
 from thrustwasher.kernels.washer_model import washer_model
+from thrustwasher.kernels.washer_workspace import (
+    fields_of,
+    size_of_state,
+    size_of_work,
+    workspace_of,
+)
 from thrustwasher.models._params import as_numbers
 from thrustwasher.models.washer_constants import constants
 
@@ -32,7 +36,7 @@ class Washer:
         self.par[: len(numbers)] = numbers
         self.m = washer_model(self.par)
         self.state = np.zeros(size_of_state(*grid))
-        self.work = np.zeros(k.N_HEAD + size_of_work(*grid))
+        self.work = np.zeros(L.N_HEAD + size_of_work(*grid))
         self.out, self.iout = np.zeros(k.NOUT), np.zeros(3, np.int32)
 
     def go(self, dt, load=300.0, speed=545.0, tilt=2e-3, oil=OIL):
@@ -40,10 +44,11 @@ class Washer:
         return k.step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
 
     def fields(self):
-        return washer_fields(self.m, self.work[k.N_HEAD :])
+        return fields_of(workspace_of(self.par, self.work))
 
     def rises(self):
-        return self.state[FIELDS : FIELDS + self.m.n_t * (3 * self.m.n_r - self.m.i_g)].copy()
+        n_temp = self.m.n_t * (3 * self.m.n_r - self.m.i_g)
+        return self.state[L.S_FIELDS :][:n_temp].copy()
 
 
 def steady(load=300.0, speed=545.0, tilt=2e-3, oil=OIL, grid=GRID):
@@ -60,10 +65,10 @@ def matrices(w):
         unit[i] = 1.0
         conduct(w.m, unit, f, heat)
         conductances[:, i] = heat
-        before, f.small[RATE] = f.small[RATE], 1.0
+        before, f.small[L.RATE] = f.small[L.RATE], 1.0
         heat[:] = 0.0
         store(w.m, unit, np.zeros(n), 0.0, f, heat)
-        f.small[RATE] = before
+        f.small[L.RATE] = before
         capacities[i] = heat[i]
     return conductances, capacities
 
@@ -98,7 +103,7 @@ def test_substeps_are_of_second_order():
     for n in (4, 8, 16, 64):
         w = Washer(replace(IN_TIME, thermal_start="oil"))
         for _ in range(n):
-            w.state[SUBSTEP] = 1.0
+            w.state[L.S_SUBSTEP] = 1.0
             assert w.go(0.02 / n) == 0
         ends.append(w.rises())
     errors = [np.abs(e - ends[-1]).max() for e in ends[:-1]]
@@ -186,7 +191,7 @@ def test_results_do_not_depend_on_what_the_work_happens_to_hold():
     for _ in range(3):
         assert one.go(0.01, load=800.0) == 0
     other.state[:] = one.state
-    other.work[: k.N_HEAD] = 7.0
+    other.work[: L.N_HEAD] = 7.0
     assert one.go(0.01, load=820.0) == 0 and other.go(0.01, load=820.0) == 0
     assert (one.out == other.out).all() and (one.state == other.state).all()
 
@@ -214,16 +219,3 @@ def test_directional_derivatives_are_slopes_over_a_short_step(place):
     difference = (outputs(size)[1] - outputs(-size)[1]) / (2.0 * size)
     for i in (TORQUE, FILM, SHARE, MEAN):
         assert slope[i] == pytest.approx(difference[i], rel=1e-2), i
-
-
-def test_an_input_that_is_no_number_is_refused_and_leaves_the_memory():
-    w = Washer()
-    assert w.go(1e-3) == 0
-    kept = w.state.copy()
-    assert w.go(1e-3, load=np.nan) == Status.BAD_INPUT
-    assert (w.state == kept).all()
-
-
-def test_the_substep_error_is_what_a_method_of_first_order_would_be_off():
-    assert pytest.approx(1.0 - np.sqrt(0.5)) == t.GAMMA
-    assert pytest.approx((1.0 - t.GAMMA) / t.GAMMA) == t.AHEAD

@@ -4,13 +4,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from thrustwasher.kernels import washer_fields as fields
-from thrustwasher.kernels.banded import N_SIDES
-from thrustwasher.kernels.washer_fields import Fields, Point, size_of_work, washer_fields
+from thrustwasher.kernels import washer_layout as L
 from thrustwasher.kernels.washer_film import film_residual, film_solve
 from thrustwasher.kernels.washer_heat import solve_heat
-from thrustwasher.kernels.washer_model import MESH, N_PARAM, N_RADIAL, WasherModel, washer_model
+from thrustwasher.kernels.washer_model import WasherModel, mesh_arrays, washer_model
 from thrustwasher.kernels.washer_newton import evaluate, make_factor
+from thrustwasher.kernels.washer_workspace import (
+    Fields,
+    Point,
+    Workspace,
+    fields_of,
+    size_of_work,
+    workspace_of,
+)
 from thrustwasher.models.washer import constants
 from thrustwasher.models.washer_params import WasherParams
 
@@ -18,7 +24,7 @@ from thrustwasher.models.washer_params import WasherParams
 class Bench(NamedTuple):
     m: WasherModel
     f: Fields
-    whole: fields.Bench | None = None  # par and work, as the solver takes them
+    w: Workspace | None = None  # the same whole, as the solver takes it
 
     def node(self, name):
         """Return a nodal array of ``f`` as (n_r, n_theta) view."""
@@ -31,22 +37,22 @@ class Bench(NamedTuple):
 
 def bench(grid=(10, 32), **changes):
     """Return model and work arrays; everything starts at zero."""
-    par = constants(WasherParams(**changes), grid).copy()
-    work = np.zeros(size_of_work(*grid))
-    m = washer_model(par)
-    return Bench(m, washer_fields(m, work), fields.Bench(par, work))
+    return bench_of(constants(WasherParams(**changes), grid).copy(), grid)
+
+
+def bench_of(par, grid):
+    """Return model and work arrays for derived parameters."""
+    w = workspace_of(par, np.zeros(L.N_HEAD + 2 * size_of_work(*grid)))  # room for a full gear
+    return Bench(washer_model(par), fields_of(w), w)
 
 
 def full_gear(grid, **changes):
     """Return a bench whose gear is as large as the washer."""
     par = constants(WasherParams(**changes), grid).copy()
-    n_r, radial = grid[0], par[MESH : MESH + N_RADIAL * grid[0]].reshape(N_RADIAL, grid[0])
-    par[N_PARAM + 2] = 0.0  # the radial node where the gear begins
-    radial[4], radial[6] = radial[3], radial[2]  # weights and widths
-    assert n_r == int(par[N_PARAM])
-    work = np.zeros(2 * size_of_work(*grid))
-    m = washer_model(par)
-    return Bench(m, washer_fields(m, work), fields.Bench(par, work))
+    radial, _ = mesh_arrays(par, *grid)
+    par[L.D_GEAR_NODE] = 0.0
+    radial[L.WEIGHT2], radial[L.GEAR_WIDTH] = radial[L.WEIGHT1], radial[L.LOG_WIDTH]
+    return bench_of(par, grid)
 
 
 def tilted(m, ratio, gy=0.00197, gx=-1.9e-5, second=3.0, tilt=0.002):
@@ -68,7 +74,7 @@ def settle(m, pt, q, f, passes=40):
         solve_heat(m, f.heat, f.dtemp, f)
         assert film_solve(m, f.p, f)
         f.temp[:] += f.dtemp
-        f.p[:] = f.film_rhs[::N_SIDES]
+        f.p[:] = f.film_rhs[:, L.AT_FIXED]
     # rounding is as far as it gets
     evaluate(m, pt, q, f)
     film_residual(m, f.p, f)

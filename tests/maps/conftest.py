@@ -2,7 +2,7 @@
 
 import pytest
 
-from thrustwasher.maps.make import make_map
+from thrustwasher.maps.build import make_map
 from thrustwasher.models.washer_map import WasherMap
 from thrustwasher.models.washer_params import WasherParams
 from thrustwasher.store.maps import VARIABLE

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import BranchError, ParameterError, Status
-from thrustwasher.kernels.washer_fields import Point
+from thrustwasher.kernels.washer_layout import N_ALL
 from thrustwasher.kernels.washer_map_step import N_MAP_WORK, look_up, map_sens
-from thrustwasher.kernels.washer_outputs import N_ALL
+from thrustwasher.kernels.washer_workspace import Point
 from thrustwasher.models.washer import solve_washer
-from thrustwasher.models.washer_curve import load_curve
+from thrustwasher.models.washer_load_curve import load_curve
 from thrustwasher.models.washer_params import WasherParams
 
 PARAMS = WasherParams()
@@ -74,15 +74,6 @@ def test_a_branch_that_is_not_there_is_refused(found_first, small):
         solve_washer(PARAMS, load=1.02 * lost, **PLACE, fidelity="map", branch="film")
     with pytest.raises(BranchError, match="contact"):
         solve_washer(PARAMS, load=0.98 * regained, **PLACE, fidelity="map", branch="contact")
-
-
-def test_torque_is_odd_in_speed_and_takes_power(small):
-    loads = np.linspace(110.0, 890.0, 25)
-    ahead, back = (small.look_up(load=loads, **{**PLACE, "speed": s}) for s in (545.0, -545.0))
-    assert np.array_equal(ahead["friction_torque"], -back["friction_torque"])
-    for name in ("temperature", "film_ratio", "friction_power", "branch"):
-        assert np.array_equal(ahead[name], back[name])
-    assert np.all(ahead["friction_power"] > 0.0)
 
 
 def test_rows_and_single_look_ups_are_the_same(small):

@@ -8,8 +8,7 @@ import pytest
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.kernels import washer_map_layout as L
-from thrustwasher.maps.build import build_lines
-from thrustwasher.maps.make import make_map
+from thrustwasher.maps.build import build_lines, make_map
 from thrustwasher.maps.plan import plan_map
 from thrustwasher.models.washer_params import WasherParams
 from thrustwasher.store.maps import CARD, NUMBERS, all_maps, pack, plain, read_map, unpack
@@ -131,13 +130,13 @@ def test_lines_of_another_map_are_neither_taken_nor_harmed(tmp_path):
 
 
 def test_a_map_that_cannot_be_written_loses_no_line(tmp_path, monkeypatch):
-    from thrustwasher.maps import make
+    from thrustwasher.maps import build
 
     def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
     out = tmp_path / "x.twm"
-    monkeypatch.setattr(make, "check_map", fail)
+    monkeypatch.setattr(build, "check_map", fail)
     with pytest.raises(OSError, match="No space"):
         make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1)
     assert [p.name for p in tmp_path.iterdir()] == ["x.twm.journal"]

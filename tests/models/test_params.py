@@ -6,7 +6,7 @@ from dataclasses import fields
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
-from thrustwasher.kernels.washer_model import N_PARAM
+from thrustwasher.kernels.washer_layout import N_PARAM
 from thrustwasher.models._params import as_numbers
 from thrustwasher.models.washer_params import SPEC
 

@@ -117,7 +117,8 @@ def test_rules_and_constants_do_not_read_each_other(spec):
 
 
 def test_limits_in_texts_are_those_of_the_kernels():
-    from thrustwasher.kernels import gear_constants, washer_rules
+    from thrustwasher.kernels import gear_constants
+    from thrustwasher.kernels import washer_regime_and_status as washer_rules
 
     assert washer_params.LEAST_ROUGHNESS == washer_rules.LEAST_ROUGHNESS
     assert f"{washer_rules.LARGEST_SPREAD:g} x" in washer_params.RULES[1].text

@@ -226,11 +226,6 @@ def test_a_film_that_heats_nothing_is_isothermal():
     assert r.friction_torque > 1.4 * solve({"load": 300.0, "speed": 953.0}).friction_torque
 
 
-def test_less_film_heat_delays_the_loss_of_the_film():
-    r = solve({"load": 900.0, "speed": 545.0}, film_heat_fraction=0.1)
-    assert r.branch == "film" and not r.distress
-
-
 def test_constant_dry_friction_is_the_friction_of_a_film_that_is_gone():
     """At a crawl the torque is f times the moment of the contact pressure."""
     r = solve({"load": 1500.0, "speed": 0.01}, friction_law="constant", dry_friction=0.12)

@@ -13,11 +13,11 @@ Cure: the active set, corrected until it stays. Tested on the kernel itself, its
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.banded import N_SIDES
 from thrustwasher.kernels.flow_factors import flow_conductance, mean_gap
-from thrustwasher.kernels.washer_fields import size_of_work, washer_fields
 from thrustwasher.kernels.washer_film import film_residual, film_solve
+from thrustwasher.kernels.washer_layout import AT_FIXED, N_HEAD
 from thrustwasher.kernels.washer_model import washer_model
+from thrustwasher.kernels.washer_workspace import fields_of, size_of_work, workspace_of
 from thrustwasher.models.washer_constants import constants
 from thrustwasher.models.washer_params import WasherParams
 from thrustwasher.rivals import cavitation as c
@@ -36,8 +36,9 @@ FILMS = {
 
 def film(shape, speed=545.0, grid=(10, 32)):
     """Return the kernel's model and fields with a gap of any shape over (r, angle)."""
-    m = washer_model(constants(WasherParams(), grid).copy())
-    f = washer_fields(m, np.zeros(size_of_work(*grid)))
+    par = constants(WasherParams(), grid)
+    m = washer_model(par)
+    f = fields_of(workspace_of(par, np.zeros(N_HEAD + size_of_work(*grid))))
     n_r, n_t = grid
     place = lambda r: (r - m.inner_radius) / (m.outer_radius - m.inner_radius)  # noqa: E731
     angle = np.arctan2(m.sin, m.cos) % (2.0 * np.pi)
@@ -67,7 +68,7 @@ def solve(m, f, start=None):
         if error <= 1e-11 * p_max or error == 0.0:
             return f.p.copy(), turn
         assert film_solve(m, f.p, f)
-        f.p[:] = f.film_rhs[::N_SIDES]
+        f.p[:] = f.film_rhs[:, AT_FIXED]
     raise AssertionError(f"active set not found: {error} of {p_max} Pa")
 
 

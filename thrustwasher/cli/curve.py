@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     out = arguments.out and _output.check_file(arguments.out, "--out", (".csv",))
     plot = arguments.plot and _output.check_file(arguments.plot, "--plot", _output.PLOT_SUFFIXES)
 
-    from ..models.washer_curve import load_curve
+    from ..models.washer_load_curve import load_curve
 
     began = time.perf_counter()
     curve = load_curve(params, **point, grid=grid)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +56,7 @@ def _build(arguments: argparse.Namespace) -> int:
     box = {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
            for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
 
-    from ..maps.make import make_map
+    from ..maps.build import make_map
 
     card = make_map(params, Path(out), box=box, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
@@ -104,7 +105,7 @@ def _check(arguments: argparse.Namespace) -> int:
         params, arguments.file, points=arguments.points, fidelity=str(file.card["built_from"]),
         workers=arguments.workers or 1, progress=time_left("held-out points"),
     )  # fmt: skip
-    card = {**file.card, "held_out": verdict.as_dict()}
+    card = {**file.card, "held_out": asdict(verdict)}
     _show(card, arguments.file, arguments.json)
     return 0
 

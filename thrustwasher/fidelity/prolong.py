@@ -7,10 +7,12 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.washer_memory import FACTOR_VALID, FIELDS, size_of_state
+from ..kernels.washer_layout import S_FACTOR_VALID, S_FIELDS
 from ..kernels.washer_model import WasherModel, washer_model
-from ..models.washer import BRANCHES, WasherResult, _solve
+from ..kernels.washer_workspace import size_of_state
+from ..models.washer import WasherResult, _solve
 from ..models.washer_constants import constants
+from ..models.washer_result import BRANCHES
 
 Array = NDArray[np.float64]
 
@@ -32,8 +34,8 @@ def _moved(result: WasherResult, grid: tuple[int, int]) -> WasherResult:
     new = washer_model(constants(result.params, grid))
     column = 3 * old.n_r - old.i_g
     n_temp = column * old.n_t
-    fields = result._state[FIELDS : FIELDS + n_temp].reshape(old.n_t, column)
-    pressure = result._state[FIELDS + n_temp :][: old.n_r * old.n_t].reshape(old.n_t, old.n_r)
+    fields = result._state[S_FIELDS : S_FIELDS + n_temp].reshape(old.n_t, column)
+    pressure = result._state[S_FIELDS + n_temp :][: old.n_r * old.n_t].reshape(old.n_t, old.n_r)
     gear = 2 * old.n_r
     parts = [
         _resampled(fields[:, : old.n_r], old, new, 0, 0),
@@ -41,12 +43,12 @@ def _moved(result: WasherResult, grid: tuple[int, int]) -> WasherResult:
         _resampled(fields[:, gear:], old, new, old.i_g, new.i_g),
     ]
     state = np.zeros(size_of_state(*grid))
-    state[:FIELDS] = result._state[:FIELDS]
-    state[FACTOR_VALID] = 0.0
+    state[:S_FIELDS] = result._state[:S_FIELDS]
+    state[S_FACTOR_VALID] = 0.0
     temperatures = np.hstack(parts).ravel()
-    state[FIELDS : FIELDS + temperatures.size] = temperatures
+    state[S_FIELDS : S_FIELDS + temperatures.size] = temperatures
     moved = np.maximum(_resampled(pressure, old, new, 0, 0), 0.0).ravel()
-    state[FIELDS + temperatures.size :][: moved.size] = moved
+    state[S_FIELDS + temperatures.size :][: moved.size] = moved
     return dataclasses.replace(result, grid=grid, _state=state)
 
 

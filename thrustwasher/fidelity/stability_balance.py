@@ -127,7 +127,7 @@ def _ours(point: Point, fidelity: str, warm: bool) -> Found:
 
 def _curve(point: Point) -> Found:
     """Read the branch that a washer loaded from nothing is on off the whole curve of solutions."""
-    from ..models.washer_curve import load_curve
+    from ..models.washer_load_curve import load_curve
     from ..models.washer_params import WasherParams
 
     curve = load_curve(

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import SolveError
 from ..models.washer import WasherResult, solve_washer
-from ..models.washer_curve import load_curve
+from ..models.washer_load_curve import load_curve
 from .prolong import solve_on
 from .reference_values import extrapolated
 from .reference_washer import GRIDS

@@ -42,13 +42,13 @@ class KernelWay:
         if grid is None:
             self._par = filled(spec, spec.params(), fidelity, kernel.NPAR, kernel.derive)
         else:
-            from ..kernels.washer_fields import size_of_work
-            from ..kernels.washer_memory import size_of_state
+            from ..kernels.washer_layout import N_HEAD
+            from ..kernels.washer_workspace import size_of_state, size_of_work
             from ..models.washer_constants import constants
 
             self._par = constants(spec.params(), grid)
             self._n_state = size_of_state(*grid)
-            self._n_work = kernel.N_HEAD + size_of_work(*grid)
+            self._n_work = N_HEAD + size_of_work(*grid)
         self._work = np.zeros(self._n_work)
         self.build_s = 0.0
         if grid is None:

@@ -154,3 +154,63 @@ def _inlined(function: Callable[..., Any]) -> Any:
 
 
 inlined = cast(Callable[[F], F], _inlined)
+
+
+class _View:
+    """A function whose compiled form numba has no name for: ``numba_form`` makes it."""
+
+    def __init__(self, function: Callable[..., Any], numba_form: Callable[[], Any]) -> None:
+        self.function, self.numba_form = function, numba_form
+        update_wrapper(self, function)
+
+    def __call__(self, *args: Any) -> Any:
+        """Return the view."""
+        return self.function(*args)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """Let numba compile calls of this function."""
+        return self.numba_form()
+
+
+@cache
+def _compiled_matrix() -> Any:
+    """Return the type of ``matrix`` in numba, whose own reshape needs its library and may raise."""
+    import numba
+    from numba.core import cgutils
+    from numba.core.registry import cpu_target
+    from numba.extending import intrinsic
+    from numba.np import arrayobj
+
+    types: Any = numba.types
+    arrays: Any = arrayobj
+    pack: Any = cgutils.pack_array
+
+    @intrinsic
+    def matrix(_typing: Any, a: Any, rows: Any, columns: Any) -> Any:
+        made = types.Array(a.dtype, 2, "C")
+
+        def code(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            flat = arrays.make_array(signature.args[0])(context, builder, values[0])
+            view = arrays.make_array(made)(context, builder)
+            row = builder.mul(values[2], flat.itemsize)
+            arrays.populate_array(
+                view, data=flat.data, shape=pack(builder, values[1:]),
+                strides=pack(builder, [row, flat.itemsize]),
+                itemsize=flat.itemsize, meminfo=flat.meminfo, parent=flat.parent,
+            )  # fmt: skip
+            return arrays.impl_ret_borrowed(context, builder, made, view._getvalue())
+
+        return made(a, types.intp, types.intp), code
+
+    known: Any = cpu_target.typing_context
+    known.refresh()
+    return known.resolve_value_type(matrix)
+
+
+def _matrix(a: Array, rows: int, columns: int) -> Array:
+    """Return an array of rows x columns numbers as a matrix; nothing is copied."""
+    return a.reshape(rows, columns)
+
+
+matrix = cast(Callable[[Array, int, int], Array], _View(_matrix, _compiled_matrix))

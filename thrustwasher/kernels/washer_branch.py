@@ -7,17 +7,10 @@ single-valued in film thickness.
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
+from . import washer_layout as L
 from ._jit import inlined, kernel
-from .viscosity import viscosity
-from .washer_curve import (
-    ACCURACY,
-    SHARE,
-    SLOPE,
-    S,
-    W,
+from .status import MAX_ITERATIONS, NO_BRANCH, OK
+from .washer_continuation import (
     cold_start,
     contact_force,
     enter_curve,
@@ -26,48 +19,29 @@ from .washer_curve import (
     remember,
     walk_down,
     walk_to,
-)  # fmt: skip
-from .washer_fields import Bench, Point, forget_factor
-from .washer_model import SIGMA1, washer_model
-from .washer_newton import (
-    FILM,
-    LOAD,
-    LOAD_SLOPE,
-    MAX_ITERATIONS,
-    NO_FLOOR,
-    OK,
-    REACHED_LOAD,
-    evaluate_here,
-    film_ratio,
-    newton,
-    smooth_film,
-)  # fmt: skip
+)
+from .washer_gap import oil_viscosity
+from .washer_newton import FILM, LOAD, NO_FLOOR, evaluate_here, film_ratio, newton, smooth_film
+from .washer_workspace import Point, Workspace, forget_factor, model_of
 
-NO_BRANCH = 12  # errors.Status; a test keeps them equal
-ANY, FILM_BRANCH, UNSTABLE, CONTACT_BRANCH = 0.0, 1.0, 2.0, 3.0
-UNKNOWN, SINGLE, MULTIPLE = 0.0, 1.0, 2.0  # is the curve single-valued in load?
 TOLERANCE = 1e-9  # of a solve from nothing
 FILM_RATIO = 3.0  # single-valued curves are called film above it
 CLEAR_SHARE = 0.01  # below this share of contact a stable solution is on the film branch
-# results of a descent, in an array: branch, multiplicity, loads of the folds found (nan: not met)
-BRANCH, MULTIPLICITY, LOST, REGAINED, N_FOUND = 0, 1, 2, 3, 4
 ENTRY_RATIO = 4.0
 DESCENT = 0.28  # finest step of the descent [sigma]
 NOISE = 3e-4  # a load must change by more to count as past a fold; points are good to 1e-4
 
 
 @kernel
-def first_guess(b: Bench, pt: Point) -> float:
+def first_guess(w: Workspace, pt: Point) -> float:
     """Return a film ratio to start from: narrow ring, film heated at its mean gap.
 
     The factors 0.8 and 0.4 were fitted to solutions from 50 to 1367 rad/s: 15 % off at the median.
     """
-    m = washer_model(b.par)
+    m = model_of(w)
     width = m.outer_radius - m.inner_radius
     mean = 0.5 * (m.outer_radius + m.inner_radius)
-    mu, dmu = viscosity(
-        pt.oil_temperature, m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
-    )
+    mu, dmu = oil_viscosity(m.par, pt.oil_temperature)
     v = abs(pt.speed) * mean
     strength = 0.25 * mu * v * width**3
     if strength <= 0.0 or pt.tilt <= 0.0:
@@ -86,51 +60,45 @@ def first_guess(b: Bench, pt: Point) -> float:
 
 
 @kernel
-def _settle(
-    b: Bench, pt: Point, upper: float, lower: float, q: NDArray[np.float64],
-    info: NDArray[np.float64], walk: NDArray[np.float64],
-) -> int:  # fmt: skip
+def settle(w: Workspace, pt: Point, upper: float, lower: float) -> int:
     """Solve for the load between two film thicknesses [m] that bracket it on a stable stretch.
 
     ``upper`` carries less than the load, ``lower`` at least the load.
     """
-    sigma = b.par[SIGMA1]
+    sigma = w.par[L.D_SIGMA1]
     for _ in range(60):
-        remember(b, q, 1.0)
-        status = newton(b, pt, LOAD, pt.load, q, NO_FLOOR, TOLERANCE, 15.0, info)
-        s = smooth_film(b, q)
+        remember(w, 1.0)
+        status = newton(w, pt, LOAD, pt.load, NO_FLOOR, TOLERANCE, 15.0)
+        s = smooth_film(w)
         margin = 1e-6 * sigma + 1e-3 * (upper - lower)
         if status == OK and lower - margin <= s <= upper + margin:
             return OK
-        recall(b, q, 1.0)
-        forget_factor(b)
+        recall(w, 1.0)
+        forget_factor(w)
         if upper - lower < 1e-7 * sigma:  # on the fold itself: the load is met to rounding
-            evaluate_here(b, pt, q)
-            return OK if abs(walk[W] / pt.load - 1.0) < 1e-6 else MAX_ITERATIONS
-        status = walk_to(b, pt, 0.5 * (upper + lower), q, info, walk)
+            evaluate_here(w, pt)
+            return OK if abs(w.curve[L.AT_LOAD] / pt.load - 1.0) < 1e-6 else MAX_ITERATIONS
+        status = walk_to(w, pt, 0.5 * (upper + lower))
         if status != OK:
             return status
-        if walk[W] < pt.load:
-            upper = walk[S]
+        if w.curve[L.AT_LOAD] < pt.load:
+            upper = w.curve[L.AT_FILM]
         else:
-            lower = walk[S]
+            lower = w.curve[L.AT_FILM]
     return MAX_ITERATIONS
 
 
 @kernel
-def _climb(
-    b: Bench, pt: Point, q: NDArray[np.float64], info: NDArray[np.float64],
-    walk: NDArray[np.float64],
-) -> int:  # fmt: skip
+def _climb(w: Workspace, pt: Point) -> int:
     """Settle above the walker, which carries more than the load with a thick film."""
-    lower = walk[S]
+    lower = w.curve[L.AT_FILM]
     for _ in range(60):
-        status = walk_to(b, pt, 1.25 * walk[S], q, info, walk)
+        status = walk_to(w, pt, 1.25 * w.curve[L.AT_FILM])
         if status != OK:
             return status
-        if walk[W] < pt.load:
-            return _settle(b, pt, walk[S], lower, q, info, walk)
-        lower = walk[S]
+        if w.curve[L.AT_LOAD] < pt.load:
+            return settle(w, pt, w.curve[L.AT_FILM], lower)
+        lower = w.curve[L.AT_FILM]
     return MAX_ITERATIONS
 
 
@@ -146,162 +114,153 @@ def _near(value: float, load: float, side: float) -> bool:
 
 
 @inlined
-def _contact_side(
-    b: Bench, pt: Point, q: NDArray[np.float64], info: NDArray[np.float64],
-    walk: NDArray[np.float64],
-) -> int:  # fmt: skip
+def _contact_side(w: Workspace, pt: Point) -> int:
     """Solve for the load below the walker, which has passed every fold above the load.
 
     One solution is left, so any way to it will do: first from a washer pressed on, then by walking.
     """
-    sigma = b.par[SIGMA1]
-    remember(b, q, 1.0)
+    sigma = w.par[L.D_SIGMA1]
+    remember(w, 1.0)
     for attempt in range(2):
         ratio = 0.8 - 0.6 * attempt
-        if ratio * sigma < walk[S]:
-            cold_start(b, pt, ratio, q)
-            status = newton(b, pt, FILM, ratio * sigma, q, NO_FLOOR, 1e-2, 20.0, info)
+        if ratio * sigma < w.curve[L.AT_FILM]:
+            cold_start(w, pt, ratio)
+            status = newton(w, pt, FILM, ratio * sigma, NO_FLOOR, 1e-2, 20.0)
             if status == OK:
-                status = newton(b, pt, LOAD, pt.load, q, NO_FLOOR, TOLERANCE, 20.0, info)
-            if status == OK and smooth_film(b, q) <= walk[S]:
+                status = newton(w, pt, LOAD, pt.load, NO_FLOOR, TOLERANCE, 20.0)
+            if status == OK and smooth_film(w) <= w.curve[L.AT_FILM]:
                 return OK
-    recall(b, q, 1.0)
-    forget_factor(b)
+    recall(w, 1.0)
+    forget_factor(w)
     for _ in range(200):
-        upper, before = walk[S], walk[W]
-        status = walk_down(b, pt, DESCENT, q, info, walk)
+        upper, before = w.curve[L.AT_FILM], w.curve[L.AT_LOAD]
+        status = walk_down(w, pt, DESCENT)
         if status != OK:
             return status
-        if before < pt.load <= walk[W]:
-            return _settle(b, pt, upper, walk[S], q, info, walk)
+        if before < pt.load <= w.curve[L.AT_LOAD]:
+            return settle(w, pt, upper, w.curve[L.AT_FILM])
     return MAX_ITERATIONS
 
 
 @kernel
-def descend(
-    b: Bench, pt: Point, wanted: float, q: NDArray[np.float64],
-    info: NDArray[np.float64], found: NDArray[np.float64], walk: NDArray[np.float64],
-) -> int:  # fmt: skip
+def descend(w: Workspace, pt: Point, wanted: float) -> int:
     """Solve for the load on the wanted branch by a descent from light load; return a status.
 
     ``wanted``: FILM_BRANCH, CONTACT_BRANCH, or ANY: film up to the fold, contact beyond it. If the
     wanted branch has no solution at this load, the other one is solved and NO_BRANCH returned.
     """
-    found[BRANCH], found[MULTIPLICITY] = 0.0, 0.0
-    found[LOST], found[REGAINED] = math.nan, math.nan
-    walk[ACCURACY] = 1e-4
+    w.found[L.BRANCH], w.found[L.MULTIPLICITY] = 0.0, 0.0
+    w.found[L.LOST], w.found[L.REGAINED] = math.nan, math.nan
+    w.curve[L.ACCURACY] = 1e-4
     for attempt in range(3):
-        status = enter_curve(b, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt), q, info, walk)
+        status = enter_curve(w, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt))
         if status != OK:
             return status
-        clear = walk[SHARE] < CLEAR_SHARE and walk[SLOPE] < 0.0
-        if clear or walk[W] < 1e-2 * pt.load:  # above every fold
+        clear = w.curve[L.AT_SHARE] < CLEAR_SHARE and w.curve[L.AT_SLOPE] < 0.0
+        if clear or w.curve[L.AT_LOAD] < 1e-2 * pt.load:  # above every fold
             break
-    above = walk[W] >= pt.load  # the film branch carries the load above the entry
-    if above and wanted != CONTACT_BRANCH:
-        found[BRANCH] = FILM_BRANCH
-        return _climb(b, pt, q, info, walk)
+    above = w.curve[L.AT_LOAD] >= pt.load  # the film branch carries the load above the entry
+    if above and wanted != L.CONTACT_BRANCH:
+        w.found[L.BRANCH] = L.FILM_BRANCH
+        return _climb(w, pt)
     # the highest point so far (after the film is lost, the lowest), and the place before it
-    s0, s1, w1 = walk[S], walk[S], walk[W]
+    s0, s1, w1 = w.curve[L.AT_FILM], w.curve[L.AT_FILM], w.curve[L.AT_LOAD]
     upper, lower = math.nan, math.nan  # bracket of the solution above any fold
     lost = False
     for _ in range(400):
-        status = walk_down(b, pt, DESCENT, q, info, walk)
+        status = walk_down(w, pt, DESCENT)
         if status != OK:
             return status
-        s2, w2 = walk[S], walk[W]
+        s2, w2 = w.curve[L.AT_FILM], w.curve[L.AT_LOAD]
         has_film = above or not math.isnan(upper)
         if not lost and w2 < w1 * (1.0 - NOISE) - 1e-3:  # film lost between s0 and s2
             lost = True
-            found[MULTIPLICITY] = MULTIPLE
-            found[LOST] = w1
+            w.found[L.MULTIPLICITY] = L.MULTIPLE
+            w.found[L.LOST] = w1
             if not has_film and _near(w1, pt.load, -1.0):
-                remember(b, q, 2.0)
-                status = find_fold(b, pt, s0, s2, q, info, walk)
+                remember(w, 2.0)
+                status = find_fold(w, pt, s0, s2)
                 if status != OK:
                     return status
-                found[LOST] = walk[W]
-                if walk[W] >= pt.load:
-                    upper, lower, has_film = s0, walk[S], True
-                    remember(b, q, 2.0)
+                w.found[L.LOST] = w.curve[L.AT_LOAD]
+                if w.curve[L.AT_LOAD] >= pt.load:
+                    upper, lower, has_film = s0, w.curve[L.AT_FILM], True
+                    remember(w, 2.0)
                 else:
-                    recall(b, q, 2.0)
-                    forget_factor(b)
-                    walk[S], walk[W] = s2, w2
-            if has_film and wanted != CONTACT_BRANCH:
+                    recall(w, 2.0)
+                    forget_factor(w)
+                    w.curve[L.AT_FILM], w.curve[L.AT_LOAD] = s2, w2
+            if has_film and wanted != L.CONTACT_BRANCH:
                 break
             if not has_film:  # beyond the fold: one solution only, on the contact branch
-                found[BRANCH] = CONTACT_BRANCH
-                status = _contact_side(b, pt, q, info, walk)
-                return NO_BRANCH if status == OK and wanted == FILM_BRANCH else status
+                w.found[L.BRANCH] = L.CONTACT_BRANCH
+                status = _contact_side(w, pt)
+                return NO_BRANCH if status == OK and wanted == L.FILM_BRANCH else status
         elif lost and w2 > w1 * (1.0 + NOISE):
             # film regained between s0 and s2; the contact branch is wanted
-            found[REGAINED] = w1
+            w.found[L.REGAINED] = w1
             if _near(w1, pt.load, 1.0):
-                status = find_fold(b, pt, s0, s2, q, info, walk)
+                status = find_fold(w, pt, s0, s2)
                 if status != OK:
                     return status
-                found[REGAINED] = walk[W]
-            if found[REGAINED] > pt.load:
+                w.found[L.REGAINED] = w.curve[L.AT_LOAD]
+            if w.found[L.REGAINED] > pt.load:
                 break  # no solution on the contact branch
-            found[BRANCH] = CONTACT_BRANCH
+            w.found[L.BRANCH] = L.CONTACT_BRANCH
             if w2 >= pt.load:  # the step has passed the solution already
-                return _settle(b, pt, walk[S] if walk[S] > s2 else s1, s2, q, info, walk)
-            return _contact_side(b, pt, q, info, walk)
+                return settle(w, pt, w.curve[L.AT_FILM] if w.curve[L.AT_FILM] > s2 else s1, s2)
+            return _contact_side(w, pt)
         elif not lost and not has_film and w2 >= pt.load:
             upper, lower = s1, s2
-            remember(b, q, 2.0)
+            remember(w, 2.0)
         if not lost and (above or not math.isnan(upper)) and (
-            walk[SHARE] > 0.9 or walk[S] < 0.5 * b.par[SIGMA1]
+            w.curve[L.AT_SHARE] > 0.9 or w.curve[L.AT_FILM] < 0.5 * w.par[L.D_SIGMA1]
         ):  # fmt: skip
-            found[MULTIPLICITY] = SINGLE  # the asperities carry: no fold will come
+            w.found[L.MULTIPLICITY] = L.SINGLE  # the asperities carry: no fold will come
             break
         if (w2 < w1) == lost:
             s0, s1, w1 = s1, s2, w2
-        if walk[S] < -12.0 * b.par[SIGMA1]:
+        if w.curve[L.AT_FILM] < -12.0 * w.par[L.D_SIGMA1]:
             return MAX_ITERATIONS
     if above:  # no contact branch at this load after all
-        status = enter_curve(b, pt, ENTRY_RATIO, q, info, walk)
+        status = enter_curve(w, pt, ENTRY_RATIO)
         if status == OK:
-            status = _climb(b, pt, q, info, walk)
-        found[BRANCH] = FILM_BRANCH
+            status = _climb(w, pt)
+        w.found[L.BRANCH] = L.FILM_BRANCH
         return NO_BRANCH if status == OK else status
     if math.isnan(upper):
         return MAX_ITERATIONS
-    recall(b, q, 2.0)
-    forget_factor(b)
-    walk[S], walk[W] = lower, pt.load
-    status = _settle(b, pt, upper, lower, q, info, walk)
-    thick = film_ratio(b, q) >= FILM_RATIO
-    single = found[MULTIPLICITY] == SINGLE
-    found[BRANCH] = FILM_BRANCH if thick or not single else CONTACT_BRANCH
-    if status == OK and wanted != ANY and found[BRANCH] != wanted:
+    recall(w, 2.0)
+    forget_factor(w)
+    w.curve[L.AT_FILM], w.curve[L.AT_LOAD] = lower, pt.load
+    status = settle(w, pt, upper, lower)
+    thick = film_ratio(w) >= FILM_RATIO
+    single = w.found[L.MULTIPLICITY] == L.SINGLE
+    w.found[L.BRANCH] = L.FILM_BRANCH if thick or not single else L.CONTACT_BRANCH
+    if status == OK and wanted != L.ANY and w.found[L.BRANCH] != wanted:
         return NO_BRANCH
     return status
 
 
 @inlined
-def solve_cold(
-    b: Bench, pt: Point, wanted: float, q: NDArray[np.float64],
-    info: NDArray[np.float64], found: NDArray[np.float64], walk: NDArray[np.float64],
-) -> int:  # fmt: skip
+def solve_cold(w: Workspace, pt: Point, wanted: float) -> int:
     """Solve from nothing: Newton from a guess if that lands on a clear film, else a descent."""
-    found[BRANCH], found[MULTIPLICITY] = 0.0, 0.0
-    found[LOST], found[REGAINED] = math.nan, math.nan
-    if wanted != CONTACT_BRANCH:
-        cold_start(b, pt, first_guess(b, pt), q)
-        status = newton(b, pt, LOAD, pt.load, q, 2.4, TOLERANCE, 40.0, info)
-        if status == OK and is_clear_film(b, q, info):
-            found[BRANCH] = FILM_BRANCH
+    w.found[L.BRANCH], w.found[L.MULTIPLICITY] = 0.0, 0.0
+    w.found[L.LOST], w.found[L.REGAINED] = math.nan, math.nan
+    if wanted != L.CONTACT_BRANCH:
+        cold_start(w, pt, first_guess(w, pt))
+        status = newton(w, pt, LOAD, pt.load, 2.4, TOLERANCE, 40.0)
+        if status == OK and is_clear_film(w):
+            w.found[L.BRANCH] = L.FILM_BRANCH
             return OK
-    return descend(b, pt, wanted, q, info, found, walk)
+    return descend(w, pt, wanted)
 
 
 @kernel
-def is_clear_film(b: Bench, q: NDArray[np.float64], info: NDArray[np.float64]) -> bool:
+def is_clear_film(w: Workspace) -> bool:
     """Tell if the present solution is stable, thicker than 3 sigma and carried by the film."""
     return (
-        info[LOAD_SLOPE] < 0.0
-        and film_ratio(b, q) >= FILM_RATIO
-        and contact_force(b) < CLEAR_SHARE * info[REACHED_LOAD]
+        w.info[L.LOAD_SLOPE] < 0.0
+        and film_ratio(w) >= FILM_RATIO
+        and contact_force(w) < CLEAR_SHARE * w.info[L.REACHED_LOAD]
     )

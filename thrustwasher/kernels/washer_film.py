@@ -8,21 +8,20 @@ Source: Patir & Cheng 1978/79; Jackson & Green Eq 1-5 in polar form.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._jit import kernel
+from . import washer_layout as L
+from ._jit import Array, kernel, matrix
 from .banded import N_SIDES, cholesky, cholesky_solve_many
 from .flow_factors import flow_conductance, mean_gap, shear_flow
-from .washer_fields import Fields, Point
+from .washer_layout import AT_FIXED, OVER_POSITIONS, TILT_X, TILT_Y, Z_WASHER
 from .washer_model import WasherModel
-
-RING = 127  # place in Fields.small: 1 if no column is dry, so that the ring is closed
+from .washer_workspace import Fields, Point, clear
 
 
 @kernel
-def evaluate_film(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> None:
+def evaluate_film(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
     """Fill conductances (but for the fluidity) and the wedge term at all faces."""
-    z_w, gx, gy = q[0], q[2], q[3]
+    z_w, gx, gy = q[Z_WASHER], q[TILT_X], q[TILT_Y]
     n_r = m.n_r
     sheared = m.shear != 0.0
     for j in range(m.n_t):
@@ -50,7 +49,7 @@ def evaluate_film(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) 
 
 
 @kernel
-def film_residual(m: WasherModel, p: NDArray[np.float64], f: Fields) -> tuple[float, float, int]:
+def film_residual(m: WasherModel, p: Array, f: Fields) -> tuple[float, float, int]:
     """Mark full and cavitated nodes; return (complementarity residual [Pa], p_max [Pa], n).
 
     ``n`` counts the unknowns of the linear system. A node cavitates if p - residual/diagonal <= 0,
@@ -98,7 +97,7 @@ def film_residual(m: WasherModel, p: NDArray[np.float64], f: Fields) -> tuple[fl
         if f.place[j] >= 0.0:
             f.place[j] = count
             count += 1
-    f.small[RING] = 0.0 if first_dry >= 0 else 1.0
+    f.small[L.RING] = 0.0 if first_dry >= 0 else 1.0
     return worst, p_max, count * (n_r - 2)
 
 
@@ -106,22 +105,21 @@ def film_residual(m: WasherModel, p: NDArray[np.float64], f: Fields) -> tuple[fl
 def _face(
     f: Fields, k: int, other: int, c: float, drop: float, per_h: float, x: float, y: float
 ) -> None:
-    """Add the slopes of the flow through one face to the right sides of its two nodes.
-
-    Sides: 0 the step at fixed positions, 1..4 the slopes over z_w, z_g, gx, gy.
-    """
-    a, b = k * N_SIDES, other * N_SIDES
+    """Add the slopes of the flow through one face to the right sides of its two nodes."""
+    a, b = np.uintp(k), np.uintp(other)
     flow = c * drop
     for s in range(N_SIDES):
-        v = flow * (f.lag[np.uintp(a + s)] + f.lag[np.uintp(b + s)])
-        f.film_rhs[np.uintp(a + s)] -= v
-        f.film_rhs[np.uintp(b + s)] += v
-    f.film_rhs[np.uintp(a + 1)] -= per_h
-    f.film_rhs[np.uintp(b + 1)] += per_h
-    f.film_rhs[np.uintp(a + 3)] -= per_h * y
-    f.film_rhs[np.uintp(b + 3)] += per_h * y
-    f.film_rhs[np.uintp(a + 4)] += per_h * x
-    f.film_rhs[np.uintp(b + 4)] -= per_h * x
+        v = flow * (f.lag[a, np.uintp(s)] + f.lag[b, np.uintp(s)])
+        f.film_rhs[a, np.uintp(s)] -= v
+        f.film_rhs[b, np.uintp(s)] += v
+    over_z = OVER_POSITIONS + Z_WASHER
+    over_x, over_y = OVER_POSITIONS + TILT_X, OVER_POSITIONS + TILT_Y
+    f.film_rhs[a, over_z] -= per_h
+    f.film_rhs[b, over_z] += per_h
+    f.film_rhs[a, over_x] -= per_h * y
+    f.film_rhs[b, over_x] += per_h * y
+    f.film_rhs[a, over_y] += per_h * x
+    f.film_rhs[b, over_y] -= per_h * x
 
 
 @kernel
@@ -129,26 +127,26 @@ def _lags(m: WasherModel, f: Fields) -> None:
     """Fill the fluidity change of each node that follows from the temperature step and slopes."""
     n_r, n_t = m.n_r, m.n_t
     m_t = 3 * n_r - m.i_g
-    n_temp = m_t * n_t
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         jb = j - 1 if j > 0 else n_t - 1
         if f.place[j] < 0.0 and f.place[jn] < 0.0 and f.place[jb] < 0.0:
             continue  # no full film on either side
         for i in range(n_r):
-            k = j * n_r + i
-            t, a = j * m_t + i, k * N_SIDES
+            k = np.uintp(j * n_r + i)
+            t = np.uintp(j * m_t + i)
+            below = np.uintp(j * m_t + i + n_r)
             scale = -0.5 * f.dmu[k] * f.fluidity[k] * f.fluidity[k]  # mean of carrier, washer
-            f.lag[np.uintp(a)] = scale * (f.dtemp[np.uintp(t)] + f.dtemp[np.uintp(t + n_r)])
-            for s in range(1, 5):
-                b = (s - 1) * n_temp + t
-                f.lag[np.uintp(a + s)] = scale * (f.sens[np.uintp(b)] + f.sens[np.uintp(b + n_r)])
-            for s in range(5, N_SIDES):
-                f.lag[np.uintp(a + s)] = 0.0
+            f.lag[k, AT_FIXED] = scale * (f.dtemp[t] + f.dtemp[below])
+            for c in range(4):
+                following = f.following[np.uintp(c), t] + f.following[np.uintp(c), below]
+                f.lag[k, np.uintp(OVER_POSITIONS + c)] = scale * following
+            for s in range(OVER_POSITIONS + 4, N_SIDES):
+                f.lag[k, np.uintp(s)] = 0.0
 
 
 @kernel
-def _right_sides(m: WasherModel, p: NDArray[np.float64], f: Fields) -> None:
+def _right_sides(m: WasherModel, p: Array, f: Fields) -> None:
     """Fill the film's right sides, node by node."""
     n_r, n_t = m.n_r, m.n_t
     for j in range(n_t):
@@ -173,7 +171,7 @@ def _right_sides(m: WasherModel, p: NDArray[np.float64], f: Fields) -> None:
                   m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j])  # fmt: skip
         for i in range(1, n_r - 1):
             k = j * n_r + i
-            f.film_rhs[k * N_SIDES] -= f.wet[k] * (f.wedge[k] - f.wedge[jb * n_r + i])
+            f.film_rhs[k, AT_FIXED] -= f.wet[k] * (f.wedge[k] - f.wedge[jb * n_r + i])
 
 
 @kernel
@@ -183,8 +181,9 @@ def film_factor(m: WasherModel, f: Fields) -> bool:
     rows = n_r - 2
     band = band_of_film(m, f)
     size = size_of_film(m, f)
-    for k in range(size * (band + 1)):
-        f.film[np.uintp(k)] = 0.0
+    used = f.film[: size * (band + 1)]
+    clear(used)
+    bands = matrix(used, size, band + 1)  # the diagonal, then what is below it
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         jb = j - 1 if j > 0 else n_t - 1
@@ -194,7 +193,7 @@ def film_factor(m: WasherModel, f: Fields) -> bool:
             k = j * n_r + i
             row = int(f.place[j]) * rows + i - 1
             if f.wet[k] == 0.0:
-                f.film[row * (band + 1)] = 1.0
+                bands[row, 0] = 1.0
                 continue
             kn, kb = jn * n_r + i, jb * n_r + i
             here = f.fluidity[k]
@@ -202,19 +201,19 @@ def film_factor(m: WasherModel, f: Fields) -> bool:
             c_b = f.ct[kb] * (here + f.fluidity[kb])
             c_u = f.cr[k] * (here + f.fluidity[k + 1])
             c_d = f.cr[k - 1] * (here + f.fluidity[k - 1])
-            f.film[row * (band + 1)] = c_n + c_b + c_u + c_d
+            bands[row, 0] = c_n + c_b + c_u + c_d
             if i + 1 < n_r - 1 and f.wet[k + 1] == 1.0:
-                f.film[row * (band + 1) + 1] = -c_u
+                bands[row, 1] = -c_u
             if f.wet[kn] == 1.0:
                 col = int(f.place[jn]) * rows + i - 1
-                f.film[min(row, col) * (band + 1) + abs(row - col)] -= c_n
+                bands[min(row, col), abs(row - col)] -= c_n
     return size == 0 or cholesky(f.film, size, band)
 
 
 @kernel
 def band_of_film(m: WasherModel, f: Fields) -> int:
     """Return the half band width of the film's system."""
-    return (m.n_r - 2) * (1 if f.small[RING] == 0.0 else 2)
+    return (m.n_r - 2) * (1 if f.small[L.RING] == 0.0 else 2)
 
 
 @kernel
@@ -228,39 +227,47 @@ def size_of_film(m: WasherModel, f: Fields) -> int:
 
 
 @kernel
-def film_solve(m: WasherModel, p: NDArray[np.float64], f: Fields) -> bool:
+def film_solve(m: WasherModel, p: Array, f: Fields) -> bool:
     """Solve the linearised film for five right sides; return False if a pivot fails.
 
-    Out, in ``f.film_rhs[node * N_SIDES + side]``: the new pressure at fixed positions (after the
-    temperature step ``f.dtemp``), then its slopes over z_w, z_g, gx, gy (temperatures following by
-    ``f.sens``). Zero at cavitated nodes and rims. The residual is linear in p, so the new pressure
-    itself is solved for, and the neighbours of nodes that just cavitated need no care.
+    Out, in ``f.film_rhs[node]``: the new pressure at fixed positions (after the temperature step
+    ``f.dtemp``), then its slopes over the positions (temperatures following by ``f.following``).
+    Zero at cavitated nodes and rims. The residual is linear in p, so the new pressure itself is
+    solved for, and the neighbours of nodes that just cavitated need no care.
     """
     n_r, n_t = m.n_r, m.n_t
-    n, rows = n_r * n_t, n_r - 2
-    for k in range(N_SIDES * n):
-        f.film_rhs[np.uintp(k)] = 0.0
+    rows = n_r - 2
+    for node in range(n_r * n_t):
+        for s in range(N_SIDES):
+            f.film_rhs[np.uintp(node), np.uintp(s)] = 0.0
     _lags(m, f)
     _right_sides(m, p, f)
+    sides = matrix(f.sides, n_r * n_t, N_SIDES)
     for j in range(n_t):
         if f.place[j] >= 0.0:
             row = int(f.place[j]) * rows - 1
             for i in range(1, n_r - 1):
-                k = j * n_r + i
+                k = np.uintp(j * n_r + i)
                 for s in range(N_SIDES):
-                    f.sides[np.uintp((row + i) * N_SIDES + s)] = (
-                        f.film_rhs[np.uintp(k * N_SIDES + s)] * f.wet[k]
-                    )
+                    rhs = f.film_rhs[k, np.uintp(s)]
+                    sides[np.uintp(row + i), np.uintp(s)] = rhs * f.wet[k]
     if not film_factor(m, f):
         return False
-    cholesky_solve_many(f.film, f.sides, size_of_film(m, f), band_of_film(m, f))
-    for j in range(n_t):
-        row = int(f.place[j]) * rows - 1
-        for i in range(n_r):
-            k = j * n_r + i
-            inside = f.place[j] >= 0.0 and 0 < i < n_r - 1
-            for s in range(N_SIDES):
-                f.film_rhs[np.uintp(k * N_SIDES + s)] = (
-                    f.sides[np.uintp((row + i) * N_SIDES + s)] * f.wet[k] if inside else 0.0
-                )
+    film_back_substitution(m, f, f.film_rhs, N_SIDES)
     return True
+
+
+@kernel
+def film_back_substitution(m: WasherModel, f: Fields, to: Array, count: int) -> None:
+    """Solve the factored film for ``f.sides``; the first ``count`` of each node go to ``to``."""
+    n_r, n_t = m.n_r, m.n_t
+    cholesky_solve_many(f.film, f.sides, size_of_film(m, f), band_of_film(m, f))
+    sides = matrix(f.sides, n_r * n_t, N_SIDES)
+    for j in range(n_t):
+        row = int(f.place[j]) * (n_r - 2) - 1
+        for i in range(n_r):
+            k = np.uintp(j * n_r + i)
+            inside = f.place[j] >= 0.0 and 0 < i < n_r - 1
+            for s in range(count):
+                solved = sides[np.uintp(row + i), np.uintp(s)] * f.wet[k] if inside else 0.0
+                to[k, np.uintp(s)] = solved

@@ -10,49 +10,51 @@ dh1/dq | 1, 0, y, -x        dh2/dq: -1, 1, -y, x
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._jit import kernel
+from . import washer_layout as L
+from ._jit import Array, kernel
 from .asperities import contact_pressure
 from .flow_factors import mean_gap
 from .viscosity import viscosity
-from .washer_fields import Fields, Point
-from .washer_model import Plates, WasherModel
+from .washer_layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
+from .washer_model import WasherModel
+from .washer_workspace import Fields, Point, clear, square, vector
 
-# places in Fields.small
-FORCE = 0  # (4,) contact forces conjugate to q
-STIFF = 4  # (16,) their slopes
-CONTACT = 20  # contact force of film 1 [N]
-DCONTACT = 21  # (4,) its slope over q
 FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, and its stiffness
-FRICTION = 25  # dry friction coefficient and its slope over the contact force [1/N]
-TANGENT_READY = 27  # 1 if washer_tangent has been through since the last evaluation
 
 
 @kernel
-def dry_friction(m: WasherModel | Plates, contact_load: float) -> tuple[float, float]:
+def dry_friction(par: Array, contact_load: float) -> tuple[float, float]:
     """Return the dry friction coefficient and its slope over the contact force [1/N].
 
     Source: Jackson & Green Eq 18 with the total contact force, f = a - b ln F, held constant
     outside the range of the loads it was measured for; never negative.
     """
-    if m.constant_friction:
-        return m.dry_friction, 0.0
-    lo, hi = m.friction_load_min, m.friction_load_max
+    if par[L.P_FRICTION_LAW] == L.CONSTANT_FRICTION:
+        return par[L.P_DRY_FRICTION], 0.0
+    lo, hi = par[L.P_FRICTION_LOAD_MIN], par[L.P_FRICTION_LOAD_MAX]
     f = min(max(contact_load, lo), hi)
-    value = m.friction_constant - m.friction_slope * math.log(f)
+    slope = par[L.P_FRICTION_SLOPE]
+    value = par[L.P_FRICTION_CONSTANT] - slope * math.log(f)
     if value <= 0.0:
         return 0.0, 0.0
-    return value, -m.friction_slope / f if lo < contact_load < hi else 0.0
+    return value, -slope / f if lo < contact_load < hi else 0.0
 
 
 @kernel
-def evaluate_gaps(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> None:
+def oil_viscosity(par: Array, temperature: float) -> tuple[float, float]:
+    """Return the oil's viscosity [Pa s] and its slope [Pa s/K] at a temperature [K]."""
+    constant, exponent = par[L.P_VISCOSITY_CONSTANT], par[L.P_VISCOSITY_EXPONENT]
+    return viscosity(temperature, par[L.P_VISCOSITY_SCALE], constant, exponent)
+
+
+@kernel
+def evaluate_gaps(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
     """Fill gaps, contact pressures and their sums in ``f`` at the positions ``q``."""
     s = f.small
-    for place in range(TANGENT_READY + 1):
-        s[place] = 0.0
-    z_w, z_g, gx, gy = q[0], q[1], q[2], q[3]
+    clear(s[: L.JACOBIAN_READY + 1])
+    forces, slopes = vector(s, L.FORCES), square(s, L.STIFFNESS)
+    z_w, z_g, gx, gy = q[Z_WASHER], q[Z_GEAR], q[TILT_X], q[TILT_Y]
     for j in range(m.n_t):
         cj, sj = m.cos[j], m.sin[j]
         for i in range(m.n_r):
@@ -66,20 +68,21 @@ def evaluate_gaps(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) 
             if p > 0.0:
                 w = m.weight1[i] * m.weight_t[j]
                 wp, wd = w * p, w * dp
-                s[FORCE] += wp
-                s[FORCE + 2] += wp * y
-                s[FORCE + 3] -= wp * x
-                s[STIFF] += wd
-                s[STIFF + 2] += wd * y
-                s[STIFF + 3] -= wd * x
-                s[STIFF + 10] += wd * y * y
-                s[STIFF + 11] -= wd * x * y
-                s[STIFF + 15] += wd * x * x
-    s[CONTACT] = s[FORCE]
-    s[DCONTACT], s[DCONTACT + 1] = s[STIFF], 0.0
-    s[DCONTACT + 2], s[DCONTACT + 3] = s[STIFF + 2], s[STIFF + 3]
-    s[FRICTION], s[FRICTION + 1] = dry_friction(m, s[CONTACT])
-    s[FORCE] += FLOAT
+                forces[ON_WASHER] += wp
+                forces[MOMENT_X] += wp * y
+                forces[MOMENT_Y] -= wp * x
+                slopes[ON_WASHER, Z_WASHER] += wd
+                slopes[ON_WASHER, TILT_X] += wd * y
+                slopes[ON_WASHER, TILT_Y] -= wd * x
+                slopes[MOMENT_X, TILT_X] += wd * y * y
+                slopes[MOMENT_X, TILT_Y] -= wd * x * y
+                slopes[MOMENT_Y, TILT_Y] += wd * x * x
+    s[L.CONTACT] = forces[ON_WASHER]
+    over = vector(s, L.CONTACT_SLOPES)
+    for c in range(4):
+        over[c] = slopes[ON_WASHER, c]
+    s[L.FRICTION], s[L.FRICTION_SLOPE] = dry_friction(m.par, s[L.CONTACT])
+    forces[ON_WASHER] += FLOAT
     rel = pt.tilt - gy
     for j in range(m.n_t):
         cj, sj = m.cos[j], m.sin[j]
@@ -94,23 +97,23 @@ def evaluate_gaps(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) 
             if p > 0.0:
                 w = m.weight2[i] * m.weight_t[j]
                 wp, wd = w * p, w * dp
-                s[FORCE] -= wp
-                s[FORCE + 1] += wp
-                s[FORCE + 2] -= wp * y
-                s[FORCE + 3] += wp * x
-                s[STIFF] += wd
-                s[STIFF + 1] -= wd
-                s[STIFF + 2] += wd * y
-                s[STIFF + 3] -= wd * x
-                s[STIFF + 5] += wd
-                s[STIFF + 6] -= wd * y
-                s[STIFF + 7] += wd * x
-                s[STIFF + 10] += wd * y * y
-                s[STIFF + 11] -= wd * x * y
-                s[STIFF + 15] += wd * x * x
+                forces[ON_WASHER] -= wp
+                forces[ON_GEAR] += wp
+                forces[MOMENT_X] -= wp * y
+                forces[MOMENT_Y] += wp * x
+                slopes[ON_WASHER, Z_WASHER] += wd
+                slopes[ON_WASHER, Z_GEAR] -= wd
+                slopes[ON_WASHER, TILT_X] += wd * y
+                slopes[ON_WASHER, TILT_Y] -= wd * x
+                slopes[ON_GEAR, Z_GEAR] += wd
+                slopes[ON_GEAR, TILT_X] -= wd * y
+                slopes[ON_GEAR, TILT_Y] += wd * x
+                slopes[MOMENT_X, TILT_X] += wd * y * y
+                slopes[MOMENT_X, TILT_Y] -= wd * x * y
+                slopes[MOMENT_Y, TILT_Y] += wd * x * x
     for a in range(4):
         for b in range(a):
-            s[STIFF + 4 * a + b] = s[STIFF + 4 * b + a]
+            slopes[a, b] = slopes[b, a]
 
 
 @kernel
@@ -122,10 +125,5 @@ def evaluate_viscosity(m: WasherModel, pt: Point, f: Fields) -> None:
             k = np.uintp(j * m.n_r + i)
             a = j * m_t + i
             rise = 0.5 * (f.temp[np.uintp(a)] + f.temp[np.uintp(a + m.n_r)])
-            f.mu[k], f.dmu[k] = viscosity(
-                pt.oil_temperature + rise,
-                m.viscosity_scale,
-                m.viscosity_constant,
-                m.viscosity_exponent,
-            )
+            f.mu[k], f.dmu[k] = oil_viscosity(m.par, pt.oil_temperature + rise)
             f.fluidity[k] = 1.0 / f.mu[k]

@@ -9,21 +9,16 @@ Source: Jackson & Green Eq 19-29; R1 = h_T/K_oil + t_w/(2 K), likewise R2.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._jit import kernel
+from . import washer_layout as L
+from ._jit import Array, kernel
 from .banded import cholesky, cholesky_solve, lu, lu_solve, mirror
-from .washer_fields import RATE, Fields, Point
-from .washer_gap import DCONTACT, FRICTION
 from .washer_model import WasherModel
-
-STORED = 126  # in Fields.small: size of the heat that goes into storage [W]
+from .washer_workspace import Fields, Point, clear, vector
 
 
 @kernel
-def conduct(
-    m: WasherModel, temp: NDArray[np.float64], f: Fields, heat: NDArray[np.float64]
-) -> None:
+def conduct(m: WasherModel, temp: Array, f: Fields, heat: Array) -> None:
     """Fill ``heat`` [W], what leaves each node by conduction at temperatures ``temp``."""
     n_r, n_t, i_g = m.n_r, m.n_t, m.i_g
     m_t = 3 * n_r - i_g
@@ -33,8 +28,7 @@ def conduct(
     far_c, far_g = m.conductivity / m.carrier_thickness, m.conductivity / m.gear_thickness
     half = m.washer_thickness / (2.0 * m.conductivity)
     per_oil = 1.0 / m.oil_conductivity
-    for node in range(m_t * n_t):
-        heat[np.uintp(node)] = 0.0
+    clear(heat)
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         c0, n0 = j * m_t, jn * m_t
@@ -68,13 +62,8 @@ def conduct(
                 across = w2 * (temp[iw] - temp[ig]) / (f.ht2[k] * per_oil + half)
                 heat[iw] += across
                 heat[ig] += w2 * far_g * temp[ig] - across
-                flow = (
-                    kg
-                    * m.rotating_spread
-                    * m.gear_width[i]
-                    * m.per_step[j]
-                    * (temp[ig] - temp[ign])
-                )
+                g = kg * m.rotating_spread * m.gear_width[i] * m.per_step[j]
+                flow = g * (temp[ig] - temp[ign])
                 heat[ig] += flow
                 heat[ign] -= flow
                 if i + 1 < n_r:
@@ -85,14 +74,13 @@ def conduct(
 
 
 @kernel
-def store(m: WasherModel, temp: NDArray[np.float64], less: NDArray[np.float64], more: float,
-          f: Fields, heat: NDArray[np.float64]) -> float:  # fmt: skip
+def store(m: WasherModel, temp: Array, less: Array, more: float, f: Fields, heat: Array) -> float:
     """Add to ``heat`` [W] what the bodies store at the rate in ``f.small``; return its size [W].
 
     A body of thickness t takes density x specific heat x t x area x rate x (temp - less + more).
     """
     n_r, m_t = m.n_r, 3 * m.n_r - m.i_g
-    rate = m.volume_heat * f.small[RATE]
+    rate = m.volume_heat * f.small[L.RATE]
     size = 0.0
     for j in range(m.n_t):
         for k in range(m_t):
@@ -112,14 +100,14 @@ def store(m: WasherModel, temp: NDArray[np.float64], less: NDArray[np.float64], 
 
 
 @kernel
-def heat_residual(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields) -> float:
+def heat_residual(m: WasherModel, pt: Point, temp: Array, f: Fields) -> float:
     """Fill ``f.heat`` [W], heat leaving each node less heat made; return the heat made [W]."""
     n_r, m_t = m.n_r, 3 * m.n_r - m.i_g
     omega = abs(pt.speed)
-    friction = f.small[FRICTION]
+    friction = f.small[L.FRICTION]
     conduct(m, temp, f, f.heat)
-    if f.small[RATE] != 0.0:
-        f.small[STORED] = store(m, temp, f.past, 0.0, f, f.heat)
+    if f.small[L.RATE] != 0.0:
+        f.small[L.STORED] = store(m, temp, f.past, 0.0, f, f.heat)
     made = 0.0
     for j in range(m.n_t):
         for i in range(n_r):
@@ -141,9 +129,7 @@ def _place(j: int, n_t: int) -> int:
 
 
 @kernel
-def _add(
-    a: NDArray[np.float64], band: int, symmetric: bool, row: int, col: int, value: float
-) -> None:
+def _add(a: Array, band: int, symmetric: bool, row: int, col: int, value: float) -> None:
     """Add to one entry of the band matrix; a symmetric one keeps its lower half only."""
     if symmetric:
         if row >= col:
@@ -153,7 +139,7 @@ def _add(
 
 
 @kernel
-def _link(a: NDArray[np.float64], band: int, symmetric: bool, one: int, two: int, g: float) -> None:
+def _link(a: Array, band: int, symmetric: bool, one: int, two: int, g: float) -> None:
     """Add a conductance between two unknowns."""
     _add(a, band, symmetric, one, one, g)
     _add(a, band, symmetric, two, two, g)
@@ -173,8 +159,7 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
     band = 2 * m_t
     symmetric = m.heat_split == 0.5
     a = f.factor
-    for k in range(m_t * n_t * (band + 1 if symmetric else 2 * band + 1)):
-        a[np.uintp(k)] = 0.0
+    clear(a[: m_t * n_t * (band + 1 if symmetric else 2 * band + 1)])
     kc = m.conductivity * m.carrier_thickness
     kw = m.conductivity * m.washer_thickness
     kg = m.conductivity * m.gear_thickness
@@ -182,7 +167,7 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
     half = m.washer_thickness / (2.0 * m.conductivity)
     per_oil = 1.0 / m.oil_conductivity
     omega = abs(pt.speed)
-    rate = m.volume_heat * f.small[RATE]
+    rate = m.volume_heat * f.small[L.RATE]
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         c0, n0 = _place(j, n_t) * m_t, _place(jn, n_t) * m_t
@@ -213,14 +198,8 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
                 w2 = m.weight2[i] * m.weight_t[j]
                 _link(a, band, symmetric, iw, ig, w2 / (f.ht2[k] * per_oil + half))
                 _add(a, band, symmetric, ig, ig, w2 * (far_g + rate * m.gear_thickness))
-                _link(
-                    a,
-                    band,
-                    symmetric,
-                    ig,
-                    ign,
-                    kg * m.rotating_spread * m.gear_width[i] * m.per_step[j],
-                )
+                g = kg * m.rotating_spread * m.gear_width[i] * m.per_step[j]
+                _link(a, band, symmetric, ig, ign, g)
                 if i + 1 < n_r:
                     _link(a, band, symmetric, ig, ig + 1, kg * along)
     if symmetric:
@@ -232,7 +211,7 @@ def factor_heat(m: WasherModel, pt: Point, f: Fields) -> bool:
 
 
 @kernel
-def solve_heat(m: WasherModel, rhs: NDArray[np.float64], x: NDArray[np.float64], f: Fields) -> None:
+def solve_heat(m: WasherModel, rhs: Array, x: Array, f: Fields) -> None:
     """Solve the factored heat equations for ``rhs`` (n_temp,); the solution goes to ``x``."""
     n_t, m_t = m.n_t, 3 * m.n_r - m.i_g
     for j in range(n_t):
@@ -250,17 +229,17 @@ def solve_heat(m: WasherModel, rhs: NDArray[np.float64], x: NDArray[np.float64],
 
 
 @kernel
-def heat_slopes(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields) -> None:
-    """Fill ``f.sens``, minus the slopes of the heat residual over z_w, z_g, gx, gy."""
+def heat_slopes(m: WasherModel, pt: Point, temp: Array, f: Fields) -> None:
+    """Fill ``f.following``, minus the slopes of the heat residual over the positions."""
     n_r, n_t, i_g = m.n_r, m.n_t, m.i_g
     m_t = 3 * n_r - i_g
-    n_temp = m_t * n_t
     half = m.washer_thickness / (2.0 * m.conductivity)
     per_oil = 1.0 / m.oil_conductivity
     omega = abs(pt.speed)
-    friction, dfriction = f.small[FRICTION], f.small[FRICTION + 1]
-    for k in range(4 * n_temp):
-        f.sens[np.uintp(k)] = 0.0
+    friction, dfriction = f.small[L.FRICTION], f.small[L.FRICTION_SLOPE]
+    contact_slopes = vector(f.small, L.CONTACT_SLOPES)
+    for c in range(4):
+        clear(f.following[c])
     for j in range(n_t):
         for i in range(n_r):
             k = j * n_r + i
@@ -279,29 +258,17 @@ def heat_slopes(m: WasherModel, pt: Point, temp: NDArray[np.float64], f: Fields)
             dw = (1.0 - m.heat_split) * dq + dacross
             # through the friction coefficient, which knows the total contact force
             all_q = w1 * dfriction * f.pc[k] * v
-            for s in range(4):
-                part = all_q * f.small[DCONTACT + s]
-                h = 0.0
-                if s == 0:
-                    h = 1.0
-                elif s == 2:
-                    h = y
-                elif s == 3:
-                    h = -x
-                f.sens[s * n_temp + ic] += dc * h + m.heat_split * part
-                f.sens[s * n_temp + iw] += dw * h + (1.0 - m.heat_split) * part
+            slopes = (1.0, 0.0, y, -x)  # of the gap over the positions
+            for c in range(4):
+                part = all_q * contact_slopes[c]
+                f.following[c, ic] += dc * slopes[c] + m.heat_split * part
+                f.following[c, iw] += dw * slopes[c] + (1.0 - m.heat_split) * part
             if i >= i_g:
                 ig = j * m_t + 2 * n_r + i - i_g
                 w2 = m.weight2[i] * m.weight_t[j]
                 res = f.ht2[k] * per_oil + half
                 d = -w2 * (temp[iw] - temp[ig]) / (res * res) * f.dht2[k] * per_oil
-                for s in range(4):
-                    h = 1.0
-                    if s == 0:
-                        h = -1.0
-                    elif s == 2:
-                        h = -y
-                    elif s == 3:
-                        h = x
-                    f.sens[s * n_temp + iw] -= d * h
-                    f.sens[s * n_temp + ig] += d * h
+                slopes = (-1.0, 1.0, -y, x)
+                for c in range(4):
+                    f.following[c, iw] -= d * slopes[c]
+                    f.following[c, ig] += d * slopes[c]

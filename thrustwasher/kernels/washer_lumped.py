@@ -8,18 +8,14 @@ one passes from film to contact on a steep stretch.
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ._jit import kernel
+from . import washer_layout as L
+from ._jit import Array, kernel
 from .flow_factors import mean_gap
-from .viscosity import LN10, viscosity
-from .washer_gap import dry_friction
-from .washer_model import SIGMA1, SIGMA2, Plates
+from .status import MAX_ITERATIONS, NOT_FINITE, OK
+from .viscosity import LN10
+from .washer_gap import dry_friction, oil_viscosity
 from .washer_wedge import lift, rim_contact, shear_moment
 
-Array = NDArray[np.float64]
-OK, MAX_ITERATIONS, NOT_FINITE = 0, 10, 14  # errors.Status; a test keeps them equal
 # Fitted once to the meshed rungs over random washers: benchmarks/fit_washer.py
 FILM_HEAT = 1.18  # rise of the oil that carries over the mean rise of evenly heated parts
 PEAK_FILM = 0.56  # rise of the hottest place above the mean, per rise by the film
@@ -33,39 +29,40 @@ LIFT, CONTACT, FILM_TORQUE, DRY_TORQUE, FILM_RISE, RISE, PEAK, TILT, GAP, N_LUMP
 
 
 @kernel
-def resistance(m: Plates, sigma2: float, gap: float, dgap: float) -> tuple[float, float]:
+def resistance(par: Array, sigma2: float, gap: float, dgap: float) -> tuple[float, float]:
     """Return the mean rise of carrier and washer [K] per heat flow [W/m2], and its change.
 
     Three flat bodies in a stack, heated in ``gap`` [m]; the gear's part counts by its area, the
     gap below it as 3 sigma.
     """
-    ri, ro, rg = m.inner_radius, m.outer_radius, m.gear_inner_radius
-    half = m.washer_thickness / (2.0 * m.conductivity)
-    one, done = gap / m.oil_conductivity + half, dgap / m.oil_conductivity
-    two = 3.0 * sigma2 / m.oil_conductivity + half
-    carrier = m.carrier_thickness / m.conductivity
-    gear = two + m.gear_thickness / m.conductivity
+    ri, ro, rg = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GEAR_INNER_RADIUS]
+    half = par[L.P_WASHER_THICKNESS] / (2.0 * par[L.P_CONDUCTIVITY])
+    one, done = gap / par[L.P_OIL_CONDUCTIVITY] + half, dgap / par[L.P_OIL_CONDUCTIVITY]
+    two = 3.0 * sigma2 / par[L.P_OIL_CONDUCTIVITY] + half
+    carrier = par[L.P_CARRIER_THICKNESS] / par[L.P_CONDUCTIVITY]
+    gear = two + par[L.P_GEAR_THICKNESS] / par[L.P_CONDUCTIVITY]
     gear *= (ro * ro - ri * ri) / (ro * ro - rg * rg)
     loop = carrier + one + gear
-    out = (gear + m.heat_split * one) / loop  # share that leaves through the carrier
-    dout = (m.heat_split - out) / loop * done
+    out = (gear + par[L.P_HEAT_SPLIT] * one) / loop  # share that leaves through the carrier
+    dout = (par[L.P_HEAT_SPLIT] - out) / loop * done
     return 0.5 * (out * carrier + (1.0 - out) * gear), 0.5 * dout * (carrier - gear)
 
 
 @kernel
-def film_rise(m: Plates, heat: float, dheat: float, oil: float, doil: float) -> tuple[float, float]:
+def film_rise(
+    par: Array, heat: float, dheat: float, oil: float, doil: float
+) -> tuple[float, float]:
     """Return the rise [K] = heat x viscosity(oil + rise) and its change; ``heat`` [K/(Pa s)].
 
     The right side falls with the rise: one root. Newton's method on the logarithm, bracketed.
     """
-    scale, constant, exponent = m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
-    mu, slope = viscosity(oil, scale, constant, exponent)
+    mu, slope = oil_viscosity(par, oil)
     if not heat * mu > 0.0:
         return 0.0, dheat * mu
     low, high = 0.0, heat * mu
     rise = heat * mu / (1.0 - heat * slope)
     for _ in range(60):
-        mu, slope = viscosity(oil + rise, scale, constant, exponent)
+        mu, slope = oil_viscosity(par, oil + rise)
         if rise > heat * mu:
             high = rise
         else:
@@ -82,7 +79,7 @@ def film_rise(m: Plates, heat: float, dheat: float, oil: float, doil: float) -> 
 
 @kernel
 def thinning(
-    m: Plates, film: float, dfilm: float, dry: float, ddry: float, rise: float, drise: float,
+    par: Array, film: float, dfilm: float, dry: float, ddry: float, rise: float, drise: float,
     warm: float, dwarm: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Return by what the viscosity is divided where asperities rub, and its change.
@@ -92,10 +89,10 @@ def thinning(
     force: film + dry then grows with dry whatever b is.
     """
     x = max(1.0 + (warm - 273.15) / 135.0, 1e-3)
-    steep = LN10 * m.viscosity_constant * m.viscosity_exponent / 135.0
-    steep *= math.exp(-(m.viscosity_exponent + 1.0) * math.log(x))
+    steep = LN10 * par[L.P_VISCOSITY_CONSTANT] * par[L.P_VISCOSITY_EXPONENT] / 135.0
+    steep *= math.exp(-(par[L.P_VISCOSITY_EXPONENT] + 1.0) * math.log(x))
     b = steep * rise
-    db = steep * drise - b * (m.viscosity_exponent + 1.0) / (135.0 * x) * dwarm
+    db = steep * drise - b * (par[L.P_VISCOSITY_EXPONENT] + 1.0) / (135.0 * x) * dwarm
     below = 1.0 + b * film / YIELDING
     dbelow = (db * film + b * dfilm) / YIELDING
     more = b * dry / below
@@ -107,8 +104,8 @@ def thinning(
 
 @kernel
 def washer_tilt(
-    m: Plates, share: float, dshare: float, centre: float, dcentre: float,
-    tilt: float, dtilt: float, sigma1: float, sigma2: float,
+    par: Array, share: float, dshare: float, centre: float, dcentre: float, tilt: float,
+    dtilt: float, sigma1: float, sigma2: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Return the washer's tilt [rad] and its change where the film carries ``share`` of the load.
 
@@ -117,8 +114,8 @@ def washer_tilt(
     gear's ``tilt``: a g^2 + (e + b - a tilt) g - b tilt = 0. Half the tilt when nothing is lifted.
     """
     dry = 1.5 * SOFTENING
-    a = share * m.outer_radius * (1.0 - centre)
-    da = m.outer_radius * (dshare * (1.0 - centre) - share * dcentre)
+    a = share * par[L.P_OUTER_RADIUS] * (1.0 - centre)
+    da = par[L.P_OUTER_RADIUS] * (dshare * (1.0 - centre) - share * dcentre)
     b, db = (1.0 - share) * dry * sigma1, -dshare * dry * sigma1
     e = dry * sigma2 * (share * centre + 1.0 - share)
     de = dry * sigma2 * (dshare * (centre - 1.0) + share * dcentre)
@@ -135,7 +132,7 @@ def washer_tilt(
 
 @kernel
 def wedge_forces(
-    par: Array, m: Plates, heated: bool, s: tuple[float, float], w: tuple[float, float],
+    par: Array, heated: bool, s: tuple[float, float], w: tuple[float, float],
     tilt: tuple[float, float], oil: tuple[float, float], v: Array, d: Array,
 ) -> None:  # fmt: skip
     """Fill ``v`` and, along one direction, ``d``: all that a least gap and a point come to.
@@ -143,21 +140,20 @@ def wedge_forces(
     Least gap ``s`` [m], size of the speed ``w`` [rad/s], ``tilt`` [rad] and ``oil`` temperature [K]
     come as (value, change). With ``heated`` false the oil keeps its temperature.
     """
-    ri, ro, sigma1, sigma2 = m.inner_radius, m.outer_radius, par[SIGMA1], par[SIGMA2]
+    ri, ro = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
+    sigma1, sigma2 = par[L.D_SIGMA1], par[L.D_SIGMA2]
     area = math.pi * (ro * ro - ri * ri)
     c, slope = mean_gap(s[0], sigma1)
     dc = slope * s[1]
     shear, dshear = shear_moment(c, dc, tilt[0], tilt[1], ri, ro)
-    rises, drises = resistance(m, sigma2, c + tilt[0] * ro, dc + tilt[1] * ro)
-    heat = FILM_HEAT / area * m.film_heat_fraction * w[0] * w[0]
-    dheat = 2.0 * FILM_HEAT / area * m.film_heat_fraction * w[0] * w[1] * shear * rises
+    rises, drises = resistance(par, sigma2, c + tilt[0] * ro, dc + tilt[1] * ro)
+    heat = FILM_HEAT / area * par[L.P_FILM_HEAT_FRACTION] * w[0] * w[0]
+    dheat = 2.0 * FILM_HEAT / area * par[L.P_FILM_HEAT_FRACTION] * w[0] * w[1] * shear * rises
     dheat += heat * (dshear * rises + shear * drises)
     warmer, dwarmer = 0.0, 0.0
     if heated:
-        warmer, dwarmer = film_rise(m, heat * shear * rises, dheat, oil[0], oil[1])
-    mu, dmu = viscosity(
-        oil[0] + warmer, m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
-    )
+        warmer, dwarmer = film_rise(par, heat * shear * rises, dheat, oil[0], oil[1])
+    mu, dmu = oil_viscosity(par, oil[0] + warmer)
     dmu *= oil[1] + dwarmer
     strong, dstrong = mu * w[0], dmu * w[0] + mu * w[1]
     g, dg = FIRST_TILT * tilt[0], FIRST_TILT * tilt[1]
@@ -166,11 +162,11 @@ def wedge_forces(
     share, dshare = 1.0, 0.0
     if dry > 0.0:
         if heated:
-            friction, slope = dry_friction(m, dry)
+            friction, slope = dry_friction(par, dry)
             rub = RUB_HEAT * rises * w[0] * ro / area
             drub = RUB_HEAT * ro / area * (drises * w[0] + rises * w[1])
             thin, dthin = thinning(
-                m, film, dfilm, dry, ddry, friction * rub, friction * drub + slope * ddry * rub,
+                par, film, dfilm, dry, ddry, friction * rub, friction * drub + slope * ddry * rub,
                 oil[0] + warmer, oil[1] + dwarmer,
             )  # fmt: skip
             strong, dstrong = strong / thin, (dstrong - strong / thin * dthin) / thin
@@ -178,17 +174,17 @@ def wedge_forces(
         share = film / (film + dry)
         dshare = (dfilm * (1.0 - share) - ddry * share) / (film + dry)
     if tilt[0] > 0.0:
-        g, dg = washer_tilt(m, share, dshare, centre, dcentre, tilt[0], tilt[1], sigma1, sigma2)
+        g, dg = washer_tilt(par, share, dshare, centre, dcentre, tilt[0], tilt[1], sigma1, sigma2)
     v[LIFT], _, d[LIFT], _ = lift(c, dc, g, dg, strong, dstrong, ri, ro, sigma1)
     v[CONTACT], d[CONTACT], arm, darm = rim_contact(par, s[0], s[1], g, dg)
     shear, dshear = shear_moment(c, dc, g, dg, ri, ro)
     v[FILM_TORQUE], d[FILM_TORQUE] = strong * shear, dstrong * shear + strong * dshear
-    friction, dfriction = dry_friction(m, v[CONTACT])
+    friction, dfriction = dry_friction(par, v[CONTACT])
     v[DRY_TORQUE] = friction * arm
     d[DRY_TORQUE] = friction * darm + dfriction * d[CONTACT] * arm
     v[TILT], d[TILT], v[GAP], d[GAP] = g, dg, s[0], s[1]
     # rises in steady state, by the film and by rubbing
-    by_film = m.film_heat_fraction / area
+    by_film = par[L.P_FILM_HEAT_FRACTION] / area
     power = w[0] * v[FILM_TORQUE]
     dpower = w[1] * v[FILM_TORQUE] + w[0] * d[FILM_TORQUE]
     v[FILM_RISE] = by_film * rises * power
@@ -197,26 +193,25 @@ def wedge_forces(
     dpower = w[1] * v[DRY_TORQUE] + w[0] * d[DRY_TORQUE]
     v[RISE] = v[FILM_RISE] + rises / area * power
     d[RISE] = d[FILM_RISE] + (drises * power + rises * dpower) / area
-    rim = PEAK_RIM / (m.conductivity * ro)
+    rim = PEAK_RIM / (par[L.P_CONDUCTIVITY] * ro)
     v[PEAK] = v[RISE] + PEAK_FILM * v[FILM_RISE] + rim * power
     d[PEAK] = d[RISE] + PEAK_FILM * d[FILM_RISE] + rim * dpower
 
 
 @kernel
 def least_gap(
-    par: Array, m: Plates, heated: bool, load: float, w: float, tilt: float, oil: float,
-    v: Array, d: Array,
-) -> tuple[float, int, int]:  # fmt: skip
+    par: Array, heated: bool, load: float, w: float, tilt: float, oil: float, v: Array, d: Array
+) -> tuple[float, int, int]:
     """Return the least gap s [m] that carries ``load`` [N], a status, the number of iterations.
 
     Newton's method on the logarithm of the force, inside a bracket that grows until it holds.
     ``v`` is left at the solution, ``d`` holds the slopes over s.
     """
-    sigma = par[SIGMA1]
+    sigma = par[L.D_SIGMA1]
     low, high = -60.0 * sigma, math.inf
     s, target = 3.0 * sigma, math.log(load)
     for n in range(120):
-        wedge_forces(par, m, heated, (s, 1.0), (w, 0.0), (tilt, 0.0), (oil, 0.0), v, d)
+        wedge_forces(par, heated, (s, 1.0), (w, 0.0), (tilt, 0.0), (oil, 0.0), v, d)
         force, slope = v[LIFT] + v[CONTACT], d[LIFT] + d[CONTACT]
         if not math.isfinite(force):
             return s, NOT_FINITE, n

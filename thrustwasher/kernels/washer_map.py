@@ -2,43 +2,13 @@
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ._jit import kernel
+from . import washer_map_layout as M
+from ._jit import Array, kernel
 from .chebyshev import N_TERMS, contract, enter_cell, polynomial_slope
-from .viscosity import viscosity
-from .washer_fields import Point
-from .washer_map_layout import (
-    AXES,
-    BEND,
-    CELL,
-    CURVES,
-    DATA,
-    EDGES,
-    FLOOR_SPEED,
-    GC,
-    GF,
-    HEAD,
-    KIND,
-    LEAST_REACH,
-    LINE,
-    LOAD_MAX,
-    LOAD_MIN,
-    MAGIC,
-    MIDDLE,
-    N_LINE_HEAD,
-    N_PIECES,
-    ONSET,
-    PARAMS,
-    PIECE,
-    REACH,
-    STEEP,
-    STEEPEST,
-    THICK,
-)  # fmt: skip
+from .washer_gap import oil_viscosity
+from .washer_map_layout import THICK
+from .washer_workspace import Point
 
-VISCOSITY = 20  # place of the viscosity law (constant, exponent, scale) among the parameters
 FOUND, LOST, THIN, THICKER = 0, 1, 2, 3  # results of a search
 SAMPLES = 8  # of a piece in which a fold may lie
 SHALLOW = 3e-4  # relative drop of the load that makes a fold
@@ -49,33 +19,33 @@ AT_PIECE, AT_U, AT_RATIO, AT_SCALE, N_PLACE = 0, 1, 2, 3, 4
 
 
 @kernel
-def map_fits(data: NDArray[np.float64], par: NDArray[np.float64], n_params: int) -> bool:
+def map_fits(data: Array, par: Array, n_params: int) -> bool:
     """Tell if there is a map and if it was made for the first ``n_params`` parameters."""
-    if data.size < DATA or data[KIND] != MAGIC:
+    if data.size < M.DATA or data[M.KIND] != M.MAGIC:
         return False
     for k in range(n_params):
-        if data[PARAMS + k] != par[k]:
+        if data[M.PARAMS + k] != par[k]:
             return False
     return True
 
 
 @kernel
-def _within(data: NDArray[np.float64], axis: int, x: float) -> bool:
+def _within(data: Array, axis: int, x: float) -> bool:
     """Tell if ``x`` lies on an axis, rounding allowed for."""
-    low, high = data[AXES + 3 * axis], data[AXES + 3 * axis + 1]
+    low, high = data[M.AXES + 3 * axis], data[M.AXES + 3 * axis + 1]
     slack = 1e-9 * max(abs(low), abs(high))
     return bool(low - slack <= x <= high + slack)
 
 
 @kernel
-def map_covers(data: NDArray[np.float64], pt: Point) -> bool:
+def map_covers(data: Array, pt: Point) -> bool:
     """Tell if a point lies in the map's box."""
-    if not data[LOAD_MIN] <= pt.load <= data[LOAD_MAX]:
+    if not data[M.LOAD_MIN] <= pt.load <= data[M.LOAD_MAX]:
         return False
-    bend = data[BEND]
+    bend = data[M.BEND]
     speed = abs(pt.speed)
-    if data[AXES] <= math.asinh(FLOOR_SPEED / bend):
-        speed = max(speed, bend * math.sinh(data[AXES]))
+    if data[M.AXES] <= math.asinh(M.FLOOR_SPEED / bend):
+        speed = max(speed, bend * math.sinh(data[M.AXES]))
     return (
         pt.tilt > 0.0 and _within(data, 0, math.asinh(speed / bend))
         and _within(data, 1, math.log(pt.tilt)) and _within(data, 2, pt.oil_temperature)
@@ -83,90 +53,80 @@ def map_covers(data: NDArray[np.float64], pt: Point) -> bool:
 
 
 @kernel
-def oil_viscosity(data: NDArray[np.float64], temperature: float) -> tuple[float, float]:
-    """Return viscosity [Pa s] and slope at a temperature, by the law in the map's header."""
-    law = PARAMS + VISCOSITY
-    return viscosity(temperature, data[law + 2], data[law], data[law + 1])
-
-
-@kernel
-def enter_map(data: NDArray[np.float64], pt: Point, w: NDArray[np.float64]) -> float:
+def enter_map(data: Array, pt: Point, w: Array) -> float:
     """Place the cell and the thick piece's ends in ``w``; return viscosity x |speed|.
 
     The other edges wait for `read_edges`: most look-ups end in a thick film.
     """
     speed = abs(pt.speed)
-    cell = w[CELL:]
-    a = AXES
-    x = math.asinh(speed / data[BEND])
+    cell = w[M.CELL :]
+    a = M.AXES
+    x = math.asinh(speed / data[M.BEND])
     enter_cell(cell, 0, x, data[a], data[a + 1], int(data[a + 2]))
     enter_cell(cell, 1, math.log(pt.tilt), data[a + 3], data[a + 4], int(data[a + 5]))
     enter_cell(cell, 2, pt.oil_temperature, data[a + 6], data[a + 7], int(data[a + 8]))
-    mu, _ = oil_viscosity(data, pt.oil_temperature)
+    mu, _ = oil_viscosity(data[M.PARAMS :], pt.oil_temperature)
     scale = mu * speed
-    w[EDGES] = math.sqrt(LEAST_REACH * LEAST_REACH + data[REACH] * scale)
-    w[EDGES + 1] = data[ONSET]
-    w[STEEP] = math.nan
+    w[M.EDGES] = math.sqrt(M.LEAST_REACH * M.LEAST_REACH + data[M.REACH] * scale)
+    w[M.EDGES + 1] = data[M.ONSET]
+    w[M.STEEP] = math.nan
     return float(scale)
 
 
 @kernel
-def read_edges(data: NDArray[np.float64], w: NDArray[np.float64]) -> None:
+def read_edges(data: Array, w: Array) -> None:
     """Interpolate the edges of the pieces with contact, and if there are folds, once per place."""
-    if not math.isnan(w[STEEP]):
+    if not math.isnan(w[M.STEEP]):
         return
-    read_lines(data, w, 0, N_LINE_HEAD, -1, HEAD)
-    w[EDGES + 2] = w[HEAD] + MIDDLE * (data[ONSET] - w[HEAD])
-    w[EDGES + 3], w[EDGES + 4], w[EDGES + 5] = w[HEAD], w[HEAD + 1], w[HEAD + 2]
-    w[STEEP] = w[HEAD + STEEPEST]
+    read_lines(data, w, 0, M.N_LINE_HEAD, -1, M.HEAD)
+    w[M.EDGES + 2] = w[M.HEAD] + M.MIDDLE * (data[M.ONSET] - w[M.HEAD])
+    w[M.EDGES + 3], w[M.EDGES + 4], w[M.EDGES + 5] = w[M.HEAD], w[M.HEAD + 1], w[M.HEAD + 2]
+    w[M.STEEP] = w[M.HEAD + M.STEEPEST]
 
 
 @kernel
-def read_lines(
-    data: NDArray[np.float64], w: NDArray[np.float64], first: int, width: int, slope_of: int,
-    to: int,
-) -> None:  # fmt: skip
+def read_lines(data: Array, w: Array, first: int, width: int, slope_of: int, to: int) -> None:
     """Interpolate numbers ``first ..`` of the lines around the cell into ``w[to:]``."""
-    patches1, patches2 = int(data[AXES + 2]), int(data[AXES + 5])
-    patches3 = int(data[AXES + 8])
-    row = LINE * (3 * patches3 + 1)
+    patches1, patches2 = int(data[M.AXES + 2]), int(data[M.AXES + 5])
+    patches3 = int(data[M.AXES + 8])
+    row = M.LINE * (3 * patches3 + 1)
     step1 = row * (3 * patches2 + 1) if patches1 > 0 else 0
     step2 = row if patches2 > 0 else 0
-    step3 = LINE if patches3 > 0 else 0
-    contract(data, DATA + first, step1, step2, step3, w, slope_of, width, w, to)
+    step3 = M.LINE if patches3 > 0 else 0
+    contract(data, M.DATA + first, step1, step2, step3, w, slope_of, width, w, to)
 
 
 @kernel
-def read_loads(data: NDArray[np.float64], w: NDArray[np.float64], piece: int) -> None:
+def read_loads(data: Array, w: Array, piece: int) -> None:
     """Interpolate the two curves of a piece that make up the load."""
-    read_lines(data, w, N_LINE_HEAD + piece * PIECE, 2 * N_TERMS, -1, CURVES)
+    read_lines(data, w, M.N_LINE_HEAD + piece * M.PIECE, 2 * N_TERMS, -1, M.CURVES)
 
 
 @kernel
-def load_at(w: NDArray[np.float64], piece: int, scale: float, u: float) -> tuple[float, float]:
+def load_at(w: Array, piece: int, scale: float, u: float) -> tuple[float, float]:
     """Return load [N] and its slope over ``u`` in the piece whose curves are in ``w``."""
-    log_fluid, slope_fluid = polynomial_slope(w, CURVES + GF * N_TERMS, u)
+    log_fluid, slope_fluid = polynomial_slope(w, M.CURVES + M.GF * N_TERMS, u)
     fluid = scale * math.exp(min(log_fluid, 600.0))
     if piece == THICK:
         return fluid, fluid * slope_fluid
-    log_contact, slope_contact = polynomial_slope(w, CURVES + GC * N_TERMS, u)
+    log_contact, slope_contact = polynomial_slope(w, M.CURVES + M.GC * N_TERMS, u)
     contact = math.exp(min(log_contact, 600.0))
     return fluid + contact, fluid * slope_fluid + contact * slope_contact
 
 
 @kernel
-def ratio_at(w: NDArray[np.float64], piece: int, u: float) -> float:
+def ratio_at(w: Array, piece: int, u: float) -> float:
     """Return the film ratio at ``u``, -1 at the thin and 1 at the thick end of a piece."""
-    thick, thin = w[EDGES + piece], w[EDGES + piece + 1]
+    thick, thin = w[M.EDGES + piece], w[M.EDGES + piece + 1]
     if piece == THICK:
         return float(math.exp(0.5 * ((1.0 + u) * math.log(thick) + (1.0 - u) * math.log(thin))))
     return float(0.5 * ((1.0 + u) * thick + (1.0 - u) * thin))
 
 
 @kernel
-def u_at(w: NDArray[np.float64], piece: int, ratio: float) -> float:
+def u_at(w: Array, piece: int, ratio: float) -> float:
     """Return where a film ratio lies in a piece."""
-    thick, thin = w[EDGES + piece], w[EDGES + piece + 1]
+    thick, thin = w[M.EDGES + piece], w[M.EDGES + piece + 1]
     if piece == THICK:
         thick, thin, ratio = math.log(thick), math.log(thin), math.log(ratio)
     return float((2.0 * ratio - thick - thin) / (thick - thin))
@@ -174,9 +134,8 @@ def u_at(w: NDArray[np.float64], piece: int, ratio: float) -> float:
 
 @kernel
 def find_between(
-    w: NDArray[np.float64], piece: int, scale: float, load: float, heavy: float, light: float,
-    guess: float,
-) -> float:  # fmt: skip
+    w: Array, piece: int, scale: float, load: float, heavy: float, light: float, guess: float
+) -> float:
     """Return ``u`` between ``heavy`` and ``light`` with the wanted load: Newton kept in brackets.
 
     In ln(load), in which the curves are nearly straight; at ``heavy`` the load is greater.
@@ -202,9 +161,7 @@ def find_between(
 
 
 @kernel
-def find_extremum(
-    w: NDArray[np.float64], piece: int, scale: float, one: float, two: float
-) -> float:
+def find_extremum(w: Array, piece: int, scale: float, one: float, two: float) -> float:
     """Return where between two places the slope of the load changes its sign (bisection)."""
     _, rising = load_at(w, piece, scale, one)
     for _ in range(44):
@@ -218,10 +175,7 @@ def find_extremum(
 
 
 @kernel
-def _cross_piece(
-    w: NDArray[np.float64], piece: int, scale: float, load: float, down: bool,
-    best: NDArray[np.float64],
-) -> float:  # fmt: skip
+def _cross_piece(w: Array, piece: int, scale: float, load: float, down: bool, best: Array) -> float:
     """Search a piece from its thick end (``down``) or its thin end; return ``u``, 2 or 3.
 
     2: not in this piece. 3: a fold came first. ``best`` (1,) is the extreme load on the way, over
@@ -229,7 +183,7 @@ def _cross_piece(
     going up it has to fall to it.
     """
     side = 1.0 if down else -1.0
-    steps = 1 if piece == THICK or w[STEEP] < 0.0 else SAMPLES
+    steps = 1 if piece == THICK or w[M.STEEP] < 0.0 else SAMPLES
     last, load_then = side, 0.0
     for k in range(steps + 1):
         u = side * (1.0 - 2.0 * k / steps)
@@ -256,15 +210,12 @@ def _cross_piece(
 
 
 @kernel
-def search_map(
-    data: NDArray[np.float64], w: NDArray[np.float64], scale: float, load: float, down: bool,
-    place: NDArray[np.float64],
-) -> int:  # fmt: skip
+def search_map(data: Array, w: Array, scale: float, load: float, down: bool, place: Array) -> int:
     """Find the first point with the wanted load from the thick or the thin end; fill ``place``."""
-    best = w[STEEP + 1 : STEEP + 2]
+    best = w[M.STEEP + 1 : M.STEEP + 2]
     best[0] = 0.0
-    for k in range(N_PIECES):
-        piece = k if down else N_PIECES - 1 - k
+    for k in range(M.N_PIECES):
+        piece = k if down else M.N_PIECES - 1 - k
         if piece != THICK:
             read_edges(data, w)
         read_loads(data, w, piece)
@@ -280,22 +231,21 @@ def search_map(
 
 @kernel
 def continue_map(
-    data: NDArray[np.float64], w: NDArray[np.float64], scale: float, load: float, before: float,
-    reach: float, place: NDArray[np.float64],
-) -> bool:  # fmt: skip
+    data: Array, w: Array, scale: float, load: float, before: float, reach: float, place: Array
+) -> bool:
     """Find the point near film ratio ``before`` on the same stable branch; True if it is there.
 
     It must lie in the piece that holds ``before`` and within ``reach`` of it (in a thick film:
     relative to it), and the load must fall with the film ratio all the way.
     """
     piece = THICK
-    if before < w[EDGES + 1]:
+    if before < w[M.EDGES + 1]:
         read_edges(data, w)
-        if before < w[EDGES + N_PIECES]:
+        if before < w[M.EDGES + M.N_PIECES]:
             return False
-    while piece < N_PIECES - 1 and before < w[EDGES + piece + 1]:
+    while piece < M.N_PIECES - 1 and before < w[M.EDGES + piece + 1]:
         piece += 1
-    if before > w[EDGES]:
+    if before > w[M.EDGES]:
         return False
     read_loads(data, w, piece)
     u = u_at(w, piece, before)

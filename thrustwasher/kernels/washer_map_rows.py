@@ -2,11 +2,9 @@
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ._jit import kernel
-from .washer_fields import Point
+from . import washer_layout as L
+from . import washer_map_layout as M
+from ._jit import Array, kernel
 from .washer_map import (
     AT_PIECE,
     AT_RATIO,
@@ -21,29 +19,20 @@ from .washer_map import (
     read_edges,
     read_lines,
     read_loads,
-)  # fmt: skip
-from .washer_map_layout import (
-    N_LINE_HEAD,
-    N_PIECES,
-    N_TILT_TERMS,
-    PIECE,
-    SPARE,
-    STEEP,
-    TILTS,
-)  # fmt: skip
+)
 from .washer_map_point import map_outputs
 from .washer_map_step import N_MAP_WORK, PLACE, place_without_memory
-from .washer_outputs import N_ALL
+from .washer_workspace import Point
 
 
 @kernel
 def single_look_up(
-    data: NDArray[np.float64], w: NDArray[np.float64], load: float, speed: float, tilt: float,
-    oil_temperature: float, wanted: float,
+    data: Array, w: Array, load: float, speed: float, tilt: float, oil_temperature: float,
+    wanted: float,
 ) -> float:  # fmt: skip
     """Return the friction torque [N m], nan if there is none; all outputs go to ``w[N_MAP_WORK:]``.
 
-    ``w`` has N_MAP_WORK + N_ALL entries. Few arguments: each costs a call from Python 0.1 us.
+    ``w`` has N_MAP_WORK + L.N_ALL entries. Few arguments: each costs a call from Python 0.1 us.
     """
     pt = Point(load, speed, tilt, oil_temperature)
     if place_without_memory(data, pt, wanted, w) <= 0.0:
@@ -55,15 +44,14 @@ def single_look_up(
 
 @kernel
 def look_up_rows(
-    data: NDArray[np.float64], rows: NDArray[np.float64], wanted: float,
-    w: NDArray[np.float64], out: NDArray[np.float64], found: NDArray[np.float64],
-) -> None:  # fmt: skip
+    data: Array, rows: Array, wanted: float, w: Array, out: Array, found: Array
+) -> None:
     """Look many points up.
 
     Parameters
     ----------
     rows : (n, 4) load, speed, tilt, oil temperature
-    out : (n, N_ALL), nan where there is nothing
+    out : (n, L.N_ALL), nan where there is nothing
     found : (n, 2) branch (0 no such branch, -1 outside) and 2 where there are several, else 1
     """
     for i in range(rows.shape[0]):
@@ -71,21 +59,20 @@ def look_up_rows(
         branch = place_without_memory(data, pt, wanted, w)
         found[i, 0], found[i, 1] = branch, 1.0
         if branch <= 0.0:
-            for k in range(N_ALL):
+            for k in range(L.N_ALL):
                 out[i, k] = math.nan
             continue
         read_edges(data, w)
-        if w[STEEP] > 0.0:
+        if w[M.STEEP] > 0.0:
             found[i, 1] = 2.0
         map_outputs(data, w, pt, w[PLACE:], out[i])
 
 
 @kernel
 def map_folds(
-    data: NDArray[np.float64], speed: float, tilt: float,
-    oil_temperature: float, w: NDArray[np.float64], folds: NDArray[np.float64],
-) -> int:  # fmt: skip
-    """Fill rows of ``folds`` (n, N_ALL + 2): outputs, load; return how many there are.
+    data: Array, speed: float, tilt: float, oil_temperature: float, w: Array, folds: Array
+) -> int:
+    """Fill rows of ``folds`` (n, L.N_ALL + 2): outputs, load; return how many there are.
 
     They come from the thick end: where the film is lost, where it is regained, and so on.
     """
@@ -95,7 +82,7 @@ def map_folds(
     count, rising = 0, True
     best_piece, best_u, best = 0.0, 1.0, 0.0
     fine = 2 * SAMPLES
-    for piece in range(N_PIECES):
+    for piece in range(M.N_PIECES):
         read_loads(data, w, piece)
         for k in range(fine + 1):
             u = 1.0 - 2.0 * k / fine
@@ -114,7 +101,7 @@ def map_folds(
                 place[AT_RATIO] = ratio_at(w, int(best_piece), at)
                 pt = Point(load, speed, tilt, oil_temperature)
                 map_outputs(data, w, pt, place, folds[count])
-                folds[count, N_ALL] = load
+                folds[count, L.N_ALL] = load
                 count += 1
                 rising = not rising
                 read_loads(data, w, piece)
@@ -125,15 +112,13 @@ def map_folds(
 
 
 @kernel
-def map_tilts(
-    data: NDArray[np.float64], w: NDArray[np.float64], tilts: NDArray[np.float64]
-) -> None:
+def map_tilts(data: Array, w: Array, tilts: Array) -> None:
     """Fill ``tilts`` (2,): the washer's tilts about x and y over the gear's, at the place in w."""
     piece, u = int(w[PLACE + AT_PIECE]), w[PLACE + AT_U]
-    n = N_TILT_TERMS
-    read_lines(data, w, N_LINE_HEAD + piece * PIECE + TILTS, 2 * n, -1, SPARE)
+    n = M.N_TILT_TERMS
+    read_lines(data, w, M.N_LINE_HEAD + piece * M.PIECE + M.TILTS, 2 * n, -1, M.SPARE)
     square = 2.0 * u * u - 1.0
     cube = 2.0 * u * square - u
     for k in range(2):
-        c = SPARE + k * n
+        c = M.SPARE + k * n
         tilts[k] = w[c] + w[c + 1] * u + w[c + 2] * square + w[c + 3] * cube

@@ -1,19 +1,13 @@
 """One step of a washer through its map: which branch, where on it, what comes out."""
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ._jit import kernel
-from .washer_branch import (
-    ANY,
-    CONTACT_BRANCH,
-    FILM_BRANCH,
-    FILM_RATIO,
-    NO_BRANCH,
-)  # fmt: skip
-from .washer_fields import Point
+from . import washer_layout as L
+from . import washer_map_layout as M
+from ._jit import Array, kernel
+from .status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
+from .washer_branch import FILM_RATIO
 from .washer_map import (
     AT_PIECE,
     AT_RATIO,
@@ -26,98 +20,85 @@ from .washer_map import (
     map_fits,
     read_edges,
     search_map,
-)  # fmt: skip
-from .washer_map_layout import N_LOOK_UP, STEEP, THICK
+)
+from .washer_map_layout import THICK
 from .washer_map_point import map_derivative, map_outputs
-from .washer_memory import BRANCH_NOW, VALID
-from .washer_model import BAD_INPUT, N_STEADY, NOT_FINITE, OK
-from .washer_newton import SINGULAR
-from .washer_outputs import CONTACT_LOAD, MEAN_TEMPERATURE, N_REAL, RATIO
-from .washer_verdict import STATUS_OUT, change_of, judge, point_of
+from .washer_outputs import are_finite
+from .washer_regime_and_status import LARGEST_RISE, change_of, judge, point_of
+from .washer_workspace import Point, copy
 
-MAP_BRANCH, MAP_RATIO = 24, 25  # places in `state`: the last look-up's branch, 0 if there is none
 OUTSIDE = -1.0  # in place of a branch: the map says nothing here
 NOT_HERE = -1  # the same as a status: ask the field
 CONTINUOUS = 0.3  # a film ratio that moves by less has stayed on its branch
 # scratch: a look-up, then the place found
-PLACE = N_LOOK_UP
+PLACE = M.N_LOOK_UP
 N_VERDICT = 2  # branch, and 2 where there are several
 N_MAP_WORK = PLACE + N_PLACE + N_VERDICT
-HOT = 200.0  # [K] mean rise that counts as distress
 
 
 @kernel
-def branch_before(state: NDArray[np.float64]) -> float:
-    """Return the branch of the last solution, by map or field; ANY without one."""
-    if state[MAP_BRANCH] != 0.0:
-        return float(state[MAP_BRANCH])
-    return float(state[BRANCH_NOW]) if state[VALID] == 1.0 else ANY
+def branch_before(state: Array) -> float:
+    """Return the branch of the last solution, by map or field; L.ANY without one."""
+    if state[L.S_MAP_BRANCH] != 0.0:
+        return float(state[L.S_MAP_BRANCH])
+    return float(state[L.S_BRANCH]) if state[L.S_VALID] == 1.0 else L.ANY
 
 
 @kernel
 def search(
-    data: NDArray[np.float64], w: NDArray[np.float64], scale: float, load: float, wanted: float,
-    first: float, place: NDArray[np.float64],
-) -> float:  # fmt: skip
+    data: Array, w: Array, scale: float, load: float, wanted: float, first: float, place: Array
+) -> float:
     """Search the branch ``first``, then the other unless ``wanted`` names one; fill ``place``."""
-    result = search_map(data, w, scale, load, first == FILM_BRANCH, place)
+    result = search_map(data, w, scale, load, first == L.FILM_BRANCH, place)
     if result == FOUND:
         return first
     if result != LOST:
         return OUTSIDE
-    if wanted != ANY:
+    if wanted != L.ANY:
         return 0.0
-    result = search_map(data, w, scale, load, first != FILM_BRANCH, place)
+    result = search_map(data, w, scale, load, first != L.FILM_BRANCH, place)
     if result != FOUND:
         return OUTSIDE
-    return FILM_BRANCH + CONTACT_BRANCH - first
+    return L.FILM_BRANCH + L.CONTACT_BRANCH - first
 
 
 @kernel
 def _locate(
-    data: NDArray[np.float64], w: NDArray[np.float64], scale: float, load: float, wanted: float,
-    state: NDArray[np.float64], place: NDArray[np.float64],
-) -> float:  # fmt: skip
+    data: Array, w: Array, scale: float, load: float, wanted: float, state: Array, place: Array
+) -> float:
     """Fill ``place``; return the branch, 0 if the wanted one is not there, OUTSIDE."""
     before = branch_before(state)
-    if state[MAP_BRANCH] != 0.0 and (wanted == ANY or wanted == before):
-        ratio = state[MAP_RATIO]
+    if state[L.S_MAP_BRANCH] != 0.0 and (wanted == L.ANY or wanted == before):
+        ratio = state[L.S_MAP_RATIO]
         if continue_map(data, w, scale, load, ratio, CONTINUOUS, place):
             return before
     first = wanted
-    if wanted == ANY:
-        first = CONTACT_BRANCH if before == CONTACT_BRANCH else FILM_BRANCH
+    if wanted == L.ANY:
+        first = L.CONTACT_BRANCH if before == L.CONTACT_BRANCH else L.FILM_BRANCH
     return search(data, w, scale, load, wanted, first, place)
 
 
 @kernel
-def place_without_memory(
-    data: NDArray[np.float64],
-    pt: Point,
-    wanted: float,
-    w: NDArray[np.float64],
-) -> float:
+def place_without_memory(data: Array, pt: Point, wanted: float, w: Array) -> float:
     """Find a point from nothing; return its branch, 0 if the wanted one is not there, OUTSIDE."""
     if not map_covers(data, pt):
         return OUTSIDE
     place = w[PLACE:]
     scale = enter_map(data, pt, w)
-    first = CONTACT_BRANCH if wanted == CONTACT_BRANCH else FILM_BRANCH
+    first = L.CONTACT_BRANCH if wanted == L.CONTACT_BRANCH else L.FILM_BRANCH
     found = search(data, w, scale, pt.load, wanted, first, place)
-    if found > 0.0 and place[AT_PIECE] != THICK and not w[STEEP] > 0.0:
-        found = FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else CONTACT_BRANCH
-    if found > 0.0 and wanted != ANY and wanted != found:
+    if found > 0.0 and place[AT_PIECE] != THICK and not w[M.STEEP] > 0.0:
+        found = L.FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
+    if found > 0.0 and wanted != L.ANY and wanted != found:
         return 0.0
     return found
 
 
 @kernel
 def look_up(
-    data: NDArray[np.float64], pt: Point, wanted: float,
-    state: NDArray[np.float64], w: NDArray[np.float64], out: NDArray[np.float64],
-    branch: NDArray[np.float64],
-) -> int:  # fmt: skip
-    """Fill ``out`` (N_ALL,) at ``pt``; return OK, NO_BRANCH or NOT_HERE.
+    data: Array, pt: Point, wanted: float, state: Array, w: Array, out: Array, branch: Array
+) -> int:
+    """Fill ``out`` (L.N_ALL,) at ``pt``; return OK, NO_BRANCH or NOT_HERE.
 
     Parameters
     ----------
@@ -137,10 +118,10 @@ def look_up(
     several = False
     if place[AT_PIECE] != THICK:
         read_edges(data, w)
-        several = w[STEEP] > 0.0
+        several = w[M.STEEP] > 0.0
     if not several:
-        found = FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else CONTACT_BRANCH
-        if wanted != ANY and wanted != found:
+        found = L.FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
+        if wanted != L.ANY and wanted != found:
             return NO_BRANCH
     map_outputs(data, w, pt, place, out)
     branch[0], branch[1] = found, 1.0
@@ -151,20 +132,19 @@ def look_up(
 
 @kernel
 def map_step(
-    par: NDArray[np.float64], inp: NDArray[np.float64], wanted: float,
-    state: NDArray[np.float64], numbers: NDArray[np.float64], w: NDArray[np.float64],
-    data: NDArray[np.float64], out: NDArray[np.float64], iout: NDArray[np.int32], dt: float,
+    par: Array, inp: Array, wanted: float, state: Array, numbers: Array, w: Array, data: Array,
+    out: Array, iout: NDArray[np.int32], dt: float,
 ) -> int:  # fmt: skip
     """Step by looking up: outputs, memory and verdict as of `washer_step.step`, or NOT_HERE.
 
     Parameters
     ----------
     wanted : branch, see washer_branch
-    numbers : (N_ALL,) out, all outputs
+    numbers : (L.N_ALL,) out, all outputs
     w : (N_MAP_WORK,) scratch
     data : the table in the caller's work; BAD_INPUT if it is not one of these parameters
     """
-    if not map_fits(data, par, N_STEADY):
+    if not map_fits(data, par, L.N_STEADY):
         return BAD_INPUT
     pt = point_of(inp)
     branch = w[N_MAP_WORK - N_VERDICT :]
@@ -172,32 +152,26 @@ def map_step(
     if status == NOT_HERE:
         return NOT_HERE
     if status == OK:
-        total = 0.0
-        for k in range(N_REAL):
-            out[k] = numbers[k]
-            total += numbers[k]
-        if not math.isfinite(total):
+        copy(numbers, out)
+        if not are_finite(out):
             status = NOT_FINITE
     if status != OK:
-        iout[STATUS_OUT] = status
+        iout[L.IO_STATUS] = status
         return status
-    hot = out[MEAN_TEMPERATURE] - pt.oil_temperature > HOT
-    distressed = hot or (branch[1] == 2.0 and branch[0] == CONTACT_BRANCH)
-    judge(pt, out[RATIO], distressed, OK, iout)
+    hot = out[L.O_MEAN] - pt.oil_temperature > LARGEST_RISE
+    distressed = hot or (branch[1] == 2.0 and branch[0] == L.CONTACT_BRANCH)
+    judge(pt, out[L.O_RATIO], distressed, OK, iout)
     if dt > 0.0:
-        state[VALID] = 0.0  # fields solved before count no more
-        state[MAP_BRANCH], state[MAP_RATIO] = branch[0], out[RATIO]
+        state[L.S_VALID] = 0.0  # fields solved before count no more
+        state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch[0], out[L.O_RATIO]
     return OK
 
 
 @kernel
-def map_sens(
-    inp: NDArray[np.float64], seed: NDArray[np.float64], numbers: NDArray[np.float64],
-    w: NDArray[np.float64], data: NDArray[np.float64], dout: NDArray[np.float64],
-) -> int:  # fmt: skip
+def map_sens(inp: Array, seed: Array, numbers: Array, w: Array, data: Array, dout: Array) -> int:
     """Fill ``dout`` along ``seed`` after a look-up; SINGULAR at a fold."""
     pt, change = point_of(inp), change_of(inp, seed)
-    if pt.speed == 0.0 and seed[1] != 0.0 and numbers[CONTACT_LOAD] > 0.0:
+    if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and numbers[L.O_CONTACT_LOAD] > 0.0:
         return SINGULAR
     read_edges(data, w)
     if map_derivative(data, w, pt, change, w[PLACE:], numbers, dout):

@@ -9,51 +9,30 @@ film: theta = s - c sin(s), s uniform, which keeps the trapezoid rule spectrally
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ._jit import kernel
-from .asperities import N_CONTACT_WORK, N_TABLE, asperity_args, contact_table
+from . import washer_layout as L
+from ._jit import Array, kernel, matrix
+from .asperities import N_CONTACT_WORK, N_TABLE, contact_table
+from .asperity import asperity_args
 from .spline import spline_weights
+from .status import BAD_INPUT, NOT_FINITE, OK
 
-N_PARAM = 36  # 35 fields of WasherParams, then the fidelity
-N_STEADY = 31  # the fields that a steady solution depends on; what follows belongs to time
-THERMAL_MODE, THERMAL_START = 31, 34  # places in `par`
-QUASI_STEADY, TRANSIENT, FROM_OIL = 1.0, 2.0, 2.0  # their values
-N_SCALAR = 16
-OUTER_RADIUS, SIGMA1, SIGMA2 = 1, N_PARAM + 3, N_PARAM + 4  # places in `par`
-SUMMIT1, SUMMIT_SIGMA1 = N_PARAM + 6, N_PARAM + 8
-TABLES = N_PARAM + N_SCALAR
-MESH = TABLES + 2 * N_TABLE
-WEDGE = MESH  # where a rung without a mesh has its nodes
-N_RADIAL = 7  # arrays over the radial nodes
-N_AROUND = 8  # arrays over the angles
 COARSE_GRADING, FINE_GRADING = 1.6, 2.0  # best below and from FINE_FROM radial nodes
 FINE_FROM = 16
 ANGULAR_GRADING = 0.3
-OK, NOT_FINITE, BAD_INPUT = 0, 14, 15  # errors.Status; a test keeps them equal
+EVEN = 1e6  # spread that evens a ring out to a thousandth without spoiling the matrix
 
 
 class WasherModel(NamedTuple):
     """Parameters by name (SI), derived scalars, mesh arrays, contact tables."""
 
+    par: Array  # all parameters, whole
     inner_radius: float
     outer_radius: float
-    gear_inner_radius: float
     carrier_thickness: float
     washer_thickness: float
     gear_thickness: float
     conductivity: float
     oil_conductivity: float
-    viscosity_constant: float
-    viscosity_exponent: float
-    viscosity_scale: float
-    constant_friction: bool
-    dry_friction: float
-    friction_constant: float
-    friction_slope: float
-    friction_load_min: float
-    friction_load_max: float
     heat_split: float
     film_heat_fraction: float
     volume_heat: float  # [J/(m^3 K)] density times specific heat
@@ -69,57 +48,23 @@ class WasherModel(NamedTuple):
     mean_summit2: float
     summit_sigma1: float  # [m] scatter of the summits
     summit_sigma2: float
-    table1: NDArray[np.float64]
-    table2: NDArray[np.float64]
-    r: NDArray[np.float64]  # (n_r,) nodes [m]
-    r_face: NDArray[np.float64]  # (n_r,) outer face of each cell [m]; the last is the rim
-    log_width: NDArray[np.float64]  # (n_r,) ln(outer/inner face)
-    weight1: NDArray[np.float64]  # (n_r,) spline weights x r over ri..ro [m^2]
-    weight2: NDArray[np.float64]  # (n_r,) the same over rig..ro, zero inside
-    along: NDArray[np.float64]  # (n_r,) outer face over the distance to the next node; last 0
-    gear_width: NDArray[np.float64]  # (n_r,) log_width, from rig outwards only
-    cos: NDArray[np.float64]  # (n_t,) at nodes
-    sin: NDArray[np.float64]
-    cos_face: NDArray[np.float64]  # (n_t,) at the face between j and j + 1
-    sin_face: NDArray[np.float64]
-    weight_t: NDArray[np.float64]  # (n_t,) trapezoid weights [rad]
-    width_t: NDArray[np.float64]  # (n_t,) cell widths [rad]
-    step_t: NDArray[np.float64]  # (n_t,) from j to j + 1 [rad]
-    per_step: NDArray[np.float64]  # (n_t,) its reciprocal
-
-
-class Plates(NamedTuple):
-    """The parameters alone by the same names: a fifth of the words in every call."""
-
-    inner_radius: float
-    outer_radius: float
-    gear_inner_radius: float
-    carrier_thickness: float
-    washer_thickness: float
-    gear_thickness: float
-    conductivity: float
-    oil_conductivity: float
-    viscosity_constant: float
-    viscosity_exponent: float
-    viscosity_scale: float
-    constant_friction: bool
-    dry_friction: float
-    friction_constant: float
-    friction_slope: float
-    friction_load_min: float
-    friction_load_max: float
-    heat_split: float
-    film_heat_fraction: float
-
-
-@kernel
-def washer_plates(par: NDArray[np.float64]) -> Plates:
-    """Return the parameters in ``par`` by name."""
-    return Plates(
-        par[0], par[1], par[2], par[3], par[4], par[5],
-        par[17], par[19], par[20], par[21], par[22],
-        par[23] == 2.0, par[24], par[25], par[26], par[27], par[28], par[29], par[30],
-    )  # fmt: skip
+    table1: Array
+    table2: Array
+    r: Array  # (n_r,) nodes [m]
+    r_face: Array  # (n_r,) outer face of each cell [m]; the last is the rim
+    log_width: Array  # (n_r,) ln(outer/inner face)
+    weight1: Array  # (n_r,) spline weights x r over ri..ro [m^2]
+    weight2: Array  # (n_r,) the same over rig..ro, zero inside
+    along: Array  # (n_r,) outer face over the distance to the next node; last 0
+    gear_width: Array  # (n_r,) log_width, from rig outwards only
+    cos: Array  # (n_t,) at nodes
+    sin: Array
+    cos_face: Array  # (n_t,) at the face between j and j + 1
+    sin_face: Array
+    weight_t: Array  # (n_t,) trapezoid weights [rad]
+    width_t: Array  # (n_t,) cell widths [rad]
+    step_t: Array  # (n_t,) from j to j + 1 [rad]
+    per_step: Array  # (n_t,) its reciprocal
 
 
 @kernel
@@ -134,25 +79,38 @@ def gear_node(n_r: int, share: float) -> int:
 
 def size_of_par(n_r: int, n_t: int) -> int:
     """Return the length of ``par`` for a grid; its tail is scratch for `derive_grid`."""
-    scratch = max(N_CONTACT_WORK, n_r * n_r + n_r)
-    return MESH + N_RADIAL * n_r + N_AROUND * n_t + scratch
+    mesh = L.N_RADIAL * n_r + L.N_AROUND * n_t
+    return L.D_MESH + mesh + max(N_CONTACT_WORK, n_r * n_r + n_r)
 
 
 @kernel
-def _pair(par: NDArray[np.float64], first: int, second: int) -> tuple[float, float]:
+def _end_of_mesh(n_r: int, n_t: int) -> int:
+    return L.D_MESH + L.N_RADIAL * n_r + L.N_AROUND * n_t
+
+
+@kernel
+def mesh_arrays(par: Array, n_r: int, n_t: int) -> tuple[Array, Array]:
+    """Return the mesh in ``par``: (N_RADIAL, n_r) and (N_AROUND, n_t), rows as in the layout."""
+    around = L.D_MESH + L.N_RADIAL * n_r
+    end = around + L.N_AROUND * n_t
+    return matrix(par[L.D_MESH : around], L.N_RADIAL, n_r), matrix(par[around:end], L.N_AROUND, n_t)
+
+
+@kernel
+def roughness_pair(par: Array, first: int, second: int) -> tuple[float, float]:
     """Return the RMS roughness of two surfaces, overrides taken into account."""
-    common = par[6]
+    common = par[L.P_ROUGHNESS]
     a = par[first] if par[first] > 0.0 else common
     b = par[second] if par[second] > 0.0 else common
     return a, b
 
 
 @kernel
-def _gap_constants(par: NDArray[np.float64], sigma: float) -> tuple[float, float, bool]:
+def summits(par: Array, sigma: float) -> tuple[float, float, bool]:
     """Return height and scatter [m] of the summits (Jackson & Green Eq 15), and if they exist."""
-    density_radius = par[15] * par[14]
+    density_radius = par[L.P_ASPERITY_DENSITY] * par[L.P_ASPERITY_RADIUS]
     variance = sigma * sigma
-    if par[16] == 2.0:
+    if par[L.P_ASPERITY_HEIGHT_LAW] == L.SUMMIT_HEIGHTS:
         variance -= 3.717e-4 / density_radius**2
     if not variance > 0.0:
         return 0.0, sigma, False
@@ -160,15 +118,13 @@ def _gap_constants(par: NDArray[np.float64], sigma: float) -> tuple[float, float
 
 
 @kernel
-def _mesh(par: NDArray[np.float64], n_r: int, n_t: int, i_g: int) -> bool:
+def _mesh(par: Array, n_r: int, n_t: int, i_g: int) -> bool:
     """Fill the mesh arrays of ``par``."""
-    base = MESH
-    r = par[base : base + n_r]
-    face = par[base + n_r : base + 2 * n_r]
-    log_width = par[base + 2 * n_r : base + 3 * n_r]
-    weight1 = par[base + 3 * n_r : base + 4 * n_r]
-    weight2 = par[base + 4 * n_r : base + 5 * n_r]
-    ri, ro, rg = par[0], par[1], par[2]
+    radial, around = mesh_arrays(par, n_r, n_t)
+    r, face, log_width = radial[L.RADIUS], radial[L.FACE], radial[L.LOG_WIDTH]
+    weight1, weight2 = radial[L.WEIGHT1], radial[L.WEIGHT2]
+    along, gear_width = radial[L.ALONG], radial[L.GEAR_WIDTH]
+    ri, ro, rg = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GEAR_INNER_RADIUS]
     for i in range(i_g + 1):
         r[i] = ri + (rg - ri) * i / i_g
     grading = FINE_GRADING if n_r >= FINE_FROM else COARSE_GRADING
@@ -180,10 +136,9 @@ def _mesh(par: NDArray[np.float64], n_r: int, n_t: int, i_g: int) -> bool:
         face[i] = 0.5 * (r[i] + r[i + 1]) if i + 1 < n_r else ro
         log_width[i] = math.log(face[i] / (face[i - 1] if i > 0 else ri))
     for i in range(n_r):
-        par[base + 5 * n_r + i] = face[i] / (r[i + 1] - r[i]) if i + 1 < n_r else 0.0
-        par[base + 6 * n_r + i] = math.log(face[i] / r[i]) if i == i_g else log_width[i]
-    around = base + N_RADIAL * n_r
-    scratch = par[around + N_AROUND * n_t :]
+        along[i] = face[i] / (r[i + 1] - r[i]) if i + 1 < n_r else 0.0
+        gear_width[i] = math.log(face[i] / r[i]) if i == i_g else log_width[i]
+    scratch = par[_end_of_mesh(n_r, n_t) :]
     good = spline_weights(r, weight1, n_r, scratch)
     good = spline_weights(r[i_g:], weight2[i_g:], n_r - i_g, scratch) and good
     least1, least2 = 1.0, 1.0
@@ -204,81 +159,114 @@ def _mesh(par: NDArray[np.float64], n_r: int, n_t: int, i_g: int) -> bool:
     for j in range(n_t):
         s, s_before, s_half = j * step, (j - 0.5) * step, (j + 0.5) * step
         here, half = s - c * math.sin(s), s_half - c * math.sin(s_half)
-        k = around + j
-        par[k], par[k + n_t] = math.cos(here), math.sin(here)
-        par[k + 2 * n_t], par[k + 3 * n_t] = math.cos(half), math.sin(half)
-        par[k + 4 * n_t] = step * (1.0 - c * math.cos(s))
-        par[k + 5 * n_t] = half - (s_before - c * math.sin(s_before))
-        par[k + 6 * n_t] = step - c * (math.sin(s + step) - math.sin(s))
-        par[k + 7 * n_t] = 1.0 / par[k + 6 * n_t]
+        around[L.COS, j], around[L.SIN, j] = math.cos(here), math.sin(here)
+        around[L.COS_FACE, j], around[L.SIN_FACE, j] = math.cos(half), math.sin(half)
+        around[L.WEIGHT_T, j] = step * (1.0 - c * math.cos(s))
+        around[L.WIDTH_T, j] = half - (s_before - c * math.sin(s_before))
+        around[L.STEP_T, j] = step - c * (math.sin(s + step) - math.sin(s))
+        around[L.PER_STEP, j] = 1.0 / around[L.STEP_T, j]
     return good
 
 
 @kernel
-def derive_grid(par: NDArray[np.float64], n_r: int, n_t: int) -> int:
+def derive_grid(par: Array, n_r: int, n_t: int) -> int:
     """Fill everything behind the parameters in ``par`` for a grid; return a status.
 
     ``par`` has at least ``size_of_par(n_r, n_t)`` entries; n_r >= 5, n_t >= 8.
     """
-    if n_r < 5 or n_t < 8 or not (0.0 < par[0] < par[2] < par[1]):
+    inner, outer, gear = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GEAR_INNER_RADIUS]
+    if n_r < 5 or n_t < 8 or not (0.0 < inner < gear < outer):
         return BAD_INPUT
-    i_g = gear_node(n_r, (par[2] - par[0]) / (par[1] - par[0]))
+    i_g = gear_node(n_r, (gear - inner) / (outer - inner))
     good = _mesh(par, n_r, n_t, i_g)
-    scratch = par[MESH + N_RADIAL * n_r + N_AROUND * n_t :]
-    status = derive_surfaces(par, scratch)
-    par[N_PARAM], par[N_PARAM + 1], par[N_PARAM + 2] = n_r, n_t, i_g
+    status = derive_surfaces(par, par[_end_of_mesh(n_r, n_t) :])
+    par[L.D_RADIAL], par[L.D_AROUND], par[L.D_GEAR_NODE] = n_r, n_t, i_g
     return status if status != OK or good else NOT_FINITE
 
 
 @kernel
-def derive_surfaces(par: NDArray[np.float64], scratch: NDArray[np.float64]) -> int:
-    """Fill the scalars and the contact tables of ``par``; ``scratch`` (N_CONTACT_WORK,) or more."""
-    carrier, washer = _pair(par, 7, 8)
-    gear, _ = _pair(par, 9, 8)
+def combined_roughness(par: Array) -> tuple[float, float, float]:
+    """Return the RMS roughness of film 1 and gap 2 [m], and how film 1 is shared (see D_SHEAR)."""
+    carrier, washer = roughness_pair(par, L.P_ROUGHNESS_CARRIER, L.P_ROUGHNESS_WASHER)
+    gear, _ = roughness_pair(par, L.P_ROUGHNESS_GEAR, L.P_ROUGHNESS_WASHER)
     sigma1 = math.sqrt(carrier * carrier + washer * washer)
     sigma2 = math.sqrt(gear * gear + washer * washer)
-    height1, scatter1, good1 = _gap_constants(par, sigma1)
-    height2, scatter2, good2 = _gap_constants(par, sigma2)
-    a = asperity_args(par[10], par[11], par[12], par[13] == 2.0, par[14])
-    first, second = par[TABLES : TABLES + N_TABLE], par[TABLES + N_TABLE : MESH]
-    good = contact_table(a, par[15], scatter1, first, scratch)
+    return sigma1, sigma2, (carrier * carrier - washer * washer) / (sigma1 * sigma1)
+
+
+@kernel
+def derive_surfaces(par: Array, scratch: Array) -> int:
+    """Fill the scalars and the contact tables of ``par``; ``scratch`` (N_CONTACT_WORK,) or more."""
+    sigma1, sigma2, shear = combined_roughness(par)
+    height1, scatter1, good1 = summits(par, sigma1)
+    height2, scatter2, good2 = summits(par, sigma2)
+    a = asperity_args(
+        par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO], par[L.P_YIELD_STRENGTH],
+        par[L.P_YIELD_STRAIN_LAW] == L.CONTACT_YIELD, par[L.P_ASPERITY_RADIUS],
+    )  # fmt: skip
+    density = par[L.P_ASPERITY_DENSITY]
+    first, second = par[L.D_TABLE1 : L.D_TABLE2], par[L.D_TABLE2 : L.D_MESH]
+    good = contact_table(a, density, scatter1, first, scratch)
     if scatter2 == scatter1:
         for k in range(N_TABLE):
             second[k] = first[k]
     else:
-        good = contact_table(a, par[15], scatter2, second, scratch) and good
-    d = N_PARAM
-    par[d], par[d + 1], par[d + 2] = 0.0, 0.0, 0.0
-    par[d + 3], par[d + 4] = sigma1, sigma2
-    par[d + 5] = (carrier * carrier - washer * washer) / (sigma1 * sigma1)
-    par[d + 6], par[d + 7], par[d + 8], par[d + 9] = height1, height2, scatter1, scatter2
+        good = contact_table(a, density, scatter2, second, scratch) and good
+    par[L.D_RADIAL], par[L.D_AROUND], par[L.D_GEAR_NODE] = 0.0, 0.0, 0.0
+    par[L.D_SIGMA1], par[L.D_SIGMA2], par[L.D_SHEAR] = sigma1, sigma2, shear
+    par[L.D_MEAN_SUMMIT1], par[L.D_MEAN_SUMMIT2] = height1, height2
+    par[L.D_SUMMIT_SIGMA1], par[L.D_SUMMIT_SIGMA2] = scatter1, scatter2
     if not (good1 and good2):
         return BAD_INPUT
     return OK if good else NOT_FINITE
 
 
 @kernel
-def washer_model(par: NDArray[np.float64]) -> WasherModel:
+def washer_model(par: Array) -> WasherModel:
     """Return ``par`` by name; the arrays are views."""
-    d = N_PARAM
-    n_r, n_t = int(par[d]), int(par[d + 1])
-    many = 1e6  # evens a ring out to a thousandth of its variation without spoiling the matrix
-    carrier_spread = many if par[18] == 3.0 else 1.0
-    rotating_spread = many if par[18] == 2.0 else 1.0
-    m, a = MESH, MESH + N_RADIAL * n_r
+    n_r, n_t = int(par[L.D_RADIAL]), int(par[L.D_AROUND])
+    radial, around = mesh_arrays(par, n_r, n_t)
+    carrier_spread = EVEN if par[L.P_CONDUCTION] == L.ONLY_ROTATING else 1.0
+    rotating_spread = EVEN if par[L.P_CONDUCTION] == L.ONLY_CARRIER else 1.0
     return WasherModel(
-        par[0], par[1], par[2], par[3], par[4], par[5],
-        par[17], par[19], par[20], par[21], par[22],
-        par[23] == 2.0, par[24], par[25], par[26], par[27], par[28], par[29], par[30],
-        par[32] * par[33], carrier_spread, rotating_spread,
-        n_r, n_t, int(par[d + 2]),
-        par[d + 3], par[d + 4], par[d + 5], par[d + 6], par[d + 7], par[d + 8], par[d + 9],
-        par[TABLES : TABLES + N_TABLE], par[TABLES + N_TABLE : MESH],
-        par[m : m + n_r], par[m + n_r : m + 2 * n_r], par[m + 2 * n_r : m + 3 * n_r],
-        par[m + 3 * n_r : m + 4 * n_r], par[m + 4 * n_r : m + 5 * n_r],
-        par[m + 5 * n_r : m + 6 * n_r], par[m + 6 * n_r : m + 7 * n_r],
-        par[a : a + n_t], par[a + n_t : a + 2 * n_t], par[a + 2 * n_t : a + 3 * n_t],
-        par[a + 3 * n_t : a + 4 * n_t], par[a + 4 * n_t : a + 5 * n_t],
-        par[a + 5 * n_t : a + 6 * n_t], par[a + 6 * n_t : a + 7 * n_t],
-        par[a + 7 * n_t : a + 8 * n_t],
-    )  # fmt: skip
+        par=par,
+        inner_radius=par[L.P_INNER_RADIUS],
+        outer_radius=par[L.P_OUTER_RADIUS],
+        carrier_thickness=par[L.P_CARRIER_THICKNESS],
+        washer_thickness=par[L.P_WASHER_THICKNESS],
+        gear_thickness=par[L.P_GEAR_THICKNESS],
+        conductivity=par[L.P_CONDUCTIVITY],
+        oil_conductivity=par[L.P_OIL_CONDUCTIVITY],
+        heat_split=par[L.P_HEAT_SPLIT],
+        film_heat_fraction=par[L.P_FILM_HEAT_FRACTION],
+        volume_heat=par[L.P_DENSITY] * par[L.P_SPECIFIC_HEAT],
+        carrier_spread=carrier_spread,
+        rotating_spread=rotating_spread,
+        n_r=n_r,
+        n_t=n_t,
+        i_g=int(par[L.D_GEAR_NODE]),
+        sigma1=par[L.D_SIGMA1],
+        sigma2=par[L.D_SIGMA2],
+        shear=par[L.D_SHEAR],
+        mean_summit1=par[L.D_MEAN_SUMMIT1],
+        mean_summit2=par[L.D_MEAN_SUMMIT2],
+        summit_sigma1=par[L.D_SUMMIT_SIGMA1],
+        summit_sigma2=par[L.D_SUMMIT_SIGMA2],
+        table1=par[L.D_TABLE1 : L.D_TABLE2],
+        table2=par[L.D_TABLE2 : L.D_MESH],
+        r=radial[L.RADIUS],
+        r_face=radial[L.FACE],
+        log_width=radial[L.LOG_WIDTH],
+        weight1=radial[L.WEIGHT1],
+        weight2=radial[L.WEIGHT2],
+        along=radial[L.ALONG],
+        gear_width=radial[L.GEAR_WIDTH],
+        cos=around[L.COS],
+        sin=around[L.SIN],
+        cos_face=around[L.COS_FACE],
+        sin_face=around[L.SIN_FACE],
+        weight_t=around[L.WEIGHT_T],
+        width_t=around[L.WIDTH_T],
+        step_t=around[L.STEP_T],
+        per_step=around[L.PER_STEP],
+    )

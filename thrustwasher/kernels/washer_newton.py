@@ -12,177 +12,188 @@ the washer's tilt vanishes: s = z_w - r_o sqrt(gx^2 + gy^2 + e^2), e r_o = sigma
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._jit import kernel
-from .banded import N_SIDES
+from . import washer_layout as L
+from ._jit import Array, kernel
 from .dense import dense_solve
-from .washer_fields import N_TAG, RATE, Bench, Fields, Point, washer_fields
+from .status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
 from .washer_film import evaluate_film, film_residual, film_solve
-from .washer_gap import FORCE, STIFF, evaluate_gaps, evaluate_viscosity
-from .washer_heat import STORED, factor_heat, heat_residual, heat_slopes, solve_heat
-from .washer_model import OUTER_RADIUS, SIGMA1, WasherModel, washer_model
+from .washer_gap import evaluate_gaps, evaluate_viscosity
+from .washer_heat import factor_heat, heat_residual, heat_slopes, solve_heat
+from .washer_layout import (
+    AT_FIXED,
+    MOMENT_X,
+    MOMENT_Y,
+    ON_GEAR,
+    ON_WASHER,
+    OVER_POSITIONS,
+    TILT_X,
+    TILT_Y,
+    Z_GEAR,
+    Z_WASHER,
+)
+from .washer_model import WasherModel
+from .washer_workspace import (
+    Fields,
+    Point,
+    Workspace,
+    copy,
+    fields_of,
+    model_of,
+    square,
+    vector,
+)
 
-OK, MAX_ITERATIONS, SINGULAR, NOT_FINITE = 0, 10, 11, 14  # errors.Status; a test keeps them equal
 # modes and counts are floats: numba would compile anew for each integer constant
 LOAD, FILM = 0.0, 1.0
 NO_FLOOR = -100.0
-# places in Fields.small
-BALANCE = 32  # (4,) forces conjugate to q [N, N, N m, N m], load not subtracted
-SLOPES = 36  # (16,) their slopes over q
-SYSTEM = 52  # (16,) scratch
-RIGHT = 68  # (8,) scratch
-TANGENT = 76  # (4,) dq/ds along the curve of solutions
-RATE_TAG = N_TAG - 1  # in the tag: the rate of storage
-# places in `info`; iterations and factorings add up over the calls of one solve
-ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT = 0, 1, 2, 3, 4, 5
-ARRIVED, SCANNED, N_INFO = 6, 7, 8  # of a solve with memory: warm, after a descent
 
 
 @kernel
-def smooth_film(b: Bench, q: NDArray[np.float64]) -> float:
+def tilt_of(q: Array) -> float:
+    """Return the washer's tilt [rad]."""
+    return math.sqrt(q[TILT_X] * q[TILT_X] + q[TILT_Y] * q[TILT_Y])
+
+
+@kernel
+def smooth_film(w: Workspace) -> float:
     """Return the smoothed least film thickness s [m] that mode FILM prescribes."""
-    ro = b.par[OUTER_RADIUS]
-    e = 0.05 * b.par[SIGMA1]
-    reach = ro * ro * (q[2] * q[2] + q[3] * q[3])
-    return float(q[0] - math.sqrt(reach + e * e))
+    return float(w.q[Z_WASHER] - _reach(w.par[L.P_OUTER_RADIUS], w.par[L.D_SIGMA1], w.q))
 
 
 @kernel
-def film_ratio(b: Bench, q: NDArray[np.float64]) -> float:
+def _reach(ro: float, sigma: float, q: Array) -> float:
+    """Return by how much the rim dips below the washer's middle [m], smoothed."""
+    e = 0.05 * sigma
+    return math.sqrt(ro * ro * (q[TILT_X] * q[TILT_X] + q[TILT_Y] * q[TILT_Y]) + e * e)
+
+
+@kernel
+def film_ratio(w: Workspace) -> float:
     """Return the least film thickness over the disc in sigma."""
-    tilt = math.sqrt(q[2] * q[2] + q[3] * q[3])
-    return float((q[0] - b.par[OUTER_RADIUS] * tilt) / b.par[SIGMA1])
+    least = w.q[Z_WASHER] - w.par[L.P_OUTER_RADIUS] * tilt_of(w.q)
+    return float(least / w.par[L.D_SIGMA1])
 
 
 @kernel
-def make_factor(
-    m: WasherModel, pt: Point, q: NDArray[np.float64], temp: NDArray[np.float64], f: Fields
-) -> bool:
+def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields) -> bool:
     """Factor the heat equations and solve for the slopes dT/dq; gaps are already evaluated."""
-    f.tag[0] = 0.0
+    f.tag[L.TAG_VALID] = 0.0
     if not factor_heat(m, pt, f):
         return False
     heat_slopes(m, pt, temp, f)
-    n = temp.size
-    for s in range(4):
-        solve_heat(m, f.sens[s * n : s * n + n], f.sens[s * n : s * n + n], f)
-    f.tag[0], f.tag[1], f.tag[2], f.tag[7] = 1.0, pt.speed, pt.tilt, pt.oil_temperature
-    f.tag[RATE_TAG] = f.small[RATE]
-    for k in range(4):
-        f.tag[3 + k] = q[k]
-    for k in range(n):
-        f.tag[np.uintp(N_TAG + k)] = temp[np.uintp(k)]
+    for c in range(4):
+        solve_heat(m, f.following[c], f.following[c], f)
+    f.tag[L.TAG_VALID], f.tag[L.TAG_RATE] = 1.0, f.small[L.RATE]
+    f.tag[L.TAG_SPEED], f.tag[L.TAG_TILT] = pt.speed, pt.tilt
+    f.tag[L.TAG_OIL] = pt.oil_temperature
+    copy(q, vector(f.tag, L.TAG_POSITIONS))
+    copy(temp, f.tag[L.N_TAG : L.N_TAG + temp.size])
     return True
 
 
 @kernel
-def factor_here(b: Bench, pt: Point, q: NDArray[np.float64]) -> bool:
+def factor_here(w: Workspace, pt: Point) -> bool:
     """Make the heat factor at the present solution; gaps are already evaluated."""
-    m = washer_model(b.par)
-    f = washer_fields(m, b.work)
-    return make_factor(m, pt, q, f.temp, f)
+    f = fields_of(w)
+    return make_factor(model_of(w), pt, w.q, f.temp, f)
 
 
 @kernel
-def _balance(m: WasherModel, p: NDArray[np.float64], f: Fields) -> None:
+def _balance(m: WasherModel, p: Array, f: Fields) -> None:
     """Fill the forces conjugate to q: film pressure and contacts."""
-    s = f.small
-    for a in range(4):
-        s[BALANCE + a] = s[FORCE + a]
+    forces = vector(f.small, L.BALANCE)
+    copy(vector(f.small, L.FORCES), forces)
     for j in range(m.n_t):
         for i in range(1, m.n_r - 1):
             push = m.weight1[i] * m.weight_t[j] * p[np.uintp(j * m.n_r + i)]
-            s[BALANCE] += push
-            s[BALANCE + 2] += push * m.r[i] * m.sin[j]
-            s[BALANCE + 3] -= push * m.r[i] * m.cos[j]
+            forces[ON_WASHER] += push
+            forces[MOMENT_X] += push * m.r[i] * m.sin[j]
+            forces[MOMENT_Y] -= push * m.r[i] * m.cos[j]
 
 
 @kernel
 def _linearise(m: WasherModel, f: Fields) -> None:
     """Fill the forces after the step at fixed q and their slopes, film pressure following."""
-    s = f.small
-    for a in range(4):
-        s[BALANCE + a] = s[FORCE + a]
-    for a in range(16):
-        s[SLOPES + a] = s[STIFF + a]
+    forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
+    copy(vector(f.small, L.FORCES), forces)
+    copy(f.small[L.STIFFNESS : L.STIFFNESS + 16], f.small[L.SLOPES : L.SLOPES + 16])
     for j in range(m.n_t):
         for i in range(1, m.n_r - 1):
-            k = j * m.n_r + i
-            w = m.weight1[i] * m.weight_t[j]
-            wy, wx = w * m.r[i] * m.sin[j], w * m.r[i] * m.cos[j]
-            p0 = f.film_rhs[k * N_SIDES]
-            s[BALANCE] += w * p0
-            s[BALANCE + 2] += wy * p0
-            s[BALANCE + 3] -= wx * p0
+            k = np.uintp(j * m.n_r + i)
+            weight = m.weight1[i] * m.weight_t[j]
+            wy, wx = weight * m.r[i] * m.sin[j], weight * m.r[i] * m.cos[j]
+            p0 = f.film_rhs[k, AT_FIXED]
+            forces[ON_WASHER] += weight * p0
+            forces[MOMENT_X] += wy * p0
+            forces[MOMENT_Y] -= wx * p0
             for c in range(4):
-                dp = f.film_rhs[k * N_SIDES + c + 1]
-                s[SLOPES + c] += w * dp
-                s[SLOPES + 8 + c] += wy * dp
-                s[SLOPES + 12 + c] -= wx * dp
+                dp = f.film_rhs[k, np.uintp(OVER_POSITIONS + c)]
+                slopes[ON_WASHER, np.uintp(c)] += weight * dp
+                slopes[MOMENT_X, np.uintp(c)] += wy * dp
+                slopes[MOMENT_Y, np.uintp(c)] -= wx * dp
 
 
 @kernel
-def _steps(m: WasherModel, mode: float, target: float, q: NDArray[np.float64], f: Fields) -> bool:
-    """Solve the system of four for the step (RIGHT, RIGHT + 2, ...) and the tangent dq/ds."""
-    s = f.small
+def _steps(m: WasherModel, mode: float, target: float, q: Array, f: Fields) -> bool:
+    """Solve the system of four for the step (RIGHT) and the tangent dq/ds (TANGENT)."""
     ro = m.outer_radius
-    reach = math.sqrt(ro * ro * (q[2] * q[2] + q[3] * q[3]) + (0.05 * m.sigma1) ** 2)
+    reach = _reach(ro, m.sigma1, q)
+    forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
+    system, right = square(f.small, L.SYSTEM), vector(f.small, L.RIGHT)
     for kind in range(2):  # 0: tangent, always from the FILM row; 1: the step wanted
-        film_row = kind == 0 or mode == FILM
         for c in range(4):
-            unit = m.sigma1 if c < 2 else m.sigma1 / ro
-            s[SYSTEM + c] = s[SLOPES + c] * unit
-            s[SYSTEM + 4 + c] = s[SLOPES + 8 + c] * unit / ro
-            s[SYSTEM + 8 + c] = s[SLOPES + 12 + c] * unit / ro
-            s[SYSTEM + 12 + c] = s[SLOPES + 4 + c] * unit
-        if film_row:
-            s[SYSTEM + 12], s[SYSTEM + 13] = 1.0, 0.0
-            s[SYSTEM + 14], s[SYSTEM + 15] = -ro * q[2] / reach, -ro * q[3] / reach
+            unit = m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
+            system[0, c] = slopes[ON_WASHER, c] * unit
+            system[1, c] = slopes[MOMENT_X, c] * unit / ro
+            system[2, c] = slopes[MOMENT_Y, c] * unit / ro
+            system[3, c] = slopes[ON_GEAR, c] * unit
+        if kind == 0 or mode == FILM:
+            system[3, Z_WASHER], system[3, Z_GEAR] = 1.0, 0.0
+            system[3, TILT_X], system[3, TILT_Y] = -ro * q[TILT_X] / reach, -ro * q[TILT_Y] / reach
         if kind == 0:
-            s[RIGHT], s[RIGHT + 1], s[RIGHT + 2] = 0.0, 0.0, 0.0
-            s[RIGHT + 3] = 1.0 / m.sigma1
+            right[0], right[1], right[2] = 0.0, 0.0, 0.0
+            right[3] = 1.0 / m.sigma1
         else:
-            s[RIGHT], s[RIGHT + 1] = -s[BALANCE], -s[BALANCE + 2] / ro
-            s[RIGHT + 2] = -s[BALANCE + 3] / ro
+            right[0], right[1] = -forces[ON_WASHER], -forces[MOMENT_X] / ro
+            right[2] = -forces[MOMENT_Y] / ro
             if mode == FILM:
-                s[RIGHT + 3] = (target - (q[0] - reach)) / m.sigma1
+                right[3] = (target - (q[Z_WASHER] - reach)) / m.sigma1
             else:
-                s[RIGHT + 3] = target - s[BALANCE + 1]
-        if not dense_solve(s[SYSTEM : SYSTEM + 16], s[RIGHT : RIGHT + 4], 4, 1):
+                right[3] = target - forces[ON_GEAR]
+        if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4, 1):
             return False
         for c in range(4):
-            s[RIGHT + c] *= m.sigma1 if c < 2 else m.sigma1 / ro
-            if kind == 0:
-                s[TANGENT + c] = s[RIGHT + c]
+            right[c] *= m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
+        if kind == 0:
+            copy(right, vector(f.small, L.TANGENT))
     return True
 
 
 @kernel
-def _limit(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> float:
+def _limit(ro: float, sigma: float, pt: Point, q: Array, step: Array) -> float:
     """Return the share of the step to take.
 
     The least gaps change by a film thickness' fraction at most; elsewhere, where the gaps are wide
     and a rocking washer moves most, eight times as much.
     """
-    s = f.small
-    ro = m.outer_radius
-    tilt = math.sqrt(q[2] * q[2] + q[3] * q[3])
-    ratio = (q[0] - ro * tilt) / m.sigma1
-    limit = max(1.0, 0.3 * ratio) * m.sigma1
-    small = 1e-3 * m.sigma1 / ro
-    rel = pt.tilt - q[3]
-    lean = math.sqrt(rel * rel + q[2] * q[2]) + small
-    turn = ro * math.sqrt(s[RIGHT + 2] * s[RIGHT + 2] + s[RIGHT + 3] * s[RIGHT + 3])
-    lift = s[RIGHT + 1] - s[RIGHT]
-    one = s[RIGHT] - ro * (q[2] * s[RIGHT + 2] + q[3] * s[RIGHT + 3]) / (tilt + small)
-    two = lift + ro * (rel * s[RIGHT + 3] - q[2] * s[RIGHT + 2]) / lean
-    worst = max(abs(one), 0.5 * abs(two), (abs(s[RIGHT]) + turn) / 8.0, (abs(lift) + turn) / 16.0)
+    tilt = tilt_of(q)
+    ratio = (q[Z_WASHER] - ro * tilt) / sigma
+    limit = max(1.0, 0.3 * ratio) * sigma
+    small = 1e-3 * sigma / ro
+    gx, rel = q[TILT_X], pt.tilt - q[TILT_Y]
+    lean = math.sqrt(rel * rel + gx * gx) + small
+    turn = ro * math.sqrt(step[TILT_X] * step[TILT_X] + step[TILT_Y] * step[TILT_Y])
+    lift = step[Z_GEAR] - step[Z_WASHER]
+    one = step[Z_WASHER] - ro * (gx * step[TILT_X] + q[TILT_Y] * step[TILT_Y]) / (tilt + small)
+    two = lift + ro * (rel * step[TILT_Y] - gx * step[TILT_X]) / lean
+    far1, far2 = abs(step[Z_WASHER]) + turn, abs(lift) + turn
+    worst = max(abs(one), 0.5 * abs(two), far1 / 8.0, far2 / 16.0)
     return limit / worst if worst > limit else 1.0
 
 
 @kernel
-def evaluate(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> float:
+def evaluate(m: WasherModel, pt: Point, q: Array, f: Fields) -> float:
     """Evaluate everything at (q, f.temp, f.p); return the heat made [W]."""
     evaluate_gaps(m, pt, q, f)
     evaluate_viscosity(m, pt, f)
@@ -192,76 +203,110 @@ def evaluate(m: WasherModel, pt: Point, q: NDArray[np.float64], f: Fields) -> fl
 
 
 @kernel
-def evaluate_here(b: Bench, pt: Point, q: NDArray[np.float64]) -> None:
+def evaluate_here(w: Workspace, pt: Point) -> None:
     """Evaluate everything at a solution that was taken back."""
-    m = washer_model(b.par)
-    f = washer_fields(m, b.work)
-    evaluate(m, pt, q, f)
+    m, f = model_of(w), fields_of(w)
+    evaluate(m, pt, w.q, f)
     film_residual(m, f.p, f)
 
 
 @kernel
+def size_of(a: Array) -> float:
+    """Return the sum of the sizes of all numbers."""
+    total = 0.0
+    for k in range(a.size):
+        total += abs(a[np.uintp(k)])
+    return total
+
+
+@kernel
+def _take(f: Fields, share: float, q: Array) -> None:
+    """Go ``share`` of the step: positions, the temperatures and pressures that follow them."""
+    step = vector(f.small, L.RIGHT)
+    d0, d1 = share * step[Z_WASHER], share * step[Z_GEAR]
+    d2, d3 = share * step[TILT_X], share * step[TILT_Y]
+    n_temp = f.temp.size
+    dt0, dt1, dt2, dt3 = f.following[0], f.following[1], f.following[2], f.following[3]
+    jump = 0.0
+    for node in range(n_temp):
+        k = np.uintp(node)
+        change = f.dtemp[k] + dt0[k] * d0 + dt1[k] * d1 + dt2[k] * d2 + dt3[k] * d3
+        f.dtemp[k] = change
+        jump = max(jump, abs(change))
+    damp = 1.0 if jump <= 1000.0 else 1000.0 / jump
+    for node in range(n_temp):
+        k = np.uintp(node)
+        f.temp[k] += damp * f.dtemp[k]
+    for node in range(f.p.size):
+        k = np.uintp(node)
+        f.p[k] = (
+            f.film_rhs[k, AT_FIXED]
+            + f.film_rhs[k, OVER_POSITIONS + Z_WASHER] * d0
+            + f.film_rhs[k, OVER_POSITIONS + Z_GEAR] * d1
+            + f.film_rhs[k, OVER_POSITIONS + TILT_X] * d2
+            + f.film_rhs[k, OVER_POSITIONS + TILT_Y] * d3
+        )
+    q[Z_WASHER] += d0
+    q[Z_GEAR] += d1
+    q[TILT_X] += d2
+    q[TILT_Y] += d3
+
+
+@kernel
 def newton(
-    b: Bench, pt: Point, mode: float, target: float, q: NDArray[np.float64], floor: float,
-    tolerance: float, max_iterations: float, info: NDArray[np.float64],
+    w: Workspace, pt: Point, mode: float, target: float, floor: float, tolerance: float,
+    max_iterations: float,
 ) -> int:  # fmt: skip
-    """Solve for positions ``q``, temperatures ``f.temp`` and pressures ``f.p``; return a status.
+    """Solve for positions ``w.q``, temperatures ``f.temp`` and pressures ``f.p``; return a status.
 
     The heat factor and its slopes serve as long as each iteration gains a digit (chord), unless
-    ``forget_factor`` was called. Film, contacts and the system of four are always exact.
+    ``forget_factor`` was called. Film, contacts and the system of four are always exact. What is in
+    ``w.q``, ``f.temp`` and ``f.p`` is the start, then the best estimate. ``w.info``: iterations and
+    factorings are added to; out: residual, load reached [N], dload/ds [N/m], heat made [W].
 
     Parameters
     ----------
     mode, target : LOAD and a load [N], or FILM and a smoothed film thickness [m]
-    q : (4,) start in, best estimate out; so are ``f.temp`` and ``f.p``
     floor : give up when the film ratio falls below it
     tolerance : on the largest of force and moment over load, pressure over its maximum, heat over
         the heat made
-    info : (N_INFO,) iterations and factorings are added to; out: residual, load reached [N],
-        dload/ds [N/m], heat made [W]
     """
-    m = washer_model(b.par)
-    f = washer_fields(m, b.work)
-    n_temp = f.temp.size
-    s = f.small
+    m, f = model_of(w), fields_of(w)
+    forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
+    tangent = vector(f.small, L.TANGENT)
     before = math.inf
     for iteration in range(int(max_iterations) + 1):
-        made = evaluate(m, pt, q, f)
+        made = evaluate(m, pt, w.q, f)
         pressure_error, p_max, _ = film_residual(m, f.p, f)
         _balance(m, f.p, f)
-        reached = s[BALANCE + 1]
+        reached = forces[ON_GEAR]
         load = target if mode == LOAD else max(reached, 1e-3)
-        error = max(
-            abs(s[BALANCE]), max(abs(s[BALANCE + 2]), abs(s[BALANCE + 3])) / m.outer_radius
-        ) / load  # fmt: skip
+        moment = max(abs(forces[MOMENT_X]), abs(forces[MOMENT_Y])) / m.outer_radius
+        error = max(abs(forces[ON_WASHER]), moment) / load
         if mode == LOAD:
             error = max(error, abs(reached - target) / load)
         else:
-            error = max(error, abs(smooth_film(b, q) - target) / m.sigma1)
+            error = max(error, abs(smooth_film(w) - target) / m.sigma1)
         scale = max(p_max, 1e-6 * load / (m.outer_radius * m.outer_radius))
         error = max(error, pressure_error / scale)
-        lost = 0.0
-        for k in range(n_temp):
-            lost += abs(f.heat[np.uintp(k)])
-        flow = made + (f.small[STORED] if f.small[RATE] != 0.0 else 0.0)
+        lost = size_of(f.heat)
+        flow = made + (f.small[L.STORED] if f.small[L.RATE] != 0.0 else 0.0)
         error = max(error, lost / max(flow, 1e-2))
-        info[RESIDUAL], info[REACHED_LOAD], info[HEAT] = error, reached, made
+        w.info[L.RESIDUAL], w.info[L.REACHED_LOAD], w.info[L.HEAT] = error, reached, made
         if not math.isfinite(error):
             return NOT_FINITE
         if error < tolerance and iteration > 0:
             return OK
-        if iteration == int(max_iterations):
+        if iteration == int(max_iterations) or film_ratio(w) < floor:
             break
-        if film_ratio(b, q) < floor:
-            break
-        if error > 0.1 * before or f.tag[0] != 1.0:
-            if not make_factor(m, pt, q, f.temp, f):
+        if error > 0.1 * before or f.tag[L.TAG_VALID] != 1.0:
+            if not make_factor(m, pt, w.q, f.temp, f):
                 return SINGULAR
-            info[FACTORED] += 1.0
+            w.info[L.FACTORED] += 1.0
         before = error
         # a change of load alone leaves the heat balanced: no step at fixed positions then
         balanced = lost < tolerance * max(flow, 1e-2)
-        for k in range(n_temp):
+        for k in range(f.heat.size):
             f.heat[np.uintp(k)] = -f.heat[np.uintp(k)]
             f.dtemp[np.uintp(k)] = 0.0
         if not balanced:
@@ -269,38 +314,13 @@ def newton(
         if not film_solve(m, f.p, f):
             return SINGULAR
         _linearise(m, f)
-        if not _steps(m, mode, target, q, f):
+        if not _steps(m, mode, target, w.q, f):
             return SINGULAR
         slope = 0.0
         for c in range(4):
-            slope += s[SLOPES + 4 + c] * s[TANGENT + c]
-        info[LOAD_SLOPE] = slope
-        share = _limit(m, pt, q, f)
-        d0, d1 = share * s[RIGHT], share * s[RIGHT + 1]
-        d2, d3 = share * s[RIGHT + 2], share * s[RIGHT + 3]
-        jump = 0.0
-        for k in range(n_temp):
-            change = (
-                f.dtemp[np.uintp(k)]
-                + f.sens[np.uintp(k)] * d0 + f.sens[np.uintp(n_temp + k)] * d1
-                + f.sens[np.uintp(2 * n_temp + k)] * d2 + f.sens[np.uintp(3 * n_temp + k)] * d3
-            )  # fmt: skip
-            f.dtemp[np.uintp(k)] = change
-            jump = max(jump, abs(change))
-        damp = 1.0 if jump <= 1000.0 else 1000.0 / jump
-        for k in range(n_temp):
-            f.temp[np.uintp(k)] += damp * f.dtemp[np.uintp(k)]
-        n = m.n_r * m.n_t
-        for k in range(n):
-            a = k * N_SIDES
-            f.p[np.uintp(k)] = (
-                f.film_rhs[np.uintp(a)]
-                + f.film_rhs[np.uintp(a + 1)] * d0 + f.film_rhs[np.uintp(a + 2)] * d1
-                + f.film_rhs[np.uintp(a + 3)] * d2 + f.film_rhs[np.uintp(a + 4)] * d3
-            )  # fmt: skip
-        q[0] += d0
-        q[1] += d1
-        q[2] += d2
-        q[3] += d3
-        info[ITERATIONS] += 1.0
+            slope += slopes[ON_GEAR, c] * tangent[c]
+        w.info[L.LOAD_SLOPE] = slope
+        share = _limit(m.outer_radius, m.sigma1, pt, w.q, vector(f.small, L.RIGHT))
+        _take(f, share, w.q)
+        w.info[L.ITERATIONS] += 1.0
     return MAX_ITERATIONS

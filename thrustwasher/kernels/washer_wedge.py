@@ -12,17 +12,15 @@ g      | tilt of the washer against the carrier                         | rad
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._jit import kernel
+from . import washer_layout as L
+from ._jit import Array, kernel, matrix
 from .asperities import contact_pressure
 from .flow_factors import flow_conductance
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
-from .washer_model import SUMMIT1, SUMMIT_SIGMA1, TABLES, WEDGE
+from .washer_layout import N_PANEL, N_WEDGE
 
-Array = NDArray[np.float64]
-N_PANEL = 12  # Gauss nodes of a panel
-N_WEDGE = 2 * N_PANEL
+END_OF_WEDGE = L.D_MESH + 3 * N_WEDGE  # in `par` of a rung without a mesh
 # 1/lift over that of a narrow ring: 1 + sum of rho^i lambda^j, i = 0 .. 2, j = 1 .. 4; see `lift`
 WIDE = (
     (0.11160, -1.50311, 2.20410, -1.38707),
@@ -30,14 +28,7 @@ WIDE = (
     (-0.30704, 1.26396, -2.70685, 1.65935),
 )
 # its centre over that of a narrow ring: 1 + sum of (1 - rho)^i lambda^j, i = 1 .. 2, j = 0 .. 2
-CENTRE = (
-    -0.1325,
-    0.0825,
-    0.0354,
-    0.7261,
-    -1.0199,
-    1.5580,
-)
+CENTRE = (-0.1325, 0.0825, 0.0354, 0.7261, -1.0199, 1.5580)
 
 
 @kernel
@@ -111,13 +102,19 @@ def shear_moment(
 
 
 @kernel
+def _nodes(par: Array) -> Array:
+    """Return the wedge's nodes: distances, areas and moments, (3, N_WEDGE)."""
+    return matrix(par[L.D_MESH : END_OF_WEDGE], 3, N_WEDGE)
+
+
+@kernel
 def wedge_nodes(par: Array) -> None:
-    """Fill ``par[WEDGE:]``: distances from the outer rim along the tilt [m], area [m^2], moment.
+    """Fill distances from the outer rim along the tilt [m], areas [m^2], moments [m^3] of nodes.
 
     Chords across the annulus at x = ro cos(phi): phi = pi t^2 crowds nodes at the rim, where
     contact is. Scaled to the exact area and the exact integral of r, for a level washer.
     """
-    ri, ro = par[0], par[1]
+    ri, ro, nodes = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], _nodes(par)
     area, moment = 0.0, 0.0
     for k in range(N_WEDGE):
         t = 0.5 * (k // N_PANEL + GAUSS_NODES[k % N_PANEL])
@@ -130,15 +127,15 @@ def wedge_nodes(par: Array) -> None:
             inner = math.sqrt(ri * ri - x * x)
             long -= 2.0 * inner
             far -= _chord_moment(x, inner)
-        par[WEDGE + k] = 2.0 * ro * half * half
-        par[WEDGE + N_WEDGE + k], par[WEDGE + 2 * N_WEDGE + k] = step * long, step * far
+        nodes[L.DISTANCE, k] = 2.0 * ro * half * half
+        nodes[L.AREA, k], nodes[L.MOMENT, k] = step * long, step * far
         area += step * long
         moment += step * far
     area = math.pi * (ro * ro - ri * ri) / area
     moment = 2.0 / 3.0 * math.pi * (ro**3 - ri**3) / moment
     for k in range(N_WEDGE):
-        par[WEDGE + N_WEDGE + k] *= area
-        par[WEDGE + 2 * N_WEDGE + k] *= moment
+        nodes[L.AREA, k] *= area
+        nodes[L.MOMENT, k] *= moment
 
 
 @kernel
@@ -155,17 +152,17 @@ def rim_contact(
 ) -> tuple[float, float, float, float]:
     """Return the asperities' force [N], its change, their integral of P r [N m], its change."""
     force, dforce, moment, dmoment = 0.0, 0.0, 0.0, 0.0
-    table = par[TABLES:WEDGE]
-    offset, scatter = par[SUMMIT1], par[SUMMIT_SIGMA1]
-    for k in range(N_WEDGE):
-        far = par[np.uintp(WEDGE + k)]
+    table, nodes = par[L.D_TABLE1 : L.D_MESH], _nodes(par)
+    offset, scatter = par[L.D_MEAN_SUMMIT1], par[L.D_SUMMIT_SIGMA1]
+    for node in range(N_WEDGE):
+        k = np.uintp(node)
+        far = nodes[L.DISTANCE, k]
         p, dp = contact_pressure((s + g * far - offset) / scatter, table)
         if p == 0.0:  # gaps grow from node to node
             break
         dp *= (ds + dg * far) / scatter
-        a, m = par[np.uintp(WEDGE + N_WEDGE + k)], par[np.uintp(WEDGE + 2 * N_WEDGE + k)]
-        force += a * p
-        dforce += a * dp
-        moment += m * p
-        dmoment += m * dp
+        force += nodes[L.AREA, k] * p
+        dforce += nodes[L.AREA, k] * dp
+        moment += nodes[L.MOMENT, k] * p
+        dmoment += nodes[L.MOMENT, k] * dp
     return force, dforce, moment, dmoment

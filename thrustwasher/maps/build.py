@@ -1,32 +1,88 @@
-"""Building a washer's map: solve the lines of the plan side by side, put them into one array."""
+"""From parameters to a map file: plan, lines solved side by side, check, card."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+import os
+import platform
+import time
+from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import EnvironmentProblem, SolveError
+from ..errors import ParameterError, SolveError, naming
 from ..kernels import washer_map_layout as L
-from ..kernels._jit import kernel_digest
-from ..kernels.washer_outputs import FLUID_LOAD
+from ..kernels._jit import Array, kernel_digest
+from ..kernels.washer_layout import O_FLUID_LOAD
 from ..models.washer import GRIDS
-from ..processes import local_processes
+from ..models.washer_params import WasherParams
+from ..processes import processes_if_many
 from ..store.digests import params_digest
 from ..store.journal import Journal
+from ..store.maps import SUFFIX, pack
+from .check import check_map
 from .line import Line, LineTask, solve_line
-from .plan import COARSE, ONSET, SPARE, MapPlan
+from .plan import COARSE, SPARE, MapPlan, plan_map
 
-Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 FIDELITIES = ("field", "fine")  # meshes to build from
 BATCH = 4  # lines that a worker takes at a time
+
+
+def make_map(
+    params: WasherParams, out: Path, *, box: dict[str, tuple[float, float]] | None = None,
+    fidelity: str = "fine", workers: int | None = None, points: int = 200,
+    progress: Callable[[str], Progress] | None = None,
+) -> dict[str, Any]:  # fmt: skip
+    """Build a map, check it and write it; return its card.
+
+    Parameters
+    ----------
+    params : the washer
+    out : file to write, ``*.twm``; what is solved is kept beside it until the map is done
+    box : (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]
+    fidelity : "fine" or "field", the mesh that is mapped
+    workers : processes; None: one per core
+    points : held-out points of the check
+    progress : called with a label, returns ``show(done, total)``
+
+    Raises
+    ------
+    ParameterError : a wrong box or fidelity, or more numbers than a map may have
+    SolveError : a node has no solution
+    """
+    if fidelity not in FIDELITIES:
+        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
+    plan = plan_map(params, box)
+    size = L.DATA + int(np.prod(plan.shape)) * L.LINE
+    if size > L.ROOM:
+        raise ParameterError(
+            f"box: {size} numbers for {plan.shape[0]} x {plan.shape[1]} x {plan.shape[2]} nodes, "
+            f"allowed: {L.ROOM}; make the box smaller"
+        )
+    count = workers or os.cpu_count() or 1
+    show = progress or (lambda _label: lambda _done, _total: None)
+    began = time.perf_counter()
+    journal = out.with_name(f"{out.name}.journal")
+    data = build_lines(plan, fidelity=fidelity, workers=count, progress=show("lines"),
+                       journal=journal)  # fmt: skip
+    took = time.perf_counter() - began
+    draft = out.with_name(f".{out.name}.draft{SUFFIX}")
+    card = _card(plan, fidelity, took, count)
+    try:
+        _write(draft, data, card)
+        verdict = check_map(params, str(draft), points=points, fidelity=fidelity, workers=count,
+                            progress=show("held-out points"))  # fmt: skip
+        card["held_out"] = asdict(verdict)
+        _write(draft, data, card)
+        draft.replace(out)
+        journal.unlink(missing_ok=True)
+    finally:
+        draft.unlink(missing_ok=True)
+    return card
 
 
 def build_lines(
@@ -63,7 +119,7 @@ def build_lines(
     try:
         done = kept.load(lines, flags) if kept else np.zeros(len(tasks), bool)
         rest = np.flatnonzero(~done).tolist()
-        with executor(workers) as pool:
+        with processes_if_many(workers) as pool:
             waiting = [tasks[i] for i in rest]
             found = pool.map(solve_line, waiting, chunksize=BATCH) if pool else map(
                 solve_line, waiting
@@ -88,27 +144,6 @@ def _identity(plan: MapPlan, fidelity: str) -> dict[str, str]:
     }  # fmt: skip
 
 
-@contextmanager
-def executor(workers: int) -> Iterator[Executor | None]:
-    """Give a pool of processes, or None for one worker.
-
-    Raises
-    ------
-    EnvironmentProblem : a worker process has ended before its work was done
-    """
-    if workers <= 1:
-        yield None
-        return
-    try:
-        with local_processes(workers) as pool:
-            yield pool
-    except BrokenProcessPool:
-        raise EnvironmentProblem(
-            "a worker process has ended before its work was done (too little memory?); solved "
-            "lines are kept: run the same again, with fewer workers"
-        ) from None
-
-
 def find_reach(plan: MapPlan) -> float:
     """Return how thick a film the lightest load needs: ratio^2 over viscosity x speed [1/Pa].
 
@@ -123,13 +158,13 @@ def find_reach(plan: MapPlan) -> float:
             for oil in {oils[0], oils[-1]}:
                 task = _task(plan, 1.0, COARSE, speed, tilt, oil)
                 line = Line(task, COARSE)
-                load = line.walker.outputs()[FLUID_LOAD]
+                load = line.at.outputs()[O_FLUID_LOAD]
                 if load <= light:
                     continue
                 while load > light:
                     before, last = line.ratio, load
                     line.to(1.3 * line.ratio)
-                    load = line.walker.outputs()[FLUID_LOAD]
+                    load = line.at.outputs()[O_FLUID_LOAD]
                 share = math.log(last / light) / math.log(last / load)
                 ratio = before * (line.ratio / before) ** share
                 largest = max(largest, (ratio**2 - L.LEAST_REACH**2) / task.scale)
@@ -144,6 +179,20 @@ def _task(
     scale = plan.viscosity(oil) * speed
     return LineTask(
         params=plan.params, speed=speed, tilt=tilt, oil_temperature=oil, scale=scale,
-        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale), onset=ONSET, marks=plan.marks,
-        coarse=COARSE, grid=grid,
+        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale), marks=plan.marks, grid=grid,
     )  # fmt: skip
+
+
+def _write(path: Path, data: Any, card: dict[str, Any]) -> None:
+    with naming(path):
+        path.write_bytes(pack(data, card))
+
+
+def _card(plan: MapPlan, fidelity: str, took: float, workers: int) -> dict[str, Any]:
+    return {
+        "kind": "washer map", "params": asdict(plan.params), "box": plan.box,
+        "nodes": plan.shape, "marks": plan.marks, "built_from": fidelity,
+        "kernels": kernel_digest(), "build_s": round(took, 1), "workers": workers,
+        "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
+        "held_out": None,
+    }  # fmt: skip

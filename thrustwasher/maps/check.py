@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import BranchError, SolveError
 from ..models.washer import solve_washer
-from ..models.washer_curve import load_curve
+from ..models.washer_load_curve import load_curve
 from ..models.washer_map import WasherMap
 from ..models.washer_params import WasherParams
-from .build import executor
+from ..processes import processes_if_many
 from .plan import BEND, INPUTS
 
-Array = NDArray[np.float64]
 NEAR = 0.03  # within this share of a fold's load the slope of the curve runs away
 TWINS = ("film", "contact")
 
@@ -48,19 +47,6 @@ class Verdict:
     folds: int
     unanswered: int  # points at which one of the two had no answer
 
-    def as_dict(self) -> dict[str, float]:
-        """Return names and numbers."""
-        return asdict(self)
-
-
-@dataclass(frozen=True, slots=True)
-class _Task:
-    params: WasherParams
-    path: str
-    fidelity: str
-    branch: str
-    point: tuple[float, float, float, float]
-
 
 def check_map(
     params: WasherParams, path: str, *, points: int = 200, fidelity: str = "fine", seed: int = 7,
@@ -76,15 +62,13 @@ def check_map(
     seed : of the random points; the map is built from none of them
     """
     washer = WasherMap(params, path)
-    tasks = [
-        _Task(params, path, fidelity, TWINS[k % 2], point)
-        for k, point in enumerate(_points(washer, points, seed))
-    ]
+    tasks = [(TWINS[k % 2], point) for k, point in enumerate(_points(washer, points, seed))]
+    compare = partial(_compare, params, path, fidelity)
     held: list[Held] = []
     folds: list[float] = []
     unanswered = 0
-    with executor(workers) as pool:
-        found = pool.map(_compare, tasks, chunksize=4) if pool else map(_compare, tasks)
+    with processes_if_many(workers) as pool:
+        found = pool.map(compare, tasks, chunksize=4) if pool else map(compare, tasks)
         for k, (row, differences, odd) in enumerate(found):
             held += [row] if row else []
             folds += differences
@@ -113,16 +97,19 @@ def _points(washer: WasherMap, n: int, seed: int) -> list[tuple[float, float, fl
     return [(float(a), float(b), float(c), float(d)) for a, b, c, d in zip(*columns, strict=True)]
 
 
-def _compare(task: _Task) -> tuple[Held | None, list[float], int]:
+def _compare(
+    params: WasherParams, path: str, fidelity: str,
+    task: tuple[str, tuple[float, float, float, float]],
+) -> tuple[Held | None, list[float], int]:  # fmt: skip
     """Return the held-out point (None: no such branch), differences of folds, odd answers."""
-    load, speed, tilt, oil = task.point
+    washer, (twin, point) = WasherMap(params, path), task
+    load, speed, tilt, oil = point
     place: dict[str, Any] = {"speed": speed, "tilt": tilt, "oil_temperature": oil}
-    washer = WasherMap(task.params, task.path)
     mine = [f.load for f in washer.folds(**place)]
-    branch = task.branch if mine else None  # elsewhere the name only follows the film ratio
+    branch = twin if mine else None  # elsewhere the name only follows the film ratio
     here = washer.look_up(load=load, **place, branch=branch)
     try:
-        there = solve_washer(task.params, load=load, **place, fidelity=task.fidelity, branch=branch)
+        there = solve_washer(params, load=load, **place, fidelity=fidelity, branch=branch)
     except BranchError:
         there = None
     except SolveError:
@@ -132,7 +119,7 @@ def _compare(task: _Task) -> tuple[Held | None, list[float], int]:
     if len(mine) == 2 and mine[1] < 0.97 * mine[0]:
         box = washer.box["load"]
         top = min(1e4, max(box[1], 1.3 * mine[0]))
-        curve = load_curve(task.params, **place, fidelity=task.fidelity, load_min=box[0],
+        curve = load_curve(params, **place, fidelity=fidelity, load_min=box[0],
                            load_max=top)  # fmt: skip
         theirs = [f.load for f in curve.folds]
         if len(theirs) == 2:
@@ -141,7 +128,7 @@ def _compare(task: _Task) -> tuple[Held | None, list[float], int]:
     if there is None or not there_is:
         return None, differences, int((there is not None or there_is) and not near)
     row = Held(
-        branch=task.branch, point=task.point, near_fold=near,
+        branch=twin, point=point, near_fold=near,
         torque=float(here["friction_torque"]) / there.friction_torque - 1.0,
         ratio=float(here["film_ratio"]) - there.film_ratio,
         rise=float(here["temperature"]) - there.temperature,

@@ -6,28 +6,19 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import SolveError
-from ..kernels import washer_map_layout as L
+from ..kernels import washer_layout as L
+from ..kernels import washer_map_layout as M
+from ..kernels._jit import Array
 from ..kernels.chebyshev import N_TERMS
-from ..kernels.washer_curve import ACCURACY, S, recall, remember
-from ..kernels.washer_fields import Point
-from ..kernels.washer_gap import CONTACT, FRICTION
-from ..kernels.washer_outputs import (
-    CONTACT_LOAD,
-    FLUID_LOAD,
-    MAX_TEMPERATURE,
-    MEAN_TEMPERATURE,
-    TORQUE,
-)  # fmt: skip
+from ..kernels.washer_workspace import Point
+from ..models.washer_load_curve import Continuation
 from ..models.washer_params import WasherParams
-from ..models.washer_walker import Walker
+from .plan import COARSE, ONSET
 
-Array = NDArray[np.float64]
 TINY = 1e-290
 ENTRY = 6.0  # film ratio at which a walk begins
-HOME = 2.0  # slot of the walker that remembers the entry; walk_to uses the first
 LARGEST_STEP = 0.35  # [sigma] near contact
 MARK = 1e-5  # relative, of the contact load where a piece ends
 NODES = np.cos(np.pi * np.arange(N_TERMS) / (N_TERMS - 1))  # from the thick end
@@ -44,31 +35,29 @@ class LineTask:
     oil_temperature: float  # K
     scale: float  # viscosity x speed [Pa]
     thickest: float  # film ratio
-    onset: float
     marks: tuple[float, float, float]  # N
-    coarse: tuple[int, int]  # grid on which the marks are looked for
     grid: tuple[int, int]
 
 
 class Line:
-    """A walker with its oil and speed, which reads off the six logarithms of the map."""
+    """A place on the curve of solutions, read off as the six logarithms of the map."""
 
     def __init__(self, task: LineTask, grid: tuple[int, int]) -> None:
         point = Point(1.0, task.speed, task.tilt, task.oil_temperature)
-        self.walker, self.task = Walker(task.params, point, grid), task
-        self.sigma = self.walker.m.sigma1
-        self.walker.walk[ACCURACY] = 1e-7
-        self.walker.start(ENTRY)
+        self.at, self.task = Continuation(task.params, point, grid), task
+        self.sigma = self.at.m.sigma1
+        self.at.w.curve[L.ACCURACY] = 1e-7
+        self.at.start(ENTRY)
 
     @property
     def ratio(self) -> float:
-        """Film ratio where the walker stands."""
-        return float(self.walker.walk[S] / self.sigma)
+        """Film ratio here."""
+        return float(self.at.film / self.sigma)
 
     @property
     def contact(self) -> float:
-        """Contact load [N] where the walker stands."""
-        return float(self.walker.f.small[CONTACT])
+        """Contact load [N] here."""
+        return float(self.at.f.small[L.CONTACT])
 
     def to(self, ratio: float) -> None:
         """Walk to a film ratio in steps that Newton's method likes."""
@@ -77,7 +66,7 @@ class Line:
             down = max(LARGEST_STEP, 0.25 * (here - 2.5))
             stop = max(ratio, here - down) if ratio < here else min(ratio, 1.4 * here + 0.3)
             close = abs(stop - ratio) < 1e-7
-            self.walker.to((ratio if close else stop) * self.sigma)
+            self.at.to((ratio if close else stop) * self.sigma)
             if close:
                 return
 
@@ -100,27 +89,22 @@ class Line:
         raise SolveError(f"map: no film ratio with a contact load of {load:g} N was found")
 
     def values(self) -> list[float]:
-        """Return the layout's six logarithms and two tilts where the walker stands."""
-        out, m, f = self.walker.outputs(), self.walker.m, self.walker.f
+        """Return the layout's six logarithms and two tilts here."""
+        out, m, f = self.at.outputs(), self.at.m, self.at.f
         pressure = f.pc[: m.n_r * m.n_t].reshape(m.n_t, m.n_r)
-        dry = float(f.small[FRICTION] * (np.outer(m.weight_t, m.weight1 * m.r) * pressure).sum())
-        viscous, contact = out[TORQUE] - dry, out[CONTACT_LOAD]
-        power = out[TORQUE] * self.task.speed
+        dry = float(f.small[L.FRICTION] * (np.outer(m.weight_t, m.weight1 * m.r) * pressure).sum())
+        viscous, contact = out[L.O_TORQUE] - dry, out[L.O_CONTACT_LOAD]
+        power = out[L.O_TORQUE] * self.task.speed
         oil = self.task.oil_temperature
         return [
-            math.log(out[FLUID_LOAD] / self.task.scale), math.log(max(contact, TINY)),
+            math.log(out[L.O_FLUID_LOAD] / self.task.scale), math.log(max(contact, TINY)),
             math.log(max(viscous, TINY) / self.task.scale),
             math.log(max(dry, TINY) / max(contact, TINY)),
-            math.log((out[MEAN_TEMPERATURE] - oil) / power),
-            math.log((out[MAX_TEMPERATURE] - oil) / power),
-            float(self.walker.q[2]) / self.task.tilt, float(self.walker.q[3]) / self.task.tilt,
+            math.log((out[L.O_MEAN] - oil) / power),
+            math.log((out[L.O_PEAK] - oil) / power),
+            float(self.at.w.q[L.TILT_X]) / self.task.tilt,
+            float(self.at.w.q[L.TILT_Y]) / self.task.tilt,
         ]  # fmt: skip
-
-
-def guess_marks(task: LineTask) -> list[float]:
-    """Return about the film ratios at which the contact carries the marks, from the coarse grid."""
-    line = Line(task, task.coarse)
-    return [line.to_contact(load) for load in task.marks]
 
 
 def solve_line(task: LineTask) -> Array:
@@ -131,35 +115,33 @@ def solve_line(task: LineTask) -> Array:
     SolveError : a node could not be solved, or the load of a thick film does not fall with its
         thickness
     """
-    guesses = guess_marks(task)
+    line = Line(task, COARSE)
+    guesses = [line.to_contact(load) for load in task.marks]
     line = Line(task, task.grid)
-    remember(line.walker.bench, line.walker.q, HOME)
-    kept = line.walker.walk.copy()
-    pieces = np.empty((L.N_PIECES, N_TERMS, L.N_CURVES + 2))
-    edges = [task.thickest, task.onset]
+    kept = line.at.copy()
+    pieces = np.empty((M.N_PIECES, N_TERMS, M.N_CURVES + 2))
+    edges = [task.thickest, ONSET]
     for k in range(N_TERMS - 1, -1, -1):  # thick films from thin to thick
-        line.to(_ratios(edges, L.THICK)[k])
-        pieces[L.THICK, k] = line.values()
-    recall(line.walker.bench, line.walker.q, HOME)
-    line.walker.walk[:] = kept
-    line.walker.f.tag[0] = 0.0
+        line.to(_ratios(edges, M.THICK)[k])
+        pieces[M.THICK, k] = line.values()
+    line.at.come_back(kept)
     marks = [line.to_contact(w, g) for w, g in zip(task.marks, guesses, strict=True)]
-    edges += [marks[0] + L.MIDDLE * (task.onset - marks[0]), *marks]
-    for piece in range(L.N_PIECES - 1, L.THICK, -1):  # back up, from where the marks ended
+    edges += [marks[0] + M.MIDDLE * (ONSET - marks[0]), *marks]
+    for piece in range(M.N_PIECES - 1, M.THICK, -1):  # back up, from where the marks ended
         for k in range(N_TERMS - 1, -1, -1):
             line.to(_ratios(edges, piece)[k])
             pieces[piece, k] = line.values()
-    pieces[L.THICK][:, [L.GC, L.DRY]] = 0.0
+    pieces[M.THICK][:, [M.GC, M.DRY]] = 0.0
     return _packed(task, edges, pieces)
 
 
 def _ratios(edges: list[float], piece: int) -> list[float]:
     """Return the film ratios of a piece's nodes from its thick end."""
     thick, thin = edges[piece], edges[piece + 1]
-    if piece == L.THICK:
+    if piece == M.THICK:
         thick, thin = math.log(thick), math.log(thin)
     at = 0.5 * ((1.0 + NODES) * thick + (1.0 - NODES) * thin)
-    return [float(x) for x in (np.exp(at) if piece == L.THICK else at)]
+    return [float(x) for x in (np.exp(at) if piece == M.THICK else at)]
 
 
 def _packed(task: LineTask, edges: list[float], pieces: Array) -> Array:
@@ -170,16 +152,16 @@ def _packed(task: LineTask, edges: list[float], pieces: Array) -> Array:
     )
     if not np.all(np.isfinite(pieces)):
         raise SolveError(f"map: a solution is not finite at {where}")
-    thick = pieces[0, :, L.GF]
+    thick = pieces[0, :, M.GF]
     if np.any(np.diff(thick) <= 0.0):  # the load has to rise towards the thin end
         raise SolveError(f"map: the load does not rise as a thick film gets thinner at {where}")
-    line = np.empty(L.LINE)
-    line[: L.N_EDGES] = edges[3:]
-    line[L.STEEPEST] = _steepest(task, edges, pieces)
+    line = np.empty(M.LINE)
+    line[: M.N_EDGES] = edges[3:]
+    line[M.STEEPEST] = _steepest(task, edges, pieces)
     sums = np.einsum("ij,pjc->pci", _FIT, pieces)
-    tilts = sums[:, L.N_CURVES :, : L.N_TILT_TERMS]
-    line[L.N_LINE_HEAD :] = np.concatenate(
-        [sums[:, : L.N_CURVES].reshape(L.N_PIECES, -1), tilts.reshape(L.N_PIECES, -1)], axis=1
+    tilts = sums[:, M.N_CURVES :, : M.N_TILT_TERMS]
+    line[M.N_LINE_HEAD :] = np.concatenate(
+        [sums[:, : M.N_CURVES].reshape(M.N_PIECES, -1), tilts.reshape(M.N_PIECES, -1)], axis=1
     ).ravel()
     return line
 
@@ -189,8 +171,8 @@ def _steepest(task: LineTask, edges: list[float], pieces: Array) -> float:
     chebyshev = np.polynomial.chebyshev
     u = np.linspace(-1.0, 1.0, 81)
     steepest = -np.inf
-    for piece in range(1, L.N_PIECES - 1):
-        fits = [_FIT @ pieces[piece, :, curve] for curve in (L.GF, L.GC)]
+    for piece in range(1, M.N_PIECES - 1):
+        fits = [_FIT @ pieces[piece, :, curve] for curve in (M.GF, M.GC)]
         loads = [factor * np.exp(chebyshev.chebval(u, c))
                  for factor, c in zip((task.scale, 1.0), fits, strict=True)]  # fmt: skip
         slopes = [w * chebyshev.chebval(u, chebyshev.chebder(c))

@@ -7,18 +7,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
+from ..kernels._jit import Array
 from ..kernels.chebyshev import N_NODES, nodes_of
 from ..kernels.viscosity import viscosity
-from ..kernels.washer_model import N_STEADY, SIGMA1
+from ..kernels.washer_layout import D_SIGMA1, N_STEADY
 from ..models._params import as_numbers
 from ..models.washer_constants import constants
 from ..models.washer_params import SPEC, WasherParams
 
-Array = NDArray[np.float64]
 INPUTS = ("load", "speed", "tilt", "oil_temperature")
 DEFAULT_BOX = {
     "load": (20.0, 1850.0), "speed": (0.0, 1400.0), "tilt": (1e-3, 3e-3),
@@ -69,7 +68,7 @@ class MapPlan:
         head[L.LOAD_MIN], head[L.LOAD_MAX] = self.box["load"]
         head[L.MARKS : L.MARKS + 3] = self.marks
         head[L.SPEED_MAX] = self.box["speed"][1]
-        head[L.SIGMA] = constants(self.params, COARSE)[SIGMA1]
+        head[L.SIGMA] = constants(self.params, COARSE)[D_SIGMA1]
         return head
 
 

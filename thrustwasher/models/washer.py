@@ -11,27 +11,24 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
+from ..kernels import washer_layout as L
 from ..kernels import washer_step as kernel
-from ..kernels.washer_fields import size_of_work
-from ..kernels.washer_memory import Q, size_of_state
-from ..kernels.washer_newton import ITERATIONS, N_INFO
+from ..kernels._jit import Array
 from ..kernels.washer_simple import N_WORK
+from ..kernels.washer_workspace import size_of_state, size_of_work
 from ..native.load import bound
 from ._buffers import work_array
 from ._params import check_number
 from ._prepare import OFFLINE
 from ._recent import Recent
 from .washer_constants import NO_MESH, SIMPLE, constants
-from .washer_error import Unread
 from .washer_params import SPEC, WasherParams
-from .washer_result import WasherResult
+from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
-Array = NDArray[np.float64]
 GRIDS = {
     "closed": NO_MESH, "stribeck": NO_MESH, "map": kernel.FIELD_GRID, "coarse": kernel.COARSE_GRID,
     "field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID,
@@ -43,10 +40,7 @@ ERRORS = {
 }  # fmt: skip
 UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
 OK = Status.OK
-BRANCHES = {"film": 1.0, "contact": 3.0}
-NAMES = {1.0: "film", 2.0: "unstable", 3.0: "contact"}
 LARGEST_GRID = (129, 512)
-N_NUMBERS = N_INFO + kernel.N_FOUND + kernel.N_WALK
 
 
 def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]:
@@ -99,12 +93,12 @@ def result_from(
     error: float,
 ) -> WasherResult:  # fmt: skip
     """Build the result from what the kernel left at the head of ``work``."""
-    x = work[N_NUMBERS : kernel.N_HEAD].tolist()
-    n = kernel.N_ALL
+    x, q = work[L.AT_OUTPUTS : L.AT_POSITIONS].tolist(), work[L.AT_POSITIONS : L.N_HEAD].tolist()
     return WasherResult(
-        x[0], x[1], x[3], x[2], x[4], x[8], x[9], x[6], x[n + 2], x[n + 3],
-        NAMES.get(branch, "film"), lost, status, int(work[ITERATIONS]), fidelity, grid, error,
-        *point, params, state,
+        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
+        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], q[L.TILT_X], q[L.TILT_Y],
+        BRANCH_NAMES.get(branch, "film"), lost, status, int(work[L.ITERATIONS]), fidelity, grid,
+        error, *point, params, state,
     )  # fmt: skip
 
 
@@ -192,13 +186,13 @@ def _map_solver() -> Any:
     return solve_by_map
 
 
-class _Bench:
+class _Prepared:
     """One rung for one washer, ready to be solved again: constants, memory, the kernel."""
 
     def __init__(self, params: WasherParams, fidelity: str, nodes: tuple[int, int]) -> None:
         par = constants(params, nodes, fidelity)
         self.simple = fidelity in SIMPLE
-        size = N_WORK if self.simple else kernel.N_HEAD + size_of_work(*nodes)
+        size = N_WORK if self.simple else L.N_HEAD + size_of_work(*nodes)
         self.size_of_state = 1 if self.simple else size_of_state(*nodes)
         self.work = work_array(("washer", nodes), size)
         self.inp, self.iout = np.zeros(5), np.zeros(3, np.int32)
@@ -208,7 +202,7 @@ class _Bench:
         )  # fmt: skip
 
 
-_bench = Recent(_Bench)
+_prepared = Recent(_Prepared)
 
 
 def _solve(
@@ -216,23 +210,25 @@ def _solve(
     nodes: tuple[int, int], wanted: float, start: WasherResult | None, card: bool = False,
 ) -> WasherResult:  # fmt: skip
     """Solve on a mesh or without one; ``card``: the rung is one whose cards know its error."""
-    bench = _bench(params, fidelity, nodes)
-    if start is not None and not bench.simple and _continues(start, params, nodes):
+    ready = _prepared(params, fidelity, nodes)
+    if start is not None and not ready.simple and _continues(start, params, nodes):
         state = start._state.copy()
     else:
-        state = np.zeros(bench.size_of_state)
-        if start is not None and not bench.simple and wanted == 0.0:
+        state = np.zeros(ready.size_of_state)
+        if start is not None and not ready.simple and wanted == 0.0:
             wanted = BRANCHES.get(start.branch, 0.0)
             return _prefer(params, point, fidelity, nodes, wanted, card)
-    bench.inp[:] = (*point, wanted)
-    code = bench.step(state, 0.0, 1.0)
+    ready.inp[:] = (*point, wanted)
+    code = ready.step(state, 0.0, 1.0)
     status = OK if code == 0 else Status(code)
-    work = bench.work
-    if code >= FIRST_FAILURE and not bench.simple:
-        keep_estimate(state, work)
+    work = ready.work
+    if code >= FIRST_FAILURE and not ready.simple:
+        estimate = work[L.AT_POSITIONS : L.N_HEAD]  # so that fields() shows it
+        if np.all(np.isfinite(estimate)):
+            state[L.S_POSITIONS :][:4] = estimate
     return result_from(
-        params, point, fidelity, nodes, state, work, status, float(work[N_INFO]),
-        bool(bench.iout[1]), UNREAD[fidelity] if card else ERRORS[fidelity],
+        params, point, fidelity, nodes, state, work, status, float(work[L.AT_FOUND]),
+        bool(ready.iout[1]), UNREAD[fidelity] if card else ERRORS[fidelity],
     )  # fmt: skip
 
 
@@ -252,13 +248,6 @@ def _prefer(
     if result.status is Status.NO_BRANCH:
         return _solve(params, point, fidelity, nodes, 0.0, None, card)
     return result
-
-
-def keep_estimate(state: Array, work: Array) -> None:
-    """Put the positions of a failed solve into ``state`` so that fields() shows them."""
-    q = work[kernel.N_HEAD - 4 : kernel.N_HEAD]
-    if np.all(np.isfinite(q)):
-        state[Q : Q + 4] = q
 
 
 def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:

@@ -5,25 +5,17 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
-from ..kernels.washer_model import (
-    N_PARAM,
-    QUASI_STEADY,
-    THERMAL_MODE,
-    TRANSIENT,
-    derive_grid,
-    size_of_par,
-)
+from ..kernels import washer_layout as L
+from ..kernels._jit import Array
+from ..kernels.washer_model import derive_grid, size_of_par
 from ..kernels.washer_simple import N_SIMPLE_PAR, derive_simple
-from ..kernels.washer_verdict import CLOSED, FIELD, STRIBECK
 from ._params import as_numbers
 from .washer_params import WasherParams
 
-Array = NDArray[np.float64]
 NO_MESH = (0, 0)
-SIMPLE = {"closed": CLOSED, "stribeck": STRIBECK}  # rungs without a mesh
+SIMPLE = {"closed": L.CLOSED, "stribeck": L.STRIBECK}  # rungs without a mesh
 
 
 @lru_cache(maxsize=64)
@@ -40,8 +32,8 @@ def constants(
     """
     simple = fidelity in SIMPLE
     par = np.zeros(N_SIMPLE_PAR if simple else size_of_par(*grid))
-    par[:N_PARAM] = [*as_numbers(params), SIMPLE.get(fidelity, FIELD)]
-    par[THERMAL_MODE] = TRANSIENT if in_time else QUASI_STEADY
+    par[: L.N_PARAM] = [*as_numbers(params), SIMPLE.get(fidelity, L.FIELD)]
+    par[L.P_THERMAL_MODE] = L.TRANSIENT if in_time else L.QUASI_STEADY
     status = Status(derive_simple(par) if simple else derive_grid(par, *grid))
     if status is not Status.OK:
         raise ParameterError(

@@ -10,53 +10,37 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
-from ..kernels import washer_map_layout as L
-from ..kernels.washer_fields import Point
+from ..kernels import washer_layout as L
+from ..kernels import washer_map_layout as M
+from ..kernels._jit import Array
 from ..kernels.washer_map import map_covers
 from ..kernels.washer_map_rows import look_up_rows, map_folds, map_tilts, single_look_up
-from ..kernels.washer_map_step import (
-    HOT,
-    MAP_BRANCH,
-    MAP_RATIO,
-    N_MAP_WORK,
-    NOT_HERE,
-    look_up,
-)  # fmt: skip
-from ..kernels.washer_memory import FIELDS
-from ..kernels.washer_model import OK
-from ..kernels.washer_outputs import N_ALL
-from ..kernels.washer_verdict import LEAST_TILT
+from ..kernels.washer_map_step import N_MAP_WORK, NOT_HERE, look_up
+from ..kernels.washer_regime_and_status import LARGEST_RISE, LEAST_TILT
+from ..kernels.washer_workspace import Point
 from ..native.load import bound
 from ..store.maps import MapFile, find_map, read_map
 from ._params import as_numbers
 from ._recent import Recent
-from .washer_error import Unread
+from .washer_constants import NO_MESH
 from .washer_params import WasherParams
-from .washer_result import WasherResult
-from .washer_walker import Fold
+from .washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult
 
-Array = NDArray[np.float64]
-BRANCHES = {None: 0.0, "film": 1.0, "contact": 3.0}
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
-NAMES = {1.0: "film", 3.0: "contact"}
 OUTPUTS = (
     "friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
     "fluid_load_share", "friction_coefficient", "friction_power", "fluid_load", "contact_load",
 )  # fmt: skip
-
-NAMED = {"film": 1.0, "contact": 3.0}
 NOTHING = (math.nan,) * len(OUTPUTS)
-SOLVED = Status.OK
 
 
 class _Memory(threading.local):
     """What looking up in a map writes to: each thread has its own."""
 
     def __init__(self, data: Array) -> None:
-        self.work = np.zeros(N_MAP_WORK + N_ALL)
+        self.work = np.zeros(N_MAP_WORK + L.N_ALL)
         self.torque = bound(single_look_up, data=data, w=self.work)
 
 
@@ -97,11 +81,11 @@ class WasherMap:
     @property
     def box(self) -> dict[str, tuple[float, float]]:
         """Ends of load [N], speed [rad/s], tilt [rad] and oil temperature [K]."""
-        d, a = self.data, L.AXES
-        low = d[L.BEND] * np.sinh(d[a])
+        d, a = self.data, M.AXES
+        low = d[M.BEND] * np.sinh(d[a])
         return {
-            "load": (float(d[L.LOAD_MIN]), float(d[L.LOAD_MAX])),
-            "speed": (0.0 if low <= L.FLOOR_SPEED else float(low), float(d[L.SPEED_MAX])),
+            "load": (float(d[M.LOAD_MIN]), float(d[M.LOAD_MAX])),
+            "speed": (0.0 if low <= M.FLOOR_SPEED else float(low), float(d[M.SPEED_MAX])),
             "tilt": (float(np.exp(d[a + 3])), float(np.exp(d[a + 4]))),
             "oil_temperature": (float(d[a + 6]), float(d[a + 7])),
         }
@@ -136,13 +120,14 @@ class WasherMap:
         0 no such branch, -1 outside the box) and ``several`` (True where there are both); numbers
         are nan where ``branch`` is below 1
         """
-        if branch not in BRANCHES:
+        if branch is not None and branch not in BRANCHES:
             raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
+        wanted = L.ANY if branch is None else BRANCHES[branch]
         inputs = np.broadcast_arrays(load, speed, tilt, oil_temperature)
         rows = np.column_stack([np.asarray(x, dtype=np.float64).ravel() for x in inputs])
-        out = np.empty((len(rows), N_ALL))
+        out = np.empty((len(rows), L.N_ALL))
         found = np.empty((len(rows), 2))
-        look_up_rows(self.data, rows, BRANCHES[branch], self._own.work, out, found)
+        look_up_rows(self.data, rows, wanted, self._own.work, out, found)
         shape = inputs[0].shape
         columns = {name: out[:, k].reshape(shape) for k, name in enumerate(OUTPUTS)}
         columns["branch"] = found[:, 0].reshape(shape)
@@ -164,13 +149,13 @@ class WasherMap:
                 f"speed = {speed:g} rad/s, tilt = {tilt:g} rad, oil_temperature = "
                 f"{oil_temperature:g} K, allowed: inside the map's box {self.box}"
             )
-        found = np.zeros((4, N_ALL + 2))
+        found = np.zeros((4, L.N_ALL + 2))
         count = int(map_folds(self.data, speed, tilt, oil_temperature, self._own.work,
                               found))  # fmt: skip
         kinds = ("film_lost", "film_regained")
         return [
-            Fold(kinds[k % 2], float(row[N_ALL]), float(row[4]), float(row[1]), float(row[0]))
-            for k, row in enumerate(found[:count])
+            Fold(kinds[k % 2], row[L.N_ALL], row[L.O_RATIO], row[L.O_MEAN], row[L.O_TORQUE])
+            for k, row in enumerate(found[:count].tolist())
         ]
 
 
@@ -179,8 +164,8 @@ class _Solver:
 
     def __init__(self, params: WasherParams) -> None:
         data = washer_map(params).data
-        work, self.state = np.zeros(N_MAP_WORK), np.zeros(FIELDS)
-        self.numbers, self.branch, self.tilts = np.zeros(N_ALL), np.zeros(2), np.zeros(2)
+        work, self.state = np.zeros(N_MAP_WORK), np.zeros(L.S_FIELDS)
+        self.numbers, self.branch, self.tilts = np.zeros(L.N_ALL), np.zeros(2), np.zeros(2)
         self.look_up = bound(
             look_up, data=data, state=self.state, w=work, out=self.numbers, branch=self.branch
         )
@@ -205,25 +190,26 @@ def solve_by_map(
     if point[2] <= LEAST_TILT:
         washer_map(params)  # there has to be one
         return None
-    solver, state = _solver(params), np.zeros(FIELDS)
+    solver, state = _solver(params), np.zeros(L.S_FIELDS)
     before, ratio = 0.0, 0.0
-    if start is not None and start.branch in NAMED:
+    if start is not None and start.branch in BRANCHES:
         if start.params is params or start.params == params:
-            before, ratio = NAMED[start.branch], start.film_ratio
-    solver.state[MAP_BRANCH], solver.state[MAP_RATIO] = before, ratio
+            before, ratio = BRANCHES[start.branch], start.film_ratio
+    solver.state[L.S_MAP_BRANCH], solver.state[L.S_MAP_RATIO] = before, ratio
     status = solver.look_up(point, wanted)
     if status == NOT_HERE:
         return None
-    if status != OK:
-        state[MAP_BRANCH], state[MAP_RATIO] = before, ratio
+    if status != Status.OK:
+        state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
         return _result(params, point, NOTHING, (math.nan, math.nan), "film", False,
                        Status(status), state)  # fmt: skip
     solver.tilt()
     numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
     tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
-    state[MAP_BRANCH], state[MAP_RATIO] = branch, numbers[4]
-    lost = numbers[1] - point[3] > HOT or (branch == 3.0 and several == 2.0)
-    return _result(params, point, numbers, tilts, NAMES[branch], lost, SOLVED, state)
+    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch, numbers[L.O_RATIO]
+    lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
+    lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
+    return _result(params, point, numbers, tilts, BRANCH_NAMES[branch], lost, Status.OK, state)
 
 
 def _result(
@@ -232,8 +218,9 @@ def _result(
 ) -> WasherResult:  # fmt: skip
     """Build the result from the numbers of ``OUTPUTS``."""
     return WasherResult(
-        x[0], x[1], x[3], x[2], x[4], x[8], x[9], x[6], tilts[0], tilts[1], branch,
-        distress, status, 0, "map", (0, 0), ERROR, *point, params, state,
+        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
+        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], tilts[0], tilts[1], branch, distress, status, 0,
+        "map", NO_MESH, ERROR, *point, params, state,
     )  # fmt: skip
 
 

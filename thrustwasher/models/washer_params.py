@@ -115,7 +115,7 @@ class WasherParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
-        from ..kernels.washer_rules import broken_rule
+        from ..kernels.washer_regime_and_status import broken_rule
 
         check_rules(self, RULES, broken_rule)
 
@@ -186,6 +186,6 @@ SPEC = ModelSpec(
     step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed
     course=((0.0, 100.0, 545.0, 2e-3, 297.15), (0.6, 400.0, 545.0, 2e-3, 310.0),
             (1.0, 200.0, 300.0, 1.5e-3, 310.0)),
-    counts=(("Newton iterations", "washer_newton:ITERATIONS"),
-            ("heat factors made", "washer_newton:FACTORED")),
+    counts=(("Newton iterations", "washer_layout:ITERATIONS"),
+            ("heat factors made", "washer_layout:FACTORED")),
 )  # fmt: skip

@@ -1,21 +1,23 @@
-"""What a washer solve returns."""
+"""What a washer solve returns, and the error to expect of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
+from ..kernels import washer_layout as L
+from ..kernels._jit import Array
 from ..kernels.asperities import contact_pressure
-from ..kernels.washer_memory import FIELDS, Q
 from ..kernels.washer_model import WasherModel, washer_model
-from .washer_constants import NO_MESH, constants
-from .washer_error import ErrorEstimate
+from ..store.cards import error_estimate
+from .washer_constants import NO_MESH, SIMPLE, constants
 from .washer_params import WasherParams
 
-Array = NDArray[np.float64]
+BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
+BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +32,17 @@ class WasherFields:
     carrier_temperature: Array  # [K]
     washer_temperature: Array  # [K]
     film_temperature: Array  # [K] mean of carrier and washer
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """Where two branches meet and end."""
+
+    kind: str  # "film_lost" (load rising) or "film_regained" (load falling)
+    load: float  # [N]
+    film_ratio: float  # [-]
+    temperature: float  # [K]
+    friction_torque: float  # [N m]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +65,7 @@ class WasherResult:
     iterations: int
     fidelity: str
     grid: tuple[int, int]
-    error_estimate: float  # [-] relative, of friction_torque; see washer_error.ErrorEstimate
+    error_estimate: float  # [-] relative, of friction_torque; see ErrorEstimate
     load: float  # [N] as solved for
     speed: float  # [rad/s]
     tilt: float  # [rad]
@@ -69,9 +82,10 @@ class WasherResult:
         m = washer_model(constants(self.params, self.grid))
         n_r, n_t = self.grid
         m_t = 3 * n_r - m.i_g
-        column = self._state[FIELDS : FIELDS + m_t * n_t].reshape(n_t, m_t).T
-        pressure = self._state[FIELDS + m_t * n_t :][: n_r * n_t].reshape(n_t, n_r).T
-        gap = film_gap(m.r, m.cos, m.sin, self._state[Q : Q + 4])
+        kept = self._state[L.S_FIELDS :]
+        column = kept[: m_t * n_t].reshape(n_t, m_t).T
+        pressure = kept[m_t * n_t :][: n_r * n_t].reshape(n_t, n_r).T
+        gap = film_gap(m.r, m.cos, m.sin, self._state[L.S_POSITIONS :])
         carrier = self.oil_temperature + column[:n_r]
         washer = self.oil_temperature + column[n_r : 2 * n_r]
         return WasherFields(
@@ -86,13 +100,60 @@ class WasherResult:
         )
 
 
+class Unread(float):
+    """The error of a rung in general; the card may know better for the point at hand."""
+
+
+class ErrorEstimate:
+    """The field ``error_estimate`` of a result: its card is asked when somebody wants to know.
+
+    That takes longer than many a solve, and most solves in a loop are never asked.
+    """
+
+    def __init__(self, field: Any) -> None:
+        self.field = field
+
+    def __get__(self, result: WasherResult | None, owner: object = None) -> Any:
+        """Return the error; the card is looked at once."""
+        if result is None:
+            return self.field
+        value = self.field.__get__(result)
+        if type(value) is Unread:
+            known = card_error(result)
+            value = float(value) if known is None else known
+            self.field.__set__(result, value)
+        return value
+
+    def __set__(self, result: WasherResult, value: float) -> None:
+        """Keep the error."""
+        self.field.__set__(result, value)
+
+
 _field = WasherResult.__dict__["error_estimate"]
 setattr(WasherResult, "error_estimate", ErrorEstimate(_field))  # noqa: B010
 
 
+def card_error(result: WasherResult) -> float | None:
+    """Return the error that the card of a result's rung gives for its point.
+
+    None without a fresh card for these parameters, and outside its box. Rungs that know one branch
+    only are judged by the worst of all branches.
+    """
+    point = {
+        "load": result.load, "speed": result.speed, "tilt": result.tilt,
+        "oil_temperature": result.oil_temperature,
+    }  # fmt: skip
+    branch = None if result.fidelity in SIMPLE else result.branch
+    return error_estimate(
+        "washer", result.fidelity, result.params, point, branch=branch,
+        film_ratio=None if branch is None else result.film_ratio,
+    )  # fmt: skip
+
+
 def film_gap(radius: Array, cos: Array, sin: Array, q: Array) -> Array:
-    """Return h1 [m] (n_r, n_theta) at the positions q = (z_w, z_g, gx, gy)."""
-    return np.asarray(q[0] + np.outer(radius, sin * q[2] - cos * q[3]))
+    """Return h1 [m] (n_r, n_theta) at the positions q."""
+    slope = sin * q[L.TILT_X] - cos * q[L.TILT_Y]
+    return np.asarray(q[L.Z_WASHER] + np.outer(radius, slope))
 
 
 def contact_field(gap: Array, m: WasherModel) -> Array:

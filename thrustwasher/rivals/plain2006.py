@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Status
-from ..kernels.washer_model import SIGMA1
+from ..kernels.washer_layout import D_SIGMA1
 from ..models.washer_constants import constants
 from ..models.washer_params import WasherParams
 from . import plain2006_kernel as kernel
@@ -64,7 +64,7 @@ class Plain2006:
             1.0 if self.limited else 1e300,
         )
         if self.level and self.memory[0] == 0.0:
-            gap = 3.0 * float(self._par[SIGMA1])
+            gap = 3.0 * float(self._par[D_SIGMA1])
             self.memory[0] = gap
             self.memory[1] = 2.0 * gap + tilt * self.params.outer_radius
         status = kernel.solve(

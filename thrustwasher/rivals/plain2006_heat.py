@@ -21,7 +21,7 @@ def _across(
 ) -> None:  # fmt: skip
     """Fill heat made in the film [W] and the conductances across both gaps (2, n_t, n_r) [W/K]."""
     n_t, n_r = mu.shape
-    friction, _ = dry_friction(m, contact)
+    friction, _ = dry_friction(m.par, contact)
     half = m.washer_thickness / (2.0 * m.conductivity)
     for j in range(n_t):
         for i in range(n_r):

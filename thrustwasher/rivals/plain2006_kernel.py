@@ -7,8 +7,7 @@ from numpy.typing import NDArray
 
 from ..kernels.asperities import contact_pressure
 from ..kernels.flow_factors import flow_conductance, mean_gap, shear_flow
-from ..kernels.viscosity import viscosity
-from ..kernels.washer_gap import dry_friction
+from ..kernels.washer_gap import dry_friction, oil_viscosity
 from ..kernels.washer_model import WasherModel, washer_model
 from ._jit import rival
 from .plain2006_heat import heat
@@ -210,7 +209,7 @@ def outputs(
 ) -> None:  # fmt: skip
     """Fill torque, mean temperature and least film thickness."""
     n_t, n_r = mu.shape
-    friction, _ = dry_friction(m, contact)
+    friction, _ = dry_friction(m.par, contact)
     torque, warmth, area = 0.0, 0.0, 0.0
     for j in range(n_t):
         for i in range(n_r):
@@ -255,9 +254,7 @@ def solve(
         for j in range(n_t):
             for i in range(n_r):
                 warm = oil + 0.5 * (rise[0, j, i] + rise[1, j, i])
-                mu[j, i], _ = viscosity(
-                    warm, m.viscosity_scale, m.viscosity_constant, m.viscosity_exponent
-                )
+                mu[j, i], _ = oil_viscosity(m.par, warm)
         inner = balance(m, g, q, speed, tilt, load, mu, p, s, out)
         if inner != OK:
             status = inner

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.washer_layout import P_GEAR_INNER_RADIUS
 from ..kernels.washer_model import WasherModel
 from ._jit import rival
 
@@ -39,15 +40,16 @@ class Mesh(NamedTuple):
 @rival
 def make_mesh(m: WasherModel, n_r: int, n_t: int) -> Mesh:
     """Return the mesh: equal intervals inside and outside the gear's inner radius."""
-    share = (m.gear_inner_radius - m.inner_radius) / (m.outer_radius - m.inner_radius)
+    gear = m.par[P_GEAR_INNER_RADIUS]
+    share = (gear - m.inner_radius) / (m.outer_radius - m.inner_radius)
     i_g = min(max(1, int(share * (n_r - 1) + 0.5)), n_r - 2)
     r, area, gear_area = np.empty(n_r), np.empty(n_r), np.zeros(n_r)
     for i in range(n_r):
         if i <= i_g:
-            r[i] = m.inner_radius + (m.gear_inner_radius - m.inner_radius) * i / i_g
+            r[i] = m.inner_radius + (gear - m.inner_radius) * i / i_g
         else:
             s = (i - i_g) / (n_r - 1 - i_g)
-            r[i] = m.gear_inner_radius + (m.outer_radius - m.gear_inner_radius) * s
+            r[i] = gear + (m.outer_radius - gear) * s
     d_theta = 2.0 * math.pi / n_t
     for i in range(n_r):
         a = 0.5 * (r[i] + r[i - 1]) if i > 0 else r[0]

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
-from ..kernels.washer_model import N_STEADY
+from ..kernels.washer_layout import N_STEADY
 
 Array = NDArray[np.float64]
 SHIPPED = Path(__file__).parents[1] / "data" / "maps"

@@ -9,8 +9,8 @@ _WASHER_FIELD = ("washer_solve", "washer_outputs", "washer_model")
 # model -> rung -> the modules that compute; what they import is found by itself
 ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
     "washer": {
-        "closed": ("washer_closed",),
-        "stribeck": ("washer_stribeck",),
+        "closed": ("washer_simple",),
+        "stribeck": ("washer_simple",),
         "map": ("washer_map_step",),
         "coarse": _WASHER_FIELD,
         "field": _WASHER_FIELD,

@@ -12,7 +12,7 @@ from thrustwasher.fmu.build import build
 from thrustwasher.fmu.direct import DirectInstance
 from thrustwasher.fmu.loading import unpack
 from thrustwasher.fmu.stepper import Instance
-from thrustwasher.maps.make import make_map
+from thrustwasher.maps.build import make_map
 from thrustwasher.models.washer_params import SPEC, WasherParams
 from thrustwasher.store.maps import VARIABLE
 

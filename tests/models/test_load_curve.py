@@ -62,33 +62,6 @@ def test_a_point_serves_as_start(curve):
     assert r.branch == "contact" and r.film_ratio == pytest.approx(p.film_ratio, abs=1e-4)
 
 
-def loads_around_jump(loads, start):
-    """Follow a list of loads from a result; return the loads before and after the jump."""
-    r = start
-    for load in loads:
-        before = r
-        r = solve_washer(WasherParams(), load=load, speed=545.0, tilt=0.002, start=r)
-        if abs(r.film_ratio - before.film_ratio) > 0.5:
-            return before.load, r.load, r
-    raise AssertionError("no jump")
-
-
-def test_stepping_the_load_jumps_at_the_folds_and_the_loop_closes(curve):
-    lost, regained = (fold.load for fold in curve.folds)
-    first = solve_washer(WasherParams(), load=740.0, speed=545.0, tilt=0.002)
-    ups = [740.0 + k for k in range(1, 60)]
-    below, above, r = loads_around_jump(ups, first)
-    assert below <= lost <= above
-    assert r.branch == "contact" and r.distress
-    downs = [500.0, *(470.0 - k for k in range(60))]
-    above, below, r = loads_around_jump(downs, r)
-    assert below <= regained <= above
-    assert r.branch == "film" and not r.distress
-    back = solve_washer(WasherParams(), load=740.0, speed=545.0, tilt=0.002, start=r)
-    assert back.film_ratio == pytest.approx(first.film_ratio, abs=1e-4)
-    assert back.friction_torque == pytest.approx(first.friction_torque, rel=1e-5)
-
-
 @pytest.mark.parametrize("kind", ["film_lost", "film_regained"])
 def test_bisection_in_load_finds_the_fold_of_the_continuation(curve, kind):
     """Within 0.01 N on the same grid."""
@@ -105,13 +78,6 @@ def test_bisection_in_load_finds_the_fold_of_the_continuation(curve, kind):
         else:
             gone = middle
     assert abs(there) < 0.01 and abs(gone) < 0.01
-
-
-def test_folds_are_the_same_turning_back():
-    forth, back = (traced(speed=s).folds for s in (700.0, -700.0))
-    for a, b in zip(forth, back, strict=True):
-        assert b.load == pytest.approx(a.load, rel=1e-6)
-        assert b.friction_torque == pytest.approx(-a.friction_torque, rel=1e-5)
 
 
 def test_less_film_heat_moves_the_fold_to_higher_loads(curve):

@@ -3,16 +3,15 @@
 import numpy as np
 import pytest
 
+from thrustwasher.kernels import washer_layout as L
 from thrustwasher.kernels import washer_step as k
-from thrustwasher.kernels.washer_fields import Bench, Point, forget_factor, washer_fields
-from thrustwasher.kernels.washer_model import washer_model
+from thrustwasher.kernels.status import OK, SINGULAR
 from thrustwasher.kernels.washer_newton import LOAD, NO_FLOOR, newton
-from thrustwasher.kernels.washer_outputs import washer_outputs
+from thrustwasher.kernels.washer_outputs import outputs_at
+from thrustwasher.kernels.washer_workspace import Point, fields_of, forget_factor, workspace_of
 from thrustwasher.models._prepare import filled
 from thrustwasher.models.washer_params import SPEC, WasherParams
 
-HEAD, OUT = k.N_HEAD, k.N_INFO + k.N_FOUND + k.N_WALK
-OK, SINGULAR = 0, 11
 NAMES = ("friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
          "fluid_load_share", "friction_coefficient", "friction_power")  # fmt: skip
 STEPS = (1e-3, 1e-3, 2e-3)  # of load, speed, tilt, relative
@@ -32,18 +31,16 @@ class Washer:
 
     def polish(self, inp, keep_factor=False):
         """Converge the solution in ``work`` at ``inp``; return the real outputs."""
-        bench, m = Bench(self.par, self.work[HEAD:]), washer_model(self.par)
-        f = washer_fields(m, bench.work)
-        factor = [a.copy() for a in (f.tag, f.factor, f.sens)]
-        q, pt = self.work[HEAD - 4 : HEAD], Point(*inp)
+        w, pt = workspace_of(self.par, self.work), Point(*inp)
+        f = fields_of(w)
+        factor = [a.copy() for a in (f.tag, f.factor, f.following)]
         for _ in range(3):
-            forget_factor(bench)
-            newton(bench, pt, LOAD, pt.load, q, NO_FLOOR, 1e-14, 2.0, self.work[: k.N_INFO])
+            forget_factor(w)
+            newton(w, pt, LOAD, pt.load, NO_FLOOR, 1e-14, 2.0)
         if keep_factor:
-            f.tag[:], f.factor[:], f.sens[:] = factor
-        out = self.work[OUT : OUT + k.N_ALL]
-        washer_outputs(m, pt, q, f, out)
-        return out[: k.NOUT].copy()
+            f.tag[:], f.factor[:], f.following[:] = factor
+        outputs_at(w, pt)
+        return w.outputs[: k.NOUT].copy()
 
     def differences(self, inp, i):
         """Return central differences over input ``i``, extrapolated twice."""
@@ -84,7 +81,7 @@ def test_derivatives_agree_with_differences_of_converged_solutions(place, factor
             assert washer.step(inp * [share[0], share[1], 1.0, 1.0]) == OK
     assert washer.step(inp) == OK
     washer.polish(inp, keep_factor=True)
-    scale = np.abs(washer.work[OUT : OUT + k.NOUT])
+    scale = np.abs(washer.work[L.AT_OUTPUTS :][: k.NOUT])
     for i, seed in enumerate(np.eye(4)):
         status, dout = washer.sens(inp, seed)
         assert status == OK
@@ -149,7 +146,7 @@ def test_at_a_fold_there_is_no_derivative():
         load = 0.5 * (low + high)
         trial = Washer()
         trial.step((load, speed, tilt, oil))
-        low, high = (low, load) if trial.iout[k.DISTRESS_OUT] else (load, high)
+        low, high = (low, load) if trial.iout[L.IO_DISTRESS] else (load, high)
     washer.step((low, speed, tilt, oil))
     near = washer.sens((low, speed, tilt, oil), np.array([1.0, 0.0, 0.0, 0.0]))
     away = Washer()

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
+from ..kernels import washer_layout as L
 from ..kernels import washer_step as kernel
-from ..kernels.washer_fields import size_of_work
-from ..kernels.washer_memory import size_of_state
+from ..kernels._jit import Array
+from ..kernels.washer_workspace import size_of_state, size_of_work
 from ._course import course_of, rising
 from ._params import as_numbers
 from .washer import resolve_grid
@@ -21,7 +22,6 @@ from .washer_params import SPEC, WasherParams
 
 __all__ = ["CourseError", "WasherCourse", "follow_washer"]
 
-Array = NDArray[np.float64]
 PIECE = 0.1  # of the thickest body's time: how long inputs are held on their way between points
 MOST_PIECES = 32
 
@@ -124,8 +124,8 @@ def follow_washer(
             done = _packed(params, points[:i], inputs[:i], rows[:i], lost[:i], said, fidelity,
                            run.grid)  # fmt: skip
             raise CourseError(f"t = {points[i]:g} s, {values}: {Status(code).advice}", done)
-        rows[i], lost[i] = run.out, bool(run.iout[kernel.DISTRESS_OUT])
-        said.append(Status(int(run.iout[kernel.STATUS_OUT])))
+        rows[i], lost[i] = run.out, bool(run.iout[L.IO_DISTRESS])
+        said.append(Status(int(run.iout[L.IO_STATUS])))
     return _packed(params, points, inputs, rows, lost, said, fidelity, run.grid)
 
 
@@ -138,7 +138,7 @@ class _Run:
         self.par = constants(params, grid, "field", self.in_time).copy()
         self.par[: len(numbers)] = numbers
         self.state = np.zeros(size_of_state(*grid))
-        self.work = np.zeros(kernel.N_HEAD + size_of_work(*grid))
+        self.work = np.zeros(L.N_HEAD + size_of_work(*grid))
         self.out, self.iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         thickest = max(params.carrier_thickness, params.washer_thickness, params.gear_thickness)
         slowest = params.density * params.specific_heat * thickest**2 / params.conductivity

@@ -229,7 +229,7 @@ class Charts:
     """Records of charts: refused, or drawn as they were measured."""
 
     def __init__(self, folder, record, seal=True, draw=True):
-        from thrustwasher.store.seal import sealed
+        from thrustwasher.store.digests import sealed
 
         self.draw = draw
         self.path, self.out = Path(folder) / "spoiled.json", Path(folder) / "drawn"

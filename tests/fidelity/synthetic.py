@@ -6,8 +6,8 @@ from thrustwasher.models.clutch_params import ClutchParams
 from thrustwasher.models.gearmesh_params import GearMeshParams
 from thrustwasher.models.washer_params import WasherParams
 from thrustwasher.store import card_parts as part
-from thrustwasher.store import sources
 from thrustwasher.store.cards import Card
+from thrustwasher.store.cards import files_of as real_files
 from thrustwasher.store.digests import kernel_digest, params_digest
 
 PARAMS = {"washer": WasherParams, "clutch": ClutchParams, "gearmesh": GearMeshParams}
@@ -28,7 +28,7 @@ RUNGS = ("closed", "stribeck", "map", "coarse", "field", "fine")
 def files_of(model, fidelity):
     """Return a rung's kernel files, some others for a rung that this version has not got."""
     try:
-        return sources.files_of(model, fidelity)
+        return real_files(model, fidelity)
     except FileNotFoundError:
         return ("washer_model.py",)
 

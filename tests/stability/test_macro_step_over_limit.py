@@ -15,7 +15,7 @@ import pytest
 from thrustwasher.drivetrain.macro_steps import Way, scene_of
 from thrustwasher.drivetrain.shift import run_shift
 from thrustwasher.drivetrain.stability_masters import masters
-from thrustwasher.fidelity.stability_cells import OK, SAYS, SLOW
+from thrustwasher.fidelity.failure_cells import OK, SAYS, SLOW
 from thrustwasher.fmu.direct import DirectInstance
 from thrustwasher.reference.engagement import reduced_inertia
 

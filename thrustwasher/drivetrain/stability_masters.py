@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from ..fidelity.stability_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+from ..fidelity.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
 from .macro_steps import MOST_TURNS, Way, scene_of
 from .master import MASTERS
 from .result import ShiftResult

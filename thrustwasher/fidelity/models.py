@@ -1,4 +1,4 @@
-"""The models by name, and one face for solving any of them."""
+"""The models by name."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from importlib import import_module
 from ..errors import ParameterError
 from ..models._spec import ModelSpec
 
-HOMES = {"washer": "washer_params", "clutch": "clutch_params", "gearmesh": "gearmesh_params"}
+MODELS = {"washer": "washer_params", "clutch": "clutch_params", "gearmesh": "gearmesh_params"}
 
 
 def spec_of(model: str) -> ModelSpec:
@@ -18,7 +18,7 @@ def spec_of(model: str) -> ModelSpec:
     >>> spec_of("washer").default_fidelity
     'field'
     """
-    if model not in HOMES:
-        raise ParameterError(f"model = {model!r}, allowed: {' or '.join(map(repr, HOMES))}")
-    home = import_module(f"..models.{HOMES[model]}", __package__)
-    return home.SPEC  # type: ignore[no-any-return]
+    if model not in MODELS:
+        raise ParameterError(f"model = {model!r}, allowed: {' or '.join(map(repr, MODELS))}")
+    spec: ModelSpec = import_module(f"..models.{MODELS[model]}", __package__).SPEC
+    return spec

@@ -1,9 +1,9 @@
-"""A clutch that locks, stepped in many ways: the least problem in which co-simulation goes wrong.
+"""A clutch that locks: the least problem in which co-simulation goes wrong.
 
 Slip w of a reduced inertia J: J dw/dt = T_d - T_f sign(w), sticking while |T_d| <= T_f. The drive
 is constant; friction is too, unless a film has to be squeezed out first or one rung hands over to
-another. Friction is smoothed over a slip of w_s where a way needs it. The ways are in
-``lockup_ways`` and ``lockup_solvers``.
+another. Friction is smoothed over a slip of w_s where a method
+needs it. The methods are in ``lockup_methods``.
 """
 
 from __future__ import annotations
@@ -39,21 +39,21 @@ class Clutch:
         """[s]."""
         if self._is_even:
             return self.slip * self.inertia / (self.friction - self.drive)
-        return self._course[0]
+        return self._summed[0]
 
     @property
     def slip_energy(self) -> float:
         """[J] turned into heat until lock-up."""
         if self._is_even:
             return 0.5 * self.friction * self.slip * self.lock_time
-        return self._course[1]
+        return self._summed[1]
 
     @property
     def _is_even(self) -> bool:
         return self.lag == 0.0 and self.other == 1.0
 
     @cached_property
-    def _course(self) -> tuple[float, float]:
+    def _summed(self) -> tuple[float, float]:
         """Time of lock-up and heat until then, summed up in fine steps."""
         time = np.linspace(0.0, self.span, FINE)
         film = 1.0 - np.exp(-time / self.lag) if self.lag else np.ones_like(time)
@@ -91,13 +91,13 @@ def _sums(rate: Row, time: Row) -> Row:
 
 
 class Now(NamedTuple):
-    """All that a way knows at a communication point."""
+    """All that a method knows at a communication point."""
 
     time: float
     slip: float
     heat: float
     film: float  # how much of it is gone
-    own: float  # what else the way keeps: the torque of a step ago, a step that went well
+    own: float  # what else the method keeps: a torque of a step ago, a step that went well
     work: int  # torques evaluated
 
 
@@ -106,11 +106,11 @@ class Rewind(NamedTuple):
 
     every: int = 1000
     ahead: int = 100
-    forgets: bool = False  # the film and what the way keeps stay where they were
+    forgets: bool = False  # the film and what the method keeps stay where they were
 
 
 @dataclass(frozen=True)
-class Course:
+class Run:
     """Slip over time, the heat at the end and how often a torque was evaluated."""
 
     slip: Row
@@ -135,7 +135,7 @@ def begin(clutch: Clutch) -> Now:
     return Now(0.0, clutch.slip, 0.0, film, clutch.smooth(clutch.slip, film), 0)
 
 
-def walk(clutch: Clutch, step: float, advance: Advance, rewind: Rewind | None = None) -> Course:
+def walk(clutch: Clutch, step: float, advance: Advance, rewind: Rewind | None = None) -> Run:
     """Step to the end of the span; ``advance`` returns what is known a step later."""
     n = round(clutch.span / step)
     now = begin(clutch)
@@ -146,7 +146,7 @@ def walk(clutch: Clutch, step: float, advance: Advance, rewind: Rewind | None = 
             now = gone_back(clutch, now, step, advance, rewind)
         now = advance(clutch, now, step)
         slip[i + 1] = now.slip
-    return Course(slip, now.heat, now.work)
+    return Run(slip, now.heat, now.work)
 
 
 def gone_back(clutch: Clutch, now: Now, step: float, advance: Advance, rewind: Rewind) -> Now:

@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status
+from ..fidelity.models import spec_of
 from ..models._prepare import filled
 from ..models._spec import REGIMES, ModelSpec, Signal
 from ..models._tables import fill_table, wants_table
 from ..native.load import bound
-from .plan import load_spec
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.int32]
@@ -54,7 +54,7 @@ def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, .
 
 def solve_task(task: Task) -> tuple[Array, Flags]:
     """Return the real and the whole-number outputs of the rows; NaN where a row failed."""
-    spec = load_spec(task.model)
+    spec = spec_of(task.model)
     real, whole = output_signals(spec)
     numbers = np.empty((len(task.inputs), len(real)))
     flags = np.zeros((len(task.inputs), len(whole)), np.int32)
@@ -121,7 +121,7 @@ def _work(name: str) -> Array:
 @lru_cache(maxsize=64)
 def _constants(model: str, fidelity: str, params: Any) -> Array:
     """Return the kernel's ``par``; many lines share their parameters."""
-    spec = load_spec(model)
+    spec = spec_of(model)
     kernel = _kernel(spec.kernel)
     par: Array = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
     return par
@@ -130,7 +130,7 @@ def _constants(model: str, fidelity: str, params: Any) -> Array:
 @lru_cache(maxsize=4)
 def _work_with_table(model: str, fidelity: str, params: Any) -> Array:
     """Return a work array with the table of a rung; ParameterError if there is none."""
-    spec = load_spec(model)
+    spec = spec_of(model)
     work: Array = np.zeros(_kernel(spec.kernel).NWORK)
     fill_table(spec, params, _constants(model, fidelity, params), work)
     return work

@@ -188,7 +188,7 @@ class Run:
             self._take(waiting.pop(future), *future.result())
 
     def _take(self, task: Task, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:
-        """Take the rows of a task in; the journal has them on disk within a second or at its end."""
+        """Take the rows of a task in; the journal writes them within a second or at its end."""
         rows = slice(task.first_row, task.first_row + len(numbers))
         if self.journal:
             self.journal.append(task.first_row, numbers, flags)

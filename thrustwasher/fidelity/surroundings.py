@@ -1,4 +1,4 @@
-"""What a chart file says about itself: the machine, the versions, the state of the sources."""
+"""What a chart or a card says about its making: the machine, versions, state of the sources."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ import platform
 import subprocess
 import sys
 import time
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
+
+from ..store.card_parts import Machine, Origin
 
 SCHEMA = 1
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -35,6 +38,24 @@ def surroundings(command: str) -> dict[str, Any]:
         "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
         "calibration_s": calibration(),
     }  # fmt: skip
+
+
+@cache
+def _once() -> dict[str, Any]:
+    return surroundings("python -m thrustwasher.fidelity.verify")
+
+
+def this_machine() -> Machine:
+    """Return what the seconds of a card depend on."""
+    m = _once()["machine"]
+    versions = (m["os"], m["python"], m["numpy"], m["numba"])
+    return Machine(m["cpu"], m["cores"] or 1, *versions, threads=1, load=m["load"] or 0.0)
+
+
+def this_package() -> Origin:
+    """Return the package's version and, in a checkout, its commit and if it was changed since."""
+    package = _once()["package"]
+    return Origin(package["version"], package["commit"], package["dirty"])
 
 
 def load() -> float | None:

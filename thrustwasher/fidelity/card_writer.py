@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -15,6 +14,7 @@ from ..store.card_parts import Cost, HeldOut, ParameterSet, Reference, Sources
 from ..store.cards import SCHEMA, Card, files_of
 from ..store.digests import changed_fields, kernel_digest, params_digest
 from ..store.maps import SHIPPED, MapFile, find_map
+from ..store.whole_files import whole_file
 from .card_cases import SAMPLING, Case
 from .costs import Timing
 from .error_tables import by_film_ratio, fold_part, tables, uncertainties
@@ -94,10 +94,8 @@ def timed_card(card: Card, timing: Timing, first: float) -> Card:
 
 
 def write_card(card: Card, folder: Path) -> Path:
-    """Write a card's file whole or not at all; return its path."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Write a card's file; return its path."""
     path = folder / f"{card.name}.json"
-    draft = path.with_suffix(".part")
-    draft.write_text(card.as_json(), "utf-8")
-    os.replace(draft, path)
+    with whole_file(path) as draft:
+        draft.write_text(card.as_json(), "utf-8")
     return path

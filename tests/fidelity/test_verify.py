@@ -16,8 +16,8 @@ from thrustwasher.fidelity.costs import Timing, stepper
 from thrustwasher.fidelity.error_tables import (
     by_film_ratio,
     deviation,
+    error_tables,
     fold_part,
-    tables,
     uncertainties,
 )
 from thrustwasher.fidelity.reference_cache import reference_points
@@ -115,7 +115,7 @@ def test_tables_count_every_answer_once_and_only_those_that_count():
     case = DEFAULT["washer"]
     verdicts = [OK, OUTSIDE, FAILED, OK]
     pairs = pairs_over(case, 120, lambda k: said(1.1, verdicts[k % 4]))
-    found, cells = tables(pairs, case.envelope)
+    found, cells = error_tables(pairs, case.envelope)
     table = found["friction_torque"]
     assert sum(map(sum, table.n)) == 60
     assert sum(map(sum, cells.outside)) == 30
@@ -126,7 +126,7 @@ def test_tables_count_every_answer_once_and_only_those_that_count():
 def test_the_worst_is_the_worst_and_never_rounded_down():
     case = DEFAULT["washer"]
     pairs = pairs_over(case, 90, lambda k: said(1.0 + 1.0001e-3 * k))
-    table = tables(pairs, case.envelope)[0]["friction_torque"]
+    table = error_tables(pairs, case.envelope)[0]["friction_torque"]
     assert max(w for row in table.worst for w in row) >= 0.0891 > 89 * 1.0001e-3
     assert all(r <= w for a, b in zip(table.rms, table.worst, strict=True)
                for r, w in zip(a, b, strict=True))  # fmt: skip
@@ -138,7 +138,7 @@ def test_points_beside_a_fold_are_told_apart():
     beside = [dataclasses.replace(t, beside_fold=True) for t, _ in pairs[:3]]
     answers = [said(1.5), said(9.0, OTHER_SIDE), said(1.2)]
     pairs = [*zip(beside, answers, strict=True), *pairs[3:]]
-    table = tables(pairs, case.envelope)[0]["friction_torque"]
+    table = error_tables(pairs, case.envelope)[0]["friction_torque"]
     assert max(w for row in table.worst for w in row) == pytest.approx(0.01, rel=1e-2)
     fold = fold_part(pairs)
     assert (fold.n, fold.other_side) == (3, 1)
@@ -171,7 +171,9 @@ def test_the_uncertainty_named_is_the_typical_one_away_from_folds():
 @pytest.mark.parametrize("n", [10, 40, 100, 250, 600])
 def test_each_cell_holds_enough_points_to_speak_for_itself(n):
     case = DEFAULT["washer"]
-    table = tables(pairs_over(case, n, lambda k: said(1.0)), case.envelope)[0]["friction_torque"]
+    table = error_tables(pairs_over(case, n, lambda k: said(1.0)), case.envelope)[0][
+        "friction_torque"
+    ]
     counts = [c for row in table.n for c in row]
     assert sum(counts) == n
     assert min(counts) >= 30 or len(counts) == 1
@@ -254,7 +256,7 @@ def test_a_timed_step_goes_to_and_fro_and_stays_away_from_the_fold():
 
 def test_the_machine_is_named():
     machine = this_machine()
-    assert machine.cpu and machine.cores >= 1 and machine.numba.count(".") == 2
+    assert machine["cpu"] and machine["cores"] >= 1 and machine["numba"].count(".") == 2
 
 
 def test_a_written_card_is_read_back(tmp_path):

@@ -17,7 +17,7 @@ from ..store.maps import SHIPPED, MapFile, find_map
 from ..store.whole_files import whole_file
 from .card_cases import SAMPLING, Case
 from .costs import Timing
-from .error_tables import by_film_ratio, fold_part, tables, uncertainties
+from .error_tables import by_film_ratio, error_tables, fold_part, uncertainties
 from .reference_cache import source_of
 from .reference_values import FAILED, OK, OUTSIDE, Answer, ReferencePoint
 from .surroundings import this_machine, this_package
@@ -30,7 +30,7 @@ def make_card(
     timing: Timing, first: float,
 ) -> Card:  # fmt: skip
     """Return the card of one chart from reference values and a rung's answers to them."""
-    errors, cells = tables(pairs, case.verified)
+    errors, cells = error_tables(pairs, case.verified)
     away = [a for t, a in pairs if not t.beside_fold]
     verdicts = [a.verdict for a in away]
     known = [t for t, _ in pairs]

@@ -39,12 +39,6 @@ class Quantity:
         return abs(found - true) / size
 
 
-_KELVIN = Quantity("temperature", False, unit="K")
-QUANTITIES = {
-    "washer": (Quantity("friction_torque", True, 1e-3), _KELVIN),
-    "clutch": (Quantity("slip_energy", True), Quantity("end_temperature", False, unit="K")),
-    "gearmesh": (Quantity("friction_torque", True, 1e-4), _KELVIN),
-}
 USUAL_STEP = 1e-3
 STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 5e-4)
 GRIDS = ((7, 20), (9, 24), (10, 32), (13, 40), (16, 48), (19, 64), (28, 96))
@@ -107,9 +101,27 @@ def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     return found
 
 
-SERIES = {"washer": _washer, "clutch": _clutch, "gearmesh": _rungs}
+@dataclass(frozen=True)
+class Chart:
+    """What a model's chart shows."""
+
+    quantities: tuple[Quantity, Quantity]
+    cost_of: str  # its axis
+    series: Callable[..., list[Configuration]]
+
+
+WARM = "warm call, 1 % away [s]"
+KELVIN = Quantity("temperature", False, unit="K")
+CHARTS = {
+    "washer": Chart((Quantity("friction_torque", True, 1e-3), KELVIN), WARM, _washer),
+    "clutch": Chart(
+        (Quantity("slip_energy", True), Quantity("end_temperature", False, unit="K")),
+        "engagement of 0.6 s [s]", _clutch,
+    ),
+    "gearmesh": Chart((Quantity("friction_torque", True, 1e-4), KELVIN), WARM, _rungs),
+}  # fmt: skip
 
 
 def series_of(model: str, *, quick: bool = False) -> list[Configuration]:
     """Return everything that is measured for a model."""
-    return SERIES[model](spec_of(model), quick=quick)
+    return CHARTS[model].series(spec_of(model), quick=quick)

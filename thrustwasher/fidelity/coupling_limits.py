@@ -148,50 +148,36 @@ class Limit:
 
 def limits() -> list[Limit]:
     """Return all limits, each by bisection or by the growth over a run."""
-    return [*_steps(), *_factors(), *_springs(), *_rest()]
-
-
-def _steps() -> list[Limit]:
-    """Bisect kappa."""
-
-    def stable(make: Make, start: tuple[float, ...], top: float) -> float:
-        return edge(lambda k: dies_out(make(k), start), 1e-3, top)
-
-    def smooth(make: Make, start: tuple[float, ...], top: float) -> float:
-        return edge(lambda k: keeps_its_side(make(k), start), 1e-3, top)
-
     return [
         Limit("torque fresh, held (Gauss-Seidel)", "H < 2 J/c: stable", 2.0,
-              stable(torque_held, ONE, 5.0)),
+              _stable(torque_held, ONE)),
         Limit("torque fresh, held (Gauss-Seidel)", "H < J/c: no overshoot", 1.0,
-              smooth(torque_held, ONE, 5.0)),
-        Limit("torque a step old (Jacobi)", "H < J/c: stable", 1.0,
-              stable(torque_late, TWO, 5.0)),
+              _smooth(torque_held, ONE)),
+        Limit("torque a step old (Jacobi)", "H < J/c: stable", 1.0, _stable(torque_late, TWO)),
         Limit("torque a step old (Jacobi)", "H < J/(4 c): no overshoot", 0.25,
-              smooth(torque_late, TWO, 5.0)),
-        Limit("torque extrapolated", "H < J/c: stable", 1.0,
-              stable(torque_drawn_on, TWO, 5.0)),
-        Limit("T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0,
-              stable(tanh_held, (1e-6,), 5.0)),
-    ]  # fmt: skip
-
-
-def _factors() -> list[Limit]:
-    """Read growth per step."""
-    undamped = spring_held(SPRING, 0.0, STEP)
-    return [
+              _smooth(torque_late, TWO)),
+        Limit("torque extrapolated", "H < J/c: stable", 1.0, _stable(torque_drawn_on, TWO)),
+        Limit("T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0, _stable(tanh_held, (1e-6,))),
         Limit("torque with its slope, kappa 10", "factor 1/(1 + kappa) a step: always stable",
               1.0 / 11.0, factor(torque_implicit(10.0), ONE, 40)),
         Limit("falling friction, kappa -0.1", "grows by 1 + H abs(c)/J a step: physics",
               1.1, factor(torque_held(-0.1), ONE)),
-        Limit("undamped spring, force held", "grows by sqrt(1 + k H^2/(2 m)) a step: never",
-              math.sqrt(1.0 + SPRING * STEP**2 / (2.0 * MASS)),
-              factor(undamped, (1.0, 0.0), 5000)),
+        *_springs(), *_rest(),
     ]  # fmt: skip
 
 
+def _stable(make: Make, start: State) -> float:
+    """Bisect the kappa up to which a deviation dies out."""
+    return edge(lambda kappa: dies_out(make(kappa), start), 1e-3, 5.0)
+
+
+def _smooth(make: Make, start: State) -> float:
+    """Bisect the kappa up to which a deviation does not change its sign."""
+    return edge(lambda kappa: keeps_its_side(make(kappa), start), 1e-3, 5.0)
+
+
 def _springs() -> list[Limit]:
-    """Bisect the damping that a spring needs and bears."""
+    """Return the growth without damping; bisect the damping that a spring needs and bears."""
     start = (1.0, 0.0)
 
     def held(c: float) -> bool:
@@ -200,7 +186,11 @@ def _springs() -> list[Limit]:
     def late(c: float, h: float = 1e-4) -> bool:
         return dies_out(spring_late(SPRING, c, h), THREE, 15_000)
 
+    undamped = spring_held(SPRING, 0.0, STEP)
     return [
+        Limit("undamped spring, force held", "grows by sqrt(1 + k H^2/(2 m)) a step: never",
+              math.sqrt(1.0 + SPRING * STEP**2 / (2.0 * MASS)),
+              factor(undamped, (1.0, 0.0), 5000)),
         Limit("spring and damper, force held", "c > k H/2: stable", 0.5 * SPRING * STEP,
               edge(held, 50.0, 0.0)),
         Limit("spring and damper, force held", "c < 2 m/H: stable", 2.0 * MASS / STEP,

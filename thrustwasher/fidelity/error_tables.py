@@ -81,7 +81,7 @@ def place_of(cells: Cells, point: Point) -> Place:
     return i or 0, j or 0
 
 
-def tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Errors], Cells]:
+def error_tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Errors], Cells]:
     """Return the error tables and cells of one chart; points beside folds are left out."""
     pairs = [(t, a) for t, a in pairs if not t.beside_fold]
     blank = cells_for([t.point for t, _ in pairs], envelope)

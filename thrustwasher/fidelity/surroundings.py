@@ -12,8 +12,6 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from ..store.card_parts import Machine, Origin
-
 SCHEMA = 1
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
@@ -45,17 +43,17 @@ def _once() -> dict[str, Any]:
     return surroundings("python -m thrustwasher.fidelity.verify")
 
 
-def this_machine() -> Machine:
+def this_machine() -> dict[str, Any]:
     """Return what the seconds of a card depend on."""
     m = _once()["machine"]
-    versions = (m["os"], m["python"], m["numpy"], m["numba"])
-    return Machine(m["cpu"], m["cores"] or 1, *versions, threads=1, load=m["load"] or 0.0)
+    kept = {name: m[name] for name in ("cpu", "cores", "os", "python", "numpy", "numba")}
+    return {**kept, "threads": 1, "load": m["load"] or 0.0}
 
 
-def this_package() -> Origin:
+def this_package() -> dict[str, Any]:
     """Return the package's version and, in a checkout, its commit and if it was changed since."""
     package = _once()["package"]
-    return Origin(package["version"], package["commit"], package["dirty"])
+    return {name: package[name] for name in ("version", "commit", "dirty")}
 
 
 def load() -> float | None:

@@ -16,7 +16,7 @@ from typing import Any
 from ..errors import ParameterError, Status
 from ..rivals.plain2006 import Plain2006
 from .chart_cases import Case, cases_of, digest
-from .chart_series import QUANTITIES, Configuration, Quantity, series_of
+from .chart_series import CHARTS, Configuration, Quantity, series_of
 from .costs import REPEATS, Timing, time_call
 from .methods import KernelMethod, Method, MethodAnswer
 from .models import spec_of
@@ -25,8 +25,6 @@ from .reference_values import ReferenceValues
 
 Progress = Callable[[str], None]
 GOOD = (Status.OK, Status.DISTRESS, Status.HOT)
-WARM = "warm call, 1 % away [s]"
-COST_OF = {"washer": WARM, "clutch": "engagement of 0.6 s [s]", "gearmesh": WARM}
 BEST_2006 = 1e-5  # tolerance of the method of 2006 beyond which its answers do not change
 LOADS = tuple(range(50, 1851, 50))  # of the washer's whole curve
 
@@ -175,7 +173,7 @@ def work_precision(
     progress(f"{model}: reference values of {len(cases)} cases")
     source = source_of(model)
     known = [source.at_case(case.point, case.before) for case in cases]
-    quantities = QUANTITIES[model]
+    quantities = CHARTS[model].quantities
     samples = []
     for setting in series_of(model, quick=quick):
         progress(f"{model}: {setting.label}")
@@ -183,7 +181,7 @@ def work_precision(
         samples.append(measure(setting, cases, known, quantities, repeats=repeats).as_dict())
     found: dict[str, Any] = {
         "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
-        "cases_digest": digest(cases), "cost_of": COST_OF[model],
+        "cases_digest": digest(cases), "cost_of": CHARTS[model].cost_of,
         "quantities": [
             {"name": q.name, "kind": "relative" if q.relative else "absolute", "unit": q.unit,
              "floor": q.floor if q.relative else None}

@@ -115,15 +115,6 @@ class Sources:
 
 
 @dataclass(frozen=True, slots=True)
-class Origin:
-    """The package that the card was made with."""
-
-    version: str
-    commit: str | None
-    dirty: bool | None
-
-
-@dataclass(frozen=True, slots=True)
 class HeldOut:
     """The points: how many, failures, and points outside the rung's own range."""
 
@@ -159,20 +150,6 @@ class Cost:
     build_solves: int
     count: float | None
     count_of: str | None
-
-
-@dataclass(frozen=True, slots=True)
-class Machine:
-    """Where the seconds were measured."""
-
-    cpu: str
-    cores: int
-    os: str
-    python: str
-    numpy: str
-    numba: str
-    threads: int
-    load: float
 
 
 def worst_near(errors: Errors, i: int, j: int) -> float | None:

@@ -26,8 +26,6 @@ from .card_parts import (
     Errors,
     Fold,
     HeldOut,
-    Machine,
-    Origin,
     ParameterSet,
     Reference,
     Sources,
@@ -83,7 +81,7 @@ class Card:
     fold: Fold | None
     params: ParameterSet
     kernels: Sources
-    package: Origin
+    package: dict[str, Any]  # version, commit
     made: str
     envelope: dict[str, Axis]
     errors: dict[str, Errors]
@@ -92,7 +90,7 @@ class Card:
     held_out: HeldOut
     reference: Reference
     cost: Cost
-    machine: Machine
+    machine: dict[str, Any]  # that the seconds were measured on
 
     @property
     def name(self) -> str:

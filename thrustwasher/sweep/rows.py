@@ -8,7 +8,7 @@ regained at the other one. A point that fails leaves the memory as it was.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
 from typing import Any
@@ -25,6 +25,8 @@ from ..native.load import bound
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.int32]
+# The clutch slips for ever here: its heat has no end.
+NOT_SHOWN = {"clutch": ("energy", "heat_flux", "viscosity")}
 
 
 @dataclass(frozen=True)
@@ -41,12 +43,8 @@ class Task:
 
 def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
     """Return the real outputs of a row, and the whole-number ones with the status last."""
-    real = tuple(s for s in spec.outputs if s.kind == "real")
-    if spec.key == "clutch":  # slipping for ever: the heat has no end, and no share of it is shown
-        from ..models.clutch import ClutchResult
-
-        known = {f.name for f in fields(ClutchResult)}
-        real = tuple(s for s in real if s.name in known)
+    left_out = NOT_SHOWN.get(spec.key, ())
+    real = tuple(s for s in spec.outputs if s.kind == "real" and s.name not in left_out)
     whole = [s for s in spec.outputs if s.kind != "real"]
     whole.sort(key=lambda s: s.type == "SolverStatus")  # it is the last of them already
     return real, tuple(whole)
@@ -58,7 +56,7 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
     real, whole = output_signals(spec)
     numbers = np.empty((len(task.inputs), len(real)))
     flags = np.zeros((len(task.inputs), len(whole)), np.int32)
-    walk = _walk_clutch if spec.key == "clutch" else _walk_kernel
+    walk = WALKS.get(spec.key, _walk_kernel)
     for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
         if params is None:
             flags[a:b, -1] = Status.BAD_INPUT
@@ -107,6 +105,9 @@ def _walk_clutch(
             result = None
 
 
+WALKS = {"clutch": _walk_clutch}  # other models: by steps of their kernel
+
+
 def _kernel(name: str) -> Any:
     return import_module(f"thrustwasher.kernels.{name}")
 
@@ -138,7 +139,7 @@ def _work_with_table(model: str, fidelity: str, params: Any) -> Array:
 
 def check_rung(spec: ModelSpec, fidelity: str, params: Any) -> None:
     """Raise ParameterError if a rung lacks what it needs for the first parameters of a sweep."""
-    if spec.key != "clutch" and params is not None:
+    if spec.key not in WALKS and params is not None:
         par = _constants(spec.key, fidelity, params)
         if wants_table(spec, par):
             _work_with_table(spec.key, fidelity, params)

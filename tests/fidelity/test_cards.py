@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 from synthetic import BOX, ENVELOPE, card, errors
 
-from thrustwasher import ParameterError, WasherParams
+from thrustwasher import ParameterError, WasherParams, solve_washer
+from thrustwasher.models.washer import ERRORS
 from thrustwasher.store import cards, digests
 from thrustwasher.store.card_parts import ByFilmRatio, Cells
 from thrustwasher.store.cards import files_of
@@ -190,3 +191,32 @@ def test_cells_touched_by_an_interval():
 
 def test_the_box_of_the_other_tests_lies_inside_their_envelope():
     assert all(ENVELOPE[k].min <= lo <= hi <= ENVELOPE[k].max for k, (lo, hi) in BOX.items())
+
+
+# what a washer's result says of its own error
+
+
+@pytest.fixture
+def branches(folder):
+    for branch, worst in (("film", 1e-3), ("contact", 4e-2)):
+        made = card("field", worst, chart=branch, branch=branch)
+        (folder / f"{made.name}.json").write_text(made.as_json())
+
+
+def estimate(**changed):
+    at = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, **changed}
+    return solve_washer(WasherParams(), **at).error_estimate
+
+
+def test_the_card_of_the_branch_speaks_whatever_the_sign_of_the_speed(branches):
+    assert estimate() == estimate(speed=-953.0) == pytest.approx(1.5e-3)
+    assert estimate(load=700.0, branch="contact") == pytest.approx(6e-2)
+
+
+def test_where_no_card_speaks_the_general_bound_holds(branches):
+    assert estimate(tilt=3.5e-3) == estimate(load=19.0) == ERRORS["field"]
+    assert estimate(fidelity="fine") == ERRORS["fine"]
+
+
+def test_a_mesh_of_ones_own_has_its_embedded_estimate(branches):
+    assert estimate(grid=(9, 32)) not in (ERRORS["field"], pytest.approx(1.5e-3))

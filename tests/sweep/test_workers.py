@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from thrustwasher import run_sweep
-from thrustwasher.errors import EnvironmentProblem, ParameterError
+from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.sweep import run as runs
 from thrustwasher.sweep.run import journal_of
 
@@ -116,11 +116,6 @@ def test_a_cluster_that_does_not_answer_is_named(monkeypatch):
     for address in ("tcp://127.0.0.1:1", "nonsense"):
         with pytest.raises(EnvironmentProblem, match="does not answer"):
             run_sweep("gearmesh", {"load": [1.0]}, cluster=address)
-
-
-def test_workers_and_cluster_exclude_each_other():
-    with pytest.raises(ParameterError, match="one of them"):
-        run_sweep("gearmesh", {"load": [1.0]}, workers=2, cluster="tcp://127.0.0.1:1")
 
 
 @pytest.mark.slow

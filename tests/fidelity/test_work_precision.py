@@ -1,4 +1,4 @@
-"""The clock and the book: first calls apart, failures kept, worst and rms as defined."""
+"""Work-precision: first calls apart, failures kept, worst and rms as defined."""
 
 import json
 import math

@@ -177,9 +177,9 @@ def test_the_drivelines_own_integration_does_not_know_the_step():
 
 
 def test_the_sums_of_an_uneven_clutch_are_those_of_its_closed_form_where_there_is_one():
-    even, almost = k.Clutch(), k.Clutch(other=1.0 + 1e-12)
-    assert almost.lock_time == pytest.approx(even.lock_time, rel=1e-9)
-    assert almost.slip_energy == pytest.approx(even.slip_energy, rel=1e-9)
+    even, almost = k.Clutch(), k.Clutch(lag=1e-9)
+    assert almost.lock_time == pytest.approx(even.lock_time, rel=2e-5)
+    assert almost.slip_energy == pytest.approx(even.slip_energy, rel=2e-5)
 
 
 def test_going_back_without_the_film_is_wrong_for_every_way_and_with_it_for_none():

@@ -197,7 +197,6 @@ def coupling(*, quick: bool = False) -> Group:
         "stiff lock-up, 1 ms": (usual, 1e-3, None),
         "lock inside a step, 7 ms": (usual, 7e-3, None),
         "huge step, 50 ms": (usual, 5e-2, None),
-        "rungs blended, 0.1 ms": (lockup.Clutch(other=0.97), 1e-4, None),
         "rolled back, 0.1 ms": (filling, 1e-4, lockup.Rewind()),
         "rolled back, film forgotten": (filling, 1e-4, lockup.Rewind(forgets=True)),
         "100 000 steps": (lockup.Clutch(span=2.0), 2e-5, None),

@@ -1,9 +1,8 @@
 """A clutch that locks: the least problem in which co-simulation goes wrong.
 
 Slip w of a reduced inertia J: J dw/dt = T_d - T_f sign(w), sticking while |T_d| <= T_f. The drive
-is constant; friction is too, unless a film has to be squeezed out first or one rung hands over to
-another. Friction is smoothed over a slip of w_s where a method
-needs it. The methods are in ``lockup_methods``.
+is constant; friction is too, unless a film has to be squeezed out first. It is smoothed over a slip
+of w_s where a method needs it. The methods are in ``lockup_methods``.
 """
 
 from __future__ import annotations
@@ -31,35 +30,26 @@ class Clutch:
     width: float = 0.05  # w_s of smoothed friction
     span: float = 1.0
     lag: float = 0.0  # s in which the film goes down to 1/e and friction comes up
-    other: float = 1.0  # friction of the second rung over that of the first
-    blend: tuple[float, float] = (0.2, 0.201)  # s between which it takes over
 
     @property
     def lock_time(self) -> float:
         """[s]."""
-        if self._is_even:
+        if self.lag == 0.0:
             return self.slip * self.inertia / (self.friction - self.drive)
         return self._summed[0]
 
     @property
     def slip_energy(self) -> float:
         """[J] turned into heat until lock-up."""
-        if self._is_even:
+        if self.lag == 0.0:
             return 0.5 * self.friction * self.slip * self.lock_time
         return self._summed[1]
-
-    @property
-    def _is_even(self) -> bool:
-        return self.lag == 0.0 and self.other == 1.0
 
     @cached_property
     def _summed(self) -> tuple[float, float]:
         """Time of lock-up and heat until then, summed up in fine steps."""
         time = np.linspace(0.0, self.span, FINE)
-        film = 1.0 - np.exp(-time / self.lag) if self.lag else np.ones_like(time)
-        low, high = self.blend
-        share = np.clip((time - low) / (high - low), 0.0, 1.0)
-        torque = self.friction * film * (1.0 + (self.other - 1.0) * share)
+        torque = self.friction * (1.0 - np.exp(-time / self.lag))
         slip = self.slip + _sums((self.drive - torque) / self.inertia, time)
         heat = _sums(torque * slip, time)
         k = int(np.argmax(slip <= 0.0))
@@ -71,17 +61,9 @@ class Clutch:
         """Return how much of the film is gone (0 .. 1) ``h`` later."""
         return 1.0 - (1.0 - film) * math.exp(-h / self.lag) if self.lag else 1.0
 
-    def level(self, film: float, t: float) -> float:
-        """Return the friction torque of full slip [N m]."""
-        if self.other == 1.0:
-            return self.friction * film
-        low, high = self.blend
-        share = min(max((t - low) / (high - low), 0.0), 1.0)
-        return self.friction * film * (1.0 + (self.other - 1.0) * share)
-
-    def smooth(self, w: float, film: float = 1.0, t: float = 0.0) -> float:
+    def smooth(self, w: float, film: float = 1.0) -> float:
         """Return the smoothed friction torque [N m]."""
-        return self.level(film, t) * math.tanh(w / self.width)
+        return self.friction * film * math.tanh(w / self.width)
 
 
 def _sums(rate: Row, time: Row) -> Row:

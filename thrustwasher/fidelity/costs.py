@@ -15,7 +15,6 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -25,6 +24,7 @@ from ..models._prepare import filled
 from ..models._spec import ModelSpec
 from ..models._tables import fill_table
 from .card_cases import cases
+from .models import kernel_of
 from .reference_values import ReferencePoint
 
 BATCH = 10e-3  # [s] least time between two looks at the clock
@@ -89,7 +89,7 @@ def stepper(
 
     ``step`` replaces the kernel's.
     """
-    kernel = import_module(f"..kernels.{spec.kernel}", __package__)
+    kernel = kernel_of(spec)
     step = step or kernel.step
     par = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
     branch = BRANCHES.get(known.branch or "", 0.0) if spec.key == "washer" else None

@@ -24,6 +24,7 @@ from ..models.washer_constants import constants
 from ..models.washer_map import map_for
 from ..rivals.plain2006 import Plain2006
 from .chart_cases import Case
+from .models import kernel_of
 from .reference_clutch import TIMES, engagement_corners
 
 STEP = 0.01  # how far apart warm calls are in the first input, relative
@@ -61,33 +62,34 @@ def path_to(case: Case) -> tuple[tuple[float, ...], ...]:
     return (*case.before, (first * (1.0 - STEP), *others), case.point)
 
 
+def _place_of_count(spec: ModelSpec) -> int | None:
+    """Return where a kernel leaves the first of its counts in ``work``; None if it counts none."""
+    if not spec.counts:
+        return None
+    module, name = spec.counts[0][1].split(":")
+    return int(getattr(import_module(f"..kernels.{module}", __package__), name))
+
+
 class KernelMethod:
     """The kernel of a model at a rung, or the washer's on a mesh of one's own."""
 
     def __init__(self, spec: ModelSpec, fidelity: str, grid: tuple[int, int] | None = None) -> None:
-        kernel: Any = import_module(f"thrustwasher.kernels.{spec.kernel}")
-        self._kernel, self._spec = kernel, spec
-        self._n_state, self._n_work = kernel.NSTATE, kernel.NWORK
+        kernel = self._kernel = kernel_of(spec)
+        self._n_state, n_work, self._nodes, self.build_s = kernel.NSTATE, kernel.NWORK, 1, 0.0
         if grid is None:
             self._par = filled(spec, spec.params(), fidelity, kernel.NPAR, kernel.derive)
         else:
             self._par = constants(spec.params(), grid)
-            self._n_state = size_of_state(*grid)
-            self._n_work = kernel.N_HEAD + size_of_work(*grid)
-        self._work = np.zeros(self._n_work)
-        self.build_s = 0.0
+            self._n_state, n_work = size_of_state(*grid), kernel.N_HEAD + size_of_work(*grid)
+            self._nodes = grid[0] * grid[1]
+        self._work = np.zeros(n_work)
         if grid is None:
             fill_table(spec, spec.params(), self._par, self._work)
-            if fidelity == "map":
-                self.build_s = float(map_for(spec.params()).card["build_s"])
+        if fidelity == "map":
+            self.build_s = float(map_for(spec.params()).card["build_s"])
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._real = [s.name for s in spec.outputs if s.kind == "real"]
-        places = [(t, *where.split(":")) for t, where in spec.counts[:1]]
-        self._place = [
-            int(getattr(import_module(f"thrustwasher.kernels.{module}"), name))
-            for _, module, name in places
-        ]
-        self._nodes = 1 if grid is None else grid[0] * grid[1]
+        self._count = _place_of_count(spec)
 
     def _walk(self, case: Case) -> tuple[Any, int, float]:
         """Return state, status and count after walking to a case from nothing."""
@@ -96,7 +98,7 @@ class KernelMethod:
             status = self._kernel.step(
                 self._par, np.array(point), state, self._work, self._out, self._iout, 0.0, 1.0
             )
-            count = float(self._work[self._place[0]]) if self._place else 1.0
+            count = 1.0 if self._count is None else float(self._work[self._count])
         return state, status, count
 
     def solve(self, case: Case) -> MethodAnswer:

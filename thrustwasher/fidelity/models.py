@@ -1,8 +1,9 @@
-"""The models by name."""
+"""The models and their kernels by name."""
 
 from __future__ import annotations
 
 from importlib import import_module
+from typing import Any
 
 from ..errors import ParameterError
 from ..models._spec import ModelSpec
@@ -22,3 +23,8 @@ def spec_of(model: str) -> ModelSpec:
         raise ParameterError(f"model = {model!r}, allowed: {' or '.join(map(repr, MODELS))}")
     spec: ModelSpec = import_module(f"..models.{MODELS[model]}", __package__).SPEC
     return spec
+
+
+def kernel_of(spec: ModelSpec) -> Any:
+    """Return the module with a model's compiled step."""
+    return import_module(f"..kernels.{spec.kernel}", __package__)

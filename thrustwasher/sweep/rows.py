@@ -10,14 +10,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status
-from ..fidelity.models import spec_of
+from ..fidelity.models import kernel_of, spec_of
 from ..models._prepare import filled
 from ..models._spec import REGIMES, ModelSpec, Signal
 from ..models._tables import fill_table, wants_table
@@ -73,12 +72,10 @@ def _walk_kernel(
     spec: ModelSpec, params: Any, fidelity: str, inputs: Array, numbers: Array, flags: Flags
 ) -> None:
     """Fill the rows of one line by steps of the model's kernel."""
-    kernel = _kernel(spec.kernel)
+    kernel = kernel_of(spec)
     state = np.zeros(kernel.NSTATE)
     par = _constants(spec.key, fidelity, params)
-    work = _work_with_table(spec.key, fidelity, params) if wants_table(spec, par) else (
-        _work(spec.kernel)
-    )  # fmt: skip
+    work = _work(spec, fidelity, params, par)
     step = bound(kernel.step, par=par, state=state, work=work)
     for point, row, flag in zip(inputs, numbers, flags, strict=True):
         status = step(point, row, flag, 0.0, 1.0)
@@ -108,38 +105,33 @@ def _walk_clutch(
 WALKS = {"clutch": _walk_clutch}  # other models: by steps of their kernel
 
 
-def _kernel(name: str) -> Any:
-    return import_module(f"thrustwasher.kernels.{name}")
-
-
-@lru_cache(maxsize=4)
-def _work(name: str) -> Array:
-    """Return this worker's work array of a kernel."""
-    work: Array = np.zeros(_kernel(name).NWORK)
-    return work
-
-
 @lru_cache(maxsize=64)
 def _constants(model: str, fidelity: str, params: Any) -> Array:
     """Return the kernel's ``par``; many lines share their parameters."""
     spec = spec_of(model)
-    kernel = _kernel(spec.kernel)
+    kernel = kernel_of(spec)
     par: Array = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
     return par
 
 
+def _work(spec: ModelSpec, fidelity: str, params: Any, par: Array) -> Array:
+    """Return this worker's work array of a kernel; ParameterError if the rung's table is missing.
+
+    Only one with a table belongs to its parameters.
+    """
+    return _filled_work(spec.key, *((fidelity, params) if wants_table(spec, par) else (None, None)))
+
+
 @lru_cache(maxsize=4)
-def _work_with_table(model: str, fidelity: str, params: Any) -> Array:
-    """Return a work array with the table of a rung; ParameterError if there is none."""
+def _filled_work(model: str, fidelity: str | None, params: Any) -> Array:
     spec = spec_of(model)
-    work: Array = np.zeros(_kernel(spec.kernel).NWORK)
-    fill_table(spec, params, _constants(model, fidelity, params), work)
+    work: Array = np.zeros(kernel_of(spec).NWORK)
+    if fidelity is not None:
+        fill_table(spec, params, _constants(model, fidelity, params), work)
     return work
 
 
 def check_rung(spec: ModelSpec, fidelity: str, params: Any) -> None:
     """Raise ParameterError if a rung lacks what it needs for the first parameters of a sweep."""
     if spec.key not in WALKS and params is not None:
-        par = _constants(spec.key, fidelity, params)
-        if wants_table(spec, par):
-            _work_with_table(spec.key, fidelity, params)
+        _work(spec, fidelity, params, _constants(spec.key, fidelity, params))

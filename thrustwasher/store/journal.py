@@ -77,7 +77,7 @@ class Journal:
         differ = [k for k in {**found, **identity} if found.get(k) != identity.get(k)]
         if differ:
             raise ParameterError(
-                f"{self.path}: was begun by another {self.work} (other {', '.join(differ)}); run "
+                f"{self.path}: was begun by another {self.work} (other {', '.join(map(str, differ))}); run "
                 "that one to its end, remove the file, or choose another output"
             )
 
@@ -90,8 +90,8 @@ class Journal:
             code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
             if code in BUSY:
                 raise ParameterError(
-                    f"{self.path}: another run is writing this {self.work}; wait for it, or choose "
-                    "another output"
+                    f"{self.path}: another run is writing this {self.work}, or nothing can be locked "
+                    "here; wait for it, or choose another output"
                 ) from None
             if code in DISK or not os.access(self.path, os.W_OK):
                 number = errno.ENOSPC if code == sqlite3.SQLITE_FULL else errno.EIO

@@ -12,14 +12,14 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from ..store.cards import VERIFY
+
 SCHEMA = 1
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
 def surroundings(command: str) -> dict[str, Any]:
     """Return command, date, machine and versions, as JSON types."""
-    import numpy
-
     from ..kernels._jit import kernel_digest
 
     made_by = sys.modules[__name__.partition(".")[0]].__version__
@@ -29,7 +29,7 @@ def surroundings(command: str) -> dict[str, Any]:
         "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
         "machine": {
             "cpu": _cpu(), "cores": os.cpu_count(), "os": platform.platform(terse=True),
-            "python": platform.python_version(), "numpy": numpy.__version__,
+            "python": platform.python_version(), "numpy": metadata.version("numpy"),
             "numba": metadata.version("numba"), "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
             "threads": {name: os.environ.get(name) for name in THREADS}, "load": load(),
         },
@@ -40,7 +40,7 @@ def surroundings(command: str) -> dict[str, Any]:
 
 @cache
 def _once() -> dict[str, Any]:
-    return surroundings("python -m thrustwasher.fidelity.verify")
+    return surroundings(VERIFY)
 
 
 def this_machine() -> dict[str, Any]:

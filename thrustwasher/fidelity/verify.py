@@ -18,7 +18,7 @@ from typing import Any
 
 from ..errors import ParameterError, SolveError
 from ..models._params import as_numbers
-from ..store.cards import Card, forget, fresh_cards
+from ..store.cards import VERIFY, Card, forget, fresh_cards
 from ..store.digests import DATA
 from ..store.maps import find_map
 from .card_cases import POINTS_IN_PART, Case, cases
@@ -33,7 +33,7 @@ HELP = "measure the rungs against the reference and write their cards"
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Make the cards asked for; return 0, or 1 if some could not be made."""
-    parser = argparse.ArgumentParser("python -m thrustwasher.fidelity.verify", description=HELP)
+    parser = argparse.ArgumentParser(VERIFY, description=HELP)
     parser.add_argument("model", nargs="?", choices=list(MODELS), help="default: all")
     parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
     parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 500")

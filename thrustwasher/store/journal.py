@@ -74,10 +74,10 @@ class Journal:
             self._db.executemany("INSERT INTO work VALUES (?, ?)", identity.items())
             return
         found = dict(self._db.execute("SELECT name, value FROM work"))
-        differ = [k for k in {**found, **identity} if found.get(k) != identity.get(k)]
+        differ = [str(k) for k in {**found, **identity} if found.get(k) != identity.get(k)]
         if differ:
             raise ParameterError(
-                f"{self.path}: was begun by another {self.work} (other {', '.join(map(str, differ))}); run "
+                f"{self.path}: was begun by another {self.work} (other {', '.join(differ)}); run "
                 "that one to its end, remove the file, or choose another output"
             )
 
@@ -90,8 +90,8 @@ class Journal:
             code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
             if code in BUSY:
                 raise ParameterError(
-                    f"{self.path}: another run is writing this {self.work}, or nothing can be locked "
-                    "here; wait for it, or choose another output"
+                    f"{self.path}: another run is writing this {self.work}, or nothing can be "
+                    "locked here; wait for it, or choose another output"
                 ) from None
             if code in DISK or not os.access(self.path, os.W_OK):
                 number = errno.ENOSPC if code == sqlite3.SQLITE_FULL else errno.EIO

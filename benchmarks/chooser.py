@@ -18,11 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from thrustwasher import Choice, SolveError, choose
-from thrustwasher.fidelity.answers import OK, answer
-from thrustwasher.fidelity.envelopes import Case, cases
-from thrustwasher.fidelity.references import source_of
-from thrustwasher.fidelity.tables import deviation
-from thrustwasher.fidelity.truths import Truth, truths
+from thrustwasher.fidelity.card_cases import Case, cases
+from thrustwasher.fidelity.error_tables import deviation
+from thrustwasher.fidelity.reference_cache import answer, reference_points, source_of
+from thrustwasher.fidelity.reference_values import OK, ReferencePoint
 from thrustwasher.store.cards import Card, fresh_cards
 
 SEED = 2026
@@ -35,14 +34,14 @@ class Pool:
     """Points of one case: reference values and every rung's error at them; new points first."""
 
     case: Case
-    truths: list[Truth]
+    known: list[ReferencePoint]
     new: int
     errors: dict[str, list[float]]  # nan: the rung is not verified there
 
     def inside(self, box: dict[str, tuple[float, float]], old: bool = False) -> list[int]:
         """Return the new points in a box, away from folds; with ``old`` the others too."""
         return [
-            k for k, t in enumerate(self.truths[: None if old else self.new])
+            k for k, t in enumerate(self.known[: None if old else self.new])
             if not t.beside_fold and all(lo <= t.point[n] <= hi for n, (lo, hi) in box.items())
         ]  # fmt: skip
 
@@ -64,8 +63,8 @@ class Pool:
 def pool_of(case: Case, n: int) -> Pool:
     """Return new points of a case with the errors of all rungs that have cards."""
     source = source_of(case.spec.key)
-    new = truths(dataclasses.replace(case, seed=SEED), source, n)
-    known = new + truths(case, source, case.n)
+    new = reference_points(dataclasses.replace(case, seed=SEED), source, n)
+    known = new + reference_points(case, source, case.n)
     errors = {}
     for rung in case.spec.fidelities:
         cards = {c.chart: c for c in fresh_cards(case.spec.key, rung, case.params)}
@@ -74,15 +73,15 @@ def pool_of(case: Case, n: int) -> Pool:
     return Pool(case, known, len(new), errors)
 
 
-def error_at(case: Case, rung: str, truth: Truth, card: Card | None) -> float:
+def error_at(case: Case, rung: str, known: ReferencePoint, card: Card | None) -> float:
     """Return a rung's error at a point, as its card measures it."""
-    if card is None or not card.covers(truth.point):
+    if card is None or not card.covers(known.point):
         return math.nan
-    found = answer(case.spec.key, case.params, rung, truth)
+    found = answer(case.spec.key, case.params, rung, known)
     if found.verdict != OK:
         return math.nan
     floor = card.errors[QUANTITY].floor or 0.0
-    return deviation(QUANTITY, truth, found.values[QUANTITY], floor)
+    return deviation(QUANTITY, known, found.values[QUANTITY], floor)
 
 
 @dataclass
@@ -120,7 +119,7 @@ def ask(pool: Pool, rng: np.random.Generator) -> Outcome:
 
 def random_box(pool: Pool, rng: np.random.Generator) -> dict[str, tuple[float, float]]:
     """Return a box of random size around a random point, inside the envelope."""
-    away = [t for t in pool.truths[: pool.new] if not t.beside_fold]
+    away = [t for t in pool.known[: pool.new] if not t.beside_fold]
     middle = away[rng.integers(len(away))].point
     box = {}
     for name, axis in pool.case.envelope.items():
@@ -186,7 +185,7 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=120, help="new points per parameter set")
     options = parser.parse_args()
     pools = [pool_of(c, options.points) for m in options.models for c in cases(m)]
-    pools = [p for p in pools if p.errors and p.truths]
+    pools = [p for p in pools if p.errors and p.known]
     rng = np.random.default_rng(SEED)
     outcomes = [ask(pools[k % len(pools)], rng) for k in range(options.requests)]
     order = {p.case.spec.key: list(p.errors) for p in pools}

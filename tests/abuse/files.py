@@ -4,7 +4,7 @@ import json
 import math
 import tomllib
 import zipfile
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import closing, redirect_stderr, redirect_stdout
 from dataclasses import fields
 from importlib import resources
 from io import StringIO
@@ -156,21 +156,19 @@ class MapJournals:
         self.path = Path(folder) / "spoiled.twm.journal"
         self.identity = {"parameters": "p", "box": "b", "fidelity": "fine", "kernels": "k"}
         self.lines = np.random.default_rng(1).normal(size=(12, L.LINE))
-        journal = Journal(self.path, self.identity, "map")
-        for i in range(8):
-            journal.append(i, self.lines[i : i + 1], np.zeros((1, 1), np.int32))
-        journal.close(finished=False)
+        with closing(Journal(self.path, self.identity, "map")) as journal:
+            for i in range(8):
+                journal.append(i, self.lines[i : i + 1], np.zeros((1, 1), np.int32))
         self.begun = self.path.read_bytes()
 
     def __call__(self, rng):
         self.path.write_bytes(damage.bits(rng, self.begun))
         lines, flags = np.full_like(self.lines, np.nan), np.zeros((12, 1), np.int32)
         try:
-            journal = Journal(self.path, self.identity, "map")
+            with closing(Journal(self.path, self.identity, "map")) as journal:
+                done = journal.load(lines, flags)
         except ParameterError as error:
             return one_line(error, "spoiled.twm.journal")
-        done = journal.load(lines, flags)
-        journal.close(finished=False)
         say_if_wrong([] if np.array_equal(lines[done], self.lines[done]) else ["other lines"])
         return RIGHT
 
@@ -231,7 +229,7 @@ class Charts:
     """Records of charts: refused, or drawn as they were measured."""
 
     def __init__(self, folder, record, seal=True, draw=True):
-        from thrustwasher.store.seal import sealed
+        from thrustwasher.store.digests import sealed
 
         self.draw = draw
         self.path, self.out = Path(folder) / "spoiled.json", Path(folder) / "drawn"

@@ -2,7 +2,7 @@
 
 import json
 import sys
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 
 import pytest
@@ -11,6 +11,7 @@ from files import chart_record, command
 
 from thrustwasher.cli import main
 from thrustwasher.fmu import archive
+from thrustwasher.store import journal
 from thrustwasher.sweep import run as runs
 from thrustwasher.sweep.rows import solve_task
 
@@ -61,7 +62,8 @@ def test_a_sweep_whose_journal_fills_the_disk_goes_on_later(out, monkeypatch):
     monkeypatch.setattr(
         runs, "solve_task", lambda t: (solved.append(len(t.inputs)), solve_task(t))[1]
     )
-    with full_disk(12_000):
+    monkeypatch.setattr(journal, "INTERVAL", 0.0)
+    with full_disk(20_000):
         refused(out, *SWEEP, table, left=["map.csv.journal"])
     done = sum(solved) - solved[-1]
     assert done > 0
@@ -69,6 +71,19 @@ def test_a_sweep_whose_journal_fills_the_disk_goes_on_later(out, monkeypatch):
     assert command(*SWEEP, table)[0] == 0
     assert sum(solved) == 120 - done and table.read_bytes() == whole
     assert [p.name for p in out.iterdir()] == ["map.csv"]
+
+
+def test_of_what_waits_a_journal_keeps_what_there_is_room_for(out, monkeypatch):
+    monkeypatch.setattr(journal, "INTERVAL", 1e9)
+    kept = journal.Journal(out / "x.journal", {})
+    for k in range(20):
+        kept.put(k, bytes(4000))
+    with full_disk(50_000), pytest.raises(OSError, match=r"x\.journal"):
+        kept.close()
+    with closing(journal.Journal(out / "x.journal", {})) as again:
+        found = [k for k, _ in again.entries()]
+    assert found == list(range(len(found))) and 5 < len(found) < 12
+    assert [p.name for p in out.iterdir()] == ["x.journal"]
 
 
 def test_a_sweep_whose_table_does_not_fit_is_not_solved_again(out, monkeypatch):
@@ -89,11 +104,12 @@ def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, monkeypatch):
 
     file, solved, real = out / "x.twm", [], build.solve_line
     monkeypatch.setattr(build, "solve_line", lambda t: (solved.append(t), real(t))[1])
-    with full_disk(int(2.5 * 8 * L.LINE)):
+    monkeypatch.setattr(journal, "INTERVAL", 0.0)
+    with full_disk(12_288 + int(2.9 * 8 * L.LINE)):
         refused(out, *MAP, file, left=["x.twm.journal"])
-    assert len(solved) == 3
+    assert 1 < len(solved) < 4
     assert command(*MAP, file)[0] == 0
-    assert len(solved) == 3 + 2 and [p.name for p in out.iterdir()] == ["x.twm"]
+    assert len(solved) == 4 + 1 and [p.name for p in out.iterdir()] == ["x.twm"]
 
 
 def test_a_chart_that_does_not_fit_is_not_half_written(out, tmp_path):

@@ -51,7 +51,7 @@ def stopped(words, folder, begun, *signals):
 def test_a_sweep_that_is_stopped_ends_in_one_line_and_goes_on(tmp_path, number, status, word):
     journal = tmp_path / "t.csv.journal"
     words = [*SWEEP, "--workers", "1", "--out", "t.csv"]
-    begun = lambda: journal.exists() and journal.stat().st_size > 5000  # noqa: E731
+    begun = lambda: journal.exists() and journal.stat().st_size > 13_000  # noqa: E731
     assert stopped(words, tmp_path, begun, number) == (status, [f"thrustwasher sweep: {word}"])
     assert [p.name for p in tmp_path.iterdir()] == ["t.csv.journal"]
     again = started(words, tmp_path)
@@ -63,7 +63,7 @@ def test_a_sweep_that_is_stopped_ends_in_one_line_and_goes_on(tmp_path, number, 
 @pytest.mark.abuse
 def test_a_map_build_that_is_stopped_twice_ends_in_one_line_and_keeps_its_lines(tmp_path):
     journal = tmp_path / "m.twm.journal"
-    begun = lambda: journal.exists() and journal.stat().st_size > 5000  # noqa: E731
+    begun = lambda: journal.exists() and journal.stat().st_size > 13_000  # noqa: E731
     ended = stopped([*MAP, "--out", "m.twm"], tmp_path, begun, signal.SIGINT, signal.SIGINT)
     assert ended == (130, ["thrustwasher map: stopped"])
     assert [p.name for p in tmp_path.iterdir()] == ["m.twm.journal"]

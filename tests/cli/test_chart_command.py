@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from thrustwasher.fidelity.measure import Sample
+from thrustwasher.fidelity.work_precision import Sample
 
 
 @pytest.mark.slow

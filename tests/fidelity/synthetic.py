@@ -6,8 +6,8 @@ from thrustwasher.models.clutch_params import ClutchParams
 from thrustwasher.models.gearmesh_params import GearMeshParams
 from thrustwasher.models.washer_params import WasherParams
 from thrustwasher.store import card_parts as part
-from thrustwasher.store import sources
 from thrustwasher.store.cards import Card
+from thrustwasher.store.cards import files_of as real_files
 from thrustwasher.store.digests import kernel_digest, params_digest
 
 PARAMS = {"washer": WasherParams, "clutch": ClutchParams, "gearmesh": GearMeshParams}
@@ -28,7 +28,7 @@ RUNGS = ("closed", "stribeck", "map", "coarse", "field", "fine")
 def files_of(model, fidelity):
     """Return a rung's kernel files, some others for a rung that this version has not got."""
     try:
-        return sources.files_of(model, fidelity)
+        return real_files(model, fidelity)
     except FileNotFoundError:
         return ("washer_model.py",)
 
@@ -60,7 +60,7 @@ def card(fidelity="field", worst=5e-3, median=2e-4, *, model="washer", n=75, iqr
         schema=1, model=model, fidelity=fidelity, chart=chart, branch=branch, fold=fold,
         params=part.ParameterSet(name, params_digest(params), {}),
         kernels=part.Sources((*files, *(("maps/x.twm",) if built else ())), kernel_digest(files)),
-        package=part.Origin("0.4.0", None, None), made="2026-01-01T00:00:00Z",
+        package={"version": "0.4.0", "commit": None, "dirty": None}, made="2026-01-01T00:00:00Z",
         envelope=envelope or ENVELOPE,
         errors={
             "friction_torque": errors(table(worst, shape), n),
@@ -71,6 +71,6 @@ def card(fidelity="field", worst=5e-3, median=2e-4, *, model="washer", n=75, iqr
         reference=part.Reference("reference", None, ("two grids extrapolated",),
                                  {"friction_torque": uncertainty, "temperature": 1e-4}),
         cost=part.Cost(median, iqr, 0.95 * median, first, build, 0, 1.0, "solves"),
-        machine=part.Machine("a cpu", 2, "an os", "3.11", "2.4", "0.68", 1, 0.1),
+        machine={"cpu": "a cpu", "cores": 2},
     )  # fmt: skip
     return dataclasses.replace(made, **changed)

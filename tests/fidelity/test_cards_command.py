@@ -7,7 +7,7 @@ from synthetic import card
 
 from thrustwasher.cli import main
 from thrustwasher.store import cards
-from thrustwasher.store.seal import sealed
+from thrustwasher.store.digests import sealed
 
 WASHER = ["washer", "--load", "100", "--speed", "500"]
 

@@ -1,10 +1,15 @@
 """Who is on the front: ties, the reference's uncertainty, failures, and a second run."""
 
 import random
+import runpy
+from pathlib import Path
 
 import pytest
 
-from thrustwasher.fidelity.pareto import beats, disagreements, front
+from thrustwasher.fidelity.pareto import beats, front
+
+CHARTS = Path(__file__).parents[2] / "benchmarks" / "charts.py"
+disagreements = runpy.run_path(str(CHARTS))["disagreements"]
 
 
 def sample(label, cost, error, *, spread=0.0, floor=1e-6, failed=0):

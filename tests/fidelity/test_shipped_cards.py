@@ -5,11 +5,13 @@ import itertools
 import pytest
 
 from thrustwasher import choose
-from thrustwasher.fidelity.answers import OK, answer, holds
-from thrustwasher.fidelity.envelopes import cases
-from thrustwasher.fidelity.references import source_of
-from thrustwasher.fidelity.tables import deviation
-from thrustwasher.store.cards import DATA, fresh_cards, load_cards, refused_files
+from thrustwasher.fidelity.card_cases import cases
+from thrustwasher.fidelity.error_tables import deviation
+from thrustwasher.fidelity.reference_cache import answer, source_of
+from thrustwasher.fidelity.reference_values import OK
+from thrustwasher.fidelity.verify import holds
+from thrustwasher.store.cards import fresh_cards, load_cards, refused_files
+from thrustwasher.store.digests import DATA
 
 MODELS = ("washer", "clutch", "gearmesh")
 CASES = [case for model in MODELS for case in cases(model)]
@@ -25,7 +27,7 @@ def label(item):
 @pytest.mark.parametrize("case", CASES, ids=label)
 def test_every_rung_has_cards(case):
     carded = {c.fidelity for c in load_cards(case.spec.key, case.params)}
-    usable = {r for r in case.spec.fidelities if holds(case.spec.key, case.params, r)}
+    usable = {r for r in case.spec.fidelities if holds(r, case.params)}
     assert carded == usable, SEVERAL
 
 

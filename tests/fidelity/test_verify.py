@@ -9,16 +9,31 @@ from synthetic import card, errors
 
 from thrustwasher import WasherParams, solve_washer
 from thrustwasher.drivetrain import load_scene
-from thrustwasher.fidelity import truths as home
-from thrustwasher.fidelity.answers import FAILED, OK, OTHER_SIDE, OUTSIDE, Answer
+from thrustwasher.fidelity import reference_cache
+from thrustwasher.fidelity.card_cases import cases
 from thrustwasher.fidelity.card_writer import write_card
-from thrustwasher.fidelity.costs import less, stepper
-from thrustwasher.fidelity.envelopes import cases
-from thrustwasher.fidelity.measure import Timing
-from thrustwasher.fidelity.prolong import solve_on
-from thrustwasher.fidelity.tables import by_film_ratio, deviation, fold_part, tables, uncertainties
-from thrustwasher.fidelity.timing import empty_step, this_machine
-from thrustwasher.fidelity.truths import QUANTITIES, Source, Truth, truths
+from thrustwasher.fidelity.costs import Timing, stepper
+from thrustwasher.fidelity.error_tables import (
+    by_film_ratio,
+    deviation,
+    error_tables,
+    fold_part,
+    uncertainties,
+)
+from thrustwasher.fidelity.reference_cache import reference_points
+from thrustwasher.fidelity.reference_values import (
+    FAILED,
+    OK,
+    OTHER_SIDE,
+    OUTSIDE,
+    Answer,
+    ReferencePoint,
+    Source,
+)
+from thrustwasher.fidelity.reference_washer import solve_on
+from thrustwasher.fidelity.surroundings import this_machine
+from thrustwasher.kernels import command_step
+from thrustwasher.store.card_parts import QUANTITIES
 from thrustwasher.store.cards import read_card
 from thrustwasher.store.digests import params_digest
 
@@ -26,9 +41,11 @@ MODELS = ("washer", "clutch", "gearmesh")
 DEFAULT = {m: cases(m)[0] for m in MODELS}
 
 
-def truth(value, point=None, beside=False, uncertainty=0.0):
+def known(value, point=None, beside=False, uncertainty=0.0):
     values = dict.fromkeys(QUANTITIES, value)
-    return Truth(point or {}, None, None, values, dict.fromkeys(QUANTITIES, uncertainty), beside)
+    return ReferencePoint(
+        point or {}, None, None, values, dict.fromkeys(QUANTITIES, uncertainty), beside
+    )
 
 
 def said(value, verdict=OK):
@@ -79,26 +96,26 @@ def test_a_part_of_the_box_has_the_points_that_lie_in_it():
 
 
 def test_a_relative_error_has_a_floor():
-    assert deviation("friction_torque", truth(2.0), 2.2, 0.01) == pytest.approx(0.1)
-    assert deviation("friction_torque", truth(0.0), 0.001, 0.01) == pytest.approx(0.1)
-    assert deviation("temperature", truth(300.0), 301.5, 0.01) == pytest.approx(1.5)
+    assert deviation("friction_torque", known(2.0), 2.2, 0.01) == pytest.approx(0.1)
+    assert deviation("friction_torque", known(0.0), 0.001, 0.01) == pytest.approx(0.1)
+    assert deviation("temperature", known(300.0), 301.5, 0.01) == pytest.approx(1.5)
 
 
 def test_a_course_is_judged_by_its_largest_error_over_its_largest_value():
-    expected = truth([0.0, 10.0, 5.0])
+    expected = known([0.0, 10.0, 5.0])
     assert deviation("friction_torque", expected, [1.0, 10.0, 4.5], 0.0) == pytest.approx(0.1)
 
 
 def pairs_over(case, n, answer_of):
     points = [case.point(k) for k in range(n)]
-    return [(truth(1.0, p), answer_of(k)) for k, p in enumerate(points)]
+    return [(known(1.0, p), answer_of(k)) for k, p in enumerate(points)]
 
 
 def test_tables_count_every_answer_once_and_only_those_that_count():
     case = DEFAULT["washer"]
     verdicts = [OK, OUTSIDE, FAILED, OK]
     pairs = pairs_over(case, 120, lambda k: said(1.1, verdicts[k % 4]))
-    found, cells = tables(pairs, case.envelope)
+    found, cells = error_tables(pairs, case.envelope)
     table = found["friction_torque"]
     assert sum(map(sum, table.n)) == 60
     assert sum(map(sum, cells.outside)) == 30
@@ -109,7 +126,7 @@ def test_tables_count_every_answer_once_and_only_those_that_count():
 def test_the_worst_is_the_worst_and_never_rounded_down():
     case = DEFAULT["washer"]
     pairs = pairs_over(case, 90, lambda k: said(1.0 + 1.0001e-3 * k))
-    table = tables(pairs, case.envelope)[0]["friction_torque"]
+    table = error_tables(pairs, case.envelope)[0]["friction_torque"]
     assert max(w for row in table.worst for w in row) >= 0.0891 > 89 * 1.0001e-3
     assert all(r <= w for a, b in zip(table.rms, table.worst, strict=True)
                for r, w in zip(a, b, strict=True))  # fmt: skip
@@ -121,7 +138,7 @@ def test_points_beside_a_fold_are_told_apart():
     beside = [dataclasses.replace(t, beside_fold=True) for t, _ in pairs[:3]]
     answers = [said(1.5), said(9.0, OTHER_SIDE), said(1.2)]
     pairs = [*zip(beside, answers, strict=True), *pairs[3:]]
-    table = tables(pairs, case.envelope)[0]["friction_torque"]
+    table = error_tables(pairs, case.envelope)[0]["friction_torque"]
     assert max(w for row in table.worst for w in row) == pytest.approx(0.01, rel=1e-2)
     fold = fold_part(pairs)
     assert (fold.n, fold.other_side) == (3, 1)
@@ -130,31 +147,33 @@ def test_points_beside_a_fold_are_told_apart():
 
 
 def test_classes_of_film_ratio_hold_thirty_points_and_their_worst_error():
-    known = [dataclasses.replace(truth(1.0), values={**truth(1.0).values, "film_ratio": 0.1 * k})
+    points = [dataclasses.replace(known(1.0), values={**known(1.0).values, "film_ratio": 0.1 * k})
              for k in range(90)]  # fmt: skip
-    found = by_film_ratio([(t, said(1.1 if 30 <= k < 60 else 1.001)) for k, t in enumerate(known)])
+    found = by_film_ratio([(t, said(1.1 if 30 <= k < 60 else 1.001)) for k, t in enumerate(points)])
     assert found.n == (30, 30, 30) and found.edges == pytest.approx((3.0, 6.0), abs=0.1)
     assert found.worst["friction_torque"] == pytest.approx((1e-3, 0.1, 1e-3), rel=1e-2)
-    course = dataclasses.replace(truth(1.0), values={q: [1.0, 2.0] for q in QUANTITIES})
+    course = dataclasses.replace(known(1.0), values={q: [1.0, 2.0] for q in QUANTITIES})
     assert by_film_ratio([(course, said([1.0, 2.0]))]) is None
 
 
 def test_the_uncertainty_of_the_reference_counts_as_error():
-    assert deviation("friction_torque", truth(2.0, uncertainty=0.1), 2.2, 0.0) == pytest.approx(
+    assert deviation("friction_torque", known(2.0, uncertainty=0.1), 2.2, 0.0) == pytest.approx(
         0.15
     )
 
 
 def test_the_uncertainty_named_is_the_typical_one_away_from_folds():
-    known = [truth(2.0, uncertainty=u) for u in (1e-3, 1e-3, 1.0)]
-    known.append(truth(2.0, uncertainty=9.0, beside=True))
-    assert uncertainties(known)["friction_torque"] == pytest.approx(5e-4)
+    points = [known(2.0, uncertainty=u) for u in (1e-3, 1e-3, 1.0)]
+    points.append(known(2.0, uncertainty=9.0, beside=True))
+    assert uncertainties(points)["friction_torque"] == pytest.approx(5e-4)
 
 
 @pytest.mark.parametrize("n", [10, 40, 100, 250, 600])
 def test_each_cell_holds_enough_points_to_speak_for_itself(n):
     case = DEFAULT["washer"]
-    table = tables(pairs_over(case, n, lambda k: said(1.0)), case.envelope)[0]["friction_torque"]
+    table = error_tables(pairs_over(case, n, lambda k: said(1.0)), case.envelope)[0][
+        "friction_torque"
+    ]
     counts = [c for row in table.n for c in row]
     assert sum(counts) == n
     assert min(counts) >= 30 or len(counts) == 1
@@ -171,34 +190,24 @@ def kept(tmp_path, monkeypatch):
 
     def solve(params, point):
         asked.append(point)
-        return [truth(1.0, point)]
+        return [known(1.0, point)]
 
-    return asked, Source(solve, ("film",), "reference", None, ("one route",)), tmp_path
+    return asked, Source(solve, None, None, ("film",), None, ("one route",))
 
 
 def test_a_point_is_solved_once_and_a_stopped_run_goes_on(kept):
-    asked, source, _ = kept
-    first = truths(DEFAULT["washer"], source, 3)
-    more = truths(DEFAULT["washer"], source, 5)
+    asked, source = kept
+    first = reference_points(DEFAULT["washer"], source, 3)
+    more = reference_points(DEFAULT["washer"], source, 5)
     assert len(asked) == 5 and more[:3] == first
 
 
-def test_a_line_that_was_cut_off_is_solved_again(kept):
-    asked, source, folder = kept
-    truths(DEFAULT["washer"], source, 3)
-    (path,) = folder.rglob("*.jsonl")
-    path.write_text(path.read_text()[:-30])
-    assert len(truths(DEFAULT["washer"], source, 3)) == 3
-    assert len(asked) == 4
-    assert len(truths(DEFAULT["washer"], source, 3)) == 3 and len(asked) == 4
-
-
 def test_values_of_other_kernels_or_parameters_are_not_taken(kept, monkeypatch):
-    asked, source, _ = kept
-    truths(DEFAULT["washer"], source, 1)
-    truths(cases("washer")[1], source, 1)
-    monkeypatch.setattr(home, "kernel_digest", lambda files: "other")
-    truths(DEFAULT["washer"], source, 1)
+    asked, source = kept
+    reference_points(DEFAULT["washer"], source, 1)
+    reference_points(cases("washer")[1], source, 1)
+    monkeypatch.setattr(reference_cache, "kernel_digest", lambda files: "other")
+    reference_points(DEFAULT["washer"], source, 1)
     assert len(asked) == 3
 
 
@@ -222,10 +231,10 @@ def test_a_solution_carried_to_another_mesh_is_the_one_found_there(load, branch)
 
 def test_what_python_adds_to_a_call_is_taken_off():
     arrays = [np.zeros(6) for _ in range(5)]
-    assert empty_step()(*arrays, np.zeros(3, np.int32), 0.0, 1.0) == 0
-    timing = less(Timing(1.25, 0.5, 1.0, 9, 2.0), 0.25)
+    assert command_step.step(*arrays, np.zeros(3, np.int32), 0.0, 1.0) == 0
+    timing = Timing(1.25, 0.5, 1.0, 9, 2.0).less(0.25)
     assert (timing.median, timing.iqr, timing.least) == (1.0, 0.5, 0.75)
-    assert less(timing, 5.0).median > 0.0
+    assert timing.less(5.0).median > 0.0
 
 
 def test_a_timed_step_goes_to_and_fro_and_stays_away_from_the_fold():
@@ -237,7 +246,7 @@ def test_a_timed_step_goes_to_and_fro_and_stays_away_from_the_fold():
         loads.append(float(inp[0]))
         return 0
 
-    call = stepper(spec, spec.params(), "field", truth(1.0, point), step)
+    call = stepper(spec, spec.params(), "field", known(1.0, point), step)
     for _ in range(80):
         call()
     steps = {round(abs(b / a - 1.0), 3) for a, b in itertools.pairwise(loads)}
@@ -247,7 +256,7 @@ def test_a_timed_step_goes_to_and_fro_and_stays_away_from_the_fold():
 
 def test_the_machine_is_named():
     machine = this_machine()
-    assert machine.cpu and machine.cores >= 1 and machine.numba.count(".") == 2
+    assert machine["cpu"] and machine["cores"] >= 1 and machine["numba"].count(".") == 2
 
 
 def test_a_written_card_is_read_back(tmp_path):

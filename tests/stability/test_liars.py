@@ -16,12 +16,13 @@ import thrustwasher
 from thrustwasher import WasherParams, solve_washer
 from thrustwasher.drivetrain import load_scene
 from thrustwasher.errors import Status
-from thrustwasher.fidelity.stability import LIES, OK, SAYS, closed_forms, coupling, heat_loop, table
-from thrustwasher.fidelity.stability_balance import Found, judged
+from thrustwasher.fidelity.failure_balance import Found, balance, judged
+from thrustwasher.fidelity.failure_cells import LIES, OK, SAYS, table
+from thrustwasher.fidelity.failure_map import closed_forms, coupling, heat_loop
 from thrustwasher.models.transmission_params import TransmissionParams
 from thrustwasher.rivals import cavitation as c
 from thrustwasher.rivals import lockup as k
-from thrustwasher.rivals import lockup_ways as ways
+from thrustwasher.rivals import lockup_methods as methods
 from thrustwasher.rivals import shaft as s
 
 from gearbox import Gearbox  # isort: skip
@@ -134,7 +135,7 @@ def test_the_washers_film_stops_on_the_residual_on_every_mesh():
 def test_located_lock_up_is_exact_whatever_the_step():
     clutch = k.Clutch()
     for step in (1e-4, 7e-3, 5e-2):
-        course = ways.located(clutch, step)
+        course = methods.located(clutch, step)
         assert course.energy == pytest.approx(clutch.slip_energy, rel=1e-9)
         assert course.slip[-1] == 0.0
 
@@ -147,9 +148,9 @@ def test_gauss_seidel_bears_steps_twice_as_long_as_jacobi():
     def last(way, kappa):
         return abs(way(clutch, kappa * clutch.inertia / stiffness).slip[-1])
 
-    assert last(ways.gauss_seidel, 1.9) < 1e-6 < last(ways.gauss_seidel, 2.2)
-    assert last(ways.jacobi, 0.95) < 1e-3 < last(ways.jacobi, 1.1)
-    assert last(ways.linearly_implicit, 100.0) < 1e-6
+    assert last(methods.gauss_seidel, 1.9) < 1e-6 < last(methods.gauss_seidel, 2.2)
+    assert last(methods.jacobi, 0.95) < 1e-3 < last(methods.jacobi, 1.1)
+    assert last(methods.linearly_implicit, 100.0) < 1e-6
 
 
 def test_explicit_steps_and_handed_torques_lie_at_lock_up_and_located_events_do_not():
@@ -176,14 +177,14 @@ def test_the_drivelines_own_integration_does_not_know_the_step():
 
 
 def test_the_sums_of_an_uneven_clutch_are_those_of_its_closed_form_where_there_is_one():
-    even, almost = k.Clutch(), k.Clutch(other=1.0 + 1e-12)
-    assert almost.lock_time == pytest.approx(even.lock_time, rel=1e-9)
-    assert almost.slip_energy == pytest.approx(even.slip_energy, rel=1e-9)
+    even, almost = k.Clutch(), k.Clutch(lag=1e-9)
+    assert almost.lock_time == pytest.approx(even.lock_time, rel=2e-5)
+    assert almost.slip_energy == pytest.approx(even.slip_energy, rel=2e-5)
 
 
 def test_going_back_without_the_film_is_wrong_for_every_way_and_with_it_for_none():
     clutch = k.Clutch(lag=0.2)
-    for way in (ways.located, ways.gauss_seidel, ways.step_doubling):
+    for way in (methods.located, methods.gauss_seidel, methods.step_doubling):
         whole, part = (way(clutch, 5e-4, k.Rewind(200, 20, forgets=f)) for f in (False, True))
         assert whole.energy == pytest.approx(clutch.slip_energy, rel=5e-3)
         assert part.energy < 0.99 * clutch.slip_energy
@@ -239,8 +240,6 @@ def test_an_error_estimate_that_covers_the_error_is_one_too():
 @pytest.mark.slow
 def test_the_default_solver_is_no_liar_where_others_are():
     """Compiles the rival's loops for a minute."""
-    from thrustwasher.fidelity.stability import balance
-
     found = verdicts(balance())
     for default in ("field, the default, cold", "field, the default, warm", "map",
                     "steps in film thickness"):  # fmt: skip

@@ -14,7 +14,7 @@ import pytest
 
 from thrustwasher.drivetrain.macro_steps import Way, masters, scene_of
 from thrustwasher.drivetrain.run import run_shift
-from thrustwasher.fidelity.stability_cells import OK, SAYS, SLOW
+from thrustwasher.fidelity.failure_cells import OK, SAYS, SLOW
 from thrustwasher.fmu.direct import DirectInstance
 from thrustwasher.reference.engagement import reduced_inertia
 

@@ -14,7 +14,7 @@ import pytest
 from thrustwasher import SolveError, WasherParams, choose, solve_washer
 from thrustwasher.models.washer import ERRORS
 from thrustwasher.store import cards, digests
-from thrustwasher.store.sources import files_of
+from thrustwasher.store.cards import files_of
 
 POINT = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0}
 BOX = {"load": (200.0, 400.0), "speed": (400.0, 600.0), "tilt": (2e-3, 2e-3),

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from thrustwasher import run_sweep
-from thrustwasher.errors import EnvironmentProblem, ParameterError
+from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.sweep import run as runs
 from thrustwasher.sweep.run import journal_of
 
 OVER = {"load": "1 kN:9 kN:n20", "speed": "5:300:n100"}
@@ -111,17 +112,10 @@ def test_a_script_without_a_guard_is_told_so(tmp_path):
 
 def test_a_cluster_that_does_not_answer_is_named(monkeypatch):
     pytest.importorskip("distributed")
-    from thrustwasher.sweep import pools
-
-    monkeypatch.setattr(pools, "ANSWER_TIME", "1s")
+    monkeypatch.setattr(runs, "ANSWER_TIME", "1s")
     for address in ("tcp://127.0.0.1:1", "nonsense"):
         with pytest.raises(EnvironmentProblem, match="does not answer"):
             run_sweep("gearmesh", {"load": [1.0]}, cluster=address)
-
-
-def test_workers_and_cluster_exclude_each_other():
-    with pytest.raises(ParameterError, match="one of them"):
-        run_sweep("gearmesh", {"load": [1.0]}, workers=2, cluster="tcp://127.0.0.1:1")
 
 
 @pytest.mark.slow

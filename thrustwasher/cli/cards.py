@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from ..fidelity.models import MODELS, spec_of
+from ..store.cards import VERIFY
 from . import _output
 
 HELP = "list the verified errors of all rungs, where they hold and what a call costs"
-MODELS = ("washer", "clutch", "gearmesh")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument("model", nargs="?", choices=MODELS, help="only this model")
+    parser.add_argument("model", nargs="?", choices=list(MODELS), help="only this model")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 
 
@@ -41,8 +42,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _order(model: str) -> Any:
     """Return the key that sorts cards by parameter set, then by rung as in the ladder."""
-    from ..fidelity.models import spec_of
-
     rungs = list(spec_of(model).fidelities)
 
     def key(card: Any) -> tuple[Any, ...]:
@@ -60,10 +59,10 @@ def worst(card: Any, quantity: str) -> float | None:
 
 def _print_model(model: str, cards: list[Any]) -> None:
     """Print a table per parameter set."""
-    from ..fidelity.words import shown_error, shown_seconds
+    from ..fidelity.formats import shown_error, shown_seconds
 
     if not cards:
-        print(f"{model}: no cards; make them: python -m thrustwasher.fidelity.verify {model}")
+        print(f"{model}: no cards; make them: {VERIFY} {model}")
     for name in dict.fromkeys(card.params.name for card in cards):
         mine = [card for card in cards if card.params.name == name]
         spans = ", ".join(

@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.draw:
         record = _read(arguments.draw)
     else:
-        from ..fidelity.record import pin_threads
+        from ..fidelity.surroundings import pin_threads
 
         pin_threads()
         command = "thrustwasher chart" + (" --quick" if arguments.quick else "")
@@ -68,7 +68,7 @@ def _stability_alone(arguments: argparse.Namespace) -> int:
     alone = Path(arguments.out).suffix.lower() == ".md"
     check = _output.check_file if alone else _output.check_folder
     target = check(arguments.out, "--out")
-    from ..fidelity.record import pin_threads, surroundings
+    from ..fidelity.surroundings import pin_threads, surroundings
 
     pin_threads()
     command = "thrustwasher chart --only stability" + (" --quick" if arguments.quick else "")
@@ -92,8 +92,8 @@ def _stability_alone(arguments: argparse.Namespace) -> int:
 def _stability(*, quick: bool) -> dict[str, Any]:
     """Return the stability map with the masters of the driveline, and the limits of coupling."""
     from ..drivetrain.macro_steps import masters
-    from ..fidelity.stability import stability
-    from ..fidelity.stability_limits import as_rows, limits
+    from ..fidelity.coupling_limits import as_rows, limits
+    from ..fidelity.failure_map import stability
 
     more = (("masters of a shift", lambda: masters(_instances)),)
     groups = stability(quick=quick, progress=_say, more=more)
@@ -113,8 +113,9 @@ def _instances(scene: Any) -> dict[str, Any]:
 
 def _measured(command: str, *, quick: bool) -> dict[str, Any]:
     """Return everything that is measured, as JSON types."""
-    from ..fidelity.record import surroundings
-    from ..fidelity.survey import MODELS, survey
+    from ..fidelity.models import MODELS
+    from ..fidelity.surroundings import surroundings
+    from ..fidelity.work_precision import work_precision
 
     began = time.perf_counter()
     record = {**surroundings(command), "quick": quick, "models": {}}
@@ -122,7 +123,7 @@ def _measured(command: str, *, quick: bool) -> dict[str, Any]:
     if load is not None and load > 0.5 * cores:
         _output.note(f"the machine is busy (load {load} on {cores} cores): ratios may be compared")
     for model in MODELS:
-        record["models"][model] = survey(model, quick=quick, progress=_say)
+        record["models"][model] = work_precision(model, quick=quick, progress=_say)
     record["macro_steps"] = _macro_steps(quick=quick)
     record |= _stability(quick=quick)
     record["run_s"] = time.perf_counter() - began
@@ -143,8 +144,8 @@ def _say(what: str) -> None:
 
 def _read(path: str) -> dict[str, Any]:
     """Return the record of an earlier run."""
-    from ..fidelity.record import SCHEMA
-    from ..store.seal import is_broken
+    from ..fidelity.surroundings import SCHEMA
+    from ..store.digests import is_broken
 
     try:
         record = json.loads(Path(path).read_text("utf-8"))
@@ -163,7 +164,7 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     from ..fidelity.pareto import front
     from ..report.chart_page import markdown, page_of
     from ..report.html import render, save_plots
-    from ..store.seal import sealed
+    from ..store.digests import sealed
 
     fronts = {
         model: {q["name"]: front(s["samples"], q["name"]) for q in s["quantities"]}

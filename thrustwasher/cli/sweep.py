@@ -9,9 +9,9 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError, SolveError
+from ..fidelity.models import MODELS, spec_of
 from ..models._spec import ModelSpec
 from ..sweep.axes import places, split_setting
-from ..sweep.plan import SPECS, load_spec
 from . import _output
 from ._options import option_name
 from ._progress import time_left
@@ -22,7 +22,7 @@ HELP = "solve a model over ranges of inputs and parameters, on all cores or on a
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument("model", metavar="MODEL", help=", ".join(SPECS))
+    parser.add_argument("model", metavar="MODEL", help=", ".join(MODELS))
     parser.add_argument(
         "--over", metavar="NAME=VALUES", action="append", default=[],
         help="vary an input or parameter: load=50:1850:50 (start:stop:step), load=20:1850:x40 (40 "
@@ -57,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Sweep, then write the table and say how it went."""
-    spec = load_spec(arguments.model)
+    spec = spec_of(arguments.model)
     at = _held(arguments, spec)
     out = None
     if arguments.out:
@@ -140,8 +140,8 @@ def _workers(text: str | None) -> int | None:
 def _inputs() -> dict[str, str]:
     """Return the inputs of all models with the units that they have there."""
     found: dict[str, dict[str, None]] = {}
-    for model in SPECS:
-        for place in places(load_spec(model)).values():
+    for model in MODELS:
+        for place in places(spec_of(model)).values():
             if place.is_input:
                 found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
     return {name: ", ".join(units) for name, units in found.items()}

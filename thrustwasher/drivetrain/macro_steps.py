@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ParameterError, SolveError
-from ..fidelity.stability_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+from ..fidelity.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
 from .cosim.instances import Stepping
 from .masters.master import MASTERS
 from .result import ShiftResult

@@ -1,4 +1,4 @@
-"""Boxes of inputs: what part of one lies inside another, and what share that is."""
+"""Boxes of inputs: what is asked of one, what part lies inside another, what share that is."""
 
 from __future__ import annotations
 
@@ -21,6 +21,18 @@ class Part:
     box: Box
     share: float = 1.0
     where: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What is asked of the ladder."""
+
+    spec: ModelSpec
+    box: Box
+    quantity: str
+    tol: float
+    n_calls: float
+    safety: float
 
 
 def checked_box(spec: ModelSpec, box: Mapping[str, float | tuple[float, float]]) -> Box:

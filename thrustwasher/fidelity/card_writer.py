@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -12,28 +10,27 @@ from pathlib import Path
 
 from ..errors import ParameterError
 from ..models._params import as_numbers
-from ..store.card_parts import Cost, HeldOut, Origin, ParameterSet, Reference, Sources
-from ..store.cards import SCHEMA, Card
+from ..store.card_parts import Cost, HeldOut, ParameterSet, Reference, Sources
+from ..store.cards import SCHEMA, Card, files_of
 from ..store.digests import changed_fields, kernel_digest, params_digest
 from ..store.maps import SHIPPED, MapFile, find_map
-from ..store.sources import files_of
-from .answers import FAILED, OK, OUTSIDE, Answer
-from .envelopes import SAMPLING, Case
-from .measure import Timing
-from .references import source_of
-from .tables import by_film_ratio, fold_part, tables, uncertainties
-from .timing import this_machine, this_place
-from .truths import Truth
+from ..store.whole_files import whole_file
+from .card_cases import SAMPLING, Case
+from .costs import Timing
+from .error_tables import by_film_ratio, error_tables, fold_part, uncertainties
+from .reference_cache import source_of
+from .reference_values import FAILED, OK, OUTSIDE, Answer, ReferencePoint
+from .surroundings import this_machine, this_package
 
 MESHED = ("coarse", "field", "fine")
 
 
 def make_card(
-    case: Case, rung: str, chart: str | None, pairs: Sequence[tuple[Truth, Answer]],
+    case: Case, rung: str, chart: str | None, pairs: Sequence[tuple[ReferencePoint, Answer]],
     timing: Timing, first: float,
 ) -> Card:  # fmt: skip
     """Return the card of one chart from reference values and a rung's answers to them."""
-    errors, cells = tables(pairs, case.verified)
+    errors, cells = error_tables(pairs, case.verified)
     away = [a for t, a in pairs if not t.beside_fold]
     verdicts = [a.verdict for a in away]
     known = [t for t, _ in pairs]
@@ -46,12 +43,12 @@ def make_card(
         branch=known[0].branch if known else None, fold=fold_part(pairs),
         params=ParameterSet(case.name, params_digest(case.params), changed_fields(case.params)),
         kernels=Sources(tuple(files), kernel_digest(files)),
-        package=origin(), made=datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        package=this_package(), made=datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
         envelope=dict(case.verified), errors=errors, cells=cells,
         by_film_ratio=by_film_ratio(pairs),
         held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
                          case.seed, SAMPLING),
-        reference=Reference(source.fidelity, source.grid, source.routes, uncertainties(known)),
+        reference=Reference("reference", source.grid, source.routes, uncertainties(known)),
         cost=_cost(rung, timing, first, away, built),
         machine=this_machine(),
     )  # fmt: skip
@@ -96,18 +93,9 @@ def timed_card(card: Card, timing: Timing, first: float) -> Card:
     return replace(card, cost=cost, machine=this_machine())
 
 
-def origin() -> Origin:
-    """Return the package's version and, in a checkout, its commit and if it was changed since."""
-    package = this_place()["package"]
-    version = sys.modules[__name__.partition(".")[0]].__version__
-    return Origin(version, package["commit"], package["dirty"])
-
-
 def write_card(card: Card, folder: Path) -> Path:
-    """Write a card's file whole or not at all; return its path."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Write a card's file; return its path."""
     path = folder / f"{card.name}.json"
-    draft = path.with_suffix(".part")
-    draft.write_text(card.as_json(), "utf-8")
-    os.replace(draft, path)
+    with whole_file(path) as draft:
+        draft.write_text(card.as_json(), "utf-8")
     return path

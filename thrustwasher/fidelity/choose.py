@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..models._spec import ModelSpec
-from .boxes import Box, Part, checked_box
-from .candidates import Candidate, candidates
+from ..store.card_parts import QUANTITIES
+from ..store.cards import VERIFY
+from .boxes import Part, Request, checked_box
+from .candidates import Candidate, Plan, candidates, plans
+from .formats import plain, shown_error, shown_seconds, shown_share
 from .models import spec_of
-from .plans import Plan, plans
-from .words import plain, shown_error, shown_seconds, shown_share
-
-QUANTITIES = ("friction_torque", "temperature", "film_thickness", "film_ratio")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,18 +40,6 @@ class Choice:
 
     def __str__(self) -> str:
         return "\n  ".join(self.reasons)
-
-
-@dataclass(frozen=True, slots=True)
-class Request:
-    """What was asked for."""
-
-    spec: ModelSpec
-    box: Box
-    quantity: str
-    tol: float
-    n_calls: float
-    safety: float
 
 
 def choose(
@@ -205,7 +191,7 @@ def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
 
 def _refusal(request: Request, found: list[Candidate], refused: dict[str, str]) -> str:
     """Say that nothing fits, the best there is, and what to do."""
-    key, verify = request.spec.key, "python -m thrustwasher.fidelity.verify"
+    key = request.spec.key
     if not found:
         why = "; ".join(f"{rung}: {why}" for rung, why in refused.items())
         return f"{key}: no rung has a card that holds here: {why}"
@@ -224,5 +210,5 @@ def _refusal(request: Request, found: list[Candidate], refused: dict[str, str]) 
     unit = "" if s.unit in (None, "1") else f" {s.unit}"
     return (
         f"{key}: no rung reaches {asked}{unit} in {request.quantity}; the best is {rung} with "
-        f"{plain(error)}{unit}. Ask for less, or verify a finer one: {verify} {key} {rung}{stale}"
+        f"{plain(error)}{unit}. Ask for less, or verify a finer one: {VERIFY} {key} {rung}{stale}"
     )

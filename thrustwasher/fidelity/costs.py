@@ -6,27 +6,31 @@ any rung.
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
+import math
+import statistics
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from ..kernels import command_step
 from ..models._prepare import filled
 from ..models._spec import ModelSpec
 from ..models._tables import fill_table
-from .envelopes import cases
-from .measure import Timing, time_call
-from .timing import empty_step
-from .truths import Truth
+from .card_cases import cases
+from .models import kernel_of
+from .reference_values import ReferencePoint
 
+BATCH = 10e-3  # [s] least time between two looks at the clock
+REPEATS = 9
+LEAST = 5e-8  # [s] a call is never taken for less
 WALK = 0.003  # load and speed move by so much from call to call
-LEAST = 5e-8  # s
 TURN = 20  # calls in one direction
 STEP = 1e-3  # s, for parts that have states
 BRANCHES = {"film": 1.0, "contact": 3.0}
@@ -34,27 +38,62 @@ FIRST = """
 import time, json, sys
 import thrustwasher
 began = time.perf_counter()
-from thrustwasher.fidelity.answers import answer
 from thrustwasher.fidelity.models import spec_of
-from thrustwasher.fidelity.truths import Truth
-point = Truth({point!r}, None, None, {{}}, {{}})
+from thrustwasher.fidelity.reference_cache import answer
+from thrustwasher.fidelity.reference_values import ReferencePoint
+point = ReferencePoint({point!r}, None, None, {{}}, {{}})
 answer({model!r}, spec_of({model!r}).params(), {fidelity!r}, point)
 print(time.perf_counter() - began)
 """
 
 
+@dataclass(frozen=True)
+class Timing:
+    """Seconds per call over repeats."""
+
+    median: float
+    iqr: float
+    least: float
+    repeats: int
+    first: float
+
+    def less(self, spent: float) -> Timing:
+        """Return it without what a call costs that does nothing; some is left in any case."""
+        median, least = max(self.median - spent, LEAST), max(self.least - spent, LEAST)
+        return replace(self, median=median, least=least)
+
+
+def time_call(
+    call: Callable[[], object], *, repeats: int = REPEATS, batch: float = BATCH
+) -> Timing:
+    """Return the time of a call; the first one is apart."""
+    first = _seconds(call, 1)
+    once = _seconds(call, 1)
+    n = max(1, math.ceil(batch / max(once, 1e-7)))
+    times = [_seconds(call, n) for _ in range(repeats)]
+    low, _, high = statistics.quantiles(times, n=4)
+    return Timing(statistics.median(times), high - low, min(times), repeats, first)
+
+
+def _seconds(call: Callable[[], object], n: int) -> float:
+    began = time.perf_counter()
+    for _ in range(n):
+        call()
+    return (time.perf_counter() - began) / n
+
+
 def stepper(
-    spec: ModelSpec, params: Any, fidelity: str, truth: Truth, step: Any = None
+    spec: ModelSpec, params: Any, fidelity: str, known: ReferencePoint, step: Any = None
 ) -> Callable[[], int]:
     """Return a call that makes one step of a rung near a point, load and speed a little further.
 
     ``step`` replaces the kernel's.
     """
-    kernel = import_module(f"..kernels.{spec.kernel}", __package__)
+    kernel = kernel_of(spec)
     step = step or kernel.step
-    par = prepared(spec, params, fidelity)
-    branch = BRANCHES.get(truth.branch or "", 0.0) if spec.key == "washer" else None
-    first = [truth.point[s.name] for s in spec.inputs]
+    par = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
+    branch = BRANCHES.get(known.branch or "", 0.0) if spec.key == "washer" else None
+    first = [known.point[s.name] for s in spec.inputs]
     inp = np.array([*first, *([branch] if branch is not None else [])])
     state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
     out, iout = np.zeros(kernel.NOUT), np.zeros(max(kernel.NIOUT, 1), np.int32)
@@ -77,27 +116,17 @@ def _walk(load: float, speed: float, falls: bool) -> list[tuple[float, float]]:
     return [(load / f if falls else load * f, speed * f) for f in factors]
 
 
-def prepared(spec: ModelSpec, params: Any, fidelity: str) -> Any:
-    """Return the parameter array of a rung's kernel."""
-    kernel = import_module(f"..kernels.{spec.kernel}", __package__)
-    return filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
-
-
-def call_cost(spec: ModelSpec, params: Any, fidelity: str, truths: Sequence[Truth]) -> Timing:
+def call_cost(
+    spec: ModelSpec, params: Any, fidelity: str, known: Sequence[ReferencePoint]
+) -> Timing:
     """Return the cost of a call: the median of a few points of a chart."""
-    away = sorted((t for t in truths if not t.beside_fold), key=lambda t: t.point["load"])
+    away = sorted((t for t in known if not t.beside_fold), key=lambda t: t.point["load"])
     some = [away[k * (len(away) - 1) // 4] for k in (1, 2, 3)]
-    empty, found = empty_step(), []
+    found = []
     for t in some:
-        spent = time_call(stepper(spec, params, fidelity, t, empty)).least
-        found.append(less(time_call(stepper(spec, params, fidelity, t)), spent))
+        spent = time_call(stepper(spec, params, fidelity, t, command_step.step)).least
+        found.append(time_call(stepper(spec, params, fidelity, t)).less(spent))
     return sorted(found, key=lambda t: t.median)[1]
-
-
-def less(timing: Timing, spent: float) -> Timing:
-    """Return a timing without what the call from Python takes; some is left in any case."""
-    median, least = max(timing.median - spent, LEAST), max(timing.least - spent, LEAST)
-    return dataclasses.replace(timing, median=median, least=least)
 
 
 @cache

@@ -1,13 +1,14 @@
-"""The models by name, and one face for solving any of them."""
+"""The models and their kernels by name."""
 
 from __future__ import annotations
 
 from importlib import import_module
+from typing import Any
 
 from ..errors import ParameterError
 from ..models._spec import ModelSpec
 
-HOMES = {"washer": "washer_params", "clutch": "clutch_params", "gearmesh": "gearmesh_params"}
+MODELS = {"washer": "washer_params", "clutch": "clutch_params", "gearmesh": "gearmesh_params"}
 
 
 def spec_of(model: str) -> ModelSpec:
@@ -18,7 +19,12 @@ def spec_of(model: str) -> ModelSpec:
     >>> spec_of("washer").default_fidelity
     'field'
     """
-    if model not in HOMES:
-        raise ParameterError(f"model = {model!r}, allowed: {' or '.join(map(repr, HOMES))}")
-    home = import_module(f"..models.{HOMES[model]}", __package__)
-    return home.SPEC  # type: ignore[no-any-return]
+    if model not in MODELS:
+        raise ParameterError(f"model = {model!r}, allowed: {' or '.join(map(repr, MODELS))}")
+    spec: ModelSpec = import_module(f"..models.{MODELS[model]}", __package__).SPEC
+    return spec
+
+
+def kernel_of(spec: ModelSpec) -> Any:
+    """Return the module with a model's compiled step."""
+    return import_module(f"..kernels.{spec.kernel}", __package__)

@@ -13,7 +13,8 @@ from ..kernels.gear_line_of_action import N_NODES, place_mesh
 from ..kernels.gear_point import mesh_point
 from ..models.gearmesh import pinion_torque, prepare, solve_gearmesh
 from ..models.gearmesh_params import GearMeshParams
-from .reference_values import ReferenceValues
+from ..store.card_parts import QUANTITIES
+from .reference_values import OK, Answer, Point, ReferencePoint, ReferenceValues, Source, Values
 
 TOLERANCE = 1e-12
 SEARCHED = 200  # positions on each stretch from which the hottest is searched
@@ -106,3 +107,45 @@ def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
         if -found.fun >= heat[best]:
             return at(float(found.x)).copy()
     return at(float(grid[best])).copy()
+
+
+def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
+    """Return the reference's answer at a held-out point; none where there is none."""
+    try:
+        r = _reference(params, **point)
+    except SolveError:
+        return []
+    values, off = ({q: x[q] for q in QUANTITIES} for x in (r.values, r.uncertainty))
+    return [ReferencePoint(point, None, None, dict(values), off)]
+
+
+def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:
+    """Return the reference's answer at a case of the charts."""
+    return _reference(GearMeshParams(), *point)
+
+
+def _reference(
+    params: GearMeshParams, load: float, speed: float, oil_temperature: float
+) -> ReferenceValues:
+    return reference_gearmesh(
+        params, power=load * speed, speed=speed, oil_temperature=oil_temperature
+    )
+
+
+def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
+    p = known.point
+    g = solve_gearmesh(
+        params, power=p["load"] * p["speed"], speed=p["speed"],
+        oil_temperature=p["oil_temperature"], fidelity=fidelity,
+    )  # fmt: skip
+    values: Values = {
+        "friction_torque": g.friction_torque, "temperature": g.asperity_temperature,
+        "film_thickness": g.film_thickness, "film_ratio": g.film_ratio,
+    }  # fmt: skip
+    return Answer(values, OK, float(g.iterations))
+
+
+SOURCE = Source(
+    _at_points, _answer, _at_case, ("gear_line_of_action", "gear_constants"), None,
+    ("adaptive quadrature over the line of action", "search for the hottest position"),
+)  # fmt: skip

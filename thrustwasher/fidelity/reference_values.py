@@ -1,8 +1,15 @@
-"""What a reference says: values, each with an uncertainty of its own, and by which routes."""
+"""Reference values: what they are, at held-out points too, and what a rung says beside them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+Point = dict[str, float]
+Values = dict[str, float | list[float]]
+MARGIN = 0.05  # of a fold's load: points nearer are told apart
+OK, FAILED, OUTSIDE, OTHER_SIDE = "ok", "failed", "outside", "other side"
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,6 +22,48 @@ class ReferenceValues:
 
     values: dict[str, float]
     uncertainty: dict[str, float]
+    routes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ReferencePoint:
+    """What the reference says at a held-out point on one chart.
+
+    ``values`` holds the quantities, numbers or a row over time; ``uncertainty`` is the reference's
+    own for each, in the same unit. ``by_mesh`` holds what a mesh said on the way.
+    """
+
+    point: Point
+    chart: str | None
+    branch: str | None
+    values: Values
+    uncertainty: dict[str, float]
+    beside_fold: bool = False
+    by_mesh: dict[str, Values] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a rung says at a held-out point, and whether it counts: one of the words above.
+
+    ``work`` is a count of what was done that needs no machine: iterations, times nodes if the rung
+    has a mesh.
+    """
+
+    values: Values
+    verdict: str
+    work: float = 0.0
+
+
+@dataclass(frozen=True)
+class Source:
+    """How a model's reference values are found and its rungs asked."""
+
+    solve: Callable[[Any, Point], list[ReferencePoint]]
+    answer: Callable[[Any, str, ReferencePoint], Answer]  # of parameters, rung; on the branch
+    at_case: Callable[..., ReferenceValues]  # of a chart: its point, the points before it
+    kernels: tuple[str, ...]  # whose change makes kept values worthless
+    grid: tuple[int, ...] | None
     routes: tuple[str, ...]
 
 

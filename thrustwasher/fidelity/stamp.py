@@ -14,9 +14,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..store.card_parts import Sources
-from ..store.cards import Card, read_card
+from ..store.cards import Card, files_of, read_card
 from ..store.digests import DATA, kernel_digest
-from ..store.sources import files_of
 from .card_writer import write_card
 
 

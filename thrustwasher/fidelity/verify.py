@@ -14,25 +14,27 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..store.cards import Card, forget, fresh_cards
+from ..models._params import as_numbers
+from ..store.cards import VERIFY, Card, forget, fresh_cards
 from ..store.digests import DATA
-from .answers import answer, holds
+from ..store.maps import find_map
+from .card_cases import POINTS_IN_PART, Case, cases
 from .card_writer import make_card, timed_card, write_card
 from .costs import call_cost, first_call
-from .envelopes import POINTS_IN_PART, Case, cases
-from .models import HOMES, spec_of
-from .references import source_of
-from .truths import Truth, truths
+from .models import MODELS, spec_of
+from .reference_cache import answer, reference_points, source_of
+from .reference_values import ReferencePoint
 
 HELP = "measure the rungs against the reference and write their cards"
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Make the cards asked for; return 0, or 1 if some could not be made."""
-    parser = argparse.ArgumentParser("python -m thrustwasher.fidelity.verify", description=HELP)
-    parser.add_argument("model", nargs="?", choices=list(HOMES), help="default: all")
+    parser = argparse.ArgumentParser(VERIFY, description=HELP)
+    parser.add_argument("model", nargs="?", choices=list(MODELS), help="default: all")
     parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
     parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 500")
     parser.add_argument(
@@ -46,7 +48,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.error(f"fidelity = {options.fidelity!r}, allowed: {', '.join(rungs)}")
     make = time_again if options.costs else _case
     failed = 0
-    for model in [options.model] if options.model else list(HOMES):
+    for model in [options.model] if options.model else list(MODELS):
         for case in cases(model):
             if options.params in (None, case.name):
                 failed += make(case, options.fidelity, options.sample or case.n, options.out)
@@ -78,10 +80,10 @@ def _case(case: Case, only: str | None, n: int, out: Path) -> int:
     return failed
 
 
-def _known(case: Case, n: int) -> list[Truth]:
+def _known(case: Case, n: int) -> list[ReferencePoint]:
     """Return the reference values of a case, of a part of its box fewer."""
     n = n if case.part is None else min(n, POINTS_IN_PART)
-    return truths(case, source_of(case.spec.key), n, _progress(case, n))
+    return reference_points(case, source_of(case.spec.key), n, _progress(case, n))
 
 
 def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
@@ -98,12 +100,15 @@ def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
     return 0
 
 
+def holds(rung: str, params: Any) -> bool:
+    """Tell if a rung can be used with a parameter set at all; a map may not be there."""
+    return rung != "map" or find_map(as_numbers(params)) is not None
+
+
 def _is_wanted(case: Case, rung: str, only: str | None) -> bool:
     if only is not None:
         return rung == only
-    return holds(case.spec.key, case.params, rung) and not fresh_cards(
-        case.spec.key, rung, case.params
-    )
+    return holds(rung, case.params) and not fresh_cards(case.spec.key, rung, case.params)
 
 
 def case_of(case: Case, rung: str) -> Case:
@@ -115,10 +120,10 @@ def case_of(case: Case, rung: str) -> Case:
     return case.within(WasherMap(case.params).box)
 
 
-def rung_cards(case: Case, rung: str, known: list[Truth]) -> Iterator[Card]:
+def rung_cards(case: Case, rung: str, known: list[ReferencePoint]) -> Iterator[Card]:
     """Yield the cards of a rung, one per chart, from the reference values."""
     point = case.point(0)
-    blank = Truth(point, None, None, {}, {})
+    blank = ReferencePoint(point, None, None, {}, {})
     answer(case.spec.key, case.params, rung, blank)  # compiled from now on
     once = first_call(case.spec.key, rung)
     for chart in dict.fromkeys(t.chart for t in known):

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import Status
-from ..fidelity.words import shown_error
+from ..fidelity.formats import shown_error
 from ..models._spec import ModelSpec
 from ..store.cards import Card, load_cards
 from .interface import Variable, enumerations, variables
@@ -83,7 +83,7 @@ def accuracy(spec: ModelSpec) -> Rows:
             ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in card.envelope.items()),
             str(card.held_out.n),
             *(_worst(card, quantity) for quantity in QUANTITIES),
-            f"version {card.package.version}",
+            f"version {card.package['version']}",
         )
         for card in found
     ]

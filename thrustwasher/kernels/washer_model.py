@@ -11,8 +11,7 @@ from typing import NamedTuple
 
 from . import washer_layout as L
 from ._jit import Array, kernel, matrix
-from .asperities import N_CONTACT_WORK, N_TABLE, contact_table
-from .asperity import asperity_args
+from .asperities import N_CONTACT_WORK, N_TABLE, asperity_args, contact_table
 from .spline import spline_weights
 from .status import BAD_INPUT, NOT_FINITE, OK
 

@@ -5,10 +5,9 @@ of the original and what was set as favourably as can be.
 
 ===============  =================================================================================
 ``plain2006``    the washer as published in 2006: uniform mesh, over-relaxation, difference Newton
-``cavitation``   five ways to solve a cavitating film, some of which lie
-``lockup``       eight ways to step a clutch through lock-up, some of which lie
-``shaft``        six ways to step a shaft that swings, most of which lose or make energy
-``loops``        the least loops of two parts, and when a deviation in them dies out
-``heat_loop``    four ways to find the temperature of a surface that its own oil heats
+``cavitation``   five methods to solve a cavitating film, some of which lie
+``lockup``       eight methods to step a clutch through lock-up, some of which lie
+``shaft``        six methods to step a shaft that swings, most of which lose or make energy
+``heat_loop``    four methods to find the temperature of a surface that its own oil heats
 ===============  =================================================================================
 """

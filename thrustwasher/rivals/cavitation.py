@@ -1,4 +1,4 @@
-"""Five ways to solve a cavitating film, on a pad small enough to try them all.
+"""Five methods to solve a cavitating film, on a pad small enough to try them all.
 
 div(h^3 grad p) = dh/dx for sliding along x, p = 0 on the rim, p >= 0 where the film is full: a
 linear complementarity problem. ``active_set`` meets it exactly: what the others are judged by.
@@ -49,7 +49,7 @@ class Pad:
 
 @dataclass(frozen=True)
 class Film:
-    """Pressures as a way left them, what it says, and how much it did."""
+    """Pressures as a method left them, what it says, and how much it did."""
 
     pressure: Array
     status: Status

@@ -1,9 +1,8 @@
-"""A clutch that locks, stepped in many ways: the least problem in which co-simulation goes wrong.
+"""A clutch that locks: the least problem in which co-simulation goes wrong.
 
 Slip w of a reduced inertia J: J dw/dt = T_d - T_f sign(w), sticking while |T_d| <= T_f. The drive
-is constant; friction is too, unless a film has to be squeezed out first or one rung hands over to
-another. Friction is smoothed over a slip of w_s where a way needs it. The ways are in
-``lockup_ways`` and ``lockup_solvers``.
+is constant; friction is too, unless a film has to be squeezed out first. It is smoothed over a slip
+of w_s where a method needs it. The methods are in ``lockup_methods``.
 """
 
 from __future__ import annotations
@@ -31,35 +30,26 @@ class Clutch:
     width: float = 0.05  # w_s of smoothed friction
     span: float = 1.0
     lag: float = 0.0  # s in which the film goes down to 1/e and friction comes up
-    other: float = 1.0  # friction of the second rung over that of the first
-    blend: tuple[float, float] = (0.2, 0.201)  # s between which it takes over
 
     @property
     def lock_time(self) -> float:
         """[s]."""
-        if self._is_even:
+        if self.lag == 0.0:
             return self.slip * self.inertia / (self.friction - self.drive)
-        return self._course[0]
+        return self._summed[0]
 
     @property
     def slip_energy(self) -> float:
         """[J] turned into heat until lock-up."""
-        if self._is_even:
+        if self.lag == 0.0:
             return 0.5 * self.friction * self.slip * self.lock_time
-        return self._course[1]
-
-    @property
-    def _is_even(self) -> bool:
-        return self.lag == 0.0 and self.other == 1.0
+        return self._summed[1]
 
     @cached_property
-    def _course(self) -> tuple[float, float]:
+    def _summed(self) -> tuple[float, float]:
         """Time of lock-up and heat until then, summed up in fine steps."""
         time = np.linspace(0.0, self.span, FINE)
-        film = 1.0 - np.exp(-time / self.lag) if self.lag else np.ones_like(time)
-        low, high = self.blend
-        share = np.clip((time - low) / (high - low), 0.0, 1.0)
-        torque = self.friction * film * (1.0 + (self.other - 1.0) * share)
+        torque = self.friction * (1.0 - np.exp(-time / self.lag))
         slip = self.slip + _sums((self.drive - torque) / self.inertia, time)
         heat = _sums(torque * slip, time)
         k = int(np.argmax(slip <= 0.0))
@@ -71,17 +61,9 @@ class Clutch:
         """Return how much of the film is gone (0 .. 1) ``h`` later."""
         return 1.0 - (1.0 - film) * math.exp(-h / self.lag) if self.lag else 1.0
 
-    def level(self, film: float, t: float) -> float:
-        """Return the friction torque of full slip [N m]."""
-        if self.other == 1.0:
-            return self.friction * film
-        low, high = self.blend
-        share = min(max((t - low) / (high - low), 0.0), 1.0)
-        return self.friction * film * (1.0 + (self.other - 1.0) * share)
-
-    def smooth(self, w: float, film: float = 1.0, t: float = 0.0) -> float:
+    def smooth(self, w: float, film: float = 1.0) -> float:
         """Return the smoothed friction torque [N m]."""
-        return self.level(film, t) * math.tanh(w / self.width)
+        return self.friction * film * math.tanh(w / self.width)
 
 
 def _sums(rate: Row, time: Row) -> Row:
@@ -91,13 +73,13 @@ def _sums(rate: Row, time: Row) -> Row:
 
 
 class Now(NamedTuple):
-    """All that a way knows at a communication point."""
+    """All that a method knows at a communication point."""
 
     time: float
     slip: float
     heat: float
     film: float  # how much of it is gone
-    own: float  # what else the way keeps: the torque of a step ago, a step that went well
+    own: float  # what else the method keeps: a torque of a step ago, a step that went well
     work: int  # torques evaluated
 
 
@@ -106,11 +88,11 @@ class Rewind(NamedTuple):
 
     every: int = 1000
     ahead: int = 100
-    forgets: bool = False  # the film and what the way keeps stay where they were
+    forgets: bool = False  # the film and what the method keeps stay where they were
 
 
 @dataclass(frozen=True)
-class Course:
+class Run:
     """Slip over time, the heat at the end and how often a torque was evaluated."""
 
     slip: Row
@@ -135,7 +117,7 @@ def begin(clutch: Clutch) -> Now:
     return Now(0.0, clutch.slip, 0.0, film, clutch.smooth(clutch.slip, film), 0)
 
 
-def walk(clutch: Clutch, step: float, advance: Advance, rewind: Rewind | None = None) -> Course:
+def walk(clutch: Clutch, step: float, advance: Advance, rewind: Rewind | None = None) -> Run:
     """Step to the end of the span; ``advance`` returns what is known a step later."""
     n = round(clutch.span / step)
     now = begin(clutch)
@@ -146,7 +128,7 @@ def walk(clutch: Clutch, step: float, advance: Advance, rewind: Rewind | None = 
             now = gone_back(clutch, now, step, advance, rewind)
         now = advance(clutch, now, step)
         slip[i + 1] = now.slip
-    return Course(slip, now.heat, now.work)
+    return Run(slip, now.heat, now.work)
 
 
 def gone_back(clutch: Clutch, now: Now, step: float, advance: Advance, rewind: Rewind) -> Now:

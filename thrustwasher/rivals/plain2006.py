@@ -24,7 +24,7 @@ from ..kernels.washer_layout import D_SIGMA1
 from ..models.washer_constants import constants
 from ..models.washer_params import WasherParams
 from . import plain2006_kernel as kernel
-from .plain2006_mesh import Settings
+from .plain2006_heat import Settings
 
 Array = NDArray[np.float64]
 GRID = (9, 67)

@@ -10,8 +10,7 @@ from ..kernels.flow_factors import flow_conductance, mean_gap, shear_flow
 from ..kernels.washer_gap import dry_friction, oil_viscosity
 from ..kernels.washer_model import WasherModel, washer_model
 from ._jit import rival
-from .plain2006_heat import heat
-from .plain2006_mesh import Mesh, Settings, gap_at, make_mesh
+from .plain2006_heat import Mesh, Settings, gap_at, heat, make_mesh
 
 Array = NDArray[np.float64]
 OK, MAX_ITERATIONS, NOT_FINITE = 0, 10, 14  # errors.Status

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, is_dataclass
+from functools import cache
+from typing import Any, get_args, get_origin, get_type_hints
 
 Grid = tuple[tuple[float | None, ...], ...]  # over two axes of cells; None: no point fell there
 Counts = tuple[tuple[int, ...], ...]
 
+QUANTITIES = ("friction_torque", "temperature", "film_thickness", "film_ratio")
 FEW = 30  # a cell with fewer points takes the worst of itself and its neighbours
 
 
@@ -113,15 +115,6 @@ class Sources:
 
 
 @dataclass(frozen=True, slots=True)
-class Origin:
-    """The package that the card was made with."""
-
-    version: str
-    commit: str | None
-    dirty: bool | None
-
-
-@dataclass(frozen=True, slots=True)
 class HeldOut:
     """The points: how many, failures, and points outside the rung's own range."""
 
@@ -159,20 +152,6 @@ class Cost:
     count_of: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class Machine:
-    """Where the seconds were measured."""
-
-    cpu: str
-    cores: int
-    os: str
-    python: str
-    numpy: str
-    numba: str
-    threads: int
-    load: float
-
-
 def worst_near(errors: Errors, i: int, j: int) -> float | None:
     """Return the worst of a cell; with fewer than 30 points there, of it and its neighbours."""
     rows, columns = len(errors.worst), len(errors.worst[0])
@@ -183,3 +162,29 @@ def worst_near(errors: Errors, i: int, j: int) -> float | None:
         for b in range(max(j - reach, 0), min(j + reach + 1, columns))
     ]
     return max((w for w in found if w is not None and not math.isnan(w)), default=None)
+
+
+@cache
+def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
+    """Return what an annotation is made of: its origin, arguments, and fields if a dataclass."""
+    fields = get_type_hints(kind) if is_dataclass(kind) else {}
+    return get_origin(kind), get_args(kind), fields
+
+
+def from_json(kind: Any, raw: Any) -> Any:
+    """Return what ``json.loads`` gave as the annotation ``kind`` says, lists as tuples.
+
+    Raises
+    ------
+    KeyError, TypeError, AttributeError : it has other keys or another shape than ``kind``
+    """
+    origin, inner, fields = _anatomy(kind)
+    if fields:
+        return kind(**{k: from_json(fields[k], v) for k, v in raw.items()})
+    if origin is tuple:
+        return tuple(from_json(inner[0], item) for item in raw)
+    if origin is dict:
+        return {k: from_json(inner[1], item) for k, item in raw.items()}
+    if inner:  # one kind or None
+        return None if raw is None else from_json(inner[0], raw)
+    return raw

@@ -9,7 +9,6 @@ stops because of a card.
 from __future__ import annotations
 
 import json
-import math
 import os
 import re
 from collections.abc import Mapping
@@ -27,26 +26,47 @@ from .card_parts import (
     Errors,
     Fold,
     HeldOut,
-    Machine,
-    Origin,
     ParameterSet,
     Reference,
     Sources,
+    from_json,
     worst_near,
 )  # fmt: skip
-from .digests import DATA, closure, kernel_digest, params_digest
-from .seal import KEY, is_broken, sealed
-from .sources import files_of
-from .strict import build
-
-__all__ = [
-    "Card", "closure", "error_estimate", "fresh_cards", "kernel_digest", "load_cards",
-    "params_digest", "read_card", "refused_files",
-]  # fmt: skip
+from .digests import CHECK, DATA, KERNELS, closure, is_broken, kernel_digest, params_digest, sealed
 
 SCHEMA = 1
 SAFETY = 1.5  # between a cell's worst held-out point and what is promised
 FOLDER = "THRUSTWASHER_CARDS"  # environment: one more folder with cards, for own parameter sets
+VERIFY = "python -m thrustwasher.fidelity.verify"  # makes cards
+_CLUTCH = ("clutch_steady", "clutch_advance")
+_WASHER_FIELD = ("washer_solve", "washer_outputs", "washer_model")
+# model -> rung -> the modules that compute; what they import is found by itself
+ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
+    "washer": {
+        "closed": ("washer_simple",),
+        "stribeck": ("washer_simple",),
+        "map": ("washer_map_step",),
+        "coarse": _WASHER_FIELD,
+        "field": _WASHER_FIELD,
+        "fine": _WASHER_FIELD,
+    },
+    "clutch": {
+        "closed": _CLUTCH,
+        "boundary": _CLUTCH,
+        "stribeck": _CLUTCH,
+        "field": _CLUTCH,
+        "fine": ("clutch_step", "clutch_steady"),
+    },
+    "gearmesh": {
+        "closed": ("gear_point",),
+        "stribeck": ("gear_point",),
+        "field": ("gear_point",),
+        "fine": ("gear_line_of_action",),
+    },
+}
+# The file that sends each rung to its kernels and names the meshes; not what it imports, or every
+# rung would hang on every other one.
+DISPATCH = {"washer": "washer_step.py", "clutch": "clutch_step.py", "gearmesh": "gear_step.py"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +81,7 @@ class Card:
     fold: Fold | None
     params: ParameterSet
     kernels: Sources
-    package: Origin
+    package: dict[str, Any]  # version, commit
     made: str
     envelope: dict[str, Axis]
     errors: dict[str, Errors]
@@ -70,12 +90,7 @@ class Card:
     held_out: HeldOut
     reference: Reference
     cost: Cost
-    machine: Machine
-
-    def __post_init__(self) -> None:
-        wrong = _contradiction(self)
-        if wrong:
-            raise ParameterError(wrong)
+    machine: dict[str, Any]  # that the seconds were measured on
 
     @property
     def name(self) -> str:
@@ -116,7 +131,7 @@ class Card:
 
         Without ``params`` only the kernels are looked at.
         """
-        renew = f"renew it: python -m thrustwasher.fidelity.verify {self.model} {self.fidelity}"
+        renew = f"renew it: {VERIFY} {self.model} {self.fidelity}"
         if params is not None and params_digest(params) != self.params.sha256:
             return f"made for other parameters ({self.params.name}); {renew}"
         built = [name for name in self.kernels.files if "/" in name]
@@ -148,63 +163,33 @@ def _size(axis: Axis, value: float) -> float:
     return abs(value) if axis.min >= 0.0 else value
 
 
-def _contradiction(card: Card) -> str | None:
-    """Return what in a card does not go together, or None."""
-    if card.schema != SCHEMA:
-        return f"schema = {card.schema}, this version reads {SCHEMA}"
-    if len(card.cells.axes) != 2 or len(card.cells.edges) != 2:
-        return "cells: two axes with their edges are wanted"
-    for name, axis in card.envelope.items():
-        if axis.scale not in ("log", "linear", "fixed") or not axis.min <= axis.max:
-            return f"envelope: {name}: min <= max and a scale log, linear or fixed are wanted"
-    for name, edges in zip(card.cells.axes, card.cells.edges, strict=True):
-        if name not in card.envelope or len(edges) < 2 or list(edges) != sorted(set(edges)):
-            return f"cells: {name}: an input of the envelope with rising edges is wanted"
-    by = card.by_film_ratio
-    if by and any(len(row) != len(by.edges) + 1 for row in (by.n, *by.worst.values())):
-        return "by_film_ratio: one class more than edges is wanted"
-    shape = [len(edges) - 1 for edges in card.cells.edges]
-    tables = [("cells: outside", card.cells.outside)]
-    for name, e in card.errors.items():
-        if e.kind not in ("relative", "absolute"):
-            return f"errors: {name}: kind = {e.kind!r}, allowed: relative or absolute"
-        tables += [(f"errors: {name}: {what}", getattr(e, what)) for what in ("worst", "rms", "n")]
-    for where, table in tables:
-        if [len(table), *{len(row) for row in table}] != shape:
-            return f"{where}: {shape[0]} x {shape[1]} cells are wanted"
-        if any(v is not None and not 0.0 <= v < math.inf for row in table for v in row):
-            return f"{where}: numbers from 0 on are wanted"
-    return None
-
-
 def read_card(path: Path) -> Card:
     """Return the card in a file.
 
     Raises
     ------
-    ParameterError : not JSON, changed since it was written, a key missing, unknown or of another
-        type; file and key are named
+    ParameterError : no JSON, changed since it was written, or of another version; the file is named
     """
     try:
-        raw = json.loads(path.read_text("utf-8"), parse_constant=_no_number)
+        raw = json.loads(path.read_text("utf-8"))
+        changed = not isinstance(raw, dict) or CHECK not in raw or is_broken(raw)
     except (OSError, ValueError, RecursionError) as error:
         raise ParameterError(f"{path.name}: cannot be read ({error})") from None
-    if isinstance(raw, dict):
-        if is_broken(raw):
-            raise ParameterError(
-                f"{path.name}: was changed since it was written (check = {raw[KEY]!r} does not "
-                "fit); make it again: python -m thrustwasher.fidelity.verify"
-            )
-        raw.pop(KEY, None)
+    if changed:
+        raise ParameterError(
+            f"{path.name}: was changed since it was written ({CHECK} does not fit); make it again: "
+            f"{VERIFY}"
+        )
+    del raw[CHECK]
     try:
-        return build(Card, raw, path.name)
-    except ParameterError as error:
-        text = str(error)
-        raise ParameterError(text if path.name in text else f"{path.name}: {text}") from None
-
-
-def _no_number(text: str) -> float:
-    raise ValueError(f"{text} is no number")
+        if raw["schema"] == SCHEMA:
+            card: Card = from_json(Card, raw)
+            return card
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ParameterError(f"{path.name}: is no card of this version ({error})") from None
+    raise ParameterError(
+        f"{path.name}: schema = {raw['schema']}, this version reads {SCHEMA}; renew it: {VERIFY}"
+    )
 
 
 def card_folders() -> list[Path]:
@@ -277,3 +262,17 @@ def error_estimate(
             if found is not None:
                 errors.append(max(found, card.reference.uncertainty.get(quantity, 0.0)))
     return SAFETY * max(errors) if errors else None
+
+
+def files_of(model: str, fidelity: str) -> tuple[str, ...]:
+    """Return the kernel files of a rung, sorted.
+
+    Raises
+    ------
+    KeyError : no such rung
+    FileNotFoundError : the rung has no kernels in this version
+    """
+    dispatch = DISPATCH[model]
+    if not (KERNELS / dispatch).is_file():
+        raise FileNotFoundError(dispatch)
+    return tuple(sorted({*closure(*ROOTS[model][fidelity]), dispatch}))

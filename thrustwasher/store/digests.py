@@ -1,11 +1,11 @@
-"""Fingerprints: of a parameter set, and of the sources that a rung's numbers come from."""
+"""Fingerprints: of a parameter set, of the sources of a rung's numbers, of a JSON file."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
@@ -17,6 +17,7 @@ DECORATOR = "_jit"  # says how kernels are run; the numbers are those of the fun
 # "from .module import ..." and "from . import module, ...", on one line or in brackets.
 IMPORT = re.compile(r"^[ \t]*from[ \t]+\.(\w*)[ \t]+import[ \t]+(\([^)]*\)|.*)", re.MULTILINE)
 NAME = re.compile(r"\w+")
+CHECK = "check"  # key of the checksum in a JSON file
 
 
 def params_digest(params: Any) -> str:
@@ -92,3 +93,21 @@ def _file_digest(name: str) -> str:
     if name.endswith(".py"):
         content = content.replace(b"\r\n", b"\n")
     return hashlib.sha256(content).hexdigest()
+
+
+def seal_of(record: Mapping[str, Any]) -> str:
+    """Return 16 hex digits over keys and values, however the file is laid out."""
+    bare = {key: value for key, value in record.items() if key != CHECK}
+    text = json.dumps(bare, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def sealed(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the record with its checksum as the last key."""
+    bare = {key: value for key, value in record.items() if key != CHECK}
+    return {**bare, CHECK: seal_of(bare)}
+
+
+def is_broken(record: Mapping[str, Any]) -> bool:
+    """Tell if the record has a checksum that does not fit; one without is taken as it is."""
+    return CHECK in record and record[CHECK] != seal_of(record)

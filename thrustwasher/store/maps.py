@@ -24,9 +24,10 @@ from numpy.typing import NDArray
 from ..errors import ParameterError
 from ..kernels import washer_map_layout as L
 from ..kernels.washer_layout import N_STEADY
+from .digests import DATA
 
 Array = NDArray[np.float64]
-SHIPPED = Path(__file__).parents[1] / "data" / "maps"
+SHIPPED = DATA / "maps"
 SUFFIX = ".twm"
 NUMBERS, CARD = "map.f32", "card.json"
 VARIABLE = "THRUSTWASHER_MAPS"

@@ -4,8 +4,7 @@
 ``axes``     what is varied: texts such as ``50:1850:50`` into values
 ``plan``     the rows in their order, cut into lines that are solved one point after the other
 ``rows``     solves lines; runs in the workers
-``pools``    where the workers are: processes here, or a Dask cluster
 ``table``    the rows as columns, as CSV or Parquet
-``run``      ``run_sweep``, which ties these together
+``run``      ``run_sweep``: lines handed to processes here or to a Dask cluster
 ===========  =====================================================================================
 """

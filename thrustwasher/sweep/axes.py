@@ -18,6 +18,7 @@ MOST_POINTS = 2_000_000
 # The gear mesh is loaded by a torque; a power in its place is turned into one, row by row.
 POWER = Signal(name="power", unit="W", help="transmitted power instead of the torque",
                low=-1e9, high=1e9)  # fmt: skip
+MORE_INPUTS = {"gearmesh": (POWER,)}
 _TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 
 
@@ -70,7 +71,7 @@ class Axis:
 
 def places(spec: ModelSpec) -> dict[str, Place]:
     """Return everything of a model that a sweep may vary or hold, by name."""
-    signals = (*spec.inputs, POWER) if spec.key == "gearmesh" else spec.inputs
+    signals = (*spec.inputs, *MORE_INPUTS.get(spec.key, ()))
     found = {
         s.name: Place(
             s.name, s.unit, "real", True, -math.inf if s.low is None else s.low,

@@ -6,22 +6,17 @@ import hashlib
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from ..fidelity.models import spec_of
 from ..models._spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
 
 Array = NDArray[np.float64]
-SPECS = {
-    "washer": "thrustwasher.models.washer_params",
-    "clutch": "thrustwasher.models.clutch_params",
-    "gearmesh": "thrustwasher.models.gearmesh_params",
-}
 
 
 @dataclass(frozen=True)
@@ -53,20 +48,12 @@ class Plan:
         return len(self.params_of)
 
 
-def load_spec(model: str) -> ModelSpec:
-    """Return the model's specification, or raise ParameterError naming the models."""
-    if model not in SPECS:
-        raise ParameterError(f"model = {model!r}, allowed: {', '.join(SPECS)}")
-    spec: ModelSpec = import_module(SPECS[model]).SPEC
-    return spec
-
-
 def make_plan(
     model: str, over: Mapping[str, Any], at: Mapping[str, Any], points: Mapping[str, Any] | None,
     params: Any, fidelity: str | None,
 ) -> Plan:  # fmt: skip
     """Return the plan of a sweep; arguments as in ``run_sweep``."""
-    spec = load_spec(model)
+    spec = spec_of(model)
     known = places(spec)
     rung = spec.default_fidelity if fidelity is None else fidelity
     tolerance = _tolerance(rung, spec)

@@ -8,23 +8,24 @@ regained at the other one. A point that fails leaves the memory as it was.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import lru_cache
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status
+from ..fidelity.models import kernel_of, spec_of
 from ..models._prepare import filled
 from ..models._spec import REGIMES, ModelSpec, Signal
 from ..models._tables import fill_table, wants_table
 from ..native.load import bound
-from .plan import load_spec
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.int32]
+# The clutch slips for ever here: its heat has no end.
+NOT_SHOWN = {"clutch": ("energy", "heat_flux", "viscosity")}
 
 
 @dataclass(frozen=True)
@@ -41,12 +42,8 @@ class Task:
 
 def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
     """Return the real outputs of a row, and the whole-number ones with the status last."""
-    real = tuple(s for s in spec.outputs if s.kind == "real")
-    if spec.key == "clutch":  # slipping for ever: the heat has no end, and no share of it is shown
-        from ..models.clutch import ClutchResult
-
-        known = {f.name for f in fields(ClutchResult)}
-        real = tuple(s for s in real if s.name in known)
+    left_out = NOT_SHOWN.get(spec.key, ())
+    real = tuple(s for s in spec.outputs if s.kind == "real" and s.name not in left_out)
     whole = [s for s in spec.outputs if s.kind != "real"]
     whole.sort(key=lambda s: s.type == "SolverStatus")  # it is the last of them already
     return real, tuple(whole)
@@ -54,11 +51,11 @@ def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, .
 
 def solve_task(task: Task) -> tuple[Array, Flags]:
     """Return the real and the whole-number outputs of the rows; NaN where a row failed."""
-    spec = load_spec(task.model)
+    spec = spec_of(task.model)
     real, whole = output_signals(spec)
     numbers = np.empty((len(task.inputs), len(real)))
     flags = np.zeros((len(task.inputs), len(whole)), np.int32)
-    walk = _walk_clutch if spec.key == "clutch" else _walk_kernel
+    walk = WALKS.get(spec.key, _walk_kernel)
     for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
         if params is None:
             flags[a:b, -1] = Status.BAD_INPUT
@@ -75,12 +72,10 @@ def _walk_kernel(
     spec: ModelSpec, params: Any, fidelity: str, inputs: Array, numbers: Array, flags: Flags
 ) -> None:
     """Fill the rows of one line by steps of the model's kernel."""
-    kernel = _kernel(spec.kernel)
+    kernel = kernel_of(spec)
     state = np.zeros(kernel.NSTATE)
     par = _constants(spec.key, fidelity, params)
-    work = _work_with_table(spec.key, fidelity, params) if wants_table(spec, par) else (
-        _work(spec.kernel)
-    )  # fmt: skip
+    work = _work(spec, fidelity, params, par)
     step = bound(kernel.step, par=par, state=state, work=work)
     for point, row, flag in zip(inputs, numbers, flags, strict=True):
         status = step(point, row, flag, 0.0, 1.0)
@@ -107,38 +102,36 @@ def _walk_clutch(
             result = None
 
 
-def _kernel(name: str) -> Any:
-    return import_module(f"thrustwasher.kernels.{name}")
-
-
-@lru_cache(maxsize=4)
-def _work(name: str) -> Array:
-    """Return this worker's work array of a kernel."""
-    work: Array = np.zeros(_kernel(name).NWORK)
-    return work
+WALKS = {"clutch": _walk_clutch}  # other models: by steps of their kernel
 
 
 @lru_cache(maxsize=64)
 def _constants(model: str, fidelity: str, params: Any) -> Array:
     """Return the kernel's ``par``; many lines share their parameters."""
-    spec = load_spec(model)
-    kernel = _kernel(spec.kernel)
+    spec = spec_of(model)
+    kernel = kernel_of(spec)
     par: Array = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
     return par
 
 
+def _work(spec: ModelSpec, fidelity: str, params: Any, par: Array) -> Array:
+    """Return this worker's work array of a kernel; ParameterError if the rung's table is missing.
+
+    Only one with a table belongs to its parameters.
+    """
+    return _filled_work(spec.key, *((fidelity, params) if wants_table(spec, par) else (None, None)))
+
+
 @lru_cache(maxsize=4)
-def _work_with_table(model: str, fidelity: str, params: Any) -> Array:
-    """Return a work array with the table of a rung; ParameterError if there is none."""
-    spec = load_spec(model)
-    work: Array = np.zeros(_kernel(spec.kernel).NWORK)
-    fill_table(spec, params, _constants(model, fidelity, params), work)
+def _filled_work(model: str, fidelity: str | None, params: Any) -> Array:
+    spec = spec_of(model)
+    work: Array = np.zeros(kernel_of(spec).NWORK)
+    if fidelity is not None:
+        fill_table(spec, params, _constants(model, fidelity, params), work)
     return work
 
 
 def check_rung(spec: ModelSpec, fidelity: str, params: Any) -> None:
     """Raise ParameterError if a rung lacks what it needs for the first parameters of a sweep."""
-    if spec.key != "clutch" and params is not None:
-        par = _constants(spec.key, fidelity, params)
-        if wants_table(spec, par):
-            _work_with_table(spec.key, fidelity, params)
+    if spec.key not in WALKS and params is not None:
+        _work(spec, fidelity, params, _constants(spec.key, fidelity, params))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -13,17 +15,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import EnvironmentProblem, ParameterError
+from ..kernels._jit import kernel_digest
+from ..processes import local_processes, refuse_import_by_worker, usable_cores
 from ..store.journal import Journal
 from .plan import Plan, make_plan
-from .pools import dask_cluster, local_processes, refuse_import_by_worker, usable_cores
 from .rows import Task, check_rung, output_signals, solve_task
-from .table import SweepTable, check_output, make_table, write_table
+from .table import INSTALL, SweepTable, check_output, make_table, write_table
 
 Progress = Callable[[int, int], None]
 WORTH = 2.0  # [s] of work left; for less it does not pay to start processes
 MOST_WORKERS = 256
 TASK_POINTS = 4096
 RESTARTS = 3
+ANSWER_TIME = "10s"  # a cluster that takes longer is taken for absent
 
 
 def run_sweep(
@@ -188,7 +192,7 @@ class Run:
             self._take(waiting.pop(future), *future.result())
 
     def _take(self, task: Task, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:
-        """Take the rows of a task in; they are on disk before they count as done."""
+        """Take the rows of a task in; the journal writes them within a second or at its end."""
         rows = slice(task.first_row, task.first_row + len(numbers))
         if self.journal:
             self.journal.append(task.first_row, numbers, flags)
@@ -225,3 +229,52 @@ class Run:
             tuple((starts - starts[0]).tolist()),
             tuple(plan.params[i] for i in plan.params_of[a:b]),
         )  # fmt: skip
+
+
+@contextmanager
+def dask_cluster(address: str) -> Iterator[tuple[Executor, int]]:
+    """Give the workers of a running Dask cluster and their number; the cluster stays.
+
+    Raises
+    ------
+    EnvironmentProblem : no package ``distributed``, no answer, no workers, or another version there
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise EnvironmentProblem(
+            f"a sweep on a cluster needs the package distributed: {INSTALL}"
+        ) from None
+    package: Any = distributed  # it has no types
+    try:
+        client = package.Client(address, timeout=ANSWER_TIME)
+    except (OSError, ValueError, TypeError) as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise EnvironmentProblem(f"cluster = {address!r}: does not answer ({reason})") from None
+    try:
+        n = _check_workers(client, address)
+        yield client.get_executor(pure=False), n
+    finally:
+        client.close()
+
+
+def _check_workers(client: Any, address: str) -> int:
+    """Return the number of threads in the cluster; refuse workers with other kernels."""
+    try:
+        digests = client.run(_digest)
+    except ImportError:
+        raise EnvironmentProblem(
+            f"cluster = {address!r}: thrustwasher is not installed on its workers"
+        ) from None
+    if not digests:
+        raise EnvironmentProblem(f"cluster = {address!r}: has no workers")
+    if set(digests.values()) != {_digest()}:
+        raise EnvironmentProblem(
+            f"cluster = {address!r}: its workers have another version of thrustwasher"
+        )
+    return int(sum(client.nthreads().values()))
+
+
+def _digest() -> str:
+    """Return the digest of the kernels that run here."""
+    return f"{kernel_digest()} on Python {sys.version_info[0]}"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,13 +11,14 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status, naming
+from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
 from ..models._spec import REGIMES
+from ..store.whole_files import whole_file
 from .plan import Plan
-from .pools import INSTALL
 from .rows import output_signals
 
 SUFFIXES = (".csv", ".parquet")
+INSTALL = 'pip install "thrustwasher[sweep]"'
 CHUNK = 50_000  # rows made into text at a time
 
 
@@ -87,22 +86,12 @@ def check_output(path: str | Path) -> Path:
 
 def write_table(table: SweepTable, path: Path) -> None:
     """Write CSV or Parquet, as the name ends; the file appears complete or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    try:
-        with naming(path):
-            if path.suffix.lower() == ".parquet":
-                _write_parquet(table, name)
-            else:
-                with open(name, "w", encoding="utf-8", newline="") as stream:
-                    write_csv(table, stream)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(name, 0o666 & ~mask)
-        os.replace(name, path)
-    finally:
-        Path(name).unlink(missing_ok=True)
+    with whole_file(path) as draft:
+        if path.suffix.lower() == ".parquet":
+            _write_parquet(table, draft)
+        else:
+            with draft.open("w", encoding="utf-8", newline="") as stream:
+                write_csv(table, stream)
 
 
 def write_csv(table: SweepTable, stream: IO[str]) -> None:
@@ -131,7 +120,7 @@ def _texts(column: NDArray[Any]) -> Sequence[str]:
     return found
 
 
-def _write_parquet(table: SweepTable, name: str) -> None:
+def _write_parquet(table: SweepTable, path: Path) -> None:
     """Write the table with its units in the columns' metadata; failed numbers are null."""
     pa, parquet = _pyarrow()
     fields, arrays = [], []
@@ -148,7 +137,7 @@ def _write_parquet(table: SweepTable, name: str) -> None:
         unit = table.units.get(title, "")
         fields.append(pa.field(title, array.type, metadata={"unit": unit} if unit else None))
         arrays.append(array)
-    parquet.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), name)
+    parquet.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), path)
 
 
 def _pyarrow() -> tuple[Any, Any]:

@@ -64,16 +64,18 @@ CLUTCH = (
     Case("fast", (3000.0, 600.0, 297.15)),
     Case("hot oil", (5898.0, 350.0, 353.15)),
 )
-LISTS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": GEARMESH}
-FEW = {  # for a quick look
-    "washer": (0, 1, 8, 11, 12), "clutch": (0, 2, 3), "gearmesh": (0, 2, 3, 4),
-}  # fmt: skip
+# model -> its cases, and those of a quick look
+CASES = {
+    "washer": (WASHER, (0, 1, 8, 11, 12)),
+    "clutch": (CLUTCH, (0, 2, 3)),
+    "gearmesh": (GEARMESH, (0, 2, 3, 4)),
+}
 
 
 def cases_of(model: str, *, quick: bool = False) -> tuple[Case, ...]:
     """Return the cases of a model, or those of a quick look."""
-    cases = LISTS[model]
-    return tuple(cases[i] for i in FEW[model]) if quick else cases
+    cases, few = CASES[model]
+    return tuple(cases[i] for i in few) if quick else cases
 
 
 def digest(cases: tuple[Case, ...]) -> str:

@@ -10,8 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..store.card_parts import FEW, Axis, ByFilmRatio, Cells, Errors, Fold
-from .answers import OK, OTHER_SIDE, OUTSIDE, Answer
-from .truths import MARGIN, Point, Truth
+from .reference_values import MARGIN, OK, OTHER_SIDE, OUTSIDE, Answer, Point, ReferencePoint
 
 FLOOR = 1e-3  # of the largest value: relative errors are taken of at least so much
 KINDS = {"friction_torque": ("relative", None), "temperature": ("absolute", "K"),
@@ -21,31 +20,34 @@ AXES = ("load", "speed")
 SHAPES = ((4, 4), (4, 3), (3, 3), (3, 2), (2, 2), (2, 1), (1, 1))  # cells along load and speed
 
 Place = tuple[int, int]
-Pairs = Sequence[tuple[Truth, Answer]]
+Pair = tuple[ReferencePoint, Answer]
+Pairs = Sequence[Pair]
 
 
-def deviation(quantity: str, truth: Truth, found: float | list[float], floor: float) -> float:
-    """Return the largest that the error of an answer can be, of a course the largest one.
+def deviation(
+    quantity: str, known: ReferencePoint, found: float | list[float], floor: float
+) -> float:
+    """Return the largest that the error of an answer can be, of a row over time the largest.
 
     That is the distance from the reference plus the reference's own uncertainty at this point.
-    Relative errors are taken of the reference's value, of a course its largest, or of ``floor`` if
+    Relative errors are taken of the reference's value, of a row its largest, or of ``floor`` if
     that is more.
     """
-    error = np.max(np.abs(np.asarray(found) - np.asarray(truth.values[quantity])))
-    return (float(error) + truth.uncertainty[quantity]) / _scale(quantity, truth, floor)
+    error = np.max(np.abs(np.asarray(found) - np.asarray(known.values[quantity])))
+    return (float(error) + known.uncertainty[quantity]) / _scale(quantity, known, floor)
 
 
-def _scale(quantity: str, truth: Truth, floor: float) -> float:
-    return max(_size(truth, quantity), floor) if KINDS[quantity][0] == "relative" else 1.0
+def _scale(quantity: str, known: ReferencePoint, floor: float) -> float:
+    return max(_size(known, quantity), floor) if KINDS[quantity][0] == "relative" else 1.0
 
 
-def _size(truth: Truth, quantity: str) -> float:
-    return float(np.max(np.abs(np.asarray(truth.values[quantity]))))
+def _size(known: ReferencePoint, quantity: str) -> float:
+    return float(np.max(np.abs(np.asarray(known.values[quantity]))))
 
 
-def floor_of(quantity: str, truths: Sequence[Truth]) -> float:
+def floor_of(quantity: str, known: Sequence[ReferencePoint]) -> float:
     """Return what relative errors are taken of at least, from the largest reference value."""
-    return _up(FLOOR * max((_size(t, quantity) for t in truths), default=0.0)) or 1e-300
+    return _up(FLOOR * max((_size(t, quantity) for t in known), default=0.0)) or 1e-300
 
 
 def cells_for(points: Sequence[Point], envelope: dict[str, Axis]) -> Cells:
@@ -79,7 +81,7 @@ def place_of(cells: Cells, point: Point) -> Place:
     return i or 0, j or 0
 
 
-def tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Errors], Cells]:
+def error_tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Errors], Cells]:
     """Return the error tables and cells of one chart; points beside folds are left out."""
     pairs = [(t, a) for t, a in pairs if not t.beside_fold]
     blank = cells_for([t.point for t, _ in pairs], envelope)
@@ -94,7 +96,10 @@ def tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Errors], 
 
 
 def _table(
-    quantity: str, placed: list[tuple[Place, tuple[Truth, Answer]]], shape: Place, floor: float
+    quantity: str,
+    placed: list[tuple[Place, tuple[ReferencePoint, Answer]]],
+    shape: Place,
+    floor: float,
 ) -> Errors:
     """Return the table of one quantity over answers that count."""
     found: dict[Place, list[float]] = {(i, j): [] for i in range(shape[0]) for j in range(shape[1])}
@@ -129,7 +134,7 @@ def _up(value: float) -> float:
 
 
 def by_film_ratio(pairs: Pairs) -> ByFilmRatio | None:
-    """Return the worst errors over the film ratio, in classes of 30 points; None for courses."""
+    """Return the worst errors over the film ratio, in classes of 30 points; None over time."""
     good = [(t, a) for t, a in pairs if a.verdict == OK and not t.beside_fold]
     if not good or any(isinstance(t.values["film_ratio"], list) for t, _ in good):
         return None
@@ -163,12 +168,12 @@ def fold_part(pairs: Pairs) -> Fold | None:
     return Fold(None, MARGIN, len(beside), other, worst)
 
 
-def uncertainties(truths: Sequence[Truth]) -> dict[str, float]:
+def uncertainties(known: Sequence[ReferencePoint]) -> dict[str, float]:
     """Return the reference's typical uncertainty of each quantity, as errors are measured.
 
     It is the median over the points; what it is at each point is in the errors already.
     """
-    away = [t for t in truths if not t.beside_fold]
+    away = [t for t in known if not t.beside_fold]
     return {
         q: _up(statistics.median(t.uncertainty[q] / _scale(q, t, floor_of(q, away)) for t in away))
         for q in KINDS

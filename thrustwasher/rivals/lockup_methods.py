@@ -1,20 +1,25 @@
-"""Ways to step the clutch of ``lockup`` from one communication point to the next."""
+"""Methods for the clutch of ``lockup``: steps between communication points, and general solvers."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
 
-from .lockup import Advance, Clutch, Course, Now, Rewind, walk
+import numpy as np
+
+from .lockup import Advance, Clutch, Now, Rewind, Row, Run, begin, walk
 
 LEAST_SHARE = 1e-6  # of a macro step, the smallest step of step doubling
 TOLERANCE = 1e-4  # of step doubling, of the slip at the start
+SOLVERS = 1e-8  # tolerance of the general solvers
 
 
-def _way(advance: Advance) -> Callable[..., Course]:
-    """Return the way that goes from point to point by ``advance``."""
+def _method(advance: Advance) -> Callable[..., Run]:
+    """Return the method that goes from point to point by ``advance``."""
 
-    def run(clutch: Clutch, step: float, rewind: Rewind | None = None) -> Course:
+    def run(clutch: Clutch, step: float, rewind: Rewind | None = None) -> Run:
         return walk(clutch, step, advance, rewind)
 
     run.__doc__ = advance.__doc__
@@ -30,37 +35,37 @@ def _moved(c: Clutch, now: Now, h: float, torque: float, own: float) -> Now:
 
 def _held(c: Clutch, now: Now, h: float) -> Now:
     """Friction torque handed over, fresh in each step, held while the driveline steps."""
-    return _moved(c, now, h, c.smooth(now.slip, now.film, now.time), now.own)
+    return _moved(c, now, h, c.smooth(now.slip, now.film), now.own)
 
 
 def _late(c: Clutch, now: Now, h: float) -> Now:
     """Friction torque handed over, one step old."""
-    return _moved(c, now, h, now.own, c.smooth(now.slip, now.film, now.time))
+    return _moved(c, now, h, now.own, c.smooth(now.slip, now.film))
 
 
 def _stages(c: Clutch, now: Now, h: float) -> Now:
     """Classical Runge-Kutta steps of fixed length on smoothed friction."""
-    t, w = now.time, now.slip
+    w = now.slip
     half, end = c.film_after(now.film, 0.5 * h), c.film_after(now.film, h)
 
-    def rate(slip: float, film: float, at: float) -> float:
-        return (c.drive - c.smooth(slip, film, at)) / c.inertia
+    def rate(slip: float, film: float) -> float:
+        return (c.drive - c.smooth(slip, film)) / c.inertia
 
-    k1 = rate(w, now.film, t)
-    k2 = rate(w + 0.5 * h * k1, half, t + 0.5 * h)
-    k3 = rate(w + 0.5 * h * k2, half, t + 0.5 * h)
-    k4 = rate(w + h * k3, end, t + h)
+    k1 = rate(w, now.film)
+    k2 = rate(w + 0.5 * h * k1, half)
+    k3 = rate(w + 0.5 * h * k2, half)
+    k4 = rate(w + h * k3, end)
     new = w + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
     middle = 0.5 * (w + new)
-    power = c.smooth(w, now.film, t) * w + 4.0 * c.smooth(middle, half, t + 0.5 * h) * middle
-    power += c.smooth(new, end, t + h) * new
-    return Now(t + h, new, now.heat + h / 6.0 * power, end, now.own, now.work + 4)
+    power = c.smooth(w, now.film) * w + 4.0 * c.smooth(middle, half) * middle
+    power += c.smooth(new, end) * new
+    return Now(now.time + h, new, now.heat + h / 6.0 * power, end, now.own, now.work + 4)
 
 
-def _modes(c: Clutch, now: Now, h: float) -> Now:
+def _stick_slip(c: Clutch, now: Now, h: float) -> Now:
     """Stick and slip as modes, lock-up located inside the step, as the package's driveline does."""
     film, end = c.film_after(now.film, 0.5 * h), c.film_after(now.film, h)
-    level = c.level(film, now.time + 0.5 * h)
+    level = c.friction * film
     stuck = abs(c.drive) <= level
     after = now._replace(time=now.time + h, film=end, work=now.work + 1)
     if now.slip == 0.0 and stuck:
@@ -76,8 +81,8 @@ def _modes(c: Clutch, now: Now, h: float) -> Now:
 
 def _sloped(c: Clutch, now: Now, h: float) -> Now:
     """Friction torque with its slope over the slip, both handed over."""
-    level = c.level(now.film, now.time)
-    torque = c.smooth(now.slip, now.film, now.time)
+    level = c.friction * now.film
+    torque = c.smooth(now.slip, now.film)
     slope = (level - torque * torque / level) / c.width if level else 0.0
     change = h * (c.drive - torque) / (c.inertia + h * slope)
     heat = now.heat + h * (torque + 0.5 * slope * change) * (now.slip + 0.5 * change)
@@ -105,7 +110,7 @@ def _doubled(c: Clutch, now: Now, h: float) -> Now:
     return now._replace(time=end, own=size)
 
 
-def step_doubling(clutch: Clutch, step: float, rewind: Rewind | None = None) -> Course:
+def step_doubling(clutch: Clutch, step: float, rewind: Rewind | None = None) -> Run:
     """Held torque, a step against two half ones; given back and halved where they disagree."""
 
     def advance(c: Clutch, now: Now, h: float) -> Now:
@@ -115,5 +120,50 @@ def step_doubling(clutch: Clutch, step: float, rewind: Rewind | None = None) -> 
     return walk(clutch, step, advance, rewind)
 
 
-runge_kutta, located = _way(_stages), _way(_modes)
-gauss_seidel, jacobi, linearly_implicit = _way(_held), _way(_late), _way(_sloped)
+runge_kutta, located = _method(_stages), _method(_stick_slip)
+gauss_seidel, jacobi, linearly_implicit = _method(_held), _method(_late), _method(_sloped)
+
+
+def _stretch(clutch: Clutch, method: str, y: Row, times: Row) -> tuple[Row, Row, int]:
+    """Integrate from the first time to the last; return slips, the state there and the work."""
+    from scipy.integrate import solve_ivp
+
+    def rate(t: float, y: Row) -> list[float]:
+        torque = clutch.smooth(y[0], y[2])
+        film = (1.0 - y[2]) / clutch.lag if clutch.lag else 0.0
+        return [(clutch.drive - torque) / clutch.inertia, torque * y[0], film]
+
+    found = solve_ivp(
+        rate, (times[0], times[-1]), y, method=method, t_eval=times, rtol=SOLVERS,
+        atol=SOLVERS,
+    )  # fmt: skip
+    return found.y[0], found.y[:, -1], int(found.nfev)
+
+
+def adaptive(
+    clutch: Clutch, step: float, rewind: Rewind | None = None, method: str = "LSODA"
+) -> Run:
+    """Integrate with error control, friction smoothed; the slip is looked at every ``step``.
+
+    After going back the solver begins anew: what it knows of the past is no state of the problem.
+    """
+    now, n = begin(clutch), round(clutch.span / step)
+    times = np.linspace(0.0, clutch.span, n + 1)
+    slip, work = np.empty(n + 1), 0
+    y = np.array([now.slip, 0.0, now.film])
+    stops = [*range(0, n, rewind.every), n] if rewind else [0, n]
+    for first, last in pairwise(stops):
+        if rewind and first:
+            stop = min(first + rewind.ahead, n)
+            _, ahead, spent = _stretch(clutch, method, y, times[first : stop + 1])
+            work += spent
+            if rewind.forgets:
+                y[2] = ahead[2]
+        part, y, spent = _stretch(clutch, method, y, times[first : last + 1])
+        slip[first : last + 1] = part
+        work += spent
+    return Run(slip, float(y[1]), work)
+
+
+lsoda: Callable[..., Run] = partial(adaptive, method="LSODA")
+bdf: Callable[..., Run] = partial(adaptive, method="BDF")

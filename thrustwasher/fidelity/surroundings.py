@@ -1,4 +1,4 @@
-"""What a chart file says about itself: the machine, the versions, the state of the sources."""
+"""What a chart or a card says about its making: the machine, versions, state of the sources."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ import platform
 import subprocess
 import sys
 import time
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
+
+from ..store.cards import VERIFY
 
 SCHEMA = 1
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -17,8 +20,6 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 
 def surroundings(command: str) -> dict[str, Any]:
     """Return command, date, machine and versions, as JSON types."""
-    import numpy
-
     from ..kernels._jit import kernel_digest
 
     made_by = sys.modules[__name__.partition(".")[0]].__version__
@@ -28,13 +29,31 @@ def surroundings(command: str) -> dict[str, Any]:
         "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
         "machine": {
             "cpu": _cpu(), "cores": os.cpu_count(), "os": platform.platform(terse=True),
-            "python": platform.python_version(), "numpy": numpy.__version__,
+            "python": platform.python_version(), "numpy": metadata.version("numpy"),
             "numba": metadata.version("numba"), "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
             "threads": {name: os.environ.get(name) for name in THREADS}, "load": load(),
         },
         "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
         "calibration_s": calibration(),
     }  # fmt: skip
+
+
+@cache
+def _once() -> dict[str, Any]:
+    return surroundings(VERIFY)
+
+
+def this_machine() -> dict[str, Any]:
+    """Return what the seconds of a card depend on."""
+    m = _once()["machine"]
+    kept = {name: m[name] for name in ("cpu", "cores", "os", "python", "numpy", "numba")}
+    return {**kept, "threads": 1, "load": m["load"] or 0.0}
+
+
+def this_package() -> dict[str, Any]:
+    """Return the package's version and, in a checkout, its commit and if it was changed since."""
+    package = _once()["package"]
+    return {name: package[name] for name in ("version", "commit", "dirty")}
 
 
 def load() -> float | None:

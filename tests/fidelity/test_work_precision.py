@@ -1,4 +1,4 @@
-"""The clock and the book: first calls apart, failures kept, worst and rms as defined."""
+"""Work-precision: first calls apart, failures kept, worst and rms as defined."""
 
 import json
 import math
@@ -6,25 +6,20 @@ import math
 import pytest
 
 from thrustwasher.errors import ParameterError, Status
-from thrustwasher.fidelity.cases import Case, cases_of, digest
-from thrustwasher.fidelity.lines import lines_of
-from thrustwasher.fidelity.measure import (
-    Answer,
-    Quantity,
-    Rung,
-    Timing,
-    Truth,
-    measure,
-    time_call,
-)
+from thrustwasher.fidelity.chart_cases import Case, cases_of, digest
+from thrustwasher.fidelity.chart_series import Configuration, Quantity, series_of
+from thrustwasher.fidelity.costs import Timing, time_call
+from thrustwasher.fidelity.methods import MethodAnswer
 from thrustwasher.fidelity.models import spec_of
+from thrustwasher.fidelity.reference_values import ReferenceValues
+from thrustwasher.fidelity.work_precision import measure
 
 CASES = (Case("one", (1.0,)), Case("two", (2.0,)), Case("three", (4.0,)))
-TRUTHS = [Truth({"y": c.point[0] ** 2}, {"y": 1e-6}) for c in CASES]
+KNOWN = [ReferenceValues({"y": c.point[0] ** 2}, {"y": 1e-6}) for c in CASES]
 RELATIVE = Quantity("y", True, 1e-3)
 
 
-class Way:
+class Method:
     """Answers x^2 (1 + error(x)); what it does in a case can be changed."""
 
     def __init__(self, error=lambda x: 0.0, odd=None):
@@ -35,7 +30,7 @@ class Way:
         x = case.point[0]
         if case.name in self.odd:
             return self.odd[case.name]()
-        return Answer({"y": x * x * (1.0 + self.error(x))}, Status.OK, 7.0)
+        return MethodAnswer({"y": x * x * (1.0 + self.error(x))}, Status.OK, 7.0)
 
     def warm(self, case):
         def call():
@@ -48,19 +43,19 @@ class Way:
 
 
 def sampled(way, quantities=(RELATIVE,)):
-    rung = Rung("family", "label", "knob", "1", lambda: way, "turns")
-    return measure(rung, CASES, TRUTHS, quantities, repeats=3)
+    rung = Configuration("family", "label", "knob", "1", lambda: way, "turns")
+    return measure(rung, CASES, KNOWN, quantities, repeats=3)
 
 
 def test_worst_and_rms_are_over_all_cases_and_the_worst_is_named():
-    s = sampled(Way(lambda x: 0.01 * x))
+    s = sampled(Method(lambda x: 0.01 * x))
     assert s.errors["y"]["worst"] == pytest.approx(0.04)
     assert s.errors["y"]["rms"] == pytest.approx(math.sqrt((1e-4 + 4e-4 + 16e-4) / 3.0))
     assert (s.errors["y"]["case"], s.count, s.n_failed) == ("three", 7.0, 0)
 
 
 def test_absolute_errors_keep_their_unit():
-    s = sampled(Way(lambda x: 0.5 / (x * x)), (Quantity("y", False, unit="K"),))
+    s = sampled(Method(lambda x: 0.5 / (x * x)), (Quantity("y", False, unit="K"),))
     assert s.errors["y"]["worst"] == pytest.approx(0.5)
 
 
@@ -71,10 +66,10 @@ def failing():
 def test_every_kind_of_failure_is_counted_and_none_ends_the_run():
     odd = {
         "one": failing,
-        "two": lambda: Answer({"y": 1.0}, Status.MAX_ITERATIONS, 0.0),
-        "three": lambda: Answer({"y": math.nan}, Status.OK, 0.0),
+        "two": lambda: MethodAnswer({"y": 1.0}, Status.MAX_ITERATIONS, 0.0),
+        "three": lambda: MethodAnswer({"y": math.nan}, Status.OK, 0.0),
     }
-    s = sampled(Way(odd=odd))
+    s = sampled(Method(odd=odd))
     assert s.n_failed == 3 and s.errors["y"]["worst"] is None
     assert s.failures["one"] == "ZeroDivisionError: no"
     assert s.failures["two"] == "MAX_ITERATIONS"
@@ -87,13 +82,13 @@ def test_a_way_that_cannot_be_set_up_fails_in_every_case():
     def make():
         raise ParameterError("there is no map")
 
-    s = measure(Rung("f", "l", "k", "1", make), CASES, TRUTHS, (RELATIVE,), repeats=3)
+    s = measure(Configuration("f", "l", "k", "1", make), CASES, KNOWN, (RELATIVE,), repeats=3)
     assert s.n_failed == 3 and s.failures["one"] == "ParameterError: there is no map"
 
 
 def test_an_answer_outside_the_verified_range_is_no_answer():
-    odd = {"two": lambda: Answer({"y": 4.0}, Status.OUTSIDE_VERIFIED, 0.0)}
-    assert sampled(Way(odd=odd)).failures == {"two": "OUTSIDE_VERIFIED"}
+    odd = {"two": lambda: MethodAnswer({"y": 4.0}, Status.OUTSIDE_VERIFIED, 0.0)}
+    assert sampled(Method(odd=odd)).failures == {"two": "OUTSIDE_VERIFIED"}
 
 
 class Clock:
@@ -115,7 +110,7 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch):
     found = Clock()
-    monkeypatch.setattr("thrustwasher.fidelity.measure.time", found)
+    monkeypatch.setattr("thrustwasher.fidelity.costs.time", found)
     return found
 
 
@@ -129,22 +124,10 @@ def test_the_first_call_is_apart_and_batches_are_long_enough(clock):
     assert (t.first, t.repeats) == (0.5, 5)
     assert t.median == pytest.approx(1e-4) and t.least == pytest.approx(1e-4)
     assert 5 * 1e-2 <= clock.now - 0.5001 < 6 * 1e-2
-    assert not t.is_noisy
-
-
-def test_time_per_thing_is_the_call_over_its_things(clock):
-    assert time_call(clock.takes(1e-3), calls=10).median == pytest.approx(1e-4)
-
-
-def test_a_spread_above_a_tenth_is_flagged(clock):
-    def call():
-        clock.now += 1e-2 if clock.now % 0.04 < 0.02 else 2e-2
-
-    assert time_call(call, repeats=20).is_noisy
 
 
 def test_what_the_call_itself_costs_is_taken_off(clock):
-    way = Way()
+    way = Method()
     way.warm = lambda case: clock.takes(3e-3)
     way.idle = lambda case: clock.takes(1e-3)
     s = sampled(way)
@@ -152,7 +135,7 @@ def test_what_the_call_itself_costs_is_taken_off(clock):
 
 
 def test_the_cost_is_that_of_the_median_case_and_the_slowest_is_named(clock):
-    way = Way()
+    way = Method()
     way.warm = lambda case: clock.takes({"one": 1e-3, "two": 9e-3, "three": 2e-3}[case.name])
     s = sampled(way)
     assert s.call_median == pytest.approx(2e-3)
@@ -179,8 +162,8 @@ def test_a_changed_list_has_another_digest():
 
 
 @pytest.mark.parametrize("model", ["washer", "clutch", "gearmesh"])
-def test_every_way_has_a_label_of_its_own(model):
-    found = [rung.label for rung in lines_of(model)]
+def test_every_configuration_has_a_label_of_its_own(model):
+    found = [rung.label for rung in series_of(model)]
     assert len(set(found)) == len(found)
-    assert {r.label for r in lines_of(model, quick=True)} <= set(found)
+    assert {r.label for r in series_of(model, quick=True)} <= set(found)
     assert set(spec_of(model).fidelities) <= set(found)

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ParameterError
 from ..models._spec import ModelSpec
 from ..store.card_parts import Axis
 from ..units import parse_quantity
@@ -85,61 +84,47 @@ def _at(axis: Axis, share: float) -> float:
     return axis.min + share * (axis.max - axis.min)
 
 
-def _box(spec: ModelSpec, **spans: tuple[float, float, str]) -> dict[str, Axis]:
-    """Return an envelope; the units are the inputs'."""
+_OIL = (290.0, 400.0, "linear")
+_WASHER = {"tilt": (1e-3, 3e-3, "log"), "oil_temperature": _OIL}
+_GEARMESH = {"load": (1.0, 200.0, "log"), "speed": (1.0, 700.0, "log"), "oil_temperature": _OIL}
+_CLUTCH = {"load": (50.0, 10000.0, "log"), "speed": (1.0, 350.0, "log"), "oil_temperature": _OIL}
+# model -> parameter set -> low, high and scale of every input, in the model's order
+BOXES: dict[str, dict[str, dict[str, tuple[float, float, str]]]] = {
+    "washer": {
+        "default": {"load": (20.0, 1850.0, "log"), "speed": (50.0, 1400.0, "log"), **_WASHER},
+        "planetary": {"load": (1.0, 200.0, "log"), "speed": (1.0, 450.0, "log"), **_WASHER},
+    },
+    "clutch": {"default": _CLUTCH, "planetary": _CLUTCH},
+    "gearmesh": {"default": _GEARMESH, "planetary": _GEARMESH},
+}
+# model -> its part of a scene, and what of the part's parameters a held-out point has otherwise
+PARTS: dict[str, tuple[str, dict[str, Any]]] = {
+    "washer": ("washer", {}),
+    "clutch": ("clutch", {"input_course": "linear"}),
+    "gearmesh": ("mesh", {}),
+}
+
+
+def cases(model: str) -> list[Case]:
+    """Return the cases of a model, or raise ParameterError with the models there are."""
+    spec = spec_of(model)
     units = {s.name: s.unit for s in spec.inputs}
-    return {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in spans.items()}
+    return [
+        Case(
+            spec, name, spec.params() if name == "default" else _scene_params(spec, name),
+            {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}, POINTS,
+        )
+        for name, box in BOXES[model].items()
+    ]  # fmt: skip
 
 
-def _scene_params(spec: ModelSpec, scene: str, part: str) -> Any:
-    """Return the parameters that a shipped scene gives to one of its parts."""
+def _scene_params(spec: ModelSpec, scene: str) -> Any:
+    """Return the parameters that a shipped scene gives to its part of a model."""
+    part, changed = PARTS[spec.key]
     given = tomllib.loads((SCENES / f"{scene}.toml").read_text("utf-8"))[part]
     meta = {f.name: f.metadata for f in fields(spec.params)}
     values = {n: v for n, v in given.items() if n != "fidelity"}
     for name, value in values.items():
         if isinstance(value, str) and meta[name]["kind"] == "real":
             values[name] = parse_quantity(value, meta[name]["unit"], name)
-    return spec.params(**values)
-
-
-_OIL = (290.0, 400.0, "linear")
-
-
-def _washers() -> list[Case]:
-    spec = spec_of("washer")
-    tilt = (1e-3, 3e-3, "log")
-    full = _box(spec, load=(20.0, 1850.0, "log"), speed=(50.0, 1400.0, "log"), tilt=tilt,
-                oil_temperature=_OIL)  # fmt: skip
-    small = _box(spec, load=(1.0, 200.0, "log"), speed=(1.0, 450.0, "log"), tilt=tilt,
-                 oil_temperature=_OIL)  # fmt: skip
-    return [
-        Case(spec, "default", spec.params(), full, POINTS),
-        Case(spec, "planetary", _scene_params(spec, "planetary", "washer"), small, POINTS),
-    ]
-
-
-def _gears() -> list[Case]:
-    spec = spec_of("gearmesh")
-    box = _box(spec, load=(1.0, 200.0, "log"), speed=(1.0, 700.0, "log"), oil_temperature=_OIL)
-    return [
-        Case(spec, "default", spec.params(), box, POINTS),
-        Case(spec, "planetary", _scene_params(spec, "planetary", "mesh"), box, POINTS),
-    ]
-
-
-def _clutches() -> list[Case]:
-    spec = spec_of("clutch")
-    box = _box(spec, load=(50.0, 10000.0, "log"), speed=(1.0, 350.0, "log"), oil_temperature=_OIL)
-    in_scene = replace(_scene_params(spec, "planetary", "clutch"), input_course="linear")
-    return [
-        Case(spec, "default", spec.params(), box, POINTS),
-        Case(spec, "planetary", in_scene, box, POINTS),
-    ]
-
-
-def cases(model: str) -> list[Case]:
-    """Return the cases of a model, or raise ParameterError with the models there are."""
-    made = {"washer": _washers, "clutch": _clutches, "gearmesh": _gears}
-    if model not in made:
-        raise ParameterError(f"model = {model!r}, allowed: {' or '.join(map(repr, made))}")
-    return made[model]()
+    return spec.params(**{**values, **changed})

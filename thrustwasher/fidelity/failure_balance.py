@@ -1,4 +1,4 @@
-"""Where ways to find the washer's balance fail: by the branch they end on."""
+"""Where methods to find the washer's balance fail: by the branch they end on."""
 
 from __future__ import annotations
 
@@ -7,7 +7,11 @@ from functools import cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from .stability_cells import LIES, NONE, OK, SAYS, Cell, Group, table
+from ..models.washer import solve_washer
+from ..models.washer_load_curve import load_curve
+from ..models.washer_params import WasherParams
+from ..rivals.plain2006 import Plain2006
+from .failure_cells import LIES, NONE, OK, SAYS, Cell, Group, table
 
 WRONG_RATIO = 1.0  # of the film: another branch, not another mesh
 MESH = (17, 67)
@@ -48,15 +52,13 @@ class Found(NamedTuple):
 
 
 @cache
-def truth(point: Point) -> Found:
+def true_balance(point: Point) -> Found:
     """Return the answer of the ``fine`` mesh from nothing."""
     return _ours(point, "fine", warm=False)
 
 
 def balance() -> Group:
-    """Judge ways to find the washer's balance; those that start warm start where they were."""
-    from ..rivals.plain2006 import Plain2006
-
+    """Judge methods to find the washer's balance; those that start warm start where they were."""
     base = partial(Plain2006, grid=MESH, tolerance=1e-4)
     methods: dict[str, Any] = {
         "Newton, undamped, level start": _rival(partial(base, limited=False, level=True)),
@@ -71,7 +73,7 @@ def balance() -> Group:
     }
 
     def judge(method: Any, hazard: Point) -> Cell:
-        true, found = truth(hazard), method(hazard)
+        true, found = true_balance(hazard), method(hazard)
         return Cell(NONE) if found is None else judged(true, found)
 
     words = f"film ratio off by more than {WRONG_RATIO:g}: another branch"
@@ -79,7 +81,7 @@ def balance() -> Group:
 
 
 def judged(true: Found, found: Found) -> Cell:
-    """Compare an answer with the truth."""
+    """Compare an answer with the true one."""
     if found.failure:
         return Cell(SAYS, "", found.failure)
     if not (math.isfinite(found.ratio) and math.isfinite(found.torque)):
@@ -110,8 +112,6 @@ def _rival(make: Any, *, warm: bool = False) -> Any:
 
 def _ours(point: Point, fidelity: str, warm: bool) -> Found:
     """Solve with a rung of the package."""
-    from ..models.washer import solve_washer
-    from ..models.washer_params import WasherParams
 
     def solve(load: float, speed: float, tilt: float, start: Any = None) -> Any:
         return solve_washer(
@@ -127,9 +127,6 @@ def _ours(point: Point, fidelity: str, warm: bool) -> Found:
 
 def _curve(point: Point) -> Found:
     """Read the branch that a washer loaded from nothing is on off the whole curve of solutions."""
-    from ..models.washer_load_curve import load_curve
-    from ..models.washer_params import WasherParams
-
     curve = load_curve(
         WasherParams(), speed=point.speed, tilt=point.tilt, oil_temperature=point.oil,
         load_min=min(20.0, point.load),

@@ -11,7 +11,7 @@ LIES     wrong, without a word
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -66,14 +66,3 @@ def off(error: float) -> str:
     digits = 0 if abs(error) >= 0.095 else 1
     plain = f"{100 * error:+.{digits}f} %"
     return plain if abs(error) >= 5e-4 else f"{100 * error:+.0e} %"
-
-
-def liars(groups: Sequence[dict[str, Any]]) -> list[tuple[str, str]]:
-    """Return (method, hazard) of every wrong answer given without a word."""
-    return [
-        (method, hazard)
-        for g in groups
-        for method, row in zip(g["methods"], g["cells"], strict=True)
-        for hazard, cell in zip(g["hazards"], row, strict=True)
-        if cell["verdict"] == LIES
-    ]

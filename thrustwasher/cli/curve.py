@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
             _write_csv(draft, curve.points)
         _output.note(f"wrote {out}")
     if plot:
-        from ..report.curve_plot import curve_figure
+        from ..report.washer_plots import curve_figure
 
         with _output.whole_file(plot) as draft:
             curve_figure(curve, point).savefig(draft)

@@ -64,7 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
             _write_csv(draft, result)
         _output.note(f"wrote {out}")
     if plot:
-        from ..report.engagement_plot import engagement_figure
+        from ..report.clutch_plot import engagement_figure
 
         with _output.whole_file(plot) as draft:
             engagement_figure(result).savefig(draft)

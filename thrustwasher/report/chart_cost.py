@@ -11,20 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .chart_text import staircase
-from .style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    SKY,
-    label,
-    legend_below,
-    new_figure,
-    styled,
-)  # fmt: skip
+from .palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from .style import label, legend_below, new_figure, styled
 
 COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
 RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)

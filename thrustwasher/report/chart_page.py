@@ -7,8 +7,8 @@ from typing import Any
 
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, steps_figure
-from .chart_stability import stability_figure
 from .html import Page, Plot, Section, Table
+from .stability_page import stability_figure
 
 TITLE = "Speed against accuracy"
 HOW = (

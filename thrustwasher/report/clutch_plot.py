@@ -1,8 +1,7 @@
-"""Friction of a wet pack against slip: shear ratio, coefficient and torque with their shares."""
+"""A wet pack: friction against slip with its shares, and an engagement over time."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -10,24 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import (
-    BLACK,
-    BLUE,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    SECOND,
-    SKY,
-    TOP,
-    heading,
-    label,
-    legend_below,
-    new_figure,
-    styled,
-)  # fmt: skip
+from .palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, PURPLE, RED, RPM, SIGMA, SKY
+from .style import SECOND, TOP, decade_ticks, heading, label, legend_below, new_figure, styled
 
-RPM = 30.0 / math.pi
+SAMPLES = 121
 
 
 @styled
@@ -133,3 +118,42 @@ def _in_rpm(slip: Any) -> Any:
 
 def _from_rpm(slip: Any) -> Any:
     return slip / RPM
+
+
+@styled
+def engagement_figure(result: Any) -> Figure:
+    """Return four panels over time.
+
+    Parameters
+    ----------
+    result : an engagement of the clutch, arrays over ``time`` [s]
+    """
+    figure, axes = new_figure(10.4, 7.2, 2, 2)
+    torque, film, heat, course = axes
+    t = 1e3 * result.time
+    torque.plot(t, result.friction_torque, color=BLACK, label="friction torque")
+    torque.plot(t, result.contact_torque, color=RED, ls="--", label="asperities")
+    torque.plot(t, result.viscous_torque, color=BLUE, ls="-.", label="shear of the oil")
+    label(torque, "Torque of the pack", "time [ms]", "torque [N·m]")
+    torque.legend()
+
+    film.plot(t, result.film_ratio, color=BLUE)
+    film.set_yscale("log")
+    for ratio, words in ((3.0, "3: mixed"), (1.0, "1: boundary")):
+        film.axhline(ratio, color=ORANGE, lw=0.9, ls=":")
+        film.annotate(
+            words, (1.0, ratio), (-2, 2), xycoords=film.get_yaxis_transform(),
+            textcoords="offset points", ha="right", va="bottom", fontsize=8, color=GREY,
+        )  # fmt: skip
+    decade_ticks(film)
+    label(film, "Film between the faces", "time [ms]", f"film ratio h/{SIGMA} [1]")
+
+    heat.plot(t, result.temperature - CELSIUS, color=RED)
+    label(heat, "Interface temperature", "time [ms]", "temperature [°C]")
+
+    course.plot(t, result.load / 1e3, color=GREY, label="load [kN]")
+    course.plot(t, result.heat_flux / 1e6, color=RED, label="heat flux [MW/m²]")
+    course.plot(t, 1e-2 * result.speed, color=SKY, label="slip [100 rad/s]")
+    label(course, "What drives it", "time [ms]", "load, heat flux, slip")
+    course.legend()
+    return figure

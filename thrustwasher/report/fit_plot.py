@@ -14,22 +14,8 @@ from numpy.typing import NDArray
 from ..models.clutch_calibration_text import counted
 from ..models.clutch_friction import friction_radius
 from ..units import format_quantity
-from .style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    SECOND,
-    SKY,
-    TOP,
-    heading,
-    label,
-    new_figure,
-    styled,
-)  # fmt: skip
+from .palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from .style import SECOND, TOP, heading, label, new_figure, styled
 
 Array = NDArray[np.float64]
 

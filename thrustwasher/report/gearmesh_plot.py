@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, heading, label, new_figure, styled
+from .palette import BLACK, BLUE, CELSIUS, GREEN, GREY, ORANGE, PURPLE, RED
+from .style import heading, label, new_figure, styled
 
-CELSIUS = 273.15
 # Surface -> words, colour of its asperities, dashes, marker.
 SURFACES: dict[str, tuple[str, str, Any, str]] = {
     "rough": ("rough ground", RED, "-", "o"),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from .html import Plot, Section, Table
+from .palette import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY
 from .rungs import Rungs
-from .style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, beside, label, styled, time_figure
+from .style import beside, label, styled, time_figure
 
 COLOURS = {"closed": GREY, "boundary": PURPLE, "stribeck": GREEN, "map": SKY, "field": BLUE,
            "fine": ORANGE}  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from . import energy_panels, film_panels, friction_panels, judder_panels, panels, stress_panels
+from . import contact_panels, panels
 from .shift_record import Record
 from .style import styled, time_figure
 
@@ -43,7 +43,7 @@ def temperature_figure(record: Record) -> Figure:
 def film_figure(record: Record) -> Figure | None:
     """Return the film ratios over regime bands; None without any film."""
     figure, (axis,) = time_figure(4.2)
-    return figure if film_panels.draw_films(axis, record) else None
+    return figure if contact_panels.draw_films(axis, record) else None
 
 
 @styled
@@ -54,7 +54,7 @@ def washer_figure(record: Record) -> Figure | None:
     if load is None or share is None:
         return None
     figure, (axis,) = time_figure(3.4)
-    film_panels.draw_washer_load(axis, record, load, share)
+    contact_panels.draw_washer_load(axis, record, load, share)
     return figure
 
 
@@ -64,8 +64,8 @@ def stress_figure(record: Record) -> Figure | None:
     if record.series("mesh.stress_utilization_aisi1020") is None:
         return None
     figure, axes = time_figure(5.4, 2, (1.7, 1.0))
-    stress_panels.draw_stress(axes[0], record)
-    stress_panels.draw_allowable(axes[1], record)
+    contact_panels.draw_stress(axes[0], record)
+    contact_panels.draw_allowable(axes[1], record)
     return figure
 
 
@@ -73,7 +73,7 @@ def stress_figure(record: Record) -> Figure | None:
 def friction_figure(record: Record) -> Figure | None:
     """Return friction against slip of the pack that engages; None if it is constant."""
     figure, (axis,) = time_figure(3.8)
-    return figure if friction_panels.draw_friction(axis, record) else None
+    return figure if contact_panels.draw_friction(axis, record) else None
 
 
 @styled
@@ -82,8 +82,8 @@ def judder_figure(record: Record) -> Figure | None:
     if record.judder is None:
         return None
     figure, axes = time_figure(5.4, 2, (1.3, 1.0))
-    judder_panels.draw_shaft(axes[0], record)
-    judder_panels.draw_slip(axes[1], record)
+    panels.draw_shaft(axes[0], record)
+    panels.draw_slip(axes[1], record)
     return figure
 
 
@@ -91,8 +91,8 @@ def judder_figure(record: Record) -> Figure | None:
 def energy_figure(record: Record) -> Figure:
     """Return where the energy went, stacked, and the heat flows."""
     figure, axes = time_figure(6.4, 2, (1.7, 1.0))
-    energy_panels.draw_energy(axes[0], record)
-    energy_panels.draw_heat_flow(axes[1], record)
+    panels.draw_energy(axes[0], record)
+    panels.draw_heat_flow(axes[1], record)
     return figure
 
 
@@ -102,5 +102,5 @@ def overview_figure(record: Record) -> Figure:
     figure, axes = time_figure(8.6, 3, (1.15, 1.15, 1.0))
     panels.draw_speeds(axes[0], record)
     panels.draw_torques(axes[1], record)
-    film_panels.draw_films(axes[2], record)
+    contact_panels.draw_films(axes[2], record)
     return figure

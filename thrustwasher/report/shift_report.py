@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ..units import format_quantity as say
 from . import summary, tables
-from .extremes import highest, worst_film
+from .findings import TITLES, judder_words
 from .html import Card, Page, Plot, Section
-from .judder import TITLES, judder_words
+from .moments import Moment, highest, solve_moment, worst_film
 from .rung_section import rung_sections
 from .shift_plots import (
     energy_figure,
@@ -21,7 +21,6 @@ from .shift_plots import (
 )
 from .shift_record import Record
 from .trust import trust_texts
-from .washer_moment import Moment, solve_moment
 from .washer_plots import field_figure
 
 SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged as well

@@ -7,8 +7,9 @@ import pytest
 
 from thrustwasher import GearMeshParams, solve_gearmesh
 from thrustwasher.cli import main
-from thrustwasher.cli.gearmesh import sweep
 from thrustwasher.models.gearmesh_params import PRESETS
+from thrustwasher.report.gearmesh_plot import gearmesh_figure
+from thrustwasher.report.gearmesh_plot import over_teeth as sweep
 
 POINT = ["--power", "7500", "--speed", "180"]
 FIELDS = {"contact_stress", "hertz_width", "film_thickness", "film_ratio", "surface_temperature",
@@ -135,8 +136,6 @@ def test_the_sweep_begins_at_the_least_number_of_teeth_and_marks_what_is_refused
 
 
 def test_the_plot_draws_temperatures_and_both_steels():
-    from thrustwasher.report.gearmesh_plot import gearmesh_figure
-
     point = {"power": 7500.0, "speed": 180.0, "oil_temperature": 299.85}
     params = GearMeshParams(gear_ratio=5.0)
     teeth, sweeps = sweep(params, point, "field")
@@ -178,5 +177,5 @@ def test_the_plot_can_be_drawn_of_a_mesh_without_load(tmp_path):
 def test_help_says_what_each_preset_changes(capsys):
     assert main(["gearmesh", "--help"]) == 0
     text = " ".join(capsys.readouterr().out.split())
-    assert "[W]; -1e9 .. 1e9 W, default 7500" in text
+    assert "[W]; -1e+09 .. 1e+09 W, default 7500" in text
     assert "bounded: the defaults; literal: face_width = 1.0, viscosity_at = inlet" in text

@@ -120,7 +120,7 @@ def _dispatch(words: list[str]) -> int:
             raise ParameterError(
                 f"command = {words[0]!r}, allowed in this version: {', '.join(COMMANDS)}"
             )
-        command = import_module(f".{words[0]}", __name__)
+        command = _command(words[0])
         parser = _Parser(
             prog=f"thrustwasher {words[0]}",
             description=command.HELP,
@@ -135,9 +135,17 @@ def _dispatch(words: list[str]) -> int:
     return DONE
 
 
+def _command(name: str) -> Any:
+    """Return the command of that name: a module, or made from the record of a model."""
+    models = import_module("._models", __name__).MODELS
+    if name in models:
+        return import_module("._solve", __name__).PointCommand(models[name])
+    return import_module(f".{name}", __name__)
+
+
 def _overview() -> _Parser:
     """Return the parser of the bare program, whose help lists the commands."""
-    lines = [f"  {name:9} {import_module(f'.{name}', __name__).HELP}" for name in COMMANDS]
+    lines = [f"  {name:9} {_command(name).HELP}" for name in COMMANDS]
     parser = _Parser(
         prog="thrustwasher",
         usage="thrustwasher COMMAND [OPTION ...]",

@@ -37,9 +37,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what is asked."""
-    if arguments.parameters:
-        print(_options.parameter_table(SPEC))
-        return 0
     if arguments.workers is not None and arguments.workers < 1:
         raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     if not 2 <= arguments.points <= 100_000:

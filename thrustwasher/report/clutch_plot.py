@@ -8,11 +8,30 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..models.clutch import boundary_friction, solve_clutch
+from ..models.clutch_friction import friction_radius
+from ..models.clutch_params import SPEED, ClutchParams
 from ..units import format_quantity
 from .palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, PURPLE, RED, RPM, SIGMA, SKY
 from .style import SECOND, TOP, decade_ticks, heading, label, legend_below, new_figure, styled
 
 SAMPLES = 121
+
+
+def slip_figure(result: Any, point: Mapping[str, Any], params: ClutchParams) -> Figure:
+    """Return friction over slip, solved here, at the load and oil temperature of ``point``."""
+    p = params
+    has_shares = p.friction_law == "wang" and result.fidelity != "closed"
+    fall = (p.stick_speed + 2.0 * p.decay_speed) / friction_radius(p) if has_shares else 1.0
+    fastest = min(max(2.0 * abs(point["speed"]), fall), SPEED.high or fall)
+    speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(SAMPLES)]
+    sweep = [
+        solve_clutch(params, **{**point, "speed": speed}, fidelity=result.fidelity, throw=False)
+        for speed in speeds
+    ]
+    share = (p.indentation, 0.0, p.plough_weight, p.hardness_ratio)
+    ploughing = boundary_friction(*share) if has_shares else None
+    return clutch_figure(speeds, sweep, result, point, ploughing)
 
 
 @styled

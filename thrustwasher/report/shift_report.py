@@ -207,7 +207,7 @@ def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:
         f"{words}. Solved again at the inputs recorded at {moment.time:.4g} s: film ratio "
         f"{moment.result.film_ratio:.4g}, in the run it was {moment.recorded_film_ratio:.4g}."
     )
-    figure = field_figure(moment.result, moment.point, heading)
+    figure = field_figure(moment.result, moment.point, words=heading)
     return Plot(file=stem, figure=figure, caption=caption, square=True, bitmap=True)
 
 

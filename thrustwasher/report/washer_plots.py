@@ -26,15 +26,17 @@ FOLDS = {"film_lost": ("v", "film lost"), "film_regained": ("^", "film regained"
 
 
 @styled
-def field_figure(result: Any, point: Mapping[str, float], words: str = "") -> Figure:
+def field_figure(
+    result: Any, point: Mapping[str, float], params: Any = None, *, words: str = ""
+) -> Figure:
     """Return four maps of a solved washer.
 
     Parameters
     ----------
     result : a washer result with ``fields()``
     point : load [N], speed [rad/s], tilt [rad], oil_temperature [K]
-    words : str
-        Put before the operating point in the title.
+    params : not needed; taken for the sake of one call for all models
+    words : put before the operating point in the title
     """
     fields = result.fields()
     figure, axes = new_figure(9.6, 8.6, 2, 2, head=2, right=0.5)

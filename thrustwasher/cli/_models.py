@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any
 
-from ..models._spec import Signal
 from ._options import GRID, Option
 
 
@@ -47,9 +46,8 @@ class ModelCommand:
     title: str  # may name parameters: "gear mesh, {pinion_teeth} teeth"
     closing: str  # how it was solved; may name results
     extra: Mapping[str, tuple[str, str]]  # results that are no output: unit and meaning
-    instead: Mapping[str, Signal] = field(
-        default_factory=dict
-    )  # inputs that this command has instead of the model's
+    # Name of a model's input -> fields of the signal that this command has instead of it.
+    instead: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     place: Callable[[dict[str, float]], dict[str, float]] = dict  # the model's own inputs
     presets: str = ""  # mapping of names to the parameters that they change
     options: tuple[Option, ...] = ()  # more arguments of ``solve``
@@ -121,8 +119,8 @@ GEARMESH = ModelCommand(
     title="gear mesh, {pinion_teeth} teeth, ratio {gear_ratio:g},",
     closing="{iterations} iterations, {fidelity}",
     instead={
-        "load": Signal(name="power", unit="W", low=-1e9, high=1e9, start=7500.0,
-                       help="transmitted power, of which the size counts"),
+        "load": {"name": "power", "unit": "W", "low": -1e9, "high": 1e9, "start": 7500.0,
+                 "help": "transmitted power, of which the size counts"},
     },
     place=_under_torque,
     presets="models.gearmesh_params:PRESETS",

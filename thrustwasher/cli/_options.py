@@ -7,12 +7,14 @@ import difflib
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
 from ..models._params import allowed
-from ..models._spec import ModelSpec, Signal
 from ..units import parse_quantity
+
+if TYPE_CHECKING:  # they need numpy, which not every command does
+    from ..models._spec import ModelSpec, Signal
 
 _TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 

@@ -7,17 +7,17 @@ import csv
 import dataclasses
 import json
 import math
-import os
-import shutil
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import ParameterError, naming
+from ..errors import ParameterError
+from ..store.whole_files import made_folder
+from ..store.whole_files import whole_file as whole_file
+from ..store.whole_files import whole_folder as whole_folder
 from ..units import format_quantity
 from ._models import resolve
 
@@ -154,76 +154,12 @@ def check_folder(path: str, option: str) -> Path:
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"{option} {path}: is a file, a folder is wanted")
     try:
-        with _folder_for_trial(folder), tempfile.TemporaryFile(dir=folder):
+        with made_folder(folder, trial=True), tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
         reason = error.strerror or str(error)
         raise ParameterError(f"{option} {path}: cannot be written ({reason})") from None
     return Path(path)
-
-
-@contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
-    """Give a temporary path beside ``path`` that takes its place only if all went well."""
-    with naming(path), _folder_unless_failed(path.parent):
-        handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
-        os.close(handle)
-        try:
-            yield Path(name)
-            os.chmod(name, 0o666 & ~_umask())
-            os.replace(name, path)
-        finally:
-            Path(name).unlink(missing_ok=True)
-
-
-@contextmanager
-def whole_folder(path: Path) -> Iterator[Path]:
-    """Give a temporary folder whose files move to ``path`` only if all went well."""
-    with naming(path), _folder_unless_failed(path):
-        draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=path))
-        try:
-            yield draft
-            for made in sorted(draft.iterdir()):
-                os.replace(made, path / made.name)
-        finally:
-            shutil.rmtree(draft, ignore_errors=True)
-
-
-@contextmanager
-def _folder_unless_failed(folder: Path) -> Iterator[None]:
-    """Make a folder with its parents; after a failure those that are new and empty go again."""
-    missing = [p for p in (folder, *folder.parents) if not p.exists()]
-    folder.mkdir(parents=True, exist_ok=True)
-    try:
-        yield
-    except BaseException:
-        _remove(missing)
-        raise
-
-
-@contextmanager
-def _folder_for_trial(folder: Path) -> Iterator[None]:
-    """Make a folder with its parents; those that are new go again in any case."""
-    missing = [p for p in (folder, *folder.parents) if not p.exists()]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        yield
-    finally:
-        _remove(missing)
-
-
-def _remove(folders: list[Path]) -> None:
-    """Remove the folders that exist and are empty, innermost first."""
-    for folder in folders:
-        with suppress(OSError):
-            folder.rmdir()
-
-
-def _umask() -> int:
-    """Return the mask that ordinary new files get."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _or(suffixes: tuple[str, ...]) -> str:

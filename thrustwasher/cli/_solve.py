@@ -70,7 +70,7 @@ class PointCommand:
 
 def _inputs(model: ModelCommand, spec: ModelSpec) -> list[Signal]:
     """Return the inputs of the command."""
-    return [model.instead.get(signal.name, signal) for signal in spec.inputs]
+    return [Signal(**model.instead[s.name]) if s.name in model.instead else s for s in spec.inputs]
 
 
 def _changes(presets: Mapping[str, Mapping[str, Any]]) -> str:

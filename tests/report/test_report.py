@@ -258,22 +258,6 @@ def test_film_ratios_below_zero_are_drawn_not_dropped(record):
     assert axis.get_ylim()[0] <= contact_panels.LOWEST_RATIO
 
 
-def test_branches_of_the_curve_differ_in_more_than_colour():
-    axis = axes_of(curve_figure(washer_stand_in.curve(), POINT))[0]
-    styles = {line.get_label(): line.get_linestyle() for line in axis.lines}
-    branches = [s for words, s in styles.items() if "stable" in words]
-    assert len(branches) == len(set(branches)) == 3
-    assert {"film lost", "film regained"} <= set(styles)
-
-
-def test_a_curve_that_leaves_its_panel_says_so():
-    curve = washer_stand_in.curve()
-    thin = replace(curve.points[-1], film_ratio=-0.05)
-    for points, said in ((curve.points, False), ((*curve.points, thin), True)):
-        axis = axes_of(curve_figure(replace(curve, points=points), POINT))[0]
-        assert any("down to -0.05" in text.get_text() for text in axis.texts) == said
-
-
 @pytest.mark.parametrize(("low", "high"), [(0.6, 12.0), (0.018, 0.4), (0.09, 110.0), (1.5, 4.5)])
 def test_ticks_of_a_logarithmic_axis_are_few_and_apart(low, high):
     _, (axis,) = new_figure(5.0, 3.0)

@@ -7,7 +7,7 @@ from typing import Any
 
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, steps_figure
-from .html import Page, Plot, Section, Table
+from .html import Page, Plot, Section, Table, fill_template
 from .stability_page import stability_figure
 
 TITLE = "Speed against accuracy"
@@ -134,16 +134,4 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
 
 def markdown(page: Page) -> str:
     """Return the page as Markdown beside its drawings."""
-    lines = [f"# {page.title}", "", *page.summary, ""]
-    lines += [f"**{w}**\n" for w in page.warnings]
-    for section in page.sections:
-        lines += [f"## {section.title}", ""]
-        lines += [f"{t}\n" for t in section.texts]
-        for plot in section.plots:
-            lines += [f"![{section.title}]({plot.name})", "", plot.caption, ""]
-        for table in section.tables:
-            lines += [f"**{table.title}**", ""] if table.title else []
-            lines += ["| " + " | ".join(table.heads) + " |", "|" + "---|" * len(table.heads)]
-            lines += ["| " + " | ".join(row) + " |" for row in table.rows]
-            lines.append("")
-    return "\n".join([*lines, page.footer, ""])
+    return fill_template("chart.md.jinja", **vars(page))

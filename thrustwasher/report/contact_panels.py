@@ -8,9 +8,8 @@ from matplotlib.axes import Axes
 from ..models.pack_geometry import mean_radius
 from .moments import distressed
 from .palette import BLACK, BLUE, COLOURS, GREEN, GREY, ORANGE, RED, RPM, SIGMA, SKY
-from .panel_base import draw, draw_phase_lines, draw_phases, thin
+from .panel_base import draw, draw_phase_lines, draw_phases, finish, thin
 from .shift_record import PACKS, Array, Record
-from .style import beside, label
 
 LOWEST_RATIO = 0.05  # film ratios at or below this are drawn on this line
 SHOWN = 2.5  # times the largest coefficient of the faces: above, the load is only beginning
@@ -18,36 +17,38 @@ LEAST_LOAD = 1.0  # N
 STEELS = (("aisi1020", "AISI 1020", BLUE), ("aisi4340", "AISI 4340", ORANGE))
 
 
-def draw_films(axis: Axes, record: Record) -> bool:
-    """Draw the film ratios over regime bands, distress marked; False if there is no film."""
-    drawn = []
+def films(record: Record) -> list[tuple[str, str, Array]]:
+    """Return words, colour and film ratio, as it is drawn, of every film."""
     lines = [(pack, pack, COLOURS[pack]) for pack in PACKS if record.presses(pack)]
     lines += [("washer", "thrust washer", ORANGE), ("mesh", "gear mesh", GREEN)]
-    for part, words, colour in lines:
-        values = record.series(f"{part}.film_ratio")
-        if values is not None:
-            shown = np.maximum(values, LOWEST_RATIO)
-            axis.plot(record.time, shown, color=colour, label=words, zorder=3)
-            drawn.append(shown)
+    return [
+        (words, colour, np.maximum(values, LOWEST_RATIO)) for part, words, colour in lines
+        if (values := record.series(f"{part}.film_ratio")) is not None
+    ]  # fmt: skip
+
+
+def draw_films(axis: Axes, record: Record) -> None:
+    """Draw the film ratios, if there are any, over regime bands, distress marked."""
+    drawn = films(record)
     if not drawn:
-        return False
-    low = max(LOWEST_RATIO, 0.6 * min(float(np.min(d)) for d in drawn))
-    high = 1.6 * max(3.0, *(float(np.max(d)) for d in drawn))
+        return
+    for words, colour, shown in drawn:
+        axis.plot(record.time, shown, color=colour, label=words, zorder=3)
+    low = max(LOWEST_RATIO, 0.6 * min(float(np.min(shown)) for *_, shown in drawn))
+    high = 1.6 * max(3.0, *(float(np.max(shown)) for *_, shown in drawn))
     _draw_regimes(axis, low, high)
     draw_phase_lines(axis, record)
     lost = distressed(record)
     if np.any(lost):
         axis.plot(record.time[lost], np.full(np.sum(lost), 0.82 * high), "|", color=BLACK, ms=7,
                   mew=1.2, label="washer's film lost (distress)", zorder=4)  # fmt: skip
-    up = f"film ratio h/{SIGMA} [1]"
-    label(axis, "Film ratios: does oil or do asperities carry?", "", up)
-    beside(axis)
-    return True
+    finish(axis, "Film ratios: does oil or do asperities carry?", f"film ratio h/{SIGMA} [1]")
 
 
-def draw_washer_load(axis: Axes, record: Record, load: Array, share: Array) -> None:
+def draw_washer_load(axis: Axes, record: Record) -> None:
     """Draw the load on one washer, split into what oil and asperities carry."""
-    some = thin(record)
+    some, load = thin(record), record.signals["transmission.washer_load"]
+    share = record.signals["washer.fluid_load_share"]
     axis.stackplot(
         record.time[some], (load * share)[some], (load * (1.0 - share))[some], colors=[SKY, RED],
         labels=["carried by the oil film", "carried by asperities"], lw=0, alpha=0.75,
@@ -55,8 +56,7 @@ def draw_washer_load(axis: Axes, record: Record, load: Array, share: Array) -> N
     axis.plot(record.time, load, color=BLACK, lw=1.2, label="load on one washer")
     draw_phase_lines(axis, record)
     axis.set_ylim(bottom=0.0)
-    label(axis, "Load on one thrust washer", "", "load [N]")
-    beside(axis)
+    finish(axis, "Load on one thrust washer", "load [N]")
 
 
 def _draw_regimes(axis: Axes, low: float, high: float) -> None:
@@ -91,12 +91,16 @@ def slipping(record: Record) -> Array:
     return np.flatnonzero(inside)
 
 
-def draw_friction(axis: Axes, record: Record) -> bool:
-    """Draw the coefficient over falling slip; False if it is constant or nothing slips."""
+def friction_changes(record: Record) -> bool:
+    """Tell whether the pack that engages slips with a coefficient that is not constant."""
+    friction, where = record.series(f"{record.engaging}.friction_coefficient"), slipping(record)
+    return friction is not None and len(where) > 1 and bool(np.ptp(friction[where]) >= 1e-9)
+
+
+def draw_friction(axis: Axes, record: Record) -> None:
+    """Draw the coefficient over falling slip."""
     pack, where = record.engaging, slipping(record)
-    friction = record.series(f"{pack}.friction_coefficient")
-    if friction is None or len(where) < 2 or np.ptp(friction[where]) < 1e-9:
-        return False
+    friction = record.signals[f"{pack}.friction_coefficient"]
     rpm = np.abs(record.signals[f"{pack}.speed"][where]) * RPM
     axis.plot(rpm, friction[where], color=BLUE, label="faces in contact")
     whole = _with_oil(record, where)
@@ -106,10 +110,8 @@ def draw_friction(axis: Axes, record: Record) -> bool:
     _draw_published(axis, record)
     axis.set_xlim(float(np.max(rpm)) * 1.02, 0.0)
     axis.set_ylim(bottom=0.0)
-    label(axis, f"Friction of the {pack} as its slip falls", "slip [rpm], falling",
-          "friction coefficient [1]")  # fmt: skip
-    beside(axis)
-    return True
+    axis.set_xlabel("slip [rpm], falling")
+    finish(axis, f"Friction of the {pack} as its slip falls", "friction coefficient [1]")
 
 
 def _with_oil(record: Record, where: Array) -> Array | None:
@@ -149,9 +151,8 @@ def draw_stress(axis: Axes, record: Record) -> None:
         draw(axis, record, f"mesh.stress_utilization_{key}", words, colour)
     axis.axhline(1.0, color=BLACK, lw=0.9, ls=(0, (1, 3)), label="endurance limit")
     axis.set_ylim(bottom=0.0)
-    label(axis, "Tooth stress, mechanical and thermal together, over its endurance limit", "",
-          "utilisation [1]")  # fmt: skip
-    beside(axis)
+    title = "Tooth stress, mechanical and thermal together, over its endurance limit"
+    finish(axis, title, "utilisation [1]")
 
 
 def draw_allowable(axis: Axes, record: Record) -> None:
@@ -165,5 +166,4 @@ def draw_allowable(axis: Axes, record: Record) -> None:
             draw(axis, record, name, words, colour)
             lowest = min(lowest, float(np.min(values)))
     axis.set_ylim(max(0.0, lowest - 0.1), 1.05)
-    label(axis, "Contact stress allowed with heat, over that without", "", "ratio [1]")
-    beside(axis)
+    finish(axis, "Contact stress allowed with heat, over that without", "ratio [1]")

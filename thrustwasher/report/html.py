@@ -14,8 +14,6 @@ from typing import Any
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-_TEMPLATE = Path(__file__).with_name("template.html")
-
 
 @dataclass(frozen=True, kw_only=True)
 class Plot:
@@ -93,13 +91,19 @@ class Page:
 
 def render(page: Page) -> str:
     """Return the page as HTML; text is escaped, plots are inside."""
+    return fill_template("page.html.jinja", **vars(page))
+
+
+def fill_template(name: str, **values: Any) -> str:
+    """Return a template beside this module filled with values, which HTML has escaped."""
     from jinja2 import Environment, StrictUndefined
 
     environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    template = environment.from_string(_TEMPLATE.read_text("utf-8"))
-    return template.render({name: getattr(page, name) for name in page.__dataclass_fields__})
+        autoescape=".html." in name, undefined=StrictUndefined, keep_trailing_newline=True,
+        trim_blocks=True, lstrip_blocks=True,
+    )  # fmt: skip
+    text = Path(__file__).with_name(name).read_text("utf-8")
+    return environment.from_string(text).render(values)
 
 
 def save_plots(page: Page, folder: Path) -> None:

@@ -29,12 +29,6 @@ def highest(record: Record, name: str) -> Extreme | None:
     return None if values is None else _extreme(record, values, int(np.nanargmax(values)))
 
 
-def lowest(record: Record, name: str) -> Extreme | None:
-    """Return the least value of a signal; None if the run has no such signal."""
-    values = record.series(name)
-    return None if values is None else _extreme(record, values, int(np.nanargmin(values)))
-
-
 def worst_film(record: Record) -> Extreme | None:
     """Return the washer's least film ratio recorded above FILM_SPEED; None without such a time."""
     values, speed = record.series("washer.film_ratio"), record.series("washer.speed")

@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .palette import BLACK, BLUE, CELSIUS, COLOURS, GREEN, GREY, ORANGE, PURPLE, RED, SKY
-from .panel_base import draw, draw_events, draw_phases, thin
+from .panel_base import draw, draw_events, draw_phases, finish, thin
 from .shift_record import PACKS, Array, Record
-from .style import beside, label, powers_of_ten
+from .style import powers_of_ten
 
 LINING_LIMIT = 523.15  # [K] oil and lining fail above
 WASHER_RISE = 200.0  # [K] mean rise above the oil at which the paper calls a washer distressed
@@ -41,8 +41,7 @@ def draw_speeds(axis: Axes, record: Record) -> None:
         if not lone_brake or "ring" in name:
             draw(axis, record, name, words, colour, dashes)
     draw_events(axis, record)
-    label(axis, _speed_title(record), "", "speed [rad/s]")
-    beside(axis)
+    finish(axis, _speed_title(record), "speed [rad/s]")
 
 
 def _speed_title(record: Record) -> str:
@@ -75,9 +74,7 @@ def draw_torques(axis: Axes, record: Record) -> None:
     _draw_split(axis, record)
     pack, other = record.engaging, record.releasing
     words = f": the {pack} takes over from the {other}" if record.presses(other) else ""
-    label(axis, f"Torque of the {pack}" if record.alone else f"Torques{words}", "",
-          "torque [N·m]")  # fmt: skip
-    beside(axis)
+    finish(axis, f"Torque of the {pack}" if record.alone else f"Torques{words}", "torque [N·m]")
 
 
 def _draw_brake_capacity(axis: Axes, record: Record) -> None:
@@ -104,8 +101,7 @@ def draw_drag(axis: Axes, record: Record) -> None:
     draw_phases(axis, record, words=False)
     draw(axis, record, "washer.friction_torque", "one thrust washer", ORANGE)
     draw(axis, record, "mesh.friction_torque", "one gear mesh", GREEN)
-    label(axis, "Drag at a planet", "", "torque [N·m]")
-    beside(axis)
+    finish(axis, "Drag at a planet", "torque [N·m]")
 
 
 def draw_temperatures(axis: Axes, record: Record) -> None:
@@ -133,8 +129,7 @@ def draw_temperatures(axis: Axes, record: Record) -> None:
         text = f"{words}: {kelvin - CELSIUS:.0f} °C" + (" (off scale)" if far else "")
         axis.axhline(np.nan if far else kelvin - CELSIUS, color=colour, lw=0.9, ls=(0, (1, 3)),
                      label=text)  # fmt: skip
-    label(axis, "Temperatures", "", "temperature [°C]")
-    beside(axis)
+    finish(axis, "Temperatures", "temperature [°C]")
 
 
 def draw_energy(axis: Axes, record: Record) -> None:
@@ -173,8 +168,7 @@ def draw_energy(axis: Axes, record: Record) -> None:
         words = "kinetic energy given up"
     axis.plot(record.time, engine - kinetic, color=BLACK, ls="--", lw=1.2, label=words)
     title = "Energy: the areas fill up to the dashed line if no joule is lost"
-    label(axis, title, "", "energy since the start [kJ]")
-    beside(axis)
+    finish(axis, title, "energy since the start [kJ]")
 
 
 def draw_heat_flow(axis: Axes, record: Record) -> None:
@@ -190,8 +184,7 @@ def draw_heat_flow(axis: Axes, record: Record) -> None:
     axis.set_yscale("log")
     axis.set_ylim(bottom=LEAST_POWER)
     powers_of_ten(axis)
-    label(axis, "Heat flow", "", "power [W]")
-    beside(axis)
+    finish(axis, "Heat flow", "power [W]")
 
 
 def draw_shaft(axis: Axes, record: Record) -> None:
@@ -200,8 +193,7 @@ def draw_shaft(axis: Axes, record: Record) -> None:
     draw(axis, record, "transmission.shaft_torque", "output shaft", BLUE, width=1.0)
     draw(axis, record, "transmission.resistance_torque", "load at the vehicle", GREEN, "--")
     _mark(axis, record)
-    label(axis, "Torque of the output shaft", "", "torque [N·m]")
-    beside(axis)
+    finish(axis, "Torque of the output shaft", "torque [N·m]")
 
 
 def draw_slip(axis: Axes, record: Record) -> None:
@@ -210,8 +202,7 @@ def draw_slip(axis: Axes, record: Record) -> None:
     pack = record.judder.pack
     draw(axis, record, f"transmission.{pack}_speed", pack, COLOURS[pack], width=1.0)
     _mark(axis, record)
-    label(axis, f"Slip of the {pack}", "", "slip [rad/s]")
-    beside(axis)
+    finish(axis, f"Slip of the {pack}", "slip [rad/s]")
 
 
 def _mark(axis: Axes, record: Record) -> None:

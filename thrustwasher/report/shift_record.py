@@ -70,17 +70,6 @@ class Published(NamedTuple):
     run: float | None
 
 
-class Steps(NamedTuple):
-    """Communication steps of a master that chooses them: how many, and their lengths [s]."""
-
-    accepted: int
-    rejected: int
-    shortest: float
-    longest: float
-    located: int
-    """Events that became communication points."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class Record:
     """A finished shift; ``signals`` maps "part.variable" to values at ``time``, SI units.
@@ -115,7 +104,7 @@ class Record:
     chatter: Sequence[Any] = ()
     """Packs whose slip flips from step to step (``drivetrain.chatter.Chatter``)."""
     rungs: Rungs | None = None
-    steps: Steps | None = None
+    steps: Any = None
     """None: all as long as ``step``."""
     looks: float = 0.0
     """[s] of wall clock for the guard's looks."""
@@ -200,13 +189,6 @@ def record_of(result: Any) -> Record:
         judder=result.judder,
         chatter=result.chatter,
         rungs=rungs_of(result),
-        steps=_steps(result.steps),
+        steps=result.steps if result.steps.shortest < result.steps.longest else None,
         looks=result.guard.seconds if result.guard else 0.0,
     )
-
-
-def _steps(taken: Any) -> Steps | None:
-    """Return the steps of a run whose master chose them."""
-    if taken.shortest == taken.longest:
-        return None
-    return Steps(taken.accepted, taken.rejected, taken.shortest, taken.longest, taken.located)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from matplotlib.figure import Figure
+
 from ..units import format_quantity as say
 from . import summary, tables
 from .findings import TITLES, judder_words
@@ -34,11 +36,13 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
             file="temperatures", figure=temperature_figure(record),
             caption=_temperature_caption(record),
         )]),
-        *_film_sections(record),
+        *_drawn_sections("films", "Film ratios", "film_ratios", film_figure(record), FILM_CAPTION),
         *_friction_sections(record),
         *_judder_sections(record),
         *_washer_sections(record),
-        *_stress_sections(record),
+        *_drawn_sections(
+            "stress", "The gear teeth", "tooth_stress", stress_figure(record), STRESS_CAPTION
+        ),
         Section(anchor="energy", title="Energy", tables=[tables.energy_table(record)], plots=[Plot(
             file="energy", figure=energy_figure(record),
             caption="Integrated by the driveline itself inside its steps.",
@@ -64,6 +68,27 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
         footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
         "thrustwasher shift --json.",
     )
+
+
+FILM_CAPTION = (
+    "Film thickness over the combined roughness. Above 3 the oil carries, below 1 the "
+    "asperities do. Values below the axis are drawn on its lower end."
+)
+STRESS_CAPTION = (
+    "Above: contact stress and thermal stress together, each over what the steel endures; at "
+    "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
+)
+
+
+def _drawn_sections(
+    anchor: str, title: str, file: str, figure: Figure | None, caption: str
+) -> list[Section]:
+    """Return a section of one figure, if there is something to draw."""
+    if figure is None:
+        return []
+    return [
+        Section(anchor=anchor, title=title, plots=[Plot(file=file, figure=figure, caption=caption)])
+    ]
 
 
 def _course_sections(record: Record) -> list[Section]:
@@ -126,19 +151,6 @@ def _temperature_caption(record: Record) -> str:
     return " ".join(texts)
 
 
-def _film_sections(record: Record) -> list[Section]:
-    """Return the film ratios, if any film was computed."""
-    figure = film_figure(record)
-    if figure is None:
-        return []
-    caption = (
-        "Film thickness over the combined roughness. Above 3 the oil carries, below 1 the "
-        "asperities do. Values below the axis are drawn on its lower end."
-    )
-    plot = Plot(file="film_ratios", figure=figure, caption=caption)
-    return [Section(anchor="films", title="Film ratios", plots=[plot])]
-
-
 def _friction_sections(record: Record) -> list[Section]:
     """Return friction against slip, and what the scene's source says beside this run."""
     figure, pack = friction_figure(record), record.engaging
@@ -167,19 +179,6 @@ def _judder_sections(record: Record) -> list[Section]:
         tables=[tables.judder_table(record)],
         plots=[Plot(file="judder", figure=figure, caption=caption)],
     )]  # fmt: skip
-
-
-def _stress_sections(record: Record) -> list[Section]:
-    """Return how near the teeth come to their endurance limit, if there is a gear mesh."""
-    figure = stress_figure(record)
-    if figure is None:
-        return []
-    caption = (
-        "Above: contact stress and thermal stress together, each over what the steel endures; at "
-        "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
-    )
-    plot = Plot(file="tooth_stress", figure=figure, caption=caption)
-    return [Section(anchor="stress", title="The gear teeth", plots=[plot])]
 
 
 def _washer_sections(record: Record) -> list[Section]:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from .chart_text import staircase
 from .palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
-from .style import label, legend_below, new_figure, styled
+from .style import label, legend_below, new_figure, note_at_right, styled
 
 COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
 RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)
@@ -88,9 +88,8 @@ def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -
     axes.set_ylim(0.4 * low, 6.0 * max([*errors, floor, low]))  # room for crosses at the top
     if floor:
         axes.axhspan(0.4 * low, floor, color="#E8E8E8", lw=0, zorder=0)
-        axes.annotate("uncertainty of the reference", (0.99, floor), (0, 2), va="bottom",
-                      ha="right", xycoords=axes.get_yaxis_transform(), fontsize=8, color=GREY,
-                      textcoords="offset points")  # fmt: skip
+        words = "uncertainty of the reference"
+        note_at_right(axes, words, floor, place=0.99, shift=(0, 2), va="bottom", color=GREY)
     return 0.6 * low
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
+from statistics import linear_regression
 from typing import Any
 
 Sampled = Mapping[str, Any]
@@ -156,9 +157,7 @@ def _order(members: Sequence[Sampled], name: str) -> float | None:
             pairs.append((math.log(float(s["value"].split()[0])), math.log(error)))
     if len(pairs) < 3:
         return None
-    mean_x, mean_y = (sum(p[i] for p in pairs) / len(pairs) for i in (0, 1))
-    top = sum((x - mean_x) * (y - mean_y) for x, y in pairs)
-    return top / sum((x - mean_x) ** 2 for x, _ in pairs)
+    return linear_regression(*zip(*pairs, strict=True)).slope
 
 
 def curve_sentences(curve: Mapping[str, Any]) -> list[str]:

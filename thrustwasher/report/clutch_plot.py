@@ -13,7 +13,18 @@ from ..models.clutch_friction import friction_radius
 from ..models.clutch_params import SPEED, ClutchParams
 from ..units import format_quantity
 from .palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, PURPLE, RED, RPM, SIGMA, SKY
-from .style import SECOND, TOP, decade_ticks, heading, label, legend_below, new_figure, styled
+from .style import (
+    SECOND,
+    TOP,
+    decade_ticks,
+    heading,
+    label,
+    legend_below,
+    new_figure,
+    note_at_right,
+    second_scale,
+    styled,
+)
 
 SAMPLES = 121
 
@@ -85,8 +96,14 @@ def clutch_figure(
         ("torque", "Torque of the pack", "friction torque, magnitude [N·m]"),
     ):
         label(panels[name], title, "", up, above=SECOND)
-    _name_rest(panels["friction"], f"at rest {friction[0]:.4g}", friction[0])
-    _name_rest(panels["torque"], f"static {format_quantity(capacity[0], 'N.m')}", capacity[0])
+    rest: Any = {
+        "shift": (-3, 3),
+        "fontsize": 8.5,
+        "color": "#444444",
+    }  # where the curve has fallen
+    note_at_right(panels["friction"], f"at rest {friction[0]:.4g}", friction[0], **rest)
+    static = f"static {format_quantity(capacity[0], 'N.m')}"
+    note_at_right(panels["torque"], static, capacity[0], **rest)
     for axis in panels.values():
         _scale(axis, speeds[-1])
     if ploughing is not None:
@@ -113,30 +130,14 @@ def _draw_shares(
     axis.fill_between(speeds, base, whole, color=SKY, alpha=0.35, lw=0.0, label="adhesion")
 
 
-def _name_rest(axis: Axes, words: str, height: float) -> None:
-    """Write the value at rest on its line, at the right where the curve has fallen."""
-    axis.annotate(
-        words, (1.0, height), (-3, 3), xycoords=axis.get_yaxis_transform(),
-        textcoords="offset points", ha="right", fontsize=8.5, color="#444444",
-    )  # fmt: skip
-
-
 def _scale(axis: Axes, fastest: float) -> None:
     """Begin both axes at zero, rad/s below and rpm above."""
     axis.set_xlim(0.0, fastest)
     axis.set_ylim(0.0, 1.12 * axis.get_ylim()[1])
     axis.set_xlabel("slip [rad/s]")
-    above = axis.secondary_xaxis("top", functions=(_in_rpm, _from_rpm))
-    above.set_xlabel("slip [rpm]", fontsize=8.5)
+    above = second_scale(axis, RPM, "slip [rpm]")
+    above.xaxis.label.set_fontsize(8.5)
     above.tick_params(labelsize=8)
-
-
-def _in_rpm(slip: Any) -> Any:
-    return slip * RPM
-
-
-def _from_rpm(slip: Any) -> Any:
-    return slip / RPM
 
 
 @styled
@@ -160,10 +161,7 @@ def engagement_figure(result: Any) -> Figure:
     film.set_yscale("log")
     for ratio, words in ((3.0, "3: mixed"), (1.0, "1: boundary")):
         film.axhline(ratio, color=ORANGE, lw=0.9, ls=":")
-        film.annotate(
-            words, (1.0, ratio), (-2, 2), xycoords=film.get_yaxis_transform(),
-            textcoords="offset points", ha="right", va="bottom", fontsize=8, color=GREY,
-        )  # fmt: skip
+        note_at_right(film, words, ratio, va="bottom", color=GREY)
     decade_ticks(film)
     label(film, "Film between the faces", "time [ms]", f"film ratio h/{SIGMA} [1]")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -10,6 +12,7 @@ from .moments import distressed
 from .palette import BLACK, BLUE, COLOURS, GREEN, GREY, ORANGE, RED, RPM, SIGMA, SKY
 from .panel_base import draw, draw_phase_lines, draw_phases, finish, thin
 from .shift_record import PACKS, Array, Record
+from .style import note_at_right
 
 LOWEST_RATIO = 0.05  # film ratios at or below this are drawn on this line
 SHOWN = 2.5  # times the largest coefficient of the faces: above, the load is only beginning
@@ -68,10 +71,8 @@ def _draw_regimes(axis: Axes, low: float, high: float) -> None:
     ):
         if bottom < top:
             axis.axhspan(bottom, top, color=shade, lw=0, zorder=0)
-            axis.annotate(
-                words, (0.995, bottom), (0, 3), xycoords=axis.get_yaxis_transform(),
-                textcoords="offset points", ha="right", va="bottom", fontsize=8.5, color="#666666",
-            )  # fmt: skip
+            look: Any = {"va": "bottom", "fontsize": 8.5, "color": "#666666"}
+            note_at_right(axis, words, bottom, place=0.995, shift=(0, 3), **look)
     for ratio in (1.0, 3.0):
         axis.axhline(ratio, color="#555555", lw=0.9, ls="--", zorder=1)
     axis.set_yscale("log")

@@ -15,7 +15,7 @@ from ..models.clutch_calibration_text import counted
 from ..models.clutch_friction import friction_radius
 from ..units import format_quantity
 from .palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
-from .style import SECOND, TOP, heading, label, new_figure, styled
+from .style import SECOND, TOP, heading, label, new_figure, second_scale, styled
 
 Array = NDArray[np.float64]
 
@@ -105,14 +105,7 @@ def _draw_curve(axis: Axes, found: Any, fastest: float, lowest: float, highest: 
         )  # fmt: skip
     axis.set_ylim(min(0.0, lowest), 1.18 * max(highest, float(curve.max())))
     axis.set_xlim(0.0, fastest)
-    over = axis.secondary_xaxis("top", functions=_rpm(friction_radius(found.params)))
-    over.set_xlabel("slip [rpm]")
-
-
-def _rpm(radius: float) -> tuple[Any, Any]:
-    """Return the conversions from slip speed [m/s] to slip [rpm] and back."""
-    factor = 30.0 / (np.pi * radius)
-    return (lambda v: v * factor), (lambda n: n / factor)
+    second_scale(axis, 30.0 / (np.pi * friction_radius(found.params)), "slip [rpm]")
 
 
 def _heading(found: Any) -> str:

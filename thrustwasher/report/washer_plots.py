@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from ..units import format_quantity
 from .palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, RED, SIGMA
-from .style import decade_ticks, heading, label, legend_below, new_figure, styled
+from .style import decade_ticks, heading, label, legend_below, new_figure, note_at_right, styled
 
 Array = np.ndarray[Any, Any]
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 129)  # finer around than any grid but the finest
@@ -167,10 +167,7 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
     _say_what_is_cut(axes[0], curve.points)
     for ratio, words in ((3.0, "3: asperities begin to touch"), (1.0, "1: boundary lubrication")):
         axes[0].axhline(ratio, color=ORANGE, lw=0.9, ls=":")
-        axes[0].annotate(
-            words, (1.0, ratio), (-2, 2), xycoords=axes[0].get_yaxis_transform(),
-            textcoords="offset points", ha="right", fontsize=8, color="#7A5400",
-        )  # fmt: skip
+        note_at_right(axes[0], words, ratio, color="#7A5400")
     legend_below(figure, *_legend(axes[0]), columns=5)
     heading(figure, _curve_heading(curve.folds, point))
     return figure

@@ -15,8 +15,6 @@ The command that solves a model at one point is no file but a record in ``_model
 =============  ===================================================================
 """
 
-from __future__ import annotations
-
 import argparse
 import errno
 import gc

@@ -4,8 +4,6 @@
 thrustwasher:name") are resolved when they are needed: help imports no solver and no plotter.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module

@@ -1,7 +1,5 @@
 """What a command leaves behind: one JSON object, a table, or whole files; never half of one."""
 
-from __future__ import annotations
-
 import argparse
 import csv
 import dataclasses

@@ -1,7 +1,5 @@
 """How far it is and how long it will take, for a person at a terminal."""
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable

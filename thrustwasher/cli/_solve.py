@@ -1,7 +1,5 @@
 """The command that solves a model at one operating point, made from the model's record."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Iterator, Mapping

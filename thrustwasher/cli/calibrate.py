@@ -1,7 +1,5 @@
 """``thrustwasher calibrate``: fit the clutch's friction law to measured friction."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from typing import Any

@@ -1,7 +1,5 @@
 """``thrustwasher chart``: measure speed against accuracy on this machine, and draw it."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

@@ -1,7 +1,5 @@
 """``thrustwasher curve``: every solution over the load at one speed, and the folds."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Sequence

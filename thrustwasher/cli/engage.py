@@ -1,7 +1,5 @@
 """``thrustwasher engage``: a wet pack closes under a rising force while its slip runs out."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from typing import Any

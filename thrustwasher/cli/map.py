@@ -1,7 +1,5 @@
 """``thrustwasher map``: build a washer's map, list the maps there are, check one."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

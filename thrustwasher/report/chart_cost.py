@@ -1,7 +1,5 @@
 """Error against cost: every way a model can be solved, on logarithmic axes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """All charts as one page, as Markdown, and as drawings; made from the JSON record alone."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The words beside the charts: who won, where it flips, what failed, what set-up costs."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping, Sequence

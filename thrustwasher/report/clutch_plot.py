@@ -1,7 +1,5 @@
 """A wet pack: friction against slip with its shares, and an engagement over time."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Panels of what happens in the contacts of a shift: oil films, friction, tooth stress."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

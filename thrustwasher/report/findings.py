@@ -1,7 +1,5 @@
 """What to say where packs work against each other, a shaft swings or a slip flips."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..units import format_quantity as say

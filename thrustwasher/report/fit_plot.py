@@ -1,7 +1,5 @@
 """A calibration: measured points, the fitted law with its confidence band, residuals."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any

@@ -1,7 +1,5 @@
 """Temperatures of a gear mesh and what they leave of its endurance, against tooth number."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """One self-contained page: text, tables and plots in a single file that works offline."""
 
-from __future__ import annotations
-
 import base64
 import io
 import re

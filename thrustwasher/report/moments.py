@@ -1,7 +1,5 @@
 """The worst values of a shift, when they were reached, and the washer solved again there."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """What all panels over the time of a shift share: lines, phases, events."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 

@@ -1,7 +1,5 @@
 """Panels over the time of a shift: speeds, torques, temperatures, energy, a swinging shaft."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 

@@ -1,7 +1,5 @@
 """What happened over time in a shift: one figure per question."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from matplotlib.axes import Axes

@@ -1,10 +1,8 @@
 """What the report needs from a finished shift, as plain data."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -141,7 +139,7 @@ class Record:
         index = int(np.searchsorted(self.time, time, side="right")) - 1
         return float(values[max(index, 0)])
 
-    def window(self, start: float, end: float) -> Record:
+    def window(self, start: float, end: float) -> Self:
         """Return the record between two times [s]; key figures and energy stay those of all."""
         inside = (self.time >= start) & (self.time <= end)
         clipped = (Phase(p.name, max(p.start, start), min(p.end, end)) for p in self.phases)

@@ -1,7 +1,5 @@
 """The report of a shift: what was simulated, what came out, how far to trust it."""
 
-from __future__ import annotations
-
 from matplotlib.figure import Figure
 
 from ..units import format_quantity as say

@@ -1,7 +1,5 @@
 """Where methods fail, as a page of Markdown and as a map of coloured cells."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any

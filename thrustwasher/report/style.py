@@ -1,7 +1,5 @@
 """One look for all plots: colours told apart by everyone, units on axes, no global state."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What happened in a shift, in sentences made from its numbers."""
 
-from __future__ import annotations
-
 import math
 
 from ..units import format_quantity as say

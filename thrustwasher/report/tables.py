@@ -1,7 +1,5 @@
 """The report's tables as rows of text."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import fields

@@ -1,7 +1,5 @@
 """The washer: maps over its annulus, and its load curve with the folds."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any

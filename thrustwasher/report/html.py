@@ -13,7 +13,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Plot:
     """A figure with the sentence below it; ``file`` is the stem of its file beside the page."""
 
@@ -44,7 +44,7 @@ class Plot:
         return Markup(self.content.decode())
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Table:
     """Rows of text; ``numbers`` are the columns set to the right."""
 
@@ -55,7 +55,7 @@ class Table:
     folded: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Section:
     """A chapter of the page."""
 
@@ -66,7 +66,7 @@ class Section:
     tables: Sequence[Table] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Card:
     """A key figure at the top of the page."""
 

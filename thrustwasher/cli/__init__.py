@@ -1,4 +1,4 @@
-"""The command line: one file per command; a new command is that file and its line below.
+"""The command line: one file per command; a new command is that file and its name below.
 
 A command module has ``HELP`` (one sentence), ``add_arguments(parser)`` and ``run(arguments)``,
 which returns the exit status. Heavy imports happen inside ``run``: ``--help`` answers at once.
@@ -31,21 +31,11 @@ from typing import Any, NoReturn
 
 from .. import __version__
 from ..errors import EnvironmentProblem, ParameterError, SolveError
+from ._models import MODELS
 
 COMMANDS = (
-    "washer",
-    "curve",
-    "map",
-    "clutch",
-    "engage",
-    "calibrate",
-    "gearmesh",
-    "shift",
-    "sweep",
-    "chart",
-    "build",
-    "cards",
-    "doctor",
+    *(name for model in MODELS.values() for name in (model.name, *model.more)),
+    *("shift", "sweep", "chart", "build", "cards", "doctor"),
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message
@@ -150,9 +140,8 @@ def _dispatch(words: list[str]) -> int:
 
 def _command(name: str) -> Any:
     """Return the command of that name: a module, or made from the record of a model."""
-    models = import_module("._models", __name__).MODELS
-    if name in models:
-        return import_module("._solve", __name__).PointCommand(models[name])
+    if name in MODELS:
+        return import_module("._solve", __name__).PointCommand(MODELS[name])
     return import_module(f".{name}", __name__)
 
 

@@ -50,6 +50,7 @@ class ModelCommand:
     presets: str = ""  # mapping of names to the parameters that they change
     options: tuple[Option, ...] = ()  # more arguments of ``solve``
     variants: Variants | None = None
+    more: tuple[str, ...] = ()  # other commands of this model, which are files
 
 
 def resolve(name: str) -> Any:
@@ -74,6 +75,7 @@ WASHER = ModelCommand(
     figure="report.washer_plots:field_figure",
     figure_help="draw pressure, film and temperature fields",
     title="thrust washer",
+    more=("curve", "map"),
     closing="{iterations} iterations, {fidelity}, grid {grid[0]}x{grid[1]}",
     options=(
         GRID,
@@ -100,6 +102,7 @@ CLUTCH = ModelCommand(
     figure="report.clutch_plot:slip_figure",
     figure_help="draw shear ratio, coefficient and torque over slip",
     title="friction pack",
+    more=("engage", "calibrate"),
     closing="{fidelity}",
     extra={  # some are outputs that mean something else here
         "shear_ratio": ("1", "share of the full adhesive shear strength, s/s_m"),

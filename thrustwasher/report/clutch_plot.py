@@ -82,31 +82,22 @@ def clutch_figure(
         panels["torque"].fill_between(
             speeds, contact, capacity, color=ORANGE, alpha=0.45, lw=0.0, label="shear of the oil"
         )
-    for name, values, value, colour in (
-        ("friction", friction, result.friction_coefficient, BLUE),
-        ("torque", capacity, result.torque_capacity, RED),
-    ):
+    rest = f"at rest {friction[0]:.4g}", f"static {format_quantity(capacity[0], 'N.m')}"
+    for name, values, value, colour, words, title, up in (
+        ("friction", friction, result.friction_coefficient, BLUE, rest[0],
+         "Friction coefficient", "friction coefficient [1]"),
+        ("torque", capacity, result.torque_capacity, RED, rest[1],
+         "Torque of the pack", "friction torque, magnitude [N·m]"),
+    ):  # fmt: skip
         panels[name].plot(speeds, values, color=colour)
         panels[name].axhline(values[0], color=BLACK, lw=0.9, ls=":")
         panels[name].plot([here], [value], "o", color=BLACK, zorder=5)
-    for name, title, up in (
-        ("friction", "Friction coefficient", "friction coefficient [1]"),
-        ("torque", "Torque of the pack", "friction torque, magnitude [N·m]"),
-    ):
         label(panels[name], title, "", up, above=SECOND)
-    rest: Any = {
-        "shift": (-3, 3),
-        "fontsize": 8.5,
-        "color": "#444444",
-    }  # where the curve has fallen
-    note_at_right(panels["friction"], f"at rest {friction[0]:.4g}", friction[0], **rest)
-    static = f"static {format_quantity(capacity[0], 'N.m')}"
-    note_at_right(panels["torque"], static, capacity[0], **rest)
+        note_at_right(panels[name], words, values[0], shift=(-3, 3), fontsize=8.5, color="#444444")
     for axis in panels.values():
         _scale(axis, speeds[-1])
     if ploughing is not None:
-        handles, words = panels["torque"].get_legend_handles_labels()
-        legend_below(figure, handles, words, columns=3)
+        legend_below(figure, *panels["torque"].get_legend_handles_labels(), columns=3)
     heading(figure, _heading(result, point))
     return figure
 

@@ -89,19 +89,18 @@ class Page:
 
 def render(page: Page) -> str:
     """Return the page as HTML; text is escaped, plots are inside."""
-    return fill_template("page.html.jinja", **vars(page))
+    return fill_template(Path(__file__).with_name("page.html.jinja"), **vars(page))
 
 
-def fill_template(name: str, **values: Any) -> str:
-    """Return a template beside this module filled with values, which HTML has escaped."""
+def fill_template(path: Path, **values: Any) -> str:
+    """Return a template filled with values; in HTML they are escaped."""
     from jinja2 import Environment, StrictUndefined
 
     environment = Environment(
-        autoescape=".html." in name, undefined=StrictUndefined, keep_trailing_newline=True,
+        autoescape=".html" in path.suffixes, undefined=StrictUndefined, keep_trailing_newline=True,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    text = Path(__file__).with_name(name).read_text("utf-8")
-    return environment.from_string(text).render(values)
+    return environment.from_string(path.read_text("utf-8")).render(values)
 
 
 def save_plots(page: Page, folder: Path) -> None:

@@ -1,6 +1,7 @@
 """Where methods fail, as a page of Markdown and as a map of coloured cells."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from textwrap import fill
 from typing import Any
 
@@ -25,7 +26,8 @@ def stability_markdown(record: Mapping[str, Any]) -> str:
     """Return the page for a record with ``stability`` and ``limits``."""
     groups: Sequence[Mapping[str, Any]] = record["stability"]
     return fill_template(
-        "stability.md.jinja", words=WORDS, groups=groups, limits=record.get("limits", []),
+        Path(__file__).with_name("stability.md.jinja"),
+        words=WORDS, groups=groups, limits=record.get("limits", []),
         verdicts=[cell["verdict"] for g in groups for row in g["cells"] for cell in row],
         machine=machine_sentence(record),
     )  # fmt: skip

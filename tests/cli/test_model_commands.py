@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,11 +12,13 @@ from thrustwasher import (
     ClutchParams,
     GearMeshParams,
     WasherParams,
+    cli,
     solve_clutch,
     solve_gearmesh,
     solve_washer,
 )
 from thrustwasher.cli import engage, main
+from thrustwasher.cli._models import MODELS
 from thrustwasher.models.gearmesh_params import PRESETS
 
 WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
@@ -183,3 +186,11 @@ def test_an_engagement_is_written_whole(tmp_path):
     assert np.isfinite([float(v) for v in rows[-1][:-1]]).all()
     assert picture.stat().st_size > 10_000
     assert sorted(p.name for p in tmp_path.iterdir()) == ["e.csv", "e.png"]
+
+
+def test_a_record_alone_makes_a_command(capsys, monkeypatch):
+    ring = replace(MODELS["washer"], name="ring", help="solve a ring", title="ring", options=())
+    monkeypatch.setitem(MODELS, "ring", ring)
+    monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, "ring"))
+    assert "  ring      solve a ring\n" in shown([], capsys)
+    assert shown(["ring", "--load", "300"], capsys).startswith("ring at load 300 N")

@@ -2,7 +2,7 @@
 
 A command module has ``HELP`` (one sentence), ``add_arguments(parser)`` and ``run(arguments)``,
 which returns the exit status. Heavy imports happen inside ``run``: ``--help`` answers at once.
-The command that solves a model at one point is no file but a record in ``_models``.
+A command that solves a model at one point is no file but a record in ``_models``.
 
 =============  ===================================================================
 ``_models``    a record for each model with such a command; ``_solve``: makes it

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError
-from ..store.whole_files import made_folder
+from ..store.whole_files import folder_for_trial
 from ..store.whole_files import whole_file as whole_file
 from ..store.whole_files import whole_folder as whole_folder
 from ..units import format_quantity
@@ -152,7 +152,7 @@ def check_folder(path: str, option: str) -> Path:
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"{option} {path}: is a file, a folder is wanted")
     try:
-        with made_folder(folder, trial=True), tempfile.TemporaryFile(dir=folder):
+        with folder_for_trial(folder), tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
         reason = error.strerror or str(error)

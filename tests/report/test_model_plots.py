@@ -94,8 +94,8 @@ def test_the_sweep_begins_at_the_least_number_of_teeth_and_marks_what_is_refused
 def test_the_plot_draws_temperatures_and_both_steels():
     point = MESH_POINT
     params = GearMeshParams(gear_ratio=5.0)
-    teeth, sweeps = over_teeth(params, point, "field")
-    figure = gearmesh_figure(teeth, sweeps, solve_gearmesh(params, **point), 20, point)
+    _, sweeps = over_teeth(params, point, "field")
+    figure = gearmesh_figure(solve_gearmesh(params, **point), point, params)
     labels = [text for axes in figure.axes for text in axes.get_legend_handles_labels()[1]]
     for words in ("surface $T_s$", "asperities, rough ground", "asperities, fine ground",
                   "AISI 1020, rough ground", "AISI 4340, fine ground"):  # fmt: skip

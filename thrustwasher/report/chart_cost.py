@@ -34,17 +34,24 @@ def cost_figure(
     survey : of the model, as in the JSON file
     fronts : indices of the samples that nothing beats, by quantity
     """
-    quantities = survey["quantities"]
-    figure, panels = new_figure(11.0, 5.0, 1, len(quantities), foot=_rows(survey["samples"]))
-    across = survey["cost_of"]
-    for axes, quantity in zip(panels, quantities, strict=True):
-        draw_samples(axes, survey["samples"], quantity, fronts[quantity["name"]])
-        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
-        words = WORDS.get(quantity["name"], quantity["name"])
-        label(axes, f"{model}: {words}", across, f"error [{unit}]")
-    handles, names = panels[0].get_legend_handles_labels()
-    legend_below(figure, handles, names, columns=SIDE_BY_SIDE)
+    figure, panels = _panels(survey, fronts, 5.0, f"{model}: ", survey["cost_of"])
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
     return figure
+
+
+def _panels(
+    study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]], height: float, prefix: str,
+    across: str, crosses: bool = True,
+) -> tuple[Figure, list[Axes]]:  # fmt: skip
+    """Return a figure with room for its legend, and a panel of errors per quantity."""
+    quantities, foot = study["quantities"], _rows(study["samples"])
+    figure, panels = new_figure(11.0, height, 1, len(quantities), foot=foot)
+    for axes, quantity in zip(panels, quantities, strict=True):
+        name = quantity["name"]
+        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=crosses)
+        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
+        label(axes, f"{prefix}{WORDS.get(name, name)}", across, f"error [{unit}]")
+    return figure, panels
 
 
 def _rows(samples: Sequence[Sampled]) -> int:
@@ -143,15 +150,11 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
 @styled
 def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Figure:
     """Return the errors of a shift over its cost, a panel per quantity; lines follow the step."""
-    foot = _rows(study["samples"])
-    figure, panels = new_figure(11.0, 5.6, 1, len(study["quantities"]), foot=foot)
+    across = "wall time per simulated second"
+    figure, panels = _panels(study, fronts, 5.6, "", across, crosses=False)
     for axes, quantity in zip(panels, study["quantities"], strict=True):
-        name = quantity["name"]
-        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=False)
-        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
-        label(axes, WORDS[name], "wall time per simulated second", f"error [{unit}]")
         for s in study["samples"]:
-            error = s["errors"][name]["worst"]
+            error = s["errors"][quantity["name"]]["worst"]
             if s["n_failed"] and error and s["call_median"]:
                 axes.plot([s["call_median"]], [error], marker="x", ms=9, color=RED, mew=1.6)
     handles, names = panels[0].get_legend_handles_labels()

@@ -28,12 +28,6 @@ Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model
 Reading = Callable[[Any], float]
 
 
-def teeth_figure(result: Any, point: Mapping[str, Any], params: GearMeshParams) -> Figure:
-    """Return the mesh over the pinion's teeth, solved here, at the power and speed of ``point``."""
-    teeth, sweeps = over_teeth(params, point, result.fidelity)
-    return gearmesh_figure(teeth, sweeps, result, params.pinion_teeth, point)
-
-
 def over_teeth(
     params: GearMeshParams, point: Mapping[str, Any], fidelity: str
 ) -> tuple[list[int], dict[str, list[Any]]]:
@@ -62,18 +56,17 @@ def over_teeth(
 
 
 @styled
-def gearmesh_figure(
-    teeth: Sequence[int], sweeps: Sweeps, result: Any, here: int, point: Mapping[str, float]
-) -> Figure:
+def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshParams) -> Figure:
     """Return temperatures, allowable ratio and modification factor over the pinion's teeth.
 
     Parameters
     ----------
-    teeth : numbers of pinion teeth
-    sweeps : for some of SURFACES the gear mesh results at ``teeth``, None where there is none
-    result : the gear mesh result at ``point``, marked at ``here`` teeth
+    result : the gear mesh result at ``point``, marked by dots
     point : power [W], speed [rad/s], oil_temperature [K]
+    params : the mesh, which is solved here for other numbers of teeth
     """
+    teeth, sweeps = over_teeth(params, point, result.fidelity)
+    here = params.pinion_teeth
     figure, axes = new_figure(13.2, 4.3, 1, 3, head=1)
     draw_temperatures(axes[0], teeth, sweeps)
     draw_ratios(axes[1], teeth, sweeps)

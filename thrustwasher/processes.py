@@ -1,7 +1,5 @@
 """Fresh worker processes that end with their work, with their parent, and at Ctrl-C."""
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import signal

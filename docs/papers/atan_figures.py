@@ -31,21 +31,8 @@ from thrustwasher.reference.flash_temperature import (
 from thrustwasher.reference.involute_mesh import Mesh, flanks_at, line_load, start_of_contact
 from thrustwasher.reference.line_contact import compliance, full_width
 from thrustwasher.report.gearmesh_plot import draw_ratios, draw_temperatures
-from thrustwasher.report.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    SKY,
-    heading,
-    label,
-    legend_below,
-    new_figure,
-    styled,
-)
+from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from thrustwasher.report.style import heading, label, legend_below, new_figure, styled
 
 POWER, SPEED, CENTRES, PHI, FACE = 7500.0, 180.0, 0.254, math.radians(20.0), 0.05
 INLET = 299.85  # K

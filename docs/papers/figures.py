@@ -28,18 +28,8 @@ from scipy.interpolate import PchipInterpolator
 
 from thrustwasher import WasherParams, load_curve, solve_washer
 from thrustwasher.kernels.viscosity import viscosity
-from thrustwasher.report.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    RED,
-    label,
-    legend_below,
-    new_figure,
-    styled,
-)  # fmt: skip
+from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, RED
+from thrustwasher.report.style import label, legend_below, new_figure, styled
 
 TILT = 0.002  # rad
 GRID = (19, 64)

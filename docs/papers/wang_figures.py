@@ -17,19 +17,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thrustwasher import ClutchParams, boundary_friction, solve_clutch
-from thrustwasher.report.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    label,
-    legend_below,
-    new_figure,
-    styled,
-)  # fmt: skip
+from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED
+from thrustwasher.report.style import label, legend_below, new_figure, styled
 
 SAMPLE = {"inner_radius": 0.0325, "outer_radius": 0.0425}  # m, Fig. 12
 PACK = ClutchParams(**SAMPLE)

@@ -8,8 +8,7 @@ import time
 
 import pytest
 
-from thrustwasher.cli import main
-from thrustwasher.cli._signals import Stopped, Watch
+from thrustwasher.cli import Stopped, Watch, main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals of POSIX")
 SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x150", "--over", "speed=50:500:x100"]

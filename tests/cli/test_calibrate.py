@@ -9,7 +9,6 @@ from thrustwasher.cli import main
 from thrustwasher.models.clutch_calibration import calibrate
 from thrustwasher.models.clutch_friction import friction_over, friction_radius, law_values
 from thrustwasher.models.clutch_params import ClutchParams
-from thrustwasher.report.fit_plot import calibration_figure
 
 TRUTH = ClutchParams(plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0)
 SLIP = np.linspace(2.0, 160.0, 30)
@@ -99,14 +98,6 @@ def test_what_was_given_beside_the_fit_is_in_the_command_that_uses_it(table, cap
     assert "--set hardness_ratio=7.0" in last and "--set faces=6" in last
 
 
-def test_every_panel_of_the_plot_names_what_it_is_over():
-    columns = {"speed": SLIP, "load": SLIP * 0 + 1e3, "friction": FRICTION}
-    axes = calibration_figure(calibrate(ClutchParams(), **columns), columns).axes
-    assert [axis.get_xlabel() for axis in axes] == [
-        "slip speed [m/s]", "slip speed [m/s]", "load [N]",
-    ]  # fmt: skip
-
-
 @pytest.mark.parametrize("fastest", [20.0, 160.0])
 def test_a_plot_is_drawn_whatever_the_points_tell(fastest, tmp_path, capsys):
     kept = fastest >= SLIP
@@ -157,8 +148,6 @@ def test_a_wrong_table_is_one_line_that_names_the_place(text, named, tmp_path, c
         (["{}", "--fit", "load"], "does not depend on load"),
         (["{}", "--fit", ","], "fit names nothing"),
         (["{}", "--confidence", "95"], "confidence = 95.0"),
-        (["{}", "--set", "friction_law=dry"], "friction_law"),
-        (["{}", "--plot", "fit.gif"], "--plot"),
     ],
 )
 def test_wrong_options_are_one_line(words, named, table, capsys):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from scene_runs import shift, slow_without_jit
 
-from thrustwasher.report.chatter import chatter_text
+from thrustwasher.report.findings import chatter_text
 from thrustwasher.report.shift_record import record_of
 
 BARE = {"washer": None, "mesh": None}

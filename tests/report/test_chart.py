@@ -1,12 +1,17 @@
-"""The charts are made from the record alone, whatever failed in it."""
+"""The charts and the page of where methods fail: made from the record alone."""
 
 import json
+import os
+import subprocess
+import sys
 import xml.etree.ElementTree as ET
 
 import pytest
 
 from thrustwasher.cli import main
+from thrustwasher.fidelity.work_precision import Sample
 from thrustwasher.report.chart_cost import count_figure
+from thrustwasher.report.stability_page import stability_markdown
 
 QUANTITY = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
 
@@ -42,11 +47,19 @@ STUDY = {
 GROUP = {
     "name": "films", "judged": "load off", "methods": ["good", "bad"], "hazards": ["a", "b"],
     "cells": [
-        [{"verdict": "ok", "figure": "", "words": ""}, {"verdict": "says", "figure": "",
-                                                        "words": "SINGULAR"}],
+        [{"verdict": "ok", "figure": "", "words": ""},
+         {"verdict": "says", "figure": "", "words": "SINGULAR: no way"}],
         [{"verdict": "LIES", "figure": "-20 %", "words": "load off"},
          {"verdict": "slow", "figure": "9 sweeps", "words": ""}],
     ],
+}  # fmt: skip
+STABILITY = {
+    "stability": [GROUP],
+    "limits": [{"loop": "held", "formula": "H < 2 J/c", "predicted": 2.0, "measured": 2.002,
+                "deviation": 1e-3}],
+    "machine": {"cpu": "a cpu", "cores": 2, "os": "an os", "python": "3", "numpy": "2",
+                "numba": "1", "load": 0.1},
+    "package": {"version": "0", "commit": "abc", "dirty": False}, "date": "today",
 }  # fmt: skip
 
 
@@ -141,3 +154,42 @@ def test_a_foreign_file_is_refused(tmp_path, capsys):
     other.write_text('{"schema": 99}')
     assert main(["chart", "--draw", str(other), "--out", str(tmp_path)]) == 2
     assert "no chart.json" in capsys.readouterr().err
+
+
+def test_cells_legend_limits_and_machine_are_there():
+    page = stability_markdown(STABILITY)
+    assert "| good | ok | says SINGULAR |" in page
+    assert "| bad | **LIES** -20 % | slow 9 sweeps |" in page
+    assert "1 of 4 answers are wrong without a word." in page
+    assert "| held | H < 2 J/c | 2 | 2.002 | +0.10 % |" in page
+    assert "a cpu" in page and "commit abc" in page
+
+
+def test_a_table_row_has_as_many_cells_as_its_head():
+    rows = [r for r in stability_markdown(STABILITY).splitlines() if r.startswith("|")]
+    assert {r.count("|") for r in rows} == {3, 4, 6}
+
+
+@pytest.mark.slow
+def test_a_quick_run_measures_everything_and_draws_it(tmp_path):
+    words = [sys.executable, "-m", "thrustwasher", "chart", "--quick", "--out", str(tmp_path)]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=1200, env=os.environ)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "" and "wrote" in done.stderr
+    record = json.loads((tmp_path / "chart.json").read_text("utf-8"))
+    assert set(record["models"]) == {"washer", "clutch", "gearmesh"}
+    for survey in (*record["models"].values(), record["macro_steps"]):
+        for sample in survey["samples"]:
+            assert set(sample) == set(Sample.__dataclass_fields__)
+    assert record["machine"]["threads"]["OMP_NUM_THREADS"] == "1"
+    washer = {s["label"]: s for s in record["models"]["washer"]["samples"]}
+    rival = washer["2006, 9 x 67, 0.0001"]
+    for name in ("friction_torque", "temperature"):
+        assert washer["field"]["errors"][name]["worst"] < 0.05 * rival["errors"][name]["worst"]
+    assert washer["field"]["n_failed"] == 0
+    lies = [c["verdict"] for g in record["stability"] for row in g["cells"] for c in row]
+    assert {"ok", "LIES"} <= set(lies)
+    assert all(abs(one["deviation"]) < 0.02 for one in record["limits"])
+    names = {p.name for p in tmp_path.iterdir()}
+    assert {"chart.html", "chart.md", "chart-washer.svg", "chart-shift.svg",
+            "chart-stability.svg", "chart-clutch.svg"} <= names  # fmt: skip

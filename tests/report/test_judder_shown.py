@@ -8,7 +8,7 @@ from shift_stand_in import record
 
 from thrustwasher.drivetrain.oscillation.judder import Judder
 from thrustwasher.report import summary
-from thrustwasher.report.judder import judder_text, judder_words
+from thrustwasher.report.findings import judder_text, judder_words
 from thrustwasher.report.shift_plots import judder_figure
 from thrustwasher.report.shift_report import shift_page
 

@@ -12,16 +12,14 @@ import pytest
 import shift_stand_in
 import washer_stand_in
 
-from thrustwasher.report import film_panels, shift_plots, shift_report, summary, tables
+from thrustwasher.report import contact_panels, shift_plots, shift_report, summary, tables
 from thrustwasher.report.clutch_plot import clutch_figure
-from thrustwasher.report.curve_plot import curve_figure
-from thrustwasher.report.extremes import highest, worst_film
 from thrustwasher.report.html import render, save_plots
+from thrustwasher.report.moments import Moment, highest, worst_film
 from thrustwasher.report.shift_record import KeyFigure, Published
 from thrustwasher.report.style import decade_ticks, new_figure
 from thrustwasher.report.trust import trust_texts
-from thrustwasher.report.washer_moment import Moment
-from thrustwasher.report.washer_plots import field_figure
+from thrustwasher.report.washer_plots import curve_figure, field_figure
 
 POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15}
 
@@ -256,24 +254,8 @@ def test_film_ratios_below_zero_are_drawn_not_dropped(record):
     record.signals["washer.film_ratio"][:] = -0.5
     axis = axes_of(shift_plots.film_figure(record))[0]
     drawn = [line for line in axis.lines if line.get_label() == "thrust washer"]
-    assert np.all(drawn[0].get_ydata() == film_panels.LOWEST_RATIO)
-    assert axis.get_ylim()[0] <= film_panels.LOWEST_RATIO
-
-
-def test_branches_of_the_curve_differ_in_more_than_colour():
-    axis = axes_of(curve_figure(washer_stand_in.curve(), POINT))[0]
-    styles = {line.get_label(): line.get_linestyle() for line in axis.lines}
-    branches = [s for words, s in styles.items() if "stable" in words]
-    assert len(branches) == len(set(branches)) == 3
-    assert {"film lost", "film regained"} <= set(styles)
-
-
-def test_a_curve_that_leaves_its_panel_says_so():
-    curve = washer_stand_in.curve()
-    thin = replace(curve.points[-1], film_ratio=-0.05)
-    for points, said in ((curve.points, False), ((*curve.points, thin), True)):
-        axis = axes_of(curve_figure(replace(curve, points=points), POINT))[0]
-        assert any("down to -0.05" in text.get_text() for text in axis.texts) == said
+    assert np.all(drawn[0].get_ydata() == contact_panels.LOWEST_RATIO)
+    assert axis.get_ylim()[0] <= contact_panels.LOWEST_RATIO
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.6, 12.0), (0.018, 0.4), (0.09, 110.0), (1.5, 4.5)])

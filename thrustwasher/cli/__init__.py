@@ -1,41 +1,45 @@
-"""The command line: one file per command; a new command is that file and its line below.
+"""The command line: one file per command; a new command is that file and its name below.
 
 A command module has ``HELP`` (one sentence), ``add_arguments(parser)`` and ``run(arguments)``,
 which returns the exit status. Heavy imports happen inside ``run``: ``--help`` answers at once.
-"""
+A command that solves a model at one point is no file but a record in ``_models``.
 
-from __future__ import annotations
+=============  ===================================================================
+``_models``    a record for each model with such a command; ``_solve``: makes it
+``_options``   options made from a model's inputs and parameters
+``_fidelity``  ``--fidelity auto:0.01``: the cheapest rung that holds a tolerance
+``_table``     columns of a CSV file, found by their names
+``_output``    JSON, tables, files that are written whole or not at all
+``_progress``  how far it is and how long it will take
+``_fmu_cache``, ``_ssp``  what ``shift`` builds, runs and packs
+=============  ===================================================================
+"""
 
 import argparse
 import errno
 import gc
 import os
 import re
+import signal
 import sys
+import threading
+import time
 from collections.abc import Sequence
 from importlib import import_module
+from types import FrameType
 from typing import Any, NoReturn
 
+from .. import __version__
 from ..errors import EnvironmentProblem, ParameterError, SolveError
-from ._signals import Watch
+from ._models import MODELS
 
 COMMANDS = (
-    "washer",
-    "curve",
-    "map",
-    "clutch",
-    "engage",
-    "calibrate",
-    "gearmesh",
-    "shift",
-    "sweep",
-    "chart",
-    "build",
-    "cards",
-    "doctor",
+    *(name for model in MODELS.values() for name in (model.name, *model.more)),
+    *("shift", "sweep", "chart", "build", "cards", "doctor"),
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message
+GRACE = 1.0  # s in which another signal to stop does not count
 RARELY = 100_000  # new objects between two searches for garbage: imports and plots leave hardly any
 EPILOG = (
     "Numbers are SI (kelvin, radian, pascal); with a unit they may be anything sensible: "
@@ -100,7 +104,11 @@ def _nameless_file() -> str:
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose complaints are one line."""
+    """A parser whose complaints are one line, and that takes -300rpm as the value it is."""
+
+    def __init__(self, prog: str, **options: Any) -> None:
+        super().__init__(prog, allow_abbrev=False, **options)
+        self._negative_number_matcher = re.compile(r"-[0-9.]")
 
     def error(self, message: str) -> NoReturn:
         """Raise instead of printing the usage and leaving."""
@@ -120,56 +128,35 @@ def _dispatch(words: list[str]) -> int:
             raise ParameterError(
                 f"command = {words[0]!r}, allowed in this version: {', '.join(COMMANDS)}"
             )
-        command = import_module(f".{words[0]}", __name__)
-        parser = _Parser(
-            prog=f"thrustwasher {words[0]}",
-            description=command.HELP,
-            epilog=EPILOG,
-            allow_abbrev=False,
-        )
+        command = _command(words[0])
+        parser = _Parser(f"thrustwasher {words[0]}", description=command.HELP, epilog=EPILOG)
         command.add_arguments(parser)
-        return int(command.run(parser.parse_args(_join_negative_numbers(words[1:]))))
+        return int(command.run(parser.parse_args(words[1:])))
     parser = _overview()
     parser.parse_args(words)
     parser.print_help()
     return DONE
 
 
+def _command(name: str) -> Any:
+    """Return the command of that name: a module, or made from the record of a model."""
+    if name in MODELS:
+        return import_module("._solve", __name__).PointCommand(MODELS[name])
+    return import_module(f".{name}", __name__)
+
+
 def _overview() -> _Parser:
     """Return the parser of the bare program, whose help lists the commands."""
-    lines = [f"  {name:9} {import_module(f'.{name}', __name__).HELP}" for name in COMMANDS]
+    lines = [f"  {name:9} {_command(name).HELP}" for name in COMMANDS]
     parser = _Parser(
         prog="thrustwasher",
         usage="thrustwasher COMMAND [OPTION ...]",
         description="Friction units for drivetrain simulation.\n\ncommands:\n" + "\n".join(lines),
         epilog="thrustwasher COMMAND --help says more.\n" + EPILOG.replace(". ", ".\n"),
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
-    parser.add_argument("--version", action="version", version=f"thrustwasher {_version()}")
+    parser.add_argument("--version", action="version", version=f"thrustwasher {__version__}")
     return parser
-
-
-def _version() -> str:
-    """Return the installed version, or say that this is a bare checkout."""
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("thrustwasher")
-    except PackageNotFoundError:
-        return "(not installed)"
-
-
-def _join_negative_numbers(words: list[str]) -> list[str]:
-    """Return the words with ``--speed -300rpm`` as ``--speed=-300rpm``, which argparse takes."""
-    joined: list[str] = []
-    for word in words:
-        after_option = joined and re.fullmatch(r"--[a-z][a-z-]*", joined[-1])
-        if after_option and re.match(r"-[0-9.]", word):
-            joined[-1] += f"={word}"
-        else:
-            joined.append(word)
-    return joined
 
 
 def _say(label: str, message: str, status: int) -> int:
@@ -187,3 +174,51 @@ def _silence_stdout() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (OSError, ValueError):
         pass  # a test's stand-in for standard output has no file number
+
+
+class Stopped(KeyboardInterrupt):
+    """The user or the system wants the command to end."""
+
+
+class Watch:
+    """Which signal wanted this process to end, if any: Ctrl-C or SIGTERM.
+
+    Only the first one counts while things are tidied up; one that comes a second later stops
+    whatever still runs. A stop that arrives as another failure, because some library in between
+    takes every exception for its own, is still a stop.
+    """
+
+    def __init__(self) -> None:
+        self.number = 0
+        self._last = float("-inf")
+
+    def begin(self) -> None:
+        """Take the signals over; what a parent has switched off stays off."""
+        if threading.current_thread() is not threading.main_thread():
+            return
+        for number in (signal.SIGINT, signal.SIGTERM):
+            if signal.getsignal(number) in (signal.default_int_handler, signal.SIG_DFL):
+                signal.signal(number, self._stop)
+
+    def _stop(self, number: int, _frame: FrameType | None) -> None:
+        now = time.monotonic()
+        if now - self._last < GRACE:
+            return
+        self.number, self._last = number, now
+        raise Stopped
+
+    def close(self) -> None:
+        """Let nothing disturb the last line and the interpreter's end."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            if signal.getsignal(number) == self._stop:
+                signal.signal(number, signal.SIG_IGN)
+
+    @property
+    def status(self) -> int:
+        """The exit status that shells know."""
+        return 128 + (self.number or signal.SIGINT)
+
+    @property
+    def word(self) -> str:
+        """What is said."""
+        return "terminated" if self.number == signal.SIGTERM else "stopped"

@@ -5,42 +5,37 @@ from __future__ import annotations
 import argparse
 import difflib
 import re
-from dataclasses import fields
-from typing import Any
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
 from ..models._params import allowed
-from ..models._spec import ModelSpec
 from ..units import parse_quantity
+
+if TYPE_CHECKING:  # they need numpy, which not every command does
+    from ..models._spec import ModelSpec, Signal
 
 _TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 
 
-def add_inputs(parser: argparse.ArgumentParser, spec: ModelSpec, without: str = "") -> Any:
-    """Add one option per input of the model, with unit, range and default in its help.
-
-    Returns the group of options, for commands that have more inputs than the model.
-    """
+def add_inputs(parser: argparse.ArgumentParser, inputs: Iterable[Signal]) -> None:
+    """Add one option per input, with unit, range and default in its help."""
     group = parser.add_argument_group("operating point")
-    for signal in spec.inputs:
-        if signal.name == without:
-            continue
+    for signal in inputs:
         span = f"{signal.low:g} .. {signal.high:g} {signal.unit}"
         usual = signal.start or signal.nominal or 0.0
         group.add_argument(
             option_name(signal.name), dest=signal.name, metavar="QUANTITY", default=usual,
             help=f"{signal.help} [{signal.unit}]; {span}, default {usual:g}",
         )  # fmt: skip
-    return group
 
 
-def read_inputs(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, Any]:
-    """Return the inputs that the parser knows, in SI units."""
+def read_inputs(arguments: argparse.Namespace, inputs: Iterable[Signal]) -> dict[str, Any]:
+    """Return the inputs in SI units."""
     given = vars(arguments)
     return {
-        s.name: parse_quantity(given[s.name], s.unit, s.name, difference=s.relative)
-        for s in spec.inputs
-        if s.name in given
+        s.name: parse_quantity(given[s.name], s.unit, s.name, difference=s.relative) for s in inputs
     }
 
 
@@ -55,10 +50,17 @@ def add_parameters(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
         help=f"change a parameter, e.g. --set {example}; may be repeated",
     )  # fmt: skip
     group.add_argument(
-        "--parameters",
-        action="store_true",
+        "--parameters", action=_ListParameters, nargs=0, const=spec,
         help=f"list the parameters of {spec.name} with default, unit and range, and stop",
-    )
+    )  # fmt: skip
+
+
+class _ListParameters(argparse.Action):
+    """Print the parameters and leave, as ``--help`` does."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        parser._print_message(f"{parameter_table(self.const)}\n")
+        parser.exit()
 
 
 def read_parameters(arguments: argparse.Namespace, spec: ModelSpec) -> Any:
@@ -111,21 +113,39 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
     )  # fmt: skip
 
 
-def add_grid(parser: argparse.ArgumentParser) -> None:
-    """Add ``--grid``."""
-    parser.add_argument(
-        "--grid", metavar="RxT", help="nodes along the radius x around, e.g. 9x32 or 17x64"
-    )
+@dataclass(frozen=True)
+class Option:
+    """One more argument of a solve function; ``read`` makes its value of what was written."""
+
+    name: str
+    help: str
+    metavar: str | None = None
+    choices: tuple[str, ...] | None = None
+    read: Callable[[str], Any] = str
 
 
-def read_grid(arguments: argparse.Namespace) -> tuple[int, int] | None:
-    """Return (n_r, n_theta), or None if no grid was asked for; the model checks its limits."""
-    if arguments.grid is None:
-        return None
-    match = re.fullmatch(r"\s*(\d{1,5})\s*[xX,]\s*(\d{1,5})\s*", arguments.grid)
+def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> None:
+    """Add options that may be left out."""
+    for o in options:
+        parser.add_argument(option_name(o.name), metavar=o.metavar, choices=o.choices, help=o.help)
+
+
+def read_options(arguments: argparse.Namespace, options: Iterable[Option]) -> dict[str, Any]:
+    """Return the value of every option, None where it was left out."""
+    given = vars(arguments)
+    return {o.name: None if given[o.name] is None else o.read(given[o.name]) for o in options}
+
+
+def _read_grid(text: str) -> tuple[int, int]:
+    """Return (n_r, n_theta); the model checks its limits."""
+    match = re.fullmatch(r"\s*(\d{1,5})\s*[xX,]\s*(\d{1,5})\s*", text)
     if match is None:
-        raise ParameterError(f"grid = {arguments.grid!r}, allowed: two node counts as in 9x32")
+        raise ParameterError(f"grid = {text!r}, allowed: two node counts as in 9x32")
     return int(match[1]), int(match[2])
+
+
+GRID = Option("grid", "nodes along the radius x around, e.g. 9x32 or 17x64", metavar="RxT",
+              read=_read_grid)  # fmt: skip
 
 
 def option_name(name: str) -> str:

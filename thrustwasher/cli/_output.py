@@ -1,24 +1,26 @@
 """What a command leaves behind: one JSON object, a table, or whole files; never half of one."""
 
-from __future__ import annotations
-
+import argparse
+import csv
 import dataclasses
 import json
 import math
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..errors import ParameterError
 from ..store.whole_files import folder_for_trial
 from ..store.whole_files import whole_file as whole_file
 from ..store.whole_files import whole_folder as whole_folder
 from ..units import format_quantity
+from ._models import resolve
 
 PLOT_SUFFIXES = (".png", ".svg", ".pdf")
+LINES = 16  # of a table on the screen
 
 
 def scalars(result: Any) -> dict[str, Any]:
@@ -65,18 +67,72 @@ def print_rows(rows: list[tuple[str, str, str]]) -> None:
         print(f"  {name:<{names}}  {value:<{values}}  {meaning}".rstrip())
 
 
-def shown(value: Any, unit: str) -> str:
+def print_table(units: Mapping[str, str], series: Mapping[str, Sequence[Any]], width: int) -> None:
+    """Write the columns that have units, of lines that are spread evenly."""
+    print("".join(f"{name:>{width}}" for name in units))
+    last = len(next(iter(series.values()))) - 1
+    for i in sorted({round(last * k / (LINES - 1)) for k in range(LINES)}):
+        cells = (shown(series[name][i], unit) for name, unit in units.items())
+        print("".join(f"{cell:>{width}}" for cell in cells))
+
+
+def shown(value: Any, unit: str, difference: bool = False) -> str:
     """Return a value as a person reads it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, int | float):
-        return format_quantity(float(value), unit, digits=5)
+        return format_quantity(float(value), unit, difference=difference, digits=5)
     return value.name if isinstance(value, Enum) else str(value)
 
 
 def note(message: str) -> None:
     """Write a message for a person to standard error."""
     print(message, file=sys.stderr)
+
+
+def add_targets(
+    parser: argparse.ArgumentParser, *, plot: str, out: str = "", instead: str = "a table"
+) -> None:
+    """Add ``--out`` where there is a table to write, ``--plot`` and ``--json``."""
+    if out:
+        parser.add_argument("--out", metavar="FILE", help=out)
+    parser.add_argument("--plot", metavar="FILE", help=plot)
+    parser.add_argument("--json", action="store_true", help=f"one JSON object instead of {instead}")
+
+
+class Targets(NamedTuple):
+    """The files asked for, if any."""
+
+    out: Path | None
+    plot: Path | None
+
+    def write(self, units: Mapping[str, str], series: Mapping[str, Iterable[Any]]) -> None:
+        """Write columns as CSV; the unit stands in the head of each."""
+        if self.out is None:
+            return
+        with whole_file(self.out) as draft, draft.open("w", newline="", encoding="utf-8") as stream:
+            table = csv.writer(stream)
+            table.writerow(f"{name} [{unit}]" if unit else name for name, unit in units.items())
+            for row in zip(*(series[name] for name in units), strict=True):
+                table.writerow(map(as_json, row))
+        note(f"wrote {self.out}")
+
+    def draw(self, figure: str, *shown: Any) -> None:
+        """Draw the figure that the function of a dotted name makes of what is to be shown."""
+        if self.plot is None:
+            return
+        with whole_file(self.plot) as draft:
+            resolve(figure)(*shown).savefig(draft)
+        note(f"wrote {self.plot}")
+
+
+def targets(arguments: argparse.Namespace) -> Targets:
+    """Return the files that ``add_targets`` lets one ask for, checked before any work is done."""
+    out, plot = getattr(arguments, "out", None), arguments.plot
+    return Targets(
+        check_file(out, "--out", (".csv",)) if out else None,
+        check_file(plot, "--plot", PLOT_SUFFIXES) if plot else None,
+    )
 
 
 def check_file(path: str, option: str, suffixes: tuple[str, ...] = ()) -> Path:

@@ -1,7 +1,5 @@
 """Columns of a CSV file, found by their names, in SI units."""
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """``thrustwasher calibrate``: fit the clutch's friction law to measured friction."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from typing import Any
@@ -33,20 +31,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="probability of the intervals; above 0, below 1, default 0.95",
     )  # fmt: skip
     _options.add_parameters(parser, SPEC)
-    parser.add_argument("--plot", metavar="FILE", help="draw points, fitted curve and residuals")
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of sentences")
+    _output.add_targets(parser, plot="draw points, fitted curve and residuals", instead="sentences")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Read, fit, then print or draw."""
-    if arguments.parameters:
-        print(_options.parameter_table(SPEC))
-        return 0
     if arguments.data is None:
         raise ParameterError("the file with the measured points is missing (DATA.csv)")
     params = _options.read_parameters(arguments, SPEC)
     confidence = parse_quantity(arguments.confidence, "1", "confidence")
-    plot = arguments.plot and _output.check_file(arguments.plot, "--plot", _output.PLOT_SUFFIXES)
+    targets = _output.targets(arguments)
     columns: dict[str, Any] = dict(
         _table.read_columns(arguments.data, UNITS, optional=("friction_error",))
     )
@@ -61,12 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     wall_time = time.perf_counter() - began
     for text in found.warnings:
         _output.note(f"warning: {text.partition(': ')[0]}")
-    if plot:
-        from ..report.fit_plot import calibration_figure
-
-        with _output.whole_file(plot) as draft:
-            calibration_figure(found, columns).savefig(draft)
-        _output.note(f"wrote {plot}")
+    targets.draw("report.fit_plot:calibration_figure", found, columns)
     if arguments.json:
         inputs = {"data": arguments.data, "fit": names, **columns}
         pack = {"parameters": _output.parameters_of(found.params)}

@@ -1,7 +1,5 @@
 """``thrustwasher chart``: measure speed against accuracy on this machine, and draw it."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys
@@ -38,55 +36,65 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, then write the record and what is drawn from it."""
-    if arguments.only:
-        return _stability_alone(arguments)
+    if arguments.only and arguments.draw:
+        raise ParameterError("--only: not together with --draw, which draws what was measured")
+    if arguments.only and Path(arguments.out).suffix.lower() == ".md":
+        target = _output.check_file(arguments.out, "--out")
+        page = _page_of_failures(_measured(arguments))
+        with _output.whole_file(target) as draft:
+            draft.write_text(page, "utf-8")
+        _output.note(f"wrote {target}")
+        return 0
     folder = _output.check_folder(arguments.out, "--out")
-    if arguments.draw:
-        record = _read(arguments.draw)
-    else:
-        from ..fidelity.surroundings import pin_threads
-
-        pin_threads()
-        command = "thrustwasher chart" + (" --quick" if arguments.quick else "")
-        record = _measured(command, quick=arguments.quick)
+    record = _read(arguments.draw) if arguments.draw else _measured(arguments)
     try:
-        _write(record, folder)
+        _write(record, folder, _page_of_failures(record) if arguments.only else "")
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
         if not arguments.draw:
             raise
         raise ParameterError(
             f"--draw {arguments.draw}: is no whole chart.json ({type(problem).__name__}: {problem})"
         ) from None
-    _output.note(f"wrote {folder / 'chart.html'}, chart.md, chart.json and the drawings")
+    if arguments.only:
+        files = f"{folder / 'stability.md'}, chart.html, chart.md, chart.json, a drawing"
+    else:
+        files = f"{folder / 'chart.html'}, chart.md, chart.json and the drawings"
+    _output.note(f"wrote {files}")
     return 0
 
 
-def _stability_alone(arguments: argparse.Namespace) -> int:
-    """Measure and write where methods fail, nothing else."""
-    if arguments.draw:
-        raise ParameterError("--only: not together with --draw, which draws what was measured")
-    alone = Path(arguments.out).suffix.lower() == ".md"
-    check = _output.check_file if alone else _output.check_folder
-    target = check(arguments.out, "--out")
-    from ..fidelity.surroundings import pin_threads, surroundings
-
-    pin_threads()
-    command = "thrustwasher chart --only stability" + (" --quick" if arguments.quick else "")
-    began = time.perf_counter()
-    record = {**surroundings(command), "quick": arguments.quick, "models": {}}
-    record |= _stability(quick=arguments.quick)
-    record["run_s"] = time.perf_counter() - began
+def _page_of_failures(record: dict[str, Any]) -> str:
     from ..report.stability_page import stability_markdown
 
-    page = stability_markdown(record)
-    if alone:
-        with _output.whole_file(target) as draft:
-            draft.write_text(page, "utf-8")
-        _output.note(f"wrote {target}")
-        return 0
-    _write(record, target, page)
-    _output.note(f"wrote {target / 'stability.md'}, chart.html, chart.md, chart.json, a drawing")
-    return 0
+    return stability_markdown(record)
+
+
+def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return everything that is measured, or where methods fail alone, as JSON types."""
+    from ..fidelity.surroundings import pin_threads, surroundings
+
+    pin_threads()  # before numpy is loaded
+    from ..drivetrain.macro_steps import study
+    from ..fidelity.models import MODELS
+    from ..fidelity.work_precision import work_precision
+
+    quick = arguments.quick
+    words = f" --only {arguments.only}" if arguments.only else ""
+    began = time.perf_counter()
+    record = surroundings(f"thrustwasher chart{words}{' --quick' if quick else ''}")
+    record |= {"quick": quick, "models": {}}
+    if not arguments.only:
+        load, cores = record["machine"]["load"], record["machine"]["cores"]
+        if load is not None and load > 0.5 * cores:
+            _output.note(
+                f"the machine is busy (load {load} on {cores} cores): ratios may be compared"
+            )
+        for model in MODELS:
+            record["models"][model] = work_precision(model, quick=quick, progress=_say)
+        record["macro_steps"] = study(_instances, quick=quick, progress=_say)
+    record |= _stability(quick=quick)
+    record["run_s"] = time.perf_counter() - began
+    return record
 
 
 def _stability(*, quick: bool) -> dict[str, Any]:
@@ -109,32 +117,6 @@ def _instances(scene: Any) -> dict[str, Any]:
         name: DirectInstance(part.spec, parameters=part.parameters())
         for name, part in scene.parts.items()
     }
-
-
-def _measured(command: str, *, quick: bool) -> dict[str, Any]:
-    """Return everything that is measured, as JSON types."""
-    from ..fidelity.models import MODELS
-    from ..fidelity.surroundings import surroundings
-    from ..fidelity.work_precision import work_precision
-
-    began = time.perf_counter()
-    record = {**surroundings(command), "quick": quick, "models": {}}
-    load, cores = record["machine"]["load"], record["machine"]["cores"]
-    if load is not None and load > 0.5 * cores:
-        _output.note(f"the machine is busy (load {load} on {cores} cores): ratios may be compared")
-    for model in MODELS:
-        record["models"][model] = work_precision(model, quick=quick, progress=_say)
-    record["macro_steps"] = _macro_steps(quick=quick)
-    record |= _stability(quick=quick)
-    record["run_s"] = time.perf_counter() - began
-    return record
-
-
-def _macro_steps(*, quick: bool) -> dict[str, Any]:
-    """Return the study of a shift, its parts stepped in this process."""
-    from ..drivetrain.macro_steps import study
-
-    return study(_instances, quick=quick, progress=_say)
 
 
 def _say(what: str) -> None:
@@ -166,15 +148,13 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     from ..report.html import render, save_plots
     from ..store.digests import sealed
 
-    fronts = {
-        model: {q["name"]: front(s["samples"], q["name"]) for q in s["quantities"]}
-        for model, s in record["models"].items()
-    }
+    studies = dict(record["models"])
     if "macro_steps" in record:
-        steps = record["macro_steps"]
-        fronts["macro_steps"] = {
-            q["name"]: front(steps["samples"], q["name"]) for q in steps["quantities"]
-        }
+        studies["macro_steps"] = record["macro_steps"]
+    fronts = {
+        name: {q["name"]: front(s["samples"], q["name"]) for q in s["quantities"]}
+        for name, s in studies.items()
+    }
     page = page_of(record, fronts)
     with _output.whole_folder(folder) as draft:
         (draft / "chart.json").write_text(

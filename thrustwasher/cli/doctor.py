@@ -1,7 +1,5 @@
 """``thrustwasher doctor``: what works on this machine, and why not."""
 
-from __future__ import annotations
-
 import argparse
 
 from . import _output

@@ -1,11 +1,7 @@
 """``thrustwasher engage``: a wet pack closes under a rising force while its slip runs out."""
 
-from __future__ import annotations
-
 import argparse
-import csv
 import time
-from pathlib import Path
 from typing import Any
 
 from ..models._params import check_number
@@ -20,63 +16,49 @@ COLUMNS = {
     "film_ratio": "1", "friction_coefficient": "1", "contact_share": "1", "friction_power": "W",
     "heat_flux": "W/m2", "energy": "J", "regime": "",
 }  # fmt: skip
-TABLE = ("time", "load", "speed", "friction_torque", "viscous_torque", "temperature", "film_ratio")
-LINES = 16
+TABLE = ("time", "load", "speed", "friction_torque", "viscous_torque", "temperature", "film_ratio",
+         "regime")  # fmt: skip
+WIDTH = 18
+TIMES = {
+    "duration": ("0.5 s", "time from the start to zero slip"),
+    "ramp": ("0.1 s", "time in which the load rises to its value"),
+    "step": ("1 ms", "distance of the points"),
+}
 LONGEST = 3600.0  # s
 MAX_POINTS = 200_000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_inputs(parser, SPEC)
-    parser.add_argument(
-        "--duration", default="0.5 s", help="time from the start to zero slip [s], default 0.5 s"
-    )
-    parser.add_argument(
-        "--ramp",
-        default="0.1 s",
-        help="time in which the load rises to its value [s], default 0.1 s",
-    )
-    parser.add_argument("--step", default="1 ms", help="distance of the points [s], default 1 ms")
+    _options.add_inputs(parser, SPEC.inputs)
+    for name, (usual, words) in TIMES.items():
+        parser.add_argument(f"--{name}", default=usual, help=f"{words} [s], default {usual}")
     _options.add_parameters(parser, SPEC)
     _options.add_fidelity(parser, SPEC)
-    parser.add_argument("--out", metavar="FILE", help="write all points as CSV")
-    parser.add_argument("--plot", metavar="FILE", help="draw the engagement")
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
+    _output.add_targets(parser, out="write all points as CSV", plot="draw the engagement")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Engage, then print, write or draw."""
-    if arguments.parameters:
-        print(_options.parameter_table(SPEC))
-        return 0
-    point = _options.read_inputs(arguments, SPEC)
+    point = _options.read_inputs(arguments, SPEC.inputs)
     params = _options.read_parameters(arguments, SPEC)
-    times = {n: _seconds(n, getattr(arguments, n)) for n in ("duration", "ramp", "step")}
-    out = arguments.out and _output.check_file(arguments.out, "--out", (".csv",))
-    plot = arguments.plot and _output.check_file(arguments.plot, "--plot", _output.PLOT_SUFFIXES)
+    times = {name: _seconds(name, getattr(arguments, name)) for name in TIMES}
+    targets = _output.targets(arguments)
 
     began = time.perf_counter()
     result = _engage(params, point, times, arguments.fidelity)
     wall_time = time.perf_counter() - began
-    if out:
-        with _output.whole_file(out) as draft:
-            _write_csv(draft, result)
-        _output.note(f"wrote {out}")
-    if plot:
-        from ..report.engagement_plot import engagement_figure
-
-        with _output.whole_file(plot) as draft:
-            engagement_figure(result).savefig(draft)
-        _output.note(f"wrote {plot}")
+    series = {name: getattr(result, name) for name in COLUMNS}
+    targets.write(COLUMNS, series)
+    targets.draw("report.clutch_plot:engagement_figure", result)
     if arguments.json:
         inputs = {**times, "oil_temperature": point["oil_temperature"]}
         given = {"parameters": _output.parameters_of(params)}
         _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
-    elif not out and not plot:
-        _print_table(result)
-    if not arguments.json:
-        _print_summary(result)
+        return 0
+    if not any(targets):
+        _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
+    _print_summary(result)
     return 0
 
 
@@ -106,25 +88,6 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
         speed=point["speed"] * (1.0 - t / times["duration"]),
         oil_temperature=point["oil_temperature"],
     )  # fmt: skip
-
-
-def _write_csv(path: Path, result: Any) -> None:
-    """Write one line per point; the unit stands in the head of each column."""
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        table = csv.writer(stream)
-        table.writerow(f"{name} [{unit}]" if unit else name for name, unit in COLUMNS.items())
-        columns = [getattr(result, name) for name in COLUMNS]
-        for row in zip(*columns, strict=True):
-            table.writerow(v if isinstance(v, str) else repr(float(v)) for v in row)
-
-
-def _print_table(result: Any) -> None:
-    """Print some points, evenly spread."""
-    print("".join(f"{name:>18}" for name in (*TABLE, "regime")))
-    last = len(result.time) - 1
-    for i in sorted({round(last * k / (LINES - 1)) for k in range(LINES)}):
-        cells = [_output.shown(float(getattr(result, n)[i]), COLUMNS[n]) for n in TABLE]
-        print("".join(f"{cell:>18}" for cell in (*cells, result.regime[i])))
 
 
 def _print_summary(result: Any) -> None:

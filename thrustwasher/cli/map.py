@@ -1,7 +1,5 @@
 """``thrustwasher map``: build a washer's map, list the maps there are, check one."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import asdict
 from pathlib import Path
@@ -38,9 +36,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what is asked."""
-    if arguments.parameters:
-        print(_options.parameter_table(SPEC))
-        return 0
     if arguments.workers is not None and arguments.workers < 1:
         raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     if not 2 <= arguments.points <= 100_000:

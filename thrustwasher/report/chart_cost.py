@@ -1,7 +1,5 @@
 """Error against cost: every way a model can be solved, on logarithmic axes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -11,20 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .chart_text import staircase
-from .style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    SKY,
-    label,
-    legend_below,
-    new_figure,
-    styled,
-)  # fmt: skip
+from .palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from .style import label, legend_below, new_figure, note_at_right, styled
 
 COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
 RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)
@@ -48,17 +34,24 @@ def cost_figure(
     survey : of the model, as in the JSON file
     fronts : indices of the samples that nothing beats, by quantity
     """
-    quantities = survey["quantities"]
-    figure, panels = new_figure(11.0, 5.0, 1, len(quantities), foot=_rows(survey["samples"]))
-    across = survey["cost_of"]
-    for axes, quantity in zip(panels, quantities, strict=True):
-        draw_samples(axes, survey["samples"], quantity, fronts[quantity["name"]])
-        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
-        words = WORDS.get(quantity["name"], quantity["name"])
-        label(axes, f"{model}: {words}", across, f"error [{unit}]")
-    handles, names = panels[0].get_legend_handles_labels()
-    legend_below(figure, handles, names, columns=SIDE_BY_SIDE)
+    figure, panels = _panels(survey, fronts, 5.0, f"{model}: ", survey["cost_of"])
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
     return figure
+
+
+def _panels(
+    study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]], height: float, prefix: str,
+    across: str, crosses: bool = True,
+) -> tuple[Figure, list[Axes]]:  # fmt: skip
+    """Return a figure with room for its legend, and a panel of errors per quantity."""
+    quantities, foot = study["quantities"], _rows(study["samples"])
+    figure, panels = new_figure(11.0, height, 1, len(quantities), foot=foot)
+    for axes, quantity in zip(panels, quantities, strict=True):
+        name = quantity["name"]
+        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=crosses)
+        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
+        label(axes, f"{prefix}{WORDS.get(name, name)}", across, f"error [{unit}]")
+    return figure, panels
 
 
 def _rows(samples: Sequence[Sampled]) -> int:
@@ -100,9 +93,8 @@ def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -
     axes.set_ylim(0.4 * low, 6.0 * max([*errors, floor, low]))  # room for crosses at the top
     if floor:
         axes.axhspan(0.4 * low, floor, color="#E8E8E8", lw=0, zorder=0)
-        axes.annotate("uncertainty of the reference", (0.99, floor), (0, 2), va="bottom",
-                      ha="right", xycoords=axes.get_yaxis_transform(), fontsize=8, color=GREY,
-                      textcoords="offset points")  # fmt: skip
+        words = "uncertainty of the reference"
+        note_at_right(axes, words, floor, place=0.99, shift=(0, 2), va="bottom", color=GREY)
     return 0.6 * low
 
 
@@ -158,15 +150,11 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
 @styled
 def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Figure:
     """Return the errors of a shift over its cost, a panel per quantity; lines follow the step."""
-    foot = _rows(study["samples"])
-    figure, panels = new_figure(11.0, 5.6, 1, len(study["quantities"]), foot=foot)
+    across = "wall time per simulated second"
+    figure, panels = _panels(study, fronts, 5.6, "", across, crosses=False)
     for axes, quantity in zip(panels, study["quantities"], strict=True):
-        name = quantity["name"]
-        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=False)
-        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
-        label(axes, WORDS[name], "wall time per simulated second", f"error [{unit}]")
         for s in study["samples"]:
-            error = s["errors"][name]["worst"]
+            error = s["errors"][quantity["name"]]["worst"]
             if s["n_failed"] and error and s["call_median"]:
                 axes.plot([s["call_median"]], [error], marker="x", ms=9, color=RED, mew=1.6)
     handles, names = panels[0].get_legend_handles_labels()

@@ -1,14 +1,13 @@
 """All charts as one page, as Markdown, and as drawings; made from the JSON record alone."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, steps_figure
-from .chart_stability import stability_figure
-from .html import Page, Plot, Section, Table
+from .html import Page, Plot, Section, Table, fill_template
+from .stability_page import stability_figure
 
 TITLE = "Speed against accuracy"
 HOW = (
@@ -21,9 +20,7 @@ HOW = (
 
 def sections(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> list[Section]:
     """Return the chapters of what was measured."""
-    found = []
-    for model, survey in record["models"].items():
-        found.append(_model_section(model, survey, fronts[model]))
+    found = [_model_section(model, s, fronts[model]) for model, s in record["models"].items()]
     if "macro_steps" in record:
         found.append(_steps_section(record["macro_steps"], fronts["macro_steps"]))
     if "stability" in record:
@@ -40,17 +37,15 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
         for hazard, cell in zip(g["hazards"], row, strict=True)
     ]
     lies = sum(row[2] == "LIES" for row in rows)
+    words = (
+        f"Each cell was run: {lies} of {len(rows)} answers are wrong and come without a word. "
+        "Most methods are small ones written for this map; the package's own are named so."
+    )
+    caption = "A method that says that it failed is worth more than one that does not know."
     return Section(
-        anchor="stability",
-        title="Where methods fail",
-        texts=[
-            f"Each cell was run: {lies} of {len(rows)} answers are wrong and come without a word. "
-            "Most methods are small ones written for this map; the package's own are named so.",
-        ],
-        plots=[Plot(file="chart-stability", figure=stability_figure(groups),
-                    caption="A method that says that it failed is worth more than one that does "
-                    "not know.")],
-        tables=[Table(title="All cells", heads=heads, rows=rows, folded=True)],
+        "stability", "Where methods fail", texts=[words],
+        plots=[Plot("chart-stability", stability_figure(groups), caption)],
+        tables=[Table(heads, rows, title="All cells", folded=True)],
     )  # fmt: skip
 
 
@@ -63,24 +58,23 @@ def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
          "; ".join(s["failures"].values())]
         for s in study["samples"]
     ]  # fmt: skip
-    orders = text.order_sentences(study)
+    words = (
+        f"The scene is {study['scene']}. Errors are those of quantities that a shift does not "
+        "forget, against the limit that gauss-seidel and jacobi tend to. step-doubling has a "
+        "tolerance in place of a step. Where friction torques are handed over, H T/(J w) is "
+        "34 for each ms of step H, with the clutch's torque T at lock-up, its smoothing w and "
+        "the inertia J that it sees: held torques are stable below 2, without oscillation "
+        "below 1, late ones below 1 and 1/4."
+    )
+    caption = (
+        "Each line goes from large steps to small ones. Red crosses: the run ended without a word, "
+        "but chatters or does not lock."
+    )
     return Section(
-        anchor="macro-steps",
-        title="A shift: error against cost over step, master, coupling and rung",
-        texts=[
-            f"The scene is {study['scene']}. Errors are those of quantities that a shift does not "
-            "forget, against the limit that gauss-seidel and jacobi tend to. step-doubling has a "
-            "tolerance in place of a step. Where friction torques are handed over, H T/(J w) is "
-            "34 for each ms of step H, with the clutch's torque T at lock-up, its smoothing w and "
-            "the inertia J that it sees: held torques are stable below 2, without oscillation "
-            "below 1, late ones below 1 and 1/4.",
-            *orders,
-        ],
-        plots=[Plot(file="chart-shift", figure=steps_figure(study, fronts),
-                    caption="Each line goes from large steps to small ones. Red crosses: the run "
-                    "ended without a word, but chatters or does not lock.")],
-        tables=[Table(title="All runs", heads=heads, rows=rows, numbers=(2, 3, 4, 5),
-                      folded=True)],
+        "macro-steps", "A shift: error against cost over step, master, coupling and rung",
+        texts=[words, *text.order_sentences(study)],
+        plots=[Plot("chart-shift", steps_figure(study, fronts), caption)],
+        tables=[Table(heads, rows, numbers=(2, 3, 4, 5), title="All runs", folded=True)],
     )  # fmt: skip
 
 
@@ -94,21 +88,17 @@ def _model_section(
     heads, rows = text.sample_rows(survey)
     even_heads, even_rows = text.break_even_rows(survey, "field")
     cases = [[c["name"], ", ".join(f"{v:g}" for v in c["point"])] for c in survey["cases"]]
+    count_caption = "The same errors over counts that need no machine."
     return Section(
-        anchor=model,
-        title=f"{model}: error against cost",
-        texts=[t for t in texts if t],
+        model, f"{model}: error against cost", texts=[t for t in texts if t],
         plots=[
-            Plot(file=f"chart-{model}", figure=cost_figure(model, survey, fronts), caption=HOW),
-            Plot(file=f"chart-{model}-count", figure=count_figure(model, survey),
-                 caption="The same errors over counts that need no machine."),
+            Plot(f"chart-{model}", cost_figure(model, survey, fronts), HOW),
+            Plot(f"chart-{model}-count", count_figure(model, survey), count_caption),
         ],
         tables=[
-            Table(title="All samples (! : spread above 10 %)", heads=heads, rows=rows,
-                  numbers=(1, 2, 3, 5)),
-            Table(title="What set-up is worth", heads=even_heads, rows=even_rows,
-                  numbers=(1, 2, 3, 4)),
-            Table(title="Cases", heads=("case", "inputs"), rows=cases, folded=True),
+            Table(heads, rows, (1, 2, 3, 5), title="All samples (! : spread above 10 %)"),
+            Table(even_heads, even_rows, (1, 2, 3, 4), title="What set-up is worth"),
+            Table(("case", "inputs"), cases, title="Cases", folded=True),
         ],
     )  # fmt: skip
 
@@ -134,16 +124,4 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
 
 def markdown(page: Page) -> str:
     """Return the page as Markdown beside its drawings."""
-    lines = [f"# {page.title}", "", *page.summary, ""]
-    lines += [f"**{w}**\n" for w in page.warnings]
-    for section in page.sections:
-        lines += [f"## {section.title}", ""]
-        lines += [f"{t}\n" for t in section.texts]
-        for plot in section.plots:
-            lines += [f"![{section.title}]({plot.name})", "", plot.caption, ""]
-        for table in section.tables:
-            lines += [f"**{table.title}**", ""] if table.title else []
-            lines += ["| " + " | ".join(table.heads) + " |", "|" + "---|" * len(table.heads)]
-            lines += ["| " + " | ".join(row) + " |" for row in table.rows]
-            lines.append("")
-    return "\n".join([*lines, page.footer, ""])
+    return fill_template(Path(__file__).with_name("chart.md.jinja"), **vars(page))

@@ -1,10 +1,9 @@
 """The words beside the charts: who won, where it flips, what failed, what set-up costs."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping, Sequence
+from statistics import linear_regression
 from typing import Any
 
 Sampled = Mapping[str, Any]
@@ -70,13 +69,8 @@ def _slowest(s: Sampled) -> str:
 def break_even_rows(survey: Mapping[str, Any], basis: str) -> tuple[Row, list[Row]]:
     """Return from how many calls on a way that is set up at some cost is cheaper than ``basis``."""
     base = next((s for s in survey["samples"] if s["label"] == basis), None)
-    heads = [
-        "way",
-        "built once",
-        "set-up",
-        "warm call",
-        f"calls from which it is cheaper than {basis}",
-    ]
+    heads = ["way", "built once", "set-up", "warm call",
+             f"calls from which it is cheaper than {basis}"]  # fmt: skip
     rows = []
     for s in survey["samples"]:
         if base is None or s["is_rival"] or not s["call_median"] or s is base:
@@ -85,22 +79,19 @@ def break_even_rows(survey: Mapping[str, Any], basis: str) -> tuple[Row, list[Ro
         extra = s["build_s"] + s["setup_s"] - base["setup_s"]
         calls = "never" if gain <= 0.0 else f"{max(0.0, extra) / gain:.0f}"
         built = seconds(s["build_s"]) if s["build_s"] else "-"
-        rows.append([
-            s["label"], built, seconds(s["setup_s"]), seconds(s["call_median"]), calls
-        ])  # fmt: skip
+        rows.append([s["label"], built, seconds(s["setup_s"]), seconds(s["call_median"]), calls])
     return heads, rows
 
 
 def failure_sentences(survey: Mapping[str, Any]) -> list[str]:
     """Say which samples failed where, and with which words."""
-    found = []
-    for s in survey["samples"]:
-        if s["failures"]:
-            words = "; ".join(f"{case}: {why}" for case, why in s["failures"].items())
-            found.append(
-                f"{s['label']} fails in {s['n_failed']} of {s['n_cases']} cases ({words})."
-            )
-    return found
+    return [
+        f"{s['label']} fails in {s['n_failed']} of {s['n_cases']} cases ("
+        + "; ".join(f"{case}: {why}" for case, why in s["failures"].items())
+        + ")."
+        for s in survey["samples"]
+        if s["failures"]
+    ]
 
 
 def staircase(samples: Sequence[Sampled], front: Sequence[int], name: str) -> list[Sampled]:
@@ -156,9 +147,7 @@ def _order(members: Sequence[Sampled], name: str) -> float | None:
             pairs.append((math.log(float(s["value"].split()[0])), math.log(error)))
     if len(pairs) < 3:
         return None
-    mean_x, mean_y = (sum(p[i] for p in pairs) / len(pairs) for i in (0, 1))
-    top = sum((x - mean_x) * (y - mean_y) for x, y in pairs)
-    return top / sum((x - mean_x) ** 2 for x, _ in pairs)
+    return linear_regression(*zip(*pairs, strict=True)).slope
 
 
 def curve_sentences(curve: Mapping[str, Any]) -> list[str]:

@@ -1,33 +1,46 @@
-"""Friction of a wet pack against slip: shear ratio, coefficient and torque with their shares."""
+"""A wet pack: friction against slip with its shares, and an engagement over time."""
 
-from __future__ import annotations
-
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..models.clutch import boundary_friction, solve_clutch
+from ..models.clutch_friction import friction_radius
+from ..models.clutch_params import SPEED, ClutchParams
 from ..units import format_quantity
+from .palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, PURPLE, RED, RPM, SIGMA, SKY
 from .style import (
-    BLACK,
-    BLUE,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
     SECOND,
-    SKY,
     TOP,
+    decade_ticks,
     heading,
     label,
     legend_below,
     new_figure,
+    note_at_right,
+    second_scale,
     styled,
-)  # fmt: skip
+)
 
-RPM = 30.0 / math.pi
+SAMPLES = 121
+
+
+def slip_figure(result: Any, point: Mapping[str, Any], params: ClutchParams) -> Figure:
+    """Return friction over slip, solved here, at the load and oil temperature of ``point``."""
+    p = params
+    has_shares = p.friction_law == "wang" and result.fidelity != "closed"
+    fall = (p.stick_speed + 2.0 * p.decay_speed) / friction_radius(p) if has_shares else 1.0
+    fastest = min(max(2.0 * abs(point["speed"]), fall), SPEED.high or fall)
+    speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(SAMPLES)]
+    sweep = [
+        solve_clutch(params, **{**point, "speed": speed}, fidelity=result.fidelity, throw=False)
+        for speed in speeds
+    ]
+    share = (p.indentation, 0.0, p.plough_weight, p.hardness_ratio)
+    ploughing = boundary_friction(*share) if has_shares else None
+    return clutch_figure(speeds, sweep, result, point, ploughing)
 
 
 @styled
@@ -69,25 +82,22 @@ def clutch_figure(
         panels["torque"].fill_between(
             speeds, contact, capacity, color=ORANGE, alpha=0.45, lw=0.0, label="shear of the oil"
         )
-    for name, values, value, colour in (
-        ("friction", friction, result.friction_coefficient, BLUE),
-        ("torque", capacity, result.torque_capacity, RED),
-    ):
+    rest = f"at rest {friction[0]:.4g}", f"static {format_quantity(capacity[0], 'N.m')}"
+    for name, values, value, colour, words, title, up in (
+        ("friction", friction, result.friction_coefficient, BLUE, rest[0],
+         "Friction coefficient", "friction coefficient [1]"),
+        ("torque", capacity, result.torque_capacity, RED, rest[1],
+         "Torque of the pack", "friction torque, magnitude [N·m]"),
+    ):  # fmt: skip
         panels[name].plot(speeds, values, color=colour)
         panels[name].axhline(values[0], color=BLACK, lw=0.9, ls=":")
         panels[name].plot([here], [value], "o", color=BLACK, zorder=5)
-    for name, title, up in (
-        ("friction", "Friction coefficient", "friction coefficient [1]"),
-        ("torque", "Torque of the pack", "friction torque, magnitude [N·m]"),
-    ):
         label(panels[name], title, "", up, above=SECOND)
-    _name_rest(panels["friction"], f"at rest {friction[0]:.4g}", friction[0])
-    _name_rest(panels["torque"], f"static {format_quantity(capacity[0], 'N.m')}", capacity[0])
+        note_at_right(panels[name], words, values[0], shift=(-3, 3), fontsize=8.5, color="#444444")
     for axis in panels.values():
         _scale(axis, speeds[-1])
     if ploughing is not None:
-        handles, words = panels["torque"].get_legend_handles_labels()
-        legend_below(figure, handles, words, columns=3)
+        legend_below(figure, *panels["torque"].get_legend_handles_labels(), columns=3)
     heading(figure, _heading(result, point))
     return figure
 
@@ -109,27 +119,47 @@ def _draw_shares(
     axis.fill_between(speeds, base, whole, color=SKY, alpha=0.35, lw=0.0, label="adhesion")
 
 
-def _name_rest(axis: Axes, words: str, height: float) -> None:
-    """Write the value at rest on its line, at the right where the curve has fallen."""
-    axis.annotate(
-        words, (1.0, height), (-3, 3), xycoords=axis.get_yaxis_transform(),
-        textcoords="offset points", ha="right", fontsize=8.5, color="#444444",
-    )  # fmt: skip
-
-
 def _scale(axis: Axes, fastest: float) -> None:
     """Begin both axes at zero, rad/s below and rpm above."""
     axis.set_xlim(0.0, fastest)
     axis.set_ylim(0.0, 1.12 * axis.get_ylim()[1])
     axis.set_xlabel("slip [rad/s]")
-    above = axis.secondary_xaxis("top", functions=(_in_rpm, _from_rpm))
-    above.set_xlabel("slip [rpm]", fontsize=8.5)
+    above = second_scale(axis, RPM, "slip [rpm]")
+    above.xaxis.label.set_fontsize(8.5)
     above.tick_params(labelsize=8)
 
 
-def _in_rpm(slip: Any) -> Any:
-    return slip * RPM
+@styled
+def engagement_figure(result: Any) -> Figure:
+    """Return four panels over time.
 
+    Parameters
+    ----------
+    result : an engagement of the clutch, arrays over ``time`` [s]
+    """
+    figure, axes = new_figure(10.4, 7.2, 2, 2)
+    torque, film, heat, course = axes
+    t = 1e3 * result.time
+    torque.plot(t, result.friction_torque, color=BLACK, label="friction torque")
+    torque.plot(t, result.contact_torque, color=RED, ls="--", label="asperities")
+    torque.plot(t, result.viscous_torque, color=BLUE, ls="-.", label="shear of the oil")
+    label(torque, "Torque of the pack", "time [ms]", "torque [N·m]")
+    torque.legend()
 
-def _from_rpm(slip: Any) -> Any:
-    return slip / RPM
+    film.plot(t, result.film_ratio, color=BLUE)
+    film.set_yscale("log")
+    for ratio, words in ((3.0, "3: mixed"), (1.0, "1: boundary")):
+        film.axhline(ratio, color=ORANGE, lw=0.9, ls=":")
+        note_at_right(film, words, ratio, va="bottom", color=GREY)
+    decade_ticks(film)
+    label(film, "Film between the faces", "time [ms]", f"film ratio h/{SIGMA} [1]")
+
+    heat.plot(t, result.temperature - CELSIUS, color=RED)
+    label(heat, "Interface temperature", "time [ms]", "temperature [°C]")
+
+    course.plot(t, result.load / 1e3, color=GREY, label="load [kN]")
+    course.plot(t, result.heat_flux / 1e6, color=RED, label="heat flux [MW/m²]")
+    course.plot(t, 1e-2 * result.speed, color=SKY, label="slip [100 rad/s]")
+    label(course, "What drives it", "time [ms]", "load, heat flux, slip")
+    course.legend()
+    return figure

@@ -1,7 +1,5 @@
 """A calibration: measured points, the fitted law with its confidence band, residuals."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
@@ -14,22 +12,8 @@ from numpy.typing import NDArray
 from ..models.clutch_friction import friction_radius
 from ..models.clutch_identifiability import counted
 from ..units import format_quantity
-from .style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    SECOND,
-    SKY,
-    TOP,
-    heading,
-    label,
-    new_figure,
-    styled,
-)  # fmt: skip
+from .palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from .style import SECOND, TOP, heading, label, new_figure, second_scale, styled
 
 Array = NDArray[np.float64]
 
@@ -119,14 +103,7 @@ def _draw_curve(axis: Axes, found: Any, fastest: float, lowest: float, highest: 
         )  # fmt: skip
     axis.set_ylim(min(0.0, lowest), 1.18 * max(highest, float(curve.max())))
     axis.set_xlim(0.0, fastest)
-    over = axis.secondary_xaxis("top", functions=_rpm(friction_radius(found.params)))
-    over.set_xlabel("slip [rpm]")
-
-
-def _rpm(radius: float) -> tuple[Any, Any]:
-    """Return the conversions from slip speed [m/s] to slip [rpm] and back."""
-    factor = 30.0 / (np.pi * radius)
-    return (lambda v: v * factor), (lambda n: n / factor)
+    second_scale(axis, 30.0 / (np.pi * friction_radius(found.params)), "slip [rpm]")
 
 
 def _heading(found: Any) -> str:

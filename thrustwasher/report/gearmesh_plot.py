@@ -1,18 +1,19 @@
 """Temperatures of a gear mesh and what they leave of its endurance, against tooth number."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..errors import ParameterError
+from ..models.gearmesh import GearMeshParams, solve_gearmesh
 from ..units import format_quantity
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, heading, label, new_figure, styled
+from .palette import BLACK, BLUE, CELSIUS, GREEN, GREY, ORANGE, PURPLE, RED
+from .style import heading, label, new_figure, styled
 
-CELSIUS = 273.15
 # Surface -> words, colour of its asperities, dashes, marker.
 SURFACES: dict[str, tuple[str, str, Any, str]] = {
     "rough": ("rough ground", RED, "-", "o"),
@@ -21,24 +22,51 @@ SURFACES: dict[str, tuple[str, str, Any, str]] = {
 }
 # Steel -> words, colour, width: a thin line stays visible on a wide one.
 STEELS = {"aisi1020": ("AISI 1020", BLUE, 3.0), "aisi4340": ("AISI 4340", RED, 1.4)}
+FEWEST_TEETH, MOST_TEETH = 5, 60
 LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
 Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
 Reading = Callable[[Any], float]
 
 
+def over_teeth(
+    params: GearMeshParams, point: Mapping[str, Any], fidelity: str
+) -> tuple[list[int], dict[str, list[Any]]]:
+    """Return tooth numbers and the results of each surface there, None where refused.
+
+    "rough" and "fine" have the roughness of these surfaces; where the parameters name their own,
+    "given" has that.
+    """
+
+    def solved(teeth: int, changes: dict[str, Any]) -> Any:
+        try:
+            changed = replace(params, pinion_teeth=teeth, **changes)
+            return solve_gearmesh(changed, **point, fidelity=fidelity)
+        except ParameterError:
+            return None
+
+    own = ("sigma_rms", "effective_roughness", "mean_roughness")
+    plain = dict.fromkeys(own, 0.0)
+    surfaces = {name: {**plain, "surface": name} for name in ("rough", "fine")}
+    if any(getattr(params, name) for name in own):
+        surfaces["given"] = {}
+    every = range(FEWEST_TEETH, max(MOST_TEETH, params.pinion_teeth) + 1)
+    sweeps = {name: [solved(n, surface) for n in every] for name, surface in surfaces.items()}
+    kept = [i for i in range(len(every)) if any(row[i] is not None for row in sweeps.values())]
+    return [every[i] for i in kept], {n: [row[i] for i in kept] for n, row in sweeps.items()}
+
+
 @styled
-def gearmesh_figure(
-    teeth: Sequence[int], sweeps: Sweeps, result: Any, here: int, point: Mapping[str, float]
-) -> Figure:
+def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshParams) -> Figure:
     """Return temperatures, allowable ratio and modification factor over the pinion's teeth.
 
     Parameters
     ----------
-    teeth : numbers of pinion teeth
-    sweeps : for some of SURFACES the gear mesh results at ``teeth``, None where there is none
-    result : the gear mesh result at ``point``, marked at ``here`` teeth
+    result : the gear mesh result at ``point``, marked by dots
     point : power [W], speed [rad/s], oil_temperature [K]
+    params : the mesh, which is solved here for other numbers of teeth
     """
+    teeth, sweeps = over_teeth(params, point, result.fidelity)
+    here = params.pinion_teeth
     figure, axes = new_figure(13.2, 4.3, 1, 3, head=1)
     draw_temperatures(axes[0], teeth, sweeps)
     draw_ratios(axes[1], teeth, sweeps)

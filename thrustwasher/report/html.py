@@ -1,7 +1,5 @@
 """One self-contained page: text, tables and plots in a single file that works offline."""
 
-from __future__ import annotations
-
 import base64
 import io
 import re
@@ -14,10 +12,8 @@ from typing import Any
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-_TEMPLATE = Path(__file__).with_name("template.html")
 
-
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Plot:
     """A figure with the sentence below it; ``file`` is the stem of its file beside the page."""
 
@@ -48,7 +44,7 @@ class Plot:
         return Markup(self.content.decode())
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Table:
     """Rows of text; ``numbers`` are the columns set to the right."""
 
@@ -59,7 +55,7 @@ class Table:
     folded: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Section:
     """A chapter of the page."""
 
@@ -70,7 +66,7 @@ class Section:
     tables: Sequence[Table] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Card:
     """A key figure at the top of the page."""
 
@@ -93,13 +89,18 @@ class Page:
 
 def render(page: Page) -> str:
     """Return the page as HTML; text is escaped, plots are inside."""
+    return fill_template(Path(__file__).with_name("page.html.jinja"), **vars(page))
+
+
+def fill_template(path: Path, **values: Any) -> str:
+    """Return a template filled with values; in HTML they are escaped."""
     from jinja2 import Environment, StrictUndefined
 
     environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    template = environment.from_string(_TEMPLATE.read_text("utf-8"))
-    return template.render({name: getattr(page, name) for name in page.__dataclass_fields__})
+        autoescape=".html" in path.suffixes, undefined=StrictUndefined, keep_trailing_newline=True,
+        trim_blocks=True, lstrip_blocks=True,
+    )  # fmt: skip
+    return environment.from_string(path.read_text("utf-8")).render(values)
 
 
 def save_plots(page: Page, folder: Path) -> None:

@@ -1,15 +1,11 @@
 """What all panels over the time of a shift share: lines, phases, events."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 
-from .shift_record import Record
+from .shift_record import Array, Record
+from .style import beside, label
 
-Array = np.ndarray[Any, Any]
 MOST_EVENTS, FIRST_EVENTS = 8, 5  # numbered in a panel: all, or the first of too many
 SHADES = ("#F1F1F1", "#FFF3D9", "#E2F0FA", "#E3F4EC", "#F7E9F1")
 
@@ -76,3 +72,9 @@ def draw_phase_lines(axis: Axes, record: Record) -> None:
     axis.set_xlim(float(record.time[0]), float(record.time[-1]))
     for phase in record.phases[1:]:
         axis.axvline(phase.start, color="#999999", lw=0.8, ls=":")
+
+
+def finish(axis: Axes, title: str, up: str) -> None:
+    """Set title and label of the axis, and the legend beside it."""
+    label(axis, title, "", up)
+    beside(axis)

@@ -1,106 +1,87 @@
 """What happened over time in a shift: one figure per question."""
 
-from __future__ import annotations
+from collections.abc import Callable
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import energy_panels, film_panels, friction_panels, judder_panels, panels, stress_panels
+from . import contact_panels, panels
 from .shift_record import Record
 from .style import styled, time_figure
 
 
 @styled
-def speed_figure(record: Record) -> Figure:
-    """Return the speeds with phases shaded and events numbered."""
-    figure, (axis,) = time_figure(4.4)
-    panels.draw_speeds(axis, record)
+def _drawn(
+    record: Record,
+    height: float,
+    *draw: Callable[[Axes, Record], object],
+    shares: tuple[float, ...] = (1.0,),
+) -> Figure:
+    """Return panels over each other, whose heights have the given shares."""
+    figure, axes = time_figure(height, len(draw), shares)
+    for draw_one, axis in zip(draw, axes, strict=True):
+        draw_one(axis, record)
     return figure
 
 
-@styled
+def speed_figure(record: Record) -> Figure:
+    """Return the speeds with phases shaded and events numbered."""
+    return _drawn(record, 4.4, panels.draw_speeds)
+
+
 def torque_figure(record: Record) -> Figure:
     """Return the torques; the small drag at the planets in its own panel."""
     drag = [record.series(f"{part}.friction_torque") for part in ("washer", "mesh")]
     if all(torque is None for torque in drag):
-        figure, (axis,) = time_figure(4.2)
-        panels.draw_torques(axis, record)
-        return figure
-    figure, axes = time_figure(5.8, 2, (2.4, 1.0))
-    panels.draw_torques(axes[0], record)
-    panels.draw_drag(axes[1], record)
-    return figure
+        return _drawn(record, 4.2, panels.draw_torques)
+    return _drawn(record, 5.8, panels.draw_torques, panels.draw_drag, shares=(2.4, 1.0))
 
 
-@styled
 def temperature_figure(record: Record) -> Figure:
     """Return the temperatures with the limits that are near."""
-    figure, (axis,) = time_figure(4.2)
-    panels.draw_temperatures(axis, record)
-    return figure
+    return _drawn(record, 4.2, panels.draw_temperatures)
 
 
-@styled
 def film_figure(record: Record) -> Figure | None:
     """Return the film ratios over regime bands; None without any film."""
-    figure, (axis,) = time_figure(4.2)
-    return figure if film_panels.draw_films(axis, record) else None
+    return _drawn(record, 4.2, contact_panels.draw_films) if contact_panels.films(record) else None
 
 
-@styled
 def washer_figure(record: Record) -> Figure | None:
     """Return who carries the washer's load; None if the scene has no washer."""
-    load = record.series("transmission.washer_load")
-    share = record.series("washer.fluid_load_share")
-    if load is None or share is None:
+    if not {"transmission.washer_load", "washer.fluid_load_share"} <= set(record.signals):
         return None
-    figure, (axis,) = time_figure(3.4)
-    film_panels.draw_washer_load(axis, record, load, share)
-    return figure
+    return _drawn(record, 3.4, contact_panels.draw_washer_load)
 
 
-@styled
 def stress_figure(record: Record) -> Figure | None:
     """Return how near tooth stress comes to its limit; None if the scene has no gear mesh."""
     if record.series("mesh.stress_utilization_aisi1020") is None:
         return None
-    figure, axes = time_figure(5.4, 2, (1.7, 1.0))
-    stress_panels.draw_stress(axes[0], record)
-    stress_panels.draw_allowable(axes[1], record)
-    return figure
+    draw = contact_panels.draw_stress, contact_panels.draw_allowable
+    return _drawn(record, 5.4, *draw, shares=(1.7, 1.0))
 
 
-@styled
 def friction_figure(record: Record) -> Figure | None:
     """Return friction against slip of the pack that engages; None if it is constant."""
-    figure, (axis,) = time_figure(3.8)
-    return figure if friction_panels.draw_friction(axis, record) else None
+    if not contact_panels.friction_changes(record):
+        return None
+    return _drawn(record, 3.8, contact_panels.draw_friction)
 
 
-@styled
 def judder_figure(record: Record) -> Figure | None:
     """Return shaft torque and slip while a pack slips; None if the shaft does not swing."""
     if record.judder is None:
         return None
-    figure, axes = time_figure(5.4, 2, (1.3, 1.0))
-    judder_panels.draw_shaft(axes[0], record)
-    judder_panels.draw_slip(axes[1], record)
-    return figure
+    return _drawn(record, 5.4, panels.draw_shaft, panels.draw_slip, shares=(1.3, 1.0))
 
 
-@styled
 def energy_figure(record: Record) -> Figure:
     """Return where the energy went, stacked, and the heat flows."""
-    figure, axes = time_figure(6.4, 2, (1.7, 1.0))
-    energy_panels.draw_energy(axes[0], record)
-    energy_panels.draw_heat_flow(axes[1], record)
-    return figure
+    return _drawn(record, 6.4, panels.draw_energy, panels.draw_heat_flow, shares=(1.7, 1.0))
 
 
-@styled
 def overview_figure(record: Record) -> Figure:
     """Return speeds, torques and film ratios below each other: the shift in one picture."""
-    figure, axes = time_figure(8.6, 3, (1.15, 1.15, 1.0))
-    panels.draw_speeds(axes[0], record)
-    panels.draw_torques(axes[1], record)
-    film_panels.draw_films(axes[2], record)
-    return figure
+    draw = panels.draw_speeds, panels.draw_torques, contact_panels.draw_films
+    return _drawn(record, 8.6, *draw, shares=(1.15, 1.15, 1.0))

@@ -1,10 +1,8 @@
 """What the report needs from a finished shift, as plain data."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -68,17 +66,6 @@ class Published(NamedTuple):
     run: float | None
 
 
-class Steps(NamedTuple):
-    """Communication steps of a master that chooses them: how many, and their lengths [s]."""
-
-    accepted: int
-    rejected: int
-    shortest: float
-    longest: float
-    located: int
-    """Events that became communication points."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class Record:
     """A finished shift; ``signals`` maps "part.variable" to values at ``time``, SI units.
@@ -116,7 +103,7 @@ class Record:
     """Why the rungs are what they are (``drivetrain.tolerance``); None: they were named."""
     guard: Any = None
     """How they were checked after the run, and what was run again; None: they were not."""
-    steps: Steps | None = None
+    steps: Any = None
     """None: all as long as ``step``."""
 
     @property
@@ -151,7 +138,7 @@ class Record:
         index = int(np.searchsorted(self.time, time, side="right")) - 1
         return float(values[max(index, 0)])
 
-    def window(self, start: float, end: float) -> Record:
+    def window(self, start: float, end: float) -> Self:
         """Return the record between two times [s]; key figures and energy stay those of all."""
         inside = (self.time >= start) & (self.time <= end)
         clipped = (Phase(p.name, max(p.start, start), min(p.end, end)) for p in self.phases)
@@ -200,12 +187,5 @@ def record_of(result: Any) -> Record:
         chatter=result.chatter,
         selection=result.selection,
         guard=result.guard,
-        steps=_steps(result.steps),
+        steps=result.steps if result.steps.shortest < result.steps.longest else None,
     )
-
-
-def _steps(taken: Any) -> Steps | None:
-    """Return the steps of a run whose master chose them."""
-    if taken.shortest == taken.longest:
-        return None
-    return Steps(taken.accepted, taken.rejected, taken.shortest, taken.longest, taken.located)

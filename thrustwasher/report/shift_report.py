@@ -1,12 +1,14 @@
 """The report of a shift: what was simulated, what came out, how far to trust it."""
 
-from __future__ import annotations
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from ..units import format_quantity as say
 from . import summary, tables
-from .extremes import highest, worst_film
+from .findings import TITLES, judder_words
 from .html import Card, Page, Plot, Section
-from .judder import TITLES, judder_words
+from .moments import Moment, highest, solve_moment, worst_film
 from .rung_section import rung_sections
 from .shift_plots import (
     energy_figure,
@@ -21,7 +23,6 @@ from .shift_plots import (
 )
 from .shift_record import Record
 from .trust import trust_texts
-from .washer_moment import Moment, solve_moment
 from .washer_plots import field_figure
 
 SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged as well
@@ -31,28 +32,28 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
     """Return the whole report of a finished shift."""
     sections = [
         *_course_sections(record),
-        Section(anchor="temperatures", title="Temperatures", plots=[Plot(
-            file="temperatures", figure=temperature_figure(record),
-            caption=_temperature_caption(record),
-        )]),
-        *_film_sections(record),
+        *_drawn(
+            "temperatures", "Temperatures", temperature_figure(record), _temperature_caption(record)
+        ),
+        *_drawn("films", "Film ratios", film_figure(record), FILM_CAPTION, "film_ratios"),
         *_friction_sections(record),
         *_judder_sections(record),
         *_washer_sections(record),
-        *_stress_sections(record),
-        Section(anchor="energy", title="Energy", tables=[tables.energy_table(record)], plots=[Plot(
-            file="energy", figure=energy_figure(record),
-            caption="Integrated by the driveline itself inside its steps.",
-        )]),
-        Section(anchor="key-figures", title="Key figures", tables=[tables.key_table(record)]),
+        *_drawn("stress", "The gear teeth", stress_figure(record), STRESS_CAPTION, "tooth_stress"),
+        *_drawn(
+            "energy", "Energy", energy_figure(record),
+            "Integrated by the driveline itself inside its steps.",
+            tables=[tables.energy_table(record)],
+        ),
+        Section("key-figures", "Key figures", tables=[tables.key_table(record)]),
         *rung_sections(record),
         _cost_section(record),
         Section(
-            anchor="parameters", title="What was simulated",
+            "parameters", "What was simulated",
             texts=[record.help, f"{_stepping(record)} All values in SI units."],
             tables=tables.parameter_tables(record),
         ),
-        Section(anchor="trust", title="How far to trust it", texts=trust_texts(record)),
+        Section("trust", "How far to trust it", texts=trust_texts(record)),
     ]  # fmt: skip
     return Page(
         title=record.title,
@@ -67,28 +68,49 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
     )
 
 
+SPEED_CAPTION = "Shaded: the phases of the shift. Dotted and numbered: what happened when."
+TORQUE_CAPTION = (
+    "A pack that is stuck transmits what the balance needs, which is less than it could hold."
+)
+FRICTION_CAPTION = (
+    "The mean is torque over time by load, mean radius and faces over time: under constant load "
+    "the harmonic mean over speed, which a braking time measures."
+)
+LOAD_CAPTION = (
+    "The helical planets' tilting couple presses the washers; where the red area begins, "
+    "asperities touch."
+)
+FILM_CAPTION = (
+    "Film thickness over the combined roughness. Above 3 the oil carries, below 1 the "
+    "asperities do. Values below the axis are drawn on its lower end."
+)
+STRESS_CAPTION = (
+    "Above: contact stress and thermal stress together, each over what the steel endures; at "
+    "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
+)
+
+
+def _drawn(
+    anchor: str, title: str, figure: Figure | None, caption: str, file: str = "", **more: Any
+) -> list[Section]:
+    """Return a section of one figure, if there is something to draw."""
+    if figure is None:
+        return []
+    return [Section(anchor, title, plots=[Plot(file or anchor, figure, caption)], **more)]
+
+
 def _course_sections(record: Record) -> list[Section]:
     """Return speeds and torques; a shift that is short within the run also enlarged."""
-    speeds = [Plot(
-        file="speeds", figure=speed_figure(record),
-        caption="Shaded: the phases of the shift. Dotted and numbered: what happened when.",
-    )]  # fmt: skip
-    torques = [Plot(
-        file="torques", figure=torque_figure(record),
-        caption="A pack that is stuck transmits what the balance needs, which is less than it "
-        "could hold.",
-    )]  # fmt: skip
+    speeds = [Plot("speeds", speed_figure(record), SPEED_CAPTION)]
+    torques = [Plot("torques", torque_figure(record), TORQUE_CAPTION)]
     lock, first, last = record.figures["lock_time"], record.time[0], record.time[-1]
     if lock is not None and lock - record.ramp_start < SHORT * (last - first):
         taken = lock - record.ramp_start
         part = record.window(record.ramp_start - 0.3 * taken, lock + 0.6 * taken)
         caption = "The shift itself, enlarged."
-        speeds.append(Plot(file="speeds_enlarged", figure=speed_figure(part), caption=caption))
-        torques.append(Plot(file="torques_enlarged", figure=torque_figure(part), caption=caption))
-    return [
-        Section(anchor="speeds", title="Speeds", plots=speeds),
-        Section(anchor="torques", title="Torques", plots=torques),
-    ]
+        speeds.append(Plot("speeds_enlarged", speed_figure(part), caption))
+        torques.append(Plot("torques_enlarged", torque_figure(part), caption))
+    return [Section("speeds", "Speeds", plots=speeds), Section("torques", "Torques", plots=torques)]
 
 
 CARDS = (
@@ -105,12 +127,12 @@ def _cards(record: Record) -> list[Card]:
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
     known = {figure.name: figure for figure in record.key_figures}
     cards = [
-        Card(name=f.text, value=f"{f.value:.4g} s" if f.unit == "s"
+        Card(f.text, f"{f.value:.4g} s" if f.unit == "s"
              else say(f.value, f.unit, digits=4, difference=f.difference))
         for name in names if (f := known.get(name)) is not None and f.value is not None
     ]  # fmt: skip
     share = f"{record.energy['residual_share']:.1e}"
-    return [*cards, Card(name=f"energy missing, of {summary.whole_name(record)}", value=share)]
+    return [*cards, Card(f"energy missing, of {summary.whole_name(record)}", share)]
 
 
 def _temperature_caption(record: Record) -> str:
@@ -127,60 +149,27 @@ def _temperature_caption(record: Record) -> str:
     return " ".join(texts)
 
 
-def _film_sections(record: Record) -> list[Section]:
-    """Return the film ratios, if any film was computed."""
-    figure = film_figure(record)
-    if figure is None:
-        return []
-    caption = (
-        "Film thickness over the combined roughness. Above 3 the oil carries, below 1 the "
-        "asperities do. Values below the axis are drawn on its lower end."
-    )
-    plot = Plot(file="film_ratios", figure=figure, caption=caption)
-    return [Section(anchor="films", title="Film ratios", plots=[plot])]
-
-
 def _friction_sections(record: Record) -> list[Section]:
     """Return friction against slip, and what the scene's source says beside this run."""
-    figure, pack = friction_figure(record), record.engaging
-    plots = [] if figure is None else [Plot(
-        file="friction", figure=figure,
-        caption="The mean is torque over time by load, mean radius and faces over time: under "
-        "constant load the harmonic mean over speed, which a braking time measures.",
-    )]  # fmt: skip
+    figure, title = friction_figure(record), f"Friction of the {record.engaging}"
     if not record.published:
-        section = Section(anchor="friction", title=f"Friction of the {pack}", plots=plots)
-        return [section] if plots else []
+        return _drawn("friction", title, figure, FRICTION_CAPTION)
     return [Section(
-        anchor="friction", title=f"Friction of the {pack}, published and computed", plots=plots,
-        texts=[f"Published: {record.source}."], tables=[tables.published_table(record)],
+        "friction", f"{title}, published and computed", texts=[f"Published: {record.source}."],
+        plots=[] if figure is None else [Plot("friction", figure, FRICTION_CAPTION)],
+        tables=[tables.published_table(record)],
     )]  # fmt: skip
 
 
 def _judder_sections(record: Record) -> list[Section]:
     """Return how the output shaft swings while a pack slips, and why."""
-    figure = judder_figure(record)
-    if figure is None:
+    if record.judder is None:
         return []
     caption = "Between the dashed lines the swing was small enough to judge its growth."
-    return [Section(
-        anchor="judder", title=TITLES[record.judder.kind], texts=[judder_words(record)],
-        tables=[tables.judder_table(record)],
-        plots=[Plot(file="judder", figure=figure, caption=caption)],
-    )]  # fmt: skip
-
-
-def _stress_sections(record: Record) -> list[Section]:
-    """Return how near the teeth come to their endurance limit, if there is a gear mesh."""
-    figure = stress_figure(record)
-    if figure is None:
-        return []
-    caption = (
-        "Above: contact stress and thermal stress together, each over what the steel endures; at "
-        "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
-    )
-    plot = Plot(file="tooth_stress", figure=figure, caption=caption)
-    return [Section(anchor="stress", title="The gear teeth", plots=[plot])]
+    return _drawn(
+        "judder", TITLES[record.judder.kind], judder_figure(record), caption,
+        texts=[judder_words(record)], tables=[tables.judder_table(record)],
+    )  # fmt: skip
 
 
 def _washer_sections(record: Record) -> list[Section]:
@@ -188,9 +177,7 @@ def _washer_sections(record: Record) -> list[Section]:
     figure = washer_figure(record)
     if figure is None:
         return []
-    plots = [Plot(file="washer_load", figure=figure,
-                  caption="The helical planets' tilting couple presses the washers; where the "
-                  "red area begins, asperities touch.")]  # fmt: skip
+    plots = [Plot("washer_load", figure, LOAD_CAPTION)]
     for stem, words, extreme in (
         ("washer_worst", "Worst moment: least film ratio while turning", worst_film(record)),
         ("washer_hottest", "Hottest moment", highest(record, "washer.temperature_max")),
@@ -198,7 +185,7 @@ def _washer_sections(record: Record) -> list[Section]:
         moment = None if extreme is None else solve_moment(record, extreme.time)
         if moment is not None:
             plots.append(_moment_plot(stem, words, moment))
-    return [Section(anchor="washer", title="The thrust washer", plots=plots)]
+    return [Section("washer", "The thrust washer", plots=plots)]
 
 
 def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:
@@ -208,8 +195,8 @@ def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:
         f"{words}. Solved again at the inputs recorded at {moment.time:.4g} s: film ratio "
         f"{moment.result.film_ratio:.4g}, in the run it was {moment.recorded_film_ratio:.4g}."
     )
-    figure = field_figure(moment.result, moment.point, heading)
-    return Plot(file=stem, figure=figure, caption=caption, square=True, bitmap=True)
+    figure = field_figure(moment.result, moment.point, words=heading)
+    return Plot(stem, figure, caption, square=True, bitmap=True)
 
 
 def _cost_section(record: Record) -> Section:
@@ -223,9 +210,7 @@ def _cost_section(record: Record) -> Section:
     )
     if record.steps is not None:
         words += f" {_stepping(record)} Calls count what was rolled back."
-    return Section(
-        anchor="cost", title="Time spent", texts=[words], tables=[tables.cost_table(record)]
-    )
+    return Section("cost", "Time spent", texts=[words], tables=[tables.cost_table(record)])
 
 
 def _stepping(record: Record) -> str:

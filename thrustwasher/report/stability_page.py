@@ -1,79 +1,74 @@
-"""Where methods fail, as a page of Markdown: the maps, what the lies are, the limits."""
-
-from __future__ import annotations
+"""Where methods fail, as a page of Markdown and as a map of coloured cells."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
+from textwrap import fill
 from typing import Any
 
-from . import chart_text as text
-from .chart_stability import WORDS
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
-TITLE = "Where methods fail"
-HEAD = (
-    "Each method meets each hazard, and what comes out is judged. Nothing here is typed in: "
-    "`thrustwasher chart --only stability --out docs/stability.md` runs every cell and writes this "
-    "page; the same cells are drawn on the page of `thrustwasher chart`. Methods are small ones "
-    "written for this map (`thrustwasher/rivals`), unless they are named as the package's."
-)
-TAIL = (
-    "An answer that is wrong without a word is the worst a method can do. None of the methods that "
-    "do so stands in a default path; tests in `tests/stability` fail if one ever did."
-)
+from .chart_text import machine_sentence
+from .html import fill_template
+from .style import legend_below, new_figure, styled
+
+SHADES = {"ok": "#D5EFE3", "slow": "#FFF0CC", "says": "#D6E9F7", "LIES": "#F6C6AE", "-": "#EFEFEF"}
+LETTER = 0.06  # inch of a letter in a method's name
+LETTERS = 110  # that fit side by side into all cells of a row
+WORDS = {
+    "ok": "right", "slow": "right, but costs", "says": "fails and says so",
+    "LIES": "wrong without a word",
+}  # fmt: skip
 
 
 def stability_markdown(record: Mapping[str, Any]) -> str:
     """Return the page for a record with ``stability`` and ``limits``."""
     groups: Sequence[Mapping[str, Any]] = record["stability"]
-    lines = [f"# {TITLE}", "", HEAD, "", TAIL, ""]
-    lines += ["| verdict | meaning |", "|---|---|"]
-    lines += [f"| {_verdict(v)} | {meaning} |" for v, meaning in WORDS.items()]
-    lines += ["| - | does not apply |", ""]
-    cells = [c["verdict"] for g in groups for row in g["cells"] for c in row]
-    lines += [f"{cells.count('LIES')} of {len(cells)} answers are wrong without a word.", ""]
-    for group in groups:
-        lines += _group(group)
-    lines += _limits(record.get("limits", []))
-    return "\n".join([*lines, text.machine_sentence(record), ""])
+    return fill_template(
+        Path(__file__).with_name("stability.md.jinja"),
+        words=WORDS, groups=groups, limits=record.get("limits", []),
+        verdicts=[cell["verdict"] for g in groups for row in g["cells"] for cell in row],
+        machine=machine_sentence(record),
+    )  # fmt: skip
 
 
-def _group(group: Mapping[str, Any]) -> list[str]:
-    """Return one map."""
-    name = str(group["name"])
-    lines = [f"## {name[:1].upper()}{name[1:]}", "", f"Wrong is: {group['judged']}.", ""]
-    lines += ["| method | " + " | ".join(group["hazards"]) + " |"]
-    lines += ["|---|" + "---|" * len(group["hazards"])]
-    for method, row in zip(group["methods"], group["cells"], strict=True):
-        lines.append(f"| {method} | " + " | ".join(map(_cell, row)) + " |")
-    return [*lines, ""]
+@styled
+def stability_figure(groups: Sequence[Mapping[str, Any]]) -> Figure:
+    """Return a panel of cells for each group: methods down, hazards across."""
+    rows = [len(g["methods"]) for g in groups]
+    longest = max(len(name) for g in groups for name in g["methods"])
+    figure, panels = new_figure(
+        11.0, 0.42 * sum(rows) + 1.15 * len(groups), len(groups), 1, foot=1,
+        left=0.2 + LETTER * longest, height_ratios=rows,
+    )  # fmt: skip
+    for axes, group in zip(panels, groups, strict=True):
+        _draw_group(axes, group)
+    handles = [Rectangle((0, 0), 1, 1, color=SHADES[v]) for v in WORDS]
+    names = [f"{v}: {text}" for v, text in WORDS.items()]
+    legend_below(figure, handles, names, columns=4)
+    return figure
 
 
-def _cell(cell: Mapping[str, str]) -> str:
-    """Return a verdict with its figure, or with the name of what was said."""
-    figure = cell["figure"]
-    if cell["verdict"] == "says" and not figure:
-        figure = cell["words"].partition(":")[0]
-    return f"{_verdict(cell['verdict'])} {figure}".strip()
-
-
-def _verdict(verdict: str) -> str:
-    return f"**{verdict}**" if verdict == "LIES" else verdict
-
-
-def _limits(limits: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Return the limits of coupling."""
-    if not limits:
-        return []
-    lines = [
-        "## Limits of coupling", "",
-        "Steps and slopes at which a loop of two parts stops being stable, by formula and measured "
-        "by bisection or growth. J is the inertia that the slip sees, c = d(torque)/d(slip), H the "
-        "communication step; kappa = H c/J. Measured are the least loops, whose parts are exact on "
-        "their own; tests bisect the same limits with FMUs stepped by FMPy.", "",
-        "| loop | limit | predicted | measured | deviation |", "|---|---|---|---|---|",
-    ]  # fmt: skip
-    lines += [
-        f"| {one['loop']} | {one['formula']} | {one['predicted']:.5g} | {one['measured']:.5g} | "
-        f"{100 * one['deviation']:+.2f} % |"
-        for one in limits
-    ]
-    return [*lines, ""]
+def _draw_group(axes: Axes, group: Mapping[str, Any]) -> None:
+    """Draw the cells of one group, the worst in bold."""
+    n_rows, n_columns = len(group["methods"]), len(group["hazards"])
+    room = LETTERS // n_columns
+    axes.set(xlim=(0, n_columns), ylim=(n_rows, 0))
+    axes.grid(False)
+    axes.set_title(f"{group['name']} (wrong: {group['judged']})")
+    for i, row in enumerate(group["cells"]):
+        for j, cell in enumerate(row):
+            axes.add_patch(Rectangle((j + 0.02, i + 0.04), 0.96, 0.92, lw=0,
+                                     color=SHADES[cell["verdict"]]))  # fmt: skip
+            lies = cell["verdict"] == "LIES"
+            text = f"{cell['verdict']}  {cell['figure']}".strip()
+            text = text.replace("  ", "\n") if len(text) > room else text
+            axes.text(j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=8,
+                      linespacing=0.95, fontweight="bold" if lies else "normal")  # fmt: skip
+    names = [fill(h, min(18, room)) for h in group["hazards"]]
+    axes.set_xticks([j + 0.5 for j in range(n_columns)], names, fontsize=8)
+    axes.set_yticks([i + 0.5 for i in range(n_rows)], group["methods"], fontsize=8.5)
+    axes.tick_params(length=0)
+    for spine in axes.spines.values():
+        spine.set_visible(False)

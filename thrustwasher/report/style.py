@@ -1,50 +1,17 @@
 """One look for all plots: colours told apart by everyone, units on axes, no global state."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from matplotlib import rc_context
+from matplotlib import rc_context, rc_params_from_file
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 
-# Okabe & Ito's palette, safe for the usual kinds of colour blindness; yellow is too pale for lines.
-BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
-SKY, PURPLE, BLACK, GREY = "#56B4E9", "#CC79A7", "#222222", "#8A8A8A"
-SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
-
-_RC: Any = {
-    "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],
-    "font.size": 9.5,
-    "axes.titlesize": 10.5,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.labelsize": 9.5,
-    "axes.edgecolor": "#666666",
-    "axes.linewidth": 0.8,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "grid.color": "#E3E3E3",
-    "grid.linewidth": 0.7,
-    "lines.linewidth": 1.7,
-    "legend.fontsize": 8.5,
-    "legend.frameon": False,
-    "legend.handlelength": 2.2,
-    "xtick.color": "#444444",
-    "ytick.color": "#444444",
-    "figure.titlesize": 11,
-    "figure.dpi": 130,
-    "figure.facecolor": "white",
-    "path.simplify_threshold": 0.2,
-    "axes.titley": 1.0,
-}
+_RC = rc_params_from_file(Path(__file__).with_name("house.mplstyle"), use_default_template=False)
 LEFT, RIGHT, TOP, BOTTOM = 0.8, 0.2, 0.36, 0.56  # inch around the panels
 ACROSS, DOWN = 0.82, 0.86  # inch between panels
 SECOND = 0.44  # inch of a second axis at the top: ticks and label
@@ -135,6 +102,22 @@ def label(axes: Axes, title: str, across: str, up: str, *, above: float = 0.0) -
     axes.set_ylabel(up)
     if across:
         axes.set_xlabel(across)
+
+
+def note_at_right(axes: Axes, words: str, height: float, **options: Any) -> None:
+    """Write small words at the right end of a level."""
+    shift, place = options.pop("shift", (-2, 2)), options.pop("place", 1.0)
+    look = {"ha": "right", "fontsize": 8, **options}
+    axes.annotate(words, (place, height), shift, xycoords=axes.get_yaxis_transform(),
+                  textcoords="offset points", **look)  # fmt: skip
+
+
+def second_scale(axes: Axes, factor: float, words: str) -> Any:
+    """Add an axis at the top whose numbers are ``factor`` times those below; return it."""
+    functions: Any = (lambda below: below * factor, lambda above: above / factor)
+    scale = axes.secondary_xaxis("top", functions=functions)
+    scale.set_xlabel(words)
+    return scale
 
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -1,15 +1,11 @@
 """What happened in a shift, in sentences made from its numbers."""
 
-from __future__ import annotations
-
 import math
 
 from ..units import format_quantity as say
-from .chatter import chatter_text
-from .extremes import highest
-from .judder import judder_text
+from .findings import chatter_text, judder_text, tie_up_text
+from .moments import highest
 from .shift_record import Record
-from .tie_up import tie_up_text
 
 
 def sentences(record: Record) -> list[str]:

@@ -1,13 +1,10 @@
 """The report's tables as rows of text."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any
 
-from ..models._spec import ModelSpec
 from ..models.clutch_params import SPEC as CLUTCH
 from ..models.gearmesh_params import SPEC as MESH
 from ..models.transmission_params import SPEC as TRANSMISSION
@@ -61,7 +58,7 @@ def key_table(record: Record) -> Table:
          "" if f.time is None else f"{f.time:.4g}")
         for f in record.key_figures if f.value and f.name not in SAID_TWICE
     ]  # fmt: skip
-    return Table(heads=("", "value", "at time [s]"), rows=rows, numbers=(1, 2))
+    return Table(("", "value", "at time [s]"), rows, numbers=(1, 2))
 
 
 def judder_table(record: Record) -> Table:
@@ -76,7 +73,7 @@ def judder_table(record: Record) -> Table:
         ("damping below which the swing grows", "", say(j.limit_damping, "N.m.s/rad")),
         ("greatest swing of the shaft torque", say(j.amplitude, "N.m"), ""),
     ]
-    return Table(heads=("", "measured", "from the parameters"), rows=rows, numbers=(1, 2))
+    return Table(("", "measured", "from the parameters"), rows, numbers=(1, 2))
 
 
 def published_table(record: Record) -> Table:
@@ -88,7 +85,7 @@ def published_table(record: Record) -> Table:
         off = "" if p.run is None or not p.published else f"{p.run / p.published - 1.0:+.2%}"
         off = off.replace("-0.00%", "0.00%").replace("+0.00%", "0.00%")
         rows.append((p.text, said, run, off))
-    return Table(heads=("", "published", "this run", "off by"), rows=rows, numbers=(1, 2, 3))
+    return Table(("", "published", "this run", "off by"), rows, numbers=(1, 2, 3))
 
 
 def cost_table(record: Record) -> Table:
@@ -100,10 +97,9 @@ def cost_table(record: Record) -> Table:
          _us(c.steps, c.calls), _percent(c.steps, record.wall_time))
         for c in record.costs
     ]  # fmt: skip
-    rows.append(
-        ("master, the rest", "", "", "", "", _ms(rest), "", _percent(rest, record.wall_time))
-    )
-    rows.append(("together", "", "", "", "", _ms(record.wall_time), "", _percent(1.0, 1.0)))
+    parts = [("master, the rest", rest), ("together", record.wall_time)]
+    rows += [(words, "", "", "", "", _ms(taken), "", _percent(taken, record.wall_time))
+             for words, taken in parts]  # fmt: skip
     return Table(
         heads=("", "fidelity", "instantiate [ms]", "initialise [ms]", "calls", "time [ms]",
                "per call [µs]", "share [%]"),
@@ -126,33 +122,21 @@ def _parameters(part: Part) -> Table:
         unit = "" if f.metadata["unit"] == "1" else f.metadata["unit"]
         origin = "default" if value == f.default else "scene"
         rows.append((f.name, _plain(value), unit, f.metadata["help"], origin))
-    extra = [name for name in part.parameters if name not in {row[0] for row in rows}]
-    rows += [
-        (name, _plain(part.parameters[name]), "", "", _origin(part.parameters[name], spec))
-        for name in extra
-    ]
-    return Table(
-        title=f"{part.name} ({part.model})",
-        heads=("parameter", "value", "unit", "meaning", "from"),
-        rows=rows,
-        numbers=(1,),
-        folded=True,
-    )
-
-
-def _origin(rung: Any, spec: ModelSpec) -> str:
-    """Say whether a fidelity is the model's own choice."""
-    return "default" if rung == spec.default_fidelity else "scene"
+    known = {row[0] for row in rows}
+    for name, value in part.parameters.items():
+        if name not in known:  # the rung
+            origin = "default" if value == spec.default_fidelity else "scene"
+            rows.append((name, _plain(value), "", "", origin))
+    heads = ("parameter", "value", "unit", "meaning", "from")
+    title = f"{part.name} ({part.model})"
+    return Table(heads, rows, numbers=(1,), title=title, folded=True)
 
 
 def source_texts(record: Record) -> list[str]:
     """Return where the defaults of the models in this run come from."""
     models = dict.fromkeys(part.model for part in record.parts if part.model in SPECS)
-    texts = []
-    for model in models:
-        words = " ".join((SPECS[model].params.__doc__ or "").split()).replace("``", "")
-        texts.append(f"{model}. {words}")
-    return texts
+    docs = {model: (SPECS[model].params.__doc__ or "").replace("``", "") for model in models}
+    return [f"{model}. {' '.join(words.split())}" for model, words in docs.items()]
 
 
 def _plain(value: Any) -> str:

@@ -1,6 +1,4 @@
-"""What to say where the output shaft swings while a pack slips."""
-
-from __future__ import annotations
+"""What to say where packs work against each other, a shaft swings or a slip flips."""
 
 from typing import Any
 
@@ -15,6 +13,40 @@ TITLES = {
 }
 RATE = "per second"
 ADAPTIVE = "step-doubling"
+MOSTLY = 0.5  # share of the torque from which the oil is called the cause
+
+
+def tie_up_text(record: Record) -> list[str]:
+    """Return what a tie-up was and where it came from; nothing where there was none."""
+    lasted, most = record.figure("tie_up_duration"), record.figure("tie_up_torque")
+    heat = record.figures.get("tie_up_heat")
+    if lasted is None or most is None or lasted.value is None or most.value is None:
+        return []
+    other = record.releasing
+    before = record.at(f"transmission.{other}_reaction", record.ramp_start) or 0.0
+    begin = lasted.time or record.ramp_start
+    words = (
+        f"Tie-up: from {begin:.4g} s on both packs worked against each other for "
+        f"{say(lasted.value, 's', digits=3)}. The torque of the {other} turned from "
+        f"{say(before, 'N.m', digits=3)} to {say(most.value, 'N.m', digits=3)}, and it took up "
+        f"{say(heat or 0.0, 'J', digits=3)} of heat meanwhile."
+    )
+    return [f"{words}{_oil_as_cause(record, begin)}"]
+
+
+def _oil_as_cause(record: Record, begin: float) -> str:
+    """Return where the early torque came from, if that was the shear of the oil."""
+    pack = record.engaging
+    oil, whole = (
+        abs(record.at(f"{pack}.{name}", begin) or 0.0)
+        for name in ("viscous_torque", "friction_torque")
+    )
+    if not whole or oil / whole < MOSTLY:
+        return ""
+    return (
+        f" The {pack} closed early: {oil / whole:.0%} of its torque at {begin:.4g} s was shear of "
+        f"the oil, supplied at {say(record.oil_temperature, 'K', digits=3)}."
+    )
 
 
 def judder_text(record: Record) -> list[str]:
@@ -101,4 +133,23 @@ def _cause(j: Any) -> str:
         f"The {j.pack}'s torque falls by {-j.slope:.3g} N·m per rad/s of slip; the "
         f"swing grows below {say(j.limit_damping, 'N.m.s/rad', digits=3)} of damping in the "
         f"shaft, which has {say(j.damping, 'N.m.s/rad', digits=3)}."
+    )
+
+
+def chatter_text(record: Record) -> list[str]:
+    """Return one warning for each pack that chatters: that it is numerical, and what to change."""
+    return [_chatter(found, record.master) for found in record.chatter]
+
+
+def _chatter(c: Any, master: str) -> str:
+    smoothing = c.smoothing * c.step / c.good_step
+    limit = "" if c.limit is None else f"; the master {master} is stable below {c.limit:g}"
+    return (
+        f"Numerical: from {c.start:.4g} s on the slip of the {c.pack} changes its sign {c.turns} "
+        f"times from one step to the next, where a real {c.pack} sticks. Its friction passes "
+        f"through zero with {c.slope:.3g} N·m per rad/s, against an inertia of "
+        f"{say(c.inertia, 'kg.m2', digits=3)}: at a step of {say(c.step, 's')} that is kappa = "
+        f'{c.kappa:.3g}{limit}. Use coupling = "capacity", the master linearly-implicit, steps of '
+        f"{say(c.good_step, 's', digits=2)} or a speed_smoothing of "
+        f"{say(smoothing, 'rad/s', digits=2)}."
     )

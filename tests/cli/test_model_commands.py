@@ -1,0 +1,196 @@
+"""The commands of models: same numbers as the library, in JSON, tables, CSV and pictures."""
+
+import csv
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from curves import traced
+
+from thrustwasher import (
+    ClutchParams,
+    GearMeshParams,
+    WasherParams,
+    cli,
+    solve_clutch,
+    solve_gearmesh,
+    solve_washer,
+)
+from thrustwasher.cli import engage, main
+from thrustwasher.cli._models import MODELS
+from thrustwasher.models.gearmesh_params import PRESETS
+
+WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
+PACK = {"load": 9000.0, "speed": -50.0}
+MESH = {"power": 7500.0, "speed": 180.0}
+SOLVED = {
+    "washer": (WASHER, {}, solve_washer, WasherParams),
+    "clutch": (PACK, {"faces": 4}, solve_clutch, ClutchParams),
+    "gearmesh": (MESH, {}, solve_gearmesh, GearMeshParams),
+}
+ENGAGE = ["engage", "--load", "5898", "--speed", "350", "--duration", "60 ms", "--ramp", "20 ms"]
+
+
+def words_of(command, point=(), settings=()):
+    given = [text for name, value in dict(point).items() for text in (f"--{name}", f"{value!r}")]
+    sets = [text for name, value in dict(settings).items() for text in ("--set", f"{name}={value}")]
+    return [command, *given, *sets]
+
+
+def told(words, capsys):
+    """Return the JSON object that a command prints."""
+    assert main([*words, "--json"]) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return json.loads(out)
+
+
+def shown(words, capsys):
+    """Return what a command prints for a person."""
+    assert main(words) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return out
+
+
+@pytest.mark.parametrize("command", SOLVED)
+def test_json_has_every_result_and_input_in_full_precision(command, capsys):
+    point, settings, solve, params = SOLVED[command]
+    record = told(words_of(command, point, settings), capsys)
+    result = solve(params(**settings), **point)
+    for name in result.__dataclass_fields__:
+        if isinstance(getattr(result, name), float | str) and not name.startswith("_"):
+            assert record[name] == getattr(result, name), name
+    assert {name: record[name] for name in point} == point
+    assert settings.items() <= record["parameters"].items()
+    assert record["status"] == result.status.name and record["wall_time"] > 0.0
+    assert record["oil_temperature"] > 273.0
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("washer", ["friction_torque", " N·m ", " °C ", "branch", "error_estimate", "grid 10x32"]),
+        (
+            "clutch",
+            ["friction pack at load 5 kN", "shear_ratio", "interface temperature", "field,"],
+        ),
+        ("gearmesh", ["20 teeth, ratio 2, at power 7.5 kW, speed 180 rad/s, oil_temperature 26.7"]),
+    ],
+)
+def test_a_bare_call_answers_with_a_table_for_a_person(command, words, capsys):
+    out = shown([command], capsys)
+    assert [w for w in words if w not in out] == []
+
+
+def test_units_grids_and_settings_reach_the_model(capsys):
+    words = ["washer", "--load", "0.3 kN", "--speed", "9100.479 rpm", "--tilt", "2 mrad",
+             "--oil-temperature", "40 degC", "--set", "roughness=0.4 um",
+             "--grid", "9x24"]  # fmt: skip
+    record = told(words, capsys)
+    assert record["speed"] == pytest.approx(953.0, abs=1e-3)
+    assert record["oil_temperature"] == pytest.approx(313.15)
+    assert record["parameters"]["roughness"] == pytest.approx(4e-7)
+    assert record["grid"] == [9, 24]
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_settings_change_a_preset(preset, capsys):
+    words = [*words_of("gearmesh", MESH), "--preset", preset, "--set", "steel=AISI1020"]
+    record = told([*words, "--set", "pinion_teeth=30", "--fidelity", "closed"], capsys)
+    params = GearMeshParams.preset(preset, steel="AISI1020", pinion_teeth=30)
+    expected = solve_gearmesh(params, **MESH, fidelity="closed")
+    assert record["asperity_temperature"] == expected.asperity_temperature
+    assert record["modification_factor"] == record["modification_factor_aisi1020"]
+    assert (record["preset"], record["fidelity"]) == (preset, "closed")
+
+
+def test_the_table_of_a_mesh_sets_both_steels_side_by_side(capsys):
+    out = shown(words_of("gearmesh", MESH), capsys)
+    lines = {line.split()[0]: line for line in out.splitlines()}
+    assert "27.308 °C" in lines["surface_temperature"] and "233.32 MPa" in lines["contact_stress"]
+    assert "°C" not in lines["flash_rise"] and " K " in lines["flash_rise"]
+    steels = [line for line in out.splitlines() if line.startswith("  AISI")]
+    assert [line.split()[1] for line in steels] == ["1020", "4340"]
+    assert "these gears" in steels[1] and "these gears" not in steels[0]
+    result = solve_gearmesh(GearMeshParams(), **MESH)
+    assert [float(text) for text in steels[0].split()[2:5]] == pytest.approx(
+        [result.modification_factor_aisi1020, result.allowable_ratio_aisi1020,
+         result.stress_utilization_aisi1020], rel=1e-4,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        words_of("washer", WASHER),
+        words_of("clutch", PACK),
+        ["clutch", "--set", "friction_law=constant"],
+        words_of("gearmesh", MESH),
+        ["gearmesh", "--power", "0", "--speed", "0"],
+    ],
+)
+def test_a_picture_is_drawn_and_named(words, tmp_path, capsys):
+    target = tmp_path / "shown.svg"
+    assert main([*words, "--plot", str(target)]) == 0
+    assert "<svg" in target.read_text("utf-8")
+    assert f"wrote {target}" in capsys.readouterr().err
+
+
+def test_curve_json_names_branches_and_folds(capsys):
+    record = told(["curve", "--speed", "545", "--tilt", "0.002"], capsys)
+    assert [fold["kind"] for fold in record["folds"]] == ["film_lost", "film_regained"]
+    assert {point["branch"] for point in record["points"]} == {"film", "unstable", "contact"}
+    curve = traced()
+    assert record["folds"][0]["load"] == curve.folds[0].load
+    assert len(record["points"]) == len(curve.points)
+
+
+def test_curve_table_and_picture(tmp_path, capsys):
+    table, picture = tmp_path / "curve.csv", tmp_path / "curve.png"
+    words = ["curve", "--speed", "545", "--out", str(table), "--plot", str(picture)]
+    assert main(words) == 0
+    assert "film lost at" in capsys.readouterr().out
+    with table.open(encoding="utf-8") as stream:
+        rows = list(csv.reader(stream))
+    assert rows[0][0] == "load [N]"
+    thickness = [float(row[2]) for row in rows[1:]]
+    assert thickness == sorted(thickness, reverse=True)
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+
+
+def test_a_curve_without_fold_says_so(capsys):
+    assert "no fold" in shown(["curve", "--speed", "136", "--tilt", "0.002"], capsys)
+
+
+def test_an_engagement_has_every_point_and_the_inputs(capsys):
+    found = told(ENGAGE, capsys)
+    assert len(found["time"]) == 61 and found["time"][-1] == pytest.approx(0.06)
+    assert found["load"][0] == 0.0 and found["load"][20] == pytest.approx(5898.0)
+    assert found["speed"][-1] == 0.0 == found["friction_torque"][-1]
+    assert found["status"] == "OK" and found["oil_temperature"] == 297.15
+    assert set(engage.COLUMNS) <= set(found) and found["wall_time"] > 0.0
+
+
+def test_an_engagement_is_a_table_and_a_summary(capsys):
+    text = shown(ENGAGE, capsys)
+    assert "largest torque" in text and "N·m" in text and "mixed" in text
+
+
+def test_an_engagement_is_written_whole(tmp_path):
+    table, picture = tmp_path / "e.csv", tmp_path / "e.png"
+    assert main([*ENGAGE, "--out", str(table), "--plot", str(picture)]) == 0
+    rows = list(csv.reader(table.read_text("utf-8").splitlines()))
+    assert rows[0][:3] == ["time [s]", "load [N]", "speed [rad/s]"] and len(rows) == 62
+    assert np.isfinite([float(v) for v in rows[-1][:-1]]).all()
+    assert picture.stat().st_size > 10_000
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["e.csv", "e.png"]
+
+
+def test_a_record_alone_makes_a_command(capsys, monkeypatch):
+    ring = replace(MODELS["washer"], name="ring", help="solve a ring", title="ring", options=())
+    monkeypatch.setitem(MODELS, "ring", ring)
+    monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, "ring"))
+    assert "  ring      solve a ring\n" in shown([], capsys)
+    assert shown(["ring", "--load", "300"], capsys).startswith("ring at load 300 N")

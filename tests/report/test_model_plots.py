@@ -1,0 +1,149 @@
+"""Plots of the models: what they show is what was solved, and nothing is dropped unsaid."""
+
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import washer_stand_in
+
+from thrustwasher import GearMeshParams, solve_gearmesh
+from thrustwasher.models.clutch import ClutchParams, boundary_friction, solve_clutch
+from thrustwasher.models.clutch_calibration import calibrate
+from thrustwasher.report.clutch_plot import clutch_figure
+from thrustwasher.report.fit_plot import calibration_figure
+from thrustwasher.report.gearmesh_plot import gearmesh_figure, over_teeth
+from thrustwasher.report.washer_plots import curve_figure
+
+PACK = ClutchParams()
+POINT = {"load": 5898.0, "speed": -50.0, "oil_temperature": 297.15}
+SLIPS = [0.0, 10.0, 20.0, 60.0]
+MESH_POINT = {"power": 7500.0, "speed": 180.0, "oil_temperature": 299.85}
+WASHER_POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15}
+
+
+def drawn(fidelity="stribeck"):
+    sweep = [solve_clutch(PACK, load=5898.0, speed=w, fidelity=fidelity) for w in SLIPS]
+    here = solve_clutch(PACK, fidelity=fidelity, **POINT)
+    ploughing = boundary_friction(0.1, 0.0, PACK.plough_weight)
+    figure = clutch_figure(SLIPS, sweep, here, POINT, ploughing if fidelity != "closed" else None)
+    return figure, sweep, here
+
+
+def panel(figure, title):
+    return next(a for a in figure.axes if a.get_title(loc="left") == title)
+
+
+def test_shares_of_ploughing_and_adhesion_add_up_to_the_curve():
+    figure, sweep, _ = drawn()
+    for title, values in (
+        ("Friction coefficient", [r.friction_coefficient for r in sweep]),
+        ("Torque of the pack", [r.torque_capacity for r in sweep]),
+    ):
+        ploughing, adhesion = panel(figure, title).collections[:2]
+        top = adhesion.get_paths()[0].vertices[:, 1].max()
+        assert top == pytest.approx(values[0], rel=1e-12)
+        height = ploughing.get_paths()[0].vertices[:, 1].max()
+        share = boundary_friction(0.1, 0.0, PACK.plough_weight) / sweep[0].friction_coefficient
+        assert height == pytest.approx(share * values[0], rel=1e-12)
+
+
+def test_the_shear_of_the_oil_lies_on_top_where_the_film_resists():
+    figure, sweep, _ = drawn("field")
+    oil = panel(figure, "Torque of the pack").collections[2].get_paths()[0].vertices
+    assert oil[oil[:, 0] == 60.0][:, 1].max() == pytest.approx(sweep[-1].torque_capacity)
+    assert sweep[-1].torque_capacity > 1.0001 * sweep[-1].contact_torque
+
+
+def test_the_static_torque_and_the_point_are_marked():
+    figure, sweep, here = drawn()
+    axis = panel(figure, "Torque of the pack")
+    assert any("389.2" in text.get_text() for text in axis.texts)
+    marks = [line.get_xydata()[0] for line in axis.lines if line.get_marker() == "o"]
+    assert marks[0] == pytest.approx((50.0, -here.friction_torque))
+    assert sweep[0].torque_capacity == pytest.approx(389.2, abs=0.05)
+
+
+def test_a_constant_coefficient_has_no_shares_and_no_shear_ratio():
+    figure, *_ = drawn("closed")
+    titles = {a.get_title(loc="left") for a in figure.axes}
+    assert "Shear ratio" not in titles
+    assert not panel(figure, "Friction coefficient").collections
+
+
+def test_slip_is_also_given_in_rpm():
+    figure, *_ = drawn()
+    figure.savefig(io.BytesIO())
+    above = panel(figure, "Shear ratio").child_axes[0]
+    assert above.get_xlim()[1] == pytest.approx(60.0 * 9.549296585513721)
+
+
+def test_the_sweep_begins_at_the_least_number_of_teeth_and_marks_what_is_refused():
+    point = MESH_POINT
+    teeth, sweeps = over_teeth(GearMeshParams(gear_ratio=5.0), point, "field")
+    assert (teeth[0], teeth[-1]) == (16, 60)
+    assert all(r is not None for row in sweeps.values() for r in row)
+    many = GearMeshParams(gear_ratio=5.0, pinion_teeth=80)
+    teeth, sweeps = over_teeth(many, point, "field")
+    assert teeth[-1] == 80
+    at_20 = sweeps["rough"][teeth.index(20)]
+    alone = solve_gearmesh(GearMeshParams(gear_ratio=5.0), **point)
+    assert at_20.asperity_temperature == alone.asperity_temperature
+
+
+def test_the_plot_draws_temperatures_and_both_steels():
+    point = MESH_POINT
+    params = GearMeshParams(gear_ratio=5.0)
+    _, sweeps = over_teeth(params, point, "field")
+    figure = gearmesh_figure(solve_gearmesh(params, **point), point, params)
+    labels = [text for axes in figure.axes for text in axes.get_legend_handles_labels()[1]]
+    for words in ("surface $T_s$", "asperities, rough ground", "asperities, fine ground",
+                  "AISI 1020, rough ground", "AISI 4340, fine ground"):  # fmt: skip
+        assert words in labels
+    rough = next(line for line in figure.axes[0].lines if "rough" in str(line.get_label()))
+    expected = [r.asperity_temperature - 273.15 for r in sweeps["rough"]]
+    factors = figure.axes[2]
+    shown = {text.get_text() for text in factors.get_legend().get_texts()}
+    drawn = [line for line in factors.lines if np.any(np.isfinite(line.get_ydata()))]
+    assert shown == {line.get_label() for line in drawn if "AISI" in line.get_label()}
+    assert "AISI 4340, rough ground" in shown
+    assert list(rough.get_ydata()) == pytest.approx(expected)
+    assert "kW" in figure.get_suptitle() and "°C" in figure.get_suptitle()
+
+
+def test_flanks_of_ones_own_are_drawn_beside_the_two_ground_surfaces():
+    point = MESH_POINT
+    own = GearMeshParams(gear_ratio=5.0, sigma_rms=1.2e-6, effective_roughness=3e-5)
+    teeth, sweeps = over_teeth(own, point, "field")
+    assert list(sweeps) == ["rough", "fine", "given"]
+    at_20 = {name: row[teeth.index(20)].asperity_temperature for name, row in sweeps.items()}
+    assert at_20["rough"] > at_20["given"] > at_20["fine"]
+    assert at_20["given"] == solve_gearmesh(own, **point).asperity_temperature
+    plain = over_teeth(GearMeshParams(gear_ratio=5.0), point, "field")[1]
+    assert list(plain) == ["rough", "fine"]
+    assert plain["rough"] == sweeps["rough"]
+
+
+def test_every_panel_of_a_fit_names_what_it_is_over():
+    slip = np.linspace(2.0, 160.0, 30)
+    columns = {"speed": slip, "load": slip * 0 + 1e3, "friction": 0.1 + 0.02 * np.exp(-slip / 20.0)}
+    axes = calibration_figure(calibrate(ClutchParams(), **columns), columns).axes
+    assert [axis.get_xlabel() for axis in axes] == [
+        "slip speed [m/s]", "slip speed [m/s]", "load [N]",
+    ]  # fmt: skip
+
+
+def test_branches_of_the_curve_differ_in_more_than_colour():
+    axis = curve_figure(washer_stand_in.curve(), WASHER_POINT).axes[0]
+    styles = {line.get_label(): line.get_linestyle() for line in axis.lines}
+    branches = [s for words, s in styles.items() if "stable" in words]
+    assert len(branches) == len(set(branches)) == 3
+    assert {"film lost", "film regained"} <= set(styles)
+
+
+def test_a_curve_that_leaves_its_panel_says_so():
+    curve = washer_stand_in.curve()
+    thin = replace(curve.points[-1], film_ratio=-0.05)
+    for points, said in ((curve.points, False), ((*curve.points, thin), True)):
+        axis = curve_figure(replace(curve, points=points), WASHER_POINT).axes[0]
+        assert any("down to -0.05" in text.get_text() for text in axis.texts) == said

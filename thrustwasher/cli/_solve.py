@@ -1,0 +1,107 @@
+"""The command that solves a model at one operating point, made from the model's record."""
+
+import argparse
+import time
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ..models._spec import ModelSpec, Signal
+from . import _fidelity, _options, _output
+from ._models import ModelCommand, Variants, resolve
+
+
+class PointCommand:
+    """The command of one model, with the face of a command's module."""
+
+    def __init__(self, model: ModelCommand) -> None:
+        self.HELP = model.help
+        self._model = model
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare the options."""
+        model, spec = self._model, resolve(self._model.spec)
+        # The model's own inputs come first.
+        inputs = sorted(_inputs(model, spec), key=lambda signal: signal not in spec.inputs)
+        _options.add_inputs(parser, inputs)
+        _options.add_parameters(parser, spec)
+        if model.presets:
+            presets = resolve(model.presets)
+            parser.add_argument(
+                "--preset", choices=list(presets), default=next(iter(presets)),
+                help=f"what --set starts from; {_changes(presets)}; default {next(iter(presets))}",
+            )  # fmt: skip
+        _fidelity.add_fidelity(parser, spec)
+        _options.add_options(parser, model.options)
+        _output.add_targets(parser, plot=model.figure_help)
+
+    def run(self, arguments: argparse.Namespace) -> int:
+        """Solve, then print or draw."""
+        model, spec = self._model, resolve(self._model.spec)
+        inputs = _inputs(model, spec)
+        point = _options.read_inputs(arguments, inputs)
+        settings = _options.read_settings(arguments, spec)
+        given = {"preset": arguments.preset} if model.presets else {}
+        params = (spec.params.preset(arguments.preset, **settings) if model.presets
+                  else spec.params(**settings))  # fmt: skip
+        options = _options.read_options(arguments, model.options)
+        targets = _output.targets(arguments)
+
+        solve = resolve(model.solve)
+        fidelity = _fidelity.rung(arguments.fidelity, spec, params, model.place(point))
+        began = time.perf_counter()
+        result = solve(params, **point, fidelity=fidelity, **options)
+        wall_time = time.perf_counter() - began
+        targets.draw(model.figure, result, point, params)
+        found, parameters = _output.scalars(result), _output.parameters_of(params)
+        if arguments.json:
+            told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time}
+            _output.print_json(told)
+            return 0
+        where = ", ".join(f"{s.name} {_output.shown(point[s.name], s.unit)}" for s in inputs)
+        print(f"{model.title.format(**parameters)} at {where}")
+        _output.print_rows(list(_rows(model, spec, result, point)))
+        if model.variants:
+            _print_variants(model.variants, result, parameters)
+        print(f"  {result.status.advice}; {model.closing.format(**found)}, {wall_time:.3g} s")
+        return 0
+
+
+def _inputs(model: ModelCommand, spec: ModelSpec) -> list[Signal]:
+    """Return the inputs of the command."""
+    return [Signal(**model.instead[s.name]) if s.name in model.instead else s for s in spec.inputs]
+
+
+def _changes(presets: Mapping[str, Mapping[str, Any]]) -> str:
+    """Say what each preset changes."""
+    words = []
+    for name, changes in presets.items():
+        settings = ", ".join(f"{key} = {value}" for key, value in changes.items())
+        words.append(f"{name}: {settings or 'the defaults'}")
+    return "; ".join(words)
+
+
+def _rows(
+    model: ModelCommand, spec: ModelSpec, result: Any, point: Mapping[str, float]
+) -> Iterator[tuple[str, str, str]]:
+    """Yield name, value and meaning of every result but inputs and those of variants."""
+    known = {s.name: (s.unit, s.help, s.relative) for s in spec.outputs}
+    known |= {name: (*words, False) for name, words in model.extra.items()}
+    apart = model.variants.fields() if model.variants else set()
+    for name in _output.scalars(result):
+        if name in known and name not in point and name not in apart:
+            unit, words, difference = known[name]
+            yield name, _output.shown(getattr(result, name), unit, difference), words
+
+
+def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, Any]) -> None:
+    """Print the results of all variants, a row for each."""
+    heads = variants.columns.values()
+    print("  " + variants.head.ljust(22) + "".join(head.rjust(len(head) + 3) for head in heads))
+    for words in variants.rows:
+        cells = (
+            _output.shown(getattr(result, variants.name(column, words)), "1").rjust(len(head) + 3)
+            for column, head in variants.columns.items()
+        )
+        mine = parameters[variants.head] == words.replace(" ", "")
+        said = f"  ({variants.chosen})" if mine else ""
+        print("  " + words.ljust(22) + "".join(cells) + said)

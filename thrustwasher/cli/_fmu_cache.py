@@ -1,4 +1,4 @@
-"""FMUs built when needed, in a folder named by everything they are made of, and their instances."""
+"""FMUs built when needed, in a folder named by everything they are made of."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ import hashlib
 import os
 import shutil
 import time
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from ..native.files import code_folder
 from ._output import note
@@ -78,18 +77,3 @@ def prune(home: Path) -> None:
     for last, folder in sorted(used, reverse=True)[KEPT:]:
         if time.time() - last > IN_USE:
             shutil.rmtree(folder, ignore_errors=True)
-
-
-@contextmanager
-def fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
-    """Give a function that makes an FMU instance of a part; all are freed in the end."""
-    from ..fmu.stepper import Instance
-
-    paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
-    with ExitStack() as alive:
-
-        def make(name: str, part: Any) -> Any:
-            path = paths[part.spec.name]
-            return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
-
-        yield make

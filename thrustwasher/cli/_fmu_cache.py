@@ -1,14 +1,13 @@
-"""FMUs built when needed, in a folder named by everything they are made of, and their instances."""
+"""FMUs built when needed, in a folder named by everything they are made of."""
 
 from __future__ import annotations
 
 import hashlib
 import os
 import time
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from ..native.files import code_folder
 from ._output import note
@@ -66,18 +65,3 @@ def source_digest(target: str) -> str:
     for path in (path for folder in map_folders() for path in sorted(folder.glob(f"*{SUFFIX}"))):
         hashed.update(path.read_bytes())  # every map goes into the washer's FMU
     return hashed.hexdigest()[:16]
-
-
-@contextmanager
-def fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
-    """Give a function that makes an FMU instance of a part; all are freed in the end."""
-    from ..fmu.stepper import Instance
-
-    paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
-    with ExitStack() as alive:
-
-        def make(name: str, part: Any) -> Any:
-            path = paths[part.spec.name]
-            return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
-
-        yield make

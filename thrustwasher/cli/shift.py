@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +13,7 @@ from ..errors import ParameterError
 from ..units import parse_quantity
 from . import _output
 from ._progress import progress_bar
-from .build import chosen_target
+from .build import chosen_platforms, chosen_target
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 REPORT, TABLE, OVERVIEW = "report.html", "shift.csv", "overview.png"
@@ -78,9 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
     )  # fmt: skip
     scene = with_fidelities(scene, arguments.fidelity)
     if arguments.ssp:
-        from ._ssp import export
-
-        return export(arguments, scene)
+        return _export(arguments, scene)
     if arguments.platforms:
         raise ParameterError("--platforms: for a package only (--ssp FILE.ssp)")
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
@@ -120,10 +120,25 @@ def _say(result: Any, folder: Path | None) -> None:
 def _simulate(scene: Any, target: str, guard: bool) -> Any:
     """Return the finished shift; the FMUs are built, loaded and freed here."""
     from ..drivetrain import run_auto
-    from ._fmu_cache import fmu_instances
 
-    with fmu_instances(scene, target) as make:
+    with _fmu_instances(scene, target) as make:
         return run_auto(scene, make, guard=guard, progress=progress_bar(scene.name))
+
+
+@contextmanager
+def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
+    """Give a function that makes an FMU instance of a part; all are freed in the end."""
+    from ..fmu.stepper import Instance
+    from ._fmu_cache import fmu_paths
+
+    paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
+    with ExitStack() as alive:
+
+        def make(name: str, part: Any) -> Any:
+            path = paths[part.spec.name]
+            return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
+
+        yield make
 
 
 def _write(result: Any, folder: Path) -> None:
@@ -139,3 +154,56 @@ def _write(result: Any, folder: Path) -> None:
     save_plots(page, folder)
     (folder / OVERVIEW).write_bytes(picture(overview_figure(record), dpi=110))
     result.write_csv(folder / TABLE)
+
+
+def _export(arguments: argparse.Namespace, scene: Any) -> int:
+    """Write the shift as a package that any SSP master runs, and name it."""
+    if arguments.fmu == "python":
+        raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
+    if arguments.master not in (None, "jacobi"):
+        raise ParameterError(f"--master {arguments.master}: a package is for a parallel master")
+    open_ = [name for name, part in scene.parts.items() if part.tolerance]
+    if open_:
+        raise ParameterError(
+            f"fidelity of {', '.join(open_)} = auto, allowed in a package: a rung by name "
+            "(--fidelity PART=RUNG)"
+        )
+    target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
+
+    from ..native.link import find_linker
+
+    find_linker()
+    platforms = chosen_platforms(arguments.platforms, "native")
+    began = time.perf_counter()
+    parts = _package(scene, platforms)
+
+    from ..fmu import archive
+
+    with _output.whole_file(target) as draft:
+        draft.write_bytes(archive.pack(parts))
+    if arguments.json:
+        total = time.perf_counter() - began
+        record = {"ssp": str(target), "files": sorted(parts), "total_time": total}
+        _output.print_json(record)
+    else:
+        print(target)
+    return 0
+
+
+def _package(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
+    """Return all files of the package: the system, its documentation, one FMU per part."""
+    from ..drivetrain.ssp.package import files
+    from ..drivetrain.ssp.system_structure import plan, prepared, start_values
+    from ..fmu.build import pack_native
+    from ..fmu.registry import package_version
+    from ..fmu.xml_parts import generation_date
+
+    scene = prepared(scene)
+    with _fmu_instances(scene, "native") as make:
+        instances = {name: make(name, part) for name, part in scene.parts.items()}
+        system = plan(scene, start_values(scene, instances))
+    tool = f"thrustwasher {package_version()}"
+    found = files(system, tool=tool, date=generation_date())
+    for part in system.components:
+        found[part.source] = pack_native(part.spec, platforms=platforms, note=_output.note)
+    return found

@@ -80,4 +80,5 @@ def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:
 
 def digest(cases: tuple[ChartCase, ...]) -> str:
     """Return a short digest of a list of cases."""
-    return hashlib.sha256(repr(cases).encode()).hexdigest()[:16]
+    text = repr([(c.name, c.point, c.before) for c in cases])
+    return hashlib.sha256(text.encode()).hexdigest()[:16]

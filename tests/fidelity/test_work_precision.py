@@ -6,7 +6,7 @@ import math
 import pytest
 
 from thrustwasher.errors import ParameterError, Status
-from thrustwasher.fidelity.chart_cases import Case, cases_of, digest
+from thrustwasher.fidelity.chart_cases import ChartCase, cases_of, digest
 from thrustwasher.fidelity.chart_series import Configuration, Quantity, series_of
 from thrustwasher.fidelity.costs import Timing, time_call
 from thrustwasher.fidelity.methods import MethodAnswer
@@ -14,7 +14,7 @@ from thrustwasher.fidelity.models import spec_of
 from thrustwasher.fidelity.reference_values import ReferenceValues
 from thrustwasher.fidelity.work_precision import measure
 
-CASES = (Case("one", (1.0,)), Case("two", (2.0,)), Case("three", (4.0,)))
+CASES = (ChartCase("one", (1.0,)), ChartCase("two", (2.0,)), ChartCase("three", (4.0,)))
 KNOWN = [ReferenceValues({"y": c.point[0] ** 2}, {"y": 1e-6}) for c in CASES]
 RELATIVE = Quantity("y", True, 1e-3)
 

@@ -13,7 +13,7 @@ OIL = 297.15
 
 
 @dataclass(frozen=True)
-class Case:
+class ChartCase:
     """An operating point in the order of the model's inputs, and the way to it."""
 
     name: str
@@ -22,9 +22,9 @@ class Case:
 
 
 def _washer(name: str, load: float, speed: float, tilt: float = 2e-3, oil: float = OIL,
-            down_from: float = 0.0) -> Case:  # fmt: skip
+            down_from: float = 0.0) -> ChartCase:  # fmt: skip
     before = ((down_from, speed, tilt, oil),) if down_from else ()
-    return Case(name, (load, speed, tilt, oil), before)
+    return ChartCase(name, (load, speed, tilt, oil), before)
 
 
 # load N, speed rad/s, tilt rad, oil K
@@ -46,23 +46,23 @@ WASHER = (
 )
 # pinion torque N m, speed rad/s, oil K
 GEARMESH = (
-    Case("centre", (7500.0 / 180.0, 180.0, 299.85)),
-    Case("light", (5.0, 180.0, 299.85)),
-    Case("heavy", (120.0, 180.0, 299.85)),
-    Case("slow", (40.0, 10.0, 299.85)),
-    Case("fast", (40.0, 1000.0, 299.85)),
-    Case("hot oil", (40.0, 180.0, 373.15)),
-    Case("fast, light, hot", (5.0, 1000.0, 373.15)),
-    Case("slow, heavy, cold", (120.0, 10.0, 263.15)),
+    ChartCase("centre", (7500.0 / 180.0, 180.0, 299.85)),
+    ChartCase("light", (5.0, 180.0, 299.85)),
+    ChartCase("heavy", (120.0, 180.0, 299.85)),
+    ChartCase("slow", (40.0, 10.0, 299.85)),
+    ChartCase("fast", (40.0, 1000.0, 299.85)),
+    ChartCase("hot oil", (40.0, 180.0, 373.15)),
+    ChartCase("fast, light, hot", (5.0, 1000.0, 373.15)),
+    ChartCase("slow, heavy, cold", (120.0, 10.0, 263.15)),
 )
 # an engagement: full force N, slip at the start rad/s, oil K
 CLUTCH = (
-    Case("centre", (5898.0, 350.0, 297.15)),
-    Case("light", (1500.0, 350.0, 297.15)),
-    Case("heavy", (12000.0, 350.0, 297.15)),
-    Case("slow", (5898.0, 40.0, 297.15)),
-    Case("fast", (3000.0, 600.0, 297.15)),
-    Case("hot oil", (5898.0, 350.0, 353.15)),
+    ChartCase("centre", (5898.0, 350.0, 297.15)),
+    ChartCase("light", (1500.0, 350.0, 297.15)),
+    ChartCase("heavy", (12000.0, 350.0, 297.15)),
+    ChartCase("slow", (5898.0, 40.0, 297.15)),
+    ChartCase("fast", (3000.0, 600.0, 297.15)),
+    ChartCase("hot oil", (5898.0, 350.0, 353.15)),
 )
 # model -> its cases, and those of a quick look
 CASES = {
@@ -72,12 +72,13 @@ CASES = {
 }
 
 
-def cases_of(model: str, *, quick: bool = False) -> tuple[Case, ...]:
+def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:
     """Return the cases of a model, or those of a quick look."""
     cases, few = CASES[model]
     return tuple(cases[i] for i in few) if quick else cases
 
 
-def digest(cases: tuple[Case, ...]) -> str:
+def digest(cases: tuple[ChartCase, ...]) -> str:
     """Return a short digest of a list of cases."""
-    return hashlib.sha256(repr(cases).encode()).hexdigest()[:16]
+    text = repr([(c.name, c.point, c.before) for c in cases])
+    return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -95,12 +95,7 @@ def error_tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Err
     return errors, Cells(AXES, blank.edges, tuple(map(tuple, outside.tolist())))
 
 
-def _table(
-    quantity: str,
-    placed: list[tuple[Place, tuple[ReferencePoint, Answer]]],
-    shape: Place,
-    floor: float,
-) -> Errors:
+def _table(quantity: str, placed: list[tuple[Place, Pair]], shape: Place, floor: float) -> Errors:
     """Return the table of one quantity over answers that count."""
     found: dict[Place, list[float]] = {(i, j): [] for i in range(shape[0]) for j in range(shape[1])}
     for at, (t, a) in placed:

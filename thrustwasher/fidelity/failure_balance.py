@@ -18,7 +18,7 @@ MESH = (17, 67)
 OIL = 297.15
 
 
-class Point(NamedTuple):
+class Hazard(NamedTuple):
     """Where the washer is to be solved, and where it was before (None: nowhere)."""
 
     load: float
@@ -29,16 +29,16 @@ class Point(NamedTuple):
 
 
 HAZARDS = {
-    "full film": Point(300.0, 545.0, 2e-3),
-    "contact onset": Point(320.0, 136.0, 2e-3),
-    "near a fold": Point(690.0, 545.0, 2e-3, (600.0, 545.0, 2e-3)),
-    "past the fold": Point(1200.0, 545.0, 2e-3, (700.0, 545.0, 2e-3)),
-    "back below the fold": Point(300.0, 545.0, 2e-3, (1200.0, 545.0, 2e-3)),
-    "standstill": Point(300.0, 0.0, 2e-3, (300.0, 545.0, 2e-3)),
-    "turned round": Point(300.0, -545.0, 2e-3, (300.0, 545.0, 2e-3)),
-    "no tilt": Point(300.0, 545.0, 0.0, (300.0, 545.0, 2e-4)),
-    "hardly a load": Point(1.0, 545.0, 2e-3, (20.0, 545.0, 2e-3)),
-    "cold oil, -39 degC": Point(300.0, 100.0, 2e-3, None, 234.15),
+    "full film": Hazard(300.0, 545.0, 2e-3),
+    "contact onset": Hazard(320.0, 136.0, 2e-3),
+    "near a fold": Hazard(690.0, 545.0, 2e-3, (600.0, 545.0, 2e-3)),
+    "past the fold": Hazard(1200.0, 545.0, 2e-3, (700.0, 545.0, 2e-3)),
+    "back below the fold": Hazard(300.0, 545.0, 2e-3, (1200.0, 545.0, 2e-3)),
+    "standstill": Hazard(300.0, 0.0, 2e-3, (300.0, 545.0, 2e-3)),
+    "turned round": Hazard(300.0, -545.0, 2e-3, (300.0, 545.0, 2e-3)),
+    "no tilt": Hazard(300.0, 545.0, 0.0, (300.0, 545.0, 2e-4)),
+    "hardly a load": Hazard(1.0, 545.0, 2e-3, (20.0, 545.0, 2e-3)),
+    "cold oil, -39 degC": Hazard(300.0, 100.0, 2e-3, None, 234.15),
 }
 
 
@@ -52,7 +52,7 @@ class Found(NamedTuple):
 
 
 @cache
-def true_balance(point: Point) -> Found:
+def true_balance(point: Hazard) -> Found:
     """Return the answer of the ``fine`` mesh from nothing."""
     return _ours(point, "fine", warm=False)
 
@@ -72,7 +72,7 @@ def balance() -> Group:
         "field, the default, warm": partial(_ours, fidelity="field", warm=True),
     }
 
-    def judge(method: Any, hazard: Point) -> Cell:
+    def judge(method: Any, hazard: Hazard) -> Cell:
         true, found = true_balance(hazard), method(hazard)
         return Cell(NONE) if found is None else judged(true, found)
 
@@ -97,7 +97,7 @@ def judged(true: Found, found: Found) -> Cell:
 def _rival(make: Any, *, warm: bool = False) -> Any:
     """Return how the method of 2006 solves a point, from the point before if ``warm``."""
 
-    def solve(point: Point) -> Found | None:
+    def solve(point: Hazard) -> Found | None:
         washer = make()
         if warm and point.before is None:
             return None
@@ -110,7 +110,7 @@ def _rival(make: Any, *, warm: bool = False) -> Any:
     return solve
 
 
-def _ours(point: Point, fidelity: str, warm: bool) -> Found:
+def _ours(point: Hazard, fidelity: str, warm: bool) -> Found:
     """Solve with a rung of the package."""
 
     def solve(load: float, speed: float, tilt: float, start: Any = None) -> Any:
@@ -125,7 +125,7 @@ def _ours(point: Point, fidelity: str, warm: bool) -> Found:
     return Found(failure, r.film_ratio, r.friction_torque, r.error_estimate)
 
 
-def _curve(point: Point) -> Found:
+def _curve(point: Hazard) -> Found:
     """Read the branch that a washer loaded from nothing is on off the whole curve of solutions."""
     curve = load_curve(
         WasherParams(), speed=point.speed, tilt=point.tilt, oil_temperature=point.oil,

@@ -23,7 +23,7 @@ from ..models.clutch_params import ClutchParams
 from ..models.washer_constants import constants
 from ..models.washer_map import map_for
 from ..rivals.plain2006 import Plain2006
-from .chart_cases import Case
+from .chart_cases import ChartCase
 from .models import kernel_of
 from .reference_clutch import TIMES, engagement_corners
 
@@ -43,17 +43,17 @@ class MethodAnswer:
 class Method(Protocol):
     """A method to solve a model, set up and with a memory of its own."""
 
-    def solve(self, case: Case) -> MethodAnswer:
+    def solve(self, case: ChartCase) -> MethodAnswer:
         """Solve a case on the way it is reached."""
 
-    def warm(self, case: Case) -> Callable[[], object]:
+    def warm(self, case: ChartCase) -> Callable[[], object]:
         """Return a call that solves one per cent away from the last such call."""
 
-    def idle(self, case: Case) -> Callable[[], object] | None:
+    def idle(self, case: ChartCase) -> Callable[[], object] | None:
         """Return the same call without the solving, or None if that is nothing beside it."""
 
 
-def path_to(case: Case) -> tuple[tuple[float, ...], ...]:
+def path_to(case: ChartCase) -> tuple[tuple[float, ...], ...]:
     """Return the points to walk over: those before, one per cent beside the case, the case.
 
     The last step is as long as those whose cost is measured: error and cost are of the same call.
@@ -91,7 +91,7 @@ class KernelMethod:
         self._real = [s.name for s in spec.outputs if s.kind == "real"]
         self._count = _place_of_count(spec)
 
-    def _walk(self, case: Case) -> tuple[Any, int, float]:
+    def _walk(self, case: ChartCase) -> tuple[Any, int, float]:
         """Return state, status and count after walking to a case from nothing."""
         state, count, status = np.zeros(self._n_state), 0.0, 0
         for point in path_to(case):
@@ -101,23 +101,23 @@ class KernelMethod:
             count = 1.0 if self._count is None else float(self._work[self._count])
         return state, status, count
 
-    def solve(self, case: Case) -> MethodAnswer:
+    def solve(self, case: ChartCase) -> MethodAnswer:
         """Solve a case, warm at the last."""
         _, status, count = self._walk(case)
         advice = int(self._iout[-1])
         values = dict(zip(self._real, self._out.tolist(), strict=True))
         return MethodAnswer(values, Status(status or advice), count * self._nodes)
 
-    def warm(self, case: Case) -> Callable[[], object]:
+    def warm(self, case: ChartCase) -> Callable[[], object]:
         """Return a call that goes back and forth over one per cent of the first input."""
         state, _, _ = self._walk(case)
         return self._call(case, state, self._kernel.step)
 
-    def idle(self, case: Case) -> Callable[[], object]:
+    def idle(self, case: ChartCase) -> Callable[[], object]:
         """Return the call with an empty function in the kernel's place."""
         return self._call(case, np.zeros(self._n_state), command_step.step)
 
-    def _call(self, case: Case, state: Any, step: Any) -> Callable[[], object]:
+    def _call(self, case: ChartCase, state: Any, step: Any) -> Callable[[], object]:
         first, *others = case.point
         points = [np.array((first * (1.0 + s * 0.5 * STEP), *others)) for s in (-1.0, 1.0)]
         par, work, out, iout = self._par, self._work, self._out, self._iout
@@ -139,7 +139,7 @@ class Method2006:
         nodes = settings.get("grid", (9, 67))
         self._nodes = nodes[0] * nodes[1]
 
-    def solve(self, case: Case) -> MethodAnswer:
+    def solve(self, case: ChartCase) -> MethodAnswer:
         """Solve a case, warm at the last."""
         washer, status = self._at(case)
         values = {
@@ -148,13 +148,13 @@ class Method2006:
         }  # fmt: skip
         return MethodAnswer(values, status, float(washer.sweeps * self._nodes))
 
-    def _at(self, case: Case) -> tuple[Any, Status]:
+    def _at(self, case: ChartCase) -> tuple[Any, Status]:
         washer, status = self._make(), Status.OK
         for point in path_to(case):
             status = washer.solve(*point)
         return washer, status
 
-    def warm(self, case: Case) -> Callable[[], object]:
+    def warm(self, case: ChartCase) -> Callable[[], object]:
         """Return a call that goes back and forth over one per cent of the load."""
         washer, _ = self._at(case)
         load, *others = case.point
@@ -167,7 +167,7 @@ class Method2006:
 
         return call
 
-    def idle(self, case: Case) -> None:
+    def idle(self, case: ChartCase) -> None:
         """Return nothing: a call from Python is nothing beside a solve."""
 
 
@@ -182,7 +182,7 @@ class ClutchMethod:
         self._work = np.zeros(clutch_step.NWORK)
         self._out, self._iout = np.empty(clutch_step.NOUT), np.zeros(clutch_step.NIOUT, np.int32)
 
-    def _inputs(self, case: Case) -> Any:
+    def _inputs(self, case: ChartCase) -> Any:
         """Return force, slip and oil temperature at all points (n + 1, 3)."""
         time, force, slip = engagement_corners(*case.point[:2])
         t = self._h * np.arange(self._n + 1)
@@ -200,7 +200,7 @@ class ClutchMethod:
             status, int(step(par, inputs[-1], state, work, out, iout, TIMES[-1], LEAST_STEP))
         )
 
-    def solve(self, case: Case) -> MethodAnswer:
+    def solve(self, case: ChartCase) -> MethodAnswer:
         """Engage once."""
         status = self._engage(self._inputs(case), clutch_step.step)
         values = {
@@ -209,12 +209,12 @@ class ClutchMethod:
         }
         return MethodAnswer(values, Status(status), float(self._n))
 
-    def warm(self, case: Case) -> Callable[[], object]:
+    def warm(self, case: ChartCase) -> Callable[[], object]:
         """Return a call that engages once."""
         inputs = self._inputs(case)
         return lambda: self._engage(inputs, clutch_step.step)
 
-    def idle(self, case: Case) -> Callable[[], object]:
+    def idle(self, case: ChartCase) -> Callable[[], object]:
         """Return the same with an empty step."""
         inputs = self._inputs(case)
         return lambda: self._engage(inputs, command_step.step)

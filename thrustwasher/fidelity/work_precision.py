@@ -15,7 +15,7 @@ from typing import Any
 
 from ..errors import ParameterError, Status
 from ..rivals.plain2006 import Plain2006
-from .chart_cases import Case, cases_of, digest
+from .chart_cases import ChartCase, cases_of, digest
 from .chart_series import CHARTS, Configuration, Quantity, series_of
 from .costs import REPEATS, Timing, time_call
 from .methods import KernelMethod, Method, MethodAnswer
@@ -62,7 +62,7 @@ class Sample:
 
 
 def measure(
-    setting: Configuration, cases: Sequence[Case], known: Sequence[ReferenceValues],
+    setting: Configuration, cases: Sequence[ChartCase], known: Sequence[ReferenceValues],
     quantities: Sequence[Quantity], *, repeats: int = REPEATS,
 ) -> Sample:  # fmt: skip
     """Return error and cost of a method at a setting over the cases."""
@@ -100,7 +100,7 @@ def measure(
     )  # fmt: skip
 
 
-def _ask(method: Method, case: Case) -> tuple[MethodAnswer | None, str]:
+def _ask(method: Method, case: ChartCase) -> tuple[MethodAnswer | None, str]:
     """Return the answer and what is wrong with it, if anything."""
     try:
         answer = method.solve(case)
@@ -113,7 +113,7 @@ def _ask(method: Method, case: Case) -> tuple[MethodAnswer | None, str]:
     return answer, ""
 
 
-def _time(method: Method, cases: Sequence[Case], repeats: int) -> dict[str, Timing]:
+def _time(method: Method, cases: Sequence[ChartCase], repeats: int) -> dict[str, Timing]:
     """Return the cost of a warm call of each case.
 
     It is that of the compiled code, as in an FMU: what the call from Python adds is taken off.
@@ -212,9 +212,9 @@ def whole_curve(*, quick: bool = False) -> dict[str, float]:
     whole = time.perf_counter() - began
     ours = KernelMethod(spec_of("washer"), "field")
     points = tuple((float(load), 545.0, 2e-3, 297.15) for load in loads)
-    ours.solve(Case("curve", points[-1], points[:-1]))
+    ours.solve(ChartCase("curve", points[-1], points[:-1]))
     began = time.perf_counter()
-    ours.solve(Case("curve", points[-1], points[:-1]))
+    ours.solve(ChartCase("curve", points[-1], points[:-1]))
     return {
         "points": len(loads), "first_step_2006_s": first, "curve_2006_s": whole,
         "curve_field_s": time.perf_counter() - began, "first_step_then_s": 1800.0,

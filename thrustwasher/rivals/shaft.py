@@ -1,6 +1,6 @@
 """An undamped shaft that swings for many steps, and who keeps its energy.
 
-J x'' = -k x. Each method returns the energy at the end over that at the start, which is 1 in truth.
+J x'' = -k x. Each method returns the energy at the end over that at the start, which ought to be 1.
 The shaft's torque k x is what two parts of a co-simulation hand to each other.
 """
 

@@ -17,7 +17,7 @@ from thrustwasher.drivetrain.shift import run_shift
 from thrustwasher.drivetrain.stability_masters import masters
 from thrustwasher.fidelity.stability_cells import OK, SAYS, SLOW
 from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.reference.engagement import reduced_inertia
+from thrustwasher.reference.lock_up import reduced_inertia
 
 
 def instances(scene):

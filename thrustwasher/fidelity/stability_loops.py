@@ -64,7 +64,7 @@ def closed_forms() -> Group:
     """Judge closed forms at the ends of their ranges, as printed and as the package has them."""
     from ..kernels.lumped_body import exponential_weights
     from ..kernels.washer_wedge import lift
-    from ..reference.narrow_ring import narrow_ring_load
+    from ..reference.thin_film import narrow_ring_load
 
     def printed(tilt: float) -> float:
         largest = GAP + tilt * (RIM + RADIUS - 0.5 * WIDTH)

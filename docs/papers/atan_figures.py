@@ -20,13 +20,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.reference.film_heating import film_rise, sheared_heat, surface_rise
 from thrustwasher.reference.flash_temperature import (
     ELLIPTIC,
     Body,
     blok_flash,
+    film_rise,
     iso_flash,
     pinion_flash,
+    sheared_heat,
+    surface_rise,
 )
 from thrustwasher.reference.involute_mesh import Mesh, flanks_at, line_load, start_of_contact
 from thrustwasher.reference.line_contact import compliance, full_width

@@ -16,7 +16,7 @@ from thrustwasher.drivetrain.oscillation.torsion import (
     torsional_mode,
 )
 from thrustwasher.models.clutch import solve_clutch
-from thrustwasher.reference.torsion import damping_limit, planetary
+from thrustwasher.reference.torsional_stability import damping_limit, planetary
 
 SHORT = {"stop_time": 0.65}  # the swing is still small
 

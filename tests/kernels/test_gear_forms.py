@@ -5,7 +5,6 @@ import math
 import pytest
 
 from thrustwasher.kernels import gear_contact, gear_point
-from thrustwasher.reference import gear_friction as friction_forms
 from thrustwasher.reference import line_contact, thermal_fatigue
 
 E, NU = 205e9, 0.3
@@ -43,13 +42,13 @@ def test_li_seireg_friction_at_a_checked_point_and_its_limits():
     for roughness, thick in ((4.5e-5, 0.0953), (1.5e-5, 0.0542)):
         found = gear_contact.li_seireg(1.0, 0.01, 0.12, roughness)
         assert found == pytest.approx(thick, abs=5e-5)
-    wanted = friction_forms.li_seireg(4e-4, 2e-5, 0.1)
+    wanted = line_contact.li_seireg(4e-4, 2e-5, 0.1)
     assert gear_contact.li_seireg(4e-6, 0.01, 0.1, 2e-5) == pytest.approx(wanted, rel=1e-14)
 
 
 def test_iso_friction_is_the_published_power_law_up_to_the_coefficient_without_film():
     args = (9423.0, 10.43, 0.0193, 0.2386, 1.6e-6)
-    wanted = friction_forms.iso_mean(*args)
+    wanted = line_contact.iso_mean(*args)
     assert gear_contact.iso_mean(*args, 0.12) == pytest.approx(wanted, rel=1e-13)
     assert gear_contact.iso_mean(9423.0, 1e-9, 0.0193, 0.2386, 1.6e-6, 0.12) == 0.12
     assert gear_contact.iso_mean(*args, 0.0) == 0.0

@@ -13,7 +13,7 @@ from thrustwasher.kernels import transmission_layout as L
 from thrustwasher.kernels import transmission_step as k
 from thrustwasher.models._params import as_numbers
 from thrustwasher.models.transmission_params import SPEC, TransmissionParams
-from thrustwasher.reference.engagement import engagement, reduced_inertia
+from thrustwasher.reference.lock_up import engagement, reduced_inertia
 from thrustwasher.reference.planetary import pitch_radius, planet_forces
 
 

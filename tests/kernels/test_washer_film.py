@@ -10,9 +10,12 @@ from thrustwasher.kernels.washer_film import evaluate_film, film_residual, film_
 from thrustwasher.kernels.washer_gap import evaluate_gaps, evaluate_viscosity
 from thrustwasher.kernels.washer_layout import AT_FIXED, RING
 from thrustwasher.kernels.washer_workspace import Point
-from thrustwasher.reference.couette import couette_torque
-from thrustwasher.reference.narrow_ring import narrow_ring_load
-from thrustwasher.reference.thin_wedge import wedge_moment, wedge_pressure
+from thrustwasher.reference.thin_film import (
+    couette_torque,
+    narrow_ring_load,
+    wedge_moment,
+    wedge_pressure,
+)
 
 from washer_setup import BASE, bench, order, tilted  # isort: skip
 

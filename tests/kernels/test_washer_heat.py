@@ -8,8 +8,7 @@ from thrustwasher.kernels.washer_gap import dry_friction, evaluate_gaps, evaluat
 from thrustwasher.kernels.washer_heat import factor_heat, heat_residual, heat_slopes, solve_heat
 from thrustwasher.kernels.washer_newton import evaluate
 from thrustwasher.kernels.washer_workspace import Point
-from thrustwasher.reference.annulus_heat import annulus_rise
-from thrustwasher.reference.heat_stack import stack_rise
+from thrustwasher.reference.heated_ring import annulus_rise, stack_rise
 
 from washer_setup import BASE, Bench, bench, full_gear, order, settle, tilted  # isort: skip
 

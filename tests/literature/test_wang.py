@@ -18,7 +18,7 @@ from thrustwasher.models.clutch_friction import (
     friction_radius,
     law_values,
 )
-from thrustwasher.reference.braking_average import braking_average
+from thrustwasher.reference.heated_plate import braking_average
 
 INNER, OUTER = 0.0325, 0.0425  # m, Fig. 12
 SAMPLE = ClutchParams(inner_radius=INNER, outer_radius=OUTER)

@@ -9,17 +9,18 @@ import numpy as np
 import pytest
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.reference.film_heating import film_rise, sheared_heat, surface_rise
 from thrustwasher.reference.flash_temperature import (
     ELLIPTIC,
     Body,
     atan_flash,
     blok_flash,
     even_share,
+    film_rise,
     pinion_flash,
+    sheared_heat,
+    surface_rise,
 )
-from thrustwasher.reference.gear_friction import iso_mean, li_seireg
-from thrustwasher.reference.greenwood_williamson import real_area_share
+from thrustwasher.reference.greenwood import real_area_share
 from thrustwasher.reference.involute_mesh import (
     Flanks,
     Mesh,
@@ -27,16 +28,19 @@ from thrustwasher.reference.involute_mesh import (
     flanks_at,
     least_pinion_teeth,
     line_load,
+    loss_factor,
+    path_of_contact,
     start_of_contact,
 )
 from thrustwasher.reference.line_contact import (
     compliance,
     dowson_higginson,
     full_width,
+    iso_mean,
+    li_seireg,
     peak_pressure,
     vogel_viscosity,
 )
-from thrustwasher.reference.mesh_loss import loss_factor, path_of_contact
 from thrustwasher.reference.thermal_fatigue import (
     Endurance,
     allowable_ratio,

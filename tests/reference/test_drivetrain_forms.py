@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from thrustwasher.reference.engagement import engagement, reduced_inertia
-from thrustwasher.reference.gear_shift import speed_against_quadratic_load
+from thrustwasher.reference.lock_up import engagement, reduced_inertia, speed_against_quadratic_load
 from thrustwasher.reference.planetary import (
     can_be_assembled,
     pitch_radius,

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from thrustwasher.reference.film_heating import film_rise, sheared_heat, surface_rise
 from thrustwasher.reference.flash_temperature import (
     ELLIPTIC,
     EVEN,
@@ -17,14 +16,11 @@ from thrustwasher.reference.flash_temperature import (
     blok_flash,
     deep_body_rise,
     even_share,
+    film_rise,
     iso_flash,
     pinion_flash,
-)
-from thrustwasher.reference.gear_friction import (
-    LARGEST_ROUGHNESS,
-    LEAST_ROUGHNESS,
-    iso_mean,
-    li_seireg,
+    sheared_heat,
+    surface_rise,
 )
 from thrustwasher.reference.involute_mesh import (
     Mesh,
@@ -33,7 +29,15 @@ from thrustwasher.reference.involute_mesh import (
     line_load,
     start_of_contact,
 )
-from thrustwasher.reference.line_contact import compliance, full_width, peak_pressure
+from thrustwasher.reference.line_contact import (
+    LARGEST_ROUGHNESS,
+    LEAST_ROUGHNESS,
+    compliance,
+    full_width,
+    iso_mean,
+    li_seireg,
+    peak_pressure,
+)
 from thrustwasher.reference.thermal_fatigue import (
     CONTACT,
     Endurance,

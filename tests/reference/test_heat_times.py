@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from thrustwasher.reference.heat_times import stack_times
+from thrustwasher.reference.heated_ring import stack_times
 
 STEEL = 60.5, 7850.0 * 475.0
 

@@ -13,11 +13,13 @@ from thrustwasher.reference.involute_mesh import (
     flanks_at,
     least_pinion_teeth,
     line_load,
+    loss_factor,
+    ohlendorf_factor,
+    path_of_contact,
     pinion_radius,
     start_of_contact,
     tooth_module,
 )
-from thrustwasher.reference.mesh_loss import loss_factor, ohlendorf_factor, path_of_contact
 
 PHI = math.radians(20.0)
 MESHES = [Mesh(m, n, 0.254, PHI) for m, n in product((1.0, 2.0, 5.0, 8.0), (18, 20, 30, 60))]

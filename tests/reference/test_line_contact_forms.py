@@ -6,14 +6,15 @@ import mpmath as mp
 import pytest
 from scipy.integrate import quad
 
-from thrustwasher.reference.greenwood_tripp import two_sided_area_share, two_sided_pressure
-from thrustwasher.reference.greenwood_williamson import (
+from thrustwasher.reference.greenwood import (
     elastic_pressure,
     first_moment,
     height_moment,
     real_area_share,
     second_moment,
     tail_share,
+    two_sided_area_share,
+    two_sided_pressure,
 )
 from thrustwasher.reference.line_contact import (
     compliance,

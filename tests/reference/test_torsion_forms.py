@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.reference.engagement import reduced_inertia
-from thrustwasher.reference.torsion import (
+from thrustwasher.reference.lock_up import reduced_inertia
+from thrustwasher.reference.torsional_stability import (
     Mobility,
     characteristic,
     damping_limit,

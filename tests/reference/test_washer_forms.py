@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from thrustwasher.reference.annulus_heat import annulus_rise
-from thrustwasher.reference.couette import couette_torque
-from thrustwasher.reference.greenwood_williamson import elastic_pressure, height_integral
-from thrustwasher.reference.heat_stack import stack_rise
-from thrustwasher.reference.narrow_ring import narrow_ring_load
-from thrustwasher.reference.thin_wedge import wedge_moment, wedge_pressure
+from thrustwasher.reference.greenwood import elastic_pressure, height_integral
+from thrustwasher.reference.heated_ring import annulus_rise, stack_rise
+from thrustwasher.reference.thin_film import (
+    couette_torque,
+    narrow_ring_load,
+    wedge_moment,
+    wedge_pressure,
+)
 
 RI, RO, K = 0.0111, 0.0227, 60.5
 

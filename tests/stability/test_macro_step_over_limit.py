@@ -16,7 +16,7 @@ from thrustwasher.drivetrain.macro_steps import Way, masters, scene_of
 from thrustwasher.drivetrain.run import run_shift
 from thrustwasher.fidelity.failure_cells import OK, SAYS, SLOW
 from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.reference.engagement import reduced_inertia
+from thrustwasher.reference.lock_up import reduced_inertia
 
 
 def instances(scene):

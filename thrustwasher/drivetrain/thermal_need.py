@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models.washer_params import WasherParams
-from ..reference.heat_times import stack_times
+from ..reference.heated_ring import stack_times
 from .scene.scene import Scene
 
 SLOW = 5.0  # a change that takes so many of the slowest time constants is followed by steady states

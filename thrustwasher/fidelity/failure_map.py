@@ -17,7 +17,7 @@ from ..errors import Status
 from ..kernels.gear_heat import surface_temperature
 from ..kernels.lumped_body import exponential_weights
 from ..kernels.washer_wedge import lift
-from ..reference.narrow_ring import narrow_ring_load
+from ..reference.thin_film import narrow_ring_load
 from ..rivals import cavitation as films
 from ..rivals import heat_loop as loops
 from ..rivals import lockup

@@ -10,12 +10,12 @@ from . import transmission_dynamics as dynamics
 from . import transmission_layout as L
 from ._jit import Array, kernel
 from .status import BAD_INPUT, NOT_FINITE, OK, STALLED
-from .transmission_directional_derivative import LEAST_WASHER_LOAD
+from .transmission_directional_derivative import LEAST_WASHER_LOAD, directional_derivative
 from .transmission_integrate_step import is_at_rest, run
 
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
-derive, broken_rule = dynamics.derive, dynamics.broken_rule
+derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
 
 
 @kernel

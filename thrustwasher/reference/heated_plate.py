@@ -1,4 +1,4 @@
-"""A steel plate heated by a constant flux on its face, in closed form."""
+"""A friction plate: heated by a constant flux on its face; average friction of a braking."""
 
 import math
 
@@ -26,3 +26,29 @@ def insulated_plate_rise(
     total = sum(math.exp(-n * n * pace) / (n * n) for n in range(1, 4000) if n * n * pace < 700.0)
     mean = flux * time / (density * heat_capacity * thickness)
     return mean + flux * thickness / conductivity * (1.0 / 3.0 - 2.0 / math.pi**2 * total)
+
+
+def braking_average(
+    at_rest: float, at_speed: float, stick_speed: float, decay_speed: float, fastest: float
+) -> float:
+    """Return the average coefficient [-] of a mass braked from ``fastest`` [m/s] to rest.
+
+    A rig divides J w0/t, the mean torque over time, by force, radius and number of faces. With a
+    constant force dt = -J dw/(mu F r n), so that this is the harmonic mean of mu over speed.
+
+    Parameters
+    ----------
+    at_rest, at_speed : coefficient up to ``stick_speed`` and at very high slip, above 0
+    stick_speed, decay_speed : the coefficient falls as exp(-(v - stick_speed)/decay_speed) [m/s]
+    fastest : speed at the start [m/s], above 0
+
+    Notes
+    -----
+    Derived here: int dv/(a + b exp(-v/s)) = (v + s ln(a + b exp(-v/s)))/a.
+    """
+    if fastest <= stick_speed:
+        return at_rest
+    beyond = fastest - stick_speed
+    end = at_speed + (at_rest - at_speed) * math.exp(-beyond / decay_speed)
+    falling = (beyond + decay_speed * math.log(end / at_rest)) / at_speed
+    return fastest / (stick_speed / at_rest + falling)

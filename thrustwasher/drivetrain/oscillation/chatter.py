@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...reference.torsion import planetary
+from ...reference.torsional_stability import planetary
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 

@@ -89,7 +89,7 @@ def damping_limit_of(
     """Return the damping of the shaft [N m s/rad] at which the mode neither grows nor decays.
 
     0 if no damping is needed. For one slipping pack with the other open and no load there is a
-    closed form (``reference.torsion``).
+    closed form (``reference.torsional_stability``).
     """
 
     def grows(damping: float) -> bool:

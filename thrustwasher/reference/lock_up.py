@@ -1,5 +1,6 @@
-"""Two inertias locked together by a clutch of constant capacity, in closed form."""
+"""Two inertias locked together by a clutch, and the first gear of Modelica's SimpleGearShift."""
 
+import math
 from typing import NamedTuple
 
 
@@ -46,3 +47,17 @@ def reduced_inertia(ratio: float, sun: float, ring: float, carrier: float) -> fl
     coupling = ratio / ring - 1.0 / sun
     stiff = 1.0 / sun + ratio**2 / ring + (1.0 + ratio) ** 2 / carrier
     return 1.0 / (1.0 / sun + 1.0 / ring - coupling**2 / stiff)
+
+
+def speed_against_quadratic_load(
+    time: float, torque: float, load_torque: float, load_speed: float,
+    inertia: float, output_inertia: float, ratio: float,
+) -> float:  # fmt: skip
+    """Return the input speed [rad/s] ``time`` s after a constant torque is applied at rest.
+
+    A gear of the given ratio drives the output with inertia and a load that grows with the square
+    of its speed: (J + J_out/i^2) w' = T - load_torque/i (w/(i load_speed))^2, so w is a tanh.
+    """
+    total = inertia + output_inertia / ratio**2
+    drag = load_torque / ratio / (ratio * load_speed) ** 2
+    return math.sqrt(torque / drag) * math.tanh(time * math.sqrt(torque * drag) / total)

@@ -6,7 +6,7 @@ from dataclasses import fields
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
-from thrustwasher.kernels.washer_layout import N_PARAM
+from thrustwasher.kernels import washer_layout
 from thrustwasher.models._params import as_numbers
 from thrustwasher.models.washer_params import SPEC
 
@@ -73,7 +73,10 @@ def test_an_unknown_parameter_is_refused():
 
 
 def test_fields_fill_the_kernels_parameters_in_order():
-    assert len(as_numbers(WasherParams())) == N_PARAM - 1
+    names = [f"P_{f.name.upper()}" for f in FIELDS] + ["P_FIDELITY"]
+    assert [n for n in vars(washer_layout) if n.startswith("P_")] == names
+    assert [getattr(washer_layout, n) for n in names] == list(range(washer_layout.N_PARAM))
+    assert len(as_numbers(WasherParams())) == len(names) - 1
     numbers = as_numbers(WasherParams(friction_law="constant", conduction="rotating"))
     names = [f.name for f in FIELDS]
     assert numbers[names.index("friction_law")] == 2.0

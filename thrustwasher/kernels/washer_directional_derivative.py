@@ -26,6 +26,7 @@ from .washer_workspace import (
     copy,
     fields_of,
     model_of,
+    negate,
     square,
     vector,
 )
@@ -64,9 +65,9 @@ def _add_slopes(f: Fields, dq: Array, dtemp: Array) -> None:
 
 
 @kernel
-def _negate(a: Array) -> None:
+def _add(to: Array, share: float, a: Array) -> None:
     for k in range(a.size):
-        a[np.uintp(k)] = -a[np.uintp(k)]
+        to[np.uintp(k)] += share * a[np.uintp(k)]
 
 
 @kernel
@@ -95,7 +96,7 @@ def _start(m: WasherModel, pt: Point, change: Point, f: Fields, dtemp: Array, he
     moved = abs(change.speed) + abs(change.tilt) + abs(change.oil_temperature)
     if moved > 0.0:
         heat_change(m, pt, change, dq, dtemp, f, heat)
-        _negate(heat)
+        negate(heat)
         solve_heat(m, heat, dtemp, f)
     forces_by_heat(m, dtemp, f, dq)
     for a in range(4):
@@ -109,7 +110,7 @@ def _start(m: WasherModel, pt: Point, change: Point, f: Fields, dtemp: Array, he
         return SINGULAR
     _add_slopes(f, dq, dtemp)
     heat_change(m, pt, change, dq, dtemp, f, heat)
-    _negate(heat)
+    negate(heat)
     return OK
 
 
@@ -128,27 +129,23 @@ def _refine(m: WasherModel, pt: Point, f: Fields, dtemp: Array, heat: Array, eno
         f.small[L.ROUNDS] += 1.0
         solve_heat(m, heat, f.dtemp, f)
         forces_by_heat(m, f.dtemp, f, step)
-        _negate(step)
+        negate(step)
         if not _follow(m, f, step):
             return SINGULAR
         _add_slopes(f, step, f.dtemp)
         heat_change(m, pt, none, step, f.dtemp, f, gain)
         if old_square > 0.0:
             share = _dot(gain, old_gain) / old_square
-            for k in range(n):
-                f.dtemp[np.uintp(k)] -= share * old[np.uintp(k)]
-                gain[np.uintp(k)] -= share * old_gain[np.uintp(k)]
-            for a in range(4):
-                step[a] -= share * before[a]
+            _add(f.dtemp, -share, old)
+            _add(gain, -share, old_gain)
+            _add(step, -share, before)
         old_square = _dot(gain, gain)
         if not old_square > 0.0:
             return MAX_ITERATIONS
         share = _dot(gain, heat) / old_square
-        for k in range(n):
-            dtemp[np.uintp(k)] += share * f.dtemp[np.uintp(k)]
-            heat[np.uintp(k)] -= share * gain[np.uintp(k)]
-        for a in range(4):
-            dq[a] += share * step[a]
+        _add(dtemp, share, f.dtemp)
+        _add(heat, -share, gain)
+        _add(dq, share, step)
         copy(f.dtemp, old)
         copy(gain, old_gain)
         copy(step, before)

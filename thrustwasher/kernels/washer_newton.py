@@ -37,9 +37,11 @@ from .washer_workspace import (
     Fields,
     Point,
     Workspace,
+    clear,
     copy,
     fields_of,
     model_of,
+    negate,
     square,
     vector,
 )
@@ -306,9 +308,8 @@ def newton(
         before = error
         # a change of load alone leaves the heat balanced: no step at fixed positions then
         balanced = lost < tolerance * max(flow, 1e-2)
-        for k in range(f.heat.size):
-            f.heat[np.uintp(k)] = -f.heat[np.uintp(k)]
-            f.dtemp[np.uintp(k)] = 0.0
+        negate(f.heat)
+        clear(f.dtemp)
         if not balanced:
             solve_heat(m, f.heat, f.dtemp, f)
         if not film_solve(m, f.p, f):

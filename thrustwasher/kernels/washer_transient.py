@@ -8,8 +8,6 @@ stage everything is solved for together, as in the steady state, which is the li
 
 import math
 
-import numpy as np
-
 from . import washer_layout as L
 from ._jit import Array, inlined, kernel
 from .status import MAX_ITERATIONS, NO_BRANCH, OK
@@ -95,13 +93,12 @@ def _arrive(w: Workspace, pt: Point) -> int:
 def _set_stage(w: Workspace, stage: int) -> None:
     """Set what the stage's storage counts from, and a guess of where it ends."""
     f = fields_of(w)
-    for k in range(f.temp.size):
-        start = f.begin[np.uintp(k)]
-        gain = f.temp[np.uintp(k)] - start
-        f.past[np.uintp(k)] = start
-        if stage == 1:
-            f.past[np.uintp(k)] += AHEAD * gain
-            f.temp[np.uintp(k)] = f.past[np.uintp(k)] + gain
+    copy(f.begin, f.past)
+    if stage == 1:
+        for k in range(f.temp.size):
+            gain = f.temp[k] - f.begin[k]
+            f.past[k] += AHEAD * gain
+            f.temp[k] = f.past[k] + gain
 
 
 @kernel
@@ -113,10 +110,9 @@ def _error(w: Workspace) -> float:
     f = fields_of(w)
     error, largest = 0.0, 0.0
     for k in range(f.temp.size):
-        past = f.past[np.uintp(k)]
-        first = (past - f.begin[np.uintp(k)]) / AHEAD
-        error = max(error, abs(f.temp[np.uintp(k)] - past - first))
-        largest = max(largest, abs(f.temp[np.uintp(k)]))
+        first = (f.past[k] - f.begin[k]) / AHEAD
+        error = max(error, abs(f.temp[k] - f.past[k] - first))
+        largest = max(largest, abs(f.temp[k]))
     return float(error / (ATOL + RTOL * largest))
 
 
@@ -171,7 +167,7 @@ def take_up(w: Workspace, pt: Point, state: Array) -> None:
     warmer = pt.oil_temperature - state[L.S_OIL]
     if warmer != 0.0:
         for k in range(f.temp.size):
-            f.temp[np.uintp(k)] -= warmer
+            f.temp[k] -= warmer
 
 
 @kernel

@@ -138,6 +138,13 @@ def clear(a: Array) -> None:
 
 
 @kernel
+def negate(a: Array) -> None:
+    """Turn the signs of all numbers."""
+    for k in range(a.size):
+        a[np.uintp(k)] = -a[np.uintp(k)]
+
+
+@kernel
 def fields_of(w: Workspace) -> Fields:
     """Return the work by name; the arrays are views."""
     par, work = w.par, w.work

@@ -45,12 +45,9 @@ def slip_figure(result: Any, point: Mapping[str, Any], params: ClutchParams) -> 
 
 @styled
 def clutch_figure(
-    speeds: Sequence[float],
-    sweep: Sequence[Any],
-    result: Any,
-    point: Mapping[str, float],
+    speeds: Sequence[float], sweep: Sequence[Any], result: Any, point: Mapping[str, float],
     ploughing: float | None = None,
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Return shear ratio, coefficient and torque over slip, with the operating point marked.
 
     Parameters

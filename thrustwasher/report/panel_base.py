@@ -11,15 +11,9 @@ SHADES = ("#F1F1F1", "#FFF3D9", "#E2F0FA", "#E3F4EC", "#F7E9F1")
 
 
 def draw(
-    axis: Axes,
-    record: Record,
-    name: str,
-    words: str,
-    colour: str,
-    dashes: str = "-",
-    zero: float = 0.0,
-    width: float | None = None,
-) -> float:
+    axis: Axes, record: Record, name: str, words: str, colour: str, dashes: str = "-",
+    zero: float = 0.0, width: float | None = None,
+) -> float:  # fmt: skip
     """Draw a signal if the run has it; return its largest value."""
     values = record.series(name)
     if values is None:

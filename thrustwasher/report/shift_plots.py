@@ -12,11 +12,9 @@ from .style import styled, time_figure
 
 @styled
 def _drawn(
-    record: Record,
-    height: float,
-    *draw: Callable[[Axes, Record], object],
+    record: Record, height: float, *draw: Callable[[Axes, Record], object],
     shares: tuple[float, ...] = (1.0,),
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Return panels over each other, whose heights have the given shares."""
     figure, axes = time_figure(height, len(draw), shares)
     for draw_one, axis in zip(draw, axes, strict=True):

@@ -5,22 +5,11 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from ..units import format_quantity as say
-from . import summary, tables
+from . import shift_plots, summary, tables
 from .findings import TITLES, judder_words
 from .html import Card, Page, Plot, Section
 from .moments import Moment, highest, solve_moment, worst_film
 from .rung_section import rung_sections
-from .shift_plots import (
-    energy_figure,
-    film_figure,
-    friction_figure,
-    judder_figure,
-    speed_figure,
-    stress_figure,
-    temperature_figure,
-    torque_figure,
-    washer_figure,
-)
 from .shift_record import Record
 from .trust import trust_texts
 from .washer_plots import field_figure
@@ -32,19 +21,17 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
     """Return the whole report of a finished shift."""
     sections = [
         *_course_sections(record),
-        *_drawn(
-            "temperatures", "Temperatures", temperature_figure(record), _temperature_caption(record)
-        ),
-        *_drawn("films", "Film ratios", film_figure(record), FILM_CAPTION, "film_ratios"),
+        *_drawn("temperatures", "Temperatures", shift_plots.temperature_figure(record),
+                _temperature_caption(record)),
+        *_drawn("films", "Film ratios", shift_plots.film_figure(record), FILM_CAPTION,
+                "film_ratios"),
         *_friction_sections(record),
         *_judder_sections(record),
         *_washer_sections(record),
-        *_drawn("stress", "The gear teeth", stress_figure(record), STRESS_CAPTION, "tooth_stress"),
-        *_drawn(
-            "energy", "Energy", energy_figure(record),
-            "Integrated by the driveline itself inside its steps.",
-            tables=[tables.energy_table(record)],
-        ),
+        *_drawn("stress", "The gear teeth", shift_plots.stress_figure(record), STRESS_CAPTION,
+                "tooth_stress"),
+        *_drawn("energy", "Energy", shift_plots.energy_figure(record), ENERGY_CAPTION,
+                tables=[tables.energy_table(record)]),
         Section("key-figures", "Key figures", tables=[tables.key_table(record)]),
         *rung_sections(record),
         _cost_section(record),
@@ -72,6 +59,7 @@ SPEED_CAPTION = "Shaded: the phases of the shift. Dotted and numbered: what happ
 TORQUE_CAPTION = (
     "A pack that is stuck transmits what the balance needs, which is less than it could hold."
 )
+ENERGY_CAPTION = "Integrated by the driveline itself inside its steps."
 FRICTION_CAPTION = (
     "The mean is torque over time by load, mean radius and faces over time: under constant load "
     "the harmonic mean over speed, which a braking time measures."
@@ -101,15 +89,15 @@ def _drawn(
 
 def _course_sections(record: Record) -> list[Section]:
     """Return speeds and torques; a shift that is short within the run also enlarged."""
-    speeds = [Plot("speeds", speed_figure(record), SPEED_CAPTION)]
-    torques = [Plot("torques", torque_figure(record), TORQUE_CAPTION)]
+    speeds = [Plot("speeds", shift_plots.speed_figure(record), SPEED_CAPTION)]
+    torques = [Plot("torques", shift_plots.torque_figure(record), TORQUE_CAPTION)]
     lock, first, last = record.figures["lock_time"], record.time[0], record.time[-1]
     if lock is not None and lock - record.ramp_start < SHORT * (last - first):
         taken = lock - record.ramp_start
         part = record.window(record.ramp_start - 0.3 * taken, lock + 0.6 * taken)
         caption = "The shift itself, enlarged."
-        speeds.append(Plot("speeds_enlarged", speed_figure(part), caption))
-        torques.append(Plot("torques_enlarged", torque_figure(part), caption))
+        speeds.append(Plot("speeds_enlarged", shift_plots.speed_figure(part), caption))
+        torques.append(Plot("torques_enlarged", shift_plots.torque_figure(part), caption))
     return [Section("speeds", "Speeds", plots=speeds), Section("torques", "Torques", plots=torques)]
 
 
@@ -151,7 +139,7 @@ def _temperature_caption(record: Record) -> str:
 
 def _friction_sections(record: Record) -> list[Section]:
     """Return friction against slip, and what the scene's source says beside this run."""
-    figure, title = friction_figure(record), f"Friction of the {record.engaging}"
+    figure, title = shift_plots.friction_figure(record), f"Friction of the {record.engaging}"
     if not record.published:
         return _drawn("friction", title, figure, FRICTION_CAPTION)
     return [Section(
@@ -167,14 +155,14 @@ def _judder_sections(record: Record) -> list[Section]:
         return []
     caption = "Between the dashed lines the swing was small enough to judge its growth."
     return _drawn(
-        "judder", TITLES[record.judder.kind], judder_figure(record), caption,
+        "judder", TITLES[record.judder.kind], shift_plots.judder_figure(record), caption,
         texts=[judder_words(record)], tables=[tables.judder_table(record)],
     )  # fmt: skip
 
 
 def _washer_sections(record: Record) -> list[Section]:
     """Return the washer's load and its fields at the worst and at the hottest moment."""
-    figure = washer_figure(record)
+    figure = shift_plots.washer_figure(record)
     if figure is None:
         return []
     plots = [Plot("washer_load", figure, LOAD_CAPTION)]

@@ -25,18 +25,9 @@ def styled(function: F) -> F:
 
 
 def new_figure(
-    width: float,
-    height: float,
-    rows: int = 1,
-    columns: int = 1,
-    *,
-    head: int = 0,
-    foot: int = 0,
-    left: float = LEFT,
-    right: float = RIGHT,
-    top: float = TOP,
-    **options: Any,
-) -> tuple[Figure, list[Axes]]:
+    width: float, height: float, rows: int = 1, columns: int = 1, *, head: int = 0, foot: int = 0,
+    left: float = LEFT, right: float = RIGHT, top: float = TOP, **options: Any,
+) -> tuple[Figure, list[Axes]]:  # fmt: skip
     """Return a figure [inch] and its axes row by row; margins and gaps are fixed lengths.
 
     Parameters

@@ -142,17 +142,13 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
     """
     figure, axes = new_figure(10.0, 7.6, 2, 2, head=2, foot=1)
     panels = (
-        ("film_ratio", "Film ratio: how much film is left", f"film ratio h/{SIGMA} [1]", 0.0),
-        ("friction_torque", "Friction torque", "friction torque [N·m]", 0.0),
-        ("temperature", "Mean film temperature", "temperature [°C]", CELSIUS),
-        (
-            "friction_coefficient",
-            "Friction coefficient (Stribeck)",
-            "friction coefficient [1]",
-            0.0,
-        ),
+        ("film_ratio", "Film ratio: how much film is left", f"film ratio h/{SIGMA} [1]"),
+        ("friction_torque", "Friction torque", "friction torque [N·m]"),
+        ("temperature", "Mean film temperature", "temperature [°C]"),
+        ("friction_coefficient", "Friction coefficient (Stribeck)", "friction coefficient [1]"),
     )
-    for axis, (name, title, up, zero) in zip(axes, panels, strict=True):
+    for axis, (name, title, up) in zip(axes, panels, strict=True):
+        zero = CELSIUS if name == "temperature" else 0.0
         _draw_branches(axis, curve.points, name, zero)
         _draw_folds(axis, curve.folds, curve.points, name, zero)
         label(axis, title, "load [N]", up)

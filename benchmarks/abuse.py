@@ -32,12 +32,12 @@ import files
 
 from thrustwasher.cli._fmu_cache import fmu_paths
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.loading import description, unpack
-from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.model_kernels import find_spec
+from thrustwasher.fmu.running.loading import description, unpack
 from thrustwasher.fmu.stepper import DirectInstance, Instance
-from thrustwasher.kernels._jit import kernel_digest
-from thrustwasher.maps.plan import DEFAULT_BOX
+from thrustwasher.numerics.jit import kernel_digest
+from thrustwasher.washer.map.map_plan import DEFAULT_BOX
 
 HERE = Path(__file__)
 KINDS = ("native-fmi2", "native-fmi3", "python-fmi2")

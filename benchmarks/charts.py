@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from thrustwasher.fidelity.pareto import Sampled, beats, front
+from thrustwasher.study.charts.pareto import Sampled, beats, front
 
 
 def studies(record: dict[str, Any]) -> dict[str, dict[str, Any]]:

@@ -18,11 +18,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from thrustwasher import Choice, SolveError, choose
-from thrustwasher.fidelity.card_cases import Case, cases
-from thrustwasher.fidelity.error_tables import deviation
-from thrustwasher.fidelity.reference_cache import answer, reference_points, source_of
-from thrustwasher.fidelity.reference_values import OK, ReferencePoint
-from thrustwasher.store.cards import Card, fresh_cards
+from thrustwasher.ladder.card import Card, fresh_cards
+from thrustwasher.study.card_cases import Case, cases
+from thrustwasher.study.error_tables import deviation
+from thrustwasher.study.reference_cache import answer, reference_points, source_of
+from thrustwasher.study.reference_values import OK, ReferencePoint
 
 SEED = 2026
 SAFETY = 1.5

@@ -28,7 +28,7 @@ ROOT = Path(__file__).parents[1]
 KERNELS = [
     "thrustwasher/kernels/*",
     "thrustwasher/rivals/plain2006*",
-    "thrustwasher/rivals/_jit.py",
+    "thrustwasher/study/rivals/compiled.py",
 ]
 # Minutes as plain Python, each; the tests on small meshes and of rungs in short walk the same ways.
 SLOW = {

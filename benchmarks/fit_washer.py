@@ -127,7 +127,7 @@ def fit_heat() -> None:
     from scipy.optimize import least_squares
 
     from thrustwasher import WasherParams, solve_washer
-    from thrustwasher.kernels import washer_lumped
+    from thrustwasher.washer.kernels import lumped
 
     names = ("FILM_HEAT", "RUB_HEAT", "YIELDING")
     cases = [(WasherParams(**p), at) for p, at in random_washers()]
@@ -135,7 +135,7 @@ def fit_heat() -> None:
 
     def solve(rung: str, x: Any = ()) -> tuple[Any, Any]:
         for name, value in zip(names, x, strict=False):
-            setattr(washer_lumped, name, float(value))
+            setattr(lumped, name, float(value))
         found = [solve_washer(p, **at, fidelity=rung) for p, at in cases]
         pairs = list(zip(found, field, strict=True))
         torque = np.array([a.friction_torque / b.friction_torque for a, b in pairs])
@@ -149,7 +149,7 @@ def fit_heat() -> None:
         return np.r_[np.log(torque) / 0.03, 0.5 * ratio / (0.2 + 0.03 * np.abs(films))]
 
     if "--fit" in sys.argv:
-        start = [getattr(washer_lumped, name) for name in names]
+        start = [getattr(lumped, name) for name in names]
         fit = least_squares(misses, start, bounds=([0.8, 1.0, 0.5], [1.5, 200.0, 0.98]),
                             loss="soft_l1", diff_step=0.02, max_nfev=9)  # fmt: skip
         print(dict(zip(names, np.round(fit.x, 3).tolist(), strict=True)))

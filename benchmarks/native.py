@@ -10,12 +10,12 @@ import tempfile
 from importlib import metadata
 from pathlib import Path
 
-from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.native import tables
-from thrustwasher.fmu.native.library import headers as fmi_headers
-from thrustwasher.fmu.native.library import library, shell
-from thrustwasher.fmu.registry import all_specs, find_spec
-from thrustwasher.models._spec import ModelSpec
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.model_kernels import all_specs, find_spec
+from thrustwasher.fmu.shell import c_tables
+from thrustwasher.fmu.shell.platform_libraries import headers as fmi_headers
+from thrustwasher.fmu.shell.platform_libraries import library, shell
+from thrustwasher.model.spec import ModelSpec
 from thrustwasher.native import link
 from thrustwasher.native.targets import PLATFORMS
 
@@ -44,7 +44,7 @@ def headers() -> Path:
 def empty_library(spec: ModelSpec) -> bytes:
     """Return a library of the shell with this model's tables and a step that does nothing."""
     files: dict[str, str | bytes] = {**shell(2), **fmi_headers(2), "empty.c": EMPTY}
-    files |= tables.sources(spec, fmi=2, guid=GUID)
+    files |= c_tables.sources(spec, fmi=2, guid=GUID)
     return link.shared_library(files, platform=PLATFORMS["linux64"], name="empty")
 
 

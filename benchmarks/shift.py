@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 
 from thrustwasher.cli._fmu_cache import fmu_paths
-from thrustwasher.drivetrain import Scene, ShiftResult, load_scene, run_auto, with_fidelities
 from thrustwasher.fmu.stepper import Instance
+from thrustwasher.shift import Scene, ShiftResult, load_scene, run_auto, with_fidelities
 
 FINER = 8  # the converged run's steps, for each of the scene's
 

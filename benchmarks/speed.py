@@ -17,12 +17,12 @@ from functools import partial
 import numpy as np
 
 from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
-from thrustwasher.kernels import washer_gap, washer_heat, washer_layout, washer_newton
-from thrustwasher.kernels.washer_continuation import cold_start
-from thrustwasher.kernels.washer_film import evaluate_film, film_residual, film_solve
-from thrustwasher.kernels.washer_model import washer_model
-from thrustwasher.kernels.washer_workspace import Point, fields_of, size_of_work, workspace_of
-from thrustwasher.models.washer_constants import constants
+from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels import gap, heat, layout, newton
+from thrustwasher.washer.kernels.constants import washer_model
+from thrustwasher.washer.kernels.continuation import cold_start
+from thrustwasher.washer.kernels.film import evaluate_film, film_residual, film_solve
+from thrustwasher.washer.kernels.workspace import Point, fields_of, size_of_work, workspace_of
 
 PARAMS = WasherParams()
 POINTS = [
@@ -104,21 +104,21 @@ def starts() -> None:
 def profile() -> None:
     """Print microseconds of the parts of one warm iteration at 545 rad/s, 300 N."""
     par = constants(PARAMS, (10, 32))
-    w = workspace_of(par, np.zeros(washer_layout.N_HEAD + size_of_work(10, 32)))
+    w = workspace_of(par, np.zeros(layout.N_HEAD + size_of_work(10, 32)))
     m, f, q = washer_model(par), fields_of(w), w.q
     pt = Point(300.0, 545.0, 0.002, 297.15)
     cold_start(w, pt, 13.0)
-    washer_newton.newton(w, pt, washer_newton.LOAD, 300.0, -100.0, 1e-9, 40.0)
-    empty, _ = timed(lambda: washer_newton.smooth_film(w), 2000)
+    newton.newton(w, pt, newton.LOAD, 300.0, -100.0, 1e-9, 40.0)
+    empty, _ = timed(lambda: newton.smooth_film(w), 2000)
     parts: list[tuple[str, Callable[[], object]]] = [
-        ("gaps and contact", lambda: washer_gap.evaluate_gaps(m, pt, q, f)),
-        ("viscosity", lambda: washer_gap.evaluate_viscosity(m, pt, f)),
-        ("heat residual", lambda: washer_heat.heat_residual(m, pt, f.temp, f)),
+        ("gaps and contact", lambda: gap.evaluate_gaps(m, pt, q, f)),
+        ("viscosity", lambda: gap.evaluate_viscosity(m, pt, f)),
+        ("heat residual", lambda: heat.heat_residual(m, pt, f.temp, f)),
         ("film conductances", lambda: evaluate_film(m, pt, q, f)),
         ("film residual", lambda: film_residual(m, f.p, f)),
-        ("heat, back substitution", lambda: washer_heat.solve_heat(m, f.heat, f.dtemp, f)),
+        ("heat, back substitution", lambda: heat.solve_heat(m, f.heat, f.dtemp, f)),
         ("film, five right sides", lambda: film_solve(m, f.p, f)),
-        ("heat, factor (cold only)", lambda: washer_heat.factor_heat(m, pt, f)),
+        ("heat, factor (cold only)", lambda: heat.factor_heat(m, pt, f)),
     ]
     for name, work in parts:
         work()

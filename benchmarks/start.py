@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable
 
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.models import washer
+from thrustwasher.washer import solve
 
 FIRST = (
     "from thrustwasher import *; import sys; "
@@ -68,7 +68,7 @@ def main() -> None:
             row(name, "s", [wall(words, folder) for _ in range(repeats)])
     params = WasherParams()
     start = solve_washer(params, **POINT)
-    bench, state = washer._bench(params, "field", start.grid), start._state.copy()
+    bench, state = solve._bench(params, "field", start.grid), start._state.copy()
     bench.inp[:] = (*POINT.values(), 297.15, 0.0)
     calls: dict[str, Callable[[], object]] = {
         "solve_washer, fidelity map": lambda: solve_washer(params, fidelity="map", **POINT),

@@ -17,10 +17,10 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from thrustwasher.fmu.interface import find_spec
-from thrustwasher.fmu.registry import load_kernel
+from thrustwasher.clutch.kernels import layout
+from thrustwasher.fmu.description.interface import find_spec
+from thrustwasher.fmu.model_kernels import load_kernel
 from thrustwasher.fmu.stepper import DirectInstance
-from thrustwasher.kernels import clutch_layout
 
 Array = NDArray[np.float64]
 H = 1e-3
@@ -70,7 +70,7 @@ def measure(
             core.state[:] = fresh
             for i, row in enumerate(course):
                 step(core.par, row, core.state, core.work, core.out, core.iout, i * H, H)
-                substeps.append(core.work[clutch_layout.W_SUBSTEPS])
+                substeps.append(core.work[layout.W_SUBSTEPS])
         count = f"{np.mean(substeps):.2f} ({max(substeps):.0f})" if substeps else "-"
         print(
             f"| {name} | {1e6 * statistics.median(kernel):.2f} ({1e6 * min(kernel):.2f}) "

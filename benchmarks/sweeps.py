@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from thrustwasher import run_sweep
-from thrustwasher.models.washer_params import SPEC
+from thrustwasher.washer.parameters import SPEC
 
 FIELD = {"load": "50:1850:n100", "speed": "136:1000:n100"}
 FILM = {"load": "50:600:n100", "speed": "300:1000:n100"}

@@ -4,9 +4,9 @@ import tempfile
 from contextlib import ExitStack
 from pathlib import Path
 
-from thrustwasher.drivetrain import load_scene, run_shift
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.stepper import Instance
+from thrustwasher.shift import load_scene, run_shift
 
 
 def lock_time(step: float, fmus: dict[str, Path]) -> float:

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from thrustwasher.drivetrain import Scene, ShiftResult, load_scene, run_shift
-from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.shift import Scene, ShiftResult, load_scene, run_shift
 
 
 def brake(scene: Scene) -> ShiftResult:

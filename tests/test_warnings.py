@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 import pytest
 
-OURS = ["thrustwasher", "thrustwasher.models.washer", "test_warnings", "built", "ex01_washer"]
+OURS = ["thrustwasher", "thrustwasher.washer.solve", "test_warnings", "built", "ex01_washer"]
 
 
 def warn_from(module, category):

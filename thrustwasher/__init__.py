@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.6.0"
 
 if TYPE_CHECKING:
+    from .clutch.calibration.calibration import Calibration, calibrate
+    from .clutch.engagement import Engagement, engage_clutch
+    from .clutch.solve import ClutchParams, boundary_friction, solve_clutch
     from .errors import BranchError, ParameterError, SolveError, Status
-    from .fidelity.choose import Choice, choose
-    from .models.clutch import ClutchParams, boundary_friction, solve_clutch
-    from .models.clutch_calibration import Calibration, calibrate
-    from .models.clutch_engagement import Engagement, engage_clutch
-    from .models.gearmesh import GearMeshParams, GearMeshResult, solve_gearmesh
-    from .models.washer import WasherParams, WasherResult, solve_washer
-    from .models.washer_load_curve import LoadCurve, load_curve
-    from .models.washer_transient import WasherCourse, follow_washer
-    from .sweep.run import run_sweep
-    from .sweep.table import SweepTable
+    from .gearmesh.solve import GearMeshParams, GearMeshResult, solve_gearmesh
+    from .ladder.choose import Choice, choose
+    from .sweep.run_sweep import run_sweep
+    from .sweep.sweep_table import SweepTable
+    from .washer.follow import WasherCourse, follow_washer
+    from .washer.load_curve import LoadCurve, load_curve
+    from .washer.solve import WasherParams, WasherResult, solve_washer
 
 _HOMES = {
     "fidelity.choose": ("Choice", "choose"),

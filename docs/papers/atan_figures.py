@@ -20,7 +20,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.reference.flash_temperature import (
+from thrustwasher.gearmesh.closed_forms.flash_temperature import (
     ELLIPTIC,
     Body,
     blok_flash,
@@ -30,9 +30,14 @@ from thrustwasher.reference.flash_temperature import (
     sheared_heat,
     surface_rise,
 )
-from thrustwasher.reference.involute_mesh import Mesh, flanks_at, line_load, start_of_contact
-from thrustwasher.reference.line_contact import compliance, full_width
-from thrustwasher.report.gearmesh_plot import draw_ratios, draw_temperatures
+from thrustwasher.gearmesh.closed_forms.involute_mesh import (
+    Mesh,
+    flanks_at,
+    line_load,
+    start_of_contact,
+)
+from thrustwasher.gearmesh.closed_forms.line_contact import compliance, full_width
+from thrustwasher.report.model_plots.gearmesh_plot import draw_ratios, draw_temperatures
 from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
 from thrustwasher.report.style import heading, label, legend_below, new_figure, styled
 

@@ -27,9 +27,9 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from thrustwasher import WasherParams, load_curve, solve_washer
-from thrustwasher.kernels.viscosity import viscosity
 from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, RED
 from thrustwasher.report.style import label, legend_below, new_figure, styled
+from thrustwasher.tribology.viscosity import viscosity
 
 TILT = 0.002  # rad
 GRID = (19, 64)

@@ -2,7 +2,7 @@
 
 import ctypes
 
-from thrustwasher.fmu.slave import Slave
+from thrustwasher.fmu.python.slave import Slave
 
 # pythonfmu 0.7.0 drops one reference to this module's dict at every instantiation
 ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))

@@ -16,8 +16,8 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.fmu.registry import find_spec
-from thrustwasher.models._spec import Signal
+from thrustwasher.fmu.model_kernels import find_spec
+from thrustwasher.model.spec import Signal
 
 RIGHT, REFUSED, UNSOLVED = "right", "refused by name", "no solution, by name"
 RUNGS = {

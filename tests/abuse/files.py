@@ -16,12 +16,13 @@ from calls import REFUSED, RIGHT, Wrong, say_if_wrong
 
 from thrustwasher import ParameterError, SolveError
 from thrustwasher.cli import main
-from thrustwasher.drivetrain import load_scene
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.kernels import washer_map_layout as L
-from thrustwasher.store import cards, maps
-from thrustwasher.store.journal import Journal
-from thrustwasher.sweep.run import journal_of, run_sweep
+from thrustwasher.ladder import card as cards
+from thrustwasher.shift import load_scene
+from thrustwasher.storage.journal import Journal
+from thrustwasher.sweep.run_sweep import journal_of, run_sweep
+from thrustwasher.washer.kernels.map import map_layout as L
+from thrustwasher.washer.map import map_file
 
 OVER = {"load": "10:200:10", "speed": "50:300:50"}
 
@@ -49,7 +50,7 @@ class Scenes:
 
     def __init__(self, folder):
         self.path = Path(folder) / "spoiled.toml"
-        builtin = resources.files("thrustwasher.drivetrain") / "scenes"
+        builtin = resources.files("thrustwasher.shift") / "scenes"
         self.texts = [f.read_bytes() for f in builtin.iterdir() if f.name.endswith(".toml")]
 
     def __call__(self, rng):
@@ -106,13 +107,13 @@ class Maps:
         data[L.KIND], data[L.SIZE] = L.MAGIC, len(data)
         data[L.DATA :] = np.float32(np.linspace(-1.0, 3.0, L.LINE))
         self.card = {"kind": "washer map", "box": {"load": [1.0, 2.0]}}
-        self.data, self.whole = data, maps.pack(data, self.card)
+        self.data, self.whole = data, map_file.pack(data, self.card)
 
     def __call__(self, rng):
         self.path.write_bytes(damage.bits(rng, self.whole))
-        maps._read.cache_clear()
+        map_file._read.cache_clear()
         try:
-            found = maps.read_map(self.path)
+            found = map_file.read_map(self.path)
         except ParameterError as error:
             return one_line(error, "spoiled.twm")
         same = np.array_equal(found.data, self.data) and found.card == self.card
@@ -229,7 +230,7 @@ class Charts:
     """Records of charts: refused, or drawn as they were measured."""
 
     def __init__(self, folder, record, seal=True, draw=True):
-        from thrustwasher.store.digests import sealed
+        from thrustwasher.storage.digests import sealed
 
         self.draw = draw
         self.path, self.out = Path(folder) / "spoiled.json", Path(folder) / "drawn"
@@ -273,7 +274,7 @@ class Archives:
             self.files = {n: archive.read(n) for n in archive.namelist()}
 
     def __call__(self, rng):
-        from thrustwasher.fmu.loading import unpack
+        from thrustwasher.fmu.running.loading import unpack
 
         self.path.write_bytes(damage.bits(rng, self.whole))
         try:

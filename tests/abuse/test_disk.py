@@ -10,10 +10,10 @@ from disk import full_disk
 from files import chart_record, command
 
 from thrustwasher.cli import main
-from thrustwasher.fmu import archive
-from thrustwasher.store import journal
-from thrustwasher.sweep import run as runs
-from thrustwasher.sweep.rows import solve_task
+from thrustwasher.fmu.package import archive
+from thrustwasher.storage import journal
+from thrustwasher.sweep import run_sweep as runs
+from thrustwasher.sweep.solve_rows import solve_task
 
 MEASURED = Path(__file__).with_name("measured.csv")
 SWEEP = ["sweep", "gearmesh", "--over", "load=10:200:10", "--over", "speed=50:300:50", "--workers",
@@ -99,11 +99,11 @@ def test_a_sweep_whose_table_does_not_fit_is_not_solved_again(out, monkeypatch):
 
 
 def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, monkeypatch):
-    from thrustwasher.kernels import washer_map_layout as L
-    from thrustwasher.maps import build
+    from thrustwasher.washer.kernels.map import map_layout as L
+    from thrustwasher.washer.map import map_build
 
-    file, solved, real = out / "x.twm", [], build.solve_line
-    monkeypatch.setattr(build, "solve_line", lambda t: (solved.append(t), real(t))[1])
+    file, solved, real = out / "x.twm", [], map_build.solve_line
+    monkeypatch.setattr(map_build, "solve_line", lambda t: (solved.append(t), real(t))[1])
     monkeypatch.setattr(journal, "INTERVAL", 0.0)
     with full_disk(12_288 + int(2.9 * 8 * L.LINE)):
         refused(out, *MAP, file, left=["x.twm.journal"])

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from sampling import sizes
 
 from examples import examples
-from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
 
 randoms = st.randoms(use_true_random=False)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from sampling import sizes
 
 from examples import examples
-from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
 
 KINDS = [(model, kind) for model in ("clutch", "gearmesh", "transmission")

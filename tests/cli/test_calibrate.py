@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 
 from thrustwasher.cli import main
-from thrustwasher.models.clutch_calibration import calibrate
-from thrustwasher.models.clutch_friction import friction_over, friction_radius, law_values
-from thrustwasher.models.clutch_params import ClutchParams
+from thrustwasher.clutch.calibration.calibration import calibrate
+from thrustwasher.clutch.calibration.friction_law import (
+    friction_over,
+    friction_radius,
+    law_values,
+)
+from thrustwasher.clutch.parameters import ClutchParams
 
 TRUTH = ClutchParams(plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0)
 SLIP = np.linspace(2.0, 160.0, 30)

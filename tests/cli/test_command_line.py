@@ -9,10 +9,10 @@ import pytest
 
 from thrustwasher import cli
 from thrustwasher.cli import main
+from thrustwasher.clutch.parameters import SPEC as CLUTCH
 from thrustwasher.errors import BranchError, EnvironmentProblem, ParameterError, SolveError
-from thrustwasher.models.clutch_params import SPEC as CLUTCH
-from thrustwasher.models.gearmesh_params import SPEC as GEARMESH
-from thrustwasher.models.washer_params import SPEC as WASHER
+from thrustwasher.gearmesh.parameters import SPEC as GEARMESH
+from thrustwasher.washer.parameters import SPEC as WASHER
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -146,7 +146,7 @@ def test_parameter_list_is_the_dataclass(command, spec, capsys):
 
 
 def test_help_of_build_names_every_fmu(capsys):
-    from thrustwasher.fmu.registry import all_specs
+    from thrustwasher.fmu.model_kernels import all_specs
 
     main(["build", "--help"])
     text = capsys.readouterr().out

@@ -26,7 +26,7 @@ def no_linker(monkeypatch):
 
     monkeypatch.setattr(link, "find_linker", find_linker)
     for name in ("find_linker", "local_linker"):
-        monkeypatch.setattr(f"thrustwasher.fmu.native.library.{name}", find_linker)
+        monkeypatch.setattr(f"thrustwasher.fmu.shell.platform_libraries.{name}", find_linker)
 
 
 @pytest.fixture
@@ -76,14 +76,16 @@ def test_build_without_a_compiler_says_so_too(no_linker, tmp_path, capsys):
 @pytest.mark.parametrize("changed", ["tools", "local_level"])
 def test_another_compiler_or_processor_is_another_version(changed, linker, monkeypatch):
     before = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
-    monkeypatch.setattr(f"thrustwasher.fmu.native.library.{changed}", lambda given: "other")
+    monkeypatch.setattr(
+        f"thrustwasher.fmu.shell.platform_libraries.{changed}", lambda given: "other"
+    )
     after = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
     assert after[0] != before[0] and after[1] == before[1]
 
 
 def test_any_source_counts(tmp_path, monkeypatch):
     (tmp_path / "shell").mkdir()
-    monkeypatch.setattr("thrustwasher.fmu.sources.source_folder", lambda: tmp_path)
+    monkeypatch.setattr("thrustwasher.fmu.package.model_sources.source_folder", lambda: tmp_path)
     seen = set()
     for name in ("slave.py", "readme.md", "shell/lifecycle.c", "shell/shell.h"):
         (tmp_path / name).write_text("x")

@@ -5,9 +5,9 @@ import json
 import pytest
 
 from thrustwasher.cli import main
-from thrustwasher.models.washer import solve_washer
-from thrustwasher.models.washer_map import WasherMap
-from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.washer.map.look_up import WasherMap
+from thrustwasher.washer.parameters import WasherParams
+from thrustwasher.washer.solve import solve_washer
 
 BOX = ["--load", "200:400", "--speed", "5000 rpm:5200 rpm", "--tilt", "0.002",
        "--oil-temperature", "24 degC"]  # fmt: skip

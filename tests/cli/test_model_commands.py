@@ -19,7 +19,7 @@ from thrustwasher import (
 )
 from thrustwasher.cli import engage, main
 from thrustwasher.cli._models import MODELS
-from thrustwasher.models.gearmesh_params import PRESETS
+from thrustwasher.gearmesh.parameters import PRESETS
 
 WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
 PACK = {"load": 9000.0, "speed": -50.0}

@@ -99,7 +99,7 @@ def test_a_failure_leaves_nothing_behind(tmp_path, capsys, monkeypatch):
     def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("thrustwasher.drivetrain.ShiftResult.write_csv", fail)
+    monkeypatch.setattr("thrustwasher.shift.ShiftResult.write_csv", fail)
     out = tmp_path / "new" / "r"
     assert main(["shift", "--scene", "msl", "--step", "10 ms", "--out", str(out)]) == 2
     assert "No space left" in capsys.readouterr().err

@@ -7,9 +7,9 @@ from functools import cache
 import pytest
 
 from thrustwasher.cli import main
-from thrustwasher.drivetrain import load_scene
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.native import link
+from thrustwasher.shift import load_scene
 
 pytest.importorskip("lxml", reason="FMPy reads SSP with lxml")
 

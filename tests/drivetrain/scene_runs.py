@@ -7,8 +7,8 @@ from time import perf_counter
 import numba
 import pytest
 
-from thrustwasher.drivetrain import load_scene, run_shift
-from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.shift import load_scene, run_shift
 
 NO_DRAG = {"washer": None, "mesh": None, "transmission": {"washers": 0}}
 slow_without_jit = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="minutes without JIT")

@@ -7,20 +7,16 @@ import numpy as np
 import pytest
 from scene_runs import PetroffWasher
 
-from thrustwasher.drivetrain import load_scene, run_auto, with_fidelities
-from thrustwasher.drivetrain.tolerance import selection
-from thrustwasher.drivetrain.tolerance.selection import above
-from thrustwasher.drivetrain.tolerance.trial_run import (
-    MARGIN,
-    Pool,
-    farthest,
-    step_share,
-    trial_runs,
-)
+from thrustwasher.clutch import parameters
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fidelity.choose import Choice
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.models import clutch_params, gearmesh_params, washer_params
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.gearmesh import parameters as gearmesh_params
+from thrustwasher.ladder.choose import Choice
+from thrustwasher.shift import load_scene, run_auto, with_fidelities
+from thrustwasher.shift.tolerance import selection
+from thrustwasher.shift.tolerance.selection import above
+from thrustwasher.shift.tolerance.trial_run import MARGIN, Pool, farthest, step_share, trial_runs
+from thrustwasher.washer import parameters as washer_params
 
 STOP = 0.2
 
@@ -89,7 +85,7 @@ def test_a_wish_that_cannot_be_is_named(wish, text):
 
 def test_the_rung_to_compare_with_is_never_below_the_default():
     assert above(gearmesh_params.SPEC, "closed") == "field"
-    assert above(clutch_params.SPEC, "boundary") == "field"
+    assert above(parameters.SPEC, "boundary") == "field"
     assert above(washer_params.SPEC, list(washer_params.SPEC.fidelities)[-1]) is None
 
 
@@ -126,7 +122,7 @@ def test_the_box_is_what_was_seen_and_a_fifth_on_each_side_where_legal():
     more = MARGIN * np.ptp(seen)
     assert box["speed"] == pytest.approx((seen.min() - more, seen.max() + more))
     assert box["tilt"] == (1.6e-3, 1.6e-3) and box["oil_temperature"] == (297.15, 297.15)
-    assert found.box("clutch", clutch_params.SPEC)["load"][0] == 0.0, "a load is not negative"
+    assert found.box("clutch", parameters.SPEC)["load"][0] == 0.0, "a load is not negative"
 
 
 def test_the_steps_error_is_estimated_at_first_order_from_the_worst_figure():

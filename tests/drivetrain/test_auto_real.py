@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scene_runs import slow_without_jit
 
-from thrustwasher.drivetrain import load_scene, run_auto, with_fidelities
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.store.cards import fresh_cards
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.ladder.card import fresh_cards
+from thrustwasher.shift import load_scene, run_auto, with_fidelities
 
 pytestmark = slow_without_jit
 STOP = 0.75  # s: past lock-up

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scene_runs import shift
 
-from thrustwasher.drivetrain import load_scene
-from thrustwasher.drivetrain.key_figures.part_figures import area_of, radius_of
 from thrustwasher.errors import ParameterError
+from thrustwasher.shift import load_scene
+from thrustwasher.shift.key_figures.part_figures import area_of, radius_of
 
 SCENES = {"brake-test": 30.0, "brake-test-sample": 0.036}
 START = 3000.0 * math.pi / 30.0

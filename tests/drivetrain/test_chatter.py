@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 from scene_runs import shift, slow_without_jit
 
-from thrustwasher.report.findings import chatter_text
-from thrustwasher.report.shift_record import record_of
+from thrustwasher.report.shift.shift_record import record_of
+from thrustwasher.report.shift.warnings_in_words import chatter_text
 
 BARE = {"washer": None, "mesh": None}
 

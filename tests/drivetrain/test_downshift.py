@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scene_runs import NO_DRAG, instances
 
-from thrustwasher.drivetrain import load_scene, run_shift
-from thrustwasher.drivetrain.key_figures.part_figures import radius_of
+from thrustwasher.shift import load_scene, run_shift
+from thrustwasher.shift.key_figures.part_figures import radius_of
 
 
 @pytest.fixture(scope="module")

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scene_runs import PetroffWasher
 
-from thrustwasher.drivetrain import load_scene, run_auto, with_fidelities
-from thrustwasher.drivetrain.tolerance import guard, selection
 from thrustwasher.errors import SolveError, Status
-from thrustwasher.fidelity.choose import Choice
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.models.washer_params import SPEC
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.ladder.choose import Choice
+from thrustwasher.shift import load_scene, run_auto, with_fidelities
+from thrustwasher.shift.tolerance import rung_check, selection
+from thrustwasher.washer.parameters import SPEC
 
 STOP = 0.3
 TORQUE = SPEC.outputs[0].name
@@ -154,8 +154,8 @@ def test_inputs_outside_the_box_of_the_trial_runs_ask_the_cards_again(run, monke
 def test_a_standstill_is_not_compared():
     """Without speed there is no torque in any rung, and solving there is dear."""
     inputs = np.array([[1.0, 2.0], [1.0, 0.0], [1.0, 3.0], [1.0, 0.0]])
-    assert guard._moving(["load", "speed"], inputs).tolist() == [0, 2]
-    assert guard._moving(["load", "tilt"], inputs).tolist() == [0, 1, 2, 3]
+    assert rung_check._moving(["load", "speed"], inputs).tolist() == [0, 2]
+    assert rung_check._moving(["load", "tilt"], inputs).tolist() == [0, 1, 2, 3]
 
 
 def test_a_point_without_solution_is_named_and_the_others_count(run):
@@ -180,7 +180,7 @@ def test_what_has_a_past_follows_the_whole_record(run):
     steps = [0.0, 0.1, 0.2, 0.3]
     inputs = np.array([[1.0, 5.0, 0.0, 300.0]] * 4)
     made = Liar()
-    solved, failed = guard._solved(lambda: made, np.array(steps), inputs, [1, 3], False)
+    solved, failed = rung_check._solved(lambda: made, np.array(steps), inputs, [1, 3], False)
     assert [t for t, *_ in made.log] == pytest.approx(steps[:-1])
     assert sorted(solved) == [1, 3] and failed == []
 

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from scene_runs import shift, slow_without_jit
 
-from thrustwasher.drivetrain import load_scene
-from thrustwasher.drivetrain.masters.master import MASTERS
-from thrustwasher.drivetrain.oscillation.torsion import (
+from thrustwasher.clutch.solve import solve_clutch
+from thrustwasher.shift import load_scene
+from thrustwasher.shift.masters.master import MASTERS
+from thrustwasher.shift.oscillation.torsion import (
     capacity_slopes,
     damping_limit_of,
     handed_over,
     matrix,
     torsional_mode,
 )
-from thrustwasher.models.clutch import solve_clutch
-from thrustwasher.reference.torsional_stability import damping_limit, planetary
+from thrustwasher.transmission.closed_forms.torsional_stability import damping_limit, planetary
 
 SHORT = {"stop_time": 0.65}  # the swing is still small
 

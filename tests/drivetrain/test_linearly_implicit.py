@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scene_runs import NO_DRAG, instances, shift
 
-from thrustwasher.drivetrain import load_scene, run_shift
+from thrustwasher.shift import load_scene, run_shift
 
 MASTER = "linearly-implicit"
 

@@ -5,8 +5,8 @@ import math
 import pytest
 from scene_runs import instances
 
-from thrustwasher.drivetrain import macro_steps
-from thrustwasher.drivetrain.macro_steps import Way, complaint, figures, run
+from thrustwasher.study import macro_steps
+from thrustwasher.study.macro_steps import Way, complaint, figures, run
 
 NAMES = ("lock_time", "slip_energy", "peak_temperature")
 

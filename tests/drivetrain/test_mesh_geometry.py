@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from thrustwasher.drivetrain import builtin_scenes, load_scene
+from thrustwasher.shift import builtin_scenes, load_scene
 
 HELIX = math.radians(20.0)
 TRANSVERSE = 1.5e-3 / math.cos(HELIX)  # module

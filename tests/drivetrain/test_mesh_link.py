@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 from scene_runs import instances
 
-from thrustwasher.drivetrain import Part, load_scene, run_shift
-from thrustwasher.models._spec import ModelSpec, Signal
-from thrustwasher.models.clutch_params import ClutchParams
+from thrustwasher.clutch.parameters import ClutchParams
+from thrustwasher.model.spec import ModelSpec, Signal
+from thrustwasher.shift import Part, load_scene, run_shift
 
 SPEC = ModelSpec(
     key="mesh", name="StandIn", help="loss in proportion to torque", params=ClutchParams,

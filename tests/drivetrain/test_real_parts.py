@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scene_runs import slow_without_jit
 
-from thrustwasher.drivetrain import load_scene, run_shift
-from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.shift import load_scene, run_shift
 
 pytestmark = slow_without_jit
 STOP = 0.75  # s: past lock-up

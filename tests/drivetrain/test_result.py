@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scene_runs import default_shift, instances, shift
 
-from thrustwasher.drivetrain import load_scene, run_shift
+from thrustwasher.clutch.parameters import ClutchParams
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.models.clutch_params import ClutchParams
+from thrustwasher.shift import load_scene, run_shift
 
 
 def test_every_signal_of_every_part_is_kept():

@@ -5,8 +5,8 @@ from dataclasses import fields
 
 import pytest
 
-from thrustwasher.drivetrain import builtin_scenes, load_scene
 from thrustwasher.errors import ParameterError
+from thrustwasher.shift import builtin_scenes, load_scene
 
 TEXT = """
 base = "planetary"

@@ -8,11 +8,11 @@ from scene_runs import instances as direct_instances
 from scene_runs import slow_without_jit
 from ssp_master import NS, components, connections, description, run, values
 
-from thrustwasher.drivetrain import builtin_scenes, load_scene, run_shift
-from thrustwasher.drivetrain.ssp.package import files
-from thrustwasher.drivetrain.ssp.system_structure import plan, prepared, start_values
-from thrustwasher.fmu import archive
-from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.package import archive
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.shift import builtin_scenes, load_scene, run_shift
+from thrustwasher.shift.ssp.package import files
+from thrustwasher.shift.ssp.system_structure import plan, prepared, start_values
 
 SCENES = builtin_scenes()
 FIGURES = ("lock_time", "lock_speed", "clutch_heat", "brake_heat", "engine_speed")

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scene_runs import NO_DRAG, PetroffWasher, instances, shift
 
-from thrustwasher.drivetrain import load_scene, run_auto, run_shift, with_fidelities
-from thrustwasher.drivetrain.masters.step_doubling import Doubling
-from thrustwasher.drivetrain.run import connected, run_adaptive
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.report.shift_record import record_of
-from thrustwasher.report.shift_report import shift_page
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.report.shift.shift_record import record_of
+from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.shift import load_scene, run_auto, run_shift, with_fidelities
+from thrustwasher.shift.masters.step_doubling import Doubling
+from thrustwasher.shift.run import connected, run_adaptive
 
 MASTER = "step-doubling"
 
@@ -104,7 +104,7 @@ def test_a_step_rolled_back_leaves_no_trace(monkeypatch):
     scene = replace(scene, parts={n: p for n, p in scene.parts.items() if n != "washer"})
     found = []
     for kind in (Doubling, Hesitant):
-        monkeypatch.setattr("thrustwasher.drivetrain.run.Doubling", kind)
+        monkeypatch.setattr("thrustwasher.shift.run.Doubling", kind)
         system = connected(scene, instances(scene))
         system.initialize(scene.start_time)
         run, steps = run_adaptive(scene, system, None)
@@ -168,7 +168,7 @@ class Jumping(DirectInstance):
 
 
 def test_steps_that_no_length_makes_good_are_counted(monkeypatch):
-    monkeypatch.setattr("thrustwasher.drivetrain.masters.step_doubling.SHORTEST", 1.0 / 32.0)
+    monkeypatch.setattr("thrustwasher.shift.masters.step_doubling.SHORTEST", 1.0 / 32.0)
     scene = replace(doubled().scene, stop_time=2e-4, step=1e-4, master_tolerance=1e-9)
     parts = instances(scene)
     clutch = scene.parts["clutch"]

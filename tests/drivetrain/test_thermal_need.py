@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
-from thrustwasher.drivetrain.scene.fidelity_option import with_fidelities
-from thrustwasher.drivetrain.scene.scene_file import load_scene
-from thrustwasher.drivetrain.thermal_need import body_times, change_time, thermal_need
-from thrustwasher.drivetrain.tolerance.run_to_tolerance import _without_choice
+from thrustwasher.shift.scene.fidelity_option import with_fidelities
+from thrustwasher.shift.scene.scene_file import load_scene
+from thrustwasher.shift.thermal_need import body_times, change_time, thermal_need
+from thrustwasher.shift.tolerance.run_to_tolerance import _without_choice
 
 
 def said(duration, mode="quasi_steady", scene="planetary"):

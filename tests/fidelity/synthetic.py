@@ -2,13 +2,13 @@
 
 import dataclasses
 
-from thrustwasher.models.clutch_params import ClutchParams
-from thrustwasher.models.gearmesh_params import GearMeshParams
-from thrustwasher.models.washer_params import WasherParams
-from thrustwasher.store import card_parts as part
-from thrustwasher.store.cards import Card
-from thrustwasher.store.cards import files_of as real_files
-from thrustwasher.store.digests import kernel_digest, params_digest
+from thrustwasher.clutch.parameters import ClutchParams
+from thrustwasher.gearmesh.parameters import GearMeshParams
+from thrustwasher.ladder import card_parts as part
+from thrustwasher.ladder.card import Card
+from thrustwasher.ladder.card import files_of as real_files
+from thrustwasher.storage.digests import kernel_digest, params_digest
+from thrustwasher.washer.parameters import WasherParams
 
 PARAMS = {"washer": WasherParams, "clutch": ClutchParams, "gearmesh": GearMeshParams}
 ENVELOPE = {

@@ -8,10 +8,11 @@ import pytest
 from synthetic import BOX, ENVELOPE, card, errors
 
 from thrustwasher import ParameterError, WasherParams, solve_washer
-from thrustwasher.models.washer import ERRORS
-from thrustwasher.store import cards, digests
-from thrustwasher.store.card_parts import ByFilmRatio, Cells
-from thrustwasher.store.cards import files_of
+from thrustwasher.ladder import card as cards
+from thrustwasher.ladder.card import files_of
+from thrustwasher.ladder.card_parts import ByFilmRatio, Cells
+from thrustwasher.storage import digests
+from thrustwasher.washer.solve import ERRORS
 
 POINT = {"load": 100.0, "speed": 500.0, "tilt": 2e-3, "oil_temperature": 300.0}
 
@@ -81,7 +82,7 @@ def test_a_card_for_other_parameters_does_not_speak(folder):
 
 def test_a_card_for_other_kernels_is_stale_and_says_how_to_renew(folder):
     old = replace(card(), kernels=replace(card().kernels, sha256="0" * 64))
-    assert "python -m thrustwasher.fidelity.verify washer field" in old.stale(WasherParams())
+    assert "python -m thrustwasher.study.verify washer field" in old.stale(WasherParams())
     (folder / "washer-field.json").write_text(old.as_json())
     assert cards.error_estimate("washer", "field", WasherParams(), POINT) is None
 

@@ -6,8 +6,8 @@ import pytest
 from synthetic import card
 
 from thrustwasher.cli import main
-from thrustwasher.store import cards
-from thrustwasher.store.digests import sealed
+from thrustwasher.ladder import card as cards
+from thrustwasher.storage.digests import sealed
 
 WASHER = ["washer", "--load", "100", "--speed", "500"]
 
@@ -36,7 +36,7 @@ def test_cards_names_stale_and_broken_files(folder, capsys):
     (folder / "washer-closed.json").write_text("{")
     assert main(["cards"]) == 0
     out = capsys.readouterr().out
-    assert "python -m thrustwasher.fidelity.verify washer fine" in out
+    assert "python -m thrustwasher.study.verify washer fine" in out
     assert "washer-closed.json: refused" in out
     assert "clutch: no cards; make them" in out
 

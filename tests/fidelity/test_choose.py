@@ -8,11 +8,11 @@ from synthetic import BOX, ENVELOPE, RUNGS, card, files_of
 
 import thrustwasher
 from thrustwasher import ParameterError, SolveError
-from thrustwasher.fidelity import candidates as home
-from thrustwasher.fidelity.choose import choose
-from thrustwasher.models.washer_params import SPEC
-from thrustwasher.store import cards as store
-from thrustwasher.store.card_parts import Axis, Fold
+from thrustwasher.ladder import candidates as home
+from thrustwasher.ladder import card as store
+from thrustwasher.ladder.card_parts import Axis, Fold
+from thrustwasher.ladder.choose import choose
+from thrustwasher.washer.parameters import SPEC
 
 LADDER = (
     card("closed", 1.0, 1e-6, first=0.0),
@@ -25,7 +25,7 @@ LADDER = (
 def ladder(monkeypatch):
     """Return a function that puts cards in place of the shipped ones."""
     washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
-    monkeypatch.setattr("thrustwasher.models.washer_params.SPEC", washer)
+    monkeypatch.setattr("thrustwasher.washer.parameters.SPEC", washer)
     monkeypatch.setattr(store, "files_of", files_of)
 
     def put(*cards, refused=None):
@@ -74,7 +74,7 @@ def test_nothing_fits_names_the_best_and_what_to_do(ladder):
         choose("washer", BOX, tol=1e-6)
     assert str(refusal.value) == (
         "washer: no rung reaches 1e-06 in friction_torque; the best is fine with 0.0006. Ask for "
-        "less, or verify a finer one: python -m thrustwasher.fidelity.verify washer fine"
+        "less, or verify a finer one: python -m thrustwasher.study.verify washer fine"
     )
 
 

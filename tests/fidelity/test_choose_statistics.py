@@ -8,11 +8,11 @@ import pytest
 from synthetic import ENVELOPE, RUNGS, card, files_of
 
 from thrustwasher import SolveError
-from thrustwasher.fidelity import candidates as home
-from thrustwasher.fidelity.choose import choose
-from thrustwasher.models.washer_params import SPEC
-from thrustwasher.store import cards as store
-from thrustwasher.store.card_parts import worst_near
+from thrustwasher.ladder import candidates as home
+from thrustwasher.ladder import card as store
+from thrustwasher.ladder.card_parts import worst_near
+from thrustwasher.ladder.choose import choose
+from thrustwasher.washer.parameters import SPEC
 
 # typical error and seconds per call
 LADDER = {"closed": (0.5, 1e-6), "stribeck": (0.08, 3e-6), "coarse": (0.02, 6e-5),
@@ -77,7 +77,7 @@ def record():
     rng, rows = np.random.default_rng(20), []
     with pytest.MonkeyPatch.context() as patch:
         washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
-        patch.setattr("thrustwasher.models.washer_params.SPEC", washer)
+        patch.setattr("thrustwasher.washer.parameters.SPEC", washer)
         patch.setattr(store, "files_of", files_of)
         for k in range(REQUESTS):
             if k % 50 == 0:

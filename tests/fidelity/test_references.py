@@ -13,9 +13,9 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.fidelity.reference_clutch import reference_clutch, reference_engagement
-from thrustwasher.fidelity.reference_gearmesh import reference_gearmesh
-from thrustwasher.fidelity.reference_washer import reference_washer
+from thrustwasher.study.reference_clutch import reference_clutch, reference_engagement
+from thrustwasher.study.reference_gearmesh import reference_gearmesh
+from thrustwasher.study.reference_washer import reference_washer
 
 POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3}
 

@@ -16,26 +16,26 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
+from thrustwasher.clutch import parameters
+from thrustwasher.clutch.kernels import layout
+from thrustwasher.clutch.kernels import step as clutch_step
+from thrustwasher.clutch.kernels.constants import derive_rings
 from thrustwasher.errors import Status
-from thrustwasher.fmu.interface import enumerations
-from thrustwasher.kernels import (
-    clutch_layout,
-    clutch_step,
-    gear_layout,
-    gear_step,
-    washer_layout,
-    washer_step,
-)
-from thrustwasher.kernels.clutch_constants import derive_rings
-from thrustwasher.models import clutch_params, gearmesh_params, washer_params
-from thrustwasher.models._params import as_numbers
-from thrustwasher.models._prepare import filled
-from thrustwasher.models._tables import fill_table
-from thrustwasher.store.maps import find_map
+from thrustwasher.fmu.description.interface import enumerations
+from thrustwasher.gearmesh import parameters as gearmesh_params
+from thrustwasher.gearmesh.kernels import layout as gear_layout
+from thrustwasher.gearmesh.kernels import step as gear_step
+from thrustwasher.model.kernel_tables import fill_table
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.model.prepare import filled
+from thrustwasher.washer import parameters as washer_params
+from thrustwasher.washer.kernels import layout as washer_layout
+from thrustwasher.washer.kernels import step as washer_step
+from thrustwasher.washer.map.map_file import find_map
 
 SPECS = {
     "washer": (washer_params.SPEC, washer_step),
-    "clutch": (clutch_params.SPEC, clutch_step),
+    "clutch": (parameters.SPEC, clutch_step),
     "gearmesh": (gearmesh_params.SPEC, gear_step),
 }
 LADDER = {
@@ -102,7 +102,7 @@ def test_the_fmu_counts_rungs_from_one(model, rung):
 
 
 def test_kernels_count_rungs_as_the_list_does():
-    of = {"washer": washer_layout, "clutch": clutch_layout, "gearmesh": gear_layout}
+    of = {"washer": washer_layout, "clutch": layout, "gearmesh": gear_layout}
     names = {"boundary": "BOUNDARY_ONLY"}
     for model, rung in RUNGS:
         number = getattr(of[model], names.get(rung, rung.upper()))
@@ -379,7 +379,7 @@ def test_outer_rings_are_hotter_and_their_mean_is_shown():
     part = Part("clutch", "fine")
     for _ in range(50):
         part.step([6e3, 120.0, 350.0], 2e-3)
-    surface = part.work[clutch_layout.W_SURFACE :][: clutch_layout.N_RINGS]
+    surface = part.work[layout.W_SURFACE :][: layout.N_RINGS]
     assert np.all(np.diff(surface) > 0.4)
     assert surface[0] < part["temperature"] < surface[-1]
 

@@ -5,19 +5,19 @@ import itertools
 import pytest
 
 from thrustwasher import choose
-from thrustwasher.fidelity.card_cases import cases
-from thrustwasher.fidelity.error_tables import deviation
-from thrustwasher.fidelity.reference_cache import answer, source_of
-from thrustwasher.fidelity.reference_values import OK
-from thrustwasher.fidelity.verify import holds
-from thrustwasher.store.cards import fresh_cards, load_cards, refused_files
-from thrustwasher.store.digests import DATA
+from thrustwasher.ladder.card import fresh_cards, load_cards, refused_files
+from thrustwasher.storage.digests import DATA
+from thrustwasher.study.card_cases import cases
+from thrustwasher.study.error_tables import deviation
+from thrustwasher.study.reference_cache import answer, source_of
+from thrustwasher.study.reference_values import OK
+from thrustwasher.study.verify import holds
 
 MODELS = ("washer", "clutch", "gearmesh")
 CASES = [case for model in MODELS for case in cases(model)]
 CARDS = [card for model in MODELS for card in load_cards(model)]
 AGAIN = (3, 211)  # points solved again, of every card
-SEVERAL = "thrustwasher cards are made by: python -m thrustwasher.fidelity.verify"
+SEVERAL = "thrustwasher cards are made by: python -m thrustwasher.study.verify"
 
 
 def label(item):

@@ -8,20 +8,24 @@ import pytest
 from synthetic import card, errors
 
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.drivetrain import load_scene
-from thrustwasher.fidelity import reference_cache
-from thrustwasher.fidelity.card_cases import cases
-from thrustwasher.fidelity.card_writer import write_card
-from thrustwasher.fidelity.costs import Timing, stepper
-from thrustwasher.fidelity.error_tables import (
+from thrustwasher.command.kernels import step as command_step
+from thrustwasher.ladder.card import read_card
+from thrustwasher.ladder.card_parts import QUANTITIES
+from thrustwasher.shift import load_scene
+from thrustwasher.storage.digests import params_digest
+from thrustwasher.study import reference_cache
+from thrustwasher.study.card_cases import cases
+from thrustwasher.study.card_writer import write_card
+from thrustwasher.study.costs import Timing, stepper
+from thrustwasher.study.error_tables import (
     by_film_ratio,
     deviation,
     error_tables,
     fold_part,
     uncertainties,
 )
-from thrustwasher.fidelity.reference_cache import reference_points
-from thrustwasher.fidelity.reference_values import (
+from thrustwasher.study.reference_cache import reference_points
+from thrustwasher.study.reference_values import (
     FAILED,
     OK,
     OTHER_SIDE,
@@ -30,12 +34,8 @@ from thrustwasher.fidelity.reference_values import (
     ReferencePoint,
     Source,
 )
-from thrustwasher.fidelity.reference_washer import solve_on
-from thrustwasher.fidelity.surroundings import this_machine
-from thrustwasher.kernels import command_step
-from thrustwasher.store.card_parts import QUANTITIES
-from thrustwasher.store.cards import read_card
-from thrustwasher.store.digests import params_digest
+from thrustwasher.study.reference_washer import solve_on
+from thrustwasher.study.surroundings import this_machine
 
 MODELS = ("washer", "clutch", "gearmesh")
 DEFAULT = {m: cases(m)[0] for m in MODELS}

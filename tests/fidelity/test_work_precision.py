@@ -6,13 +6,13 @@ import math
 import pytest
 
 from thrustwasher.errors import ParameterError, Status
-from thrustwasher.fidelity.chart_cases import ChartCase, cases_of, digest
-from thrustwasher.fidelity.chart_series import Configuration, Quantity, series_of
-from thrustwasher.fidelity.costs import Timing, time_call
-from thrustwasher.fidelity.methods import MethodAnswer
-from thrustwasher.fidelity.models import spec_of
-from thrustwasher.fidelity.reference_values import ReferenceValues
-from thrustwasher.fidelity.work_precision import measure
+from thrustwasher.model.registry import spec_of
+from thrustwasher.study.charts.chart_cases import ChartCase, cases_of, digest
+from thrustwasher.study.charts.chart_series import Configuration, Quantity, series_of
+from thrustwasher.study.charts.methods import MethodAnswer
+from thrustwasher.study.charts.work_precision import measure
+from thrustwasher.study.costs import Timing, time_call
+from thrustwasher.study.reference_values import ReferenceValues
 
 CASES = (ChartCase("one", (1.0,)), ChartCase("two", (2.0,)), ChartCase("three", (4.0,)))
 KNOWN = [ReferenceValues({"y": c.point[0] ** 2}, {"y": 1e-6}) for c in CASES]
@@ -110,7 +110,7 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch):
     found = Clock()
-    monkeypatch.setattr("thrustwasher.fidelity.costs.time", found)
+    monkeypatch.setattr("thrustwasher.study.costs.time", found)
     return found
 
 

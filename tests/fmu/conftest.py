@@ -10,7 +10,7 @@ from toy.places import HERE, TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.fmu.interface import all_specs
+from thrustwasher.fmu.description.interface import all_specs
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.native.link import find_linker
 

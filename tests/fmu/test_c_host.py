@@ -8,7 +8,7 @@ from sampling import sizes
 from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.interface import all_specs, variables
+from thrustwasher.fmu.description.interface import all_specs, variables
 from thrustwasher.fmu.stepper import DirectInstance, unpack
 
 pytestmark = needs_host

@@ -9,11 +9,11 @@ from built import built_fmu
 from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
-from thrustwasher.drivetrain import load_scene, run_shift
-from thrustwasher.drivetrain.scene.scene import Part
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.native import link
+from thrustwasher.shift import load_scene, run_shift
+from thrustwasher.shift.scene.scene import Part
 
 pytestmark = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled then")
 MODELS = ["ShiftTransmission", "WetClutch"]
@@ -147,7 +147,7 @@ def test_a_failure_is_told_as_by_the_python_loop(fmus, force, kind, text):
 
 
 def test_a_warning_does_not_stop_a_run_and_is_kept(fmus, monkeypatch):
-    monkeypatch.setattr("thrustwasher.drivetrain.run.key_figures", lambda *_: [])  # a toy has none
+    monkeypatch.setattr("thrustwasher.shift.run.key_figures", lambda *_: [])  # a toy has none
     scene = with_toy(8000.0, heat_capacity=1.0)
     (slow, told), (quick, retold) = (run(scene, fmus, compiled) for compiled in (False, True))
     assert same(slow, quick)

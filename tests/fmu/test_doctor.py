@@ -7,12 +7,12 @@ import pytest
 from toy.places import HERE
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.fmu import doctor
+from thrustwasher.fmu import diagnosis
 from thrustwasher.native import link
 
 
 def found():
-    return {check.name: check for check in doctor.diagnose()}
+    return {check.name: check for check in diagnosis.diagnose()}
 
 
 def test_every_finding_has_a_name_and_a_sentence():
@@ -29,26 +29,26 @@ def test_what_the_tests_run_on_works():
 
 
 def test_a_missing_package_is_a_finding_with_the_command_that_helps():
-    check = doctor._look("x", doctor._importable("no_such_package"))
+    check = diagnosis._look("x", diagnosis._importable("no_such_package"))
     assert not check.ok and "pip install no-such-package" in check.text
 
 
 def test_a_folder_that_cannot_be_written_to_is_a_finding(tmp_path):
     with pytest.raises(ParameterError, match="cannot be written to"):
-        doctor._writable(str(tmp_path / "missing"))
+        diagnosis._writable(str(tmp_path / "missing"))
 
 
 def test_a_platform_without_library_is_a_finding(monkeypatch):
     monkeypatch.setattr("platform.machine", lambda: "aarch64")
     with pytest.raises(ParameterError, match=r"no library for .* on aarch64"):
-        doctor._binary()
+        diagnosis._binary()
 
 
 def test_no_compiler_is_a_finding_with_what_to_install(monkeypatch):
     monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
     monkeypatch.setattr(link.shutil, "which", lambda name: None)
     link.forget()
-    check = doctor._look("x", doctor._compiler)
+    check = diagnosis._look("x", diagnosis._compiler)
     monkeypatch.undo()
     link.forget()
     assert (

@@ -8,14 +8,14 @@ import pytest
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, Status
-from thrustwasher.fmu import licences as module
-from thrustwasher.fmu.interface import all_specs, find_spec, variables
-from thrustwasher.fmu.licences import PLACE, licences, listed_licences
-from thrustwasher.fmu.markup import markup
-from thrustwasher.fmu.page import accuracy, page
-from thrustwasher.fmu.sources import model_folder, source_folder
-from thrustwasher.fmu.wiring import slope
-from thrustwasher.store.cards import load_cards
+from thrustwasher.fmu.description.interface import all_specs, find_spec, variables
+from thrustwasher.fmu.documentation.html_page import accuracy, page
+from thrustwasher.fmu.documentation.markup import markup
+from thrustwasher.fmu.documentation.wiring import slope
+from thrustwasher.fmu.package import licences as module
+from thrustwasher.fmu.package.licences import PLACE, licences, listed_licences
+from thrustwasher.fmu.package.model_sources import model_folder, source_folder
+from thrustwasher.ladder.card import load_cards
 
 QUICK = [TOY, find_spec("WetClutch"), find_spec("GearMesh"), find_spec("ShiftTransmission")]
 each_spec = pytest.mark.parametrize("spec", QUICK, ids=lambda s: s.name)

@@ -8,10 +8,10 @@ from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError, Status
-from thrustwasher.fmu import archive
-from thrustwasher.fmu.core import Core
-from thrustwasher.fmu.registry import package_version
-from thrustwasher.fmu.slave import Slave
+from thrustwasher.fmu.model_kernels import package_version
+from thrustwasher.fmu.package import archive
+from thrustwasher.fmu.python.slave import Slave
+from thrustwasher.fmu.running.core import Core
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 H = 1e-3
@@ -144,7 +144,7 @@ class Broken(Slave):
 
 def broken_slave(monkeypatch):
     """Return a slave whose core raises whatever it is asked."""
-    from thrustwasher.fmu.registry import content_digest
+    from thrustwasher.fmu.model_kernels import content_digest
 
     monkeypatch.setattr(Broken, "digest", content_digest(TOY))
     slave = Broken(instance_name="broken", resources="/nowhere")

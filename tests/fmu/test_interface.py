@@ -6,8 +6,8 @@ import pytest
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, Status
-from thrustwasher.fmu.interface import all_specs, enumerations, find_spec, variables
-from thrustwasher.models._params import as_numbers
+from thrustwasher.fmu.description.interface import all_specs, enumerations, find_spec, variables
+from thrustwasher.model.parameters import as_numbers
 from thrustwasher.units import exponents
 
 SPECS = [TOY, *all_specs()]

@@ -6,8 +6,8 @@ import random
 import numpy as np
 import pytest
 
-from thrustwasher.fmu.interface import all_specs, find_spec, variables
-from thrustwasher.fmu.registry import load_kernel
+from thrustwasher.fmu.description.interface import all_specs, find_spec, variables
+from thrustwasher.fmu.model_kernels import load_kernel
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 H = 1e-3

@@ -15,10 +15,10 @@ from lxml import etree
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.build import build, validate
-from thrustwasher.fmu.interface import all_specs, find_spec
-from thrustwasher.fmu.native import library
-from thrustwasher.fmu.reference import FOLDER
-from thrustwasher.fmu.registry import has_derivatives
+from thrustwasher.fmu.description.interface import all_specs, find_spec
+from thrustwasher.fmu.documentation.reference_results import FOLDER
+from thrustwasher.fmu.model_kernels import has_derivatives
+from thrustwasher.fmu.shell import platform_libraries
 from thrustwasher.native.link import find_linker
 from thrustwasher.native.targets import PLATFORMS
 
@@ -182,14 +182,14 @@ def test_building_for_every_platform_repeats(tmp_path):
 
 def test_without_zig_there_is_this_platform_alone_and_it_is_said(monkeypatch):
     alone = replace(find_linker(), name="gcc", platforms=("linux64",))
-    monkeypatch.setattr(library, "find_linker", lambda: alone)
+    monkeypatch.setattr(platform_libraries, "find_linker", lambda: alone)
     said = []
-    assert library.chosen(None, said.append) == ("linux64",)
+    assert platform_libraries.chosen(None, said.append) == ("linux64",)
     assert len(said) == 1 and "linux64 only" in said[0] and "pip install" in said[0]
     with pytest.raises(
         ParameterError, match=r"platform = 'win64', allowed here: linux64; for .* pip"
     ):
-        library.chosen(["win64"], said.append)
+        platform_libraries.chosen(["win64"], said.append)
 
 
 def test_an_unknown_platform_is_refused(tmp_path):

@@ -9,10 +9,10 @@ from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.fmu import archive
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.interface import all_specs
-from thrustwasher.fmu.sources import identifier, source_folder
+from thrustwasher.fmu.description.interface import all_specs
+from thrustwasher.fmu.package import archive
+from thrustwasher.fmu.package.model_sources import identifier, source_folder
 
 
 def test_building_in_another_process_gives_the_same_bytes(tmp_path, toy_fmu, run_child):
@@ -107,7 +107,7 @@ def test_what_cannot_be_built_is_refused(options, message, tmp_path):
 
 def test_it_is_known_whether_a_model_is_compiled(run_child, tmp_path, monkeypatch):
     code = (
-        "from thrustwasher.fmu.registry import all_specs, is_compiled;"
+        "from thrustwasher.fmu.model_kernels import all_specs, is_compiled;"
         "print([is_compiled(spec) for spec in all_specs()])"
     )
     assert run_child(code) == str([True] * 4)  # shipped with the package

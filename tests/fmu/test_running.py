@@ -10,9 +10,9 @@ from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.fmu.core import Core, Mode
-from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.loading import IN_USE, KEPT, prune
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.running.core import Core, Mode
+from thrustwasher.fmu.running.loading import IN_USE, KEPT, prune
 from thrustwasher.fmu.stepper import DirectInstance, Instance, unpack
 
 H = 1e-3

@@ -7,7 +7,7 @@ from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.snapshot import HEADER
+from thrustwasher.fmu.running.snapshot import HEADER
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 
 H = 1e-3

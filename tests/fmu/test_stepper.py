@@ -8,7 +8,7 @@ from toy.places import TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
-from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.native import link
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from thrustwasher.kernels import clutch_layout as k
-from thrustwasher.kernels.clutch_step import step
-from thrustwasher.models.clutch import prepare
-from thrustwasher.models.clutch_params import ClutchParams
+from thrustwasher.clutch.kernels import layout as k
+from thrustwasher.clutch.kernels.step import step
+from thrustwasher.clutch.parameters import ClutchParams
+from thrustwasher.clutch.solve import prepare
 
 
 class Pack:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from thrustwasher.kernels.asperities import (
+from thrustwasher.tribology.asperities import (
     D_MIN,
     N_CONTACT_WORK,
     N_TABLE,
@@ -16,7 +16,7 @@ from thrustwasher.kernels.asperities import (
     contact_pressure,
     contact_table,
 )
-from thrustwasher.reference.greenwood import elastic_pressure
+from thrustwasher.tribology.closed_forms.greenwood import elastic_pressure
 
 E, NU, SY, RADIUS, DENSITY = 201e9, 0.296, 0.993e9, 1e-5, 6.865114e9
 SIGMA = math.sqrt(2.0) * 5.15e-7

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.banded import (
+from thrustwasher.numerics.banded import (
     N_SIDES,
     cholesky,
     cholesky_solve,
@@ -12,7 +12,7 @@ from thrustwasher.kernels.banded import (
     lu_solve,
     mirror,
 )  # fmt: skip
-from thrustwasher.kernels.dense import dense_solve
+from thrustwasher.numerics.dense import dense_solve
 
 SHAPES = [(1, 1), (2, 1), (5, 1), (6, 2), (7, 3), (12, 5), (13, 6), (40, 17), (4, 6), (9, 8)]
 

@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.boundary import friction, ploughing, shear_ratio
+from thrustwasher.clutch.kernels.boundary_friction import friction, ploughing, shear_ratio
 
 
 @pytest.mark.parametrize(

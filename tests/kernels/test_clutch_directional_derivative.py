@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import clutch_layout as L
-from thrustwasher.kernels import clutch_rosenbrock, clutch_rosenbrock_derivatives
-from thrustwasher.kernels import clutch_step as k
-from thrustwasher.kernels.clutch_advance import load_memory
-from thrustwasher.kernels.clutch_rates import n_unknowns
-from thrustwasher.models.clutch import prepare
-from thrustwasher.models.clutch_params import FRICTION_LAWS, SPEC, ClutchParams
+from thrustwasher.clutch.kernels import layout as L
+from thrustwasher.clutch.kernels import rosenbrock, rosenbrock_derivatives
+from thrustwasher.clutch.kernels import step as k
+from thrustwasher.clutch.kernels.advance import load_memory
+from thrustwasher.clutch.kernels.rates import n_unknowns
+from thrustwasher.clutch.parameters import FRICTION_LAWS, SPEC, ClutchParams
+from thrustwasher.clutch.solve import prepare
 
 from slopes import Unit, differences, disagreement  # isort: skip
 
@@ -127,10 +127,8 @@ def passed(unit, point, sizes, seed):
     work[L.W_VARIED : L.W_VARIED + L.NY] = 0.0
     done = 0.0
     for share in sizes:
-        clutch_rosenbrock.substep(par, course, done, share, state[L.S_DURATION], work)
-        clutch_rosenbrock_derivatives.follow(
-            par, course, seed, done, share, state[L.S_DURATION], work
-        )
+        rosenbrock.substep(par, course, done, share, state[L.S_DURATION], work)
+        rosenbrock_derivatives.follow(par, course, seed, done, share, state[L.S_DURATION], work)
         work[: L.NY] = work[L.W_TRIAL : L.W_TRIAL + L.NY]
         done += share
     counted = [L.Y_FILM, *range(L.Y_HEAT, n_unknowns(par))]
@@ -165,7 +163,7 @@ def test_a_pack_that_opens_at_another_instant_is_another_pack():
     point, place = np.array([3.0, 50.0, 330.0]), NAMES.index("film_ratio")
     found = unit.gradient(point)[place, 0]
     wanted = differences(unit, point, [1.0, 1.0, 1.0], 1.5)[place, 0]
-    tolerance = clutch_rosenbrock.TOLERANCE_FILM * (1.0 + unit.step(point)[place])
+    tolerance = rosenbrock.TOLERANCE_FILM * (1.0 + unit.step(point)[place])
     assert abs(found - wanted) * 3.0 < 4.0 * tolerance < 0.01 * abs(3.0 * found)
 
 
@@ -233,7 +231,7 @@ def test_slipping_backwards_is_the_mirror_image():
 
 def test_a_settled_film_gives_way_as_the_asperities_say():
     """F_5/2 of the film ratio is in proportion to the load."""
-    from thrustwasher.kernels.greenwood_tripp import contact_integral
+    from thrustwasher.tribology.greenwood_tripp import contact_integral
 
     unit = pack("stribeck")
     ratio = unit.step([5e3, 10.0, 320.0])[NAMES.index("film_ratio")]

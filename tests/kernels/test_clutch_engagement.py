@@ -11,12 +11,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from thrustwasher import ClutchParams, ParameterError, engage_clutch
+from thrustwasher.clutch.closed_forms.heated_plate import insulated_plate_rise, semi_infinite_rise
+from thrustwasher.clutch.kernels import layout as k
+from thrustwasher.clutch.kernels.pack_friction import shear_thinned, sheared_share
+from thrustwasher.clutch.kernels.rates import pack_slopes
 from thrustwasher.errors import Status
-from thrustwasher.kernels import clutch_layout as k
-from thrustwasher.kernels.clutch_friction import shear_thinned, sheared_share
-from thrustwasher.kernels.clutch_rates import pack_slopes
-from thrustwasher.reference.heated_plate import insulated_plate_rise, semi_infinite_rise
-from thrustwasher.reference.squeeze_film import pumped_flow, squeeze_group, squeeze_time
+from thrustwasher.tribology.closed_forms.squeeze_film import (
+    pumped_flow,
+    squeeze_group,
+    squeeze_time,
+)
 
 H = 1e-3
 PERMEABILITIES = [0.0, 1e-14, 1e-13, 1e-12, 4e-12]
@@ -120,7 +124,7 @@ def test_smooth_tight_faces_close_in_the_squeeze_time():
 def test_the_squeeze_group_keeps_its_digits_in_a_narrow_ring(inner):
     import mpmath as mp
 
-    from thrustwasher.kernels.flow_factors import squeeze_group as kernel_group
+    from thrustwasher.tribology.flow_factors import squeeze_group as kernel_group
 
     mp.mp.dps = 50
     a, b = mp.mpf(inner) ** 2, mp.mpf(0.085) ** 2

@@ -8,10 +8,10 @@ from clutch_pack import Pack
 from hypothesis import given
 from hypothesis import strategies as st
 
+from thrustwasher.clutch.kernels import layout as k
+from thrustwasher.clutch.kernels.pack_friction import ADHESIVE, BOUNDARY, FILM, MIXED
+from thrustwasher.clutch.parameters import SPEC, ClutchParams
 from thrustwasher.errors import Status
-from thrustwasher.kernels import clutch_layout as k
-from thrustwasher.kernels.clutch_friction import ADHESIVE, BOUNDARY, FILM, MIXED
-from thrustwasher.models.clutch_params import SPEC, ClutchParams
 
 
 def test_the_arrays_are_laid_out_as_the_lists_say():

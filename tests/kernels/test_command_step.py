@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from thrustwasher.drivetrain import load_scene
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.fmu.registry import all_specs, find_spec
+from thrustwasher.fmu.model_kernels import all_specs, find_spec
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.shift import load_scene
 
 SPEC = find_spec("CommandSource")
 

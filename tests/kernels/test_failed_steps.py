@@ -4,24 +4,28 @@ import numpy as np
 import pytest
 from sampling import sizes
 
+from thrustwasher.clutch import parameters
+from thrustwasher.clutch.kernels import step
 from thrustwasher.errors import Status
-from thrustwasher.kernels import clutch_step, gear_step, transmission_step
-from thrustwasher.models import clutch_params, gearmesh_params, transmission_params
-from thrustwasher.models._prepare import filled
+from thrustwasher.gearmesh import parameters as gearmesh_params
+from thrustwasher.gearmesh.kernels import step as gear_step
+from thrustwasher.model.prepare import filled
+from thrustwasher.transmission import parameters as transmission_params
+from thrustwasher.transmission.kernels import step as transmission_step
 
 HOSTILE = [
     0.0, -0.0, 1.0, -1.0, 1e-320, 1e-30, 1e6, -1e6, 1e30, 1e150, -1e150, 1e300, -1e300,
     np.inf, -np.inf, np.nan,
 ]  # fmt: skip
 CASES = [
-    (clutch_step, clutch_params.SPEC, {}, "field"),
-    (clutch_step, clutch_params.SPEC, {"input_course": "linear"}, "field"),
-    (clutch_step, clutch_params.SPEC, {"input_course": "linear", "contact_rise": True}, "field"),
-    (clutch_step, clutch_params.SPEC, {"input_course": "linear"}, "stribeck"),
-    (clutch_step, clutch_params.SPEC, {"starts_pressed": True}, "boundary"),
-    (clutch_step, clutch_params.SPEC, {}, "closed"),
-    (clutch_step, clutch_params.SPEC, {}, "fine"),
-    (clutch_step, clutch_params.SPEC, {"input_course": "linear", "contact_rise": True}, "fine"),
+    (step, parameters.SPEC, {}, "field"),
+    (step, parameters.SPEC, {"input_course": "linear"}, "field"),
+    (step, parameters.SPEC, {"input_course": "linear", "contact_rise": True}, "field"),
+    (step, parameters.SPEC, {"input_course": "linear"}, "stribeck"),
+    (step, parameters.SPEC, {"starts_pressed": True}, "boundary"),
+    (step, parameters.SPEC, {}, "closed"),
+    (step, parameters.SPEC, {}, "fine"),
+    (step, parameters.SPEC, {"input_course": "linear", "contact_rise": True}, "fine"),
     (gear_step, gearmesh_params.SPEC, {}, "stribeck"),
     (gear_step, gearmesh_params.SPEC, {}, "fine"),
     (gear_step, gearmesh_params.SPEC, {}, "field"),

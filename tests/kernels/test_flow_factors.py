@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from thrustwasher.kernels.flow_factors import flow_conductance, mean_gap, shear_flow
+from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap, shear_flow
 
 SIGMA = 7.2832e-7
 

@@ -5,9 +5,9 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import gear_step as k
-from thrustwasher.models.gearmesh import prepare
-from thrustwasher.models.gearmesh_params import SPEC, GearMeshParams
+from thrustwasher.gearmesh.kernels import step as k
+from thrustwasher.gearmesh.parameters import SPEC, GearMeshParams
+from thrustwasher.gearmesh.solve import prepare
 
 from slopes import Unit, disagreement  # isort: skip
 

@@ -4,17 +4,17 @@ import math
 
 import pytest
 
-from thrustwasher.kernels import gear_contact, gear_point
-from thrustwasher.reference import line_contact, thermal_fatigue
+from thrustwasher.gearmesh.closed_forms import line_contact, thermal_fatigue
+from thrustwasher.gearmesh.kernels import contact, mesh_point
 
 E, NU = 205e9, 0.3
-THETA = gear_contact.compliance(E, NU)
+THETA = contact.compliance(E, NU)
 W, R = 9423.0, 6.89e-3
 KSI = 6.894757293168361e6
 
 
 def test_hertz_width_carries_the_load_with_an_elliptic_pressure():
-    b = gear_contact.hertz_width(W, R, THETA)
+    b = contact.hertz_width(W, R, THETA)
     assert b == pytest.approx(line_contact.full_width(W, R, THETA), rel=1e-14)
     p0 = math.sqrt(W / (math.pi * R * THETA))
     assert math.pi / 4.0 * p0 * b == pytest.approx(W, rel=1e-14)
@@ -23,43 +23,43 @@ def test_hertz_width_carries_the_load_with_an_elliptic_pressure():
 def test_contact_stress_is_the_peak_pressure_but_for_the_rounded_factor():
     p0 = math.sqrt(W / (math.pi * R * THETA))
     exact = 1.0 / math.sqrt(math.pi * (1.0 - NU * NU))
-    assert gear_contact.surface_stress(W, R, E) / p0 == pytest.approx(0.591 / exact, rel=1e-14)
+    assert contact.surface_stress(W, R, E) / p0 == pytest.approx(0.591 / exact, rel=1e-14)
     assert exact == pytest.approx(0.5914, abs=5e-5)
 
 
 def test_film_follows_dowson_and_higginson_exponents():
     args = (0.2386, 4.25, W, R, THETA, 2.2e-8)
-    h = gear_contact.film_thickness(*args)
+    h = contact.film_thickness(*args)
     assert h == pytest.approx(line_contact.dowson_higginson(W, R, THETA, *args[:2], args[5]))
     for place, power in ((0, 0.7), (1, 0.7), (2, -0.13), (5, 0.54)):
         twice = [x * (2.0 if i == place else 1.0) for i, x in enumerate(args)]
-        assert gear_contact.film_thickness(*twice) / h == pytest.approx(2.0**power, rel=1e-13)
+        assert contact.film_thickness(*twice) / h == pytest.approx(2.0**power, rel=1e-13)
 
 
 def test_li_seireg_friction_at_a_checked_point_and_its_limits():
-    assert gear_contact.li_seireg(1e-6, 0.01, 0.12, 3e-5) == pytest.approx(0.08441831, abs=5e-9)
-    assert gear_contact.li_seireg(0.0, 0.01, 0.12, 4.5e-5) == 0.12
+    assert contact.li_seireg(1e-6, 0.01, 0.12, 3e-5) == pytest.approx(0.08441831, abs=5e-9)
+    assert contact.li_seireg(0.0, 0.01, 0.12, 4.5e-5) == 0.12
     for roughness, thick in ((4.5e-5, 0.0953), (1.5e-5, 0.0542)):
-        found = gear_contact.li_seireg(1.0, 0.01, 0.12, roughness)
+        found = contact.li_seireg(1.0, 0.01, 0.12, roughness)
         assert found == pytest.approx(thick, abs=5e-5)
     wanted = line_contact.li_seireg(4e-4, 2e-5, 0.1)
-    assert gear_contact.li_seireg(4e-6, 0.01, 0.1, 2e-5) == pytest.approx(wanted, rel=1e-14)
+    assert contact.li_seireg(4e-6, 0.01, 0.1, 2e-5) == pytest.approx(wanted, rel=1e-14)
 
 
 def test_iso_friction_is_the_published_power_law_up_to_the_coefficient_without_film():
     args = (9423.0, 10.43, 0.0193, 0.2386, 1.6e-6)
     wanted = line_contact.iso_mean(*args)
-    assert gear_contact.iso_mean(*args, 0.12) == pytest.approx(wanted, rel=1e-13)
-    assert gear_contact.iso_mean(9423.0, 1e-9, 0.0193, 0.2386, 1.6e-6, 0.12) == 0.12
-    assert gear_contact.iso_mean(*args, 0.0) == 0.0
+    assert contact.iso_mean(*args, 0.12) == pytest.approx(wanted, rel=1e-13)
+    assert contact.iso_mean(9423.0, 1e-9, 0.0193, 0.2386, 1.6e-6, 0.12) == 0.12
+    assert contact.iso_mean(*args, 0.0) == 0.0
 
 
 def test_stresses_and_modification_of_a_chain_worked_by_hand():
     """100.7493 K on a contact of 178.2393 MPa; seven digits in, squared: good to 2e-6."""
-    thermal = gear_contact.thermal_stress(100.7493, E, NU, 12e-6)
+    thermal = contact.thermal_stress(100.7493, E, NU, 12e-6)
     assert thermal == pytest.approx(118.0206e6, rel=1e-6)
-    soft = gear_contact.modification(thermal, 178.2393e6, 0.77, 0.63)
-    hard = gear_contact.modification(thermal, 178.2393e6, 0.40, 0.53)
+    soft = contact.modification(thermal, 178.2393e6, 0.77, 0.63)
+    hard = contact.modification(thermal, 178.2393e6, 0.40, 0.53)
     assert (soft[0], hard[0]) == pytest.approx((0.2934999, 0.7697331), rel=2e-6)
     assert hard[0] / soft[0] == pytest.approx(2.62, abs=5e-3)
     assert hard[1] == pytest.approx(thermal_fatigue.allowable_ratio(hard[0]), rel=1e-15)
@@ -67,24 +67,24 @@ def test_stresses_and_modification_of_a_chain_worked_by_hand():
 
 def test_at_the_allowable_ratio_the_endurance_is_used_up_exactly():
     """Scale both stresses until the contact stress is that share of its limit: utilization 1."""
-    k, share = gear_contact.modification(118e6, 178e6, 0.40, 0.53)
+    k, share = contact.modification(118e6, 178e6, 0.40, 0.53)
     scale = share * 0.53 * 1301e6 / 178e6
-    used = gear_contact.utilization(scale * 118e6, scale * 178e6, 0.40, 0.53, 1301e6)
+    used = contact.utilization(scale * 118e6, scale * 178e6, 0.40, 0.53, 1301e6)
     assert used == pytest.approx(1.0, rel=1e-14) and k > 0.0
 
 
 def test_table_1_is_in_bar_and_its_strengths_are_whole_numbers_of_ksi():
     """63 ksi at 0.63 is 100 ksi, 100 ksi at 0.53 is 188.7 ksi: the strengths of both steels."""
     for limit_bar, limit_ksi, share, ultimate in (
-        (4343.0, 63.0, gear_point.MECHANICAL_1020, gear_point.ULTIMATE_1020),
-        (6895.0, 100.0, gear_point.MECHANICAL_4340, gear_point.ULTIMATE_4340),
+        (4343.0, 63.0, mesh_point.MECHANICAL_1020, mesh_point.ULTIMATE_1020),
+        (6895.0, 100.0, mesh_point.MECHANICAL_4340, mesh_point.ULTIMATE_4340),
     ):
         assert limit_bar * 1e5 == pytest.approx(limit_ksi * KSI, rel=2e-4)
         assert limit_bar * 1e5 / share == pytest.approx(ultimate, rel=1e-12)
-    assert gear_point.ULTIMATE_1020 == pytest.approx(100.0 * KSI, rel=2e-4)
-    assert (gear_point.ULTIMATE_1020, gear_point.ULTIMATE_4340) == pytest.approx(
+    assert mesh_point.ULTIMATE_1020 == pytest.approx(100.0 * KSI, rel=2e-4)
+    assert (mesh_point.ULTIMATE_1020, mesh_point.ULTIMATE_4340) == pytest.approx(
         (689.4e6, 1301e6), rel=1e-4
     )
     # the thermal limits of the table give the rounded shares 0.77 and 0.4
-    assert 530.9e6 / gear_point.ULTIMATE_1020 == pytest.approx(gear_point.THERMAL_1020, abs=5e-3)
-    assert 508.8e6 / gear_point.ULTIMATE_4340 == pytest.approx(gear_point.THERMAL_4340, abs=1e-2)
+    assert 530.9e6 / mesh_point.ULTIMATE_1020 == pytest.approx(mesh_point.THERMAL_1020, abs=5e-3)
+    assert 508.8e6 / mesh_point.ULTIMATE_4340 == pytest.approx(mesh_point.THERMAL_4340, abs=1e-2)

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from thrustwasher.kernels import gear_constants as g
-from thrustwasher.reference import involute_mesh
+from thrustwasher.gearmesh.closed_forms import involute_mesh
+from thrustwasher.gearmesh.kernels import constants as g
 
 PHI = math.radians(20.0)
 PAIRS = [(1, 17), (2, 20), (2, 30), (5, 20), (5, 30), (8, 60)]

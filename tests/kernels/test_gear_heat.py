@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from thrustwasher.kernels import gear_heat as h
-from thrustwasher.reference import flash_temperature
+from thrustwasher.gearmesh.closed_forms import flash_temperature
+from thrustwasher.gearmesh.kernels import flank_temperature as h
 
 B, C = 755.0, 70.0
 NO_CAP = 1e300

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from thrustwasher.errors import Status
-from thrustwasher.kernels import gear_layout as L
-from thrustwasher.kernels import gear_step as k
-from thrustwasher.models.gearmesh import prepare
-from thrustwasher.models.gearmesh_params import SPEC, GearMeshParams
+from thrustwasher.gearmesh.kernels import layout as L
+from thrustwasher.gearmesh.kernels import step as k
+from thrustwasher.gearmesh.parameters import SPEC, GearMeshParams
+from thrustwasher.gearmesh.solve import prepare
 
 NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.kernels.greenwood_tripp import (
+from thrustwasher.tribology.greenwood_tripp import (
     area_integrals,
     contact_integral,
     height_integrals,

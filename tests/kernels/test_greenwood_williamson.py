@@ -6,8 +6,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import greenwood_williamson as gw
-from thrustwasher.kernels import smoothing
+from thrustwasher.numerics import smoothing
+from thrustwasher.tribology import greenwood_williamson as gw
 
 
 def exact(u):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import chebyshev
 
-from thrustwasher.kernels.chebyshev import (
+from thrustwasher.numerics.chebyshev import (
     N_AXIS,
     N_CELL,
     N_TERMS,

@@ -9,10 +9,10 @@ import sys
 from pathlib import Path
 
 import pytest
-
 import thrustwasher.kernels
+
 from thrustwasher.errors import Status
-from thrustwasher.kernels import status
+from thrustwasher.numerics import status
 
 FOLDER = Path(inspect.getfile(thrustwasher.kernels)).parent
 FILES = sorted(f for f in FOLDER.glob("*.py") if f.name not in ("_jit.py", "__init__.py"))
@@ -110,8 +110,8 @@ def test_status_numbers_are_those_of_the_enumeration():
 PLAIN = """
 import json
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.kernels.flow_factors import mean_gap, flow_conductance
-from thrustwasher.kernels.viscosity import viscosity
+from thrustwasher.tribology.flow_factors import mean_gap, flow_conductance
+from thrustwasher.tribology.viscosity import viscosity
 r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, grid=(5, 8), throw=False)
 b = solve_washer(WasherParams(heat_split=0.3), load=900.0, speed=136.0, tilt=0.002, grid=(5, 8),
                  start=None, throw=False)

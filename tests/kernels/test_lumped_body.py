@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.kernels.lumped_body import exponential_weights, temperature_after
+from thrustwasher.tribology.lumped_body import exponential_weights, temperature_after
 
 
 def test_constant_power_approaches_the_balance_exponentially():

@@ -7,16 +7,16 @@ import pytest
 
 from thrustwasher import ClutchParams, WasherParams, solve_clutch, solve_washer
 from thrustwasher.errors import Status
-from thrustwasher.fmu.registry import find_spec
+from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
-from thrustwasher.kernels import washer_step as kernel
-from thrustwasher.kernels.washer_layout import N_ALL, N_HEAD
-from thrustwasher.kernels.washer_map_step import N_MAP_WORK, look_up, map_sens
-from thrustwasher.kernels.washer_workspace import Point, size_of_state, size_of_work
-from thrustwasher.models.washer_constants import constants
-from thrustwasher.models.washer_map import WasherMap
-from thrustwasher.models.washer_transient import follow_washer
-from thrustwasher.store.maps import SHIPPED
+from thrustwasher.washer.follow import follow_washer
+from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels import step as kernel
+from thrustwasher.washer.kernels.layout import N_ALL, N_HEAD
+from thrustwasher.washer.kernels.map.map_step import N_MAP_WORK, look_up, map_sens
+from thrustwasher.washer.kernels.workspace import Point, size_of_state, size_of_work
+from thrustwasher.washer.map.look_up import WasherMap
+from thrustwasher.washer.map.map_file import SHIPPED
 
 GRID = (5, 8)
 POINTS = [(20.0, 900.0, 2e-3), (300.0, 545.0, 2e-3), (1500.0, 545.0, 2e-3), (300.0, 545.0, 0.0),

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import BranchError, Status
-from thrustwasher.kernels import washer_map_layout as L
-from thrustwasher.kernels import washer_step as kernel
-from thrustwasher.kernels.washer_layout import N_HEAD
-from thrustwasher.kernels.washer_workspace import size_of_state, size_of_work
-from thrustwasher.models.washer import solve_washer
-from thrustwasher.models.washer_constants import constants
-from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels import step as kernel
+from thrustwasher.washer.kernels.layout import N_HEAD
+from thrustwasher.washer.kernels.map import map_layout as L
+from thrustwasher.washer.kernels.workspace import size_of_state, size_of_work
+from thrustwasher.washer.parameters import WasherParams
+from thrustwasher.washer.solve import solve_washer
 
 GRID = (5, 8)
 PARAMS = WasherParams()
@@ -84,7 +84,7 @@ def test_steps_go_on_from_their_memory_and_fail_without_harming_it():
 
 
 def test_the_curve_has_its_folds():
-    from thrustwasher.models.washer_load_curve import load_curve
+    from thrustwasher.washer.load_curve import load_curve
 
     curve = load_curve(PARAMS, speed=545.0, tilt=2e-3, grid=GRID)
     assert [f.kind for f in curve.folds] == ["film_lost", "film_regained"]

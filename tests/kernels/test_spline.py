@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from thrustwasher.kernels.spline import spline_weights
+from thrustwasher.numerics.spline import spline_weights
 
 from washer_setup import bench, order  # isort: skip
 

@@ -1,8 +1,10 @@
 """Kernels import nothing from above and repeat status numbers; here they are compared."""
 
+from thrustwasher.clutch.kernels import pack_friction
 from thrustwasher.errors import Status
-from thrustwasher.kernels import clutch_friction, gear_layout, status
-from thrustwasher.models._spec import REGIMES
+from thrustwasher.gearmesh.kernels import layout
+from thrustwasher.model.spec import REGIMES
+from thrustwasher.numerics import status
 
 
 def test_status_numbers_are_those_of_the_enumeration():
@@ -11,7 +13,7 @@ def test_status_numbers_are_those_of_the_enumeration():
 
 
 def test_regimes_count_from_1_in_the_order_of_the_list():
-    numbers = [getattr(clutch_friction, n.upper()) for n in REGIMES]
+    numbers = [getattr(pack_friction, n.upper()) for n in REGIMES]
     assert numbers == [1, 2, 3, 4]
-    mesh = [getattr(gear_layout, n.upper()) for n in REGIMES if n != "adhesive"]
+    mesh = [getattr(layout, n.upper()) for n in REGIMES if n != "adhesive"]
     assert mesh == [1, 2, 3]

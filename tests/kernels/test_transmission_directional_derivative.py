@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import transmission_layout as L
-from thrustwasher.kernels import transmission_step as k
-from thrustwasher.models._params import as_numbers
-from thrustwasher.models.transmission_params import COUPLING, SPEC, TransmissionParams
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.transmission.kernels import layout as L
+from thrustwasher.transmission.kernels import step as k
+from thrustwasher.transmission.parameters import COUPLING, SPEC, TransmissionParams
 
 from slopes import Unit, disagreement  # isort: skip
 

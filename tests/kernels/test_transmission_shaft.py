@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from thrustwasher.kernels import transmission_step as k
+from thrustwasher.transmission.kernels import step as k
 
 from test_transmission_step import FREE, Gearbox  # isort: skip
 

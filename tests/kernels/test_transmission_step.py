@@ -9,12 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thrustwasher.errors import Status
-from thrustwasher.kernels import transmission_layout as L
-from thrustwasher.kernels import transmission_step as k
-from thrustwasher.models._params import as_numbers
-from thrustwasher.models.transmission_params import SPEC, TransmissionParams
-from thrustwasher.reference.lock_up import engagement, reduced_inertia
-from thrustwasher.reference.planetary import pitch_radius, planet_forces
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.transmission.closed_forms.lock_up import engagement, reduced_inertia
+from thrustwasher.transmission.closed_forms.planetary import pitch_radius, planet_forces
+from thrustwasher.transmission.kernels import layout as L
+from thrustwasher.transmission.kernels import step as k
+from thrustwasher.transmission.parameters import SPEC, TransmissionParams
 
 
 class Gearbox:

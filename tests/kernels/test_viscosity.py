@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from thrustwasher.kernels.viscosity import viscosity
+from thrustwasher.tribology.viscosity import viscosity
 
 OIL = (6.31e-5, 3.545, 1.053)
 

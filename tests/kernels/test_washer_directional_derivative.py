@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import washer_layout as L
-from thrustwasher.kernels import washer_step as k
-from thrustwasher.kernels.status import OK, SINGULAR
-from thrustwasher.kernels.washer_newton import LOAD, NO_FLOOR, newton
-from thrustwasher.kernels.washer_outputs import outputs_at
-from thrustwasher.kernels.washer_workspace import Point, fields_of, forget_factor, workspace_of
-from thrustwasher.models._prepare import filled
-from thrustwasher.models.washer_params import SPEC, WasherParams
+from thrustwasher.model.prepare import filled
+from thrustwasher.numerics.status import OK, SINGULAR
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels import step as k
+from thrustwasher.washer.kernels.newton import LOAD, NO_FLOOR, newton
+from thrustwasher.washer.kernels.outputs import outputs_at
+from thrustwasher.washer.kernels.workspace import Point, fields_of, forget_factor, workspace_of
+from thrustwasher.washer.parameters import SPEC, WasherParams
 
 NAMES = ("friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
          "fluid_load_share", "friction_coefficient", "friction_power")  # fmt: skip

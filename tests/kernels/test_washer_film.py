@@ -5,17 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.flow_factors import flow_conductance, mean_gap, shear_flow
-from thrustwasher.kernels.washer_film import evaluate_film, film_residual, film_solve
-from thrustwasher.kernels.washer_gap import evaluate_gaps, evaluate_viscosity
-from thrustwasher.kernels.washer_layout import AT_FIXED, RING
-from thrustwasher.kernels.washer_workspace import Point
-from thrustwasher.reference.thin_film import (
+from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap, shear_flow
+from thrustwasher.washer.closed_forms.thin_film import (
     couette_torque,
     narrow_ring_load,
     wedge_moment,
     wedge_pressure,
 )
+from thrustwasher.washer.kernels.film import evaluate_film, film_residual, film_solve
+from thrustwasher.washer.kernels.gap import evaluate_gaps, evaluate_viscosity
+from thrustwasher.washer.kernels.layout import AT_FIXED, RING
+from thrustwasher.washer.kernels.workspace import Point
 
 from washer_setup import BASE, bench, order, tilted  # isort: skip
 

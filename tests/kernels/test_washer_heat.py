@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import washer_layout as L
-from thrustwasher.kernels.washer_gap import dry_friction, evaluate_gaps, evaluate_viscosity
-from thrustwasher.kernels.washer_heat import factor_heat, heat_residual, heat_slopes, solve_heat
-from thrustwasher.kernels.washer_newton import evaluate
-from thrustwasher.kernels.washer_workspace import Point
-from thrustwasher.reference.heated_ring import annulus_rise, stack_rise
+from thrustwasher.washer.closed_forms.heated_ring import annulus_rise, stack_rise
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels.gap import dry_friction, evaluate_gaps, evaluate_viscosity
+from thrustwasher.washer.kernels.heat import factor_heat, heat_residual, heat_slopes, solve_heat
+from thrustwasher.washer.kernels.newton import evaluate
+from thrustwasher.washer.kernels.workspace import Point
 
 from washer_setup import BASE, Bench, bench, full_gear, order, settle, tilted  # isort: skip
 

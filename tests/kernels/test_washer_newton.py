@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import washer_layout as L
-from thrustwasher.kernels.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
-from thrustwasher.kernels.washer_continuation import cold_start
-from thrustwasher.kernels.washer_film import film_residual, film_solve
-from thrustwasher.kernels.washer_gap import evaluate_gaps
-from thrustwasher.kernels.washer_heat import solve_heat
-from thrustwasher.kernels.washer_newton import (
+from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels.continuation import cold_start
+from thrustwasher.washer.kernels.film import film_residual, film_solve
+from thrustwasher.washer.kernels.gap import evaluate_gaps
+from thrustwasher.washer.kernels.heat import solve_heat
+from thrustwasher.washer.kernels.newton import (
     FILM,
     LOAD,
     NO_FLOOR,
@@ -19,7 +19,7 @@ from thrustwasher.kernels.washer_newton import (
     newton,
     smooth_film,
 )
-from thrustwasher.kernels.washer_workspace import Point, forget_factor, square, vector
+from thrustwasher.washer.kernels.workspace import Point, forget_factor, square, vector
 
 from washer_setup import BASE, bench, full_gear, settle, tilted  # isort: skip
 

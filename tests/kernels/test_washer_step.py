@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import Status
-from thrustwasher.kernels import washer_layout as L
-from thrustwasher.kernels import washer_step as kernel
-from thrustwasher.kernels.washer_regime_and_status import BOUNDARY, FILM
-from thrustwasher.models._params import as_numbers
-from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels import step as kernel
+from thrustwasher.washer.kernels.regime_and_status import BOUNDARY, FILM
+from thrustwasher.washer.parameters import WasherParams
 
 BASE = np.array([300.0, 545.0, 0.002, 297.15])
 

@@ -8,18 +8,18 @@ from scipy.linalg import expm
 
 from thrustwasher import WasherParams, solve_washer
 from thrustwasher.errors import Status
-from thrustwasher.kernels import washer_layout as L
-from thrustwasher.kernels import washer_step as k
-from thrustwasher.kernels.washer_heat import conduct, store
-from thrustwasher.kernels.washer_model import washer_model
-from thrustwasher.kernels.washer_workspace import (
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels import step as k
+from thrustwasher.washer.kernels.constants import washer_model
+from thrustwasher.washer.kernels.heat import conduct, store
+from thrustwasher.washer.kernels.workspace import (
     fields_of,
     size_of_state,
     size_of_work,
     workspace_of,
 )
-from thrustwasher.models._params import as_numbers
-from thrustwasher.models.washer_constants import constants
 
 GRID = (5, 8)
 OIL = 297.15

@@ -4,12 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from thrustwasher.kernels import washer_layout as L
-from thrustwasher.kernels.washer_film import film_residual, film_solve
-from thrustwasher.kernels.washer_heat import solve_heat
-from thrustwasher.kernels.washer_model import WasherModel, mesh_arrays, washer_model
-from thrustwasher.kernels.washer_newton import evaluate, make_factor
-from thrustwasher.kernels.washer_workspace import (
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels.constants import WasherModel, mesh_arrays, washer_model
+from thrustwasher.washer.kernels.film import film_residual, film_solve
+from thrustwasher.washer.kernels.heat import solve_heat
+from thrustwasher.washer.kernels.newton import evaluate, make_factor
+from thrustwasher.washer.kernels.workspace import (
     Fields,
     Point,
     Workspace,
@@ -17,8 +17,8 @@ from thrustwasher.kernels.washer_workspace import (
     size_of_work,
     workspace_of,
 )
-from thrustwasher.models.washer import constants
-from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.washer.parameters import WasherParams
+from thrustwasher.washer.solve import constants
 
 
 class Bench(NamedTuple):

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from thrustwasher import WasherParams, load_curve, solve_washer
-from thrustwasher.kernels.viscosity import viscosity
+from thrustwasher.tribology.viscosity import viscosity
 
 pytestmark = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="minutes without JIT"

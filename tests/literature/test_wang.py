@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from thrustwasher import ClutchParams, boundary_friction, engage_clutch, solve_clutch
-from thrustwasher.models.clutch_friction import (
+from thrustwasher.clutch.calibration.friction_law import (
     end_frictions,
     friction_over,
     friction_radius,
     law_values,
 )
-from thrustwasher.reference.heated_plate import braking_average
+from thrustwasher.clutch.closed_forms.heated_plate import braking_average
 
 INNER, OUTER = 0.0325, 0.0425  # m, Fig. 12
 SAMPLE = ClutchParams(inner_radius=INNER, outer_radius=OUTER)

@@ -2,10 +2,10 @@
 
 import pytest
 
-from thrustwasher.maps.build import make_map
-from thrustwasher.models.washer_map import WasherMap
-from thrustwasher.models.washer_params import WasherParams
-from thrustwasher.store.maps import VARIABLE
+from thrustwasher.washer.map.look_up import WasherMap
+from thrustwasher.washer.map.map_build import make_map
+from thrustwasher.washer.map.map_file import VARIABLE
+from thrustwasher.washer.parameters import WasherParams
 
 BOX = {
     "load": (100.0, 900.0), "speed": (400.0, 700.0), "tilt": (0.0018, 0.0022),
@@ -28,9 +28,9 @@ def small(map_path):
 @pytest.fixture
 def found_first(map_path, monkeypatch):
     """Let the small map be the one that is found for the default washer."""
-    from thrustwasher.models import washer_map
+    from thrustwasher.washer.map import look_up
 
     monkeypatch.setenv(VARIABLE, str(map_path.parent))
-    washer_map.washer_map.cache_clear()
+    look_up.washer_map.cache_clear()
     yield map_path
-    washer_map.washer_map.cache_clear()
+    look_up.washer_map.cache_clear()

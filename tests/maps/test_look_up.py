@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import BranchError, ParameterError, Status
-from thrustwasher.kernels.washer_layout import N_ALL
-from thrustwasher.kernels.washer_map_step import N_MAP_WORK, look_up, map_sens
-from thrustwasher.kernels.washer_workspace import Point
-from thrustwasher.models.washer import solve_washer
-from thrustwasher.models.washer_load_curve import load_curve
-from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.washer.kernels.layout import N_ALL
+from thrustwasher.washer.kernels.map.map_step import N_MAP_WORK, look_up, map_sens
+from thrustwasher.washer.kernels.workspace import Point
+from thrustwasher.washer.load_curve import load_curve
+from thrustwasher.washer.parameters import WasherParams
+from thrustwasher.washer.solve import solve_washer
 
 PARAMS = WasherParams()
 PLACE = {"speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}

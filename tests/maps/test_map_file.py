@@ -7,11 +7,19 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.kernels import washer_map_layout as L
-from thrustwasher.maps.build import build_lines, make_map
-from thrustwasher.maps.plan import plan_map
-from thrustwasher.models.washer_params import WasherParams
-from thrustwasher.store.maps import CARD, NUMBERS, all_maps, pack, plain, read_map, unpack
+from thrustwasher.washer.kernels.map import map_layout as L
+from thrustwasher.washer.map.map_build import build_lines, make_map
+from thrustwasher.washer.map.map_file import (
+    CARD,
+    NUMBERS,
+    all_maps,
+    pack,
+    plain,
+    read_map,
+    unpack,
+)
+from thrustwasher.washer.map.map_plan import plan_map
+from thrustwasher.washer.parameters import WasherParams
 
 TINY = {"load": (300.0, 400.0), "speed": (540.0, 550.0), "tilt": (0.002, 0.002),
         "oil_temperature": (297.15, 297.15)}  # fmt: skip
@@ -94,7 +102,7 @@ def test_what_is_no_archive_is_refused(tmp_path):
 
 
 def test_a_build_that_was_stopped_goes_on_with_what_it_had(tmp_path, monkeypatch):
-    from thrustwasher.maps import build
+    from thrustwasher.washer.map import map_build
 
     plan, journal = plan_map(WasherParams(), TINY), tmp_path / "lines"
     whole = build_lines(plan, fidelity="field")
@@ -106,11 +114,11 @@ def test_a_build_that_was_stopped_goes_on_with_what_it_had(tmp_path, monkeypatch
             raise KeyboardInterrupt
         return real(task)
 
-    real = build.solve_line
-    monkeypatch.setattr(build, "solve_line", solve)
+    real = map_build.solve_line
+    monkeypatch.setattr(map_build, "solve_line", solve)
     with pytest.raises(KeyboardInterrupt):
         build_lines(plan, fidelity="field", journal=journal)
-    monkeypatch.setattr(build, "solve_line", real)
+    monkeypatch.setattr(map_build, "solve_line", real)
     done = []
     again = build_lines(plan, fidelity="field", journal=journal,
                         progress=lambda k, _n: done.append(k))  # fmt: skip
@@ -128,18 +136,19 @@ def test_lines_of_another_map_are_neither_taken_nor_harmed(tmp_path):
 
 
 def test_a_map_that_cannot_be_written_loses_no_line(tmp_path, monkeypatch):
-    from thrustwasher.maps import build
 
     def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
     out = tmp_path / "x.twm"
-    monkeypatch.setattr(build, "check_map", fail)
+    monkeypatch.setattr(map_build, "check_map", fail)
     with pytest.raises(OSError, match="No space"):
         make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1)
     assert [p.name for p in tmp_path.iterdir()] == ["x.twm.journal"]
     monkeypatch.undo()
-    monkeypatch.setattr("thrustwasher.maps.build.solve_line", fail)  # none is solved again
+    monkeypatch.setattr(
+        "thrustwasher.washer.map.map_build.solve_line", fail
+    )  # none is solved again
     make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1, points=4)
     assert [p.name for p in tmp_path.iterdir()] == ["x.twm"]
 

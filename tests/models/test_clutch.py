@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 
+from thrustwasher.clutch.parameters import ClutchParams
+from thrustwasher.clutch.solve import boundary_friction, solve_clutch
 from thrustwasher.errors import ParameterError, Status
-from thrustwasher.models.clutch import boundary_friction, solve_clutch
-from thrustwasher.models.clutch_params import ClutchParams
 
 PACK, UNCOOLED = ClutchParams(), ClutchParams(heat_transfer=0.0)
 

@@ -7,17 +7,17 @@ import pytest
 from sampling import sizes
 from scipy.stats import binom
 
-from thrustwasher.errors import ParameterError
-from thrustwasher.models.clutch import solve_clutch
-from thrustwasher.models.clutch_calibration import calibrate
-from thrustwasher.models.clutch_friction import (
+from thrustwasher.clutch.calibration.calibration import calibrate
+from thrustwasher.clutch.calibration.friction_law import (
     WANG_CONSTANTS,
     friction_over,
     friction_radius,
     friction_slopes,
     law_values,
 )
-from thrustwasher.models.clutch_params import ClutchParams
+from thrustwasher.clutch.parameters import ClutchParams
+from thrustwasher.clutch.solve import solve_clutch
+from thrustwasher.errors import ParameterError
 
 TRUTH = {"plough_weight": 0.2, "shear_floor": 0.4, "stick_speed": 1.5, "decay_speed": 2.0}
 PACK, TRUE_PACK = ClutchParams(), ClutchParams(**TRUTH)

@@ -5,10 +5,14 @@ import re
 import numpy as np
 import pytest
 
-from thrustwasher.models.clutch_calibration import calibrate
-from thrustwasher.models.clutch_calibration_result import spanned
-from thrustwasher.models.clutch_friction import friction_over, friction_radius, law_values
-from thrustwasher.models.clutch_params import ClutchParams
+from thrustwasher.clutch.calibration.calibration import calibrate
+from thrustwasher.clutch.calibration.calibration_result import spanned
+from thrustwasher.clutch.calibration.friction_law import (
+    friction_over,
+    friction_radius,
+    law_values,
+)
+from thrustwasher.clutch.parameters import ClutchParams
 
 PACK = ClutchParams()
 SLIP = np.linspace(1.0, 250.0, 60)

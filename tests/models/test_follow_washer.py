@@ -7,8 +7,8 @@ import pytest
 from curves import traced
 
 from thrustwasher import ParameterError, WasherParams, follow_washer, solve_washer
-from thrustwasher.models import washer_transient
-from thrustwasher.models.washer_transient import CourseError
+from thrustwasher.washer import follow
+from thrustwasher.washer.follow import CourseError
 
 GRID = (5, 12)
 STEADY, IN_TIME = WasherParams(), WasherParams(thermal_mode="transient")
@@ -90,12 +90,12 @@ def test_what_cannot_be_followed_is_named(change, words):
 
 
 def test_what_was_computed_before_a_failure_is_kept(monkeypatch):
-    step = washer_transient.kernel.step
+    step = follow.kernel.step
 
     def fails(par, inp, *rest):
         return 10 if inp[0] == 500.0 else step(par, inp, *rest)
 
-    monkeypatch.setattr(washer_transient.kernel, "step", fails)
+    monkeypatch.setattr(follow.kernel, "step", fails)
     with pytest.raises(CourseError, match="load = 500 N") as problem:
         follow_washer(STEADY, time=[0.0, 1.0, 2.0], load=[300.0, 400.0, 500.0], **AT)
     assert problem.value.course.load.tolist() == [300.0, 400.0]

@@ -9,9 +9,9 @@ import pytest
 
 from thrustwasher import GearMeshParams, ParameterError, SolveError, solve_gearmesh
 from thrustwasher.errors import Status
-from thrustwasher.models.gearmesh import PRESETS
-from thrustwasher.models.gearmesh_params import SPEC
-from thrustwasher.reference import flash_temperature, involute_mesh, thermal_fatigue
+from thrustwasher.gearmesh.closed_forms import flash_temperature, involute_mesh, thermal_fatigue
+from thrustwasher.gearmesh.parameters import SPEC
+from thrustwasher.gearmesh.solve import PRESETS
 
 POINT = {"power": 7500.0, "speed": 180.0}
 STEEL = flash_temperature.Body((1 - 0.3**2) / 205e9, 50.2, 7850.0, 475.0)
@@ -320,9 +320,9 @@ def test_the_way_out_of_li_seireg_works():
 
 
 def test_a_flank_that_is_not_found_is_a_solve_error(monkeypatch):
-    from thrustwasher.models import gearmesh
+    from thrustwasher.gearmesh import solve
 
-    monkeypatch.setattr(gearmesh, "solve_mesh", lambda *_: int(Status.MAX_ITERATIONS))
+    monkeypatch.setattr(solve, "solve_mesh", lambda *_: int(Status.MAX_ITERATIONS))
     with pytest.raises(SolveError, match=r"power = 7500 W.*not converged"):
         solve_gearmesh(P, **POINT)
     r = solve_gearmesh(P, **POINT, throw=False)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.reference.flash_temperature import (
+from thrustwasher.gearmesh.closed_forms.flash_temperature import (
     ELLIPTIC,
     Body,
     atan_flash,
@@ -20,8 +20,7 @@ from thrustwasher.reference.flash_temperature import (
     sheared_heat,
     surface_rise,
 )
-from thrustwasher.reference.greenwood import real_area_share
-from thrustwasher.reference.involute_mesh import (
+from thrustwasher.gearmesh.closed_forms.involute_mesh import (
     Flanks,
     Mesh,
     end_of_contact,
@@ -32,7 +31,7 @@ from thrustwasher.reference.involute_mesh import (
     path_of_contact,
     start_of_contact,
 )
-from thrustwasher.reference.line_contact import (
+from thrustwasher.gearmesh.closed_forms.line_contact import (
     compliance,
     dowson_higginson,
     full_width,
@@ -41,7 +40,7 @@ from thrustwasher.reference.line_contact import (
     peak_pressure,
     vogel_viscosity,
 )
-from thrustwasher.reference.thermal_fatigue import (
+from thrustwasher.gearmesh.closed_forms.thermal_fatigue import (
     Endurance,
     allowable_ratio,
     contact_stress,
@@ -49,6 +48,7 @@ from thrustwasher.reference.thermal_fatigue import (
     modification_factor,
     thermal_stress,
 )
+from thrustwasher.tribology.closed_forms.greenwood import real_area_share
 
 OIL = 299.85
 SCATTER = {"rough": (2.26e-6, 4.5e-5), "fine": (0.566e-6, 1.5e-5)}

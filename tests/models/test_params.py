@@ -6,9 +6,9 @@ from dataclasses import fields
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
-from thrustwasher.kernels import washer_layout
-from thrustwasher.models._params import as_numbers
-from thrustwasher.models.washer_params import SPEC
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.washer.kernels import layout
+from thrustwasher.washer.parameters import SPEC
 
 FIELDS = fields(WasherParams)
 REALS = [f for f in FIELDS if f.metadata["kind"] == "real"]
@@ -74,8 +74,8 @@ def test_an_unknown_parameter_is_refused():
 
 def test_fields_fill_the_kernels_parameters_in_order():
     names = [f"P_{f.name.upper()}" for f in FIELDS] + ["P_FIDELITY"]
-    assert [n for n in vars(washer_layout) if n.startswith("P_")] == names
-    assert [getattr(washer_layout, n) for n in names] == list(range(washer_layout.N_PARAM))
+    assert [n for n in vars(layout) if n.startswith("P_")] == names
+    assert [getattr(layout, n) for n in names] == list(range(layout.N_PARAM))
     assert len(as_numbers(WasherParams())) == len(names) - 1
     numbers = as_numbers(WasherParams(friction_law="constant", conduction="rotating"))
     names = [f.name for f in FIELDS]

@@ -8,11 +8,14 @@ from string import Formatter
 import numpy as np
 import pytest
 
+from thrustwasher.clutch import parameters
 from thrustwasher.errors import ParameterError
-from thrustwasher.models import clutch_params, gearmesh_params, transmission_params, washer_params
-from thrustwasher.models._params import as_numbers
+from thrustwasher.gearmesh import parameters as gearmesh_params
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.transmission import parameters as transmission_params
+from thrustwasher.washer import parameters as washer_params
 
-SPECS = [m.SPEC for m in (washer_params, clutch_params, gearmesh_params, transmission_params)]
+SPECS = [m.SPEC for m in (washer_params, parameters, gearmesh_params, transmission_params)]
 BROKEN = {
     "washer": (
         {"gear_inner_radius": 0.01},
@@ -117,11 +120,11 @@ def test_rules_and_constants_do_not_read_each_other(spec):
 
 
 def test_limits_in_texts_are_those_of_the_kernels():
-    from thrustwasher.kernels import gear_constants
-    from thrustwasher.kernels import washer_regime_and_status as washer_rules
+    from thrustwasher.gearmesh.kernels import constants
+    from thrustwasher.washer.kernels import regime_and_status as washer_rules
 
     assert washer_params.LEAST_ROUGHNESS == washer_rules.LEAST_ROUGHNESS
     assert f"{washer_rules.LARGEST_SPREAD:g} x" in washer_params.RULES[1].text
-    span = f"{gear_constants.LEAST_EFFECTIVE:.4g} .. {gear_constants.LARGEST_EFFECTIVE:.4g}"
+    span = f"{constants.LEAST_EFFECTIVE:.4g} .. {constants.LARGEST_EFFECTIVE:.4g}"
     assert span in gearmesh_params.RULES[2].text
-    assert f"above {gear_constants.LEAST_SLIDE_ROLL} " in gearmesh_params.RULES[4].text
+    assert f"above {constants.LEAST_SLIDE_ROLL} " in gearmesh_params.RULES[4].text

@@ -12,11 +12,11 @@ from sampling import sizes
 from scipy.interpolate import CubicSpline
 
 from thrustwasher import BranchError, ParameterError, Status, WasherParams, solve_washer
-from thrustwasher.kernels.asperities import contact_pressure
-from thrustwasher.kernels.viscosity import viscosity
-from thrustwasher.kernels.washer_model import washer_model
-from thrustwasher.models.washer import constants
-from thrustwasher.models.washer_params import CONDUCTION
+from thrustwasher.tribology.asperities import contact_pressure
+from thrustwasher.tribology.viscosity import viscosity
+from thrustwasher.washer.kernels.constants import washer_model
+from thrustwasher.washer.parameters import CONDUCTION
+from thrustwasher.washer.solve import constants
 
 POINTS = {
     "film": ({"load": 300.0, "speed": 953.0}, {}),

@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thrustwasher.kernels import asperities, banded, viscosity, washer_map_rows
-from thrustwasher.kernels._jit import way
-from thrustwasher.kernels.smoothing import sign_of
 from thrustwasher.native import entries, load
+from thrustwasher.numerics import banded
+from thrustwasher.numerics.jit import way
+from thrustwasher.numerics.smoothing import sign_of
+from thrustwasher.tribology import asperities, viscosity
+from thrustwasher.washer.kernels.map import map_rows
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(way() != "native", reason="kernels run another way here")
@@ -62,7 +64,7 @@ def test_an_array_that_is_not_contiguous_goes_to_the_kernel_as_python():
 
 
 def test_arrays_of_two_dimensions_are_known():
-    entry = entries.describe(washer_map_rows.map_folds, ["folds"])
+    entry = entries.describe(map_rows.map_folds, ["folds"])
     assert [kind.ndim for kind in entry.takes if kind.name == "array"] == [1, 1, 2]
 
 
@@ -117,7 +119,7 @@ def test_the_jit_gives_the_same_bits(tmp_path):
 def test_an_unknown_way_is_refused_by_name():
     code = (
         "from thrustwasher.errors import EnvironmentProblem\n"
-        "try:\n import thrustwasher.kernels.flow_factors\n"
+        "try:\n import thrustwasher.tribology.flow_factors\n"
         "except EnvironmentProblem as problem:\n print(problem)\n"
     )
     assert "THRUSTWASHER_KERNELS" in child(code, THRUSTWASHER_KERNELS="fast")

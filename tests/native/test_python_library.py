@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.kernels.gear_constants import slide_roll
+from thrustwasher.gearmesh.kernels.constants import slide_roll
 from thrustwasher.native import digest, files, library, link, objects, shipped
 from thrustwasher.native.entries import CALLED, called_modules, describe, dotted, symbols
 from thrustwasher.native.here import this_platform
@@ -20,7 +20,7 @@ from thrustwasher.native.targets import PLATFORMS
 
 ROOT = Path(__file__).parents[2]
 KERNELS = [dotted(name) for name in CALLED]
-GEAR = "thrustwasher.kernels.gear_step"
+GEAR = "thrustwasher.gearmesh.kernels.step"
 LARGEST = 3_000_000  # bytes of compiled files in the repository
 
 linux = pytest.mark.skipif(
@@ -109,7 +109,7 @@ def test_an_edited_source_makes_the_shipped_code_stale(monkeypatch):
         shipped, "read", lambda p: true(p) + (b"# edited" if p.name == "gear_heat.py" else b"")
     )
     assert shipped.record(GEAR) is None
-    assert shipped.record("thrustwasher.kernels.command_step") is not None
+    assert shipped.record("thrustwasher.command.kernels.step") is not None
     forget()
 
 
@@ -135,7 +135,7 @@ WITHOUT = """
 import sys
 from thrustwasher.native import link, shipped
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.kernels.gear_constants import slide_roll
+from thrustwasher.gearmesh.kernels.constants import slide_roll
 shipped.library_file = lambda kernel, platform: None
 def none():
     raise EnvironmentProblem("no compiler")
@@ -222,7 +222,7 @@ def test_a_source_that_changes_while_it_is_compiled_is_not_kept_under_the_old_na
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(objects, "digest", lambda kernel: "0" * 16)
         with pytest.raises(EnvironmentProblem, match="its source changed meanwhile"):
-            objects.compile_objects("thrustwasher.kernels.command_step", tmp_path / "x", wanted)
+            objects.compile_objects("thrustwasher.command.kernels.step", tmp_path / "x", wanted)
 
 
 def test_an_error_of_the_disk_while_compiling_names_the_folder(monkeypatch, tmp_path):
@@ -232,14 +232,14 @@ def test_an_error_of_the_disk_while_compiling_names_the_folder(monkeypatch, tmp_
     monkeypatch.setattr(files, "keep", full)
     wanted = {("linux64", "v2"): (PLATFORMS["linux64"], PLATFORMS["linux64"].levels[0])}
     with pytest.raises(EnvironmentProblem, match=r"No space left .* XDG_CACHE_HOME") as caught:
-        objects.compile_objects("thrustwasher.kernels.command_step", tmp_path / "x", wanted)
+        objects.compile_objects("thrustwasher.command.kernels.step", tmp_path / "x", wanted)
     assert "\n" not in str(caught.value)
 
 
 def test_a_machine_nothing_is_made_for_lets_numba_compile(tmp_path):
     code = (
         "import platform\nplatform.machine = lambda: 'riscv64'\n"
-        "from thrustwasher.kernels.viscosity import viscosity\n"
+        "from thrustwasher.tribology.viscosity import viscosity\n"
         "print(viscosity(350.0, 6.3e-5, 3.5, 1.05)[0] > 0.0)\n"
     )
     done = child(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
@@ -254,7 +254,7 @@ def test_the_long_way_of_emission_gives_the_same_numbers(tmp_path):
         "import sys, importlib\nimport llvmlite.binding as llvm\n"
         "from thrustwasher.native import emit, lean\nllvm.initialize_all_targets()\n"
         "lean.is_known = lambda: False\n"
-        "whole = emit.module(importlib.import_module('thrustwasher.kernels.gear_step'), print)\n"
+        "whole = emit.module(importlib.import_module('thrustwasher.gearmesh.kernels.step'), print)\n"
         "open(sys.argv[1], 'wb').write(whole.as_bitcode())\n"
     )
     from thrustwasher.native import emit, lower

@@ -6,8 +6,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from thrustwasher.reference.lock_up import engagement, reduced_inertia, speed_against_quadratic_load
-from thrustwasher.reference.planetary import (
+from thrustwasher.transmission.closed_forms.lock_up import (
+    engagement,
+    reduced_inertia,
+    speed_against_quadratic_load,
+)
+from thrustwasher.transmission.closed_forms.planetary import (
     can_be_assembled,
     pitch_radius,
     planet_forces,

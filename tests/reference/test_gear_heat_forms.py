@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from thrustwasher.reference.flash_temperature import (
+from thrustwasher.gearmesh.closed_forms.flash_temperature import (
     ELLIPTIC,
     EVEN,
     Body,
@@ -22,14 +22,14 @@ from thrustwasher.reference.flash_temperature import (
     sheared_heat,
     surface_rise,
 )
-from thrustwasher.reference.involute_mesh import (
+from thrustwasher.gearmesh.closed_forms.involute_mesh import (
     Mesh,
     flanks_at,
     least_pinion_teeth,
     line_load,
     start_of_contact,
 )
-from thrustwasher.reference.line_contact import (
+from thrustwasher.gearmesh.closed_forms.line_contact import (
     LARGEST_ROUGHNESS,
     LEAST_ROUGHNESS,
     compliance,
@@ -38,7 +38,7 @@ from thrustwasher.reference.line_contact import (
     li_seireg,
     peak_pressure,
 )
-from thrustwasher.reference.thermal_fatigue import (
+from thrustwasher.gearmesh.closed_forms.thermal_fatigue import (
     CONTACT,
     Endurance,
     allowable_ratio,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from thrustwasher.reference.involute_mesh import (
+from thrustwasher.gearmesh.closed_forms.involute_mesh import (
     Mesh,
     end_of_contact,
     flanks_at,

@@ -6,7 +6,14 @@ import mpmath as mp
 import pytest
 from scipy.integrate import quad
 
-from thrustwasher.reference.greenwood import (
+from thrustwasher.gearmesh.closed_forms.line_contact import (
+    compliance,
+    dowson_higginson,
+    full_width,
+    peak_pressure,
+    vogel_viscosity,
+)
+from thrustwasher.tribology.closed_forms.greenwood import (
     elastic_pressure,
     first_moment,
     height_moment,
@@ -15,13 +22,6 @@ from thrustwasher.reference.greenwood import (
     tail_share,
     two_sided_area_share,
     two_sided_pressure,
-)
-from thrustwasher.reference.line_contact import (
-    compliance,
-    dowson_higginson,
-    full_width,
-    peak_pressure,
-    vogel_viscosity,
 )
 
 THETA = 2.0 * compliance(205e9, 0.3)

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.reference.lock_up import reduced_inertia
-from thrustwasher.reference.torsional_stability import (
+from thrustwasher.transmission.closed_forms.lock_up import reduced_inertia
+from thrustwasher.transmission.closed_forms.torsional_stability import (
     Mobility,
     characteristic,
     damping_limit,

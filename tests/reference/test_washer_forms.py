@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from thrustwasher.reference.greenwood import elastic_pressure, height_integral
-from thrustwasher.reference.heated_ring import annulus_rise, stack_rise
-from thrustwasher.reference.thin_film import (
+from thrustwasher.tribology.closed_forms.greenwood import elastic_pressure, height_integral
+from thrustwasher.washer.closed_forms.heated_ring import annulus_rise, stack_rise
+from thrustwasher.washer.closed_forms.thin_film import (
     couette_torque,
     narrow_ring_load,
     wedge_moment,

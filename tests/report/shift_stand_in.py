@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thrustwasher.report.shift_record import Cost, Event, KeyFigure, Part, Phase, Record
+from thrustwasher.report.shift.shift_record import Cost, Event, KeyFigure, Part, Phase, Record
 
 UNITS = {"time": "s", "speed": "rad/s", "energy": "J", "area": "J/m2", "power": "W", "thrust": "N",
          "torque": "N.m", "temperature": "K", "max": "K"}  # fmt: skip

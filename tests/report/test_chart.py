@@ -9,9 +9,9 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from thrustwasher.cli import main
-from thrustwasher.fidelity.work_precision import Sample
-from thrustwasher.report.chart_cost import count_figure
-from thrustwasher.report.stability_page import stability_markdown
+from thrustwasher.study.charts.chart_cost import count_figure
+from thrustwasher.study.charts.work_precision import Sample
+from thrustwasher.study.failures.stability_page import stability_markdown
 
 QUANTITY = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
 

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from shift_stand_in import record
+from thrustwasher.report.panels.motion_panels.shift_plots import judder_figure
 
-from thrustwasher.drivetrain.oscillation.judder import Judder
-from thrustwasher.report import summary
-from thrustwasher.report.findings import judder_text, judder_words
-from thrustwasher.report.shift_plots import judder_figure
-from thrustwasher.report.shift_report import shift_page
+from thrustwasher.report.shift import summary
+from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.report.shift.warnings_in_words import judder_text, judder_words
+from thrustwasher.shift.oscillation.judder import Judder
 
 GROWS = Judder(
     pack="clutch", start=0.11, end=1.3, frequency=9.9, growth=3.42, amplitude=440.0, locks=8,

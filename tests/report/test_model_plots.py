@@ -8,12 +8,12 @@ import pytest
 import washer_stand_in
 
 from thrustwasher import GearMeshParams, solve_gearmesh
-from thrustwasher.models.clutch import ClutchParams, boundary_friction, solve_clutch
-from thrustwasher.models.clutch_calibration import calibrate
-from thrustwasher.report.clutch_plot import clutch_figure
-from thrustwasher.report.fit_plot import calibration_figure
-from thrustwasher.report.gearmesh_plot import gearmesh_figure, over_teeth
-from thrustwasher.report.washer_plots import curve_figure
+from thrustwasher.clutch.calibration.calibration import calibrate
+from thrustwasher.clutch.solve import ClutchParams, boundary_friction, solve_clutch
+from thrustwasher.report.model_plots.clutch_plot import clutch_figure
+from thrustwasher.report.model_plots.fit_plot import calibration_figure
+from thrustwasher.report.model_plots.gearmesh_plot import gearmesh_figure, over_teeth
+from thrustwasher.report.model_plots.washer_plots import curve_figure
 
 PACK = ClutchParams()
 POINT = {"load": 5898.0, "speed": -50.0, "oil_temperature": 297.15}

@@ -12,14 +12,15 @@ import pytest
 import shift_stand_in
 import washer_stand_in
 
-from thrustwasher.report import contact_panels, shift_plots, shift_report, summary, tables
-from thrustwasher.report.clutch_plot import clutch_figure
 from thrustwasher.report.html import render, save_plots
-from thrustwasher.report.moments import Moment, highest, worst_film
-from thrustwasher.report.shift_record import KeyFigure, Published
+from thrustwasher.report.model_plots.clutch_plot import clutch_figure
+from thrustwasher.report.model_plots.washer_plots import curve_figure, field_figure
+from thrustwasher.report.panels.motion_panels import contact_panels, shift_plots
+from thrustwasher.report.shift import shift_report, shift_tables, summary
+from thrustwasher.report.shift.shift_record import KeyFigure, Published
+from thrustwasher.report.shift.trust import trust_texts
+from thrustwasher.report.shift.worst_moments import Moment, highest, worst_film
 from thrustwasher.report.style import decade_ticks, new_figure
-from thrustwasher.report.trust import trust_texts
-from thrustwasher.report.washer_plots import curve_figure, field_figure
 
 POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15}
 
@@ -208,7 +209,7 @@ def test_a_shift_that_does_not_lock_is_said(record):
 
 
 def test_energy_table_adds_up(record):
-    rows = tables.energy_table(record).rows
+    rows = shift_tables.energy_table(record).rows
     joule = {row[0]: float(row[1].replace("\u2009", "")) for row in rows}
     spent = [v for words, v in joule.items() if words.startswith(("work into", "heat", "residual"))]
     given = joule["work of the engine"] + joule["kinetic energy given up"]
@@ -216,7 +217,7 @@ def test_energy_table_adds_up(record):
 
 
 def test_parameters_tell_scene_from_default(record):
-    washer = next(t for t in tables.parameter_tables(record) if t.title.startswith("washer"))
+    washer = next(t for t in shift_tables.parameter_tables(record) if t.title.startswith("washer"))
     origin = {row[0]: row[4] for row in washer.rows}
     assert (origin["inner_radius"], origin["roughness"]) == ("scene", "default")
 

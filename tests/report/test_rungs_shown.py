@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import shift_stand_in
 
-from thrustwasher.drivetrain.tolerance.selection_record import (
+from thrustwasher.report.shift.rung_section import rung_sections
+from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.shift.tolerance.selection_record import (
     Check,
     Difference,
     GuardRecord,
@@ -12,8 +14,6 @@ from thrustwasher.drivetrain.tolerance.selection_record import (
     Selection,
     StepShare,
 )
-from thrustwasher.report.rung_section import rung_sections
-from thrustwasher.report.shift_report import shift_page
 
 WORDS = ("washer: map, friction_torque within 0.01 % (asked 0.6 %), 2 us per call",)
 CHOSEN = Selection(

@@ -8,8 +8,8 @@ from curves import traced
 
 from thrustwasher import solve_washer
 from thrustwasher.errors import Status
-from thrustwasher.models.washer_params import WasherParams
-from thrustwasher.rivals.plain2006 import Plain2006
+from thrustwasher.study.rivals.plain2006 import Plain2006
+from thrustwasher.washer.parameters import WasherParams
 
 pytestmark = pytest.mark.slow  # a minute of compiling, which no user ever waits for
 FULL_FILM = (300.0, 953.0, 0.002, 297.15)

@@ -1,7 +1,7 @@
 """A shift transmission alone, its packs' capacities given by hand."""
 
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.models.transmission_params import SPEC
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.transmission.parameters import SPEC
 
 FREE = {"engine_torque": 0.0, "load_torque": 0.0, "washers": 0}
 

@@ -9,9 +9,9 @@ Cure: the film is integrated inside the step, implicitly and error controlled: w
 
 import pytest
 
+from thrustwasher.clutch.parameters import SPEC
 from thrustwasher.errors import Status
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.models.clutch_params import SPEC
+from thrustwasher.fmu.running.direct_instance import DirectInstance
 
 PRESSED, SLIP, OIL = 5898.0, 200.0, 297.15
 SHOWN = ("torque_capacity", "film_ratio", "temperature", "energy")

@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 
 from thrustwasher import GearMeshParams, solve_gearmesh
 from thrustwasher.errors import Status
-from thrustwasher.kernels.gear_heat import surface_temperature
-from thrustwasher.rivals import heat_loop as h
+from thrustwasher.gearmesh.kernels.flank_temperature import surface_temperature
+from thrustwasher.study.rivals import heat_loop as h
 
 FROZEN, THINNING = h.Loop(40.0, 100.0, 1.0), h.Loop(40.0, 100.0, 0.3)
 

@@ -16,8 +16,8 @@ from curves import traced
 
 from thrustwasher import WasherParams
 from thrustwasher.errors import Status
-from thrustwasher.kernels import washer_step as kernel
-from thrustwasher.models._params import as_numbers
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.washer.kernels import step as kernel
 
 from washer_runs import followed, is_sound, solve  # isort: skip
 

@@ -14,16 +14,16 @@ import pytest
 
 import thrustwasher
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.drivetrain import load_scene
 from thrustwasher.errors import Status
-from thrustwasher.fidelity.failure_balance import Found, balance, judged
-from thrustwasher.fidelity.failure_cells import LIES, OK, SAYS, table
-from thrustwasher.fidelity.failure_map import closed_forms, coupling, heat_loop
-from thrustwasher.models.transmission_params import TransmissionParams
-from thrustwasher.rivals import cavitation as c
-from thrustwasher.rivals import lockup as k
-from thrustwasher.rivals import lockup_methods as methods
-from thrustwasher.rivals import shaft as s
+from thrustwasher.shift import load_scene
+from thrustwasher.study.failures.failure_balance import Found, balance, judged
+from thrustwasher.study.failures.failure_cells import LIES, OK, SAYS, table
+from thrustwasher.study.failures.failure_map import closed_forms, coupling, heat_loop
+from thrustwasher.study.rivals import cavitation as c
+from thrustwasher.study.rivals import lockup as k
+from thrustwasher.study.rivals import lockup_methods as methods
+from thrustwasher.study.rivals import shaft as s
+from thrustwasher.transmission.parameters import TransmissionParams
 
 from gearbox import Gearbox  # isort: skip
 
@@ -71,9 +71,11 @@ def test_no_shipped_scene_hands_over_torques_and_no_default_does():
 
 
 def test_default_rungs_are_solved_and_not_looked_up_or_closed():
-    from thrustwasher.models import clutch_params, gearmesh_params, washer_params
+    from thrustwasher.clutch import parameters
+    from thrustwasher.gearmesh import parameters as gearmesh_params
+    from thrustwasher.washer import parameters as washer_params
 
-    for spec in (washer_params.SPEC, clutch_params.SPEC, gearmesh_params.SPEC):
+    for spec in (washer_params.SPEC, parameters.SPEC, gearmesh_params.SPEC):
         assert spec.default_fidelity == "field"
 
 

@@ -15,9 +15,9 @@ import pytest
 
 from thrustwasher import Status, WasherParams, solve_washer
 from thrustwasher.errors import BranchError
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.models.washer_map import WasherMap
-from thrustwasher.models.washer_params import SPEC
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.washer.map.look_up import WasherMap
+from thrustwasher.washer.parameters import SPEC
 
 MIDDLE = {"load": 300.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 300.0}
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from thrustwasher import ParameterError, SolveError
-from thrustwasher.drivetrain import load_scene, run_shift
-from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.shift import load_scene, run_shift
 
 
 def small(name="planetary", **options):

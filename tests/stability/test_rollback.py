@@ -11,8 +11,11 @@ import random
 
 import pytest
 
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.models import clutch_params, gearmesh_params, transmission_params, washer_params
+from thrustwasher.clutch import parameters as clutch_params
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.gearmesh import parameters as gearmesh_params
+from thrustwasher.transmission import parameters as transmission_params
+from thrustwasher.washer import parameters as washer_params
 
 H = 2e-3
 COLD = 297.15

@@ -13,14 +13,14 @@ Cure: the active set, corrected until it stays. Tested on the kernel itself, its
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.flow_factors import flow_conductance, mean_gap
-from thrustwasher.kernels.washer_film import film_residual, film_solve
-from thrustwasher.kernels.washer_layout import AT_FIXED, N_HEAD
-from thrustwasher.kernels.washer_model import washer_model
-from thrustwasher.kernels.washer_workspace import fields_of, size_of_work, workspace_of
-from thrustwasher.models.washer_constants import constants
-from thrustwasher.models.washer_params import WasherParams
-from thrustwasher.rivals import cavitation as c
+from thrustwasher.study.rivals import cavitation as c
+from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap
+from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels.constants import washer_model
+from thrustwasher.washer.kernels.film import film_residual, film_solve
+from thrustwasher.washer.kernels.layout import AT_FIXED, N_HEAD
+from thrustwasher.washer.kernels.workspace import fields_of, size_of_work, workspace_of
+from thrustwasher.washer.parameters import WasherParams
 
 MU, HEIGHT = 0.06, 1e-5
 FILMS = {

@@ -12,14 +12,15 @@ from dataclasses import replace
 import pytest
 
 from thrustwasher import SolveError, WasherParams, choose, solve_washer
-from thrustwasher.models.washer import ERRORS
-from thrustwasher.store import cards, digests
-from thrustwasher.store.cards import files_of
+from thrustwasher.ladder import card as cards
+from thrustwasher.ladder.card import files_of
+from thrustwasher.storage import digests
+from thrustwasher.washer.solve import ERRORS
 
 POINT = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0}
 BOX = {"load": (200.0, 400.0), "speed": (400.0, 600.0), "tilt": (2e-3, 2e-3),
        "oil_temperature": (300.0, 310.0)}  # fmt: skip
-RENEW = "python -m thrustwasher.fidelity.verify washer"
+RENEW = "python -m thrustwasher.study.verify washer"
 
 
 def here(card):

@@ -15,7 +15,7 @@ import math
 import pytest
 
 from thrustwasher.errors import Status
-from thrustwasher.reference.lock_up import engagement
+from thrustwasher.transmission.closed_forms.lock_up import engagement
 
 from gearbox import FREE, Gearbox  # isort: skip
 

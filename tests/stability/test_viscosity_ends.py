@@ -20,8 +20,8 @@ from thrustwasher import (
     solve_clutch,
     solve_gearmesh,
 )
-from thrustwasher.kernels.gear_heat import LOWEST_OIL, oil_viscosity
-from thrustwasher.kernels.viscosity import viscosity
+from thrustwasher.gearmesh.kernels.flank_temperature import LOWEST_OIL, oil_viscosity
+from thrustwasher.tribology.viscosity import viscosity
 
 from washer_runs import is_sound, solve  # isort: skip
 

@@ -12,9 +12,9 @@ import pytest
 
 from thrustwasher import ParameterError
 from thrustwasher.errors import Status
-from thrustwasher.kernels import washer_step as kernel
-from thrustwasher.models._params import as_numbers
-from thrustwasher.models.washer_params import WasherParams
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.washer.kernels import step as kernel
+from thrustwasher.washer.parameters import WasherParams
 
 from washer_runs import followed, is_sound, solve  # isort: skip
 import itertools

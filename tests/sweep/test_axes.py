@@ -6,8 +6,8 @@ from itertools import pairwise
 import pytest
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.models.washer_params import SPEC
 from thrustwasher.sweep.axes import parse_values, places, read_axis
+from thrustwasher.washer.parameters import SPEC
 
 KNOWN = places(SPEC)
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from thrustwasher import ParameterError, run_sweep
-from thrustwasher.store.journal import Journal
-from thrustwasher.sweep import run as runs
-from thrustwasher.sweep.rows import solve_task
-from thrustwasher.sweep.run import journal_of
+from thrustwasher.storage.journal import Journal
+from thrustwasher.sweep import run_sweep as runs
+from thrustwasher.sweep.run_sweep import journal_of
+from thrustwasher.sweep.solve_rows import solve_task
 
 OVER = {"load": "10:200:10", "speed": "50:300:50"}
 

@@ -13,7 +13,7 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.models.washer_params import SPEC
+from thrustwasher.washer.parameters import SPEC
 
 UP = "200:1200:200"
 
@@ -110,7 +110,7 @@ def test_a_map_that_was_never_built_is_an_error_not_a_table_of_failures():
 
 
 def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypatch):
-    from thrustwasher.fidelity import choose
+    from thrustwasher.ladder import choose
 
     asked = {}
 

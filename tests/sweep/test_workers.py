@@ -12,8 +12,8 @@ import pytest
 
 from thrustwasher import run_sweep
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.sweep import run as runs
-from thrustwasher.sweep.run import journal_of
+from thrustwasher.sweep import run_sweep as runs
+from thrustwasher.sweep.run_sweep import journal_of
 
 OVER = {"load": "1 kN:9 kN:n20", "speed": "5:300:n100"}
 
@@ -24,7 +24,7 @@ def same(one, two):
 
 def count_blocks(monkeypatch):
     """Collect the first rows of all blocks that are taken in."""
-    from thrustwasher.store.journal import Journal
+    from thrustwasher.storage.journal import Journal
 
     firsts, append = [], Journal.append
 

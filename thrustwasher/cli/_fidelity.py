@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Mapping
 from typing import Any
 
-from ..models._spec import ModelSpec
+from ..model.spec import ModelSpec
 from . import _output
 
 
@@ -44,8 +44,8 @@ def rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -
     """
     if asked in spec.fidelities:
         return asked
-    from ..drivetrain.scene.fidelity_option import rung_and_tolerance
-    from ..fidelity.choose import choose
+    from ..ladder.choose import choose
+    from ..shift.scene.fidelity_option import rung_and_tolerance
 
     _, tolerance = rung_and_tolerance(spec.key, spec, asked)
     choice = choose(spec.key, dict(point), tol=float(tolerance or 0.0), params=params)

@@ -19,7 +19,7 @@ TEXTS = (".py", ".json", ".npz", ".md", ".html", ".svg", ".png", ".c", ".h")
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
     """Return the FMU of each model for this machine, building those that are not there yet."""
     from ..fmu.build import build
-    from ..fmu.loading import prune
+    from ..fmu.running.loading import prune
 
     folder = cache_folder(target)
     paths = {model: folder / f"{target}-fmi2" / f"{model}.fmu" for model in models}
@@ -37,8 +37,8 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
 
 def _compile(models: list[str], target: str) -> None:
     """Compile what is not compiled yet, as many models at once as there are processors."""
-    from ..fmu.native.library import compile_local
-    from ..fmu.registry import find_spec
+    from ..fmu.model_kernels import find_spec
+    from ..fmu.shell.platform_libraries import compile_local
 
     if target == "native":
         compile_local([find_spec(model) for model in models], note)
@@ -51,10 +51,10 @@ def cache_folder(target: str) -> Path:
 
 def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
-    from ..fmu.native.library import made_of
-    from ..fmu.registry import all_specs, package_version
-    from ..fmu.sources import source_folder
-    from ..store.maps import SUFFIX, map_folders
+    from ..fmu.model_kernels import all_specs, package_version
+    from ..fmu.package.model_sources import source_folder
+    from ..fmu.shell.platform_libraries import made_of
+    from ..washer.map.map_file import SUFFIX, map_folders
 
     native = target == "native"
     made_for = " ".join(made_of(spec, local=True) for spec in all_specs()) if native else "python"

@@ -61,7 +61,7 @@ def resolve(name: str) -> Any:
 
 def _under_torque(point: dict[str, float]) -> dict[str, float]:
     """Return the inputs of a gear mesh: the power as a torque of the pinion."""
-    from ..models.gearmesh import pinion_torque
+    from ..gearmesh.solve import pinion_torque
 
     power, rest = point["power"], {n: v for n, v in point.items() if n != "power"}
     return {**rest, "load": pinion_torque(power, point["speed"])}

@@ -10,11 +10,11 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
-from ..models._params import allowed
+from ..model.parameters import allowed
 from ..units import parse_quantity
 
 if TYPE_CHECKING:  # they need numpy, which not every command does
-    from ..models._spec import ModelSpec, Signal
+    from ..model.spec import ModelSpec, Signal
 
 _TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 

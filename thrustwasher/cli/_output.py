@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError
-from ..store.whole_files import folder_for_trial
-from ..store.whole_files import whole_file as whole_file
-from ..store.whole_files import whole_folder as whole_folder
+from ..storage.whole_files import folder_for_trial
+from ..storage.whole_files import whole_file as whole_file
+from ..storage.whole_files import whole_folder as whole_folder
 from ..units import format_quantity
 from ._models import resolve
 

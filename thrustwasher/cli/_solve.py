@@ -5,7 +5,7 @@ import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..models._spec import ModelSpec, Signal
+from ..model.spec import ModelSpec, Signal
 from . import _fidelity, _options, _output
 from ._models import ModelCommand, Variants, resolve
 

@@ -4,8 +4,8 @@ import argparse
 import time
 from typing import Any
 
+from ..clutch.parameters import SPEC
 from ..errors import ParameterError
-from ..models.clutch_params import SPEC
 from ..units import parse_quantity
 from . import _options, _output, _table
 
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
         _table.read_columns(arguments.data, UNITS, optional=("friction_error",))
     )
 
-    from ..models.clutch_calibration import DEFAULT_FIT, calibrate
+    from ..clutch.calibration.calibration import DEFAULT_FIT, calibrate
 
     names = DEFAULT_FIT if params.friction_law != "constant" else ("constant_friction",)
     if arguments.fit is not None:

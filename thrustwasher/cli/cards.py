@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ..fidelity.models import MODELS, spec_of
-from ..store.cards import VERIFY
+from ..ladder.card import VERIFY
+from ..model.registry import MODELS, spec_of
 from . import _output
 
 HELP = "list the verified errors of all rungs, where they hold and what a call costs"
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """List the cards, fresh or not; files that are no cards come last."""
-    from ..store.cards import load_cards, refused_files
+    from ..ladder.card import load_cards, refused_files
 
     wanted = [arguments.model] if arguments.model else list(MODELS)
     found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
@@ -59,7 +59,7 @@ def worst(card: Any, quantity: str) -> float | None:
 
 def _print_model(model: str, cards: list[Any]) -> None:
     """Print a table per parameter set."""
-    from ..fidelity.formats import shown_error, shown_seconds
+    from ..ladder.formats import shown_error, shown_seconds
 
     if not cards:
         print(f"{model}: no cards; make them: {VERIFY} {model}")

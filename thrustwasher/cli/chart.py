@@ -64,19 +64,19 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _page_of_failures(record: dict[str, Any]) -> str:
-    from ..report.stability_page import stability_markdown
+    from ..study.failures.stability_page import stability_markdown
 
     return stability_markdown(record)
 
 
 def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return everything that is measured, or where methods fail alone, as JSON types."""
-    from ..fidelity.surroundings import pin_threads, surroundings
+    from ..study.surroundings import pin_threads, surroundings
 
     pin_threads()  # before numpy is loaded
-    from ..drivetrain.macro_steps import study
-    from ..fidelity.models import MODELS
-    from ..fidelity.work_precision import work_precision
+    from ..model.registry import MODELS
+    from ..study.charts.work_precision import work_precision
+    from ..study.macro_steps import study
 
     quick = arguments.quick
     words = f" --only {arguments.only}" if arguments.only else ""
@@ -99,9 +99,9 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def _stability(*, quick: bool) -> dict[str, Any]:
     """Return the stability map with the masters of the driveline, and the limits of coupling."""
-    from ..drivetrain.macro_steps import masters
-    from ..fidelity.coupling_limits import as_rows, limits
-    from ..fidelity.failure_map import stability
+    from ..study.failures.coupling_limits import as_rows, limits
+    from ..study.failures.failure_map import stability
+    from ..study.macro_steps import masters
 
     more = (("masters of a shift", lambda: masters(_instances)),)
     groups = stability(quick=quick, progress=_say, more=more)
@@ -111,7 +111,7 @@ def _stability(*, quick: bool) -> dict[str, Any]:
 
 def _instances(scene: Any) -> dict[str, Any]:
     """Return an instance in this process for each part of a scene."""
-    from ..fmu.direct import DirectInstance
+    from ..fmu.running.direct_instance import DirectInstance
 
     return {
         name: DirectInstance(part.spec, parameters=part.parameters())
@@ -126,8 +126,8 @@ def _say(what: str) -> None:
 
 def _read(path: str) -> dict[str, Any]:
     """Return the record of an earlier run."""
-    from ..fidelity.surroundings import SCHEMA
-    from ..store.digests import is_broken
+    from ..storage.digests import is_broken
+    from ..study.surroundings import SCHEMA
 
     try:
         record = json.loads(Path(path).read_text("utf-8"))
@@ -143,10 +143,10 @@ def _read(path: str) -> dict[str, Any]:
 
 def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     """Write record, page and drawings; all of them or none. ``extra``: text of stability.md."""
-    from ..fidelity.pareto import front
-    from ..report.chart_page import markdown, page_of
     from ..report.html import render, save_plots
-    from ..store.digests import sealed
+    from ..storage.digests import sealed
+    from ..study.charts.chart_page import markdown, page_of
+    from ..study.charts.pareto import front
 
     studies = dict(record["models"])
     if "macro_steps" in record:

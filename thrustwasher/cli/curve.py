@@ -5,8 +5,8 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from ..models.washer_params import SPEC
 from ..units import format_quantity
+from ..washer.parameters import SPEC
 from . import _options, _output
 
 HELP = "trace the washer's load curve with the folds where the film is lost and regained"
@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     grid = _options.read_options(arguments, [_options.GRID])
     targets = _output.targets(arguments)
 
-    from ..models.washer_load_curve import load_curve
+    from ..washer.load_curve import load_curve
 
     began = time.perf_counter()
     curve = load_curve(params, **point, **grid)

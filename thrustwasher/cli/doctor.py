@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Look at the machine and report."""
-    from ..fmu.doctor import diagnose
+    from ..fmu.diagnosis import diagnose
 
     findings = diagnose()
     if arguments.json:

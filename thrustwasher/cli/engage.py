@@ -4,8 +4,8 @@ import argparse
 import time
 from typing import Any
 
-from ..models._params import check_number
-from ..models.clutch_params import SPEC
+from ..clutch.parameters import SPEC
+from ..model.parameters import check_number
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
@@ -72,8 +72,8 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
     """Return the engagement: load up in a straight ramp, slip down to zero at the end."""
     import numpy as np
 
+    from ..clutch.engagement import engage_clutch
     from ..errors import ParameterError
-    from ..models.clutch_engagement import engage_clutch
 
     n = round(times["duration"] / times["step"])
     if not 1 <= n <= MAX_POINTS:

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..models.washer_params import SPEC
 from ..units import parse_quantity
+from ..washer.parameters import SPEC
 from . import _options, _output
 from ._progress import time_left
 
@@ -51,7 +51,7 @@ def _build(arguments: argparse.Namespace) -> int:
     box = {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
            for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
 
-    from ..maps.build import make_map
+    from ..washer.map.map_build import make_map
 
     card = make_map(params, Path(out), box=box, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
@@ -70,7 +70,7 @@ def _span(text: str, name: str, unit: str) -> tuple[float, float]:
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    from ..store.maps import all_maps, map_folders
+    from ..washer.map.map_file import all_maps, map_folders
 
     maps = all_maps()
     if arguments.json:
@@ -87,9 +87,9 @@ def _list(arguments: argparse.Namespace) -> int:
 def _check(arguments: argparse.Namespace) -> int:
     if not arguments.file:
         raise ParameterError("check: the map file is wanted, `thrustwasher map check FILE`")
-    from ..maps.check import check_map
-    from ..models.washer_params import WasherParams
-    from ..store.maps import read_map
+    from ..washer.map.map_check import check_map
+    from ..washer.map.map_file import read_map
+    from ..washer.parameters import WasherParams
 
     file = read_map(arguments.file)
     try:

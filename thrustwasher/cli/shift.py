@@ -70,7 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
-    from ..drivetrain import load_scene, with_fidelities
+    from ..shift import load_scene, with_fidelities
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     tolerance = arguments.master_tolerance
@@ -101,8 +101,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _say(result: Any, folder: Path | None) -> None:
     """Print what happened in the shift, and where its report is."""
-    from ..report import summary
-    from ..report.shift_record import record_of
+    from ..report.shift import summary
+    from ..report.shift.shift_record import record_of
 
     record = record_of(result)
     for text in result.selection.words() if result.selection else []:
@@ -119,7 +119,7 @@ def _say(result: Any, folder: Path | None) -> None:
 
 def _simulate(scene: Any, target: str, guard: bool) -> Any:
     """Return the finished shift; the FMUs are built, loaded and freed here."""
-    from ..drivetrain import run_auto
+    from ..shift import run_auto
 
     with _fmu_instances(scene, target) as make:
         return run_auto(scene, make, guard=guard, progress=progress_bar(scene.name))
@@ -144,9 +144,9 @@ def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any
 def _write(result: Any, folder: Path) -> None:
     """Write page, plots and time series into a folder that is still a draft."""
     from ..report.html import picture, render, save_plots
-    from ..report.shift_plots import overview_figure
-    from ..report.shift_record import record_of
-    from ..report.shift_report import shift_page
+    from ..report.panels.shift_plots import overview_figure
+    from ..report.shift.shift_record import record_of
+    from ..report.shift.shift_report import shift_page
 
     record = record_of(result)
     page = shift_page(record)
@@ -177,7 +177,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     began = time.perf_counter()
     parts = _package(scene, platforms)
 
-    from ..fmu import archive
+    from ..fmu.package import archive
 
     with _output.whole_file(target) as draft:
         draft.write_bytes(archive.pack(parts))
@@ -192,11 +192,11 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
 
 def _package(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
-    from ..drivetrain.ssp.package import files
-    from ..drivetrain.ssp.system_structure import plan, prepared, start_values
     from ..fmu.build import pack_native
-    from ..fmu.registry import package_version
-    from ..fmu.xml_parts import generation_date
+    from ..fmu.description.xml_parts import generation_date
+    from ..fmu.model_kernels import package_version
+    from ..shift.ssp.package import files
+    from ..shift.ssp.system_structure import plan, prepared, start_values
 
     scene = prepared(scene)
     with _fmu_instances(scene, "native") as make:

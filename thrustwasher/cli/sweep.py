@@ -9,8 +9,8 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..fidelity.models import MODELS, spec_of
-from ..models._spec import ModelSpec
+from ..model.registry import MODELS, spec_of
+from ..model.spec import ModelSpec
 from ..sweep.axes import places, split_setting
 from . import _output
 from ._options import option_name
@@ -64,8 +64,8 @@ def run(arguments: argparse.Namespace) -> int:
         out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
     points = _points(arguments.points, spec) if arguments.points else None
 
-    from ..sweep.run import run_sweep
-    from ..sweep.table import write_csv
+    from ..sweep.run_sweep import run_sweep
+    from ..sweep.sweep_table import write_csv
 
     began = time.perf_counter()
     table = run_sweep(
@@ -155,7 +155,7 @@ def _progress(spec: ModelSpec) -> Callable[[int, int], None]:
     def progress(done: int, total: int) -> None:
         nonlocal told
         if not told and done < total:
-            from ..fmu.registry import is_compiled
+            from ..fmu.model_kernels import is_compiled
 
             if not is_compiled(spec):
                 _output.note(f"compiling the kernels of the {spec.key}, once on this machine")

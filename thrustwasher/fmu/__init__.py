@@ -1,17 +1,17 @@
-"""From the models' lists to FMUs, and FMUs at work.
+"""FMUs: description, packing, documentation, the Python target, running them.
 
-=====================  =============================================================================
-``registry``           which models there are, their kernels, the digest of their content
-``interface``          the one list of variables per model
-``xml_parts``          units, types and attributes as both FMI versions write them
-``model_description``  the XML files of both versions
-``sources``            where the models' own files lie; the GUID
-``build``              everything in one FMU; ``archive`` packs it
-``native``             libraries that need no Python: kernels behind a shell in C
-``slave``              the Python FMU; ``python_contents``: what it carries
-``page``               documentation of ``wiring``, ``markup``, ``licences``; ``reference``: results
-``core``               a running model; ``snapshot``: its state; ``direct``: it without an FMU
-``stepper``            FMU instances through FMPy: ``loading``, ``protocol``
-``doctor``             what works on this machine
-=====================  =============================================================================
+=================  ==============================================================================
+``build``          From a model's list, binaries and documents to an FMU file
+``description``    The model description of an FMU
+``diagnosis``      What works on this machine, and why not: the first thing to read when an FMU
+                   does not run
+``documentation``  The page inside an FMU
+``model_kernels``  Which models there are, their kernels, and the digest that ties an FMU to this
+                   package
+``package``        The files inside an FMU and their sources
+``python``         FMUs that run in Python
+``running``        Running a model: in this process, or an FMU
+``shell``          The C files of a native FMU, and calling it
+``stepper``        FMU instances that stay alive and are stepped, through FMPy
+=================  ==============================================================================
 """

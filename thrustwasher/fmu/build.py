@@ -5,20 +5,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import ParameterError
-from ..models._spec import ModelSpec
+from ..model.spec import ModelSpec
 from ..native.files import Note
 from ..native.here import this_platform
-from . import archive
-from .interface import all_specs, find_spec
-from .licences import licences
-from .model_description import description, terminals_and_icons
-from .native.library import chosen, made_of, native_contents
-from .page import accuracy, page
-from .python_contents import python_contents
-from .reference import reference_files
-from .registry import has_derivatives
-from .sources import identifier, model_folder, source_folder
-from .xml_parts import text
+from .description.interface import all_specs, find_spec
+from .description.model_description import description, terminals_and_icons
+from .description.xml_parts import text
+from .documentation.html_page import accuracy, page
+from .documentation.reference_results import reference_files
+from .model_kernels import has_derivatives
+from .package import archive
+from .package.licences import licences
+from .package.model_sources import identifier, model_folder, source_folder
+from .python.python_contents import python_contents
+from .shell.platform_libraries import chosen, made_of, native_contents
 
 TARGETS = ("native", "python")
 

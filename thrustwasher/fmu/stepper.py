@@ -13,9 +13,17 @@ from time import perf_counter
 from typing import Any, Self
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
-from .direct import DirectInstance, number, unknown
-from .loading import WARNING, Message, Messages, capabilities, description, instantiate, unpack
-from .protocol import Direction, Machine, Protocol, Table, machine_of
+from .running.direct_instance import DirectInstance, number, unknown
+from .running.loading import (
+    WARNING,
+    Message,
+    Messages,
+    capabilities,
+    description,
+    instantiate,
+    unpack,
+)
+from .running.protocol import Direction, Machine, Protocol, Table, machine_of
 
 __all__ = ["DirectInstance", "Instance", "unpack"]
 

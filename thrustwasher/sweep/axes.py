@@ -10,8 +10,8 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ..errors import ParameterError
-from ..models._params import allowed
-from ..models._spec import ModelSpec, Signal
+from ..model.parameters import allowed
+from ..model.spec import ModelSpec, Signal
 from ..units import parse_quantity
 
 MOST_POINTS = 2_000_000
@@ -151,7 +151,7 @@ def parse_values(text: str, place: Place, written: str = "") -> list[Any]:
 
     Examples
     --------
-    >>> from thrustwasher.models.clutch_params import SPEC
+    >>> from thrustwasher.clutch.parameters import SPEC
     >>> parse_values("1:2:0.5, 8", places(SPEC)["load"])
     [1.0, 1.5, 2.0, 8.0]
     >>> parse_values("1 kN:100 kN:x3", places(SPEC)["load"])

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.kernels._jit import kernel
 from thrustwasher.native import emit, lower
 from thrustwasher.native.targets import PLATFORMS
+from thrustwasher.numerics.jit import kernel
 
 LABS = ctypes.CDLL(None).labs
 LABS.restype, LABS.argtypes = ctypes.c_long, [ctypes.c_long]

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.native import library, tables
-from thrustwasher.fmu.registry import all_specs, find_spec, kernel_module, load_kernel
-from thrustwasher.kernels._jit import jitted, way
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.model_kernels import all_specs, find_spec, kernel_module, load_kernel
+from thrustwasher.fmu.shell import c_tables, platform_libraries
 from thrustwasher.native.targets import PLATFORMS
+from thrustwasher.numerics.jit import jitted, way
 
 HERE = Path(__file__).parent
 EXPORTS = ("probe_derive", "probe_rule", "probe_step", "probe_sens")
@@ -27,9 +27,11 @@ def probe(model: str, level: str) -> ctypes.CDLL:
     spec = find_spec(model)
     linux = PLATFORMS["linux64"]
     platform = replace(linux, levels=tuple(one for one in linux.levels if one.name == level))
-    files = {**tables.sources(spec, fmi=2, guid="0"), "probe.c": (HERE / "probe.c").read_bytes()}
+    files = {**c_tables.sources(spec, fmi=2, guid="0"), "probe.c": (HERE / "probe.c").read_bytes()}
     name = f"{model}_{level}"
-    made = library.link_kernel(files, kernel_module(spec.kernel), platform, name, EXPORTS)
+    made = platform_libraries.link_kernel(
+        files, kernel_module(spec.kernel), platform, name, EXPORTS
+    )
     path = Path(_folder.name) / f"{name}.so"
     path.write_bytes(made)
     return ctypes.CDLL(str(path))

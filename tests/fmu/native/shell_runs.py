@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 from shelltoy.spec import SPEC as TOY
 
-from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.native import tables
-from thrustwasher.fmu.native.library import library as native_library
-from thrustwasher.fmu.registry import find_spec
-from thrustwasher.fmu.sources import source_folder
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.model_kernels import find_spec
+from thrustwasher.fmu.package.model_sources import source_folder
+from thrustwasher.fmu.shell import c_tables
+from thrustwasher.fmu.shell.platform_libraries import library as native_library
 
 HERE = Path(__file__).parent
 GUID = "0123456789abcdef0123456789abcdef"
@@ -46,10 +46,10 @@ def _compile(*arguments) -> None:
 def toy_library(fmi: int, flags: tuple[str, ...] = ("-O2",), guid: str = GUID) -> Path:
     """Return the shell linked with the toy's C functions."""
     folder = Path(tempfile.mkdtemp(dir=_folder.name))
-    for name, text in tables.sources(TOY, fmi=fmi, guid=guid).items():
+    for name, text in c_tables.sources(TOY, fmi=fmi, guid=guid).items():
         (folder / name).write_text(text)
     shell = source_folder() / "shell"
-    files = [shell / name for name in tables.shell_files(fmi)]
+    files = [shell / name for name in c_tables.shell_files(fmi)]
     library = folder / "toy.so"
     _compile("-std=c99", *STRICT, *flags, "-shared", "-fPIC", "-fvisibility=hidden", "-I", folder,
              "-I", shell, "-I", headers(), folder / "model.c", *files, HERE / "shelltoy" / "toy.c",

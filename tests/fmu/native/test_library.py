@@ -12,9 +12,9 @@ import pytest
 from kernel_runs import MODELS
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError
-from thrustwasher.fmu.native import calls, library
-from thrustwasher.fmu.registry import find_spec, kernel_module
-from thrustwasher.fmu.sources import PACKAGE
+from thrustwasher.fmu.model_kernels import find_spec, kernel_module
+from thrustwasher.fmu.package.model_sources import PACKAGE
+from thrustwasher.fmu.shell import call_table, platform_libraries
 from thrustwasher.native import digest, emit, gate, link, linked
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
@@ -31,7 +31,7 @@ each_platform = pytest.mark.parametrize("platform", ["linux64", *OTHERS])
 def made(platform, fmi=2, model="gearmesh", guid=GUID):
     if platform not in link.find_linker().platforms:
         pytest.skip(f"{link.find_linker().name} does not build for {platform}: pip install ziglang")
-    return library.library(find_spec(model), fmi=fmi, guid=guid, platform=platform)
+    return platform_libraries.library(find_spec(model), fmi=fmi, guid=guid, platform=platform)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
@@ -39,7 +39,7 @@ def made(platform, fmi=2, model="gearmesh", guid=GUID):
 def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else(platform, fmi):
     found = linked.read(made(platform, fmi))
     assert found.format == PLATFORMS[platform].format
-    assert set(calls.functions(fmi)) == found.exports - {"__dso_handle", "_mh_dylib_header"}
+    assert set(call_table.functions(fmi)) == found.exports - {"__dso_handle", "_mh_dylib_header"}
     names = {name.lower() for name in found.needed}
     assert names <= {"libc.so.6", "libm.so.6", "kernel32.dll", "/usr/lib/libsystem.b.dylib"} | {
         name for name in names if name.startswith("api-ms-win-crt-")
@@ -65,7 +65,7 @@ def test_no_path_of_this_machine_is_inside(platform):
 
 
 def test_what_is_too_much_in_a_library_is_named():
-    code, names = made("linux64"), calls.functions(2)
+    code, names = made("linux64"), call_table.functions(2)
     with pytest.raises(EnvironmentProblem, match="it exports fmi2"):
         linked.check(code, exports=names[1:], glibc=None)
     with pytest.raises(EnvironmentProblem, match="it does not export fmi2Dream"):
@@ -76,7 +76,7 @@ def test_what_is_too_much_in_a_library_is_named():
 
 def test_another_platform_is_refused_by_name():
     with pytest.raises(ParameterError, match="platform = 'dos', allowed: linux64 or win64"):
-        library.library(find_spec("gearmesh"), fmi=2, guid=GUID, platform="dos")
+        platform_libraries.library(find_spec("gearmesh"), fmi=2, guid=GUID, platform="dos")
 
 
 @pytest.fixture
@@ -131,15 +131,17 @@ def test_code_is_kept_under_all_that_a_kernel_imports(model):
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     imported = {m for m in run.stdout.split() if m.startswith("thrustwasher.kernels.")}
-    imported -= {"thrustwasher.kernels._jit"}  # decorates, whatever it says is in every name
+    imported -= {"thrustwasher.numerics.jit"}  # decorates, whatever it says is in every name
     assert imported == set(found) - {"thrustwasher.kernels"}  # the package's own page
 
 
 def test_an_edit_of_an_imported_kernel_gives_another_name():
-    found = {n: digest.read(p) for n, p in digest.sources("thrustwasher.kernels.gear_step").items()}
+    found = {
+        n: digest.read(p) for n, p in digest.sources("thrustwasher.gearmesh.kernels.step").items()
+    }
     before = digest.digest_of(found)
-    assert before == digest.digest("thrustwasher.kernels.gear_step")
-    assert before != digest.digest_of(found | {"thrustwasher.kernels.smoothing": b"# edited"})
+    assert before == digest.digest("thrustwasher.gearmesh.kernels.step")
+    assert before != digest.digest_of(found | {"thrustwasher.numerics.smoothing": b"# edited"})
 
 
 def test_line_ends_do_not_count(tmp_path):
@@ -195,7 +197,7 @@ def mach_o(processor, subtype, length):
 
 def test_each_part_of_a_macos_file_lies_at_a_whole_page_as_the_table_says():
     parts = [mach_o(X86_64, 3, 20_000), mach_o(ARM64, 0, 5_001)]
-    data = library.universal(parts)
+    data = platform_libraries.universal(parts)
     magic, n = struct.unpack_from(">II", data)
     assert (magic, n) == (0xCAFEBABE, 2)
     entries = [struct.unpack_from(">IIIII", data, 8 + 20 * i) for i in range(n)]

@@ -9,12 +9,12 @@ from built import built_fmu
 
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.direct import DirectInstance
-from thrustwasher.fmu.loading import unpack
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.fmu.running.loading import unpack
 from thrustwasher.fmu.stepper import Instance
-from thrustwasher.maps.build import make_map
-from thrustwasher.models.washer_params import SPEC, WasherParams
-from thrustwasher.store.maps import VARIABLE
+from thrustwasher.washer.map.map_build import make_map
+from thrustwasher.washer.map.map_file import VARIABLE
+from thrustwasher.washer.parameters import SPEC, WasherParams
 
 BOX = {"load": (100.0, 900.0), "speed": (500.0, 600.0), "tilt": (0.002, 0.002),
        "oil_temperature": (297.15, 297.15)}  # fmt: skip

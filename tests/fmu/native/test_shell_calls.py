@@ -3,21 +3,23 @@
 import pytest
 from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, ref, run, toy_library
 
-from thrustwasher.fmu.native import calls
+from thrustwasher.fmu.shell import call_table
 
 pytestmark = needs_gcc
 WAYS = {
-    calls.INSTANTIATED: "",
-    calls.INITIALIZING: "enter 0\n",
-    calls.STEPPING: "enter 0\nleave\n",
-    calls.TERMINATED: "enter 0\nleave\nend\n",
+    call_table.INSTANTIATED: "",
+    call_table.INITIALIZING: "enter 0\n",
+    call_table.STEPPING: "enter 0\nleave\n",
+    call_table.TERMINATED: "enter 0\nleave\nend\n",
 }
 FORBIDDEN = "is not allowed in state"
 both = pytest.mark.parametrize("fmi", [2, 3])
 
 
 def every_call(fmi):
-    return [(mode, name) for mode in WAYS for name in calls.CALLS[fmi] if name != "FreeInstance"]
+    return [
+        (mode, name) for mode in WAYS for name in call_table.CALLS[fmi] if name != "FreeInstance"
+    ]
 
 
 @both
@@ -30,19 +32,23 @@ def test_every_function_is_allowed_in_the_modes_of_the_table_and_in_no_other(fmi
             assert next(replies).status == 0
         reply = next(replies)
         said = [text for text in reply.messages if FORBIDDEN in text]
-        if mode & calls.CALLS[fmi][name]:
+        if mode & call_table.CALLS[fmi][name]:
             assert said == [], (mode, name)
         else:
             assert reply.status == 3 and len(said) == 1, (mode, name)
-            assert f"fmi{fmi}{name} {FORBIDDEN} {calls.MODES[mode][0]}; call fmi{fmi}" in said[0]
-        if name in calls.DECLINED[fmi]:
-            assert reply.status == 3 and calls.DECLINED[fmi][name] in reply.messages[-1]
+            assert (
+                f"fmi{fmi}{name} {FORBIDDEN} {call_table.MODES[mode][0]}; call fmi{fmi}" in said[0]
+            )
+        if name in call_table.DECLINED[fmi]:
+            assert reply.status == 3 and call_table.DECLINED[fmi][name] in reply.messages[-1]
         next(replies)
 
 
 @both
 def test_a_forbidden_call_changes_nothing(fmi, tmp_path):
-    wrong = [name for name, modes in calls.CALLS[fmi].items() if not modes & calls.STEPPING]
+    wrong = [
+        name for name, modes in call_table.CALLS[fmi].items() if not modes & call_table.STEPPING
+    ]
     tries = "".join(f"call fmi{fmi}{name}\n" for name in wrong)
     script = (
         f"{BEGUN}step 0 1e-3\nsave 0\nwrite 0 {tmp_path}/a\n{tries}save 1\nwrite 1 {tmp_path}/b\n"
@@ -66,7 +72,7 @@ def test_the_message_says_what_to_call_first(fmi, way, name, first):
 
 @both
 def test_no_function_needs_an_instance_to_answer(fmi):
-    names = calls.CALLS[fmi]
+    names = call_table.CALLS[fmi]
     replies = run(
         fmi, toy_library(fmi), "".join(f"call fmi{fmi}{n}\n" for n in names if n != "FreeInstance")
     )

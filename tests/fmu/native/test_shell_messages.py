@@ -5,7 +5,7 @@ from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, run, toy_lib
 from shelltoy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, Status
-from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.running.direct_instance import DirectInstance
 
 pytestmark = needs_gcc
 both = pytest.mark.parametrize("fmi", [2, 3])

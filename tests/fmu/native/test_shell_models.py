@@ -10,8 +10,8 @@ from shell_runs import GUID, MADE, model_library, needs_linux, run, taking
 from twin import Twin
 
 from thrustwasher.errors import SolveError
-from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.registry import find_spec, kernel_module
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.model_kernels import find_spec, kernel_module
 from thrustwasher.fmu.stepper import DirectInstance
 
 pytestmark = needs_linux

@@ -8,10 +8,10 @@ import pytest
 from shell_runs import GUID, MADE, needs_gcc, run, taking, toy_library
 from shelltoy.spec import SPEC as TOY
 
-from thrustwasher.fmu.interface import variables
-from thrustwasher.fmu.native import calls, tables
-from thrustwasher.fmu.registry import all_specs
-from thrustwasher.fmu.sources import source_folder
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.model_kernels import all_specs
+from thrustwasher.fmu.package.model_sources import source_folder
+from thrustwasher.fmu.shell import c_tables, call_table
 
 HEADERS = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
 EXCHANGE_ONLY = {  # functions of FMI 2.0 that co-simulation has not
@@ -27,12 +27,12 @@ def test_the_table_of_calls_has_every_function_of_the_standard(fmi, number):
     standard = set(re.findall(rf"FMI{fmi}_Export \w+\s+(fmi{fmi}\w+);", text))
     if fmi == 2:
         standard -= {f"fmi2{name}" for name in EXCHANGE_ONLY}
-    assert set(calls.functions(fmi)) == standard and len(standard) == number
+    assert set(call_table.functions(fmi)) == standard and len(standard) == number
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_the_same_model_gives_the_same_tables_and_another_guid_others(fmi):
-    made = [tables.sources(TOY, fmi=fmi, guid=guid) for guid in (GUID, GUID, "other")]
+    made = [c_tables.sources(TOY, fmi=fmi, guid=guid) for guid in (GUID, GUID, "other")]
     assert made[0] == made[1] != made[2]
 
 
@@ -43,12 +43,14 @@ def test_every_name_in_a_rule_is_a_parameter_and_every_file_is_there():
             assert set(re.findall(r"\{(\w+)\}", rule.text)) <= known, rule.text
     shell = source_folder() / "shell"
     for fmi in (2, 3):
-        assert all((shell / name).is_file() for name in tables.shell_files(fmi))
+        assert all((shell / name).is_file() for name in c_tables.shell_files(fmi))
 
 
 def test_sentences_become_c_whatever_they_hold():
-    assert tables._text('a "b" \\ ??) 20 °C') == '"a \\042b\\042 \\134 \\077\\077) 20 \\302\\260C"'
-    assert tables._text(None) == "0"
+    assert (
+        c_tables._text('a "b" \\ ??) 20 °C') == '"a \\042b\\042 \\134 \\077\\077) 20 \\302\\260C"'
+    )
+    assert c_tables._text(None) == "0"
 
 
 @needs_gcc

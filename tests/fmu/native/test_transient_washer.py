@@ -4,9 +4,9 @@ import pytest
 from built import built_fmu
 
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.direct import DirectInstance
+from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.fmu.stepper import Instance
-from thrustwasher.models.washer_params import SPEC
+from thrustwasher.washer.parameters import SPEC
 
 POINT = {"load": 650.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
 IN_TIME = {"thermal_mode": "transient", "fidelity": "coarse"}

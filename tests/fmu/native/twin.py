@@ -5,8 +5,8 @@ from itertools import groupby
 from shell_runs import LETTERS
 
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.core import Core, Mode
-from thrustwasher.fmu.interface import variables
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.running.core import Core, Mode
 
 ERROR = 3
 

@@ -2,7 +2,7 @@
 
 import math
 
-from thrustwasher.kernels._jit import kernel
+from thrustwasher.numerics.jit import kernel
 
 N_PARAM, NPAR = 7, 8
 NINP, NSTATE, NWORK, NOUT, NIOUT = 3, 3, 16, 4, 3

@@ -1,8 +1,8 @@
 from dataclasses import dataclass
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.models._params import check_ranges, choice, count, flag, quantity
-from thrustwasher.models._spec import ModelSpec, Signal, Terminal
+from thrustwasher.model.parameters import check_ranges, choice, count, flag, quantity
+from thrustwasher.model.spec import ModelSpec, Signal, Terminal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

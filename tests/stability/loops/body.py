@@ -2,7 +2,7 @@
 
 import math
 
-from thrustwasher.kernels._jit import kernel
+from thrustwasher.numerics.jit import kernel
 
 N_PARAM, NPAR = 5, 5
 NINP, NSTATE, NWORK, NOUT, NIOUT = 1, 3, 1, 2, 1

@@ -1,6 +1,6 @@
 """force = -(stiffness x + slope v), at once."""
 
-from thrustwasher.kernels._jit import kernel
+from thrustwasher.numerics.jit import kernel
 
 N_PARAM, NPAR = 3, 3
 NINP, NSTATE, NWORK, NOUT, NIOUT = 2, 1, 1, 1, 1

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from thrustwasher.drivetrain.cosim.loop import PythonLoop, Recorder, Run
-from thrustwasher.drivetrain.cosim.system import ConnectedPart, System
-from thrustwasher.drivetrain.masters.master import MASTERS
-from thrustwasher.drivetrain.scene.connections import Link
-from thrustwasher.fmu.interface import find_spec
+from thrustwasher.fmu.description.interface import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.shift.cosim.loop import PythonLoop, Recorder, Run
+from thrustwasher.shift.cosim.system import ConnectedPart, System
+from thrustwasher.shift.masters.master import MASTERS
+from thrustwasher.shift.scene.connections import Link
 
 EXACT = 0.005  # a limit is bisected to this part of itself
 

@@ -1,7 +1,7 @@
 from dataclasses import dataclass
 
-from thrustwasher.models._params import check_ranges, quantity
-from thrustwasher.models._spec import ModelSpec, Signal
+from thrustwasher.model.parameters import check_ranges, quantity
+from thrustwasher.model.spec import ModelSpec, Signal
 
 STATUS = Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                 help="how the last solution was obtained")  # fmt: skip

@@ -3,7 +3,7 @@ moved, 779 rad/s a defect; the derivative at 5000 N is at a fold; 13 discs canno
 
 import math
 
-from thrustwasher.kernels._jit import kernel
+from thrustwasher.numerics.jit import kernel
 
 N_PARAM, NPAR = 6, 8
 NINP, NSTATE, NWORK, NOUT, NIOUT = 3, 3, 8, 5, 4

@@ -1,8 +1,8 @@
 from dataclasses import dataclass
 
-from thrustwasher.models._params import check_ranges, choice, count, flag, quantity
-from thrustwasher.models._rules import Rule, check_rules
-from thrustwasher.models._spec import ModelSpec, Signal
+from thrustwasher.model.parameters import check_ranges, choice, count, flag, quantity
+from thrustwasher.model.rules import Rule, check_rules
+from thrustwasher.model.spec import ModelSpec, Signal
 
 RULES = (
     Rule("inner_radius = {inner_radius} m, allowed: below outer_radius ({outer_radius} m)"),

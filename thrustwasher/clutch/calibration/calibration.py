@@ -1,0 +1,184 @@
+"""Fit the clutch's friction law to measured friction, and say what the points can tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..parameters import ClutchParams
+from .calibration_result import Calibration, Estimate
+from .data_warnings import warnings
+from .friction_law import CONSTANT_LAW, end_frictions, friction_slopes
+from .identifiability import Information, Verdict, confounded, information, load_test, verdicts
+from .least_squares import Problem, best_fit, profile_end, settled
+from .measurements import checked_names, checked_points, checked_start
+
+__all__ = ["Calibration", "Estimate", "calibrate"]
+
+Array = NDArray[np.float64]
+DEFAULT_FIT = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
+
+
+def calibrate(
+    params: ClutchParams,
+    *,
+    speed: ArrayLike,
+    load: ArrayLike,
+    friction: ArrayLike,
+    friction_error: ArrayLike | None = None,
+    fit: Sequence[str] = DEFAULT_FIT,
+    confidence: float = 0.95,
+    profile: bool = True,
+) -> Calibration:
+    """Fit constants of the friction law to measured coefficients of friction.
+
+    The law's curve over slip speed is mu_inf + (mu_0 - mu_inf) e(v; stick_speed, decay_speed), with
+    mu_0 = k P(x) + D(x, N) and mu_inf = k P(x) + D(x, N) S_inf. So the best of measurements tells
+    four numbers, and plough_weight k, shear_floor S_inf, hardness_ratio N and indentation x act
+    through two of them: at most two of these four can be fitted at once. Load does not act at all.
+
+    Parameters
+    ----------
+    params : the pack: its friction radius, the constants that are not fitted, the first guess
+    speed : (points,) slip [rad/s]; the sign does not matter
+    load : (points,) or one value [N], above 0; used to test that friction does not depend on it
+    friction : (points,) measured coefficient of friction [-]
+    friction_error : (points,) or one value, standard deviation of ``friction``; without it the
+        scatter of the residuals is taken
+    fit : names of constants: plough_weight, shear_floor, stick_speed, decay_speed, hardness_ratio,
+        indentation; constant_friction alone under friction_law "constant"
+    confidence : probability of the intervals, above 0 and below 1
+    profile : also compute profile intervals (a tenth of a second or so)
+
+    Returns
+    -------
+    Calibration : fitted ``params`` and, for every constant, value, interval and verdict; points
+        that the law cannot follow are no error but ``warnings``
+
+    Raises
+    ------
+    ParameterError
+        Wrong shapes, numbers out of range, unknown names.
+    SolveError
+        No starting point led to a fit.
+
+    Notes
+    -----
+    Source of the law: Wang, Wei & Wu (2012), Eq 12; the speed law is this package's (see
+    docs/theory/calibration.md, also for the method). Intervals are from the linearised covariance:
+    Student's distribution on the scatter of the residuals, or the normal one on ``friction_error``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from thrustwasher import solve_clutch
+    >>> slip = np.linspace(5.0, 150.0, 30)
+    >>> truth = ClutchParams(plough_weight=0.2, decay_speed=2.0)
+    >>> mu = [solve_clutch(truth, load=5e3, speed=w).friction_coefficient for w in slip]
+    >>> found = calibrate(ClutchParams(), speed=slip, load=5e3, friction=mu)
+    >>> round(found.params.plough_weight, 6), round(found.params.decay_speed, 6)
+    (0.2, 2.0)
+    """
+    names = checked_names(params, fit)
+    points = checked_points(params, speed, load, friction, friction_error)
+    problem, first = checked_start(params, names, points, confidence)
+    best, told, judged = _settled(problem, first, confidence, friction_error is not None)
+    values = problem.values(best)
+    changes: dict[str, Any] = {name: values[name] for name in names}
+    residuals = points.friction - problem.curve(best)
+    chi = problem.cost(best) / told.freedom if told.freedom > 0 else None
+    return Calibration(
+        params=replace(params, **changes),
+        estimates=tuple(
+            _estimate(problem, best, told, i, verdict, profile)
+            for i, verdict in enumerate(judged)
+        ),
+        end_frictions=() if names == CONSTANT_LAW else _end_estimates(problem, best, told),
+        correlation=_correlation(problem, told),
+        confounded=confounded(problem, told),
+        residuals=residuals,
+        rms=float(np.sqrt(np.mean(residuals**2))),
+        degrees_of_freedom=told.freedom,
+        reduced_chi_square=chi if friction_error is not None else None,
+        load_test=load_test(problem, best, points.load, told, friction_error is not None),
+        warnings=warnings(problem, best, first, judged, friction_error is not None),
+        confidence=float(confidence),
+        _problem=problem, _best=best, _told=told,
+    )  # fmt: skip
+
+
+def _settled(
+    problem: Problem, first: Array, confidence: float, known_errors: bool
+) -> tuple[Array, Information, list[Verdict]]:
+    """Return the fit, what it tells, and the verdicts; constants not told stay near their first."""
+    best = best_fit(problem, first)
+    told = information(problem, best, confidence, known_errors)
+    deviation = told.deviation
+    weak = np.zeros(len(best))
+    for _ in problem.names:
+        judged = verdicts(problem, best, told)
+        now = np.maximum(weak, [0.0 if verdict.identifiable else 1.0 for verdict in judged])
+        if np.array_equal(now, weak):
+            break
+        weak = now
+        best = settled(problem, best, first, weak, deviation)
+        told = information(problem, best, confidence, known_errors)
+    return best, told, verdicts(problem, best, told, weak)
+
+
+def _estimate(
+    problem: Problem, best: Array, told: Information, i: int, verdict: Verdict, profile: bool
+) -> Estimate:
+    """Return value, error and intervals of one constant."""
+    name, value = problem.names[i], float(best[i])
+    low, high = float(problem.low[i]), float(problem.high[i])
+    unit = next(f.metadata["unit"] for f in fields(ClutchParams) if f.name == name)
+    error = verdict.half_width / told.quantile if np.isfinite(told.quantile) else np.inf
+    interval, ends = (low, high), None
+    if verdict.identifiable:
+        interval = (max(low, value - verdict.half_width), min(high, value + verdict.half_width))
+        if profile and told.deviation > 0.0 and verdict.half_width > 1e-9 * problem.scale[i]:
+            rise = (told.quantile * told.deviation) ** 2
+            lower, upper = (
+                profile_end(problem, best, i, value + side * verdict.half_width, rise)
+                for side in (-1.0, 1.0)
+            )
+            ends = (lower, upper)
+    return Estimate(
+        name, unit, value, float(error), interval, ends, verdict.identifiable,
+        verdict.at_bound, verdict.reason,
+    )  # fmt: skip
+
+
+def _end_estimates(problem: Problem, best: Array, told: Information) -> tuple[Estimate, ...]:
+    """Return the coefficients at rest and at very high slip."""
+    values = problem.values(best)
+    rows = friction_slopes(
+        {**values, "stick_speed": 0.0, "kink_width": 0.0}, np.array([0.0, 1e9]), problem.names
+    )
+    found = []
+    for name, value, row in zip(
+        ("friction_at_rest", "friction_at_speed"), end_frictions(values), rows, strict=True
+    ):
+        error = told.error_of(row) if np.any(row) else 0.0
+        half = error * told.quantile if np.isfinite(told.quantile) else np.inf
+        known = bool(half <= value)
+        interval = (max(0.0, value - half), value + half) if known else (0.0, np.inf)
+        reason = "" if known else "the points do not reach it"
+        found.append(Estimate(name, "1", value, float(error), interval, None, known, "", reason))
+    return tuple(found)
+
+
+def _correlation(problem: Problem, told: Information) -> Array:
+    """Return the correlation of the constants that are told, NaN for the others."""
+    count = len(problem.names)
+    known = [np.isfinite(told.error_of(row)) for row in np.eye(count)]
+    covariance = told.covariance()
+    width = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    matrix = covariance / np.outer(width, width)
+    matrix[~np.outer(known, known)] = np.nan
+    return np.asarray(matrix)

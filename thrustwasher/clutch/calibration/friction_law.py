@@ -1,0 +1,115 @@
+"""The clutch's friction law as a function of its own constants: values and exact derivatives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernels.boundary_friction import ploughing
+from ..parameters import ClutchParams, mean_radius
+
+Array = NDArray[np.float64]
+
+WANG_CONSTANTS = (
+    "plough_weight", "shear_floor", "stick_speed", "decay_speed", "hardness_ratio", "indentation",
+)  # fmt: skip
+CONSTANT_LAW = ("constant_friction",)
+STEEPEST = 1.0 - 1e-9  # the derivative over the indentation is infinite at 1
+
+
+def constants_of(params: ClutchParams) -> tuple[str, ...]:
+    """Return the names of the constants that act in the pack's friction law."""
+    known = {"wang": WANG_CONSTANTS, "constant": CONSTANT_LAW}
+    return known.get(params.friction_law, ())
+
+
+def law_values(params: ClutchParams) -> dict[str, float]:
+    """Return every number the law depends on, by the name of its parameter."""
+    names = (*WANG_CONSTANTS, *CONSTANT_LAW, "kink_width", "adhesion_factor")
+    return {name: float(getattr(params, name)) for name in names}
+
+
+def friction_radius(params: ClutchParams) -> float:
+    """Return the radius [m] at which slip becomes slip speed and force becomes torque."""
+    if params.effective_radius > 0.0:
+        return params.effective_radius
+    return mean_radius(params.inner_radius, params.outer_radius)
+
+
+def shares(values: Mapping[str, float]) -> tuple[float, float]:
+    """Return (ploughing share P(x) for weight 1, adhesive share D at full shear strength) [-]."""
+    x = values["indentation"]
+    root = math.sqrt((1.0 - x) * (1.0 + x))
+    hardness = values["hardness_ratio"] / values["adhesion_factor"]
+    return float(ploughing(x)), 4.0 / (math.pi * hardness * (1.0 + root))
+
+
+def end_frictions(values: Mapping[str, float]) -> tuple[float, float]:
+    """Return the coefficient at rest and the one at very high slip [-].
+
+    These two numbers are all that plough weight, shear floor, hardness ratio and indentation do to
+    the curve: k P(x) + D(x, N) and k P(x) + D(x, N) S_inf.
+    """
+    plough, adhesion = shares(values)
+    base = values["plough_weight"] * plough
+    return base + adhesion, base + adhesion * values["shear_floor"]
+
+
+def friction_over(values: Mapping[str, float], speed: Array, constant: bool = False) -> Array:
+    """Return the coefficient [-] at slip speeds [m/s] at the friction radius, none negative.
+
+    Notes
+    -----
+    Source: Wang, Wei & Wu (2012), Eq 12; the same numbers as the kernels' at the reference
+    temperature, over arrays.
+    """
+    if constant:
+        return np.full(speed.shape, values["constant_friction"])
+    at_rest, at_speed = end_frictions(values)
+    return at_speed + (at_rest - at_speed) * _decay(values, speed)[0]
+
+
+def friction_slopes(values: Mapping[str, float], speed: Array, names: Sequence[str]) -> Array:
+    """Return the derivatives of ``friction_over`` over the named constants, (points, names).
+
+    At the sharp corner the derivative over stick_speed is that from below it.
+    """
+    if tuple(names) == CONSTANT_LAW:
+        return np.ones((len(speed), 1))
+    x, floor, hardness = (values[n] for n in ("indentation", "shear_floor", "hardness_ratio"))
+    plough, adhesion = shares(values)
+    decay, by_stick, by_decay = _decay(values, speed)
+    shear = floor + (1.0 - floor) * decay
+    x = min(x, STEEPEST)
+    root = math.sqrt((1.0 - x) * (1.0 + x))
+    plough_by_x = 4.0 / (math.pi * root) - 2.0 * plough / x
+    fall = adhesion * (1.0 - floor)
+    slopes: dict[str, Any] = {
+        "plough_weight": plough,
+        "shear_floor": adhesion * (1.0 - decay),
+        "stick_speed": fall * by_stick,
+        "decay_speed": fall * by_decay,
+        "hardness_ratio": -adhesion * shear / hardness,
+        "indentation": values["plough_weight"] * plough_by_x
+        + adhesion * shear * x / (root * (1.0 + root)),
+    }
+    return np.column_stack([np.broadcast_to(slopes[name], speed.shape) for name in names])
+
+
+def _decay(values: Mapping[str, float], speed: Array) -> tuple[Array, Array, Array]:
+    """Return exp(-beyond/decay_speed) and its derivatives over stick_speed and decay_speed."""
+    width, length = values["kink_width"], values["decay_speed"]
+    beyond = speed - values["stick_speed"]
+    if width > 0.0:
+        u = beyond / width
+        beyond = np.where(u < 30.0, width * np.logaddexp(0.0, np.minimum(u, 30.0)), beyond)
+        active = 1.0 / (1.0 + np.exp(-np.clip(u, -700.0, 700.0)))
+    else:
+        active = (beyond > 0.0).astype(float)
+        beyond = np.maximum(beyond, 0.0)
+    decay = np.exp(-np.minimum(beyond / length, 700.0))
+    return decay, decay * active / length, decay * beyond / length**2

@@ -1,0 +1,162 @@
+"""An engagement of the wet clutch over time: load and slip are given, torque and heat follow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import SolveError, Status
+from ..model.input_courses import course_of, rising
+from ..model.parameters import check_number
+from ..model.spec import REGIMES
+from .kernels import advance as clutch_advance
+from .kernels import layout as k
+from .kernels import pack_friction, pack_outputs, rates
+from .parameters import LOAD, OIL, SPEC, SPEED, ClutchParams
+from .solve import prepare
+
+__all__ = ["Engagement", "engage_clutch"]
+
+Array = NDArray[np.float64]
+
+
+Course = tuple[float, float, float, float, float, float]
+
+
+class PackCourse:
+    """A pack on its way; ``status`` tells how the last call went."""
+
+    def __init__(self, par: Any, load: float, oil: float) -> None:
+        self.par, self.work, self.out = par, np.zeros(k.NWORK), np.zeros(k.NOUT)
+        self.status = int(clutch_advance.load_memory(par, load, oil, np.zeros(k.NSTATE), self.work))
+        if self.status == Status.OK and not rates.moves_film(par):
+            self.work[k.W_NOW + k.Y_FILM] = 1.0
+            self.status = int(clutch_advance.settle_film(par, load, self.work))
+
+    def advance(self, course: Course, duration: float) -> int:
+        """Go along a stretch; return the number of substeps."""
+        power = self.out[k.O_POWER] / self.par[k.P_FACES]
+        self.status = int(clutch_advance.advance(
+            self.par, course, duration, power, self.work[k.W_PROPOSED], self.work
+        ))  # fmt: skip
+        return int(self.work[k.W_SUBSTEPS])
+
+    def show(self, load: float, slip: float) -> Array:
+        """Return the real outputs at the present point."""
+        pack_outputs.fill_outputs(self.par, load, slip, self.work, self.out)
+        self.out[k.O_TEMPERATURE], _ = pack_outputs.mean_surface(self.par, self.work)
+        self.out[k.O_ENERGY] = self.par[k.P_FACES] * self.work[k.W_NOW + k.Y_ENERGY]
+        return self.out
+
+
+@dataclass(frozen=True, slots=True)
+class Engagement:
+    """An engagement at the points ``time``; arrays of one length, SI units."""
+
+    time: Array
+    load: Array
+    speed: Array
+    friction_torque: Array
+    contact_torque: Array
+    viscous_torque: Array
+    torque_capacity: Array
+    temperature: Array
+    film_thickness: Array
+    film_ratio: Array
+    friction_coefficient: Array
+    contact_share: Array
+    friction_power: Array
+    heat_flux: Array
+    energy: Array
+    regime: list[str]
+    status: Status
+    """HOT if the interface passed 523 K, OK otherwise."""
+    substeps: int
+    """Implicit substeps that all intervals together took."""
+    fidelity: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the fields as a dictionary that JSON can hold; status by name."""
+        found = {f.name: getattr(self, f.name) for f in fields(self)}
+        lists = {n: v.tolist() for n, v in found.items() if isinstance(v, np.ndarray)}
+        return found | lists | {"status": self.status.name}
+
+
+def engage_clutch(
+    params: ClutchParams,
+    *,
+    time: ArrayLike,
+    load: ArrayLike,
+    speed: ArrayLike,
+    oil_temperature: float = 297.15,
+    fidelity: str = "field",
+) -> Engagement:
+    """Return film, temperature and torque of a pack whose load and slip are given over time.
+
+    Parameters
+    ----------
+    params : the pack; ``starts_pressed`` says if the film is settled at the first point or open
+    time : (n,) points [s], rising, at least two
+    load : (n,) axial force [N] at the points, or one number; straight in between
+    speed : (n,) slip [rad/s] at the points, or one number; straight in between
+    oil_temperature : [K]; the steel is as warm at the start
+    fidelity : as in ``solve_clutch``
+
+    Raises
+    ------
+    ParameterError : an argument has the wrong shape or range; the message names it
+    SolveError : an interval could not be integrated
+
+    Notes
+    -----
+    Substeps are chosen inside each interval; points need only be as close as the courses of load
+    and slip ask for.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.linspace(0.0, 0.3, 31)
+    >>> e = engage_clutch(ClutchParams(), time=t, load=5898.0 * np.minimum(t / 0.1, 1.0),
+    ...                   speed=100.0)
+    >>> e.regime[0], e.regime[-1]
+    ('film', 'boundary')
+    """
+    points = rising(time)
+    forces = course_of("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0, len(points))
+    slips = course_of("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
+    oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
+    par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
+    pack = PackCourse(par, forces[0], oil)
+    for i in range(len(points)):
+        if i and pack.status == Status.OK:
+            course = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
+            substeps += pack.advance(course, points[i] - points[i - 1])
+        if not Status(pack.status).is_failure:
+            rows[i] = pack.show(forces[i], slips[i])
+        if Status(pack.status).is_failure:
+            raise SolveError(
+                f"t = {points[i]:g} s, load = {forces[i]:g} N, speed = {slips[i]:g} rad/s: "
+                f"{Status(pack.status).advice}"
+            )
+    return _engagement(par, points, forces, slips, rows, substeps, fidelity)
+
+
+def _engagement(
+    par: Array, points: Array, forces: Array, slips: Array, rows: Array, substeps: int, rung: str
+) -> Engagement:
+    names = [s.name for s in SPEC.outputs if s.kind == "real"]
+    kept = {f.name for f in fields(Engagement)}
+    columns = {n: rows[:, i].copy() for i, n in enumerate(names) if n in kept}
+    stages = list(REGIMES)
+    hot = bool((columns["temperature"] > k.HOT_LIMIT).any())
+    return Engagement(
+        time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=rung,
+        regime=[
+            stages[pack_friction.regime_of(par, u, slip) - 1]
+            for u, slip in zip(columns["film_ratio"], slips, strict=True)
+        ],
+        status=Status.HOT if hot else Status.OK,
+    )  # fmt: skip

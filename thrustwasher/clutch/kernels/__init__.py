@@ -1,0 +1,26 @@
+"""Compiled code of the wet clutch.
+
+==========================  ======================================================================
+``advance``                 A pack's memory and its way along a stretch of time over which the
+                            inputs run straight
+``boundary_friction``       Boundary friction of a lining: adhesion and ploughing of asperities,
+                            Wang, Wei & Wu (2012)
+``constants``               Constants of a pack behind its parameters, and rules between these
+``directional_derivative``  How the outputs of the wet clutch change with its inputs: exact, film
+                            and heat held
+``layout``                  Where the wet clutch keeps its numbers: places in the arrays of
+                            parameters, state and work
+``pack_friction``           What resists in a pack: boundary friction of the asperities and shear
+                            of the oil between them
+``pack_outputs``            The outputs of a pack at a point in time, with slopes
+``rates``                   How fast film and heat of an engaging pack change, with slopes for an
+                            implicit step
+``rosenbrock``              Film, heat and energy of an engaging pack over a stretch of time,
+                            implicitly, error controlled
+``rosenbrock_derivatives``  How film and heat at the end of a stretch change with the inputs there
+``steady``                  A pack that slips at constant load and speed for ever: the temperature
+                            where cooling wins
+``step``                    One co-simulation step of the wet clutch: film, heat and friction of
+                            the pack
+==========================  ======================================================================
+"""

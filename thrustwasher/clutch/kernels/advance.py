@@ -1,0 +1,175 @@
+# mypy: disable-error-code="no-any-return"
+"""A pack's memory and its way along a stretch of time over which the inputs run straight."""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.status import MAX_ITERATIONS, OK
+from ...tribology.lumped_body import exponential_weights
+from . import layout as L
+from .pack_friction import coefficient_of, settled_ratio, settled_slope
+from .rates import moves_film, n_unknowns, surfaces
+from .rosenbrock import Course, attempt
+from .rosenbrock_derivatives import Change, follow
+
+MAX_SUBSTEPS = 20_000
+LEAST_SHARE = 1e-13  # of the time gone by: no smaller substeps
+FIRST_SHARE = 1e-25  # of the stretch: the same at its start
+
+
+@kernel
+def load_memory(par: Array, load: float, oil: float, state: Array, work: Array) -> int:
+    """Copy the memory to W_NOW, or set the start: film open or settled, steel as warm as oil."""
+    status = OK
+    work[L.W_SETTLED_LOAD] = 0.0
+    n, each = n_unknowns(par), 1 + int(par[L.D_MODES])
+    if state[L.S_STARTED] != 0.0:
+        for i in range(n):
+            work[np.uintp(L.W_NOW + i)] = state[np.uintp(L.S_FILM + i)]
+        return status
+    ratio = par[L.D_OPEN_RATIO]
+    if par[L.P_STARTS_PRESSED] != 0.0:
+        ratio, work[L.W_SETTLED_LOAD], status, _ = settled_slope(par, load, 1.0)
+    work[np.uintp(L.W_NOW + L.Y_FILM)] = ratio
+    work[np.uintp(L.W_NOW + L.Y_ENERGY)] = 0.0
+    for i in range(n - L.Y_HEAT):
+        work[np.uintp(L.W_NOW + L.Y_HEAT + i)] = oil if i % each == 0 else 0.0
+    return status
+
+
+@kernel
+def store_memory(par: Array, work: Array, base: int, state: Array) -> None:
+    """Copy the unknowns at ``work[base:]`` to the memory."""
+    state[L.S_STARTED] = 1.0
+    for i in range(n_unknowns(par)):
+        state[np.uintp(L.S_FILM + i)] = work[np.uintp(base + i)]
+
+
+@kernel
+def settle_film(par: Array, load: float, work: Array) -> int:
+    """Put the settled film to W_NOW where the film is no state; return a status."""
+    if moves_film(par):
+        return OK
+    work[np.uintp(L.W_NOW + L.Y_FILM)], work[L.W_SETTLED_LOAD], status, _ = settled_slope(
+        par, load, work[np.uintp(L.W_NOW + L.Y_FILM)]
+    )
+    return status
+
+
+@kernel
+def warm_up(
+    par: Array, k: int, power_start: float, power_end: float, oil: float, duration: float,
+    work: Array,
+) -> None:  # fmt: skip
+    """Advance a ring's heat in W_NOW exactly, and the energy, under a power that runs straight.
+
+    ``power_start``, ``power_end``: of a face [W].
+    """
+    block, n = int(par[L.D_FIRST]) + k * L.N_PACK, 1 + int(par[L.D_MODES])
+    if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
+        for i in range(n):
+            place = np.uintp(L.W_NOW + L.Y_HEAT + k * n + i)
+            level = oil if i == 0 else 0.0
+            decay, first, second = exponential_weights(
+                par[np.uintp(block + L.D_DECAY + i)] * duration
+            )
+            gain = power_start * first + (power_end - power_start) * second
+            work[place] = (
+                level
+                + (work[place] - level) * decay
+                + (par[np.uintp(block + L.D_GAIN + i)] * gain * duration)
+            )
+    work[np.uintp(L.W_NOW + L.Y_ENERGY)] += 0.5 * (power_start + power_end) * duration
+
+
+@kernel
+def settled_power(par: Array, load: float, slip: float, work: Array) -> float:
+    """Return the friction power of a face [W] in the state W_NOW, the film settled."""
+    surfaces(par, work, L.W_NOW, L.W_SURFACE)
+    mu, _ = coefficient_of(par, slip, work[L.W_SURFACE])
+    contact = par[L.P_FACES] * par[L.D_RADIUS] * mu * load
+    smooth = math.tanh(abs(slip) / par[L.P_SPEED_SMOOTHING])
+    return abs(slip) * (contact * smooth) / par[L.P_FACES]
+
+
+@kernel
+def settle(par: Array, course: Course, duration: float, power_start: float, work: Array) -> int:
+    """Bring W_NOW through a stretch where the film is settled: heat only, return a status."""
+    work[np.uintp(L.W_NOW + L.Y_FILM)], status, _ = settled_ratio(
+        par, course[3], work[np.uintp(L.W_NOW + L.Y_FILM)]
+    )
+    end = settled_power(par, course[3], course[4], work)
+    held = course[0] == course[3] and course[1] == course[4]
+    warm_up(par, 0, end if held else power_start, end, course[2], duration, work)
+    return status
+
+
+@kernel
+def is_integrated(par: Array) -> bool:
+    """Tell if a stretch takes the integrator; else the film is settled and the heat exact."""
+    return moves_film(par) or par[L.P_FIDELITY] == L.FINE
+
+
+@kernel
+def advance(
+    par: Array, course: Course, duration: float, power_start: float, first: float, work: Array
+) -> int:
+    """Bring W_NOW through a stretch over which load, slip and oil temperature run straight."""
+    if is_integrated(par):
+        status = integrate(par, course, (0.0, 0.0, 0.0), duration, first, False, work)
+        return status if status != OK else settle_film(par, course[3], work)
+    return settle(par, course, duration, power_start, work)
+
+
+@kernel
+def integrate(
+    par: Array, course: Course, change: Change, duration: float, first: float, follows: bool,
+    work: Array,
+) -> int:  # fmt: skip
+    """Advance the unknowns in W_NOW by ``duration`` [s]; return a status.
+
+    Parameters
+    ----------
+    course : load [N], slip [rad/s], oil temperature [K] at the start, then at the end; straight
+        in between
+    change : of the inputs at the end; counts with ``follows`` only
+    first : size of the first substep [s] to try, 0 if unknown
+    follows : the changes of the unknowns at W_VARIED, which are 0 at the start, go along
+    work : unknowns at W_NOW in and out; the numbers of substeps and the next size to try out
+    """
+    n = n_unknowns(par)
+    done, refused = 0.0, 0.0
+    share = min(1.0, first / duration) if first > 0.0 else 1.0
+    work[L.W_PROPOSED] = duration
+    if follows:
+        for i in range(n):
+            work[np.uintp(L.W_VARIED + i)] = 0.0
+    for count in range(MAX_SUBSTEPS):
+        remaining = 1.0 - done
+        least = LEAST_SHARE * done + FIRST_SHARE
+        closing = share >= remaining * (1.0 - 1e-9)
+        if closing:
+            share = remaining
+        taken, factor, status = attempt(par, course, duration, done, share, least, work)
+        if status != OK:
+            return status
+        if taken:
+            if follows:
+                follow(par, course, change, done, share, duration, work)
+            for i in range(n):
+                work[np.uintp(L.W_NOW + i)] = work[np.uintp(L.W_TRIAL + i)]
+            done += share
+            proposed = share * factor * duration
+            if closing:
+                # a stretch's last substep may be a crumb: it says nothing about the next one
+                work[L.W_PROPOSED] = max(work[L.W_PROPOSED], proposed) if count > 0 else proposed
+                work[L.W_SUBSTEPS] = float(count + 1) - refused
+                work[L.W_REFUSED] = refused
+                return OK
+            work[L.W_PROPOSED] = proposed
+        else:
+            refused += 1.0
+        share = max(share * factor, least)
+    return MAX_ITERATIONS

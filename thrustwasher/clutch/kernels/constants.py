@@ -1,0 +1,152 @@
+"""Constants of a pack behind its parameters, and rules between these."""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.quadrature import GAUSS_NODES, GAUSS_WEIGHTS
+from ...numerics.status import NOT_FINITE, OK
+from ...tribology.flow_factors import squeeze_group
+from ...tribology.greenwood_tripp import pressure_scale
+from . import layout as L
+from .boundary_friction import ploughing
+
+
+@kernel
+def derive_friction(par: Array) -> None:
+    """Fill area, mean radius and the two shares of boundary friction."""
+    ri, ro = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
+    par[L.D_AREA] = math.pi * (ro - ri) * (ro + ri)
+    mean = 2.0 * (ro * ro + ro * ri + ri * ri) / (3.0 * (ro + ri))
+    par[L.D_RADIUS] = par[L.P_EFFECTIVE_RADIUS] if par[L.P_EFFECTIVE_RADIUS] > 0.0 else mean
+    x = par[L.P_INDENTATION]
+    root = math.sqrt((1.0 - x) * (1.0 + x))
+    par[L.D_PLOUGH] = par[L.P_PLOUGH_WEIGHT] * ploughing(x)
+    par[L.D_ADHESION] = (
+        par[L.P_ADHESION_FACTOR] * 4.0 / (math.pi * par[L.P_HARDNESS_RATIO]) / (1.0 + root)
+    )
+
+
+@kernel
+def derive_film(par: Array) -> None:
+    """Fill what the asperities' pressure, the closing film and its shear need."""
+    ri, ro, sigma = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_ROUGHNESS]
+    group = par[L.P_ASPERITY_DENSITY] * par[L.P_ASPERITY_RADIUS] * sigma
+    par[L.D_PRESSURE] = pressure_scale(
+        sigma, par[L.P_CONTACT_MODULUS], par[L.P_ASPERITY_DENSITY], par[L.P_ASPERITY_RADIUS]
+    )
+    par[L.D_CONTACT_AREA] = math.pi * math.pi * group * group
+    par[L.D_CLOSING] = (
+        2.0 * par[L.D_AREA] * sigma * sigma
+        / (3.0 * math.pi * squeeze_group(ri, ro) * par[L.P_GROOVE_FACTOR])
+    )  # fmt: skip
+    cube = sigma * sigma * sigma
+    par[L.D_SEEPAGE] = 12.0 * par[L.P_PERMEABILITY] * par[L.P_LINING_THICKNESS] / cube
+    square = (ro - ri) * (ro + ri)
+    lever = square * (ro * ro + ri * ri)
+    par[L.D_VISCOUS] = par[L.P_FACES] * 0.5 * math.pi * lever / sigma
+    # What centrifugal force pumps through a full gap, one side at rest; docs/theory/clutch.md.
+    par[L.D_DEMAND] = math.pi * par[L.P_OIL_DENSITY] * cube * square / (40.0 * math.log(ro / ri))
+    par[L.D_SUPPLY] = par[L.P_OIL_FLOW] / par[L.P_FACES]
+    par[L.D_OPEN_RATIO] = par[L.P_INITIAL_FILM] / sigma
+
+
+@kernel
+def derive_heat(par: Array) -> None:
+    """Fill the lumped heat of half a plate and, where asked for, its conduction modes.
+
+    Half a plate, heated at the face, insulated in its middle: surface minus mean temperature is
+    the sum of modes d theta_n/dt = 2 P/C - (n pi/l)^2 a theta_n. The last one stands for all that
+    follow, with the sum of their steady rises.
+    """
+    half = 0.5 * par[L.P_STEEL_THICKNESS]
+    volume_heat = par[L.P_STEEL_DENSITY] * par[L.P_STEEL_HEAT_CAPACITY]
+    capacity = volume_heat * par[L.D_AREA] * half
+    par[L.D_CAPACITY] = capacity
+    par[L.D_COOLING] = par[L.P_HEAT_TRANSFER] * par[L.D_AREA]
+    par[L.D_DECAY] = par[L.D_COOLING] / capacity
+    par[L.D_GAIN] = 1.0 / capacity
+    par[L.D_MODES] = float(L.N_MODES) if par[L.P_CONTACT_RISE] != 0.0 else 0.0
+    first = math.pi * math.pi * par[L.P_STEEL_CONDUCTIVITY] / (volume_heat * half * half)
+    rest = math.pi * math.pi / 6.0
+    for n in range(1, L.N_MODES + 1):
+        square = float(n) * float(n)
+        par[np.uintp(L.D_DECAY + n)] = first * square
+        par[np.uintp(L.D_GAIN + n)] = 2.0 / capacity
+        rest -= 1.0 / square
+    last = float(L.N_MODES) * float(L.N_MODES)
+    par[np.uintp(L.D_GAIN + L.N_MODES)] = 2.0 / capacity * (1.0 + last * rest)
+
+
+@kernel
+def derive_rings(par: Array, n: int) -> None:
+    """Fill ``n`` rings of equal width: each is a pack of its own on the film of all.
+
+    Its weight in the film is its share of the integral of (r^2 - c^2)^2/r over the radius, by
+    which oil of viscosity eta(r) resists being squeezed; c is the radius where it does not flow.
+    """
+    ri, ro = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
+    scale = par[L.D_RADIUS] * 3.0 * (ro + ri) / (2.0 * (ro * ro + ro * ri + ri * ri))
+    still = (ro - ri) * (ro + ri) / (2.0 * math.log(ro / ri))
+    par[L.D_RINGS], par[L.D_FIRST] = float(n), float(L.D_BLOCKS)
+    total = 0.0
+    for k in range(n):
+        ring = par[L.D_BLOCKS + k * L.N_PACK : L.D_BLOCKS + (k + 1) * L.N_PACK]
+        for i in range(L.N_PACK):
+            ring[np.uintp(i)] = par[np.uintp(i)]
+        a, b = ri + (ro - ri) * k / n, ri + (ro - ri) * (k + 1) / n
+        ring[L.P_INNER_RADIUS], ring[L.P_OUTER_RADIUS] = a, b
+        ring[L.P_FIDELITY] = float(L.FIELD)
+        ring[L.P_EFFECTIVE_RADIUS] = scale * 2.0 * (b * b + a * b + a * a) / (3.0 * (a + b))
+        derive_friction(ring)
+        ring[L.D_VISCOUS] *= (b - a) * (b + a) * (b * b + a * a)
+        ring[L.D_VISCOUS] /= (ro - ri) * (ro + ri) * (ro * ro + ri * ri)
+        derive_heat(ring)
+        par[np.uintp(L.D_SQUEEZE + k)] = _squeezed(a, b, still)
+        total += par[np.uintp(L.D_SQUEEZE + k)]
+    for k in range(n):
+        par[np.uintp(L.D_SQUEEZE + k)] /= total
+
+
+@kernel
+def _squeezed(a: float, b: float, still: float) -> float:
+    """Return the integral of (r^2 - still)^2/r from ``a`` to ``b``, by Gauss's rule."""
+    total = 0.0
+    for k in range(GAUSS_NODES.size):
+        r = a + (b - a) * GAUSS_NODES[k]
+        total += GAUSS_WEIGHTS[k] * (r * r - still) * (r * r - still) / r
+    return (b - a) * total
+
+
+@kernel
+def derive(par: Array) -> int:
+    """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
+    derive_friction(par)
+    derive_film(par)
+    derive_heat(par)
+    par[L.D_RINGS], par[L.D_FIRST], par[L.D_SQUEEZE] = 1.0, 0.0, 1.0
+    if par[L.P_FIDELITY] == L.FINE:
+        derive_rings(par, L.N_RINGS)
+    for i in range(L.N_PARAM, L.NPAR):
+        if not math.isfinite(par[np.uintp(i)]):
+            return NOT_FINITE
+    return OK
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return the number, from 1, of the first rule the parameters break; 0 if they keep all.
+
+    Every parameter lies in its own range. The numbers are places in the model's list of texts.
+    """
+    if not par[L.P_INNER_RADIUS] < par[L.P_OUTER_RADIUS]:
+        return 1
+    if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
+        last = 0.0
+        for k in range(L.N_TABLE):
+            speed = par[np.uintp(L.P_TABLE_SPEED_1 + 2 * k)]
+            if not speed > last:
+                return 2 + k
+            last = speed
+    return 0

@@ -1,0 +1,266 @@
+# mypy: disable-error-code="no-any-return"
+"""What resists in a pack: boundary friction of the asperities and shear of the oil between them."""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.status import OK
+from ...tribology.flow_factors import INV_SQRT2PI, mean_gap
+from ...tribology.greenwood_tripp import area_integrals, contact_integral, separation_and_slope
+from ...tribology.viscosity import viscosity
+from . import layout as L
+from .boundary_friction import shear_and_slope
+
+FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
+
+
+@kernel
+def shear_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
+    """Return the shear ratio s/s_m [-] and its slope [1/K] of ``shear_slopes``."""
+    ratio, slope, _ = shear_slopes(par, slip, temperature)
+    return ratio, slope
+
+
+@kernel
+def shear_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
+    """Return the shear ratio s/s_m [-] and its slopes over temperature [1/K] and |slip| [s/rad].
+
+    The temperature acts by ``shear_temperature_slope`` (0: not at all); the ratio stays in 0 .. 1.
+    """
+    ratio, steepness = shear_and_slope(
+        abs(slip) * par[L.D_RADIUS], par[L.P_SHEAR_FLOOR], par[L.P_STICK_SPEED],
+        par[L.P_DECAY_SPEED], par[L.P_KINK_WIDTH],
+    )  # fmt: skip
+    steepness *= par[L.D_RADIUS]
+    slope = par[L.P_SHEAR_TEMPERATURE_SLOPE]
+    if slope == 0.0:
+        return ratio, 0.0, steepness
+    factor = 1.0 + slope * (temperature - par[L.P_REFERENCE_TEMPERATURE])
+    warm = ratio * factor
+    if warm >= 1.0 or warm <= 0.0:
+        return (1.0 if warm >= 1.0 else 0.0), 0.0, 0.0
+    return warm, ratio * slope, factor * steepness
+
+
+@kernel
+def tabled(par: Array, speed: float) -> tuple[float, float]:
+    """Return the coefficient [-] of the table at a slip speed [m/s], and its slope [s/m].
+
+    Straight between the points; beyond the last one its value holds. The slope jumps at the points:
+    there it is that above.
+    """
+    low, value = 0.0, par[L.P_TABLE_FRICTION_0]
+    for k in range(L.N_TABLE):
+        high = par[np.uintp(L.P_TABLE_SPEED_1 + 2 * k)]
+        after = par[np.uintp(L.P_TABLE_FRICTION_1 + 2 * k)]
+        if speed < high:
+            rise, width = after - value, high - low
+            return value + rise * (speed - low) / width, rise / width
+        low, value = high, after
+    return value, 0.0
+
+
+@kernel
+def coefficient_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
+    """Return the coefficient of boundary friction [-] and its slope over temperature [1/K]."""
+    mu, slope, _ = coefficient_slopes(par, slip, temperature)
+    return mu, slope
+
+
+@kernel
+def coefficient_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
+    """Return the coefficient of boundary friction [-], its slopes over temperature and |slip|."""
+    if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == L.CONSTANT_LAW:
+        return par[L.P_CONSTANT_FRICTION], 0.0, 0.0
+    if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
+        mu, steepness = tabled(par, abs(slip) * par[L.D_RADIUS])
+        return mu, 0.0, steepness * par[L.D_RADIUS]
+    ratio, slope, steepness = shear_slopes(par, slip, temperature)
+    adhesion = par[L.D_ADHESION]
+    return par[L.D_PLOUGH] + adhesion * ratio, adhesion * slope, adhesion * steepness
+
+
+@kernel
+def settled_ratio(par: Array, load: float, guess: float) -> tuple[float, int, int]:
+    """Return (film thickness over roughness where the asperities carry all, status, iterations)."""
+    ratio, _, status, iterations = settled_slope(par, load, guess)
+    return ratio, status, iterations
+
+
+@kernel
+def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, int, int]:
+    """Return the film ratio where the asperities carry all, its slope over the load [1/N].
+
+    With them status and number of iterations. A pack pressed less than OPEN_PRESSURE is open.
+    """
+    pressure = load / par[L.D_AREA]
+    if pressure < L.OPEN_PRESSURE:
+        return par[L.D_OPEN_RATIO], 0.0, OK, 0
+    ratio, slope, status, iterations = separation_and_slope(pressure / par[L.D_PRESSURE], guess)
+    return ratio, slope / load, status, iterations
+
+
+@kernel
+def contact_torque(
+    par: Array, load: float, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the asperities at the film ratio ``u``; slopes; pressure.
+
+    (torque, d/du, d/dT [N m/K], contact pressure p_c [Pa], dp_c/du) of ``contact_slopes``.
+    """
+    torque, by_film, by_heat, _, _, pressure, rise = contact_slopes(
+        par, load, slip, u, temperature
+    )  # fmt: skip
+    return torque, by_film, by_heat, pressure, rise
+
+
+@kernel
+def contact_slopes(
+    par: Array, load: float, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the asperities at the film ratio ``u``; slopes; pressure.
+
+    (torque, d/du, d/dT [N m/K], d/d|slip|, d/dload, contact pressure p_c [Pa], dp_c/du). The
+    asperities never carry more than the load, also where a film that still opens presses them
+    harder.
+    """
+    height, slope = contact_integral(u)
+    pressure, rise = par[L.D_PRESSURE] * height, par[L.D_PRESSURE] * slope
+    mu, mu_slope, mu_slip = coefficient_slopes(par, slip, temperature)
+    lever = par[L.P_FACES] * par[L.D_RADIUS]
+    carried = pressure * par[L.D_AREA]
+    grows, presses = rise * par[L.D_AREA], 0.0
+    if carried > load:
+        carried, grows, presses = load, 0.0, 1.0
+    return (
+        lever * mu * carried, lever * mu * grows, lever * mu_slope * carried,
+        lever * mu_slip * carried, lever * mu * presses, pressure, rise,
+    )  # fmt: skip
+
+
+@kernel
+def contact_share(par: Array, u: float) -> tuple[float, float]:
+    """Return the share of the nominal area in contact [-] and its slope over the film ratio.
+
+    Source: Greenwood & Tripp 1971, pi^2 (N beta sigma)^2 F_2(u), cut at 1: for a soft lining the
+    group is ten times the usual and the formula leaves its range.
+    """
+    second, first = area_integrals(u)
+    share = par[L.D_CONTACT_AREA] * second
+    if share >= 1.0:
+        return 1.0, 0.0
+    return share, -2.0 * par[L.D_CONTACT_AREA] * first
+
+
+@kernel
+def shear_thinned(nahme: float) -> tuple[float, float]:
+    """Return shear stress over that of oil as warm as the faces, and its slope in logarithms.
+
+    Couette flow that heats itself between faces of one temperature, viscosity falling as
+    exp(-b T): asinh(a)/(a sqrt(1 + a^2)) with a^2 = Na/8, Na = b eta V^2/k the Nahme number.
+    Source: Gavis & Laurence 1968; derived in docs/theory/clutch.md.
+    """
+    square = 0.125 * nahme
+    if square < 1e-6:
+        return 1.0 - 2.0 / 3.0 * square, -2.0 / 3.0 * square
+    a = math.sqrt(square)
+    root = math.sqrt(1.0 + square)
+    arc = math.log(a + root)
+    return arc / (a * root), 0.5 * (a / (arc * root) - 1.0 - square / (1.0 + square))
+
+
+@kernel
+def sheared_share(cdf: float, u: float) -> tuple[float, float]:
+    """Return the share [-] of oil that is sheared where faces overlap, and its log slope over u.
+
+    1 for u >= 0. Below, the mean planes overlap: oil is left in cdf(u) of the area only, under a
+    mean gap h_T/cdf, so shear goes as cdf^2/h_T and vanishes, while 1/h_T alone would explode. The
+    factor 12 cdf^2 - 16 cdf^3 (a smoothstep of 2 cdf) has that limit and a continuous slope at
+    u = 0. Chosen here.
+    """
+    if u >= 0.0:
+        return 1.0, 0.0
+    z = 2.0 * cdf
+    slope = 2.0 * INV_SQRT2PI * math.exp(-0.5 * min(u * u, 900.0))
+    return z * z * (3.0 - 2.0 * z), 6.0 * (1.0 - z) / (z * (3.0 - 2.0 * z)) * slope
+
+
+@kernel
+def viscous_torque(
+    par: Array, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity and its slope.
+
+    (torque, d/du, d/dT, eta [Pa s], d eta/dT, share of the area in contact) of ``viscous_slopes``.
+    """
+    torque, by_film, by_heat, _, eta, eta_slope, share, _ = viscous_slopes(
+        par, slip, u, temperature
+    )  # fmt: skip
+    return torque, by_film, by_heat, eta, eta_slope, share
+
+
+@kernel
+def viscous_slopes(
+    par: Array, slip: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity; contact share.
+
+    (torque, d/du, d/dT, d/d|slip|, eta [Pa s], d eta/dT, share of the area in contact, its d/du).
+    Couette flow over the mean gap h_T where there is no contact. With a given oil supply the gap
+    is full up to the slip at which centrifugal force pumps more than is supplied, above it in the
+    proportion of the two.
+    """
+    scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
+    eta, eta_slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
+    share, share_slope = contact_share(par, u)
+    gap, gap_slope = mean_gap(u, 1.0)
+    open_share, open_slope = sheared_share(gap_slope, u)
+    full = par[L.D_VISCOUS] * eta * abs(slip) / gap
+    power = 1.0  # of |slip| in the torque
+    relative_u = -gap_slope / gap
+    relative_t = eta_slope / eta
+    if par[L.P_SHEAR_HEATING] != 0.0 and eta_slope < 0.0:
+        thinned, steepness = shear_thinned(
+            -relative_t * eta * (slip * par[L.D_RADIUS]) * (slip * par[L.D_RADIUS])
+            / par[L.P_OIL_CONDUCTIVITY]
+        )  # fmt: skip
+        full *= thinned
+        power += 2.0 * steepness
+        reduced = 135.0 + temperature - 273.15
+        relative_t += steepness * (relative_t - (par[L.P_VISCOSITY_EXPONENT] + 1.0) / reduced)
+    if par[L.D_SUPPLY] > 0.0:
+        demand = par[L.D_DEMAND] * slip * slip * gap * gap * gap / eta
+        if demand > par[L.D_SUPPLY]:
+            full *= par[L.D_SUPPLY] / demand
+            power -= 2.0
+            relative_u *= 4.0
+            relative_t += eta_slope / eta
+    full *= open_share
+    relative_u += open_slope
+    torque = full * (1.0 - share)
+    if slip != 0.0:
+        by_slip = power * torque / abs(slip)
+    else:
+        by_slip = par[L.D_VISCOUS] * eta / gap * open_share * (1.0 - share)
+    return (
+        torque,
+        torque * relative_u - full * share_slope,
+        torque * relative_t,
+        by_slip,
+        eta,
+        eta_slope,
+        share,
+        share_slope,
+    )
+
+
+@kernel
+def regime_of(par: Array, ratio: float, slip: float) -> int:
+    """Return the stage of engagement: the film ratio names it, a full shear ratio is adhesion."""
+    if ratio > 3.0:
+        return FILM
+    if ratio >= 1.0:
+        return MIXED
+    return ADHESIVE if abs(slip) * par[L.D_RADIUS] <= par[L.P_STICK_SPEED] else BOUNDARY

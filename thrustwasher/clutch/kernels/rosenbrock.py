@@ -1,0 +1,237 @@
+# mypy: disable-error-code="no-any-return"
+"""Film, heat and energy of an engaging pack over a stretch of time, implicitly, error controlled.
+
+The film follows the load at hundreds per second, so the method is linearly implicit and L-stable:
+RODAS (order 4, six stages, embedded order 3) of Hairer & Wanner, Solving Ordinary Differential
+Equations II, VI.4. The heat of a ring is linear but for its friction power, which depends on film
+ratio and interface temperature alone: every stage is a 2 x 2 system for each ring, whatever the
+number of conduction modes.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.status import NOT_FINITE, OK
+from . import layout as L
+from .rates import n_unknowns, pack_rates, surfaces
+
+Course = tuple[float, float, float, float, float, float]
+GAMMA = 0.25
+A = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0],
+    [1.544, 0.0, 0.0, 0.0, 0.0],
+    [0.9466785280815826, 0.2557011698983284, 0.0, 0.0, 0.0],
+    [3.314825187068521, 2.896124015972201, 0.9986419139977817, 0.0, 0.0],
+    [1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 0.0],
+    [1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0],
+])  # fmt: skip
+C = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0],
+    [-5.6688, 0.0, 0.0, 0.0, 0.0],
+    [-2.430093356833875, -0.2063599157091915, 0.0, 0.0, 0.0],
+    [-0.1073529058151375, -9.594562251023355, -20.47028614809616, 0.0, 0.0],
+    [7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160, 0.0],
+    [8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136,
+     -6.058818238834054],
+])  # fmt: skip
+ALPHA = np.array([0.0, 0.386, 0.21, 0.63, 1.0, 1.0])  # of the stages, share of the substep
+DRIFT = np.array([0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0])  # weight of the rates' drift
+NUDGE = 1e-3  # share of a substep after which the drift of the rates is read
+
+TOLERANCE_FILM = 1e-6  # error of a substep, of film ratio + 1
+TOLERANCE_HEAT = 1e-4  # K
+TOLERANCE_RISE = 1e-3  # K, of a lumped pack's interface when conduction modes are on top
+SHARE_IN_RINGS = 0.5  # of the tolerance that a pack in rings may use
+
+
+@kernel
+def is_moving(course: Course) -> bool:
+    """Tell if the inputs at the end of a stretch differ from those at its start."""
+    return course[0] != course[3] or course[1] != course[4] or course[2] != course[5]
+
+
+@kernel
+def _rates(par: Array, course: Course, x: float, work: Array, base: int, place: int) -> None:
+    """Fill W_RATE with the rates of all unknowns at the share ``x`` of the stretch.
+
+    ``course``: load, slip, oil temperature at the start, then at the end. The slopes are kept at
+    the ``place``-th of W_KEPT.
+    """
+    load = course[0] + (course[3] - course[0]) * x
+    slip = course[1] + (course[4] - course[1]) * x
+    oil = course[2] + (course[5] - course[2]) * x
+    kept = L.W_KEPT + place * L.N_RATES
+    surfaces(par, work, base, L.W_SURFACE)
+    pack_rates(par, max(load, 0.0), slip, work[np.uintp(base + L.Y_FILM)], work, kept)
+    n, first = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
+    total = 0.0
+    for k in range(int(par[L.D_RINGS])):
+        power = work[np.uintp(kept + L.R_RINGS + k * L.N_OF_RING + L.R_POWER)]
+        total += power
+        block, heat = first + k * L.N_PACK, L.Y_HEAT + k * n
+        for i in range(n):
+            level = oil if i == 0 else 0.0
+            gain, decay = par[np.uintp(block + L.D_GAIN + i)], par[np.uintp(block + L.D_DECAY + i)]
+            work[np.uintp(L.W_RATE + heat + i)] = gain * power - decay * (
+                work[np.uintp(base + heat + i)] - level
+            )
+    work[np.uintp(L.W_RATE + L.Y_FILM)] = work[np.uintp(kept + L.R_RATE)]
+    work[np.uintp(L.W_RATE + L.Y_ENERGY)] = total
+
+
+@kernel
+def factorise(par: Array, s: float, work: Array) -> None:
+    """Fill what all stages' systems (s - J) U = right side share; J is kept at the first place.
+
+    A ring and the film: (s - f_u) du - f_T D = r, (1 - gain P_T) D - gain P_u du = held, D being
+    the change of the ring's interface. Each ring has its own such system, from which the other
+    rings are eliminated.
+    """
+    n, first, rings = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST]), int(par[L.D_RINGS])
+    for k in range(rings):
+        at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
+        block, gain = first + k * L.N_PACK, 0.0
+        for i in range(n):
+            gain += par[np.uintp(block + L.D_GAIN + i)] / (s + par[np.uintp(block + L.D_DECAY + i)])
+        work[np.uintp(L.W_GAIN + k)] = gain
+        work[np.uintp(L.W_DIAGONAL + k)] = 1.0 - gain * work[np.uintp(at + L.R_POWER_T)]
+    for k in range(rings):
+        pivot = s - work[np.uintp(L.W_KEPT + L.R_RATE_U)]
+        for j in range(rings):
+            if j != k:
+                pivot -= _coupling(work, j) / work[np.uintp(L.W_DIAGONAL + j)]
+        work[np.uintp(L.W_FILM_PIVOT + k)] = pivot
+        determinant = pivot * work[np.uintp(L.W_DIAGONAL + k)] - _coupling(work, k)
+        work[np.uintp(L.W_DETERMINANT + k)] = determinant if determinant != 0.0 else math.nan
+
+
+@kernel
+def _coupling(work: Array, k: int) -> float:
+    """Return the product of a ring's and the film's slopes over each other."""
+    at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
+    rate_t, power_u = work[np.uintp(at + L.R_RATE_T)], work[np.uintp(at + L.R_POWER_U)]
+    return rate_t * work[np.uintp(L.W_GAIN + k)] * power_u
+
+
+@kernel
+def solve_stage(par: Array, s: float, work: Array, stage: int) -> None:
+    """Turn the right side in the stage's place into its solution, with what ``factorise`` left."""
+    n, first, rings = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST]), int(par[L.D_RINGS])
+    for k in range(rings):
+        held = 0.0
+        for i in range(n):
+            pivot = s + par[np.uintp(first + k * L.N_PACK + L.D_DECAY + i)]
+            held += work[np.uintp(stage + L.Y_HEAT + k * n + i)] / pivot
+        work[np.uintp(L.W_HELD + k)] = held
+    film, energy = 0.0, work[np.uintp(stage + L.Y_ENERGY)]
+    right = work[np.uintp(stage + L.Y_FILM)]
+    for k in range(rings):
+        r = right
+        for j in range(rings):
+            if j != k:
+                over = L.W_KEPT + L.R_RINGS + j * L.N_OF_RING + L.R_RATE_T
+                r += (
+                    work[np.uintp(over)] * work[np.uintp(L.W_HELD + j)]
+                    / work[np.uintp(L.W_DIAGONAL + j)]
+                )  # fmt: skip
+        at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
+        held, gain = work[np.uintp(L.W_HELD + k)], work[np.uintp(L.W_GAIN + k)]
+        power_u, power_t = work[np.uintp(at + L.R_POWER_U)], work[np.uintp(at + L.R_POWER_T)]
+        determinant = work[np.uintp(L.W_DETERMINANT + k)]
+        if k == 0:
+            film = (
+                r * work[np.uintp(L.W_DIAGONAL)] + work[np.uintp(at + L.R_RATE_T)] * held
+            ) / determinant
+        surface = (work[np.uintp(L.W_FILM_PIVOT + k)] * held + gain * power_u * r) / determinant
+        power = power_u * film + power_t * surface
+        energy += power
+        block, heat = first + k * L.N_PACK, stage + L.Y_HEAT + k * n
+        for i in range(n):
+            place = np.uintp(heat + i)
+            work[place] = (work[place] + par[np.uintp(block + L.D_GAIN + i)] * power) / (
+                s + par[np.uintp(block + L.D_DECAY + i)]
+            )
+    work[np.uintp(stage + L.Y_FILM)] = film
+    work[np.uintp(stage + L.Y_ENERGY)] = energy / s
+
+
+@kernel
+def substep(
+    par: Array, course: Course, x: float, share: float, duration: float, work: Array
+) -> float:
+    """Fill W_TRIAL with the state a substep later; return its error in units of the tolerance."""
+    n, h = n_unknowns(par), share * duration
+    s = 1.0 / (GAMMA * h)
+    moving = is_moving(course)
+    last = L.W_STAGES + (L.N_STAGES - 1) * L.NY
+    if moving:  # the drift of the rates is differenced; it goes where the last stage will be
+        _rates(par, course, x + NUDGE * share, work, L.W_NOW, L.DRIFTED)
+        for i in range(n):
+            work[np.uintp(last + i)] = work[np.uintp(L.W_RATE + i)]
+    _rates(par, course, x, work, L.W_NOW, 0)
+    factorise(par, s, work)
+    if moving:
+        for i in range(n):
+            place = np.uintp(last + i)
+            work[place] = (work[place] - work[np.uintp(L.W_RATE + i)]) / (NUDGE * h)
+    for k in range(L.N_STAGES):
+        if k > 0:
+            for i in range(n):
+                value = work[np.uintp(L.W_NOW + i)]
+                for j in range(k):
+                    value += A[k, j] * work[np.uintp(L.W_STAGES + j * L.NY + i)]
+                work[np.uintp(L.W_TRIAL + i)] = value
+            _rates(par, course, x + ALPHA[k] * share, work, L.W_TRIAL, k)
+        stage = L.W_STAGES + k * L.NY
+        for i in range(n):
+            value = work[np.uintp(L.W_RATE + i)]
+            for j in range(k):
+                value += C[k, j] / h * work[np.uintp(L.W_STAGES + j * L.NY + i)]
+            if moving and k < 4:
+                value += DRIFT[k] * h * work[np.uintp(last + i)]
+            work[np.uintp(stage + i)] = value
+        solve_stage(par, s, work, stage)
+    for i in range(n):
+        work[np.uintp(L.W_TRIAL + i)] += work[np.uintp(last + i)]
+    return _error(par, work, last)
+
+
+@kernel
+def _error(par: Array, work: Array, last: int) -> float:
+    """Return the error of a substep, its last stage, in units of the tolerance."""
+    film = work[np.uintp(last + L.Y_FILM)] / (
+        TOLERANCE_FILM * (1.0 + abs(work[np.uintp(L.W_TRIAL + L.Y_FILM)]))
+    )
+    n, is_lumped = 1 + int(par[L.D_MODES]), par[L.D_FIRST] == 0.0
+    tolerance = TOLERANCE_RISE if is_lumped and n > 1 else TOLERANCE_HEAT
+    error = abs(film)
+    for k in range(int(par[L.D_RINGS])):
+        heat = 0.0
+        for i in range(n):
+            heat += work[np.uintp(last + L.Y_HEAT + k * n + i)]
+        error = max(error, abs(heat) / tolerance)
+    return error if is_lumped else error / SHARE_IN_RINGS
+
+
+@kernel
+def attempt(
+    par: Array, course: Course, duration: float, done: float, share: float, least: float,
+    work: Array,
+) -> tuple[bool, float, int]:  # fmt: skip
+    """Try a substep from W_NOW to W_TRIAL; return if it counts, how its size should change, status.
+
+    It goes from the share ``done`` of the stretch over ``share`` of it. A jump of the rates inside
+    the stretch (the pack opens, a limit is met) shrinks the substeps until it is passed; one as
+    small as ``least`` is taken.
+    """
+    error = substep(par, course, done, share, duration, work)
+    if not math.isfinite(error):
+        error = 1e6
+        if share <= least:
+            return False, 0.1, NOT_FINITE
+    factor = 6.0 if error < 1e-5 else min(6.0, max(0.1, 0.9 / math.sqrt(math.sqrt(error))))
+    if error <= 1.0 or share <= least:
+        return True, factor, OK
+    return False, min(factor, 0.9), OK

@@ -1,0 +1,211 @@
+# mypy: disable-error-code="no-any-return"
+"""How film and heat at the end of a stretch change with the inputs there.
+
+Every substep is differentiated as it was made, stage by stage, with the slopes that it left in
+``work``; its size counts as given. Only a change of the slopes themselves, by what the changes at
+its beginning do to them, has no formula here: it is read from slopes at neighbouring states.
+"""
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from . import layout as L
+from .rates import n_unknowns, pack_rates, surfaces
+from .rosenbrock import (
+    ALPHA,
+    DRIFT,
+    GAMMA,
+    NUDGE,
+    A,
+    C,
+    Course,
+    factorise,
+    is_moving,
+    solve_stage,
+)  # fmt: skip
+
+Change = tuple[float, float, float]
+APART = 1e-5  # relative distance of the neighbouring states
+WARMTH = 100.0  # K, scale of temperatures
+
+
+@kernel
+def _changed_rates(
+    par: Array, work: Array, place: int, film: float, load: float, slip: float
+) -> float:
+    """Return the change of the film rate with those of states and inputs; fill W_POWER_CHANGE.
+
+    The changes of the rings' temperatures are in W_SURFACE_CHANGE.
+    """
+    kept = L.W_KEPT + place * L.N_RATES
+    rate = work[np.uintp(kept + L.R_RATE_U)] * film
+    for k in range(int(par[L.D_RINGS])):
+        at, heat = kept + L.R_RINGS + k * L.N_OF_RING, work[np.uintp(L.W_SURFACE_CHANGE + k)]
+        rate += work[np.uintp(at + L.R_RATE_T)] * heat
+        power = work[np.uintp(at + L.R_POWER_U)] * film + work[np.uintp(at + L.R_POWER_T)] * heat
+        power += work[np.uintp(at + L.R_POWER_F)] * load + work[np.uintp(at + L.R_POWER_S)] * slip
+        work[np.uintp(L.W_POWER_CHANGE + k)] = power
+    return rate + work[np.uintp(kept + L.R_RATE_F)] * load
+
+
+@kernel
+def _change_slopes(
+    par: Array, load: float, slip: float, load_change: float, slip_change: float, work: Array
+) -> None:
+    """Fill W_BENT with the changes of the slopes at a substep's start."""
+    for i in range(L.N_RATES):
+        work[np.uintp(L.W_BENT + i)] = 0.0
+    u, film = work[np.uintp(L.W_NOW + L.Y_FILM)], work[np.uintp(L.W_VARIED + L.Y_FILM)]
+    surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
+    size = max(
+        abs(film) / (1.0 + abs(u)),
+        max(
+            abs(load_change) / (load + L.OPEN_PRESSURE * par[L.D_AREA]),
+            abs(slip_change) / (abs(slip) + par[L.P_SPEED_SMOOTHING]),
+        ),
+    )
+    for k in range(int(par[L.D_RINGS])):
+        size = max(size, abs(work[np.uintp(L.W_SURFACE_CHANGE + k)]) / WARMTH)
+    if not size > 0.0:
+        return
+    for side in range(2):  # one call in the code: it is long
+        e = APART / size if side == 0 else -APART / size
+        surfaces(par, work, L.W_NOW, L.W_SURFACE)
+        for k in range(int(par[L.D_RINGS])):
+            heat = work[np.uintp(L.W_SURFACE_CHANGE + k)]
+            work[np.uintp(L.W_SURFACE + k)] += e * heat
+        pack_rates(
+            par, max(load + e * load_change, 0.0), slip + e * slip_change, u + e * film, work,
+            L.W_NEIGHBOUR,
+        )  # fmt: skip
+        half = 0.5 / e
+        for i in range(L.R_RINGS + int(par[L.D_RINGS]) * L.N_OF_RING):
+            work[np.uintp(L.W_BENT + i)] += half * work[np.uintp(L.W_NEIGHBOUR + i)]
+
+
+@kernel
+def _jump(
+    par: Array, course: Course, change: float, x: float, share: float, duration: float, work: Array
+) -> float:
+    """Return the change of the film ratio because the pack opens or closes at another instant."""
+    limit, rise = L.OPEN_PRESSURE * par[L.D_AREA], course[3] - course[0]
+    before, after = course[0] + rise * x, course[0] + rise * (x + share)
+    if (before < limit) == (after < limit):
+        return 0.0
+    later = -duration * (limit - course[0]) / rise * change / rise
+    slip, jump = course[1], 0.0
+    for side in range(2):
+        at = x + share * side
+        base = L.W_TRIAL if side == 1 else L.W_NOW
+        surfaces(par, work, base, L.W_SURFACE)
+        pack_rates(
+            par, max(course[0] + rise * at, 0.0), slip + (course[4] - slip) * at,
+            work[np.uintp(base + L.Y_FILM)], work, L.W_NEIGHBOUR,
+        )  # fmt: skip
+        rate = work[np.uintp(L.W_NEIGHBOUR + L.R_RATE)]
+        jump += rate if side == 0 else -rate
+    return jump * later
+
+
+@kernel
+def _drift(
+    par: Array, change: Change, x: float, share: float, h: float, place: int, work: Array
+) -> None:
+    """Fill W_VARIED_DRIFT: how the drift of the rates changes, read as the substep reads it."""
+    film = work[np.uintp(L.W_VARIED + L.Y_FILM)]
+    surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
+    at = x + NUDGE * share
+    rate = _changed_rates(par, work, place, film, change[0] * at, change[1] * at)
+    for k in range(int(par[L.D_RINGS])):
+        work[np.uintp(L.W_SURFACE + k)] = work[np.uintp(L.W_POWER_CHANGE + k)]
+    rate_0 = _changed_rates(par, work, 0, film, change[0] * x, change[1] * x)
+    per = 1.0 / (NUDGE * h)
+    work[np.uintp(L.W_VARIED_DRIFT + L.Y_FILM)] = (rate - rate_0) * per
+    work[np.uintp(L.W_VARIED_DRIFT + L.Y_ENERGY)] = 0.0
+    n, first = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
+    for k in range(int(par[L.D_RINGS])):
+        block, heat = first + k * L.N_PACK, L.W_VARIED_DRIFT + L.Y_HEAT + k * n
+        power = work[np.uintp(L.W_SURFACE + k)] - work[np.uintp(L.W_POWER_CHANGE + k)]
+        for i in range(n):
+            drift = par[np.uintp(block + L.D_GAIN + i)] * power * per
+            if i == 0:
+                drift += par[np.uintp(block + L.D_DECAY)] * change[2] * share / h
+            work[np.uintp(heat + i)] = drift
+
+
+@kernel
+def _stage(par: Array, change: Change, at: float, h: float, k: int, work: Array) -> None:
+    """Fill the right side of the change of stage ``k``; W_BENT: changes of the slopes."""
+    base, own = L.W_VARIED_STAGES + k * L.NY, L.W_STAGES + k * L.NY
+    n, m, first = n_unknowns(par), 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
+    for i in range(n):  # the change of the state where the rates are taken, in W_RATE
+        value = work[np.uintp(L.W_VARIED + i)]
+        for j in range(k):
+            value += A[k, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
+        work[np.uintp(L.W_RATE + i)] = value
+    surfaces(par, work, L.W_RATE, L.W_SURFACE_CHANGE)
+    rate = _changed_rates(
+        par, work, k, work[np.uintp(L.W_RATE + L.Y_FILM)], change[0] * at, change[1] * at
+    )
+    film = work[np.uintp(own + L.Y_FILM)]
+    surfaces(par, work, own, L.W_SURFACE)
+    bent = work[np.uintp(L.W_BENT + L.R_RATE_U)] * film
+    work[np.uintp(base + L.Y_ENERGY)] = 0.0
+    for r in range(int(par[L.D_RINGS])):
+        of, heat = L.W_BENT + L.R_RINGS + r * L.N_OF_RING, work[np.uintp(L.W_SURFACE + r)]
+        bent += work[np.uintp(of + L.R_RATE_T)] * heat
+        power = work[np.uintp(L.W_POWER_CHANGE + r)] + (
+            work[np.uintp(of + L.R_POWER_U)] * film + work[np.uintp(of + L.R_POWER_T)] * heat
+        )
+        for i in range(m):
+            place, block = L.Y_HEAT + r * m + i, first + r * L.N_PACK
+            level = change[2] * at if i == 0 else 0.0
+            value = par[np.uintp(block + L.D_GAIN + i)] * power
+            value -= par[np.uintp(block + L.D_DECAY + i)] * (
+                work[np.uintp(L.W_RATE + place)] - level
+            )
+            work[np.uintp(base + place)] = value
+    work[np.uintp(base + L.Y_FILM)] = rate + bent
+    for i in range(n):
+        value = work[np.uintp(base + i)]
+        for j in range(k):
+            value += C[k, j] / h * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
+        if k < 4:
+            value += DRIFT[k] * h * work[np.uintp(L.W_VARIED_DRIFT + i)]
+        work[np.uintp(base + i)] = value
+
+
+@kernel
+def follow(
+    par: Array, course: Course, change: Change, x: float, share: float, duration: float,
+    work: Array,
+) -> None:  # fmt: skip
+    """Carry the changes at W_VARIED over a substep from W_NOW to W_TRIAL, whose stages still stand.
+
+    ``course`` and ``change``: inputs at start and end of the stretch and how the latter change;
+    the substep goes from the share ``x`` of the stretch over ``share`` of it.
+    """
+    h = share * duration
+    s = 1.0 / (GAMMA * h)
+    if x > 0.0:
+        slip = course[1] + (course[4] - course[1]) * x
+        _change_slopes(
+            par, max(course[0] + (course[3] - course[0]) * x, 0.0), slip, change[0] * x,
+            change[1] * x, work,
+        )  # fmt: skip
+    else:
+        for i in range(L.N_RATES):
+            work[np.uintp(L.W_BENT + i)] = 0.0
+    _drift(par, change, x, share, h, L.DRIFTED if is_moving(course) else 0, work)
+    factorise(par, s, work)
+    for k in range(L.N_STAGES):
+        _stage(par, change, x + ALPHA[k] * share, h, k, work)
+        solve_stage(par, s, work, L.W_VARIED_STAGES + k * L.NY)
+    last = L.N_STAGES - 1
+    jump = _jump(par, course, change[0], x, share, duration, work)
+    for i in range(n_unknowns(par)):
+        value = work[np.uintp(L.W_VARIED_STAGES + last * L.NY + i)]
+        for j in range(last):
+            value += A[last, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
+        work[np.uintp(L.W_VARIED + i)] += value
+    work[np.uintp(L.W_VARIED + L.Y_FILM)] += jump

@@ -1,0 +1,143 @@
+# mypy: disable-error-code="no-any-return"
+"""One co-simulation step of the wet clutch: film, heat and friction of the pack.
+
+``input_course`` says what the inputs do inside a step. Held: they stay, the step ends with all
+outputs at its end. Linear: they run straight from one communication point to the next. Then a step
+first brings film and heat from the last point to the present one, whose inputs are known now, gives
+the friction there, and books heat in advance with the present power; the next step replaces that
+advance. This couples with second order to a partner that looks ahead by itself.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.jit import Array, kernel
+from ...numerics.status import BAD_INPUT, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from . import layout as L
+from .advance import advance, load_memory, settle_film, store_memory, warm_up
+from .constants import broken_rule, derive
+from .directional_derivative import directional_derivative as sens
+from .pack_friction import regime_of
+from .pack_outputs import fill_outputs, mean_surface
+from .rates import n_unknowns, pack_rates, surfaces
+
+__all__ = [
+    "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "broken_rule", "derive", "sens",
+    "step",
+]  # fmt: skip
+
+N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
+NOUT, NIOUT = L.NOUT, L.NIOUT
+
+
+@kernel
+def step(
+    par: Array,
+    inp: Array,
+    state: Array,
+    work: Array,
+    out: Array,
+    iout: NDArray[np.int32],
+    t: float,
+    dt: float,
+) -> int:
+    """Advance the pack from t to t + dt, then fill the outputs.
+
+    Returns 0 or the status of a failure; advice stands in ``iout`` only. In rings ``temperature``
+    is their area mean; the advice HOT goes by the hottest one.
+    """
+    load, slip, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
+    if not (
+        math.isfinite(load) and load >= 0.0 and math.isfinite(slip) and math.isfinite(oil)
+        and math.isfinite(dt) and dt >= 0.0 and oil > 0.0
+    ):  # fmt: skip
+        iout[L.IO_STATUS] = BAD_INPUT
+        return BAD_INPUT
+    started = state[L.S_STARTED] != 0.0
+    linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
+    work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
+    work[L.W_PROPOSED], work[L.W_DURATION] = state[L.S_SUBSTEP], dt
+    status = load_memory(par, load, oil, state, work)
+    if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
+        work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
+    if linear:
+        if started and status == OK:
+            course = (state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil)
+            status = advance(
+                par, course, state[L.S_DURATION], state[L.S_POWER], state[L.S_SUBSTEP], work
+            )
+    elif dt > 0.0 and status == OK:
+        course = (load, slip, oil, load, slip, oil)
+        status = advance(par, course, dt, 0.0, state[L.S_SUBSTEP], work)
+    if status == OK:
+        status = settle_film(par, load, work)
+    fill_outputs(par, load, slip, work, out)
+    power = out[L.O_POWER] / par[L.P_FACES]
+    temperature, hottest = mean_surface(par, work)
+    energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
+    unknowns = L.W_NOW
+    if linear and dt > 0.0:
+        unknowns = L.W_TRIAL  # the memory is that of now; what is shown looks ahead
+        for i in range(n_unknowns(par)):
+            work[np.uintp(L.W_TRIAL + i)] = work[np.uintp(L.W_NOW + i)]
+        look_ahead(par, load, slip, oil, dt, power, work)
+        temperature, hottest = mean_surface(par, work)
+        energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
+    elif linear and started:
+        energy = state[L.S_SHOWN_ENERGY]
+        if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
+            temperature = state[L.S_SHOWN_TEMPERATURE]
+        if par[L.P_FIDELITY] != L.FINE:
+            hottest = temperature
+    out[L.O_TEMPERATURE], out[L.O_ENERGY] = temperature, energy
+    if status == OK and not _is_finite(par, work, unknowns, out):
+        status = NOT_FINITE
+    # Heat does not come back: where the advance was too large the output waits.
+    energy = max(energy, state[L.S_SHOWN_ENERGY])
+    out[L.O_ENERGY] = energy
+    if dt > 0.0 and status == OK:
+        store_memory(par, work, unknowns, state)
+        state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL] = load, slip, oil
+        state[L.S_POWER], state[L.S_DURATION], state[L.S_SUBSTEP] = power, dt, work[L.W_PROPOSED]
+        state[L.S_SHOWN_TEMPERATURE], state[L.S_SHOWN_ENERGY] = temperature, energy
+    iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
+    advice = OK
+    if out[L.O_RATIO] < L.LEAST_RATIO:
+        advice = OUTSIDE_VERIFIED
+    if hottest > L.HOT_LIMIT:
+        advice = HOT
+    iout[L.IO_STATUS] = advice if status == OK else status
+    return status
+
+
+@kernel
+def look_ahead(
+    par: Array, load: float, slip: float, oil: float, dt: float, power: float, work: Array
+) -> None:
+    """Warm the pack in W_NOW for ``dt`` with its present power; the temperatures to W_SURFACE.
+
+    ``power``: of a face of a lumped pack [W].
+    """
+    if par[L.P_FIDELITY] == L.FINE:
+        film = work[np.uintp(L.W_NOW + L.Y_FILM)]
+        pack_rates(par, load, slip, film, work, L.W_NEIGHBOUR)
+        for k in range(int(par[L.D_RINGS])):
+            place = L.W_NEIGHBOUR + L.R_RINGS + k * L.N_OF_RING + L.R_POWER
+            of_ring = work[np.uintp(place)]
+            warm_up(par, k, of_ring, of_ring, oil, dt, work)
+    else:
+        warm_up(par, 0, power, power, oil, dt, work)
+    surfaces(par, work, L.W_NOW, L.W_SURFACE)
+
+
+@kernel
+def _is_finite(par: Array, work: Array, unknowns: int, out: Array) -> bool:
+    """Tell if what the memory takes over and all outputs are numbers."""
+    good = math.isfinite(work[L.W_PROPOSED])
+    for i in range(n_unknowns(par)):
+        good = good and math.isfinite(work[np.uintp(unknowns + i)])
+    for i in range(L.NOUT):
+        good = good and math.isfinite(out[np.uintp(i)])
+    return good

@@ -1,0 +1,269 @@
+"""Parameters, inputs and outputs of the wet clutch: the one list all interfaces come from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import ParameterError
+from ..model.parameters import check_ranges, choice, count, flag, quantity
+from ..model.rules import Rule, check_rules
+from ..model.spec import ModelSpec, Signal, Terminal
+
+FRICTION_LAWS = {
+    "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",
+    "constant": "the constant coefficient constant_friction",
+    "table": "a measured curve over slip speed: table_friction_0 .. 5 at 0 and table_speed_1 .. 5",
+}
+
+INPUT_COURSES = {
+    "held": "inputs stay as they are during a step; all outputs are those at its end",
+    "linear": "inputs run straight from point to point; outputs after a step are of its start",
+}
+
+N_TABLE = 5
+
+
+def _coefficient(value: float, where: str) -> Any:
+    return quantity(value, "1", 0.0, 2.0, f"coefficient of the table law {where}")
+
+
+def _table_speed(value: float, place: int) -> Any:
+    return quantity(value, "m/s", 0.0, 1e4, f"slip speed of point {place} of the table law")
+
+
+def _rising(place: int) -> Rule:
+    last = f"{{table_speed_{place - 1}}}" if place > 1 else "0.0"
+    return Rule(f"table_speed_{place} = {{table_speed_{place}}} m/s, allowed: above {last} m/s "
+                "(the points of the table rise)")  # fmt: skip
+
+
+RULES = (
+    Rule("inner_radius = {inner_radius} m, allowed: below outer_radius ({outer_radius} m)"),
+    *(_rising(place) for place in range(1, N_TABLE + 1)),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClutchParams:
+    """A pack of wet friction plates: geometry, lining, friction law, oil and steel.
+
+    The friction law is that of Wang, Wei & Wu (2012); its speed law was lost with the paper's
+    figures and is fitted to the prose. Lining data: Shock and Vibration 2021, 5522998. Faces, oil
+    cooling and speed smoothing are chosen here.
+    """
+
+    inner_radius: float = quantity(0.064, "m", 1e-3, 1.0, "inner radius of the friction faces")
+    outer_radius: float = quantity(0.085, "m", 2e-3, 2.0, "outer radius of the friction faces")
+    faces: int = count(8, 1, 100, "number of friction faces in the pack")
+    effective_radius: float = quantity(
+        0.0, "m", 0.0, 10.0, "radius the friction acts at (0: from the face's radii)"
+    )
+    friction_law: str = choice("wang", FRICTION_LAWS, "ClutchFrictionLaw", "law of dry friction")
+    constant_friction: float = quantity(0.12, "1", 0.0, 2.0, "coefficient of the constant law")
+    table_friction_0: float = _coefficient(0.13, "at standstill")
+    table_speed_1: float = _table_speed(0.1, 1)
+    table_friction_1: float = _coefficient(0.12, "at table_speed_1")
+    table_speed_2: float = _table_speed(0.5, 2)
+    table_friction_2: float = _coefficient(0.12, "at table_speed_2")
+    table_speed_3: float = _table_speed(2.0, 3)
+    table_friction_3: float = _coefficient(0.125, "at table_speed_3")
+    table_speed_4: float = _table_speed(8.0, 4)
+    table_friction_4: float = _coefficient(0.13, "at table_speed_4")
+    table_speed_5: float = _table_speed(30.0, 5)
+    table_friction_5: float = _coefficient(0.13, "at table_speed_5 and above")
+    indentation: float = quantity(0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R")
+    plough_weight: float = quantity(0.085275, "1", 0.0, 1.0, "weight of the ploughing share")
+    hardness_ratio: float = quantity(6.0, "1", 1.0, 20.0, "hardness over shear strength of lining")
+    adhesion_factor: float = quantity(
+        1.0, "1", 0.1, 10.0, "factor on the adhesive share (1: as published; pi/2: full s/p)"
+    )
+    shear_floor: float = quantity(0.30, "1", 0.0, 1.0, "shear ratio s/s_m at very high slip speed")
+    stick_speed: float = quantity(1.185, "m/s", 0.0, 50.0, "slip speed below which s/s_m is 1")
+    decay_speed: float = quantity(2.872, "m/s", 1e-3, 100.0, "decay of s/s_m above stick_speed")
+    kink_width: float = quantity(
+        0.0, "m/s", 0.0, 1.0, "rounds the kink at stick_speed (0: sharp, as the law says)"
+    )
+    shear_temperature_slope: float = quantity(
+        0.0, "1/K", -0.1, 0.1, "relative change of s/s_m per kelvin (0: none, as published)"
+    )
+    reference_temperature: float = quantity(
+        313.15, "K", 233.15, 523.15, "interface temperature the speed law of s/s_m holds at"
+    )
+    roughness: float = quantity(8.41e-6, "m", 1e-8, 1e-4, "combined RMS roughness of lining, steel")
+    contact_modulus: float = quantity(2.7e7, "Pa", 1e5, 1e11, "contact modulus of the lining")
+    asperity_density: float = quantity(7e7, "1/m2", 1e5, 1e12, "lining's asperities per area")
+    asperity_radius: float = quantity(8e-4, "m", 1e-7, 1e-2, "radius of the lining's asperities")
+    lining_thickness: float = quantity(1e-3, "m", 0.0, 0.02, "thickness of the permeable lining")
+    permeability: float = quantity(
+        4e-12, "m2", 0.0, 1e-9, "permeability of the lining along its plane"
+    )
+    groove_factor: float = quantity(
+        1.0, "1", 0.01, 1.0, "share of squeeze resistance the grooves leave"
+    )
+    initial_film: float = quantity(8.8e-5, "m", 1e-6, 1e-2, "film thickness of the open pack")
+    starts_pressed: bool = flag(False, "film is settled at the start (False: pack starts open)")
+    film_dynamics: bool = flag(
+        True,
+        "field rung: oil takes time to leave and resists shear (False: film settled, no shear)",
+    )
+    shear_heating: bool = flag(
+        False, "field rung: oil between the faces is thinned by its own shear (False: as the faces)"
+    )
+    oil_flow: float = quantity(
+        0.0, "m3/s", 0.0, 1.0, "oil fed to the pack; limits its drag (0: gaps always full)"
+    )
+    oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
+    oil_conductivity: float = quantity(
+        0.145, "W/(m.K)", 0.01, 2.0, "heat conductivity of the oil (shear_heating)"
+    )
+    viscosity_constant: float = quantity(
+        3.545, "1", 0.0, 6.0, "G_o of the Roelands law (0: viscosity is viscosity_scale, constant)"
+    )
+    viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
+    viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 10.0, "scale of the Roelands law")
+    steel_thickness: float = quantity(2e-3, "m", 1e-4, 0.1, "thickness of a steel plate")
+    steel_density: float = quantity(7850.0, "kg/m3", 500.0, 2e4, "density of the steel plates")
+    steel_heat_capacity: float = quantity(475.0, "J/(kg.K)", 50.0, 5e3, "heat capacity of steel")
+    steel_conductivity: float = quantity(
+        50.0, "W/(m.K)", 1.0, 500.0, "heat conductivity of the steel plates"
+    )
+    contact_rise: bool = flag(
+        False, "interface hotter than the plate's mean by conduction (semi-infinite at first)"
+    )
+    heat_transfer: float = quantity(1000.0, "W/(m2.K)", 0.0, 1e5, "cooling of a face by the oil")
+    speed_smoothing: float = quantity(
+        0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
+    )
+    input_course: str = choice(
+        "held", INPUT_COURSES, "InputCourse", "what load and slip do between two steps"
+    )
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
+        from .kernels.constants import broken_rule
+
+        check_rules(self, RULES, broken_rule)
+
+    @classmethod
+    def with_table(
+        cls, speed: Sequence[float], friction: Sequence[float], **others: Any
+    ) -> ClutchParams:
+        """Return parameters whose friction follows a measured curve.
+
+        Parameters
+        ----------
+        speed : 2 to 6 slip speeds [m/s] at the mean radius, rising, the first one 0
+        friction : coefficients [-] at these speeds; straight in between, the last one holds above
+        others : further parameters
+
+        Examples
+        --------
+        >>> ClutchParams.with_table([0.0, 1.0, 10.0], [0.12, 0.11, 0.13]).friction_law
+        'table'
+        """
+        n = len(speed)
+        if len(friction) != n or not 2 <= n <= N_TABLE + 1 or speed[0] != 0.0:
+            raise ParameterError(
+                f"speed, friction: {n} and {len(friction)} values from {speed[0]!r} m/s on, "
+                f"allowed: 2 .. {N_TABLE + 1} pairs, the first at 0 m/s"
+                if n
+                else "speed: no values"
+            )
+        table: dict[str, Any] = {"table_friction_0": friction[0]}
+        for k in range(1, N_TABLE + 1):
+            inside = k < n
+            # points that are not given lie above the last one, at its value
+            table[f"table_speed_{k}"] = speed[k] if inside else speed[-1] + 1.0 + k
+            table[f"table_friction_{k}"] = friction[k] if inside else friction[-1]
+        return cls(friction_law="table", **table, **others)
+
+
+LOAD = Signal(name="load", unit="N", help="axial force that presses the pack together",
+              low=0.0, high=1e6, nominal=5000.0, start=0.0)  # fmt: skip
+SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two sides of the pack",
+               low=-5000.0, high=5000.0, nominal=100.0, start=0.0)  # fmt: skip
+OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
+             low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
+_POINT = ("load", "speed")
+_ALL = (*_POINT, "oil_temperature")
+
+SPEC = ModelSpec(
+    key="clutch",
+    name="WetClutch",
+    help="Wet multi-plate clutch or brake: friction torque, torque capacity, interface temperature",
+    params=ClutchParams,
+    fidelities={
+        "closed": "constant coefficient of friction, film settled, lumped heat",
+        "boundary": "boundary friction over slip speed, film settled, no heat",
+        "stribeck": "boundary friction over slip speed, film settled, lumped heat",
+        "field": "boundary friction, film that is squeezed out and sheared, lumped heat",
+        "fine": "the same in four rings, each with its own slip speed, heat and temperature",
+    },
+    default_fidelity="field",
+    inputs=(LOAD, SPEED, OIL),
+    outputs=(
+        Signal(name="friction_torque", unit="N.m", nominal=100.0, depends=_ALL,
+               help="friction torque of the pack, sign of the slip, smooth through zero"),
+        Signal(name="temperature", unit="K", nominal=300.0, depends=("oil_temperature",),
+               help="interface temperature of the steel plates"),
+        Signal(name="film_thickness", unit="m", nominal=1e-5, depends=_ALL,
+               help="separation of the mean surfaces of lining and steel"),
+        Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_ALL, low=0.0,
+               help="largest torque the pack can hold at this load and slip"),
+        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=_ALL,
+               help="coefficient of boundary friction of the contacting faces"),
+        Signal(name="film_ratio", unit="1", nominal=1.0, depends=_ALL,
+               help="film thickness over the combined RMS roughness"),
+        Signal(name="friction_power", unit="W", nominal=1e4, depends=_ALL,
+               help="heat made by friction, torque times slip"),
+        Signal(name="energy", unit="J", nominal=1e4, low=0.0,
+               help="heat made by friction since the start"),
+        Signal(name="contact_torque", unit="N.m", nominal=100.0, depends=_ALL,
+               help="share of the friction torque that the asperities make"),
+        Signal(name="viscous_torque", unit="N.m", nominal=10.0, depends=_ALL,
+               help="share of the friction torque that shear of the oil makes"),
+        Signal(name="contact_share", unit="1", nominal=0.1, depends=_ALL, low=0.0, high=1.0,
+               help="share of the faces' area in contact"),
+        Signal(name="heat_flux", unit="W/m2", nominal=1e5, depends=_ALL, low=0.0,
+               help="friction power over the area of all faces"),
+        Signal(name="viscosity", unit="Pa.s", nominal=0.05, depends=_ALL,
+               help="viscosity of the oil at the interface temperature"),
+        Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
+               help="lubrication regime of the friction faces"),
+        Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
+               depends=_POINT, help="how the last solution was obtained"),
+    ),
+    kernel="clutch_step",
+    rules=RULES,
+    terminals=(
+        Terminal(name="shaft", kind="thrustwasher.PackFlange",
+                 help="Slip speed and load in, friction torque out (coupling torque)",
+                 members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
+                          ("load", "load", "signal"))),
+        Terminal(name="shaft_capacity", kind="thrustwasher.PackFlange",
+                 help="Slip speed and load in, torque capacity out (coupling capacity)",
+                 members=(("speed", "w", "signal"), ("torque_capacity", "tau", "inflow"),
+                          ("load", "load", "signal"))),
+        Terminal(name="oil", kind="thrustwasher.HeatPort",
+                 help="Oil temperature in, friction power out",
+                 members=(("oil_temperature", "T", "signal"),
+                          ("friction_power", "Q_flow", "outflow"))),
+    ),
+    # An engagement: the force rises, the slip falls to zero, then the pack holds.
+    course=((0.0, 0.0, 120.0, 320.0), (0.2, 5000.0, 120.0, 320.0), (0.7, 5000.0, 0.0, 320.0),
+            (1.0, 4000.0, 0.0, 320.0)),
+)  # fmt: skip
+
+
+def lining_area(inner_radius: float, outer_radius: float, faces: int) -> float:
+    """Return the area of all friction faces of a pack [m2]."""
+    return faces * math.pi * (outer_radius**2 - inner_radius**2)
+
+
+def mean_radius(inner_radius: float, outer_radius: float) -> float:
+    """Return the radius friction acts at under even pressure [m]."""
+    outer, inner = outer_radius, inner_radius
+    return 2.0 * (outer**3 - inner**3) / (3.0 * (outer**2 - inner**2))

@@ -1,0 +1,257 @@
+"""Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import ParameterError, SolveError, Status
+from ..model.parameters import check_number
+from ..model.prepare import filled
+from ..model.spec import REGIMES
+from .kernels import boundary_friction as boundary
+from .kernels import layout as k
+from .kernels import pack_friction, rates, steady
+from .parameters import LOAD, OIL, SPEC, SPEED, ClutchParams
+
+__all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
+
+
+@dataclass(frozen=True, slots=True)
+class ClutchResult:
+    """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
+
+    friction_torque: float
+    """[N m] with the sign of the slip; 0 at slip 0."""
+    friction_coefficient: float
+    temperature: float
+    """[K] interface after a very long time at this slip; compare with status HOT."""
+    film_thickness: float
+    """[m] separation of the mean surfaces, settled; below 0 the roughness is pressed flat."""
+    film_ratio: float
+    shear_ratio: float
+    """[-] shear strength of the interface over that of the material, s/s_m."""
+    torque_capacity: float
+    """[N m] largest torque the pack holds at this load and slip."""
+    friction_power: float
+    """[W] heat made in the whole pack."""
+    contact_torque: float
+    """[N m] share of friction_torque that the asperities make."""
+    viscous_torque: float
+    """[N m] share of friction_torque that shear of the oil makes."""
+    contact_share: float
+    """[-] share of the faces' area that is in contact."""
+    regime: str
+    status: Status
+    iterations: int
+    fidelity: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the fields as a dictionary that JSON can hold; status by name."""
+        return asdict(self) | {"status": self.status.name}
+
+
+def _in_range(name: str, values: ArrayLike, low: float, high: float) -> Any:
+    try:
+        array = np.asarray(values, float)
+    except (TypeError, ValueError):
+        raise ParameterError(
+            f"{name} = {values!r}, numbers are wanted, allowed: {low:g} .. {high:g}"
+        ) from None
+    bad = ~((array >= low) & (array <= high))
+    if bad.any():
+        first = float(array[bad].flat[0])
+        raise ParameterError(f"{name} = {first!r}, allowed: {low:g} .. {high:g}")
+    return array
+
+
+def boundary_friction(
+    x: ArrayLike,
+    shear_ratio: ArrayLike,
+    plough_weight: ArrayLike = 1.0,
+    hardness_ratio: ArrayLike = 6.0,
+) -> Any:
+    """Return the coefficient of boundary friction [-] of Wang, Wei & Wu (2012), Eq 12.
+
+    Parameters
+    ----------
+    x : width of the indentation over the asperity's diameter, W/2R, above 0 up to 1
+    shear_ratio : shear strength of the interface over the material's, s/s_m, 0 .. 1
+    plough_weight : weight k of the ploughing share, 0 .. 1
+    hardness_ratio : hardness over shear strength N (6 after Tresca, 5.2 after von Mises)
+
+    Returns
+    -------
+    float, or an array of the common shape of the arguments
+
+    Notes
+    -----
+    As printed the equation loses all digits for small x; the form used here is good to rounding
+    for every x.
+
+    Examples
+    --------
+    >>> round(boundary_friction(0.1, 0.5, 0.5), 8)
+    0.07446961
+    """
+    given = (
+        _in_range("x", x, 1e-300, 1.0),
+        _in_range("shear_ratio", shear_ratio, 0.0, 1.0),
+        _in_range("plough_weight", plough_weight, 0.0, 1.0),
+        _in_range("hardness_ratio", hardness_ratio, 1.0, 20.0),
+    )
+    try:
+        arrays = np.broadcast_arrays(*given)
+    except ValueError:
+        shapes = ", ".join(str(a.shape) for a in given)
+        raise ParameterError(
+            f"x, shear_ratio, plough_weight, hardness_ratio: shapes {shapes} do not go together"
+        ) from None
+    values = [boundary.friction(*map(float, point)) for point in zip(*map(np.ravel, arrays))]  # noqa: B905 (broadcast: equal lengths)
+    return np.array(values).reshape(arrays[0].shape) if arrays[0].ndim else values[0]
+
+
+def prepare(params: ClutchParams, fidelity: str) -> Any:
+    """Return the parameter array of the kernel, constants included."""
+    return filled(SPEC, params, fidelity, k.NPAR, steady.derive)
+
+
+class SteadyPack(NamedTuple):
+    """Torques [N m >= 0], temperatures [K] and friction of a pack."""
+
+    contact: float
+    viscous: float
+    temperature: float  # mean by area
+    hottest: float
+    coefficient: float
+    shear_ratio: float
+    status: int
+    iterations: int
+
+
+def steady_pack(par: Any, load: float, slip: float, oil: float, ratio: float) -> SteadyPack:
+    """Return the steady state at a settled film of ``ratio`` roughnesses."""
+    if par[k.P_FIDELITY] != k.FINE:
+        return _part(par, load, slip, oil, ratio)
+    shares, parts = [], []
+    for n in range(int(par[k.D_RINGS])):
+        ring = rates.ring_of(par, n)
+        shares.append(float(ring[k.D_AREA] / par[k.D_AREA]))
+        parts.append(_part(ring, load * shares[-1], slip, oil, ratio))
+    levers = [s * float(rates.ring_of(par, n)[k.D_RADIUS])
+              for n, s in enumerate(shares)]  # fmt: skip
+
+    def mean(name: str, weights: list[float]) -> float:
+        pairs = zip(weights, parts, strict=True)
+        return sum(w * float(getattr(p, name)) for w, p in pairs) / sum(weights)
+
+    return SteadyPack(
+        contact=sum(p.contact for p in parts),
+        viscous=sum(p.viscous for p in parts),
+        temperature=mean("temperature", shares),
+        hottest=max(p.hottest for p in parts),
+        coefficient=mean("coefficient", levers),
+        shear_ratio=mean("shear_ratio", levers),
+        status=max(p.status for p in parts),
+        iterations=sum(p.iterations for p in parts),
+    )
+
+
+def _part(par: Any, load: float, slip: float, oil: float, ratio: float) -> SteadyPack:
+    temperature, status, rounds = steady.steady_temperature(par, load, slip, oil, ratio)
+    contact, viscous, _ = steady.steady_torques(par, load, slip, ratio, temperature)
+    return SteadyPack(
+        float(contact), float(viscous), float(temperature), float(temperature),
+        float(pack_friction.coefficient_of(par, slip, temperature)[0]),
+        float(pack_friction.shear_of(par, slip, temperature)[0]), int(status), int(rounds),
+    )  # fmt: skip
+
+
+def solve_clutch(
+    params: ClutchParams,
+    *,
+    load: float,
+    speed: float,
+    oil_temperature: float = 297.15,
+    fidelity: str = "field",
+    start: ClutchResult | None = None,
+    throw: bool = True,
+) -> ClutchResult:
+    """Return torque and steady temperature of a pack that slips at a constant speed.
+
+    Parameters
+    ----------
+    params : the pack
+    load : axial force on the pack [N]
+    speed : slip [rad/s], with its sign
+    oil_temperature : [K]
+    fidelity : "closed" (constant coefficient), "boundary" (coefficient over slip speed, no heat),
+        "stribeck" (with heat), "field" (with heat and the shear of the settled film) or "fine" (the
+        same in rings, ``temperature`` their mean by area)
+    start : an earlier result to start the search for the film from
+    throw : False returns the best estimate with its status instead of raising SolveError
+
+    Raises
+    ------
+    ParameterError : an argument is out of range; the message names it
+    SolveError : no film or temperature was found
+
+    Notes
+    -----
+    The film is settled (the asperities carry the load; an open pack has its clearance), the
+    temperature is where cooling balances friction. For slip that lasts it soon lies far above
+    what a lining survives: status HOT says so. A shift is over long before; ``engage_clutch``
+    and the FMU give film and temperature over time.
+
+    Examples
+    --------
+    >>> r = solve_clutch(ClutchParams(), load=9000.0, speed=0.0)
+    >>> r.friction_torque, r.regime
+    (0.0, 'adhesive')
+    >>> round(r.torque_capacity, 2)
+    593.95
+    """
+    load = check_number("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0)
+    speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
+    oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
+    par = prepare(params, fidelity)
+    moves = fidelity in ("field", "fine")
+    heated = speed != 0.0 and (load > 0.0 or moves) and fidelity != "boundary"
+    if heated and params.heat_transfer == 0.0:
+        raise ParameterError(
+            "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
+        )
+    guess = start.film_ratio if start else 1.0
+    ratio, film, turns = pack_friction.settled_ratio(par, load, guess)
+    s = steady_pack(par, load, speed, oil, ratio)
+    contact, viscous = s.contact, s.viscous
+    status = max(Status(film), Status(s.status))
+    if status.is_failure and throw:
+        raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
+    if not status.is_failure and ratio < k.LEAST_RATIO:
+        status = Status.OUTSIDE_VERIFIED
+    if not status.is_failure and s.hottest > k.HOT_LIMIT:
+        status = Status.HOT
+    sign = math.copysign(1.0, speed) if speed else 0.0
+    torque = sign * (contact + viscous)
+    return ClutchResult(
+        friction_torque=torque,
+        friction_coefficient=s.coefficient,
+        temperature=s.temperature,
+        film_thickness=float(ratio * params.roughness),
+        film_ratio=float(ratio),
+        shear_ratio=s.shear_ratio,
+        torque_capacity=float(contact + viscous),
+        friction_power=float(torque * speed),
+        contact_torque=sign * contact,
+        viscous_torque=sign * viscous,
+        contact_share=float(pack_friction.contact_share(par, ratio)[0]),
+        regime=list(REGIMES)[pack_friction.regime_of(par, ratio, speed) - 1],
+        status=status,
+        iterations=int(turns + s.iterations),
+        fidelity=fidelity,
+    )

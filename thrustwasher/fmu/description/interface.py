@@ -1,0 +1,162 @@
+"""One list of variables per model: everything an FMU shows comes from here.
+
+The list is made from the parameter dataclass and the model's inputs and outputs. Value references
+count 0, 1, 2, ... over ``time``, inputs, parameters (dataclass fields, then ``fidelity``), outputs;
+they are the same for every target and FMI version.
+"""
+
+import sys
+from dataclasses import MISSING, Field, dataclass, fields
+from typing import Any
+
+from ...errors import Status
+from ...model.spec import REGIMES, ModelSpec, Signal
+from ..model_kernels import all_specs, find_spec
+
+__all__ = ["Item", "Variable", "all_specs", "enumerations", "find_spec", "variables"]
+
+LARGEST = sys.float_info.max  # bound of a variable without bounds: NaN and infinity still fail
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Item:
+    """One named number of an enumeration."""
+
+    name: str
+    value: int
+    help: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Variable:
+    """One variable of an FMU.
+
+    ``store`` and ``slot`` say where the number lives: "time", or element ``slot`` of the kernel
+    arrays "par", "inp", "out", "iout". ``depends`` names the inputs that act on an output at once.
+    """
+
+    name: str
+    reference: int
+    type: str  # Real, Integer, Boolean or Enumeration
+    causality: str  # independent, input, parameter or output
+    variability: str
+    initial: str | None
+    unit: str
+    help: str
+    store: str
+    slot: int
+    type_name: str | None = None  # of an enumeration
+    low: float | None = None
+    high: float | None = None
+    nominal: float | None = None
+    start: float | None = None
+    depends: tuple[str, ...] = ()
+    relative: bool = False
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """The allowed range, both ends belonging to it."""
+        low = -LARGEST if self.low is None else self.low
+        return low, LARGEST if self.high is None else self.high
+
+
+_made: dict[int, tuple[ModelSpec, tuple[Variable, ...]]] = {}
+
+
+def variables(spec: ModelSpec) -> tuple[Variable, ...]:
+    """Return the variables of a model in the order of their value references."""
+    if id(spec) not in _made:
+        time = {
+            "name": "time", "type": "Real", "causality": "independent", "store": "time", "slot": 0,
+            "variability": "continuous", "initial": None, "unit": "s",
+            "help": "time of the present communication point",
+        }  # fmt: skip
+        entries = [time, *map(_input, range(len(spec.inputs)), spec.inputs)]
+        entries += map(_parameter, range(len(fields(spec.params))), fields(spec.params))
+        entries.append(_fidelity(spec))
+        entries += _outputs(spec)
+        for entry in entries:
+            _bound_enumeration(entry, enumerations(spec))
+        made = tuple(Variable(reference=i, **entry) for i, entry in enumerate(entries))
+        _made[id(spec)] = spec, made
+    return _made[id(spec)][1]
+
+
+def enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
+    """Return the enumerations that occur in this model, by type name."""
+    found = {"Fidelity": _counted(spec.fidelities)}
+    for f in fields(spec.params):
+        if f.metadata["kind"] == "enumeration":
+            found[f.metadata["type"]] = _counted(f.metadata["options"])
+    shared = {
+        "Regime": _counted(REGIMES),
+        "SolverStatus": tuple(
+            Item(name=s.name, value=int(s), help=s.advice) for s in sorted(Status)
+        ),
+    }
+    used = {signal.type for signal in (*spec.inputs, *spec.outputs)}
+    return found | {name: items for name, items in shared.items() if name in used}
+
+
+def _bound_enumeration(entry: dict[str, Any], found: dict[str, tuple[Item, ...]]) -> None:
+    if entry["type"] == "Enumeration":
+        numbers = [item.value for item in found[entry["type_name"]]]
+        entry["low"], entry["high"] = min(numbers), max(numbers)
+
+
+def _counted(options: dict[str, str]) -> tuple[Item, ...]:
+    return tuple(Item(name=n, value=i, help=t) for i, (n, t) in enumerate(options.items(), 1))
+
+
+def _input(slot: int, signal: Signal) -> dict[str, Any]:
+    kind = signal.kind.capitalize()
+    return _shown(signal, kind) | {
+        "causality": "input", "variability": "continuous" if kind == "Real" else "discrete",
+        "initial": None, "store": "inp", "slot": slot, "start": signal.start or 0.0,
+    }  # fmt: skip
+
+
+def _outputs(spec: ModelSpec) -> list[dict[str, Any]]:
+    """Real outputs fill ``out``, the others ``iout``, both in the order of the list."""
+    entries, filled = [], {"out": 0, "iout": 0}
+    for signal in spec.outputs:
+        kind = signal.kind.capitalize()
+        store = "out" if kind == "Real" else "iout"
+        entries.append(_shown(signal, kind) | {
+            "causality": "output", "variability": "continuous" if kind == "Real" else "discrete",
+            "initial": "calculated", "store": store, "slot": filled[store],
+            "depends": signal.depends,
+        })  # fmt: skip
+        filled[store] += 1
+    return entries
+
+
+def _shown(signal: Signal, kind: str) -> dict[str, Any]:
+    return {
+        "name": signal.name, "type": kind, "unit": signal.unit, "help": signal.help,
+        "type_name": signal.type, "low": signal.low, "high": signal.high,
+        "nominal": signal.nominal, "relative": signal.relative,
+    }  # fmt: skip
+
+
+def _parameter(slot: int, f: "Field[Any]") -> dict[str, Any]:
+    m = f.metadata
+    assert f.default is not MISSING, "every parameter has a default"
+    start = list(m["options"]).index(f.default) + 1 if "options" in m else f.default
+    return {
+        "name": f.name, "type": m["kind"].capitalize(), "causality": "parameter",
+        "variability": "fixed", "initial": "exact", "unit": m["unit"], "help": m["help"],
+        "store": "par", "slot": slot, "type_name": m.get("type"), "low": m["min"],
+        "high": m["max"], "nominal": m.get("nominal") or abs(float(start)) or None,
+        "start": float(start), "relative": m.get("relative", False),
+    }  # fmt: skip
+
+
+def _fidelity(spec: ModelSpec) -> dict[str, Any]:
+    return {
+        "name": "fidelity", "type": "Enumeration", "causality": "parameter",
+        "variability": "fixed", "initial": "exact", "unit": "1", "store": "par",
+        "slot": len(fields(spec.params)), "type_name": "Fidelity", "low": 1,
+        "high": len(spec.fidelities), "help": "how finely the model is resolved",
+        "start": float(list(spec.fidelities).index(spec.default_fidelity) + 1),
+    }  # fmt: skip

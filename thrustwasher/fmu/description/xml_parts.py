@@ -1,0 +1,235 @@
+"""What the descriptions of FMI 2.0 and FMI 3.0 have in common; each spells it its own way."""
+
+import os
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from math import pi
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from ...model.spec import ModelSpec
+from ...units import exponents
+from ..model_kernels import package_version
+from ..package.model_sources import PACKAGE
+from .interface import Variable
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "Results that need care, such as distress or too hot",
+    "logStatusError": "Refused values and failed steps, with the reason",
+    "logNonlinearSystems": "What the solver took in each step",
+    "logEvents": "Film lost or regained, lock and break-away: once each",
+    "logAll": "Everything, also tracebacks of defects",
+}
+MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
+RELEASED = 1767225600  # without git and SOURCE_DATE_EPOCH: 2026-01-01
+# unit -> display units: (name, factor, offset); display value = factor x value + offset
+DISPLAY: dict[str, tuple[tuple[str, float, float], ...]] = {
+    "K": (("degC", 1.0, -273.15),),
+    "rad/s": (("rpm", 30.0 / pi, 0.0),),
+    "rad": (("deg", 180.0 / pi, 0.0), ("mrad", 1e3, 0.0)),
+    "m": (("mm", 1e3, 0.0), ("um", 1e6, 0.0)),
+    "N": (("kN", 1e-3, 0.0),),
+    "W": (("kW", 1e-3, 0.0),),
+    "J": (("kJ", 1e-3, 0.0),),
+    "Pa": (("MPa", 1e-6, 0.0), ("GPa", 1e-9, 0.0)),
+    "Pa.s": (("mPa.s", 1e3, 0.0),),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RealType:
+    """A declared type: what a number means, whatever variable has it."""
+
+    name: str
+    quantity: str
+    unit: str
+    display: str | None = None
+    low: float | None = None
+    nominal: float = 1.0
+    relative: bool = False
+
+
+TYPES = (
+    RealType(name="Temperature", quantity="ThermodynamicTemperature", unit="K", display="degC",
+             low=0.0, nominal=300.0),
+    RealType(name="TemperatureDifference", quantity="TemperatureDifference", unit="K",
+             nominal=10.0, relative=True),
+    RealType(name="AngularVelocity", quantity="AngularVelocity", unit="rad/s", display="rpm",
+             nominal=100.0),
+    RealType(name="Angle", quantity="Angle", unit="rad", display="mrad", nominal=1e-3),
+    RealType(name="Torque", quantity="Torque", unit="N.m", nominal=10.0),
+    RealType(name="Force", quantity="Force", unit="N", nominal=1e3),
+    RealType(name="Length", quantity="Length", unit="m", nominal=0.01),
+    RealType(name="Pressure", quantity="Pressure", unit="Pa", display="MPa", nominal=1e6),
+    RealType(name="Power", quantity="Power", unit="W", nominal=100.0),
+    RealType(name="Energy", quantity="Energy", unit="J", display="kJ", nominal=1e3),
+    RealType(name="Viscosity", quantity="DynamicViscosity", unit="Pa.s", display="mPa.s",
+             nominal=0.01),
+    RealType(name="Fraction", quantity="Dimensionless", unit="1"),
+)  # fmt: skip
+
+
+def declared_type(v: Variable) -> RealType | None:
+    """Return the declared type of a real variable, if its unit has one."""
+    fitting = (t for t in TYPES if t.unit == v.unit and t.relative == v.relative)
+    return next(fitting, None)
+
+
+def display_unit(v: Variable) -> str | None:
+    """Return the unit people say: films in um, geometry in mm, elastic moduli in GPa."""
+    declared = declared_type(v)
+    size = v.nominal or 0.0
+    if v.unit == "m" and size:
+        return "um" if size < 1e-4 else "mm"
+    if v.unit == "Pa" and size >= 1e9:
+        return "GPa"
+    return declared.display if declared else None
+
+
+def generation_date() -> str:
+    """Return the date that goes into the FMU: never the clock, so that builds repeat."""
+    seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not seconds.isdigit():
+        seconds = _last_commit() or str(RELEASED)
+    return datetime.fromtimestamp(int(seconds), UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def _last_commit() -> str:
+    root = PACKAGE.parent
+    if not (root / ".git").exists():
+        return ""
+    command = ["git", "-C", str(root), "log", "-1", "--format=%ct"]
+    try:
+        answer = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return answer.stdout.strip()
+
+
+def default_experiment(spec: ModelSpec) -> tuple[float, float]:
+    """Return (stop time, step size) [s]; the start time is 0."""
+    return min(spec.stop_time, MOST_STEPS * spec.step_size), spec.step_size
+
+
+def log_categories(spec: ModelSpec) -> dict[str, str]:
+    """Return the categories this model sends messages in."""
+    silent = set() if spec.counts else {"logNonlinearSystems"}
+    if not any(signal.events for signal in spec.outputs):
+        silent.add("logEvents")
+    return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}
+
+
+def text(root: Element) -> bytes:
+    """Return the XML as it goes into the FMU."""
+    indent(root, "  ")
+    body: bytes = tostring(root, "utf-8")
+    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + body + b"\n"
+
+
+def head(spec: ModelSpec) -> dict[str, str]:
+    """Return the attributes of the root that both versions have."""
+    return {
+        "modelName": spec.name, "description": spec.help, "author": "The thrustwasher authors",
+        "version": package_version(), "copyright": "The thrustwasher authors",
+        "license": "BSD-3-Clause", "generationTool": f"thrustwasher {package_version()}",
+        "generationDateAndTime": generation_date(), "variableNamingConvention": "structured",
+    }  # fmt: skip
+
+
+def add_units(root: Element, found: tuple[Variable, ...]) -> None:
+    """Add UnitDefinitions: every unit in use with its base units and display units."""
+    definitions = SubElement(root, "UnitDefinitions")
+    for name in sorted({v.unit for v in found if v.type == "Real"}):
+        unit = SubElement(definitions, "Unit", {"name": name})
+        SubElement(unit, "BaseUnit", {n: str(p) for n, p in exponents(name).items()})
+        for display, factor, offset in DISPLAY.get(name, ()):
+            numbers = {"factor": (factor, 1.0), "offset": (offset, 0.0)}
+            given = {k: number(x) for k, (x, default) in numbers.items() if x != default}
+            SubElement(unit, "DisplayUnit", {"name": display, **given})
+
+
+def add_log_categories(root: Element, spec: ModelSpec) -> None:
+    """Add LogCategories: those this model sends messages in."""
+    categories = SubElement(root, "LogCategories")
+    for name, meaning in log_categories(spec).items():
+        SubElement(categories, "Category", {"name": name, "description": meaning})
+
+
+def add_experiment(root: Element, spec: ModelSpec) -> None:
+    """Add the DefaultExperiment."""
+    stop, step = default_experiment(spec)
+    SubElement(root, "DefaultExperiment", {
+        "startTime": "0.0", "stopTime": number(stop), "tolerance": "1e-06",
+        "stepSize": number(step),
+    })  # fmt: skip
+
+
+def number(value: float) -> str:
+    """Return the shortest text that reads back as the same number."""
+    return repr(float(value))
+
+
+def used_types(found: tuple[Variable, ...]) -> list[RealType]:
+    """Return the declared types of the real variables, by name."""
+    used = {t.name: t for v in found if v.type == "Real" and (t := declared_type(v))}
+    return [used[name] for name in sorted(used)]
+
+
+def type_attributes(t: RealType) -> dict[str, str]:
+    """Return what a declared type of a real says."""
+    said = {"quantity": t.quantity, "unit": t.unit}
+    if t.display:
+        said["displayUnit"] = t.display
+    if t.relative:
+        said["relativeQuantity"] = "true"
+    if t.low is not None:
+        said["min"] = number(t.low)
+    return said | {"nominal": number(t.nominal)}
+
+
+def head_attributes(v: Variable) -> dict[str, str]:
+    """Return what a variable of any type says of itself."""
+    said = {"name": v.name, "valueReference": str(v.reference), "description": v.help,
+            "causality": v.causality, "variability": v.variability}  # fmt: skip
+    return said | ({"initial": v.initial} if v.initial else {})
+
+
+def value_attributes(v: Variable) -> dict[str, str]:
+    """Return what a variable says of its value: unit, range, nominal and start."""
+    if v.type == "Real":
+        return _real_attributes(v)
+    said = {"declaredType": v.type_name} if v.type_name else {}
+    if v.type != "Boolean":
+        bounds = ("min", v.low), ("max", v.high)
+        said |= {name: str(int(bound)) for name, bound in bounds if bound is not None}
+    if v.start is not None:
+        start = int(v.start)
+        said["start"] = str(bool(start)).lower() if v.type == "Boolean" else str(start)
+    return said
+
+
+def _real_attributes(v: Variable) -> dict[str, str]:
+    declared, display = declared_type(v), display_unit(v)
+    said = {"declaredType": declared.name} if declared else {}
+    said["unit"] = v.unit
+    if display:
+        said["displayUnit"] = display
+    if v.relative:
+        said["relativeQuantity"] = "true"
+    numbers = {"min": v.low, "max": v.high, "nominal": v.nominal, "start": v.start}
+    return said | {name: number(x) for name, x in numbers.items() if x is not None}
+
+
+def unknowns(found: tuple[Variable, ...]) -> Iterator[tuple[str, Variable, list[Variable]]]:
+    """Yield (part, output, variables it depends on) for "outputs", then for "initial".
+
+    While running an output depends on the inputs that act at once, when it is initialized also on
+    every parameter. Without a list the standard reads "depends on everything".
+    """
+    parameters = {v.name for v in found if v.causality == "parameter"}
+    for part, extra in (("outputs", set()), ("initial", parameters)):
+        for v in found:
+            if v.causality == "output":
+                names = extra | set(v.depends)
+                yield part, v, [known for known in found if known.name in names]

@@ -1,0 +1,110 @@
+"""What works on this machine, and why not: the first thing to read when an FMU does not run."""
+
+import importlib
+import os
+import platform
+import sys
+import sysconfig
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import metadata
+
+from ..errors import ParameterError
+from ..native.files import code_folder
+from ..native.link import find_linker
+from .model_kernels import all_specs, is_compiled, load_kernel, package_version
+from .package.model_sources import source_folder
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One finding: what was looked at, whether it works, and what to know or do."""
+
+    name: str
+    ok: bool
+    text: str
+
+
+def diagnose() -> list[Check]:
+    """Look at everything this package uses; nothing is changed and no kernel is compiled."""
+    looks: list[tuple[str, Callable[[], str]]] = [
+        ("thrustwasher", package_version),
+        ("Python", _python),
+        *((name, _importable(name)) for name in ("numpy", "numba", "fmpy", "pythonfmu")),
+        ("models", _models),
+        ("compiled kernels", _kernels),
+        ("temporary folder", lambda: _writable(tempfile.gettempdir())),
+        ("slave files", lambda: str(source_folder())),
+        ("Python FMU", _binary),
+        ("native FMUs, compiler", _compiler),
+        ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
+    ]
+    return [_look(name, look) for name, look in looks]
+
+
+def _look(name: str, look: Callable[[], str]) -> Check:
+    try:
+        return Check(name, True, look())
+    except Exception as problem:  # a doctor reports; whatever is wrong is a finding
+        return Check(name, False, str(problem) or type(problem).__name__)
+
+
+def _python() -> str:
+    return f"{platform.python_version()} in {sys.executable}, {platform.platform()}"
+
+
+def _importable(name: str) -> Callable[[], str]:
+    def look() -> str:
+        try:
+            importlib.import_module(name)
+        except ImportError as problem:
+            raise ParameterError(f"{problem}; pip install {name.replace('_', '-')}") from None
+        return metadata.version(name.replace("_", "-"))
+
+    return look
+
+
+def _models() -> str:
+    specs = all_specs()
+    for spec in specs:
+        load_kernel(spec.kernel)
+    return ", ".join(spec.name for spec in specs)
+
+
+def _kernels() -> str:
+    missing = ", ".join(spec.name for spec in all_specs() if not is_compiled(spec))
+    if not missing:
+        return "all are those of the sources; nothing has to be compiled"
+    folder = code_folder()  # says it if it is a temporary one
+    return f"the first run compiles {missing}, seconds to a minute, and keeps them in {folder}"
+
+
+def _writable(folder: str) -> str:
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError as problem:
+        raise ParameterError(f"{folder} cannot be written to: {problem.strerror}") from None
+
+
+def _binary() -> str:
+    system, machine = platform.system(), platform.machine().lower()
+    if system not in ("Linux", "Windows") or machine not in ("x86_64", "amd64"):
+        raise ParameterError(
+            f"pythonfmu has no library for {system} on {machine}; use the Python API here"
+        )
+    if system == "Windows":
+        return "pythonfmu's library is inside; not tested on Windows"
+    name, folder = (sysconfig.get_config_var(v) or "" for v in ("INSTSONAME", "LIBDIR"))
+    library = os.path.join(folder, name)
+    others = f"others have to load {library} first (LD_PRELOAD)"
+    if not (".so" in name and os.path.exists(library)):
+        others = "this Python has no shared library for others"
+    return f"runs in FMPy and other Python hosts; {others}"
+
+
+def _compiler() -> str:
+    linker = find_linker()
+    text = f"{linker.name} {linker.version}, builds for {', '.join(linker.platforms)}"
+    return text if linker.is_cross else f"{text}; for all platforms: pip install ziglang"

@@ -1,0 +1,87 @@
+"""Reference results inside an FMU: a user runs the default experiment and compares."""
+
+from xml.etree.ElementTree import Element, SubElement
+
+import numpy as np
+
+from ...model.spec import ModelSpec
+from ..description.xml_parts import default_experiment, text
+from ..running.direct_instance import DirectInstance
+
+FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
+LAYERED = "http://fmi-standard.org/fmi-ls-manifest"
+ROOT = {
+    "xmlns:fmi-ls": LAYERED,
+    "fmi-ls:fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
+    "fmi-ls:fmi-ls-version": "1.0.0-alpha.1",
+    "fmi-ls:fmi-ls-description": "Layered Standard providing information on related files "
+    "included in an FMU.",
+}
+ROWS = 100  # of the results, about: a row for each step would be half of the FMU
+Rows = list[list[float]]
+
+
+def reference_files(spec: ModelSpec) -> dict[str, bytes]:
+    """Run the default experiment with the model's kernels and return the files that tell of it.
+
+    The inputs of a step are those of ``<Model>_in.csv`` at its beginning, linear between the rows;
+    a row of ``<Model>_out.csv`` holds the outputs at its time, the end of a step; about a hundred
+    rows are kept. Written are what processors agree on: nine digits, and 0 for less than a
+    millionth of the nominal value.
+    """
+    files = {}
+    if spec.course:
+        names = [signal.name for signal in spec.inputs]
+        files[f"{spec.name}_in.csv"] = table(names, input_rows(spec))
+    names = [signal.name for signal in spec.outputs]
+    rows = reference_run(spec)
+    files[f"{spec.name}_out.csv"] = table(names, rows[:: max(1, len(rows) // ROWS)])
+    root = Element("fmiReferences", ROOT)
+    told = {
+        "in": ("testcase", "inputs of the default experiment, linear between the rows"),
+        "out": ("result", "outputs of the default experiment, at the ends of some of its steps"),
+    }
+    for name in files:
+        role, meaning = told[name.rpartition("_")[2].removesuffix(".csv")]
+        SubElement(root, "Related", {"type": "text/csv", "source": name, "role": role,
+                                     "description": meaning})  # fmt: skip
+    files["fmi-ls-manifest.xml"] = text(root)
+    return {f"{FOLDER}/{name}": content for name, content in files.items()}
+
+
+def input_rows(spec: ModelSpec) -> Rows:
+    """Return rows of time and all inputs, linear between; one row where no input moves."""
+    starts = [signal.start or 0.0 for signal in spec.inputs]
+    return [list(row) for row in spec.course] or [[0.0, *starts]]
+
+
+def reference_run(spec: ModelSpec) -> Rows:
+    """Return rows of time and all outputs over the default experiment.
+
+    Numbers of less than a millionth of the nominal value become 0.
+    """
+    stop, h = default_experiment(spec)
+    course = np.array(input_rows(spec))
+    times = h * np.arange(round(stop / h) + 1)
+    columns = [np.interp(times, course[:, 0], values) for values in course.T[1:]]
+    points = np.reshape(columns, (len(columns), len(times))).T.tolist()
+    with DirectInstance(spec) as model:
+        model.initialize(0.0, dict(zip(model.input_names, points[0], strict=True)))
+        rows = [[0.0, *_rounded(spec, model.outputs())]]
+        for i, point in enumerate(points[:-1]):
+            model.set_inputs(point)
+            model.step(i * h, h)
+            rows.append([(i + 1) * h, *_rounded(spec, model.outputs())])
+    return rows
+
+
+def _rounded(spec: ModelSpec, values: list[float]) -> list[float]:
+    pairs = zip(spec.outputs, values, strict=True)
+    return [0.0 if abs(x) < 1e-6 * (signal.nominal or 0.0) else x for signal, x in pairs]
+
+
+def table(names: list[str], rows: Rows) -> bytes:
+    """Return comma-separated values, time first."""
+    head = ",".join(f'"{name}"' for name in ("time", *names))
+    lines = [",".join(f"{x:.9g}" for x in row) for row in rows]
+    return "\n".join([head, *lines, ""]).encode()

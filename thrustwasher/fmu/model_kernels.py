@@ -1,0 +1,149 @@
+"""Which models there are, their kernels, and the digest that ties an FMU to this package."""
+
+import hashlib
+import importlib
+import importlib.util
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from ..model.spec import ModelSpec
+from ..native.library import is_ready
+from ..numerics.jit import kernel_digest, way
+
+MODELS = {
+    "washer": "thrustwasher.washer.parameters:SPEC",
+    "clutch": "thrustwasher.clutch.parameters:SPEC",
+    "gearmesh": "thrustwasher.gearmesh.parameters:SPEC",
+    "transmission": "thrustwasher.transmission.parameters:SPEC",
+}
+# Built when named, not with all: parts that only a system of FMUs needs.
+HELPERS = {
+    "command": "thrustwasher.command.parameters:SPEC",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Kernel:
+    """The compiled entries of a model and the lengths of their arrays."""
+
+    derive: Callable[[Any], int]
+    step: Callable[..., int]
+    n_param: int
+    n_par: int
+    n_inp: int
+    n_state: int
+    n_work: int
+    n_out: int
+    n_iout: int
+
+
+def find_spec(model: str) -> ModelSpec:
+    """Return a model by key ("washer"), by FMU name ("ThrustWasher") or by "module:NAME"."""
+    places = MODELS | HELPERS
+    if model in places or ":" in model:
+        return _load(places.get(model, model))
+    specs = [_load(place) for place in places.values()]
+    for spec in specs:
+        if spec.name == model:
+            return spec
+    raise ParameterError(f"model = {model!r}, allowed: {', '.join(spec.name for spec in specs)}")
+
+
+def all_specs() -> list[ModelSpec]:
+    """Return the models of this version, in the order they are built."""
+    return [_load(place) for place in MODELS.values()]
+
+
+@cache
+def _load(place: str) -> ModelSpec:
+    module, _, name = place.partition(":")
+    spec: ModelSpec = getattr(importlib.import_module(module), name)
+    return spec
+
+
+@cache
+def load_kernel(name: str) -> Kernel:
+    """Import a kernel module: a name below ``thrustwasher.kernels``, or a dotted name."""
+    k = importlib.import_module(kernel_module(name))
+    sizes = (k.N_PARAM, k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT, k.NIOUT)
+    return Kernel(k.derive, k.step, *sizes)
+
+
+def has_derivatives(spec: ModelSpec) -> bool:
+    """Tell if the model's kernels give directional derivatives."""
+    return find_derivatives(spec) is not None
+
+
+def find_derivatives(spec: ModelSpec) -> Callable[..., int] | None:
+    """Return ``sens(par, inp, state, work, seed, dout)`` of a model, None if it has none."""
+    return getattr(importlib.import_module(kernel_module(spec.kernel)), "sens", None)
+
+
+def find_broken_rule(spec: ModelSpec) -> Callable[[Any], int] | None:
+    """Return ``broken_rule(par)`` of a model, None if it has none."""
+    return getattr(importlib.import_module(kernel_module(spec.kernel)), "broken_rule", None)
+
+
+def kernel_table(spec: ModelSpec) -> dict[str, float]:
+    """Return where in ``work`` a model's table lies and how it is known, by name; ROOM 0: none.
+
+    ``AT``, ``ROOM``: place and length. ``MAGIC``: its first number. ``SIZE``: place of its length.
+    ``PARAMS``, ``N_PARAMS``: place and number of the parameters it was made for. ``HEADER``: how
+    many of its numbers are doubles in a file. ``SWITCH``, ``ON``: place in ``par`` and number of
+    the fidelity that wants it.
+    """
+    found = getattr(importlib.import_module(kernel_module(spec.kernel)), "TABLE", None)
+    return dict(found) if found else {"ROOM": 0}
+
+
+def is_compiled(spec: ModelSpec) -> bool:
+    """Tell if the model's kernels are compiled, so that their first call takes no minutes."""
+    return way() == "python" or is_ready(kernel_module(spec.kernel))
+
+
+def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
+    """Return (text, place in ``work``) of everything the model's solver counts."""
+    found = [(text, *where.split(":")) for text, where in spec.counts]
+    return tuple(
+        (text, int(getattr(importlib.import_module(kernel_module(module)), name)))
+        for text, module, name in found
+    )
+
+
+def kernel_module(kernel: str) -> str:
+    """Return the dotted name of a kernel module given below ``thrustwasher.kernels`` or dotted."""
+    return kernel if "." in kernel else f"thrustwasher.kernels.{kernel}"
+
+
+@cache
+def package_version() -> str:
+    """Return the version of thrustwasher, also in a source tree that is not installed."""
+    try:
+        return metadata.version("thrustwasher")
+    except metadata.PackageNotFoundError:
+        project = Path(__file__).parents[2] / "pyproject.toml"
+        lines = project.read_text("utf-8").splitlines() if project.is_file() else []
+        numbers = [line.split('"')[1] for line in lines if line.startswith("version = ")]
+        return numbers[0] if numbers else "0"
+
+
+def content_digest(spec: ModelSpec) -> str:
+    """Return 16 hex digits over everything that decides the numbers: kernels, maps, parameters."""
+    return _content_digest(kernel_module(spec.kernel), spec.params.__module__, bool(spec.table))
+
+
+@cache
+def _content_digest(kernel: str, params: str, table: bool) -> str:
+    found = [importlib.util.find_spec(name) for name in (kernel, params)]
+    files = [Path(s.origin) for s in found if s and s.origin]
+    if table:
+        files += sorted((Path(__file__).parents[1] / "data" / "maps").glob("*.twm"))
+    hashed = hashlib.sha256(f"{package_version()} {kernel_digest()}".encode())
+    for file in files:
+        hashed.update(file.name.encode() + file.read_bytes())
+    return hashed.hexdigest()[:16]

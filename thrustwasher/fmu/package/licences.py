@@ -1,0 +1,106 @@
+"""documentation/licenses of an FMU: ours, and one notice for each part that comes from others."""
+
+import re
+from collections.abc import Sequence
+from importlib import metadata
+from importlib.util import find_spec
+from pathlib import Path
+
+from ...errors import EnvironmentProblem
+from .model_sources import PACKAGE
+
+PLACE = "documentation/licenses"
+SUMMARY = """Parts of this FMU and their licences; the full texts are beside this file.
+
+{parts}
+None of them asks for anything but that these notices are kept. This list is no legal advice.
+"""
+# part -> (file, licence, what it is); in the order of the list
+NATIVE = {
+    "kernels and shell": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
+    "code from numba's templates": ("numba.txt", "BSD-2-Clause", "in every library"),
+    "code from llvmlite": ("llvmlite.txt", "BSD-2-Clause", "in every library"),
+    "code from LLVM and compiler-rt": (
+        "llvm.txt", "Apache-2.0 WITH LLVM-exception", "in every library"),
+    "FMI headers": ("fmi-headers.txt", "BSD-2-Clause", "declarations only"),
+}  # fmt: skip
+ZIG = {"start-up code of zig": ("zig.txt", "MIT", "in every library")}
+MINGW = {"start-up code of mingw-w64": ("mingw-w64.txt", "ZPL-2.1 and others", "in win64")}
+PYTHON = {
+    "slave": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
+    "library and modules of pythonfmu": ("pythonfmu.txt", "MIT", "binaries, resources"),
+}
+
+
+def licences(target: str, platforms: Sequence[str] = ()) -> dict[str, bytes]:
+    """Return the notices of everything in an FMU, by path; none is empty."""
+    rows = listed_licences(target, platforms)
+    files = {row[0]: _text(row[0]) for row in rows}
+    lines = [f"{name}: {part}, {licence} ({where})" for name, part, licence, where in rows]
+    files["overview.txt"] = SUMMARY.format(parts="\n".join([*lines, ""])).encode()
+    return {f"{PLACE}/{name}": content for name, content in files.items()}
+
+
+def listed_licences(target: str, platforms: Sequence[str] = ()) -> list[tuple[str, str, str, str]]:
+    """Return (file, part, licence, where) of each part of an FMU."""
+    parts = PYTHON
+    if target == "native":
+        mingw = MINGW if "win64" in platforms else {}
+        parts = NATIVE | (ZIG if find_spec("ziglang") else {}) | mingw
+    return [(name, part, licence, where) for part, (name, licence, where) in parts.items()]
+
+
+def _text(name: str) -> bytes:
+    """Return one notice, from the package it belongs to."""
+    if name == "license.txt":
+        beside = PACKAGE.parent / "LICENSE"
+        return _read(beside) if beside.is_file() else _distributed("thrustwasher", "LICENSE")
+    if name == "fmi-headers.txt":
+        return _headers()
+    if name == "llvm.txt":
+        return _distributed("llvmlite", "LICENSE.thirdparty")
+    inside = {"zig.txt": "LICENSE", "mingw-w64.txt": "lib/libc/mingw/COPYING"}
+    if name in inside:
+        return _read(_package("ziglang") / inside[name])
+    return _distributed(name.removesuffix(".txt"), "LICENSE")
+
+
+def _headers() -> bytes:
+    """Return the copyright notice inside the FMI headers."""
+    header = _read(_package("fmpy") / "c-code" / "fmi2Functions.h").decode("utf-8")
+    found = re.search(r"Copyright.*?POSSIBILITY OF SUCH DAMAGE\.", header, re.DOTALL)
+    if not found:
+        raise EnvironmentProblem("the FMI headers of FMPy carry no notice; install another FMPy")
+    lines = [line.strip() for line in found[0].splitlines()]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _package(name: str) -> Path:
+    return Path(str(metadata.distribution(name).locate_file(name)))
+
+
+def _distributed(package: str, name: str) -> bytes:
+    """Return a file of that name that came with a package."""
+    try:
+        listed = metadata.files(package) or []
+    except metadata.PackageNotFoundError:
+        listed = []
+    for file in listed:
+        if file.name == name:
+            return _read(Path(str(file.locate())))
+    raise EnvironmentProblem(
+        f"{name} of the package {package} is missing, and an FMU must carry it; install {package} "
+        "again"
+    )
+
+
+def _read(file: Path) -> bytes:
+    try:
+        content = file.read_bytes()
+    except OSError:
+        content = b""
+    if not content.strip():
+        raise EnvironmentProblem(
+            f"the notice {file.name} is missing or empty; it must be in an FMU"
+        )
+    return content

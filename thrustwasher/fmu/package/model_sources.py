@@ -1,0 +1,51 @@
+"""Where the FMUs' own sources lie, and the GUID made of all that decides an FMU's content."""
+
+import hashlib
+import re
+from importlib.resources import files
+from pathlib import Path
+
+from ...errors import EnvironmentProblem
+from ...model.spec import ModelSpec
+from ..description.interface import enumerations, variables
+from ..model_kernels import content_digest, package_version
+
+PACKAGE = Path(str(files(__name__.partition(".")[0])))
+OWN = (PACKAGE / "fmu", PACKAGE / "native")  # what packs and links
+SHARED = ("shell", "documentation")  # folders beside those of the models
+TEXTS = (".py", ".c", ".h", ".md", ".html", ".svg", ".png")
+
+
+def source_folder() -> Path:
+    """Return the folder of the slaves: beside the package in a source tree, else in it."""
+    for folder in (PACKAGE / "_fmu_src", PACKAGE.parent / "fmu_src"):
+        if folder.is_dir():
+            return folder
+    raise EnvironmentProblem(
+        "the folder fmu_src is missing beside the package; install thrustwasher again"
+    )
+
+
+def model_folder(spec: ModelSpec, sources: Path) -> Path:
+    """Return the folder of a model's slave and readme, such as ``thrust_washer``."""
+    return sources / re.sub(r"(?<=[a-z])(?=[A-Z])", "_", spec.name).lower()
+
+
+def identifier(
+    spec: ModelSpec, folder: Path, *, target: str, fmi: int, tools: str = "",
+    shared: Path | None = None,
+) -> str:  # fmt: skip
+    """Return 32 hex digits over all that decides what an FMU contains.
+
+    That is the interface, the kernels, the model's own files in ``folder``, what the models share
+    (C shell and documentation, in ``shared``, by default ``source_folder()``), this package's
+    packing, target, FMI version, package version and ``tools``: the versions of the compilers, and
+    whatever else goes in. No clock, no path, no chance.
+    """
+    hashed = hashlib.sha256(repr((variables(spec), enumerations(spec), spec.terminals)).encode())
+    hashed.update(f"{content_digest(spec)} {target} {fmi} {package_version()} {tools}".encode())
+    beside = shared or source_folder()
+    for root in (*OWN, folder, *(beside / name for name in SHARED)):
+        for file in sorted(f for f in root.rglob("*") if f.suffix in TEXTS and f.is_file()):
+            hashed.update(file.relative_to(root).as_posix().encode() + file.read_bytes())
+    return hashed.hexdigest()[:32]

@@ -1,0 +1,245 @@
+"""The slave of every Python FMU: the protocol of pythonfmu 0.7.0 around ``Core``.
+
+What shapes it: an exception that leaves a callback makes pythonfmu drop references twice, and the
+second one on an instance ends the process. Therefore no callback ever raises, not even for Ctrl-C.
+A callback other than ``do_step`` cannot report failure at all; so a failure is logged as an error,
+latched in ``solver_status``, and the next step is refused until it is cured. ``__init__`` may
+raise: the instantiation then returns NULL.
+"""
+
+import _ctypes
+import ctypes
+import logging
+import os
+import sys
+import traceback
+from collections.abc import Callable
+from functools import wraps
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from ...errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, SolveError, Status
+from ..description.xml_parts import LOG_CATEGORIES
+from ..model_kernels import content_digest, find_spec, package_version
+from ..running.core import Core, Mode
+from ..running.snapshot import Snapshot, from_bytes
+
+_at_exit: set[str] = set()  # libraries that release their pointer when the process ends
+
+
+class Refused(EnvironmentProblem):
+    """Why there is no instance; pythonfmu shows ``repr``, so that it is the sentence itself."""
+
+    __repr__ = EnvironmentProblem.__str__
+
+
+def _safe(callback: Callable[..., Any]) -> Callable[..., Any]:
+    """Catch everything; return what the callback returns, or False after a failure."""
+
+    @wraps(callback)
+    def guarded(self: "Slave", *args: Any) -> Any:
+        try:
+            return callback(self, *args)
+        except BaseException as problem:
+            self.report(problem)
+            return False
+
+    return guarded
+
+
+def _setter(kind: str) -> Callable[..., Any]:
+    """Return the callback that takes over all values of a kind or none."""
+
+    def set_values(self: "Slave", vrs: list[int], values: list[Any]) -> None:
+        self.core.set(vrs, values, kind)
+
+    return _safe(set_values)
+
+
+def _getter(kind: str, convert: Callable[[float], Any]) -> Callable[..., Any]:
+    """Return the callback that reads values of a kind, solving first where needed."""
+
+    def get_values(self: "Slave", vrs: list[int]) -> list[Any]:
+        try:
+            found = self.core.get(vrs, kind)
+        except BaseException as problem:  # reported; then the last good ones
+            self.report(problem)
+            found = self.core.stored(vrs)
+        return [convert(value) for value in found]
+
+    return get_values
+
+
+class Slave(Fmi2Slave):  # type: ignore[misc]
+    """Base class; a model's slave file names the model and what it was built with."""
+
+    model = ""
+    version = digest = guid = ""
+    log_categories = LOG_CATEGORIES
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        _forget_repeated_path(self.resources)
+        spec = find_spec(self.model)
+        _settle_library(self.resources, spec.name)
+        if type(self).digest != content_digest(spec):
+            theirs, ours = type(self).version, package_version()
+            cure = "" if theirs == ours else f"pip install thrustwasher=={theirs}, or "
+            problem = Refused(
+                f"{spec.name}: this FMU was built with thrustwasher {theirs} (content "
+                f"{type(self).digest}), this Python has {ours} (content {content_digest(spec)}): "
+                f"{cure}build the FMU again"
+            )
+            # pythonfmu drops messages unless the host has logging on
+            logging.getLogger("thrustwasher").error("%s", problem)
+            raise problem
+        self.core = Core(spec)
+        self.warned = 0
+
+    # Life
+
+    @_safe
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """Keep the start time."""
+        start = float(start_time)
+        if not isfinite(start):
+            raise ParameterError(f"start time = {start!r} s, allowed: a finite number")
+        self.core.time = start
+
+    @_safe
+    def enter_initialization_mode(self) -> None:
+        """From here on outputs can be read."""
+        self.core.mode = Mode.INITIALIZING
+
+    @_safe
+    def exit_initialization_mode(self) -> None:
+        """Check the rules between parameters and solve the start point."""
+        self.core.mode = Mode.STEPPING  # the host cannot be told of a failure and will go on
+        self.core.prepare()
+        self.core.refresh()
+        self.core.note_switches()  # how a run starts is no event
+        self._warn()
+
+    @_safe
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance; False after a failure, with everything as it was."""
+        expected = self.core.time
+        self.core.advance(current_time, step_size)
+        if abs(current_time - expected) > 1e-6 * step_size:
+            self.tell(f"step from t = {current_time:g} s, but the last one ended at "
+                      f"{expected:g} s; the host's time counts", Fmi2Status.warning)  # fmt: skip
+        for event in self.core.events:
+            self.tell(event, Fmi2Status.ok, "logEvents")
+        effort = self.core.effort
+        if effort:
+            self.tell(effort, Fmi2Status.ok, "logNonlinearSystems")
+        self._warn()
+        return True
+
+    @_safe
+    def terminate(self) -> None:
+        """Values can still be read."""
+        self.core.mode = Mode.TERMINATED
+
+    # Values
+
+    set_real, set_boolean = _setter("Real"), _setter("Boolean")
+    set_integer = _setter("Integer")  # enumerations are integers here
+    set_string = _setter("String")  # refuses: there are no texts
+
+    get_real, get_integer = _getter("Real", float), _getter("Integer", int)
+    get_boolean, get_string = _getter("Boolean", bool), _getter("String", lambda _: "")
+
+    # State
+
+    def _get_fmu_state(self) -> Snapshot | None:
+        try:
+            return self.core.snapshot()
+        except BaseException as problem:  # out of memory
+            self.report(problem)
+            return None
+
+    @_safe
+    def _set_fmu_state(self, state: Snapshot | str | None) -> None:
+        if not isinstance(state, Snapshot):
+            raise ParameterError(state or "FMU state = none, allowed: one that was got before")
+        self.core.restore(state)
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: Snapshot | str | None) -> bytes:
+        return state.to_bytes() if isinstance(state, Snapshot) else b""
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> Snapshot | str:
+        """Return the state, or the reason why it is none, for ``_set_fmu_state`` to refuse."""
+        try:
+            return from_bytes(state)
+        except BaseException as problem:
+            return str(problem)
+
+    # Messages
+
+    def tell(self, text: str, status: Any, category: str | None = None) -> None:
+        """Queue a message; FMI gives # and % in texts a meaning, so they are not used."""
+        text = text.replace("#", "no. ").replace("%", " percent")
+        # a file's name may hold what is no UTF-8, and pythonfmu does not survive such a text
+        self.log(text.encode("utf-8", "replace").decode("utf-8"), status, category)
+
+    def report(self, problem: BaseException) -> None:
+        """Log a failure in one sentence; a defect also with its traceback."""
+        self.tell(str(problem) or type(problem).__name__, Fmi2Status.error, "logStatusError")
+        if not isinstance(problem, ParameterError | SolveError):
+            core = getattr(self, "core", None)
+            if core is not None:
+                core.latch = Status.NOT_FINITE
+            story = "".join(traceback.format_exception(problem))
+            self.tell(story, Fmi2Status.ok, "logAll")
+        elif isinstance(problem, ParameterError):
+            self.core.latch = Status.BAD_INPUT
+
+    def _warn(self) -> None:
+        """Warn once when the solution begins to need care."""
+        status = self.core.status
+        if status != self.warned and Status.OK < status < FIRST_FAILURE:
+            self.tell(f"{self.core.spec.name} at t = {self.core.time:g} s: {status.name}: "
+                      f"{status.advice}", Fmi2Status.warning, "logStatusWarning")  # fmt: skip
+        self.warned = status
+
+
+def _forget_repeated_path(folder: str | None) -> None:
+    """Keep one entry of the FMU's folder in sys.path: pythonfmu adds one per instantiation."""
+    if folder in sys.path:
+        first = sys.path.index(folder)
+        sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != folder]
+
+
+def _settle_library(folder: str | None, model: str) -> None:
+    """Release pythonfmu's global pointer before its destructors do so twice.
+
+    They run when the library is unloaded or the process ends, and release the pointer again if it
+    is still set: "corrupted double-linked list". In a Python host the pointer has nothing left to
+    do and is emptied at once. Any other host needs it to end the interpreter: there the library
+    stays loaded and empties it at exit, before its own destructors.
+    """
+    if sys.platform != "linux" or not folder:
+        return
+    path = str(Path(folder).parent / "binaries" / "linux64" / f"{model}.so")
+    embedded = not sys.orig_argv
+    stay = os.RTLD_NODELETE if embedded else 0
+    try:
+        library = ctypes.CDLL(path, mode=os.RTLD_NOLOAD | os.RTLD_NOW | stay)
+    except OSError:
+        return  # loaded from another place
+    if not embedded:
+        library.finalizePythonInterpreter()
+    elif path not in _at_exit:
+        _at_exit.add(path)
+        release = ctypes.cast(library.finalizePythonInterpreter, ctypes.c_void_p)
+        ctypes.CDLL(None).__cxa_atexit(release, None, None)
+    _ctypes.dlclose(library._handle)

@@ -1,0 +1,305 @@
+"""One running model: arrays, checks, lazy outputs, steps; knows no protocol and no FMU."""
+
+from collections.abc import Sequence
+from dataclasses import fields
+from enum import IntEnum
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
+from ...model.kernel_tables import fill_table, wants_table
+from ...model.spec import ModelSpec
+from ...native.load import bound
+from ..description.interface import Variable, enumerations, variables
+from ..model_kernels import content_digest, count_places, find_broken_rule, load_kernel
+from .snapshot import Snapshot
+
+
+class Mode(IntEnum):
+    """Where an instance is in its life."""
+
+    INSTANTIATED = 0
+    INITIALIZING = 1
+    STEPPING = 2
+    TERMINATED = 3
+
+
+class Core:
+    """Memory and life of one instance.
+
+    Outputs are lazy: a value that changes marks them; the next reading solves once with ``dt = 0``,
+    which leaves ``state`` alone, so that readings never change what follows. A step either succeeds
+    or leaves everything as it was, except the status that tells why.
+    """
+
+    def __init__(self, spec: ModelSpec) -> None:
+        kernel = load_kernel(spec.kernel)
+        self.spec, self._derive = spec, kernel.derive
+        self._broken_rule = find_broken_rule(spec)
+        self.variables = variables(spec)
+        self.par, self.inp = np.zeros(kernel.n_par), np.zeros(kernel.n_inp)
+        self.state, self.work = np.zeros(kernel.n_state), np.zeros(kernel.n_work)
+        self.out, self.iout = np.zeros(kernel.n_out), np.zeros(kernel.n_iout, np.int32)
+        self._step_into = partial(kernel.step, self.par, self.inp, self.state, self.work)
+        self._step = bound(
+            kernel.step, par=self.par, inp=self.inp, state=self.state, work=self.work,
+            out=self.out, iout=self.iout,
+        )  # fmt: skip
+        self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
+        self._zeros = np.zeros(kernel.n_out)
+        self._arrays: dict[str, Any] = {
+            "par": self.par, "inp": self.inp, "out": self.out, "iout": self.iout,
+        }  # fmt: skip
+        self.status_slot = next((v.slot for v in self.variables if v.type_name == "SolverStatus"
+                                 and v.store == "iout"), None)  # fmt: skip
+        self.time, self.mode = 0.0, Mode.INSTANTIATED
+        self.dirty, self.prepared = True, False
+        self.latch = 0  # the failure to be seen in solver_status until something changes
+        self._unsolved = ""  # why the present outputs cannot be had
+        self.refused: dict[int, str] = {}  # variables whose last value was not taken over
+        self.events: list[str] = []  # what happened in the last step
+        events = {signal.name: signal.events for signal in spec.outputs if signal.events}
+        self._switches = [(v.slot, events[v.name]) for v in self.variables if v.name in events]
+        self._seen = [0 for _ in self._switches]  # at the last communication point
+        self._counts = count_places(spec)
+        for v in self.variables:
+            if v.start is not None:
+                self._arrays[v.store][v.slot] = v.start
+
+    # Values
+
+    def set(self, references: Sequence[int], values: Sequence[float], kind: str) -> None:
+        """Take over all values or, if one is not allowed, none (ParameterError)."""
+        taken = []
+        found = [self._find(reference, kind) for reference in references]
+        for v, value in zip(found, values, strict=True):
+            problem = self._problem(v, value)
+            if problem:
+                self.latch = Status.BAD_INPUT
+                self._refuse(references, problem)
+                raise ParameterError(problem)
+            taken.append((v, value))
+        for v, value in taken:
+            array = self._arrays[v.store]
+            if array.item(v.slot) != value:
+                array[v.slot] = value
+                self.dirty, self.latch, self._unsolved = True, 0, ""
+                self.prepared = self.prepared and v.store != "par"
+            if self.refused and self.refused.pop(v.reference, "") and not self.refused:
+                self.latch = 0
+
+    def _refuse(self, references: Sequence[int], problem: str) -> None:
+        """Remember that the values of this call are missing: no step until they are set."""
+        for reference in references:
+            causality = self.variables[reference].causality
+            if causality == "input" or (causality == "parameter" and self.mode < Mode.STEPPING):
+                self.refused[reference] = problem
+
+    def get(self, references: Sequence[int], kind: str) -> list[float]:
+        """Return present values; outputs that are out of date are solved first."""
+        found = [self._find(reference, kind) for reference in references]
+        if self.dirty and any(v.causality == "output" for v in found):
+            if not (self.latch and all(v.type_name == "SolverStatus" for v in found)):
+                self.refresh()
+        return [self._value(v) for v in found]
+
+    def stored(self, references: Sequence[int]) -> list[float]:
+        """Return what is stored, solving nothing; 0 for an unknown reference."""
+        known = range(len(self.variables))
+        return [self._value(self.variables[r]) if r in known else 0.0 for r in references]
+
+    def _value(self, v: Variable) -> float:
+        if v.store == "time":
+            return self.time
+        if self.latch and v.store == "iout" and v.slot == self.status_slot:
+            return self.latch
+        value: float = self._arrays[v.store].item(v.slot)
+        return value
+
+    def _find(self, reference: int, kind: str) -> Variable:
+        if not 0 <= reference < len(self.variables):
+            raise ParameterError(f"value reference {reference} is unknown in {self.spec.name}")
+        v = self.variables[reference]
+        if v.type != kind and not (v.type == "Enumeration" and kind == "Integer"):
+            raise ParameterError(f"{v.name} is of type {v.type}, not {kind}")
+        return v
+
+    def _problem(self, v: Variable, value: float) -> str:
+        """Say why a value cannot be taken over; empty if it can."""
+        if v.causality not in ("input", "parameter"):
+            return f"{v.name} is an {v.causality} variable; it cannot be set"
+        if v.causality == "parameter" and self.mode >= Mode.STEPPING:
+            return f"{v.name} is a fixed parameter; it can be set before the initialization ends"
+        low, high = v.bounds
+        if low <= value <= high:  # False for NaN
+            return ""
+        unit = "" if v.unit == "1" else f" {v.unit}"
+        allowed = f"{low:g} .. {high:g}{unit}"
+        if v.type_name:
+            allowed = ", ".join(f"{i.value} ({i.name})"
+                                for i in enumerations(self.spec)[v.type_name])  # fmt: skip
+        text = f"{v.name} = {value:g}{unit} is outside {allowed}; the value is not taken over."
+        if v.unit == "K" and not v.relative and low <= value + 273.15 <= high:
+            text += f" Did you mean {value + 273.15:g} K ({value:g} degC)?"
+        if value == 0.0:
+            text += " An input that is not connected reads 0."
+        return text
+
+    # Life
+
+    def prepare(self) -> None:
+        """Check the rules between parameters and compute the derived constants."""
+        if self.prepared:
+            return
+        failed, self.latch = self.latch, Status.BAD_INPUT
+        params = self._parameters()  # raises, naming the rule
+        number = self._broken_rule(self.par) if self._broken_rule and self.spec.rules else 0
+        if number:  # one that concerns the fidelity too
+            raise ParameterError(self.spec.rules[number - 1].message(params))
+        rc = self._derive(self.par)
+        if rc >= FIRST_FAILURE:
+            raise ParameterError(f"the parameters cannot be used: {Status(rc).advice}")
+        self._load_table()
+        self.prepared, self.latch = True, failed
+
+    def _load_table(self) -> None:
+        """Put the model's table into ``work`` if the fidelity reads one."""
+        if wants_table(self.spec, self.par):
+            fill_table(self.spec, self._parameters(), self.par, self.work)
+
+    def _parameters(self) -> Any:
+        """Return the parameters as the model's dataclass, which checks the rules between them."""
+        named: dict[str, Any] = {}
+        for f, value in zip(fields(self.spec.params), self.par.tolist(), strict=False):
+            kind = f.metadata["kind"]
+            if kind == "enumeration":
+                value = list(f.metadata["options"])[int(value) - 1]
+            elif kind != "real":
+                value = bool(value) if kind == "boolean" else int(value)
+            named[f.name] = value
+        return self.spec.params(**named)
+
+    def refresh(self) -> None:
+        """Bring the outputs up to date, at most once per change; a failure is latched."""
+        if not self.dirty:
+            return
+        if self._unsolved:  # the same inputs would fail again
+            raise SolveError(self._unsolved)
+        self.prepare()
+        rc = self._solve(0.0)
+        if rc:
+            self.latch, self._unsolved = rc, self._story(rc, f"t = {self.time:g} s")
+            raise SolveError(self._unsolved)
+        self.dirty = False
+
+    def advance(self, t: float, h: float) -> None:
+        """Step from ``t`` to ``t + h``, or raise SolveError and leave everything as it was."""
+        if self.mode != Mode.STEPPING:
+            raise ParameterError(
+                f"a step is not allowed while {self.mode.name.lower()}; initialize first"
+            )
+        if not (0.0 < h < np.inf and -np.inf < t + h < np.inf):
+            self.latch = Status.BAD_INPUT
+            raise ParameterError(f"step from t = {t!r} s by {h!r} s, allowed: finite, step > 0")
+        if self.refused:
+            self.latch = Status.BAD_INPUT
+            raise SolveError(f"no step at t = {t:g} s: {next(iter(self.refused.values()))}")
+        if not self.prepared:
+            self.prepare()
+        before, self.time = self.time, t
+        rc = self._solve(h)
+        if rc:
+            self.time, self.latch = before, rc
+            raise SolveError(self._story(rc, f"t = {t:g} s, step {h:g} s"))
+        self.time, self.dirty, self.latch, self._unsolved = t + h, False, 0, ""
+        if self._switches:
+            self.events = self.note_switches()
+
+    def note_switches(self) -> list[str]:
+        """Return one sentence for each event since the last communication point."""
+        seen, self._seen = self._seen, [self.iout.item(slot) for slot, _ in self._switches]
+        pairs = zip(self._switches, seen, self._seen, strict=True)
+        return [
+            f"{self.spec.name} at t = {self.time:g} s: {texts[0 if now else 1]}; {self._point()}"
+            for (_, texts), before, now in pairs
+            if now != before
+        ]
+
+    @property
+    def effort(self) -> str:
+        """What the last solve took, "" if the model's solver counts nothing."""
+        counted = [f"{text}: {self.work.item(place):g}" for text, place in self._counts]
+        return f"{self.spec.name} at t = {self.time:g} s, " + ", ".join(counted) if counted else ""
+
+    def _solve(self, h: float) -> int:
+        """Call the kernel; after a failure ``state`` and the outputs are what they were."""
+        state, out, iout = self._undo
+        state[:], out[:], iout[:] = self.state, self.out, self.iout
+        rc = self._step(self.time, h)
+        if rc < FIRST_FAILURE and self.out.dot(self._zeros) != 0.0:  # NaN if any is not finite
+            rc = Status.NOT_FINITE
+        if rc < FIRST_FAILURE:
+            return 0
+        self.state[:], self.out[:], self.iout[:] = state, out, iout
+        return int(rc)
+
+    def solve_aside(self) -> None:
+        """Let ``work`` belong to the present point; outputs and memory stay as they are."""
+        out, iout = self.out.copy(), self.iout.copy()
+        self._step_into(out, iout, self.time, 0.0)
+
+    def _story(self, rc: int, where: str) -> str:
+        point = self._point(show=())
+        return f"{self.spec.name} at {where}, {point}: {Status(rc).name}: {Status(rc).advice}"
+
+    def _point(self, show: tuple[str, ...] = ("film_ratio", "engine_speed")) -> str:
+        """Return the inputs in words, and those of the outputs in ``show`` that there are."""
+        wanted = [v for v in self.variables if v.causality == "input" or v.name in show]
+        values = [(v, self._value(v)) for v in wanted]
+        return ", ".join(f"{v.name} = {x:g} {v.unit}".removesuffix(" 1") for v, x in values)
+
+    @property
+    def status(self) -> Status:
+        """How the last solution was obtained."""
+        solved = 0 if self.status_slot is None else self.iout.item(self.status_slot)
+        return Status(self.latch or solved)
+
+    # State
+
+    def snapshot(self) -> Snapshot:
+        """Copy all that decides what comes next."""
+        return Snapshot(
+            identity=content_digest(self.spec), par=self.par.copy(), inp=self.inp.copy(),
+            state=self.state.copy(), out=self.out.copy(), iout=self.iout.copy(), time=self.time,
+            mode=int(self.mode), dirty=self.dirty, prepared=self.prepared, latch=int(self.latch),
+            refused=np.array(sorted(self.refused), np.int32), seen=np.array(self._seen, np.int32),
+        )  # fmt: skip
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go back to a snapshot of this model and version, or raise ParameterError."""
+        names = ("par", "inp", "state", "out", "iout")
+        mine = content_digest(self.spec)
+        if (
+            snapshot.identity != mine
+            or any(getattr(snapshot, n).shape != getattr(self, n).shape for n in names)
+            or len(snapshot.seen) != len(self._seen)
+        ):
+            raise ParameterError(
+                f"FMU state of another model or version ({snapshot.identity}), "
+                f"allowed: {self.spec.name} {mine}"
+            )
+        refused = {
+            r: f"{self.variables[r].name} was refused before this state was saved; set it again"
+            for r in snapshot.refused.tolist()
+        }
+        for name in names:
+            getattr(self, name)[:] = getattr(snapshot, name)
+        self.time, self.mode = snapshot.time, Mode(snapshot.mode)
+        self.dirty, self.prepared = snapshot.dirty, snapshot.prepared
+        self.latch, self._unsolved = snapshot.latch, ""
+        self._seen, self.events = snapshot.seen.tolist(), []
+        self.refused = refused
+        if self.prepared:
+            self._load_table()  # it is no part of a snapshot

@@ -1,0 +1,163 @@
+"""The kernels of a model stepped in this process: the same face as an FMU instance, without FMU."""
+
+import difflib
+from collections.abc import Mapping, Sequence
+from time import perf_counter
+from typing import Any, Self
+
+import numpy as np
+
+from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
+from ...model.spec import ModelSpec
+from ..description.interface import enumerations, variables
+from ..model_kernels import find_derivatives, has_derivatives
+from .core import Core, Mode
+from .snapshot import from_bytes
+
+
+class DirectInstance:
+    """The kernels of a model in this process, without an FMU."""
+
+    def __init__(self, spec: ModelSpec, *, parameters: Mapping[str, Any] | None = None) -> None:
+        start = perf_counter()
+        self.spec = spec
+        found = variables(spec)
+        self._inputs = [v.reference for v in found if v.causality == "input"]
+        self.input_names = [s.name for s in spec.inputs]
+        self.output_names = [s.name for s in spec.outputs]
+        self._outputs = [v.reference for v in found if v.causality == "output"]
+        self._parameters = dict(parameters or {})
+        self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
+        self.saves_state, self.gives_derivatives = True, has_derivatives(spec)
+        self.reset()
+        self.instantiate_time = perf_counter() - start
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def reset(self) -> None:
+        """Go back to the start values and the parameters given at construction."""
+        self.core = Core(self.spec)
+        named = {v.name: v for v in self.core.variables if v.causality == "parameter"}
+        items = enumerations(self.spec)
+        for name, value in self._parameters.items():
+            v = named.get(name) or unknown(name, list(named))
+            numbers = {i.name: i.value for i in items.get(v.type_name or "", ())}
+            self.core.set([v.reference], [number(name, value, numbers)], v.type)
+
+    def initialize(
+        self, start_time: float = 0.0, inputs: Mapping[str, float] | None = None
+    ) -> None:
+        """Set the inputs at the start and solve there; after steps only if ``reset``."""
+        start = perf_counter()
+        if self.core.state.any():  # an FMU would refuse; here the memory would go on silently
+            raise ParameterError(
+                f"{self.spec.name} was stepped before and stands at t = {self.core.time:g} s; "
+                "call reset() before it is initialized again"
+            )
+        self.core.time, self.core.mode = start_time, Mode.INITIALIZING
+        for name, value in (inputs or {}).items():
+            if name not in self.input_names:
+                unknown(name, self.input_names)
+            self.core.set([self._inputs[self.input_names.index(name)]], [float(value)], "Real")
+        self.core.prepare()
+        self.core.mode = Mode.STEPPING
+        self.core.refresh()
+        self.core.note_switches()
+        self.initialize_time = perf_counter() - start
+
+    def set_inputs(self, values: Sequence[float]) -> None:
+        """Set all inputs."""
+        start = perf_counter()
+        self.core.set(self._inputs, values, "Real")
+        self.wall_time += perf_counter() - start
+
+    def step(self, t: float, h: float) -> None:
+        """Advance from ``t`` to ``t + h``; SolveError if there is no solution."""
+        start = perf_counter()
+        self.calls += 1
+        try:
+            self.core.advance(t, h)
+        finally:
+            self.wall_time += perf_counter() - start
+
+    def outputs(self) -> list[float]:
+        """Return all outputs."""
+        start = perf_counter()
+        self.core.refresh()
+        values = [float(x) for x in self.core.stored(self._outputs)]
+        self.wall_time += perf_counter() - start
+        return values
+
+    def get(self, names: Sequence[str]) -> list[float]:
+        """Return variables by name."""
+        known = {v.name: v for v in self.core.variables}
+        found = [known.get(name) or unknown(name, list(known)) for name in names]
+        return [float(self.core.get([v.reference], v.type)[0]) for v in found]
+
+    def directional_derivative(
+        self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
+    ) -> list[float]:
+        """Return how real outputs change along a direction of the inputs, memory held."""
+        sens = find_derivatives(self.spec)
+        if sens is None:
+            raise SolveError(f"{self.spec.name} has no derivatives")
+        core = self.core
+        along, slopes = np.zeros_like(core.inp), np.zeros_like(core.out)
+        for name, value in zip(knowns, seed, strict=True):
+            along[self._slot(name, "input")] += value
+        places = [self._slot(name, "output") for name in unknowns]
+        core.refresh()
+        # What a derivative starts from lies in `work`, which any other solve may have overwritten.
+        core.solve_aside()
+        rc = sens(core.par, core.inp, core.state, core.work, along, slopes)
+        if rc >= FIRST_FAILURE:
+            raise SolveError(f"{self.spec.name} has no derivative here: {Status(rc).advice}")
+        return [float(slopes[place]) for place in places]
+
+    def _slot(self, name: str, causality: str) -> int:
+        known = {v.name: v for v in self.core.variables if v.causality == causality}
+        v = known.get(name) or unknown(name, list(known))
+        return int(v.slot)
+
+    def get_state(self) -> Any:
+        """Return the complete state."""
+        return self.core.snapshot()
+
+    def set_state(self, state: Any) -> None:
+        """Go back to a state."""
+        self.core.restore(state)
+
+    def free_state(self, state: Any) -> None:
+        """Do nothing: the state is an ordinary object."""
+
+    def serialize(self, state: Any) -> bytes:
+        """Return a state as bytes."""
+        data: bytes = state.to_bytes()
+        return data
+
+    def deserialize(self, data: bytes) -> Any:
+        """Return the state in bytes of ``serialize``."""
+        return from_bytes(data)
+
+    def close(self) -> None:
+        """Do nothing: the memory goes with the object."""
+
+
+def unknown(name: str, known: list[str]) -> Any:
+    """Raise ParameterError for a name that is not among the known ones."""
+    near = difflib.get_close_matches(name, known, 1)
+    hint = f"; did you mean {near[0]}?" if near else f", allowed: {', '.join(known)}"
+    raise ParameterError(f"there is no variable {name!r} here{hint}")
+
+
+def number(name: str, value: Any, items: Mapping[str, int]) -> float:
+    """Return a value as a number; an enumeration may be given by the name of its item."""
+    if isinstance(value, str):
+        if value not in items:
+            raise ParameterError(f"{name} = {value!r}, allowed: {', '.join(items) or 'a number'}")
+        return items[value]
+    return float(value)

@@ -1,0 +1,226 @@
+"""Unpack an FMU once, load its library once, instantiate it with its messages kept."""
+
+import ctypes
+import errno
+import hashlib
+import os
+import platform
+import re
+import shutil
+import struct
+import sys
+import tempfile
+import time
+import zipfile
+import zlib
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ...errors import EnvironmentProblem, ParameterError, naming
+from ...native.files import code_folder
+
+KEPT = 20  # unpacked FMUs
+IN_USE = 86400.0  # s; a folder used within this time may be open in another process
+# The disk's or the user's trouble; other errors come of a damaged archive.
+DISK = {getattr(errno, name, None) for name in (
+    "ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS", "EACCES", "EPERM", "EMFILE", "ENFILE",
+)}  # fmt: skip
+WARNING = 1  # of both FMI versions; what is above carries the reason of a failure
+# Arguments behind "..." lie where named ones would: everywhere but on Apple's ARM.
+VARIADIC_AS_USUAL = (sys.platform, platform.machine()) != ("darwin", "arm64")
+
+
+class Message(NamedTuple):
+    """What an FMU said."""
+
+    status: int
+    category: str
+    text: str
+
+
+class Messages(list[Message]):
+    """What an FMU said and nobody has looked at yet; ``said`` is 1 once there was something."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.said = ctypes.c_int64(0)
+
+
+def unpack(path: str | os.PathLike[str]) -> Path:
+    """Unpack an FMU once per content into the user's cache and return the folder."""
+    file = Path(path)
+    if not file.is_file():
+        raise ParameterError(f"FMU = {str(file)!r}, allowed: an existing file; build it first")
+    named = str(file.resolve()), file.stat().st_mtime_ns, file.stat().st_size
+    folder = _unpacked(*named)
+    if not (folder / "modelDescription.xml").is_file():  # somebody emptied the cache
+        _unpacked.cache_clear()
+        folder = _unpacked(*named)
+    with suppress(OSError):
+        os.utime(folder)  # the time of the last use
+    return folder
+
+
+@cache
+def _unpacked(path: str, _changed: int, _size: int) -> Path:
+    digest = hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
+    home = code_folder("fmus")
+    part = Path(tempfile.mkdtemp(dir=home))
+    folder = home / f"{Path(path).stem}-{digest}"
+    if not (folder / "modelDescription.xml").is_file():
+        try:
+            with naming(folder):
+                _extract(path, part)
+        except BaseException:
+            shutil.rmtree(part, ignore_errors=True)
+            raise
+        try:
+            part.rename(folder)  # all or nothing; two processes may do it at once
+        except OSError:
+            if not (folder / "modelDescription.xml").is_file():
+                raise
+        prune(home)
+    shutil.rmtree(part, ignore_errors=True)
+    return folder
+
+
+def _extract(path: str, folder: Path) -> None:
+    """Unpack an archive whole, or refuse it by name."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            archive.getinfo("modelDescription.xml")
+            archive.extractall(folder)
+    except (OSError, zipfile.BadZipFile, zlib.error, struct.error, EOFError, KeyError, ValueError,
+            OverflowError, RuntimeError) as problem:  # fmt: skip
+        if isinstance(problem, OSError) and problem.errno in DISK:
+            raise
+        raise ParameterError(
+            f"FMU = {path!r}: is no whole FMU ({problem}); remove it and build it again"
+        ) from None
+
+
+def prune(home: Path, kept: int = KEPT) -> None:
+    """Remove folders that were not used for a day, except the ``kept`` used last."""
+    used = []
+    for folder in home.iterdir():
+        with suppress(OSError):  # another process prunes too
+            if folder.is_dir():
+                used.append((folder.stat().st_mtime, folder))
+    for last, folder in sorted(used, reverse=True)[kept:]:
+        if time.time() - last > IN_USE:
+            gone = folder.with_name(f".{folder.name}.{os.getpid()}")
+            with suppress(OSError):
+                folder.rename(gone)  # nobody finds half a folder
+                shutil.rmtree(gone, ignore_errors=True)
+
+
+@cache
+def description(folder: Path) -> Any:
+    """Return the parsed model description of an unpacked FMU."""
+    from fmpy import read_model_description
+
+    return read_model_description(str(folder), validate=False)
+
+
+@cache
+def capabilities(folder: Path) -> tuple[bool, bool]:
+    """Tell if an unpacked FMU saves its state and gives directional derivatives.
+
+    Read here: the two FMI versions spell these flags differently, and FMPy reads one spelling.
+    """
+    from xml.etree import ElementTree
+
+    root = ElementTree.parse(folder / "modelDescription.xml").getroot()
+    found = root.find("CoSimulation")
+    flags = {} if found is None else {name.lower(): said for name, said in found.attrib.items()}
+    state = flags.get("cangetandsetfmustate")
+    slopes = flags.get("providesdirectionalderivatives") or flags.get(
+        "providesdirectionalderivative"
+    )
+    return state in ("true", "1"), slopes in ("true", "1")
+
+
+def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> Any:
+    """Load and instantiate; what the FMU logs is appended to ``messages``."""
+    third = described.fmiVersion.startswith("3")
+    from fmpy.fmi2 import FMU2Slave
+    from fmpy.fmi3 import FMU3Slave
+
+    identifier = described.coSimulation.modelIdentifier
+    before = os.getcwd()
+    try:
+        fmu = (FMU3Slave if third else FMU2Slave)(
+            instanceName=name, guid=described.guid, unzipDirectory=str(folder),
+            modelIdentifier=identifier,
+        )  # fmt: skip
+    except Exception as problem:  # FMPy has no type of its own for a library that does not load
+        raise EnvironmentProblem(
+            f"{identifier} cannot be loaded on {platform.system()} {platform.machine()}: {problem}"
+        ) from None
+    finally:
+        os.chdir(before)
+    _keep_loaded(fmu.dll)
+    try:
+        (_begin3 if third else _begin2)(fmu, messages)
+    except Exception as problem:
+        fmu.freeLibrary()
+        # pythonfmu writes one line on where it was, then the exception
+        last = (m.text.rpartition("\n")[2] for m in messages if m.status >= WARNING)
+        why = "; ".join(_bare(text) for text in last) or str(problem)
+        raise EnvironmentProblem(f"{identifier} cannot be instantiated: {why}") from None
+    return fmu
+
+
+def _begin2(fmu: Any, messages: Messages) -> None:
+    """Instantiate after FMI 2; the logger's text is a format, for us with at most one string."""
+    from fmpy.fmi2 import defaultCallbacks as default
+    from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+
+    callbacks = fmi2CallbackFunctions()
+    callbacks.allocateMemory, callbacks.freeMemory = default.allocateMemory, default.freeMemory
+    if VARIADIC_AS_USUAL:
+
+        def log(_: Any, _name: bytes, status: int, category: bytes, text: bytes, more: int) -> None:
+            told = ctypes.string_at(more) if text == b"%s" and more else text
+            _keep(messages, status, category, told)
+
+        pointers = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_char_p
+        logger = ctypes.CFUNCTYPE(None, *pointers, ctypes.c_void_p)(log)
+        callbacks.logger = ctypes.cast(logger, fmi2CallbackLoggerTYPE)
+    else:
+        from fmpy.logging import addLoggerProxy
+
+        logger = fmi2CallbackLoggerTYPE(lambda _e, _n, *told: _keep(messages, *told))
+        callbacks.logger = logger
+        addLoggerProxy(ctypes.byref(callbacks))  # it knows one logger per process: the last
+    fmu.kept_logger = logger  # alive as long as the FMU
+    fmu.instantiate(callbacks=callbacks, loggingOn=True)
+
+
+def _begin3(fmu: Any, messages: Messages) -> None:
+    """Instantiate after FMI 3, where the logger gets a plain text."""
+
+    def log(_: Any, status: int, category: bytes, text: bytes) -> None:
+        _keep(messages, status, category, text)
+
+    fmu.instantiate(loggingOn=True, logMessage=log)
+
+
+def _keep(messages: Messages, status: int, category: bytes | None, text: bytes | None) -> None:
+    told = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
+    messages.append(Message(status, *told))
+    messages.said.value = 1
+
+
+def _bare(text: str) -> str:
+    """Return the sentence inside an exception that was written as Name('sentence')."""
+    found = re.fullmatch(r"\w+\((['\"])(.*)\1,?\)", text.strip())
+    return found[2] if found else text
+
+
+def _keep_loaded(dll: Any) -> None:
+    """Pin the library: unloading it and loading it again costs time and upsets its destructors."""
+    if sys.platform == "linux":
+        ctypes.CDLL(dll._name, mode=os.RTLD_NOLOAD | os.RTLD_NODELETE | os.RTLD_NOW)

@@ -1,0 +1,161 @@
+"""The tables of a model as C source: everything the shell knows about it."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from ...errors import FIRST_FAILURE, Status
+from ...model.spec import ModelSpec
+from ..description.interface import Variable, enumerations, variables
+from ..description.xml_parts import LOG_CATEGORIES, log_categories
+from ..model_kernels import (
+    count_places,
+    find_broken_rule,
+    has_derivatives,
+    kernel_table,
+    load_kernel,
+)
+from . import call_table
+
+MOST_INPUTS = 32  # dependencies are bits of one word
+# The C files of a native FMU beside the generated ones and the dispatch to the kernels.
+COMMON = ("lifecycle.c", "resource.c", "values.c", "text.c", "messages.c", "state.c",
+          "derivative.c")  # fmt: skip
+PROTOCOL = {
+    2: ("fmi2.c", "fmi2_values.c"),
+    3: ("fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c"),
+}
+# The order is that of the enum in tables.h.
+_CATEGORIES = ("logStatusWarning", "logStatusError", "logNonlinearSystems", "logEvents", "logAll")
+_TYPES = {
+    2: ("Real", "Integer", "Boolean", "Enumeration"),
+    3: ("Float64", "Int32", "Boolean", "Enumeration"),
+}
+_CAUSES = ("independent", "input", "parameter", "output")
+
+
+def shell_files(fmi: int) -> tuple[str, ...]:
+    """Return the names of the C files in fmu_src/shell that make a native FMU, dispatch aside."""
+    return (*COMMON, *PROTOCOL[fmi])
+
+
+def sources(spec: ModelSpec, *, fmi: int, guid: str) -> dict[str, str]:
+    """Return model.h and model.c, file name -> text.
+
+    Parameters
+    ----------
+    spec
+        The model.
+    fmi
+        2 or 3: the functions in the table of calls, and their names in messages.
+    guid
+        What the description calls guid (FMI 2) or instantiationToken (FMI 3).
+    """
+    lists = _lists(spec, fmi)
+    return {"model.h": _header(spec, fmi, guid, lists), "model.c": _tables(lists)}
+
+
+def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
+    """Return name of the table -> (C type, rows)."""
+    names = list(enumerations(spec))
+    inputs = [signal.name for signal in spec.inputs]
+    assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
+    found = variables(spec)
+    events = {s.name: s.events for s in spec.outputs if s.events}
+    declared = log_categories(spec)
+    assert set(_CATEGORIES) == set(LOG_CATEGORIES), "the shell knows every category"
+    rules = [rule.text for rule in getattr(spec, "rules", ())]
+    return {
+        "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in found]),
+        "ENUMERATIONS": ("Enumeration", [
+            _row(_text(name), len(items), f"ITEMS_{name}")
+            for name, items in enumerations(spec).items()]),
+        "STATUSES": ("StatusText", [
+            _row(int(s), _text(s.name), _text(s.advice)) for s in sorted(Status)]),
+        "SWITCHES": ("Switch", [
+            _row(v.slot, *map(_text, events[v.name])) for v in found if v.name in events]),
+        "COUNTS": ("Count", [
+            _row(_text(text), place) for text, place in count_places(spec)]),
+        "RULES": ("Rule", [_row(_text(rule)) for rule in rules]),
+        "CATEGORIES": ("Category", [
+            _row(_text(name), int(name in declared)) for name in _CATEGORIES]),
+        "TYPES": ("TypeText", [_row(_text(name)) for name in _TYPES[fmi]]),
+        "ACCESS": ("Access", [_row(*call_table.ACCESS[cause]) for cause in _CAUSES]),
+        "MODES": ("ModeText", [
+            _row(mode, _text(name), _text(f"fmi{fmi}{leave}"))
+            for mode, (name, leave) in call_table.MODES.items()]),
+        "CALLS": ("Call", [
+            _row(_text(f"fmi{fmi}{name}"), modes, _text(call_table.DECLINED[fmi].get(name)))
+            for name, modes in call_table.CALLS[fmi].items()]),
+        **{f"ITEMS_{name}": ("Item", [_row(item.value, _text(item.name)) for item in items])
+           for name, items in enumerations(spec).items()},
+    }  # fmt: skip
+
+
+def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
+    kind, cause = v.type.upper(), v.causality.upper()
+    depends = sum(1 << inputs.index(name) for name in v.depends)
+    return _row(
+        _text(v.name), _text(v.unit), *map(_number, v.bounds), _number(v.start or 0.0),
+        f"0x{depends:x}u", v.slot, names.index(v.type_name) if v.type_name else -1,
+        f"TYPE_{kind}", f"CAUSE_{cause}", f"STORE_{v.store.upper()}",
+        int(v.relative), f"TYPE_BIT(TYPE_{kind}) | CAUSE_BIT(CAUSE_{cause})",
+    )  # fmt: skip
+
+
+def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, list[str]]]) -> str:
+    kernel = load_kernel(spec.kernel)
+    found = variables(spec)
+    status = [v for v in found if v.type_name == "SolverStatus"]
+    numbers = {
+        "FMI": fmi, "NPAR": kernel.n_par, "NINP": kernel.n_inp, "NSTATE": kernel.n_state,
+        "NWORK": kernel.n_work, "NOUT": kernel.n_out, "NIOUT": kernel.n_iout,
+        "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
+        **{f"STATUS_{s.name}": int(s) for s in Status},
+        **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
+        **{f"TABLE_{name}": value for name, value in kernel_table(spec).items()},
+        "HAS_RULES": int(find_broken_rule(spec) is not None),
+        "HAS_SENS": int(has_derivatives(spec)),
+    }  # fmt: skip
+    shown = [v for v in found if v.causality == "input" or v.name in ("film_ratio", "engine_speed")]
+    return "\n".join([
+        "/* Generated: what the shell knows about this model. */",
+        "#ifndef THRUSTWASHER_MODEL_H", "#define THRUSTWASHER_MODEL_H", "",
+        '#include "tables.h"', "",
+        f"#define MODEL_NAME {_text(spec.name)}", f"#define GUID {_text(guid)}",
+        *(f"#define {name} {value}" for name, value in numbers.items()), "",
+        f"/* The variables that say at which point an event happened. */\n"
+        f"#define POINT {{{', '.join([*(str(v.reference) for v in shown), '-1'])}}}", "",
+        "/* Places in CALLS. */", "enum {",
+        *(f"    CALL_fmi{fmi}{name}," for name in call_table.CALLS[fmi]), "};", "",
+        *(f"extern const {kind} {name}[];" for name, (kind, _) in lists.items()), "",
+        "#endif", "",
+    ])  # fmt: skip
+
+
+def _tables(lists: dict[str, tuple[str, list[str]]]) -> str:
+    """Return the definitions; those that others refer to stand first."""
+    parts = ["/* Generated: the tables of this model. */", '#include "model.h"', ""]
+    for name in reversed(lists):
+        kind, rows = lists[name]
+        parts += [f"const {kind} {name}[] = {{", *(f"    {row}," for row in rows or ["{0}"]), "};"]
+    return "\n".join([*parts, ""])
+
+
+def _row(*values: Any) -> str:
+    return "{" + ", ".join(map(str, values)) + "}"
+
+
+def _number(value: float) -> str:
+    return float(value).hex()
+
+
+def _text(value: str | None) -> str:
+    """Return a C literal; whatever C might read as something else is written as octal digits."""
+    if value is None:
+        return "0"
+    return '"' + "".join(_escaped(value.encode())) + '"'
+
+
+def _escaped(data: bytes) -> Iterable[str]:
+    plain = set(range(0x20, 0x7F)) - set(b'"\\?')
+    return (chr(byte) if byte in plain else f"\\{byte:03o}" for byte in data)

@@ -1,0 +1,133 @@
+"""Line contact of two flanks: Hertz, oil film, friction, thermal stress and endurance."""
+
+import math
+
+from ...numerics.jit import kernel
+from ...numerics.smoothing import soft_least
+
+
+@kernel
+def compliance(modulus: float, poisson: float) -> float:
+    """Return theta = 2 (1 - nu^2)/E [1/Pa] of two bodies of the same material."""
+    return 2.0 * (1.0 - poisson * poisson) / modulus
+
+
+@kernel
+def hertz_width(line_load: float, radius: float, theta: float) -> float:
+    """Return the full width b [m] of a line contact under ``line_load`` [N/m].
+
+    b = sqrt(16 w R theta/pi), ``radius`` R [m] combined; mean pressure w/b, maximum 4/pi of it.
+    """
+    return math.sqrt(16.0 / math.pi * line_load * radius * theta)
+
+
+@kernel
+def surface_stress(line_load: float, radius: float, modulus: float) -> float:
+    """Return sigma_m [Pa] = 0.591 sqrt(w E_eq/R), E_eq = E/2 for equal materials: Atan Eq 9.
+
+    0.591 is the rounded factor of the maximum pressure for a Poisson ratio of 0.3 (0.59136).
+    """
+    return 0.591 * math.sqrt(line_load * 0.5 * modulus / radius)
+
+
+@kernel
+def film_thickness(
+    viscosity: float, entrainment: float, line_load: float, radius: float, theta: float,
+    pressure_viscosity: float,
+) -> float:  # fmt: skip
+    """Return the least film h [m] of Dowson & Higginson: 2.65 U^0.7 G^0.54 W^-0.13 R.
+
+    ``entrainment`` (V1 + V2)/2 [m/s], ``viscosity`` [Pa s], E' = 2/theta, U = mu V/(E' R),
+    G = alpha_p E', W = w/(E' R). All arguments are above 0.
+    """
+    stiff = 2.0 / theta
+    u = viscosity * entrainment / (stiff * radius)
+    g = pressure_viscosity * stiff
+    w = line_load / (stiff * radius)
+    return 2.65 * radius * math.exp(0.7 * math.log(u) + 0.54 * math.log(g) - 0.13 * math.log(w))
+
+
+@kernel
+def li_seireg(film: float, radius: float, f0: float, roughness: float) -> float:
+    """Return the coefficient of friction [-] of Li & Seireg (Atan Eq 4).
+
+    symbol     meaning                                              unit
+    film       film thickness h                                     m
+    radius     combined radius of curvature R_c                     m
+    f0         coefficient without a film                           -
+    roughness  effective roughness parameter S, 7.459e-6..6.297e-5  -
+
+    f = f0 - a (1 - exp(-(h/R_c)/(2.873 S - 2.143e-5))), a = 0.0864 - 1372 S; between f0 (h = 0)
+    and f0 - a. Holds for a slide/roll ratio above 0.27.
+    """
+    depth = film / radius / (2.873 * roughness - 2.143e-5)
+    return f0 - (0.0864 - 1372.0 * roughness) * (1.0 - math.exp(-min(depth, 700.0)))
+
+
+@kernel
+def li_seireg_slope(film: float, radius: float, f0: float, roughness: float) -> float:
+    """Return the slope of ``li_seireg`` over the logarithm of the film."""
+    depth = min(film / radius / (2.873 * roughness - 2.143e-5), 700.0)
+    return -(0.0864 - 1372.0 * roughness) * math.exp(-depth) * depth
+
+
+@kernel
+def iso_mean(
+    line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
+) -> float:
+    """Return the mean coefficient of friction [-] of ``iso_and_slope``."""
+    friction, _ = iso_and_slope(line_load, rolling, radius, viscosity, roughness, f0)
+    return friction
+
+
+@kernel
+def iso_and_slope(
+    line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
+) -> tuple[float, float]:
+    """Return the mean coefficient of friction [-] of ISO/TS 6336-20, and no more than ``f0``.
+
+    The second number is its slope over the logarithm of the unbounded value, which goes with the
+    power 0.2 of load over speed and -0.05 of the viscosity.
+
+    0.06 (w/(v R))^0.2 eta^-0.05 Ra^0.25 in its own units (N/mm, m/s, mm, mPa s, um); here
+    ``line_load`` [N/m], ``rolling`` sum of the speeds at the pitch point [m/s], ``radius`` there
+    [m], ``viscosity`` at the oil's temperature [Pa s], ``roughness`` Ra [m]. The bound is chosen
+    here: towards standstill the formula grows without limit.
+    """
+    load = 1e-3 * line_load / (rolling * 1e3 * radius)
+    mu = 0.06 * math.exp(
+        0.2 * math.log(load) - 0.05 * math.log(1e3 * viscosity) + 0.25 * math.log(1e6 * roughness)
+    )
+    if f0 <= 0.0:
+        return 0.0, 0.0
+    bounded, slope = soft_least(mu, f0, 0.1 * f0)
+    return bounded, slope * mu
+
+
+@kernel
+def thermal_stress(rise: float, modulus: float, poisson: float, expansion: float) -> float:
+    """Return sigma_t [Pa] = E alpha dT/(3 (1 - nu)) of a rise [K]: Atan Eq 8."""
+    return modulus * expansion * rise / (3.0 * (1.0 - poisson))
+
+
+@kernel
+def modification(
+    thermal: float, mechanical: float, thermal_limit: float, mechanical_limit: float
+) -> tuple[float, float]:
+    """Return (K, 1/sqrt(1 + K)) [-]: Atan Eq 11, K = (K_m sigma_t/(K_t sigma_m))^2.
+
+    The limits are K_t and K_m, endurance limits over ultimate strength.
+    """
+    root = mechanical_limit * thermal / (thermal_limit * mechanical)
+    return root * root, 1.0 / math.sqrt(1.0 + root * root)
+
+
+@kernel
+def utilization(
+    thermal: float, mechanical: float, thermal_limit: float, mechanical_limit: float,
+    ultimate: float,
+) -> float:  # fmt: skip
+    """Return the root of the right side of Atan Eq 10 [-]: at 1 the endurance limit is used up."""
+    m = mechanical / (mechanical_limit * ultimate)
+    t = thermal / (thermal_limit * ultimate)
+    return math.sqrt(m * m + t * t)

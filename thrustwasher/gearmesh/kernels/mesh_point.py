@@ -1,0 +1,239 @@
+# mypy: disable-error-code="no-any-return"
+"""The mesh at one operating point: load, film, heat, stress.
+
+Everything is evaluated where contact starts. Near zero the line load counts at least 1 N/m and the
+speed at least 1 mrad/s, rounded, so that every number stays finite with a continuous slope.
+"""
+
+import math
+
+from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import floored, smoothstep, soft_size
+from ...numerics.status import HOT, OK, OUTSIDE_VERIFIED
+from ...tribology.greenwood_williamson import LARGEST_RATIO, area_and_slope, bounded_ratio
+from . import layout as L
+from .contact import (
+    film_thickness,
+    hertz_width,
+    iso_and_slope,
+    li_seireg,
+    li_seireg_slope,
+    modification,
+    surface_stress,
+    thermal_stress,
+    utilization,
+)
+from .flank_temperature import (
+    blok_rise,
+    closed_flank,
+    film_factor,
+    flash_rise,
+    heated_flank,
+    oil_viscosity,
+    surface_factor,
+)
+
+LEAST_LINE_LOAD = 1.0  # N/m
+LEAST_SPEED = 1e-3  # rad/s
+# Atan's Table 1 (its numbers are bar): limits over ultimate strength, ultimate strength [Pa].
+MECHANICAL_1020, THERMAL_1020, ULTIMATE_1020 = 0.63, 0.77, 434.3e6 / 0.63
+MECHANICAL_4340, THERMAL_4340, ULTIMATE_4340 = 0.53, 0.40, 689.5e6 / 0.53
+SWITCH_AT, SWITCH_FROM, SWITCH_WIDTH = 1.4, 1.0, 0.8  # film ratios
+HOT_FILM = 523.0  # K
+COLDEST, WARMEST = 253.15, 423.15  # K; where the viscosity law is that of a real oil
+HOTTEST_ASPERITY = 1000.0  # K; steel has softened
+
+
+@kernel
+def friction_coefficient(
+    par: Array, film: float, line_load: float, speed: float, viscosity: float
+) -> tuple[float, float]:
+    """Return the coefficient of friction [-]; ``speed`` of the pinion [rad/s] above 0.
+
+    The second number is its slope over the logarithm of what it follows: the film with Li &
+    Seireg's law, ISO's unbounded value with that of ISO.
+    """
+    if par[L.P_FIDELITY] != L.CLOSED:
+        if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
+            radius, f0, roughness = par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS]
+            slope = li_seireg_slope(film, radius, f0, roughness)
+            return li_seireg(film, radius, f0, roughness), slope
+        if par[L.P_FRICTION_LAW] == L.ISO:
+            rolling, radius = par[L.D_ROLLING] * speed, par[L.D_PITCH_RADIUS]
+            return iso_and_slope(line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0])
+    return par[L.P_CONSTANT_FRICTION], 0.0
+
+
+@kernel
+def contact_weight(par: Array, film_ratio: float) -> float:
+    """Return the share [-] of asperity heating: 1 in boundary lubrication, 0 with a full film."""
+    if par[L.P_SWITCH] == L.SMOOTH:
+        return 1.0 - smoothstep((film_ratio - SWITCH_FROM) / SWITCH_WIDTH)
+    if par[L.P_SWITCH] == L.SHARP:
+        return 1.0 if film_ratio <= SWITCH_AT else 0.0
+    return 1.0
+
+
+@kernel
+def viscosity_follows(par: Array) -> tuple[bool, bool, float]:
+    """Return if the shear, then the film too, follows the flank's temperature; power of both.
+
+    The power is that of the viscosity in the shear stress: 0.3 where the film thins with it.
+    """
+    warm = par[L.P_VISCOSITY_AT] == L.AT_SURFACE and par[L.P_FIDELITY] != L.CLOSED
+    thins = warm and par[L.P_FILM_VISCOSITY] == L.AT_SURFACE
+    exponent = (0.3 if thins else 1.0) if warm else 0.0
+    return warm, thins, exponent
+
+
+@kernel
+def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, int]:
+    """Fill film, surface and film temperature, viscosities; return (status, iterations).
+
+    ``field`` holds line load, width and pressure already.
+    """
+    line_load, width, pressure = field[L.F_LINE_LOAD], field[L.F_WIDTH], field[L.F_PRESSURE]
+    v1, sliding = par[L.D_V1] * speed, par[L.D_SLIDING] * speed
+    bulk = oil_viscosity(oil, par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C])
+    film = film_thickness(
+        bulk, 0.5 * speed * (par[L.D_V1] + par[L.D_V2]), line_load, par[L.D_RADIUS], par[L.D_THETA],
+        par[L.P_PRESSURE_VISCOSITY],
+    )  # fmt: skip
+    shear, cap = bulk * sliding / film, 1e300
+    if par[L.P_TRACTION_LAW] != L.AMBIENT:
+        shear *= math.exp(min(par[L.P_PRESSURE_VISCOSITY] * pressure, 200.0))
+        cap = par[L.P_LIMITING_TRACTION] * pressure
+    taken = par[L.D_SHARE] * sliding * width  # heat into the pinion per stress, [m2/s]
+    factor = taken * surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
+    warm, thins, exponent = viscosity_follows(par)
+    status, iterations = OK, 0
+    if par[L.P_FIDELITY] == L.STRIBECK:
+        surface, stress, slope = closed_flank(
+            oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+        )
+    else:
+        surface, stress, slope, status, iterations = heated_flank(
+            oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+        )
+    viscosity = bulk
+    if warm:
+        viscosity = oil_viscosity(
+            surface, par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+        )
+    if thins:
+        film *= math.exp(0.7 * math.log(viscosity / bulk))
+    field[L.F_VISCOSITY], field[L.F_FILM], field[L.F_SURFACE] = viscosity, film, surface
+    field[L.F_RATIO] = film / par[L.D_SIGMA]
+    field[L.F_BULK_VISCOSITY], field[L.F_STRESS_SLOPE] = bulk, slope
+    field[L.F_SURFACE_RISE], field[L.F_FREE_RISE] = factor * stress, factor * shear
+    field[L.F_FILM_RISE] = taken * stress * film_factor(
+        film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
+        par[L.D_OIL_CAPACITY],
+    )  # fmt: skip
+    field[L.F_FILM_TEMPERATURE] = surface + field[L.F_FILM_RISE]
+    return status, iterations
+
+
+@kernel
+def asperity_temperature(
+    par: Array, field: Array, oil: float, ratio: float, hardness: float
+) -> tuple[float, float]:
+    """Return (temperature [K], area ratio [-]) of the asperities of a steel of that hardness."""
+    area = ratio
+    if par[L.P_AREA_LAW] == L.BOUNDED:
+        area = bounded_ratio(ratio, hardness, field[L.F_PRESSURE])
+    weight = field[L.F_WEIGHT]
+    if weight == 0.0:
+        area_rise = 0.0
+    else:
+        area_rise = weight * area * field[L.F_FLASH]
+    if par[L.P_ASPERITY_BASE] == L.ON_SURFACE:
+        return field[L.F_SURFACE] + area_rise, area
+    return weight * oil + (1.0 - weight) * field[L.F_FILM_TEMPERATURE] + area_rise, area
+
+
+@kernel
+def stress_asperities(par: Array, oil: float, field: Array) -> None:
+    """Fill what the asperity temperature brings: area ratio, stress, both steels' endurance."""
+    if par[L.P_AREA_LAW] == L.BOUNDED or par[L.P_AREA_LAW] == L.FREE:
+        ratio, slope = area_and_slope(field[L.F_RATIO], par[L.P_ASPERITY_GROUP])
+    else:
+        ratio, slope = min(par[L.P_AREA_RATIO], LARGEST_RATIO), 0.0
+    field[L.F_FREE_AREA], field[L.F_FREE_AREA_SLOPE] = ratio, slope
+    factor, mechanical = par[L.P_HARDNESS_FACTOR], field[L.F_STRESS]
+    modulus, poisson = par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO]
+    expansion = par[L.P_THERMAL_EXPANSION]
+
+    soft, soft_area = asperity_temperature(par, field, oil, ratio, factor * ULTIMATE_1020)
+    thermal_soft = thermal_stress(soft - oil, modulus, poisson, expansion)
+    k, allowed = modification(thermal_soft, mechanical, THERMAL_1020, MECHANICAL_1020)
+    field[L.F_MODIFICATION_1020], field[L.F_ALLOWABLE_1020] = k, allowed
+    field[L.F_UTILIZATION_1020] = utilization(
+        thermal_soft, mechanical, THERMAL_1020, MECHANICAL_1020, ULTIMATE_1020
+    )
+
+    hard, hard_area = asperity_temperature(par, field, oil, ratio, factor * ULTIMATE_4340)
+    thermal_hard = thermal_stress(hard - oil, modulus, poisson, expansion)
+    k, allowed = modification(thermal_hard, mechanical, THERMAL_4340, MECHANICAL_4340)
+    field[L.F_MODIFICATION_4340], field[L.F_ALLOWABLE_4340] = k, allowed
+    field[L.F_UTILIZATION_4340] = utilization(
+        thermal_hard, mechanical, THERMAL_4340, MECHANICAL_4340, ULTIMATE_4340
+    )
+    if par[L.P_STEEL] == L.AISI4340:
+        field[L.F_ASPERITY], field[L.F_AREA], field[L.F_THERMAL] = hard, hard_area, thermal_hard
+        field[L.F_MODIFICATION] = field[L.F_MODIFICATION_4340]
+        field[L.F_ALLOWABLE] = field[L.F_ALLOWABLE_4340]
+    else:
+        field[L.F_ASPERITY], field[L.F_AREA], field[L.F_THERMAL] = soft, soft_area, thermal_soft
+        field[L.F_MODIFICATION] = field[L.F_MODIFICATION_1020]
+        field[L.F_ALLOWABLE] = field[L.F_ALLOWABLE_1020]
+
+
+@kernel
+def outside(par: Array, oil: float, field: Array) -> bool:
+    """Tell if the point lies where the laws are stretched: oil, hardness, softened steel."""
+    ultimate = ULTIMATE_4340 if par[L.P_STEEL] == L.AISI4340 else ULTIMATE_1020
+    return (
+        oil < COLDEST or oil > WARMEST or field[L.F_ASPERITY] > HOTTEST_ASPERITY
+        or field[L.F_PRESSURE] > par[L.P_HARDNESS_FACTOR] * ultimate
+    )  # fmt: skip
+
+
+@kernel
+def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array) -> int:
+    """Fill ``field``, except loss torque and power, at a torque [N m], speed [rad/s], oil [K].
+
+    Signs of torque and speed, both the pinion's, do not matter. Returns 0, an advice or a failure.
+    """
+    turning = floored(speed, LEAST_SPEED)
+    line_load = floored(torque * par[L.D_LINE], LEAST_LINE_LOAD)
+    width = hertz_width(line_load, par[L.D_RADIUS], par[L.D_THETA])
+    field[L.F_LINE_LOAD], field[L.F_WIDTH], field[L.F_PRESSURE] = (
+        line_load,
+        width,
+        line_load / width,
+    )
+    field[L.F_STRESS] = surface_stress(line_load, par[L.D_RADIUS], par[L.P_YOUNGS_MODULUS])
+    field[L.F_SLIDING] = par[L.D_SLIDING] * turning
+    status, iterations = heat_film(par, oil, turning, field)
+    friction, slope = friction_coefficient(
+        par, field[L.F_FILM], line_load, turning, field[L.F_BULK_VISCOSITY]
+    )
+    field[L.F_FRICTION_SLOPE] = slope
+    v1, v2 = par[L.D_V1] * turning, par[L.D_V2] * turning
+    rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)  # no load, no heat
+    if par[L.P_FIDELITY] == L.CLOSED:
+        rise = blok_rise(friction, rubbing, v1, v2, width, par[L.D_EFFUSIVITY])
+    else:
+        heat = par[L.D_SHARE] * friction * rubbing * field[L.F_SLIDING]
+        rise = flash_rise(heat, width, v1, par[L.D_EFFUSIVITY])
+    field[L.F_FRICTION], field[L.F_FLASH] = friction, rise
+    field[L.F_WEIGHT] = contact_weight(par, field[L.F_RATIO])
+    stress_asperities(par, oil, field)
+    if status == OK:
+        if field[L.F_FILM_TEMPERATURE] > HOT_FILM:
+            status = HOT
+        elif outside(par, oil, field):
+            status = OUTSIDE_VERIFIED
+    field[L.F_STATUS], field[L.F_ITERATIONS] = float(status), float(iterations)
+    return status

@@ -1,0 +1,90 @@
+"""One co-simulation step of the gear mesh: it follows its inputs at once and remembers nothing."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import soft_size, soft_size_slope
+from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
+from . import layout as L
+from .constants import broken_rule as broken_rule
+from .constants import derive as derive
+from .line_of_action import mesh_changes, solve_mesh
+from .mesh_point import LEAST_LINE_LOAD
+
+N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
+NOUT, NIOUT = L.NOUT, L.NIOUT
+
+
+@kernel
+def regime_of(film_ratio: float) -> int:
+    """Return the lubrication regime that the film ratio names."""
+    if film_ratio > 3.0:
+        return L.FILM
+    return L.MIXED if film_ratio >= 1.0 else L.BOUNDARY
+
+
+@kernel
+def step(
+    par: Array,
+    inp: Array,
+    state: Array,
+    work: Array,
+    out: Array,
+    iout: NDArray[np.int32],
+    t: float,
+    dt: float,
+) -> int:
+    """Fill the outputs at the present load, speed and oil temperature; ``state`` stays.
+
+    Returns 0 or the status of a failure; advice stands in ``iout`` only.
+    """
+    load, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
+    if not (
+        math.isfinite(load) and math.isfinite(speed) and math.isfinite(oil) and dt >= 0.0
+        and oil > 0.0
+    ):  # fmt: skip
+        iout[L.IO_STATUS] = BAD_INPUT
+        return BAD_INPUT
+    status = solve_mesh(par, load, speed, oil, work)
+    # The loss grows from zero load with a continuous slope, over twice the least line load.
+    pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
+    smooth_sign = math.tanh(speed / par[L.P_SPEED_SMOOTHING])
+    work[L.F_SMOOTH_SIGN] = smooth_sign
+    work[L.F_TORQUE] = work[L.F_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
+    work[L.F_POWER] = work[L.F_TORQUE] * speed
+    iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])
+    for i in range(L.NOUT):
+        out[np.uintp(i)] = work[np.uintp(i)]
+        if not math.isfinite(out[np.uintp(i)]):
+            status = NOT_FINITE
+    iout[L.IO_STATUS] = status
+    return status if status >= 10 else 0
+
+
+@kernel
+def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
+    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
+
+    ``work`` is as the last successful step with these inputs left it. Corners that are not
+    rounded (the oil's lowest temperature, the sharp switch) count as on the side the point is on.
+    Returns 0, or NOT_FINITE.
+    """
+    torque, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
+    mesh_changes(par, work, torque, speed, oil, seed, dout)
+    width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
+    pressed, smooth = soft_size(torque, width), work[L.F_SMOOTH_SIGN]
+    friction = work[L.F_FRICTION]
+    more = dout[L.F_FRICTION] * pressed
+    more += friction * soft_size_slope(torque, width) * seed[L.I_LOAD]
+    steep = (1.0 - smooth) * (1.0 + smooth) / par[L.P_SPEED_SMOOTHING]
+    dout[L.F_TORQUE] = par[L.D_LOSS] * (
+        more * smooth + friction * pressed * steep * seed[L.I_SPEED]
+    )
+    dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
+    for i in range(L.NOUT):
+        if not math.isfinite(dout[np.uintp(i)]):
+            return NOT_FINITE
+    return OK

@@ -1,0 +1,287 @@
+"""Cards: the verified error and the cost of one rung, chart and parameter set.
+
+A card is a JSON file that ``python -m thrustwasher.study.verify`` writes. It speaks for the
+kernels and the parameters it was made with and for its envelope only; one that no longer fits is
+refused with the command that renews it. A file that cannot be read is refused too: a solve never
+stops because of a card.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from ..storage.digests import (
+    CHECK,
+    DATA,
+    KERNELS,
+    closure,
+    is_broken,
+    kernel_digest,
+    params_digest,
+    sealed,
+)
+from .card_parts import (
+    Axis,
+    ByFilmRatio,
+    Cells,
+    Cost,
+    Errors,
+    Fold,
+    HeldOut,
+    ParameterSet,
+    Reference,
+    Sources,
+    from_json,
+    worst_near,
+)  # fmt: skip
+
+SCHEMA = 1
+SAFETY = 1.5  # between a cell's worst held-out point and what is promised
+FOLDER = "THRUSTWASHER_CARDS"  # environment: one more folder with cards, for own parameter sets
+VERIFY = "python -m thrustwasher.study.verify"  # makes cards
+_CLUTCH = ("clutch_steady", "clutch_advance")
+_WASHER_FIELD = ("washer_solve", "washer_outputs", "washer_model")
+# model -> rung -> the modules that compute; what they import is found by itself
+ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
+    "washer": {
+        "closed": ("washer_simple",),
+        "stribeck": ("washer_simple",),
+        "map": ("washer_map_step",),
+        "coarse": _WASHER_FIELD,
+        "field": _WASHER_FIELD,
+        "fine": _WASHER_FIELD,
+    },
+    "clutch": {
+        "closed": _CLUTCH,
+        "boundary": _CLUTCH,
+        "stribeck": _CLUTCH,
+        "field": _CLUTCH,
+        "fine": ("clutch_step", "clutch_steady"),
+    },
+    "gearmesh": {
+        "closed": ("gear_point",),
+        "stribeck": ("gear_point",),
+        "field": ("gear_point",),
+        "fine": ("gear_line_of_action",),
+    },
+}
+# The file that sends each rung to its kernels and names the meshes; not what it imports, or every
+# rung would hang on every other one.
+DISPATCH = {"washer": "washer_step.py", "clutch": "clutch_step.py", "gearmesh": "gear_step.py"}
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """What is known of one rung's error in one box of inputs; the fields are the file's keys."""
+
+    schema: int
+    model: str
+    fidelity: str
+    chart: str | None
+    branch: str | None
+    fold: Fold | None
+    params: ParameterSet
+    kernels: Sources
+    package: dict[str, Any]  # version, commit
+    made: str
+    envelope: dict[str, Axis]
+    errors: dict[str, Errors]
+    cells: Cells
+    by_film_ratio: ByFilmRatio | None
+    held_out: HeldOut
+    reference: Reference
+    cost: Cost
+    machine: dict[str, Any]  # that the seconds were measured on
+
+    @property
+    def name(self) -> str:
+        """The file's name without its ending."""
+        parts = [self.model, self.fidelity, self.chart, self.params.name]
+        return "-".join(p for p in parts if p and p != "default")
+
+    def covers(self, point: Mapping[str, float]) -> bool:
+        """Tell if a point (all inputs, SI) lies inside the envelope; only sizes count."""
+        return all(
+            name in point and axis.min <= _size(axis, point[name]) <= axis.max
+            for name, axis in self.envelope.items()
+        )
+
+    def error_of(
+        self, quantity: str, point: Mapping[str, float], film_ratio: float | None = None
+    ) -> float | None:
+        """Return the worst error of a point's cell, or None outside the envelope.
+
+        With the film ratio found there, the worst of its class if that is less: both hold.
+        """
+        if quantity not in self.errors or not self.covers(point):
+            return None
+        place = [
+            self.cells.index(k, _size(self.envelope[name], point[name]))
+            for k, name in enumerate(self.cells.axes)
+        ]
+        if place[0] is None or place[1] is None:
+            return None
+        found = worst_near(self.errors[quantity], place[0], place[1])
+        if found is None or film_ratio is None or self.by_film_ratio is None:
+            return found
+        alike = self.by_film_ratio.error_of(quantity, film_ratio)
+        return found if alike is None else min(found, alike)
+
+    def stale(self, params: Any = None) -> str | None:
+        """Return why the card does not hold here, with the command that renews it, or None.
+
+        Without ``params`` only the kernels are looked at.
+        """
+        renew = f"renew it: {VERIFY} {self.model} {self.fidelity}"
+        if params is not None and params_digest(params) != self.params.sha256:
+            return f"made for other parameters ({self.params.name}); {renew}"
+        built = [name for name in self.kernels.files if "/" in name]
+        try:
+            if tuple(sorted([*files_of(self.model, self.fidelity), *built])) != tuple(
+                sorted(self.kernels.files)
+            ):
+                return f"the kernels are made of other files since {self.made}; {renew}"
+            if kernel_digest(self.kernels.files) != self.kernels.sha256:
+                return f"the kernels have changed since {self.made}; {renew}"
+        except (KeyError, OSError) as error:
+            return f"a source is not there ({error}); {renew}"
+        return None
+
+    @property
+    def is_built(self) -> bool:
+        """True if what has to be built before the first call is shipped beside the card."""
+        return any("/" in name for name in self.kernels.files)
+
+    def as_json(self) -> str:
+        """Return the text of the card's file, with a checksum as its last key."""
+        text = json.dumps(sealed(asdict(self)), indent=1, allow_nan=False)
+        innermost = re.compile(r"\[\s+([^][{}]*?)\s+\]")  # rows of numbers on one line each
+        return innermost.sub(lambda m: f"[{' '.join(m[1].split())}]", text) + "\n"
+
+
+def _size(axis: Axis, value: float) -> float:
+    """Return the size of an input where the card knows sizes only: parts are odd or even in it."""
+    return abs(value) if axis.min >= 0.0 else value
+
+
+def read_card(path: Path) -> Card:
+    """Return the card in a file.
+
+    Raises
+    ------
+    ParameterError : no JSON, changed since it was written, or of another version; the file is named
+    """
+    try:
+        raw = json.loads(path.read_text("utf-8"))
+        changed = not isinstance(raw, dict) or CHECK not in raw or is_broken(raw)
+    except (OSError, ValueError, RecursionError) as error:
+        raise ParameterError(f"{path.name}: cannot be read ({error})") from None
+    if changed:
+        raise ParameterError(
+            f"{path.name}: was changed since it was written ({CHECK} does not fit); make it again: "
+            f"{VERIFY}"
+        )
+    del raw[CHECK]
+    try:
+        if raw["schema"] == SCHEMA:
+            card: Card = from_json(Card, raw)
+            return card
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ParameterError(f"{path.name}: is no card of this version ({error})") from None
+    raise ParameterError(
+        f"{path.name}: schema = {raw['schema']}, this version reads {SCHEMA}; renew it: {VERIFY}"
+    )
+
+
+def card_folders() -> list[Path]:
+    """Return the folders that are searched: the package's, then the one the environment names."""
+    own = os.environ.get(FOLDER)
+    return [DATA / "cards", *([Path(own)] if own else [])]
+
+
+@cache
+def _folder(folder: Path) -> tuple[tuple[Card, ...], tuple[tuple[str, str], ...]]:
+    """Return the cards of a folder, and name and reason of each file that is none."""
+    cards, refused = [], []
+    for path in sorted(folder.glob("*.json")):
+        try:
+            cards.append(read_card(path))
+        except ParameterError as error:
+            refused.append((path.name, str(error)))
+    return tuple(cards), tuple(refused)
+
+
+def forget() -> None:
+    """Read the folders again next time."""
+    _folder.cache_clear()
+    _fresh.cache_clear()
+
+
+def load_cards(model: str, params: Any = None) -> list[Card]:
+    """Return the readable cards of a model, for one parameter set if it is given.
+
+    A stale card is among them: ask ``card.stale(params)``. Of two cards with one name the later
+    folder's counts.
+    """
+    found = {c.name: c for folder in card_folders() for c in _folder(folder)[0]}
+    digest = None if params is None else params_digest(params)
+    return [
+        c for c in found.values() if c.model == model and digest in (None, c.params.sha256)
+    ]  # fmt: skip
+
+
+def refused_files() -> dict[str, str]:
+    """Return name and reason of each file in the folders that is no card."""
+    return {name: why for folder in card_folders() for name, why in _folder(folder)[1]}
+
+
+def fresh_cards(model: str, fidelity: str, params: Any) -> tuple[Card, ...]:
+    """Return the cards of a rung that hold for these parameters and these kernels."""
+    return _fresh(model, fidelity, params, os.environ.get(FOLDER))
+
+
+@lru_cache(maxsize=64)
+def _fresh(model: str, fidelity: str, params: Any, folder: str | None) -> tuple[Card, ...]:
+    cards = [c for c in load_cards(model, params) if c.fidelity == fidelity]
+    return tuple(c for c in cards if c.stale(params) is None)
+
+
+def error_estimate(
+    model: str, fidelity: str, params: Any, point: Mapping[str, float],
+    quantity: str = "friction_torque", branch: str | None = None, film_ratio: float | None = None,
+) -> float | None:  # fmt: skip
+    """Return the error to expect at a point, or None where no fresh card speaks.
+
+    1.5 x the larger of the worst held-out error in the point's cell and the reference's own
+    uncertainty; over all charts if the branch is not named. With the film ratio found at the point,
+    the worst among points of such film ratios if that is less.
+    """
+    errors = []
+    for card in fresh_cards(model, fidelity, params):
+        if branch is None or card.branch in (None, branch):
+            found = card.error_of(quantity, point, film_ratio)
+            if found is not None:
+                errors.append(max(found, card.reference.uncertainty.get(quantity, 0.0)))
+    return SAFETY * max(errors) if errors else None
+
+
+def files_of(model: str, fidelity: str) -> tuple[str, ...]:
+    """Return the kernel files of a rung, sorted.
+
+    Raises
+    ------
+    KeyError : no such rung
+    FileNotFoundError : the rung has no kernels in this version
+    """
+    dispatch = DISPATCH[model]
+    if not (KERNELS / dispatch).is_file():
+        raise FileNotFoundError(dispatch)
+    return tuple(sorted({*closure(*ROOTS[model][fidelity]), dispatch}))

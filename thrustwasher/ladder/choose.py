@@ -1,0 +1,214 @@
+"""Choose the cheapest rung that holds a tolerance over a box of inputs; nothing is solved here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import ParameterError, SolveError
+from ..model.registry import spec_of
+from .boxes import Part, Request, checked_box
+from .candidates import Candidate, Plan, candidates, plans
+from .card import VERIFY
+from .card_parts import QUANTITIES
+from .formats import plain, shown_error, shown_seconds, shown_share
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """The rung to take, what it promises and what it costs; ``str()`` gives the reasons.
+
+    ``outside`` is the choice for the part of the box where the rung does not answer or is not
+    verified, with ``share`` of the box and ``where`` in words. Its ``error`` is infinite where no
+    card speaks: ``is_verified`` is then False.
+    """
+
+    fidelity: str
+    error: float
+    seconds: float
+    reasons: tuple[str, ...]
+    outside: Choice | None = None
+    share: float = 1.0
+    where: str = ""
+
+    @property
+    def is_verified(self) -> bool:
+        """True if a card speaks for every part of the box."""
+        return math.isfinite(self.error) and (self.outside is None or self.outside.is_verified)
+
+    def __str__(self) -> str:
+        return "\n  ".join(self.reasons)
+
+
+def choose(
+    model: str,
+    box: Mapping[str, float | tuple[float, float]],
+    *,
+    quantity: str = "friction_torque",
+    tol: float,
+    n_calls: float = 1,
+    safety: float = 1.5,
+    params: Any = None,
+    among: Sequence[str] | None = None,
+) -> Choice:
+    """Return the cheapest rung whose verified error stays within ``tol`` over a box of inputs.
+
+    Parameters
+    ----------
+    model : "washer", "clutch" or "gearmesh"
+    box : (low, high) for every input of the model, SI units; a single number is a point
+    quantity : "friction_torque" (tol is relative), "temperature" (K), "film_thickness" (m) or
+        "film_ratio" (1)
+    tol : largest error wanted, above 0
+    n_calls : how often the rung will be called: what is spent once weighs less the more calls
+    safety : factor on the largest held-out error, at least 1
+    params : the parameter object; default: the model's defaults
+    among : rungs to choose from; default: all
+
+    Returns
+    -------
+    Choice : pass its ``fidelity`` to ``solve_*``
+
+    Raises
+    ------
+    ParameterError : an argument is wrong; it is named with what is allowed
+    SolveError : no rung holds the tolerance; the best that can be had is named
+
+    Notes
+    -----
+    The error of a rung over the box is ``safety`` times the larger of its worst held-out error in
+    the cells that the box touches and the uncertainty of the reference. What that promises is
+    statistical: with n independent points and none above tol, less than 3/n of the verified box is
+    above tol, with 95 % confidence. The same cards give the same answer.
+    """
+    spec = spec_of(model)
+    request = Request(
+        spec, checked_box(spec, box), quantity, _above("tol", tol, 0.0, False),
+        _above("n_calls", n_calls, 1.0), _above("safety", safety, 1.0),
+    )  # fmt: skip
+    if quantity not in QUANTITIES:
+        raise ParameterError(f"quantity = {quantity!r}, allowed: {' or '.join(QUANTITIES)}")
+    rungs = list(spec.fidelities)
+    for name in among or ():
+        if name not in rungs:
+            raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, rungs))}")
+    wanted = [name for name in rungs if among is None or name in among]
+    if not wanted:
+        raise ParameterError(f"among: no rung, allowed: some of {', '.join(map(repr, rungs))}")
+    found, refused = candidates(spec, spec.params() if params is None else params, wanted)
+    return decide(request, found, refused)
+
+
+def _above(name: str, value: float, low: float, belongs: bool = True) -> float:
+    """Return the value as a float if it is finite and above (or at) its lower limit."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not (math.isfinite(number) and (number >= low if belongs else number > low)):
+        span = f"{low:g} or more" if belongs else f"above {low:g}"
+        raise ParameterError(f"{name} = {value!r}, allowed: {span}")
+    return number
+
+
+def decide(request: Request, found: list[Candidate], refused: dict[str, str]) -> Choice:
+    """Return the choice among the candidates; a pure function of cards and request.
+
+    Parameters
+    ----------
+    request : box, quantity, tolerance
+    found : rungs with fresh cards, in the ladder's order
+    refused : rung -> why its card does not count
+
+    Raises
+    ------
+    SolveError : nothing fits
+    """
+    options = plans(request, found)
+    if not options:
+        raise SolveError(_refusal(request, found, refused))
+    best = options[0]
+    lines = [_first_line(request, best), *_outside_lines(request, best)]
+    lines += _others(request, found, best) + [f"not asked: {r}: {w}" for r, w in refused.items()]
+    return _choice(best, tuple(lines))
+
+
+def _choice(plan: Plan, lines: tuple[str, ...]) -> Choice:
+    """Return a plan and what follows it as choices."""
+    after = None if plan.outside is None else _choice(plan.outside, ())
+    return Choice(plan.fidelity, plan.error, plan.seconds, lines, after, plan.share, plan.where)
+
+
+def _first_line(request: Request, plan: Plan) -> str:
+    kind, unit = plan.kind, plan.unit
+    asked = shown_error(request.tol, kind, unit)
+    promise = f"{request.quantity} within {shown_error(plan.error, kind, unit)} (asked {asked})"
+    time = f"{shown_seconds(plan.call)} per call"
+    return f"{request.spec.key}: {plan.fidelity}{plan.charts}, {promise}, {time}"
+
+
+def _outside_lines(request: Request, plan: Plan) -> list[str]:
+    """Say what serves where the chosen rung does not."""
+    lines = []
+    after = plan.outside
+    while after is not None:
+        part = f"outside it ({shown_share(after.share)} of the box, {after.where})"
+        if math.isinf(after.error):
+            lines.append(f"{part}: no card speaks there; {after.fidelity}, not verified")
+        else:
+            promise = shown_error(after.error, after.kind, after.unit)
+            lines.append(f"{part}: {after.fidelity}, within {promise}, {shown_seconds(after.call)}")
+        after = after.outside
+    if plan.beside_folds:
+        lines.append(plan.beside_folds)
+    return lines
+
+
+def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
+    """Say of every rung that was not taken why: too coarse, dearer, or not verified here."""
+    coarse, dear, away = [], [], []
+    for rung in found:
+        if rung.fidelity == best.fidelity:
+            continue
+        seen = rung.over([Part(request.box)], request)
+        if seen is None:
+            away.append(rung.fidelity)
+            continue
+        text = f"{rung.fidelity} {shown_error(seen.error, seen.kind, seen.unit)}"
+        if seen.error > request.tol:
+            coarse.append((rung.call <= best.call, text))
+        else:
+            dear.append(f"{text} in {shown_seconds(rung.call)}")
+    lines = []
+    for cheaper, words in ((True, "cheaper but too coarse"), (False, "dearer and too coarse")):
+        texts = [t for c, t in coarse if c is cheaper]
+        lines += [f"{words}: {', '.join(texts)}"] if texts else []
+    lines += [f"would hold too: {', '.join(dear)}"] if dear else []
+    return lines + ([f"not verified in this box: {', '.join(away)}"] if away else [])
+
+
+def _refusal(request: Request, found: list[Candidate], refused: dict[str, str]) -> str:
+    """Say that nothing fits, the best there is, and what to do."""
+    key = request.spec.key
+    if not found:
+        why = "; ".join(f"{rung}: {why}" for rung, why in refused.items())
+        return f"{key}: no rung has a card that holds here: {why}"
+    stale = "".join(f"; {rung}: {why}" for rung, why in refused.items() if "card; make" not in why)
+    seen = [(rung, rung.over([Part(request.box)], request)) for rung in found]
+    here = [(s.error, rung.fidelity, s) for rung, s in seen if s is not None]
+    if not here:
+        envelope = found[-1].envelope
+        spans = ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in envelope.items())
+        return (
+            f"{key}: the box lies outside what was verified for {request.quantity} ({spans}); "
+            f"name a rung yourself, or move the box{stale}"
+        )
+    error, rung, s = min(here, key=lambda x: x[0])
+    asked = f"{request.tol:.0e}" if request.tol < 1e-3 else plain(request.tol)
+    unit = "" if s.unit in (None, "1") else f" {s.unit}"
+    return (
+        f"{key}: no rung reaches {asked}{unit} in {request.quantity}; the best is {rung} with "
+        f"{plain(error)}{unit}. Ask for less, or verify a finer one: {VERIFY} {key} {rung}{stale}"
+    )

@@ -1,0 +1,54 @@
+"""Rules between parameters: the kernel tests them, the texts here say which one is broken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import ParameterError
+from .parameters import as_numbers
+
+if TYPE_CHECKING:
+    from .spec import ModelSpec
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What is said when parameters contradict each other.
+
+    ``text`` names parameters in braces and stands for itself wherever no Python runs; ``exact``,
+    if given, makes the message from the parameters with figures that have to be computed.
+    """
+
+    text: str
+    exact: Callable[[Any], str] | None = None
+
+    def message(self, params: Any) -> str:
+        """Return the text with the values of ``params`` in it."""
+        if self.exact is not None:
+            return self.exact(params)
+        names = type(params).__dataclass_fields__
+        return self.text.format(**{name: repr(getattr(params, name)) for name in names})
+
+
+def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
+    """Raise ParameterError for the first rule that parameters and fidelity break together."""
+    if not spec.rules:  # a model from elsewhere may have its kernel elsewhere too
+        return
+    rule = getattr(import_module(f"..kernels.{spec.kernel}", __package__), "broken_rule", None)
+    if rule is None:
+        return
+    numbers = [*as_numbers(params), list(spec.fidelities).index(fidelity) + 1]
+    if number := rule(np.array(numbers, float)):
+        raise ParameterError(spec.rules[number - 1].message(params))
+
+
+def check_rules(params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int]) -> None:
+    """Raise ParameterError for the first broken rule; every value must be in its range already."""
+    number = broken_rule(np.array(as_numbers(params)))
+    if number:
+        raise ParameterError(rules[number - 1].message(params))

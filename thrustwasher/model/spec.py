@@ -1,0 +1,75 @@
+"""What a model shows to the outside: inputs, outputs, parameters, kernel; as data.
+
+The FMU variables, the command line's columns and the documentation come from these lists.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+from .rules import Rule as Rule
+
+REGIMES = {
+    "film": "film ratio above 3: the oil film carries",
+    "mixed": "film ratio 1 to 3: film and asperities share the load",
+    "boundary": "film ratio below 1: the asperities carry",
+    "adhesive": "the surfaces stick: static friction",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signal:
+    """One input or output.
+
+    ``kind`` is "real", "boolean", "integer" or "enumeration" (then ``type`` names the enumeration,
+    e.g. "Regime", "SolverStatus"). ``start`` is for inputs only. ``depends`` lists the inputs that
+    enter an output at once, at the same time point; an output that is an integral of the past
+    has none. ``events``, of a Boolean output, says what happens when it becomes true, then false.
+    """
+
+    name: str
+    unit: str
+    help: str
+    kind: str = "real"
+    type: str | None = None
+    low: float | None = None
+    high: float | None = None
+    nominal: float | None = None
+    start: float | None = None
+    depends: tuple[str, ...] = ()
+    relative: bool = False  # a temperature difference, no absolute temperature
+    events: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Terminal:
+    """A plug of the FMU: which variables belong together; ``members``: (variable, member, kind)."""
+
+    name: str
+    kind: str
+    help: str
+    members: tuple[tuple[str, str, str], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModelSpec:
+    """A model as an FMU importer sees it."""
+
+    key: str  # "washer": command line and slave
+    name: str  # "ThrustWasher": FMU model name
+    help: str  # one sentence
+    params: type[Any]  # the parameter dataclass
+    fidelities: dict[str, str]  # rung -> one sentence, in the order of the enumeration, from 1
+    default_fidelity: str
+    inputs: tuple[Signal, ...]
+    outputs: tuple[Signal, ...]  # real outputs fill `out` in order, all others `iout`
+    kernel: str  # module below thrustwasher.kernels with derive(), step() and so on
+    rules: tuple[Rule, ...] = ()  # between parameters, in the order of the kernel's broken_rule()
+    terminals: tuple[Terminal, ...] = ()
+    stop_time: float = 1.0
+    step_size: float = 1e-3
+    # "module below thrustwasher.models:function" that returns the kernel's table for parameters.
+    table: str = ""
+    # The reference run: rows of time and all inputs, linear between; none: inputs at their start.
+    course: tuple[tuple[float, ...], ...] = ()
+    # What the solver counts: (text, "module below thrustwasher.kernels:NAME of the place in work").
+    counts: tuple[tuple[str, str], ...] = ()

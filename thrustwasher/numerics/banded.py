@@ -1,0 +1,189 @@
+"""Band matrices: symmetric (Cholesky) and general (LU without exchange), factor and solve.
+
+A symmetric matrix is stored by columns of its lower half: ``a[j * (band + 1) + k]`` is row j + k,
+column j. A general one by rows: ``a[i * (2 * band + 1) + band + k]`` is row i, column i + k.
+"""
+
+import math
+
+import numpy as np
+
+from .jit import Array, kernel
+
+N_SIDES = 8  # right sides solved together: a full vector register
+
+
+@kernel
+def cholesky(a: Array, n: int, band: int) -> bool:
+    """Replace ``a`` by its Cholesky factor; return False if it is not positive definite.
+
+    Columns go in pairs: each pair updates the rest in one pass, which halves the memory traffic.
+    """
+    w = band + 1
+    j = 0
+    while j < n:
+        end = min(band, n - 1 - j)
+        c0 = j * w
+        if not (a[c0] > 0.0 and math.isfinite(a[c0])):
+            return False
+        scale = 1.0 / math.sqrt(a[c0])
+        for k in range(end + 1):
+            a[np.uintp(c0 + k)] *= scale
+        if end == 0:
+            return True
+        # second column of the pair
+        c1 = c0 + w
+        f = a[c0 + 1]
+        for k in range(end):
+            a[np.uintp(c1 + k)] -= f * a[np.uintp(c0 + 1 + k)]
+        end1 = min(band, n - 2 - j)
+        if not (a[c1] > 0.0 and math.isfinite(a[c1])):
+            return False
+        scale = 1.0 / math.sqrt(a[c1])
+        for k in range(end1 + 1):
+            a[np.uintp(c1 + k)] *= scale
+        for m in range(2, end + 1):
+            f0 = a[c0 + m]
+            f1 = a[c1 + m - 1]
+            target = c0 + m * w
+            s0, s1 = c0 + m, c1 + m - 1
+            for k in range(end - m + 1):
+                a[np.uintp(target + k)] -= f0 * a[np.uintp(s0 + k)] + f1 * a[np.uintp(s1 + k)]
+            if end1 == end:  # the second column reaches one row further down
+                a[target + end - m + 1] -= f1 * a[c1 + end1]
+        if end1 == end and end >= 1:
+            a[c0 + (end + 1) * w] -= a[c1 + end1] * a[c1 + end1]
+        j += 2
+    return True
+
+
+@kernel
+def mirror(a: Array, n: int, band: int) -> None:
+    """Write the factor in ``a[: n w]``, w = band + 1, once more behind it: by rows, last row first.
+
+    The way back of a solve is then the way forth with everything reversed, along memory.
+    """
+    w = band + 1
+    for j in range(n):
+        row = n - 1 - j
+        to = (n + j) * w
+        for k in range(min(band, row) + 1):
+            a[np.uintp(to + k)] = a[np.uintp((row - k) * w + k)]
+
+
+@kernel
+def _forth(a: Array, b: Array, n: int, band: int) -> None:
+    """Solve with the lower factor ``a`` (by columns) in place of ``b``.
+
+    Columns go in fours, which takes ``b`` through the registers a quarter as often.
+    """
+    w = band + 1
+    full = (n - 3 - band) // 4 * 4 if band >= 4 and n > band + 3 else 0
+    for j in range(0, full, 4):
+        c0 = j * w
+        c1, c2, c3 = c0 + w, c0 + 2 * w, c0 + 3 * w
+        x0 = b[j] / a[c0]
+        x1 = (b[j + 1] - x0 * a[c0 + 1]) / a[c1]
+        x2 = (b[j + 2] - x0 * a[c0 + 2] - x1 * a[c1 + 1]) / a[c2]
+        x3 = (b[j + 3] - x0 * a[c0 + 3] - x1 * a[c1 + 2] - x2 * a[c2 + 1]) / a[c3]
+        b[j], b[j + 1], b[j + 2], b[j + 3] = x0, x1, x2, x3
+        for k in range(4, w):
+            b[np.uintp(j + k)] -= (x0 * a[np.uintp(c0 + k)] + x1 * a[np.uintp(c1 + k - 1)]) + (
+                x2 * a[np.uintp(c2 + k - 2)] + x3 * a[np.uintp(c3 + k - 3)]
+            )
+        b[j + w] -= x1 * a[c1 + band] + x2 * a[c2 + band - 1] + x3 * a[c3 + band - 2]
+        b[j + w + 1] -= x2 * a[c2 + band] + x3 * a[c3 + band - 1]
+        b[j + w + 2] -= x3 * a[c3 + band]
+    for j in range(full, n):
+        c = j * w
+        x = b[j] / a[c]
+        b[j] = x
+        for k in range(1, min(band, n - 1 - j) + 1):
+            b[np.uintp(j + k)] -= x * a[np.uintp(c + k)]
+
+
+@kernel
+def _reverse(b: Array, n: int) -> None:
+    for k in range(n // 2):
+        x = b[np.uintp(k)]
+        b[np.uintp(k)] = b[np.uintp(n - 1 - k)]
+        b[np.uintp(n - 1 - k)] = x
+
+
+@kernel
+def cholesky_solve(a: Array, b: Array, n: int, band: int) -> None:
+    """Replace the right side ``b`` (n,) by the solution; ``a`` is of `cholesky` and `mirror`."""
+    size = n * (band + 1)
+    _forth(a, b, n, band)
+    _reverse(b, n)
+    _forth(a[size:], b, n, band)
+    _reverse(b, n)
+
+
+@kernel
+def cholesky_solve_many(a: Array, b: Array, n: int, band: int) -> None:
+    """Solve for ``N_SIDES`` right sides at once; ``b[row * N_SIDES + side]``, in place."""
+    w = band + 1
+    for j in range(n):
+        end = min(band, n - 1 - j)
+        c = j * w
+        here = j * N_SIDES
+        scale = 1.0 / a[c]
+        for s in range(N_SIDES):
+            b[np.uintp(here + s)] *= scale
+        for k in range(1, end + 1):
+            f = a[np.uintp(c + k)]
+            there = (j + k) * N_SIDES
+            for s in range(N_SIDES):
+                b[np.uintp(there + s)] -= f * b[np.uintp(here + s)]
+    for j in range(n - 1, -1, -1):
+        end = min(band, n - 1 - j)
+        c = j * w
+        here = j * N_SIDES
+        for k in range(1, end + 1):
+            f = a[np.uintp(c + k)]
+            there = (j + k) * N_SIDES
+            for s in range(N_SIDES):
+                b[np.uintp(here + s)] -= f * b[np.uintp(there + s)]
+        scale = 1.0 / a[c]
+        for s in range(N_SIDES):
+            b[np.uintp(here + s)] *= scale
+
+
+@kernel
+def lu(a: Array, n: int, band: int) -> bool:
+    """Replace ``a`` by its LU factors, no row exchange; return False at a zero pivot.
+
+    Holds for matrices dominated by their diagonal, as conduction with a falling source is.
+    """
+    w = 2 * band + 1
+    for j in range(n):
+        row = j * w + band
+        if not (a[row] != 0.0 and math.isfinite(a[row])):
+            return False
+        end = min(band, n - 1 - j)
+        for m in range(1, end + 1):
+            target = (j + m) * w + band - m
+            f = a[target] / a[row]
+            a[target] = f
+            for k in range(1, end + 1):
+                a[np.uintp(target + k)] -= f * a[np.uintp(row + k)]
+    return True
+
+
+@kernel
+def lu_solve(a: Array, b: Array, n: int, band: int) -> None:
+    """Replace the right side ``b`` (n,) by the solution, given the factors of `lu`."""
+    w = 2 * band + 1
+    for i in range(n):
+        row = i * w + band
+        s = b[i]
+        for k in range(max(-band, -i), 0):
+            s -= a[np.uintp(row + k)] * b[np.uintp(i + k)]
+        b[i] = s
+    for i in range(n - 1, -1, -1):
+        row = i * w + band
+        s = b[i]
+        for k in range(1, min(band, n - 1 - i) + 1):
+            s -= a[np.uintp(row + k)] * b[np.uintp(i + k)]
+        b[i] = s / a[row]

@@ -1,1 +1,0 @@
-"""Closed forms: importable, used by tests and documentation. No iteration, no numba."""

@@ -1,0 +1,226 @@
+"""The washer: maps over its annulus, and its load curve with the folds."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...units import format_quantity
+from ..palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, RED, SIGMA
+from ..style import decade_ticks, heading, label, legend_below, new_figure, note_at_right, styled
+
+Array = np.ndarray[Any, Any]
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 129)  # finer around than any grid but the finest
+LOWEST_RATIO = 0.1  # film ratios below, even negative ones, leave the logarithmic axis
+BRANCHES = {
+    "film": (BLUE, "-", "film branch (stable)"),
+    "unstable": (GREY, "--", "unstable: never stays here"),
+    "contact": (RED, "-.", "contact branch (stable)"),
+}
+FOLDS = {"film_lost": ("v", "film lost"), "film_regained": ("^", "film regained")}
+
+
+@styled
+def field_figure(
+    result: Any, point: Mapping[str, float], params: Any = None, *, words: str = ""
+) -> Figure:
+    """Return four maps of a solved washer.
+
+    Parameters
+    ----------
+    result : a washer result with ``fields()``
+    point : load [N], speed [rad/s], tilt [rad], oil_temperature [K]
+    params : not needed; taken for the sake of one call for all models
+    words : put before the operating point in the title
+    """
+    fields = result.fields()
+    figure, axes = new_figure(9.6, 8.6, 2, 2, head=2, right=0.5)
+    maps = (
+        ("Film thickness", "µm", fields.film_thickness * 1e6, "cividis"),
+        ("Film pressure", "MPa", fields.pressure / 1e6, "viridis"),
+        ("Asperity pressure", "MPa", fields.contact_pressure / 1e6, "viridis"),
+        ("Film temperature", "°C", fields.film_temperature - CELSIUS, "inferno"),
+    )
+    for axis, (title, unit, values, colours) in zip(axes, maps, strict=True):
+        _draw_map(axis, fields, values, title, unit, colours)
+    _mark_film(axes[0], fields, result)
+    if not np.any(fields.contact_pressure > 0.0):
+        axes[2].text(0.5, 0.5, "no contact", transform=axes[2].transAxes, ha="center", va="center")
+    _draw_rotation(axes[0], fields, point["speed"])
+    heading(figure, _field_heading(result, point, words), fontsize=10.5)
+    return figure
+
+
+def _draw_map(axis: Axes, fields: Any, values: Array, title: str, unit: str, cmap: str) -> None:
+    """Draw one field over x, y in millimetres."""
+    x, y = _plane(fields)
+    low, high = float(np.min(values)), float(np.max(values))
+    shades = axis.pcolormesh(
+        x, y, _around(fields, values), shading="gouraud", cmap=cmap, rasterized=True,
+        vmin=low, vmax=high if high > low else low + 1.0,
+    )  # fmt: skip
+    bar = axis.figure.colorbar(shades, ax=axis, shrink=0.82, pad=0.02)
+    bar.set_label(f"{title.lower()} [{unit}]")
+    bar.outline.set_visible(False)
+    for rim in (fields.radius[0], fields.radius[-1]):
+        turn = np.linspace(0.0, 2.0 * np.pi, 181)
+        axis.plot(1e3 * rim * np.cos(turn), 1e3 * rim * np.sin(turn), color="#666666", lw=0.7)
+    label(axis, f"{title}, {low:.3g} to {high:.3g} {unit}", "x [mm]", "y [mm]")
+    axis.set_aspect("equal")
+    axis.grid(False)
+
+
+def _mark_film(axis: Axes, fields: Any, result: Any) -> None:
+    """Mark the nodes' thinnest place and the lines film ratio 1 and 3."""
+    x, y = _plane(fields)
+    gap = _around(fields, fields.film_thickness)
+    thinnest = np.unravel_index(np.argmin(gap), gap.shape)
+    axis.plot(x[thinnest], y[thinnest], "x", color=RED, ms=9, mew=2.2, clip_on=False)
+    axis.set_xlabel("x [mm]    (cross: thinnest film)")
+    sigma = result.film_thickness / result.film_ratio if result.film_ratio else 0.0
+    ratio = gap / sigma if sigma > 0.0 else None
+    levels = [] if ratio is None else [v for v in (1.0, 3.0) if ratio.min() < v < ratio.max()]
+    if ratio is not None and levels:
+        lines = axis.contour(x, y, ratio, levels=levels, colors="white", linewidths=1.2)
+        axis.clabel(lines, fmt=lambda v: f"h/{SIGMA} = {v:g}", fontsize=8)
+
+
+def _draw_rotation(axis: Axes, fields: Any, speed: float) -> None:
+    """Show which way the washer turns."""
+    if speed == 0.0:
+        return
+    radius = 0.5e3 * fields.radius[0]
+    turn = np.radians(np.linspace(-150.0, 120.0, 60)) * np.sign(speed)
+    axis.plot(radius * np.cos(turn), radius * np.sin(turn), color=BLACK, lw=1.2)
+    axis.annotate("", (radius * np.cos(turn[-1]), radius * np.sin(turn[-1])),
+                  (radius * np.cos(turn[-4]), radius * np.sin(turn[-4])),
+                  arrowprops={"arrowstyle": "-|>", "color": BLACK, "lw": 1.2})  # fmt: skip
+    axis.text(0.0, 0.0, "washer\nturns", ha="center", va="center", fontsize=7.5)
+
+
+def _field_heading(result: Any, point: Mapping[str, float], words: str) -> str:
+    """Return two lines: the operating point, the answer."""
+    rpm = point["speed"] * 30.0 / np.pi
+    where = (
+        f"{words or 'Thrust washer'}: load {format_quantity(point['load'], 'N')}, "
+        f"speed {point['speed']:.4g} rad/s ({rpm:.4g} rpm), "
+        f"tilt {format_quantity(point['tilt'], 'rad')}, "
+        f"oil {format_quantity(point['oil_temperature'], 'K')}"
+    )
+    answer = (
+        f"torque {format_quantity(result.friction_torque, 'N.m')}, "
+        f"film ratio {result.film_ratio:.3g}, mean film temperature "
+        f"{format_quantity(result.temperature, 'K', digits=3)}, {result.branch} branch"
+        + (", FILM LOST (distress)" if result.distress else "")
+    )
+    return f"{where}\n{answer}"
+
+
+def _plane(fields: Any) -> tuple[Array, Array]:
+    """Return x, y [mm] of the drawn points: the nodes' circles, finer around."""
+    radius = 1e3 * fields.radius[:, None]
+    return radius * np.cos(ANGLES), radius * np.sin(ANGLES)
+
+
+def _around(fields: Any, values: Array) -> Array:
+    """Return the field at the drawn points, interpolated around."""
+    rows = (np.interp(ANGLES, fields.angle, row, period=2.0 * np.pi) for row in values)
+    return np.array(list(rows))
+
+
+@styled
+def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
+    """Return film ratio, torque, temperature and friction coefficient over the load.
+
+    Parameters
+    ----------
+    curve : a load curve with ``points`` and ``folds``
+    point : speed [rad/s], tilt [rad], oil_temperature [K]
+    """
+    figure, axes = new_figure(10.0, 7.6, 2, 2, head=2, foot=1)
+    panels = (
+        ("film_ratio", "Film ratio: how much film is left", f"film ratio h/{SIGMA} [1]"),
+        ("friction_torque", "Friction torque", "friction torque [N·m]"),
+        ("temperature", "Mean film temperature", "temperature [°C]"),
+        ("friction_coefficient", "Friction coefficient (Stribeck)", "friction coefficient [1]"),
+    )
+    for axis, (name, title, up) in zip(axes, panels, strict=True):
+        zero = CELSIUS if name == "temperature" else 0.0
+        _draw_branches(axis, curve.points, name, zero)
+        _draw_folds(axis, curve.folds, curve.points, name, zero)
+        label(axis, title, "load [N]", up)
+        axis.set_xlim(left=0.0)
+    axes[0].set_yscale("log")
+    axes[0].set_ylim(bottom=LOWEST_RATIO)
+    axes[3].set_yscale("log")
+    decade_ticks(axes[0])
+    decade_ticks(axes[3])
+    _say_what_is_cut(axes[0], curve.points)
+    for ratio, words in ((3.0, "3: asperities begin to touch"), (1.0, "1: boundary lubrication")):
+        axes[0].axhline(ratio, color=ORANGE, lw=0.9, ls=":")
+        note_at_right(axes[0], words, ratio, color="#7A5400")
+    legend_below(figure, *_legend(axes[0]), columns=5)
+    heading(figure, _curve_heading(curve.folds, point))
+    return figure
+
+
+def _say_what_is_cut(axis: Axes, points: Sequence[Any]) -> None:
+    """Say how far the film ratio goes on below the axis, if it does."""
+    lowest = min(p.film_ratio for p in points)
+    if lowest < LOWEST_RATIO:
+        axis.annotate(
+            f"not drawn: ratios below {LOWEST_RATIO:g},\nhere down to {lowest:.2g}", (0.0, 0.0),
+            (4, 4), xycoords="axes fraction", textcoords="offset points", fontsize=8, color=RED,
+        )  # fmt: skip
+
+
+def _draw_branches(axis: Axes, points: Sequence[Any], name: str, zero: float) -> None:
+    """Draw each branch in its own line style, joined to the next one."""
+    for branch, part in _runs(points):
+        colour, dashes, words = BRANCHES[branch]
+        axis.plot(
+            [p.load for p in part],
+            [getattr(p, name) - zero for p in part],
+            color=colour, ls=dashes, label=words,
+        )  # fmt: skip
+
+
+def _runs(points: Sequence[Any]) -> Iterator[tuple[str, Sequence[Any]]]:
+    """Yield stretches of one branch; each begins with the last point of the one before."""
+    cuts = [i for i, (a, b) in enumerate(pairwise(points), 1) if a.branch != b.branch]
+    for first, last in pairwise([0, *cuts, len(points)]):
+        yield points[first].branch, points[max(first - 1, 0) : last]
+
+
+def _draw_folds(
+    axis: Axes, folds: Sequence[Any], points: Sequence[Any], name: str, zero: float
+) -> None:
+    """Mark where the film is lost and regained."""
+    for fold in folds:
+        value = getattr(fold, name, None)
+        if value is None:  # read off the traced curve, at the point nearest in film ratio
+            near = min(points, key=lambda p: abs(p.film_ratio - fold.film_ratio))
+            value = getattr(near, name)
+        marker, words = FOLDS[fold.kind]
+        axis.plot([fold.load], [value - zero], marker, color=BLACK, ms=8, label=words, zorder=5)
+
+
+def _legend(axis: Axes) -> tuple[list[Any], list[str]]:
+    """Return each label once."""
+    entries = dict(zip(*reversed(axis.get_legend_handles_labels()), strict=True))
+    return list(entries.values()), list(entries)
+
+
+def _curve_heading(folds: Sequence[Any], point: Mapping[str, float]) -> str:
+    """Return what is seen, in words."""
+    where = (
+        f"Thrust washer at {point['speed']:.4g} rad/s, tilt {format_quantity(point['tilt'], 'rad')}"
+        f", oil {format_quantity(point['oil_temperature'], 'K')}"
+    )
+    if not folds:
+        return f"{where}\none solution at every load: no sudden loss of the film"
+    words = [f"{FOLDS[f.kind][1]} at {format_quantity(f.load, 'N')}" for f in folds]
+    return f"{where}\n{', '.join(words)}"

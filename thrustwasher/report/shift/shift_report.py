@@ -1,0 +1,214 @@
+"""The report of a shift: what was simulated, what came out, how far to trust it."""
+
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from ...units import format_quantity as say
+from ..html import Card, Page, Plot, Section
+from ..model_plots.washer_plots import field_figure
+from ..panels import shift_plots
+from . import shift_tables, summary
+from .rung_section import rung_sections
+from .shift_record import Record
+from .trust import trust_texts
+from .warnings_in_words import TITLES, judder_words
+from .worst_moments import Moment, highest, solve_moment, worst_film
+
+SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged as well
+
+
+def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
+    """Return the whole report of a finished shift."""
+    sections = [
+        *_course_sections(record),
+        *_drawn("temperatures", "Temperatures", shift_plots.temperature_figure(record),
+                _temperature_caption(record)),
+        *_drawn("films", "Film ratios", shift_plots.film_figure(record), FILM_CAPTION,
+                "film_ratios"),
+        *_friction_sections(record),
+        *_judder_sections(record),
+        *_washer_sections(record),
+        *_drawn("stress", "The gear teeth", shift_plots.stress_figure(record), STRESS_CAPTION,
+                "tooth_stress"),
+        *_drawn("energy", "Energy", shift_plots.energy_figure(record), ENERGY_CAPTION,
+                tables=[shift_tables.energy_table(record)]),
+        Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
+        *rung_sections(record),
+        _cost_section(record),
+        Section(
+            "parameters", "What was simulated",
+            texts=[record.help, f"{_stepping(record)} All values in SI units."],
+            tables=shift_tables.parameter_tables(record),
+        ),
+        Section("trust", "How far to trust it", texts=trust_texts(record)),
+    ]  # fmt: skip
+    return Page(
+        title=record.title,
+        subtitle=f"Scene {record.name}, {record.time[-1] - record.time[0]:.4g} s simulated in "
+        f"{say(record.wall_time, 's', digits=3)}, {len(record.parts)} FMUs, made by {made_by}",
+        summary=summary.sentences(record),
+        warnings=summary.warnings(record),
+        cards=_cards(record),
+        sections=sections,
+        footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
+        "thrustwasher shift --json.",
+    )
+
+
+SPEED_CAPTION = "Shaded: the phases of the shift. Dotted and numbered: what happened when."
+TORQUE_CAPTION = (
+    "A pack that is stuck transmits what the balance needs, which is less than it could hold."
+)
+ENERGY_CAPTION = "Integrated by the driveline itself inside its steps."
+FRICTION_CAPTION = (
+    "The mean is torque over time by load, mean radius and faces over time: under constant load "
+    "the harmonic mean over speed, which a braking time measures."
+)
+LOAD_CAPTION = (
+    "The helical planets' tilting couple presses the washers; where the red area begins, "
+    "asperities touch."
+)
+FILM_CAPTION = (
+    "Film thickness over the combined roughness. Above 3 the oil carries, below 1 the "
+    "asperities do. Values below the axis are drawn on its lower end."
+)
+STRESS_CAPTION = (
+    "Above: contact stress and thermal stress together, each over what the steel endures; at "
+    "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
+)
+
+
+def _drawn(
+    anchor: str, title: str, figure: Figure | None, caption: str, file: str = "", **more: Any
+) -> list[Section]:
+    """Return a section of one figure, if there is something to draw."""
+    if figure is None:
+        return []
+    return [Section(anchor, title, plots=[Plot(file or anchor, figure, caption)], **more)]
+
+
+def _course_sections(record: Record) -> list[Section]:
+    """Return speeds and torques; a shift that is short within the run also enlarged."""
+    speeds = [Plot("speeds", shift_plots.speed_figure(record), SPEED_CAPTION)]
+    torques = [Plot("torques", shift_plots.torque_figure(record), TORQUE_CAPTION)]
+    lock, first, last = record.figures["lock_time"], record.time[0], record.time[-1]
+    if lock is not None and lock - record.ramp_start < SHORT * (last - first):
+        taken = lock - record.ramp_start
+        part = record.window(record.ramp_start - 0.3 * taken, lock + 0.6 * taken)
+        caption = "The shift itself, enlarged."
+        speeds.append(Plot("speeds_enlarged", shift_plots.speed_figure(part), caption))
+        torques.append(Plot("torques_enlarged", shift_plots.torque_figure(part), caption))
+    return [Section("speeds", "Speeds", plots=speeds), Section("torques", "Torques", plots=torques)]
+
+
+CARDS = (
+    "lock_time", "lock_after_half_ramp", "lock_speed", "stopped_inertia", "slip_energy",
+    "slip_energy_per_area", "peak_power", "friction_mean", "friction_lock", "{pack}_temperature",
+    "peak_washer_temperature_max", "least_washer_film_ratio", "peak_flash_temperature",
+)  # fmt: skip
+OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "friction_lock")
+
+
+def _cards(record: Record) -> list[Card]:
+    """Return the figures at the top; braking time and friction where a pack acts alone."""
+    hidden = ("lock_time",) if record.alone else OF_A_LONE_PACK
+    names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
+    known = {figure.name: figure for figure in record.key_figures}
+    cards = [
+        Card(f.text, f"{f.value:.4g} s" if f.unit == "s"
+             else say(f.value, f.unit, digits=4, difference=f.difference))
+        for name in names if (f := known.get(name)) is not None and f.value is not None
+    ]  # fmt: skip
+    share = f"{record.energy['residual_share']:.1e}"
+    return [*cards, Card(f"energy missing, of {summary.whole_name(record)}", share)]
+
+
+def _temperature_caption(record: Record) -> str:
+    """Return what to know about the temperatures of this run."""
+    texts = []
+    other = record.series(f"{record.releasing}.temperature")
+    if record.presses(record.releasing) and other is not None and other.max() - other[0] < 5.0:
+        taken = say(record.energy[record.releasing], "J", digits=3)
+        texts.append(f"The {record.releasing} stays cool: it takes up {taken}, no more.")
+    if record.part("washer"):
+        texts.append("Washer temperatures are quasi-steady, an upper bound during a shift.")
+    if record.part("mesh"):
+        texts.append("Of the teeth: at the start of contact, where they are hottest.")
+    return " ".join(texts)
+
+
+def _friction_sections(record: Record) -> list[Section]:
+    """Return friction against slip, and what the scene's source says beside this run."""
+    figure, title = shift_plots.friction_figure(record), f"Friction of the {record.engaging}"
+    if not record.published:
+        return _drawn("friction", title, figure, FRICTION_CAPTION)
+    return [Section(
+        "friction", f"{title}, published and computed", texts=[f"Published: {record.source}."],
+        plots=[] if figure is None else [Plot("friction", figure, FRICTION_CAPTION)],
+        tables=[shift_tables.published_table(record)],
+    )]  # fmt: skip
+
+
+def _judder_sections(record: Record) -> list[Section]:
+    """Return how the output shaft swings while a pack slips, and why."""
+    if record.judder is None:
+        return []
+    caption = "Between the dashed lines the swing was small enough to judge its growth."
+    return _drawn(
+        "judder", TITLES[record.judder.kind], shift_plots.judder_figure(record), caption,
+        texts=[judder_words(record)], tables=[shift_tables.judder_table(record)],
+    )  # fmt: skip
+
+
+def _washer_sections(record: Record) -> list[Section]:
+    """Return the washer's load and its fields at the worst and at the hottest moment."""
+    figure = shift_plots.washer_figure(record)
+    if figure is None:
+        return []
+    plots = [Plot("washer_load", figure, LOAD_CAPTION)]
+    for stem, words, extreme in (
+        ("washer_worst", "Worst moment: least film ratio while turning", worst_film(record)),
+        ("washer_hottest", "Hottest moment", highest(record, "washer.temperature_max")),
+    ):
+        moment = None if extreme is None else solve_moment(record, extreme.time)
+        if moment is not None:
+            plots.append(_moment_plot(stem, words, moment))
+    return [Section("washer", "The thrust washer", plots=plots)]
+
+
+def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:
+    """Return the fields at one moment; the caption says they were solved again."""
+    heading = f"{words.partition(':')[0]}, t = {moment.time:.4g} s"
+    caption = (
+        f"{words}. Solved again at the inputs recorded at {moment.time:.4g} s: film ratio "
+        f"{moment.result.film_ratio:.4g}, in the run it was {moment.recorded_film_ratio:.4g}."
+    )
+    figure = field_figure(moment.result, moment.point, words=heading)
+    return Plot(stem, figure, caption, square=True, bitmap=True)
+
+
+def _cost_section(record: Record) -> Section:
+    """Return what the run took."""
+    span = float(record.time[-1] - record.time[0])
+    words = (
+        f"{say(record.wall_time, 's', digits=3)} for {say(span, 's')} of shift, "
+        f"{span / record.wall_time:.2g} simulated seconds a second, without building and "
+        "loading the FMUs. FMUs through FMPy; the time of a step includes setting inputs "
+        "and reading outputs."
+    )
+    if record.steps is not None:
+        words += f" {_stepping(record)} Calls count what was rolled back."
+    return Section("cost", "Time spent", texts=[words], tables=[shift_tables.cost_table(record)])
+
+
+def _stepping(record: Record) -> str:
+    """Say which communication steps were taken."""
+    taken = record.steps
+    if taken is None:
+        return f"Communication step {say(record.step, 's')}, master {record.master}."
+    return (
+        f"Communication steps of {say(taken.shortest, 's')} to {say(taken.longest, 's')}, master "
+        f"{record.master}: {taken.accepted} taken, {taken.rejected} tries rolled back, "
+        f"{taken.located} put on events."
+    )

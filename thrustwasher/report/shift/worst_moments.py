@@ -1,0 +1,94 @@
+"""The worst values of a shift, when they were reached, and the washer solved again there."""
+
+from dataclasses import fields
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...errors import ParameterError, SolveError
+from .shift_record import Array, Record
+
+TURNING = 1.0  # [rad/s] a washer slower than this needs no film
+FILM_SPEED = 10.0  # [rad/s] below, film vanishes with speed and its least value says nothing
+LEAST_LOAD = 1.0  # [N] the washer in a run takes a smaller load as this
+WITH_FIELDS = ("coarse", "field", "fine")  # rungs that leave maps over the washer
+
+
+class Extreme(NamedTuple):
+    """A value in SI units and the time [s] it was reached."""
+
+    value: float
+    time: float
+
+
+def highest(record: Record, name: str) -> Extreme | None:
+    """Return the largest value of a signal; None if the run has no such signal."""
+    values = record.series(name)
+    return None if values is None else _extreme(record, values, int(np.nanargmax(values)))
+
+
+def worst_film(record: Record) -> Extreme | None:
+    """Return the washer's least film ratio recorded above FILM_SPEED; None without such a time."""
+    values, speed = record.series("washer.film_ratio"), record.series("washer.speed")
+    if values is None or speed is None:
+        return None
+    turning = np.abs(speed) >= FILM_SPEED
+    if not np.any(turning):
+        return None
+    return _extreme(record, values, int(np.argmin(np.where(turning, values, np.inf))))
+
+
+def distressed(record: Record) -> Array:
+    """Return where the washer turns and has lost its film."""
+    lost, speed = record.series("washer.distress"), record.series("transmission.washer_speed")
+    if lost is None or speed is None:
+        return np.zeros(len(record.time), dtype=bool)
+    return np.asarray((lost > 0.5) & (np.abs(speed) > TURNING))
+
+
+def _extreme(record: Record, values: Array, index: int) -> Extreme:
+    """Return one value with its time."""
+    return Extreme(float(values[index]), float(record.time[index]))
+
+
+class Moment(NamedTuple):
+    """One moment [s], the inputs recorded there, and the washer solved again."""
+
+    time: float
+    point: dict[str, float]
+    result: Any
+    recorded_film_ratio: float
+
+
+def solve_moment(record: Record, time: float) -> Moment | None:
+    """Return the washer at ``time``; None if the scene has none or no solution is found.
+
+    Of the branches that exist there the one nearest to the recorded film ratio is taken.
+    """
+    part = record.part("washer")
+    recorded = record.at("washer.film_ratio", time)
+    if part is None or recorded is None:
+        return None
+    from ...washer.parameters import SPEC, WasherParams
+    from ...washer.solve import solve_washer
+
+    known = {f.name for f in fields(WasherParams)}
+    params = WasherParams(**{k: v for k, v in part.parameters.items() if k in known})
+    fidelity = str(part.parameters.get("fidelity", SPEC.default_fidelity))
+    if fidelity not in WITH_FIELDS:
+        fidelity = SPEC.default_fidelity
+    point: dict[str, Any] = {
+        name: record.at(f"washer.{name}", time) or 0.0
+        for name in ("load", "speed", "tilt", "oil_temperature")
+    }
+    point["load"] = max(point["load"], LEAST_LOAD)
+    found = []
+    for branch in (None, "film", "contact"):
+        try:
+            found.append(solve_washer(params, **point, fidelity=fidelity, branch=branch))
+        except (ParameterError, SolveError):
+            continue
+    if not found:
+        return None
+    nearest = min(found, key=lambda r: abs(r.film_ratio - recorded))
+    return Moment(time, point, nearest, recorded)

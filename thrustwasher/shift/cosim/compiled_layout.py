@@ -1,0 +1,172 @@
+"""Lays a run out for the compiled loop: operations, addresses, buffers."""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+import time
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ParameterError, SolveError
+from ...numerics.jit import way
+from ..scene.connections import COMMAND
+from .instances import CCall, capable, has_c_addresses
+from .loop import Run
+from .schedule import Correct, Pull
+from .system import ConnectedPart, renamed
+
+
+def can_compile(run: Run) -> bool:
+    """Tell if every part gives its addresses, every action is a call, and kernels are compiled."""
+    if way() == "python" or sys.maxsize < 2**32:
+        return False
+    if any(isinstance(action, Correct) for action in run.schedule):
+        return False
+    return all(has_c_addresses(p.instance) for p in run.system.parts.values())
+
+
+class Layout:
+    """The operations of one communication step, and the buffers they use."""
+
+    def __init__(self, run: Run) -> None:
+        from . import compiled_loop as c
+
+        self._kinds = {"real": c.REAL, "int32": c.INT32, "int64": c.INT64, "byte": c.BYTE}
+        self.run, self.codes = run, c
+        self.parts = list(run.system.parts.values())
+        self.addresses = [capable(p.instance).machine() for p in self.parts]
+        room = sum(len(p.input_names) + len(p.output_names) for p in self.parts)
+        types = (np.float64, np.int32, np.int64, np.uint8)
+        self.buffers: list[NDArray[Any]] = [np.zeros(room, t) for t in types]
+        self._used = [0] * len(self.buffers)
+        self._places: list[int] = []
+        self._operations: list[list[int]] = []
+        for action in run.schedule:
+            number = self.parts.index(action.part)
+            if isinstance(action, Pull):
+                self._pull(number)
+            else:
+                self._step(number)
+        self.operations = np.array(self._operations, np.int64)
+        self.places = np.array(self._places, np.int64)
+        self.third = np.array([a.third for a in self.addresses], np.int64)
+        self.said = np.array([a.said for a in self.addresses], np.int64)
+
+    def stage(self, operation: int) -> tuple[ConnectedPart, str]:
+        """Return the part of a call and what it does."""
+        c, op = self.codes, self._operations[operation]
+        return self.parts[op[c.PART]], {c.SET: "set", c.STEP: "step", c.GET: "get"}[op[c.KIND]]
+
+    def _add(self, kind: int, part: int, **columns: int) -> None:
+        c = self.codes
+        row = [0] * c.WIDTH
+        row[c.KIND], row[c.PART] = kind, part
+        for name, value in columns.items():
+            row[getattr(c, name.upper())] = value
+        self._operations.append(row)
+
+    def _pull(self, number: int) -> None:
+        part, recorder = self.parts[number], self.run.recorder
+        first = len(self._places)
+        for slot, source, output in part.sources:
+            self._places += [
+                recorder.input_place(part, slot), recorder.output_place(source, output)
+            ]  # fmt: skip
+        self._add(self.codes.PULL, number, count=len(part.sources), first=first)
+
+    def _step(self, number: int) -> None:
+        c, part, addresses = self.codes, self.parts[number], self.addresses[number]
+        recorder = self.run.recorder
+        self._add(c.BEGIN, number)
+        for group in addresses.setters:
+            self._call(c.SET, number, group, recorder.input_place(part, 0))
+        self._add(c.STEP, number, function=addresses.step, component=addresses.component)
+        for group in addresses.getters:
+            self._call(c.GET, number, group, recorder.output_place(part, 0))
+        self._add(c.END, number)
+
+    def _call(self, kind: int, number: int, group: CCall, first: int) -> None:
+        values = self._kinds[group.kind]
+        buffer, offset, count = self.buffers[values], self._used[values], len(group.places)
+        self._used[values] += count
+        self._add(
+            kind, number, function=group.function, component=self.addresses[number].component,
+            references=group.references, count=count, offset=offset, type=values,
+            buffer=buffer.ctypes.data + offset * buffer.itemsize, first=len(self._places),
+        )  # fmt: skip
+        self._places += [first + place for place in group.places]
+
+
+class CompiledLoop:
+    """Steps the parts in compiled code; comes back to Python when one has something to say."""
+
+    def __init__(self, run: Run) -> None:
+        self.run, self.layout = run, Layout(run)
+        c, n = self.layout.codes, len(self.layout.parts)
+        self._report = np.zeros(3, np.int64)
+        self._begun, self._spent = np.zeros(n), np.zeros(n)
+        self._calls = np.zeros(n, np.int64)
+        self._told, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
+        self._clock, tick = wall_clock(self._ticks)
+        self._now = np.zeros(run.recorder.rows.shape[1])
+        command = run.recorder.input_place(
+            run.system.transmission, run.system.transmission.input_names.index(COMMAND)
+        )
+        a = self.layout
+        self._arguments = (
+            a.operations, a.places, a.third, a.said, self._now, *a.buffers, self._told.ctypes.data,
+            self._clock, tick, self._ticks, self._begun, self._spent, self._calls, run.time, run.h,
+            run.commands, command, run.recorder.rows,
+        )  # fmt: skip
+        self._function = c.run_operations
+        self._function(*self._arguments, 0, self._report)  # compiled or loaded before time counts
+
+    def advance(self, i: int, stop: int) -> None:
+        """Step from point ``i`` to point ``stop``."""
+        c, report = self.layout.codes, self._report
+        self._now[:] = self.run.recorder.rows[i]
+        report[:] = i, 0, 0
+        try:
+            while self._function(*self._arguments, stop, report) == c.REPORTED:
+                self._judge()
+        finally:
+            self._count()
+        self.run.recorder.give_back(self._now)
+
+    def _judge(self) -> None:
+        """Raise if the last call failed, as stepping in Python would."""
+        c, report = self.layout.codes, self._report
+        part, stage = self.layout.stage(int(report[c.AT_OPERATION]) - 1)
+        try:
+            capable(part.instance).judge(stage, int(report[c.LAST_STATUS]))
+        except (ParameterError, SolveError) as problem:
+            time = float(self.run.time[report[c.AT_POINT]])
+            raise renamed(problem, part.name, time) from problem
+
+    def _count(self) -> None:
+        """Add calls and time to the instances' own counts."""
+        for part, calls, spent in zip(self.layout.parts, self._calls, self._spent, strict=True):
+            part.instance.calls += int(calls)
+            part.instance.wall_time += float(spent)
+        self._calls[:], self._spent[:] = 0, 0.0
+
+
+def wall_clock(ticks: NDArray[np.int64]) -> tuple[NDArray[np.int64], float]:
+    """Return the operating system's clock: (function, its number or -1, place), seconds a tick."""
+    place = ticks.ctypes.data
+    if sys.platform == "win32":
+        library = ctypes.WinDLL("kernel32")
+        rate = ctypes.c_int64(0)
+        library.QueryPerformanceFrequency(ctypes.byref(rate))
+        function, number = library.QueryPerformanceCounter, -1
+    else:
+        try:
+            function, number = ctypes.CDLL(None).clock_gettime, time.CLOCK_MONOTONIC
+        except AttributeError:  # costs are then not known, everything else is
+            return np.zeros(3, np.int64), 0.0
+        rate = ctypes.c_int64(1)
+    address = ctypes.cast(function, ctypes.c_void_p).value or 0
+    return np.array([address, number, place], np.int64), 1.0 / rate.value

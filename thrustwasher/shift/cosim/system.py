@@ -1,0 +1,134 @@
+"""Connected instances: a part's inputs, its last outputs and where its inputs come from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+
+from ...errors import ParameterError, SolveError
+from ...model.spec import ModelSpec
+from ..scene.connections import COMMAND, Link
+from .instances import Capable, Stepping, capable, saves_state
+
+INITIAL_SWEEPS = 4
+
+
+class ConnectedPart:
+    """One instance, its present inputs and outputs, and the sources of its inputs."""
+
+    def __init__(self, name: str, spec: ModelSpec, instance: Stepping) -> None:
+        self.name, self.spec, self.instance = name, spec, instance
+        self.input_names = [s.name for s in spec.inputs]
+        self.output_names = [s.name for s in spec.outputs]
+        for found, wanted, kind in (
+            (instance.input_names, self.input_names, "inputs"),
+            (instance.output_names, self.output_names, "outputs"),
+        ):
+            if list(found) != wanted:
+                raise ParameterError(
+                    f"{name}: the instance has the {kind} {', '.join(found)}, "
+                    f"{spec.name} of this version has {', '.join(wanted)}; build it again"
+                )
+        self.inputs = [float(s.start or 0.0) for s in spec.inputs]
+        self.outputs = [0.0] * len(self.output_names)
+        self.sources: list[tuple[int, ConnectedPart, int]] = []
+
+    def connect(self, link: Link, source: ConnectedPart) -> None:
+        """Take an input from an output of another part."""
+        self.sources.append(
+            (self.input_names.index(link.input), source, source.output_names.index(link.output))
+        )
+
+    def pull(self) -> None:
+        """Take the inputs over from the last outputs of the other parts."""
+        inputs = self.inputs
+        for slot, source, output in self.sources:
+            inputs[slot] = source.outputs[output]
+
+    def initialize(self, time: float) -> None:
+        """Start the instance with the present inputs."""
+        with _named(self.name, time):
+            self.instance.initialize(time, dict(zip(self.input_names, self.inputs, strict=True)))
+            self.outputs = self.instance.outputs()
+
+    def refresh(self, time: float) -> None:
+        """Set the present inputs without a step and read the outputs."""
+        with _named(self.name, time):
+            self.instance.set_inputs(self.inputs)
+            self.outputs = self.instance.outputs()
+
+    def step(self, t: float, h: float) -> None:
+        """Advance with the present inputs and read the outputs."""
+        try:
+            self.instance.set_inputs(self.inputs)
+            self.instance.step(t, h)
+            self.outputs = self.instance.outputs()
+        except (ParameterError, SolveError) as problem:
+            raise renamed(problem, self.name, t) from problem
+
+
+def renamed(problem: Exception, part: str, time: float) -> SolveError:
+    """Return the same problem with part and time in front."""
+    return SolveError(f"{part} at t = {time:g} s: {problem}")
+
+
+def with_state(part: ConnectedPart, master: str) -> Capable:
+    """Return a part's instance as one that saves its state; ParameterError if it cannot."""
+    if not saves_state(part.instance):
+        raise ParameterError(
+            f"master = {master!r}: {part.name} cannot save its state, allowed: with parts that can "
+            "(canGetAndSetFMUstate); 'gauss-seidel' and 'jacobi' need no state"
+        )
+    return capable(part.instance)
+
+
+@contextmanager
+def _named(part: str, time: float) -> Iterator[None]:
+    """Name part and time if something fails inside."""
+    try:
+        yield
+    except (ParameterError, SolveError) as problem:
+        raise renamed(problem, part, time) from problem
+
+
+class System:
+    """All parts of a shift, connected; the shift command comes from outside.
+
+    Parameters
+    ----------
+    parts : by name
+    links : who passes what to whom
+    hub : the part that moves, ``transmission`` here; all others answer its speeds with torques
+    carries_on : inputs that the hub itself carries on over a step as they changed in the last one
+    """
+
+    def __init__(
+        self, parts: Mapping[str, ConnectedPart], links: Sequence[Link], *,
+        hub: str = "transmission", carries_on: Sequence[str] = (),
+    ) -> None:  # fmt: skip
+        self.parts = dict(parts)
+        self.transmission = self.parts[hub]
+        self.friction_parts = [p for n, p in self.parts.items() if n != hub]
+        self.carries_on = frozenset(carries_on)
+        names = self.transmission.input_names
+        self._command = names.index(COMMAND) if COMMAND in names else None
+        for link in links:
+            self.parts[link.target].connect(link, self.parts[link.source])
+
+    def set_command(self, value: float) -> None:
+        """Set the shift command for the end of the coming step."""
+        if self._command is not None:
+            self.transmission.inputs[self._command] = value
+
+    def initialize(self, time: float) -> None:
+        """Start all parts and pass signals round until loads and torques belong together."""
+        self.transmission.initialize(time)
+        for part in self.friction_parts:
+            part.pull()
+            part.initialize(time)
+        for _ in range(INITIAL_SWEEPS):
+            self.transmission.pull()
+            self.transmission.refresh(time)
+            for part in self.friction_parts:
+                part.pull()
+                part.refresh(time)

@@ -1,0 +1,122 @@
+"""Events and phases of a shift, read from its signals."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...clutch.kernels.layout import HOT_LIMIT
+from ..oscillation.judder import FEW
+from ..scene.connections import PACKS
+from ..scene.scene import Scene
+
+Array = NDArray[np.float64]
+Signals = dict[str, Array]
+STANDSTILL = 1.0  # rad/s
+# What a change of a Boolean signal means: (signal, kind and text when it rises, when it falls,
+# signals with the located time; None: located here, or known to the communication step only).
+CHANGES = (
+    ("transmission.clutch_locked", ("clutch_locked", "clutch locks"),
+     ("clutch_released", "clutch breaks away"), "transmission.lock_time", None),
+    ("transmission.brake_locked", ("brake_locked", "brake holds the ring"),
+     ("brake_released", "brake lets go of the ring"), None, "transmission.release_time"),
+    ("washer.distress", ("film_lost", "washer loses its film"),
+     ("film_regained", "washer regains its film"), None, None),
+)  # fmt: skip
+GEARS = {"brake": "first gear", "clutch": "second gear"}  # what holds when a pack is locked
+SLIPPING = {"brake": "braking", "clutch": "engaging"}  # a pack that takes over from no other
+
+
+class Event(NamedTuple):
+    """Something that happened at one time [s]."""
+
+    time: float
+    kind: str
+    text: str
+
+
+class Phase(NamedTuple):
+    """A stretch of the shift [s]."""
+
+    name: str
+    start: float
+    end: float
+
+
+def turning(signals: Signals) -> NDArray[np.bool_]:
+    """Return where the planets turn; washers and teeth that stand still have no film to lose."""
+    return np.asarray(np.abs(signals["transmission.washer_speed"]) > STANDSTILL)
+
+
+def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
+    """Return all events in the order of time."""
+    found = [Event(scene.shift_start, "ramp_start", "shift ramp starts")]
+    if scene.shift_duration > 0.0:
+        end = scene.shift_start + scene.shift_duration
+        found.append(Event(end, "ramp_end", "shift ramp ends"))
+    found = [e for e in found if scene.start_time <= e.time <= scene.stop_time]
+    for name, up, down, up_time, down_time in CHANGES:
+        if name not in signals:
+            continue
+        on = signals[name] > 0.5
+        if name == "washer.distress":
+            on &= turning(signals)
+        if on[0] and name == "washer.distress":
+            found.append(Event(float(time[0]), "film_lost", "washer has no film at the start"))
+        for i in np.flatnonzero(on[1:] != on[:-1]) + 1:
+            (kind, text), located = (up, up_time) if on[i] else (down, down_time)
+            when = float(signals[located][i] if located else time[i])
+            if kind == "brake_locked":
+                when = _standstill(time, signals, int(i))
+            found.append(Event(when, kind, text))
+    for pack in PACKS:
+        hot = np.flatnonzero(signals[f"{pack}.temperature"] > HOT_LIMIT)
+        if len(hot):
+            when = float(time[hot[0]])
+            found.append(Event(when, f"{pack}_hot", f"{pack} is hotter than {HOT_LIMIT:g} K"))
+    return sorted(found, key=lambda e: e.time)
+
+
+def _standstill(time: Array, signals: Signals, i: int) -> float:
+    """Return when the ring came to rest in the step that ends at point ``i``.
+
+    The transmission locates it but does not hand it out. The brake's heat of that step does: slip
+    falls to zero in proportion to time, so heat = torque x slip at the step's start x time / 2.
+    """
+    slip, torque, heat = (
+        signals[f"transmission.brake_{name}"] for name in ("speed", "reaction", "heat")
+    )
+    begin, end = float(time[i - 1]), float(time[i])
+    power = abs(float(slip[i - 1] * torque[i - 1]))
+    if power == 0.0:
+        return end
+    return min(end, begin + 2.0 * float(heat[i] - heat[i - 1]) / power)
+
+
+def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phase]:
+    """Return gear, torque phase, inertia phase and locked, as far as the run got.
+
+    A pack that takes over from no other has no torque phase: it slips from the ramp on.
+    """
+    stop = scene.stop_time
+    start = min(max(scene.shift_start, scene.start_time), stop)
+    pack, other = scene.engaging, scene.releasing
+
+    def first(kind: str) -> float:
+        return next((e.time for e in found if e.kind == kind and e.time >= start), stop)
+
+    lock = first(f"{pack}_locked")
+    release = min(first(f"{other}_released"), lock)
+    if signals[f"transmission.{other}_locked"][0] > 0.5:
+        marks = [
+            (GEARS[other], scene.start_time, start),
+            ("torque phase", start, release),
+            ("inertia phase", release, lock),
+        ]
+    else:
+        marks = [("free", scene.start_time, start), (SLIPPING[pack], start, lock)]
+    locks = [e for e in found if e.kind == f"{pack}_locked" and e.time >= start]
+    marks.append(("locked" if len(locks) < FEW else "stick-slip", lock, stop))
+    return [Phase(name, a, b) for name, a, b in marks if b > a]

@@ -1,0 +1,280 @@
+"""Run a shift: connect the instances of a scene, step them to the end, and read the result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError, Status
+from ..model.parameters import as_numbers
+from .cosim.instances import Stepping, capable, tells_values
+from .cosim.loop import Loop, PythonLoop, Recorder, Run, Steps
+from .cosim.schedule import Correct
+from .cosim.system import ConnectedPart, System
+from .key_figures.energy_balance import energy_balance
+from .key_figures.events_and_phases import find_events, find_phases
+from .key_figures.key_figures import key_figures
+from .masters.master import MASTERS
+from .masters.step_doubling import Doubling
+from .oscillation.chatter import find_chatter
+from .oscillation.judder import find_judder
+from .scene.connections import PACK_INPUTS, links
+from .scene.scene import Part, Scene
+from .shift_result import Cost, ShiftResult
+from .thermal_need import thermal_need
+
+Progress = Callable[[int, int], None]
+STRETCH = 0.02  # s between two looks at the progress, at least
+
+
+def run_shift(
+    scene: Scene,
+    instances: Mapping[str, Stepping],
+    *,
+    step: float | None = None,
+    master: str | None = None,
+    progress: Progress | None = None,
+    compiled: bool | None = None,
+) -> ShiftResult:
+    """Simulate a shift with living instances and return everything about it.
+
+    Parameters
+    ----------
+    scene : what to simulate; ``scene.with_options`` first if step or master are to differ, since
+        the transmission's parameters depend on the master
+    instances : one per part of the scene, made with ``scene.parts[name].parameters()`` and not
+        initialized since they were made or reset; they are neither closed nor reset here
+    step, master : other values than the scene's
+    progress : called as ``progress(done, total)`` a hundred times at most, and at the end
+    compiled : step the instances in one compiled function; default: if all of them are FMUs. The
+        numbers are the same to the bit
+
+    Raises
+    ------
+    ParameterError, SolveError : the message names part and time; among them instances that were
+        made with other parameters than the scene's, or stepped before
+    """
+    made_for, scene = scene, scene.with_options(step=step, master=master)
+    messages = _remarks(made_for, scene)
+    system = connected(scene, instances)
+    adaptive = MASTERS[scene.master].adaptive
+    if adaptive and compiled:
+        raise ParameterError(
+            f"compiled = True with master = {scene.master!r}, allowed: with masters of fixed steps"
+        )
+    run = None if adaptive else _laid_out(scene, system, messages)
+    system.initialize(scene.start_time)
+    check_instances(made_for, instances)
+    before = {n: (part.instance.calls, part.instance.wall_time) for n, part in system.parts.items()}
+    if run is None:
+        begin = perf_counter()
+        run, steps = run_adaptive(scene, system, progress)
+    else:
+        run.recorder.keep(0)
+        loop, n = loop_for(run, compiled), len(run.time) - 1
+        steps = Steps(n, 0, run.h, run.h, 0, 0)
+        begin = perf_counter()
+        _drive(loop.advance, n, progress)
+    wall = perf_counter() - begin
+    return _result(scene, run, steps, wall, _costs(scene, system, before, wall), messages)
+
+
+def run_adaptive(scene: Scene, system: System, progress: Progress | None) -> tuple[Run, Steps]:
+    """Step an initialized system to the end with a master that chooses its steps itself."""
+    begin, end = scene.start_time, scene.stop_time
+    corners = (scene.shift_start, scene.shift_start + scene.shift_duration)
+    stops = [*(t for t in corners if begin < t < end), end]
+    master = Doubling(system, scene.master_tolerance, scene.command, stops, scene.step)
+    master.begin(begin)
+    time, said = begin, 0
+    while time < end:
+        time = master.advance()
+        percent = int(100.0 * (time - begin) / (end - begin))
+        if progress is not None and percent > said:
+            said = percent
+            progress(percent, 100)
+    steps, recorder = master.steps(), master.recorder
+    recorder.rows = recorder.rows[: len(master.time)]
+    commands = np.array([scene.command(t) for t in master.time])
+    return Run(system, [], np.array(master.time), steps.longest, commands, recorder), steps
+
+
+def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
+    """Return times, commands, schedule and rows of a run; say it if the step had to be adapted."""
+    span = scene.stop_time - scene.start_time
+    n = max(1, round(span / scene.step))
+    h = span / n
+    if abs(h / scene.step - 1.0) > 1e-9:
+        messages.append(f"the step is {h:.9g} s so that {n} steps end at the stop time")
+    time = scene.start_time + h * np.arange(n + 1, dtype=np.float64)
+    commands = np.array([scene.command(t) for t in time.tolist()])
+    schedule = MASTERS[scene.master].schedule(system)
+    return Run(system, schedule, time, h, commands, Recorder(system, n + 1))
+
+
+def _costs(
+    scene: Scene, system: System, before: Mapping[str, tuple[int, float]], wall: float
+) -> list[Cost]:
+    """Return what every part's steps cost, by its own counts since those ``before``."""
+    found = []
+    for name, part in system.parts.items():
+        instance, (calls, seconds) = part.instance, before[name]
+        spent = instance.wall_time - seconds
+        found.append(Cost(
+            part=name, model=part.spec.name, fidelity=scene.parts[name].fidelity,
+            steps=instance.calls - calls, wall_time=spent, share=spent / wall,
+            instantiate=instance.instantiate_time, initialize=instance.initialize_time,
+        ))  # fmt: skip
+    return found
+
+
+def _result(
+    scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str]
+) -> ShiftResult:
+    """Read everything from the rows of a finished run."""
+    time, signals = run.time, run.recorder.signals()
+    events = find_events(scene, time, signals)
+    judder = find_judder(scene, time, signals)
+    need = thermal_need(scene, time, signals)
+    return ShiftResult(
+        scene=scene,
+        step=run.h,
+        steps=steps,
+        master=scene.master,
+        time=time,
+        signals=signals,
+        events=events,
+        phases=find_phases(scene, signals, events),
+        energy=energy_balance(signals),
+        key_figures=key_figures(scene, time, signals, events, judder),
+        cost=cost,
+        wall_time=wall,
+        overhead=wall - sum(c.wall_time for c in cost),
+        real_time_factor=(scene.stop_time - scene.start_time) / wall,
+        messages=[
+            *messages,
+            *_said(run),
+            *steps.words(),
+            *_advice(time, signals),
+            *([] if need is None else [need]),
+        ],
+        judder=judder,
+        chatter=find_chatter(scene, time, signals, run.h),
+    )
+
+
+def _said(run: Run) -> list[str]:
+    """Return what the master itself has to say."""
+    corrections = [action for action in run.schedule if isinstance(action, Correct)]
+    return [line for action in corrections for line in action.change.words()]
+
+
+def _drive(advance: Callable[[int, int], None], n: int, progress: Progress | None) -> None:
+    """Carry the run to its end in stretches that a person at a terminal does not notice."""
+    done, stretch = 0, max(1, n // 100)
+    while done < n:
+        begin, stop = perf_counter(), min(done + stretch, n)
+        advance(done, stop)
+        done = stop
+        if progress is not None:
+            progress(done, n)
+        if perf_counter() - begin < STRETCH:
+            stretch *= 2
+
+
+def loop_for(run: Run, compiled: bool | None) -> Loop:
+    """Return the compiled loop where it can run, else the one in Python."""
+    if compiled is False:
+        return PythonLoop(run)
+    from .cosim.compiled_layout import CompiledLoop, can_compile
+
+    if can_compile(run):
+        return CompiledLoop(run)
+    if compiled:
+        raise ParameterError(
+            "compiled = True, allowed: with FMUs for all parts and master 'gauss-seidel' or "
+            "'jacobi', on a 64-bit machine where numba compiles"
+        )
+    return PythonLoop(run)
+
+
+def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
+    """Return the parts of a scene wired up, with the command of the start; not yet initialized."""
+    missing = [name for name in scene.parts if name not in instances]
+    if missing:
+        raise ParameterError(f"instances: {', '.join(missing)} missing, the scene has them")
+    parts = {n: ConnectedPart(n, p.spec, instances[n]) for n, p in scene.parts.items()}
+    gearbox = scene.parts["transmission"].params
+    carries_on = gearbox.coupling == "capacity" and gearbox.capacity_extrapolation
+    system = System(
+        parts, links(gearbox.coupling, set(parts)), carries_on=PACK_INPUTS if carries_on else ()
+    )
+    system.set_command(scene.command(scene.start_time))
+    return system
+
+
+def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
+    """Compare the parameters of initialized instances with those of the scene's parts.
+
+    Inputs and outputs of a model are the same in every scene: an instance of another one would run
+    without a complaint and answer another question. Instances without a ``get`` (stand-ins for a
+    model) are taken as they are.
+
+    Raises
+    ------
+    ParameterError : names the part, the parameter, both values and how to make the instance
+    """
+    for name, part in scene.parts.items():
+        instance = instances[name]
+        if not tells_values(instance):
+            continue
+        wanted = _numbers(part)
+        found = capable(instance).get(list(wanted))
+        for key, has in zip(wanted, found, strict=True):
+            if has != wanted[key]:
+                raise ParameterError(
+                    f"{name}: the instance was made with {key} = {has:.9g}, scene "
+                    f"{scene.name!r} has {wanted[key]:.9g}; make it with "
+                    f"scene.parts[{name!r}].parameters()"
+                )
+
+
+def _numbers(part: Part) -> dict[str, float]:
+    """Return all parameters of a part as an instance holds them: enumerations count from 1."""
+    names = [n for n in part.parameters() if n != "fidelity"]
+    rung = list(part.spec.fidelities).index(part.fidelity) + 1.0
+    return {**dict(zip(names, as_numbers(part.params), strict=True)), "fidelity": rung}
+
+
+def _remarks(made_for: Scene, scene: Scene) -> list[str]:
+    """Return what a reader has to know before looking at any number."""
+    remarks = []
+    gearbox = scene.parts["transmission"].params
+    if made_for.parts["transmission"].params.torque_age != gearbox.torque_age:
+        remarks.append(
+            f"the instances were made for master {made_for.master!r} and ran with "
+            f"{scene.master!r}: capacities are extrapolated over the wrong time; "
+            "make them from scene.with_options(master=...)"
+        )
+    if "mesh" not in scene.parts and gearbox.planet_teeth:
+        remarks.append("there is no gear mesh model in this scene: the meshes run without loss")
+    if "washer" not in scene.parts and gearbox.washers:
+        remarks.append("there is no washer model in this scene: the washers run without drag")
+    return remarks
+
+
+def _advice(time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]) -> list[str]:
+    """Return the advice behind every solver status that occurred, with its first time."""
+    advice = []
+    for name, values in signals.items():
+        if not name.endswith(".solver_status"):
+            continue
+        for code in np.unique(values[values > 0.0]):
+            i = int(np.argmax(values == code))
+            status = Status(int(code))
+            part = name.partition(".")[0]
+            advice.append(f"{part} from t = {time[i]:.4g} s: {status.advice} ({status.name})")
+    return advice

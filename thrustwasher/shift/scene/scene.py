@@ -1,0 +1,154 @@
+"""What is simulated: the parts of a shift with their parameters, times, oil and master."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from ...errors import ParameterError
+from ...model.rules import check_together
+from ...model.spec import ModelSpec
+from ..masters.master import MASTERS
+
+MAX_STEPS = 500_000  # all signals of so many steps still fit into memory
+STEP_RANGE = (1e-6, 1.0)  # s
+TOLERANCE_RANGE = (1e-9, 0.1)  # of master_tolerance
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """One part of a scene: its model, fidelity and parameters."""
+
+    spec: ModelSpec
+    fidelity: str
+    params: Any
+    tolerance: float | None = None
+    """Asked for with fidelity "auto": the rung is still to be chosen; None: it is as it stands."""
+
+    def parameters(self) -> dict[str, Any]:
+        """Return all parameters by name, the fidelity among them, as an FMU takes them."""
+        values = {f.name: getattr(self.params, f.name) for f in fields(self.params)}
+        return {**values, "fidelity": self.fidelity}
+
+    def at(self, rung: str) -> Part:
+        """Return the part with a rung that stands."""
+        return replace(self, fidelity=rung, tolerance=None)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Published:
+    """What a source says about a run of this scene: key figures in SI units, by name."""
+
+    source: str
+    figures: dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """A shift to be simulated; times in s, temperature in K.
+
+    The shift command goes from ``shift_from`` to ``shift_to``: 0 presses the brake, 1 the clutch.
+    """
+
+    name: str
+    title: str
+    description: str
+    start_time: float
+    stop_time: float
+    step: float
+    master: str
+    master_tolerance: float = 1e-4
+    """Relative error of one step that a master with error control allows."""
+    oil_temperature: float
+    shift_start: float
+    shift_duration: float
+    shift_from: float = 0.0
+    shift_to: float = 1.0
+    parts: dict[str, Part]
+    published: Published | None = None
+
+    def command(self, time: float) -> float:
+        """Return the shift command: a ramp between two values."""
+        if time <= self.shift_start:
+            return self.shift_from
+        if time >= self.shift_start + self.shift_duration:
+            return self.shift_to
+        done = (time - self.shift_start) / self.shift_duration
+        return self.shift_from + (self.shift_to - self.shift_from) * done
+
+    @property
+    def engaging(self) -> str:
+        """The pack that the ramp presses."""
+        return "clutch" if self.shift_to >= self.shift_from else "brake"
+
+    @property
+    def releasing(self) -> str:
+        """The pack that the ramp lets go."""
+        return "brake" if self.engaging == "clutch" else "clutch"
+
+    @property
+    def alone(self) -> bool:
+        """True if the engaging pack is all that acts: no engine, no load, no other pack."""
+        gearbox = self.parts["transmission"].params
+        other = getattr(gearbox, f"{self.releasing}_force")
+        return not (gearbox.engine_torque or gearbox.load_torque or other)
+
+    def with_options(
+        self,
+        *,
+        step: float | None = None,
+        master: str | None = None,
+        stop_time: float | None = None,
+        master_tolerance: float | None = None,
+    ) -> Scene:
+        """Return the scene with another step, master or end; what hangs on them is adapted."""
+        tolerance = self.master_tolerance if master_tolerance is None else master_tolerance
+        scene = replace(
+            self,
+            step=self.step if step is None else step,
+            master=self.master if master is None else master,
+            stop_time=self.stop_time if stop_time is None else stop_time,
+            master_tolerance=tolerance,
+        )
+        return scene.checked()
+
+    def checked(self) -> Scene:
+        """Check what concerns several values; hand oil and master on to the parts."""
+        where = f"scene {self.name!r}"
+        if self.master not in MASTERS:
+            options = " or ".join(repr(n) for n in MASTERS)
+            raise ParameterError(f"{where}: master = {self.master!r}, allowed: {options}")
+        if not STEP_RANGE[0] <= self.step <= STEP_RANGE[1]:
+            low, high = STEP_RANGE
+            raise ParameterError(f"{where}: step = {self.step!r} s, allowed: {low:g} .. {high:g} s")
+        low, high = TOLERANCE_RANGE
+        if not low <= self.master_tolerance <= high:
+            raise ParameterError(
+                f"{where}: master_tolerance = {self.master_tolerance!r}, allowed: {low:g} .. "
+                f"{high:g}"
+            )
+        span = self.stop_time - self.start_time
+        if not self.step <= span <= MAX_STEPS * self.step:
+            raise ParameterError(
+                f"{where}: stop_time = {self.stop_time!r} s, allowed: start_time + 1 .. "
+                f"{MAX_STEPS} steps of {self.step!r} s (start_time = {self.start_time!r} s)"
+            )
+        for name, part in self.parts.items():
+            try:
+                check_together(part.spec, part.params, part.fidelity)
+            except ParameterError as problem:
+                raise ParameterError(f"{where} [{name}]: {problem}") from None
+        gearbox = self.parts["transmission"]
+        params = replace(
+            gearbox.params,
+            oil_temperature=self.oil_temperature,
+            torque_age=MASTERS[self.master].torque_age,
+        )
+        parts = {**self.parts, "transmission": replace(gearbox, params=params)}
+        # The transmission looks ahead by itself: packs that say where they are now couple to it
+        # with second order.
+        for name, part in parts.items():
+            if any(f.name == "input_course" for f in fields(part.params)):
+                linear = replace(part.params, input_course="linear")
+                parts[name] = replace(part, params=linear)
+        return replace(self, parts=parts)

@@ -1,0 +1,130 @@
+"""The system of a shift as an SSP master runs it: components, connections, what each part gets.
+
+The package's master is taken to be the simplest there is: all parts step at once with the values of
+the last point, held. Nothing happens between the parts but handing values over; what this package
+does beyond that (looking ahead over the delay) is inside the transmission and switched on by its
+parameters.
+
+Every part has an FMU of its own, whose defaults are the scene's: masters differ much in what they
+do with the values in a package, and some do nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from ...command import parameters as command_params
+from ...model.spec import ModelSpec, Signal
+from ...model.tailored import tailored
+from ..cosim.instances import Stepping
+from ..run import connected
+from ..scene.connections import COMMAND, SHOWN, SOURCE, Link, links
+from ..scene.scene import Part, Scene
+
+MASTER = "jacobi"
+OIL = "oil_temperature"
+Starts = Mapping[str, Mapping[str, float]]
+
+
+class Component(NamedTuple):
+    """One FMU of the system: its model, parameters, start values and connected inputs."""
+
+    name: str
+    spec: ModelSpec
+    parameters: dict[str, Any]
+    starts: dict[str, float]
+    inputs: tuple[Signal, ...]
+
+    @property
+    def source(self) -> str:
+        """Where its FMU lies in the package."""
+        return f"resources/{self.name}.fmu"
+
+
+class Border(NamedTuple):
+    """An output of the system and where it comes from."""
+
+    name: str
+    part: str
+    signal: Signal
+
+
+class Structure(NamedTuple):
+    """All that the description of the system says."""
+
+    scene: Scene
+    components: list[Component]
+    links: list[Link]
+    border: list[Border]
+
+
+def prepared(scene: Scene) -> Scene:
+    """Return the scene as the package runs it: parallel, with the transmission told so."""
+    return scene.with_options(master=MASTER)
+
+
+def start_values(scene: Scene, instances: Mapping[str, Stepping]) -> Starts:
+    """Return the inputs of every part of a prepared scene at the start, as they belong together.
+
+    The instances are those of ``run_shift``; they are initialized here.
+    """
+    system = connected(scene, instances)
+    system.initialize(scene.start_time)
+    return {n: dict(zip(p.input_names, p.inputs, strict=True)) for n, p in system.parts.items()}
+
+
+def plan(scene: Scene, starts: Starts) -> Structure:
+    """Return components, connections and outputs of a prepared scene."""
+    parts = {SOURCE: _source(scene), **scene.parts}
+    coupling = scene.parts["transmission"].params.coupling
+    # The oil's temperature is a number, not a signal: masters that start every connected input at
+    # zero would send 0 K for a step.
+    used = [k for k in links(coupling, set(parts)) if k.input != OIL]
+    used.append(Link(SOURCE, "command", "transmission", COMMAND))
+    return Structure(
+        scene=scene,
+        components=[_component(scene, n, p, used, starts.get(n, {})) for n, p in parts.items()],
+        links=used,
+        border=_border(parts),
+    )
+
+
+def _source(scene: Scene) -> Part:
+    """Return the source of the scene's shift command, one step ahead: it arrives a step late."""
+    params = command_params.CommandParams(
+        start=scene.shift_start, duration=scene.shift_duration, before=scene.shift_from,
+        after=scene.shift_to, lead=scene.step,
+    )  # fmt: skip
+    spec = command_params.SPEC
+    return Part(spec=spec, fidelity=spec.default_fidelity, params=params)
+
+
+def _component(
+    scene: Scene, name: str, part: Part, used: list[Link], starts: Mapping[str, float]
+) -> Component:
+    """Return a part with all that it is told: parameters, and what its inputs hold at first."""
+    fed = {k.input for k in used if k.target == name}
+    values = {s.name: float(starts.get(s.name, s.start or 0.0)) for s in part.spec.inputs}
+    if OIL in values:
+        values[OIL] = scene.oil_temperature
+    given = part.parameters()
+    span = scene.stop_time - scene.start_time
+    return Component(
+        name=name,
+        spec=tailored(part.spec, given, values, stop_time=span, step_size=scene.step),
+        parameters=given,
+        starts=values,
+        inputs=tuple(s for s in part.spec.inputs if s.name in fed),
+    )
+
+
+def _border(parts: Mapping[str, Part]) -> list[Border]:
+    """Return the outputs of the system; those of the transmission keep their plain names."""
+    found = []
+    for part, names in SHOWN:
+        if part in parts:
+            known = {s.name: s for s in parts[part].spec.outputs}
+            plain = part in (SOURCE, "transmission")
+            found += [Border(n if plain else f"{part}_{n}", part, known[n]) for n in names]
+    return found

@@ -1,0 +1,59 @@
+"""Which thermal mode the washer of a scene needs: its time constants beside the scene's."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..washer.closed_forms.heated_ring import stack_times
+from ..washer.parameters import WasherParams
+from .scene.scene import Scene
+
+SLOW = 5.0  # a change that takes so many of the slowest time constants is followed by steady states
+MIDDLE = (0.1, 0.9)  # share of all change of power that counts
+
+
+def body_times(params: WasherParams, gap: float) -> tuple[float, float, float]:
+    """Return the time constants [s] of a washer's bodies; the films are ``gap`` [m] thick."""
+    p = params
+    across = gap / p.oil_conductivity + 0.5 * p.washer_thickness / p.conductivity
+    bodies = (p.carrier_thickness, p.washer_thickness, p.gear_thickness)
+    return stack_times(bodies, p.conductivity, p.density * p.specific_heat, across, across)
+
+
+def change_time(time: NDArray[np.float64], power: NDArray[np.float64]) -> float:
+    """Return the time [s] that the middle 80 % of all changes of a power take; inf without any."""
+    steps = np.abs(np.diff(power))
+    total = float(steps.sum())
+    if not total > 0.0:
+        return float("inf")
+    share = np.concatenate(([0.0], np.cumsum(steps) / total))
+    first, last = (int(np.argmax(share >= x)) for x in MIDDLE)
+    return float(max(time[last] - time[max(first - 1, 0)], time[1] - time[0]))
+
+
+def thermal_need(
+    scene: Scene, time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]
+) -> str | None:
+    """Say which thermal mode the scene needs and which one ran; None without a washer."""
+    if "washer" not in scene.parts:
+        return None
+    params = scene.parts["washer"].params
+    gap = max(float(np.median(signals["washer.film_thickness"])), params.roughness)
+    quickest, _, slowest = body_times(params, gap)
+    change = change_time(time, signals["washer.friction_power"])
+    transient = params.thermal_mode == "transient"
+    span = f"the washer's bodies settle within {quickest:.2g} .. {slowest:.2g} s"
+    if not np.isfinite(change):
+        return f"{span}; its friction power does not change: steady temperatures are right"
+    stretch = f"{span}, its friction power changes within {change:.2g} s"
+    if change < SLOW * slowest:
+        if transient:
+            return f"{stretch}: thermal_mode transient is needed here, and it ran"
+        return (
+            f"{stretch}: its temperatures here are those of steady states, an upper bound while it "
+            'warms up; [washer] thermal_mode = "transient" follows them'
+        )
+    if transient:
+        return f"{stretch}: thermal_mode quasi_steady would do here, and costs less"
+    return f"{stretch}: steady temperatures are right"

@@ -1,0 +1,111 @@
+"""A shift at a tolerance: trial runs, a rung for every part, the run and its check."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from ...errors import ParameterError, SolveError
+from ..masters.master import MASTERS
+from ..run import Progress, run_shift
+from ..scene.scene import Scene
+from ..shift_result import ShiftResult
+from .rung_check import check_part
+from .selection import select
+from .selection_record import Check, GuardRecord, Selected, Selection
+from .trial_run import Make, Pool, step_share, trial_runs, with_rungs
+
+
+def run_auto(
+    scene: Scene,
+    make: Make,
+    *,
+    guard: bool = True,
+    progress: Progress | None = None,
+    compiled: bool | None = None,
+) -> ShiftResult:
+    """Simulate a shift; the rung of every part that asks for a tolerance is found here.
+
+    Parameters
+    ----------
+    scene : what to simulate; ``tolerance`` of a part is the relative error asked for
+    make : returns an instance of a part, of the fidelity that stands in it; whoever makes it closes
+        it. One that has ``reset`` is used again
+    guard : check the choice after the run, and run again a rung higher where it does not hold
+    progress, compiled : as in ``run_shift``
+
+    Returns
+    -------
+    ShiftResult : with ``selection`` and, if it was checked, ``guard``
+
+    Raises
+    ------
+    ParameterError, SolveError : as in ``run_shift``; also if no rung of a part holds its tolerance
+    """
+    pool = Pool(make)
+
+    def run(now: Scene) -> ShiftResult:
+        return run_shift(now, pool.all_of(now), progress=progress, compiled=compiled)
+
+    scene, remarks = _without_choice(scene)
+    wanted = [p.tolerance for p in scene.parts.values() if p.tolerance]
+    if not wanted:
+        result = run(scene)
+        return replace(result, messages=[*result.messages, *remarks])
+    if MASTERS[scene.master].adaptive:
+        raise ParameterError(
+            f"master = {scene.master!r}, allowed with a fidelity that is to be chosen: masters "
+            "with fixed steps; or name the fidelities"
+        )
+    trials = trial_runs(scene, pool, compiled)
+    steps = max(1, round((scene.stop_time - scene.start_time) / scene.step))
+    chosen = select(scene, trials, steps, guard)
+    selection = Selection(chosen, step_share(trials, scene.step, min(wanted)), trials.seconds)
+    result = run(with_rungs(scene, {c.part: c.rung for c in chosen}))
+    if guard:
+        result = _checked(result, chosen, pool, run)
+    return replace(result, selection=selection, messages=[*result.messages, *remarks])
+
+
+def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:
+    """Return the scene with default rungs for parts that no card speaks of, and what to say."""
+    parts, remarks = dict(scene.parts), []
+    for name, part in parts.items():
+        if part.tolerance and getattr(part.params, "thermal_mode", "") == "transient":
+            parts[name] = replace(part, tolerance=None)
+            remarks.append(
+                f"{name}: {part.fidelity}, its default; cards speak of steady states, and "
+                "thermal_mode is transient"
+            )
+    return replace(scene, parts=parts), remarks
+
+
+def _checked(
+    result: ShiftResult, chosen: list[Selected], pool: Pool, run: Callable[[Scene], ShiftResult]
+) -> ShiftResult:
+    """Check a run and repeat it with higher rungs until every part holds or has its last one.
+
+    Where such a run fails, the last one that came to its end is returned, and why.
+    """
+    watched = [c for c in chosen if c.verified and c.above]
+    checks: list[Check] = []
+    again: list[str] = []
+    earlier, stopped = 0.0, ""
+    while True:
+        looked = [check_part(len(again) + 1, c, result, pool) for c in watched]
+        found = [check for check in looked if check is not None]
+        checks += found
+        higher = {check.part: check.above for check in found if not check.holds}
+        if not higher:
+            break
+        words = "run again with " + ", ".join(f"{part} {rung}" for part, rung in higher.items())
+        try:
+            better = run(with_rungs(result.scene, higher))
+        except (ParameterError, SolveError) as problem:
+            stopped = f"{words}: it failed, so that the run before it counts ({problem})"
+            break
+        again.append(words)
+        result, earlier = better, earlier + result.wall_time
+    if not checks:
+        return result
+    return replace(result, guard=GuardRecord(checks, again, earlier, stopped))

@@ -1,0 +1,164 @@
+"""The guard: after a run it checks the rungs that were chosen for it.
+
+The choice rests on cards and on the inputs that trial runs have seen. The inputs that the run
+itself has recorded are compared with those, and the rung above is solved at some thirty recorded
+points: those with the extremes of inputs and of what is compared, those after changes of regime,
+and others spread over the run. A model whose outputs follow from the inputs of the moment is solved
+at these points only; one with a past of its own, such as a pack's film and temperature, follows the
+whole record, since it would have another past in strides.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ParameterError, SolveError, Status
+from ..cosim.instances import Stepping
+from ..scene.connections import SPEED, WITHOUT_PAST
+from ..scene.scene import Part
+from ..shift_result import ShiftResult
+from .selection import above, still_verified
+from .selection_record import Check, Difference, Scale, Selected
+from .trial_run import Pool
+
+Array = NDArray[np.float64]
+Places = NDArray[np.intp]
+POINTS = 30
+CHANGES = 8  # of those at most are points after a change of regime
+NEAR = 5  # steps
+REGIMES = ("regime", "solver_status", "distress")  # outputs whose change is a change of regime
+
+
+def check_part(run: int, chosen: Selected, result: ShiftResult, pool: Pool) -> Check | None:
+    """Compare the rung of one part in a finished run with the one above; None: there is none."""
+    begin, part = perf_counter(), result.scene.parts[chosen.part]
+    first = part.fidelity == chosen.rung
+    higher = chosen.above if first else above(part.spec, part.fidelity)
+    if higher is None:
+        return None
+    names = [s.name for s in part.spec.inputs]
+    inputs = np.column_stack([result.signals[f"{chosen.part}.{name}"] for name in names])
+    moving = _moving(names, inputs)
+    outside = _outside(chosen, part, result, names, inputs, moving) if first else ""
+    places = _points(chosen, result, inputs, moving)
+    solved, failed = _solved(
+        lambda: pool.take(chosen.part, part.at(higher)), result.time, inputs, places,
+        chosen.model in WITHOUT_PAST,
+    )  # fmt: skip
+    worst = _farthest(chosen, part, result, solved)
+    return Check(run, chosen.part, part.fidelity, higher, chosen.tolerance, len(solved),
+                 tuple(failed), worst, outside, perf_counter() - begin)  # fmt: skip
+
+
+def _moving(names: Sequence[str], inputs: Array) -> Places:
+    """Return the points that can be compared: without speed no rung has a torque, nor any heat."""
+    if SPEED not in names:
+        return np.arange(len(inputs))
+    return np.flatnonzero(inputs[:, names.index(SPEED)])
+
+
+def _outside(
+    chosen: Selected, part: Part, result: ShiftResult, names: Sequence[str], inputs: Array,
+    moving: Places,
+) -> str:  # fmt: skip
+    """Say how the run left what the rung is verified for; empty if it did not."""
+    status = result.signals.get(f"{chosen.part}.solver_status")
+    if status is not None:
+        said = moving[status[moving] == Status.OUTSIDE_VERIFIED]
+        if len(said):
+            return f"it says itself from t = {result.time[said[0]]:.4g} s that it is not verified"
+    seen = {name: (float(v.min()), float(v.max())) for name, v in zip(names, inputs.T, strict=True)}
+    for name, (low, high) in seen.items():
+        least, most = chosen.box[name]
+        if not least <= low <= high <= most:
+            if still_verified(chosen, part, seen):
+                return ""
+            return (
+                f"{name} of {low:.4g} .. {high:.4g} left {least:.4g} .. {most:.4g}, for which it "
+                "was chosen"
+            )
+    return ""
+
+
+def _points(chosen: Selected, result: ShiftResult, inputs: Array, moving: Places) -> list[int]:
+    """Return the recorded points to compare at, in the order of time.
+
+    None lies within ``NEAR`` steps of a change of regime, where outputs may jump: in another rung
+    they do so a step earlier or later.
+    """
+    signals = {name: result.signals.get(f"{chosen.part}.{name}") for name in REGIMES}
+    regimes = [values for values in signals.values() if values is not None]
+    changes = np.flatnonzero(np.any([np.diff(values) != 0.0 for values in regimes], axis=0)) + 1
+    near = np.zeros(len(inputs) + NEAR, bool)
+    for i in changes.tolist():
+        near[max(i - NEAR, 0) : i + NEAR] = True
+    calm = moving[~near[moving]]
+    if not len(calm):
+        return sorted(_spread(moving, POINTS))
+    found = _spread(np.intersect1d(changes + NEAR, calm), CHANGES)
+    judged = [result.signals[f"{chosen.part}.{scale.output}"] for scale in chosen.scales]
+    for values in (*inputs.T, *judged):
+        seen = values[calm]
+        found |= {int(calm[seen.argmin()]), int(calm[seen.argmax()])}
+    return sorted(found | _spread(calm, max(POINTS - len(found), POINTS // 2)))
+
+
+def _spread(places: Places, n: int) -> set[int]:
+    """Return at most ``n`` of the places, first and last included."""
+    chosen = np.linspace(0, len(places) - 1, min(n, len(places))).round().astype(int)
+    return set(places[chosen].tolist())
+
+
+def _solved(
+    take: Callable[[], Stepping], time: Array, inputs: Array, places: list[int], strides: bool
+) -> tuple[dict[int, list[float]], list[str]]:
+    """Return an instance's outputs at recorded points, and where it gave none.
+
+    ``strides``: it may go from one of the places to the next; else it takes every recorded step.
+    """
+    outputs: dict[int, list[float]] = {}
+    failed: list[str] = []
+    reached, wanted = None, set(places)
+    for i in places if strides else range(max(places, default=-1) + 1):
+        try:
+            if reached is None:
+                instance = take()
+                known = dict(zip(instance.input_names, inputs[i].tolist(), strict=True))
+                instance.initialize(float(time[i]), known)
+            else:
+                instance.set_inputs(inputs[i].tolist())
+                instance.step(float(time[reached]), float(time[i] - time[reached]))
+            reached = i
+            if i in wanted:
+                outputs[i] = instance.outputs()
+        except (ParameterError, SolveError) as problem:
+            failed.append(f"at t = {time[i]:.4g} s: {problem}")
+            if reached is None and not strides:
+                break
+    return outputs, failed
+
+
+def _farthest(
+    chosen: Selected, part: Part, result: ShiftResult, solved: dict[int, list[float]]
+) -> Difference:
+    """Return the largest difference of the two rungs, the first that is no number if there is."""
+    worst, names = Difference(0.0), [signal.name for signal in part.spec.outputs]
+    for i, outputs in solved.items():
+        for scale in chosen.scales:
+            served = float(result.signals[f"{chosen.part}.{scale.output}"][i])
+            other = outputs[names.index(scale.output)]
+            share = _share(scale, served, other)
+            if share > worst.share:
+                worst = Difference(share, scale.output, float(result.time[i]), served, other)
+    return worst
+
+
+def _share(scale: Scale, served: float, above: float) -> float:
+    """Return a difference; infinite if it is no number."""
+    share = scale.between(served, above)
+    return math.inf if math.isnan(share) else share

@@ -1,0 +1,130 @@
+"""What cards are made for: parameter sets, the boxes of inputs, how many held-out points."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..ladder.card_parts import Axis
+from ..model.registry import spec_of
+from ..model.spec import ModelSpec
+from ..units import parse_quantity
+
+SCENES = Path(__file__).parents[1] / "drivetrain" / "scenes"
+SEED = 7
+POINTS, POINTS_IN_PART = 500, 350
+MOST = 50  # points drawn for each one wanted in a part of a box
+SAMPLING = "uniform in the scaled box"
+
+
+@dataclass(frozen=True)
+class Case:
+    """One parameter set of a model with the box that points are drawn from.
+
+    ``part`` is the part of the box that is verified, where that is less: a map may cover no more.
+    """
+
+    spec: ModelSpec
+    name: str  # of the parameter set: "default" or the scene it comes from
+    params: Any
+    envelope: dict[str, Axis]
+    n: int
+    seed: int = SEED
+    part: dict[str, Axis] | None = None
+
+    @property
+    def verified(self) -> dict[str, Axis]:
+        """The box that a card of this case speaks for."""
+        return self.part or self.envelope
+
+    def numbers(self, n: int) -> list[int]:
+        """Return the numbers of the first ``n`` points that lie in the verified box."""
+        if self.part is None:
+            return list(range(n))
+        found: list[int] = []
+        for k in range(MOST * n):
+            point = self.point(k)
+            if all(a.min <= point[name] <= a.max for name, a in self.part.items()):
+                found.append(k)
+            if len(found) == n:
+                break
+        return found
+
+    def within(self, box: Mapping[str, tuple[float, float]]) -> Case:
+        """Return the case for the part of its box that lies in another one."""
+        part = {}
+        for name, a in self.envelope.items():
+            low, high = box[name]
+            part[name] = Axis(
+                a.min if low <= a.min * (1.0 + 1e-9) else low,
+                a.max if high >= a.max * (1.0 - 1e-9) else high,
+                a.unit, a.scale,
+            )  # fmt: skip
+        return self if part == self.envelope else replace(self, part=part)
+
+    def point(self, k: int) -> dict[str, float]:
+        """Return held-out point number ``k``: its own random numbers, whatever ``n`` is."""
+        share = np.random.default_rng([self.seed, k]).random(len(self.envelope))
+        return {
+            name: _at(axis, float(u))
+            for (name, axis), u in zip(self.envelope.items(), share, strict=True)
+        }
+
+
+def _at(axis: Axis, share: float) -> float:
+    """Return the value at a share of an axis, in its scale."""
+    if axis.scale == "log":
+        return axis.min * math.exp(share * math.log(axis.max / axis.min))
+    return axis.min + share * (axis.max - axis.min)
+
+
+_OIL = (290.0, 400.0, "linear")
+_WASHER = {"tilt": (1e-3, 3e-3, "log"), "oil_temperature": _OIL}
+_GEARMESH = {"load": (1.0, 200.0, "log"), "speed": (1.0, 700.0, "log"), "oil_temperature": _OIL}
+_CLUTCH = {"load": (50.0, 10000.0, "log"), "speed": (1.0, 350.0, "log"), "oil_temperature": _OIL}
+# model -> parameter set -> low, high and scale of every input, in the model's order
+BOXES: dict[str, dict[str, dict[str, tuple[float, float, str]]]] = {
+    "washer": {
+        "default": {"load": (20.0, 1850.0, "log"), "speed": (50.0, 1400.0, "log"), **_WASHER},
+        "planetary": {"load": (1.0, 200.0, "log"), "speed": (1.0, 450.0, "log"), **_WASHER},
+    },
+    "clutch": {"default": _CLUTCH, "planetary": _CLUTCH},
+    "gearmesh": {"default": _GEARMESH, "planetary": _GEARMESH},
+}
+# model -> its part of a scene, and what of the part's parameters a held-out point has otherwise
+PARTS: dict[str, tuple[str, dict[str, Any]]] = {
+    "washer": ("washer", {}),
+    "clutch": ("clutch", {"input_course": "linear"}),
+    "gearmesh": ("mesh", {}),
+}
+
+
+def cases(model: str) -> list[Case]:
+    """Return the cases of a model, or raise ParameterError with the models there are."""
+    spec = spec_of(model)
+    units = {s.name: s.unit for s in spec.inputs}
+    return [
+        Case(
+            spec, name, spec.params() if name == "default" else _scene_params(spec, name),
+            {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}, POINTS,
+        )
+        for name, box in BOXES[model].items()
+    ]  # fmt: skip
+
+
+def _scene_params(spec: ModelSpec, scene: str) -> Any:
+    """Return the parameters that a shipped scene gives to its part of a model."""
+    part, changed = PARTS[spec.key]
+    given = tomllib.loads((SCENES / f"{scene}.toml").read_text("utf-8"))[part]
+    meta = {f.name: f.metadata for f in fields(spec.params)}
+    values = {n: v for n, v in given.items() if n != "fidelity"}
+    for name, value in values.items():
+        if isinstance(value, str) and meta[name]["kind"] == "real":
+            values[name] = parse_quantity(value, meta[name]["unit"], name)
+    return spec.params(**{**values, **changed})

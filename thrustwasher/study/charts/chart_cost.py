@@ -1,0 +1,177 @@
+"""Error against cost: every way a model can be solved, on logarithmic axes."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from ...report.style import label, legend_below, new_figure, note_at_right, styled
+from .chart_text import staircase
+
+COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
+RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)
+WORDS = {
+    "friction_torque": "friction torque", "temperature": "mean temperature",
+    "slip_energy": "slip energy", "lock_time": "lock time", "peak_temperature": "peak temperature",
+    "end_temperature": "interface temperature at the end",
+}  # fmt: skip
+SIDE_BY_SIDE = 3  # names in a row of the legend
+Sampled = Mapping[str, Any]
+
+
+@styled
+def cost_figure(
+    model: str, survey: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
+) -> Figure:
+    """Return error over seconds per call, a panel per quantity.
+
+    Parameters
+    ----------
+    survey : of the model, as in the JSON file
+    fronts : indices of the samples that nothing beats, by quantity
+    """
+    figure, panels = _panels(survey, fronts, 5.0, f"{model}: ", survey["cost_of"])
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
+    return figure
+
+
+def _panels(
+    study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]], height: float, prefix: str,
+    across: str, crosses: bool = True,
+) -> tuple[Figure, list[Axes]]:  # fmt: skip
+    """Return a figure with room for its legend, and a panel of errors per quantity."""
+    quantities, foot = study["quantities"], _rows(study["samples"])
+    figure, panels = new_figure(11.0, height, 1, len(quantities), foot=foot)
+    for axes, quantity in zip(panels, quantities, strict=True):
+        name = quantity["name"]
+        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=crosses)
+        unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
+        label(axes, f"{prefix}{WORDS.get(name, name)}", across, f"error [{unit}]")
+    return figure, panels
+
+
+def _rows(samples: Sequence[Sampled]) -> int:
+    """Return how many rows the legend takes: a name for each family, one for the front."""
+    return -(-(len({s["family"] for s in samples}) + 1) // SIDE_BY_SIDE)
+
+
+def draw_samples(
+    axes: Axes, samples: Sequence[Sampled], quantity: Mapping[str, Any], front: Sequence[int],
+    cost: str = "call_median", spread: str | None = "call_iqr", crosses: bool = True,
+) -> None:  # fmt: skip
+    """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
+    name = quantity["name"]
+    axes.set(xscale="log", yscale="log")
+    known = [s for s in samples if _drawable(s, name, cost)]
+    floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
+    low = _draw_floor(axes, known, name, floor)
+    _set_span(axes, [s[cost] for s in samples if s[cost]])
+    families = list(dict.fromkeys(s["family"] for s in samples))
+    free = RIVALS if set(families) & set(COLOURS) else (BLUE, SKY, *RIVALS)
+    rivals = iter(free * 4)
+    for family in families:
+        members = [s for s in known if s["family"] == family]
+        colour = COLOURS.get(family) or next(rivals)
+        if members:
+            _draw_family(axes, family, members, name, cost, spread, colour, low)
+    best = staircase(samples, front, name)
+    axes.step([s[cost] for s in best], [max(s["errors"][name]["worst"], low) for s in best],
+              where="post", color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
+              zorder=1)  # fmt: skip
+    if crosses:
+        _draw_failures(axes, samples, cost)
+
+
+def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -> float:
+    """Set the range of errors, shade what the reference cannot tell; return where zero is drawn."""
+    errors = [s["errors"][name][k] for s in known for k in ("worst", "rms")]
+    low = min([e for e in errors if e > 0.0] + ([floor] if floor else []), default=1e-16)
+    axes.set_ylim(0.4 * low, 6.0 * max([*errors, floor, low]))  # room for crosses at the top
+    if floor:
+        axes.axhspan(0.4 * low, floor, color="#E8E8E8", lw=0, zorder=0)
+        words = "uncertainty of the reference"
+        note_at_right(axes, words, floor, place=0.99, shift=(0, 2), va="bottom", color=GREY)
+    return 0.6 * low
+
+
+def _set_span(axes: Axes, costs: Sequence[float]) -> None:
+    """Set the range of costs: half a decade at least, with room for words beside the marks."""
+    low, high = min(costs, default=1.0), max(costs, default=1.0)
+    wide = max(0.5, math.log10(high / low))
+    more = 0.5 * (wide - math.log10(high / low))
+    axes.set_xlim(low / 10.0 ** (more + 0.06 * wide), high * 10.0 ** (more + 0.12 * wide))
+
+
+def _drawable(sample: Sampled, name: str, cost: str) -> bool:
+    error = sample["errors"].get(name, {}).get("worst")
+    return error is not None and bool(sample[cost])
+
+
+def _draw_family(
+    axes: Axes, family: str, members: Sequence[Sampled], name: str, cost: str, spread: str | None,
+    colour: str, low: float,
+) -> None:  # fmt: skip
+    """Draw one line in the order of its knob; rungs are no line, they are named."""
+    x = np.array([s[cost] for s in members])
+    joined = "" if family == "rungs" else "-"
+    single = all(s["errors"][name]["rms"] == s["errors"][name]["worst"] for s in members)
+    for kind, fill in (("worst", colour), ("rms", "white"))[: 1 if single else 2]:
+        y = np.maximum([s["errors"][name][kind] for s in members], low)
+        axes.plot(x, y, ls=joined, marker="o" if family != "rungs" else "D", ms=5, color=colour,
+                  mfc=fill, lw=1.2 if kind == "worst" else 0.7, zorder=3,
+                  label=f"{family}: worst, hollow rms" if kind == "worst" else None)  # fmt: skip
+        if spread and kind == "worst":
+            axes.errorbar(x, y, xerr=[0.5 * (s[spread] or 0.0) for s in members], fmt="none",
+                          ecolor=colour, elinewidth=0.9, zorder=2)  # fmt: skip
+    shown = members if len(members) < 5 or not single else (members[0], members[-1])
+    for s in shown:
+        text = s["value"]
+        axes.annotate(text, (s[cost], max(s["errors"][name]["worst"], low)), (4, 4), fontsize=7.5,
+                      textcoords="offset points", color=colour)  # fmt: skip
+
+
+def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
+    """Mark failed samples by a cross at the top, with their number."""
+    failed = [s for s in samples if s["n_failed"]]
+    for rank, s in enumerate(failed):
+        up = 0.98 - 0.045 * rank
+        text = f"{s['label']}: {s['n_failed']} of {s['n_cases']} fail"
+        where: Any = axes.get_xaxis_transform() if s[cost] else axes.transAxes
+        x = s[cost] or 0.02
+        axes.plot([x], [up], marker="x", ms=7, color=RED, mew=1.8, clip_on=False, transform=where)
+        axes.annotate(text, (x, up), (6, -3), xycoords=where, textcoords="offset points",
+                      fontsize=7.5, color=RED)  # fmt: skip
+
+
+@styled
+def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Figure:
+    """Return the errors of a shift over its cost, a panel per quantity; lines follow the step."""
+    across = "wall time per simulated second"
+    figure, panels = _panels(study, fronts, 5.6, "", across, crosses=False)
+    for axes, quantity in zip(panels, study["quantities"], strict=True):
+        for s in study["samples"]:
+            error = s["errors"][quantity["name"]]["worst"]
+            if s["n_failed"] and error and s["call_median"]:
+                axes.plot([s["call_median"]], [error], marker="x", ms=9, color=RED, mew=1.6)
+    handles, names = panels[0].get_legend_handles_labels()
+    names = [n.replace(": worst, hollow rms", "") for n in names]
+    legend_below(figure, handles, names, columns=SIDE_BY_SIDE)
+    return figure
+
+
+@styled
+def count_figure(model: str, survey: Mapping[str, Any]) -> Figure:
+    """Return error over the work that needs no machine, a panel per unit of work."""
+    quantity = survey["quantities"][0]
+    groups = list(dict.fromkeys(s["count_of"] for s in survey["samples"] if s["count"]))
+    figure, panels = new_figure(11.0, 3.8, 1, max(1, len(groups)))
+    for axes, group in zip(panels, groups, strict=False):
+        members = [s for s in survey["samples"] if s["count_of"] == group]
+        draw_samples(axes, members, quantity, (), "count", None)
+        words = WORDS.get(quantity["name"], quantity["name"])
+        label(axes, f"{model}: {words}", f"{group} per case", "error")
+    return figure

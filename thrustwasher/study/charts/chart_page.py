@@ -1,0 +1,127 @@
+"""All charts as one page, as Markdown, and as drawings; made from the JSON record alone."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ...report.html import Page, Plot, Section, Table, fill_template
+from ..failures.stability_page import stability_figure
+from . import chart_text as text
+from .chart_cost import cost_figure, count_figure, steps_figure
+
+TITLE = "Speed against accuracy"
+HOW = (
+    "Errors are measured against converged values on a fixed list of operating points with the "
+    "hard corners in it, times on warm calls one per cent away; filled marks are the worst case, "
+    "hollow ones the root mean square. Crosses are failures. Points in the grey band cannot be "
+    "told apart."
+)
+
+
+def sections(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> list[Section]:
+    """Return the chapters of what was measured."""
+    found = [_model_section(model, s, fronts[model]) for model, s in record["models"].items()]
+    if "macro_steps" in record:
+        found.append(_steps_section(record["macro_steps"], fronts["macro_steps"]))
+    if "stability" in record:
+        found.append(_stability_section(record["stability"]))
+    return found
+
+
+def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
+    heads = ["method", "hazard", "verdict", "figure", "in words"]
+    rows = [
+        [method, hazard, cell["verdict"], cell["figure"], cell["words"]]
+        for g in groups
+        for method, row in zip(g["methods"], g["cells"], strict=True)
+        for hazard, cell in zip(g["hazards"], row, strict=True)
+    ]
+    lies = sum(row[2] == "LIES" for row in rows)
+    words = (
+        f"Each cell was run: {lies} of {len(rows)} answers are wrong and come without a word. "
+        "Most methods are small ones written for this map; the package's own are named so."
+    )
+    caption = "A method that says that it failed is worth more than one that does not know."
+    return Section(
+        "stability", "Where methods fail", texts=[words],
+        plots=[Plot("chart-stability", stability_figure(groups), caption)],
+        tables=[Table(heads, rows, title="All cells", folded=True)],
+    )  # fmt: skip
+
+
+def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Section:
+    heads = ["way", "step or tolerance", "per simulated second",
+             *(q["name"] for q in study["quantities"]), "what was wrong"]  # fmt: skip
+    rows = [
+        [s["family"], s["value"], text.seconds(s["call_median"]),
+         *(text.error_text(s["errors"][q["name"]]["worst"], q) for q in study["quantities"]),
+         "; ".join(s["failures"].values())]
+        for s in study["samples"]
+    ]  # fmt: skip
+    words = (
+        f"The scene is {study['scene']}. Errors are those of quantities that a shift does not "
+        "forget, against the limit that gauss-seidel and jacobi tend to. step-doubling has a "
+        "tolerance in place of a step. Where friction torques are handed over, H T/(J w) is "
+        "34 for each ms of step H, with the clutch's torque T at lock-up, its smoothing w and "
+        "the inertia J that it sees: held torques are stable below 2, without oscillation "
+        "below 1, late ones below 1 and 1/4."
+    )
+    caption = (
+        "Each line goes from large steps to small ones. Red crosses: the run ended without a word, "
+        "but chatters or does not lock."
+    )
+    return Section(
+        "macro-steps", "A shift: error against cost over step, master, coupling and rung",
+        texts=[words, *text.order_sentences(study)],
+        plots=[Plot("chart-shift", steps_figure(study, fronts), caption)],
+        tables=[Table(heads, rows, numbers=(2, 3, 4, 5), title="All runs", folded=True)],
+    )  # fmt: skip
+
+
+def _model_section(
+    model: str, survey: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
+) -> Section:
+    texts = [text.verdict(survey, fronts[q["name"]], q) for q in survey["quantities"]]
+    texts += text.failure_sentences(survey)
+    if "curve" in survey:
+        texts += text.curve_sentences(survey["curve"])
+    heads, rows = text.sample_rows(survey)
+    even_heads, even_rows = text.break_even_rows(survey, "field")
+    cases = [[c["name"], ", ".join(f"{v:g}" for v in c["point"])] for c in survey["cases"]]
+    count_caption = "The same errors over counts that need no machine."
+    return Section(
+        model, f"{model}: error against cost", texts=[t for t in texts if t],
+        plots=[
+            Plot(f"chart-{model}", cost_figure(model, survey, fronts), HOW),
+            Plot(f"chart-{model}-count", count_figure(model, survey), count_caption),
+        ],
+        tables=[
+            Table(heads, rows, (1, 2, 3, 5), title="All samples (! : spread above 10 %)"),
+            Table(even_heads, even_rows, (1, 2, 3, 4), title="What set-up is worth"),
+            Table(("case", "inputs"), cases, title="Cases", folded=True),
+        ],
+    )  # fmt: skip
+
+
+def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
+    """Return the whole page."""
+    busy = (record["machine"]["load"] or 0.0) > 0.5 * record["machine"]["cores"]
+    warnings = []
+    if busy:
+        warnings.append("The machine was busy when this was measured: compare ratios, no seconds.")
+    if record["quick"]:
+        warnings.append("A quick look: few cases and repeats, coarser reference values.")
+    return Page(
+        title=TITLE,
+        subtitle="how far each way to solve the models is off, and what a call of it costs",
+        summary=[HOW],
+        warnings=warnings,
+        cards=[],
+        sections=sections(record, fronts),
+        footer=text.machine_sentence(record),
+    )
+
+
+def markdown(page: Page) -> str:
+    """Return the page as Markdown beside its drawings."""
+    return fill_template(Path(__file__).with_name("chart.md.jinja"), **vars(page))

@@ -1,0 +1,221 @@
+"""Work-precision: error and cost of methods on the same cases, by the same clock.
+
+Errors come from one call per case, costs from other calls. A method that raises or answers with a
+failure is a failed sample of that case, counted and kept, never an exit of the run.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from ...errors import ParameterError, Status
+from ...model.registry import spec_of
+from ..costs import REPEATS, Timing, time_call
+from ..reference_cache import source_of
+from ..reference_values import ReferenceValues
+from ..rivals.plain2006 import Plain2006
+from .chart_cases import ChartCase, cases_of, digest
+from .chart_series import CHARTS, Configuration, Quantity, series_of
+from .methods import KernelMethod, Method, MethodAnswer
+
+Progress = Callable[[str], None]
+GOOD = (Status.OK, Status.DISTRESS, Status.HOT)
+BEST_2006 = 1e-5  # tolerance of the method of 2006 beyond which its answers do not change
+LOADS = tuple(range(50, 1851, 50))  # of the washer's whole curve
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A method at a setting, as measured."""
+
+    family: str
+    label: str
+    knob: str
+    value: str
+    cases: str  # digest of the list
+    errors: dict[str, dict[str, Any]]  # quantity -> worst, rms, case (that was worst)
+    ref_uncertainty: dict[str, float]
+    call_median: float  # [s] the median of the cases' medians, as are the next two
+    call_iqr: float
+    call_min: float
+    repeats: int
+    first_call_s: float
+    setup_s: float
+    count: float
+    count_of: str
+    n_cases: int
+    n_failed: int
+    failures: dict[str, str] = field(default_factory=dict)  # case -> what it said
+    is_rival: bool = False
+    slowest_call_s: float = math.nan
+    slowest_case: str | None = None
+    build_s: float = 0.0  # spent once for all, before the set-up: a map
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the sample as JSON types; no number is NaN or infinite."""
+        return {k: _plain(v) for k, v in asdict(self).items()}
+
+
+def measure(
+    setting: Configuration, cases: Sequence[ChartCase], known: Sequence[ReferenceValues],
+    quantities: Sequence[Quantity], *, repeats: int = REPEATS,
+) -> Sample:  # fmt: skip
+    """Return error and cost of a method at a setting over the cases."""
+    began = time.perf_counter()
+    method, missing = None, ""
+    try:
+        method = setting.make()
+    except ParameterError as error:  # such as a map that was never built
+        missing = f"ParameterError: {error}"
+    setup = time.perf_counter() - began
+    found: dict[str, list[tuple[float, str]]] = {q.name: [] for q in quantities}
+    failures: dict[str, str] = {}
+    solved, counts = [], []
+    for case, true in zip(cases, known, strict=True):
+        answer, why = _ask(method, case) if method else (None, missing)
+        if answer is None or why:
+            failures[case.name] = why
+            continue
+        solved.append(case)
+        counts.append(answer.count)
+        for q in quantities:
+            off = q.error(answer.values[q.name], true.values[q.name])
+            found[q.name].append((off, case.name))
+    timings = _time(method, solved, repeats) if method else {}
+    timing = _typical(list(timings.values()))
+    slowest = max(timings, key=lambda name: timings[name].median, default=None)
+    errors = {name: _errors(pairs) for name, pairs in found.items()}
+    return Sample(
+        setting.family, setting.label, setting.knob, setting.value, digest(tuple(cases)), errors,
+        uncertainty_of(known, quantities), timing.median, timing.iqr, timing.least,
+        timing.repeats, timing.first, setup, statistics.fmean(counts) if counts else math.nan,
+        setting.count_of, len(cases), len(failures), failures, setting.is_rival,
+        timings[slowest].median if slowest else math.nan, slowest,
+        float(getattr(method, "build_s", 0.0)),
+    )  # fmt: skip
+
+
+def _ask(method: Method, case: ChartCase) -> tuple[MethodAnswer | None, str]:
+    """Return the answer and what is wrong with it, if anything."""
+    try:
+        answer = method.solve(case)
+    except Exception as error:  # a failure of the method, which is what is looked for
+        return None, f"{type(error).__name__}: {error}"
+    if answer.status not in GOOD:
+        return answer, answer.status.name
+    if not all(map(math.isfinite, answer.values.values())):
+        return answer, "not finite, without a word"
+    return answer, ""
+
+
+def _time(method: Method, cases: Sequence[ChartCase], repeats: int) -> dict[str, Timing]:
+    """Return the cost of a warm call of each case.
+
+    It is that of the compiled code, as in an FMU: what the call from Python adds is taken off.
+    """
+    found = {}
+    for case in cases:
+        timing = time_call(method.warm(case), repeats=repeats)
+        idle = method.idle(case)
+        if idle is not None:
+            timing = timing.less(time_call(idle, repeats=3).least)
+        found[case.name] = timing
+    return found
+
+
+def _typical(timings: Sequence[Timing]) -> Timing:
+    """Return the medians over the cases."""
+    if not timings:
+        return Timing(math.nan, math.nan, math.nan, 0, math.nan)
+    parts = ([getattr(t, name) for t in timings] for name in ("median", "iqr", "least", "first"))
+    median, iqr, least, first = (statistics.median(values) for values in parts)
+    return Timing(median, iqr, least, timings[0].repeats, first)
+
+
+def _errors(pairs: list[tuple[float, str]]) -> dict[str, Any]:
+    if not pairs:
+        return {"worst": None, "rms": None, "case": None}
+    worst, case = max(pairs)
+    rms = math.sqrt(statistics.fmean(e * e for e, _ in pairs))
+    return {"worst": worst, "rms": rms, "case": case}
+
+
+def uncertainty_of(
+    known: Sequence[ReferenceValues], quantities: Sequence[Quantity]
+) -> dict[str, float]:
+    """Return the largest uncertainty of reference values, as an error of each quantity."""
+    return {
+        q.name: max(
+            q.error(t.values[q.name] + t.uncertainty[q.name], t.values[q.name]) for t in known
+        )
+        for q in quantities
+    }
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    return value
+
+
+def work_precision(
+    model: str, *, quick: bool = False, progress: Progress = print
+) -> dict[str, Any]:
+    """Measure all series of a model; return cases, true values and samples, as JSON types."""
+    cases = cases_of(model, quick=quick)
+    progress(f"{model}: reference values of {len(cases)} cases")
+    source = source_of(model)
+    known = [source.at_case(case.point, case.before) for case in cases]
+    quantities = CHARTS[model].quantities
+    samples = []
+    for setting in series_of(model, quick=quick):
+        progress(f"{model}: {setting.label}")
+        repeats = 3 if quick else REPEATS
+        samples.append(measure(setting, cases, known, quantities, repeats=repeats).as_dict())
+    found: dict[str, Any] = {
+        "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
+        "cases_digest": digest(cases), "cost_of": CHARTS[model].cost_of,
+        "quantities": [
+            {"name": q.name, "kind": "relative" if q.relative else "absolute", "unit": q.unit,
+             "floor": q.floor if q.relative else None}
+            for q in quantities
+        ],
+        "truths": [{q.name: t.values[q.name] for q in quantities} for t in known],
+        "samples": samples,
+    }  # fmt: skip
+    if model == "washer":
+        progress("washer: the whole curve by the method of 2006")
+        found["curve"] = whole_curve(quick=quick)
+    return found
+
+
+def whole_curve(*, quick: bool = False) -> dict[str, float]:
+    """Return the seconds that one curve up in load takes, by the method of 2006 and by ours.
+
+    545 rad/s, tilt 0.002 rad, 24 degC, 50 .. 1850 N in steps of 50 N; and the first load step of
+    the method of 2006 alone, which took 30 minutes then.
+    """
+    loads = LOADS[::4] if quick else LOADS
+    washer = Plain2006(tolerance=BEST_2006)
+    began = time.perf_counter()
+    washer.solve(loads[0], 545.0, 2e-3, 297.15)
+    first = time.perf_counter() - began
+    for load in loads[1:]:
+        washer.solve(load, 545.0, 2e-3, 297.15)
+    whole = time.perf_counter() - began
+    ours = KernelMethod(spec_of("washer"), "field")
+    points = tuple((float(load), 545.0, 2e-3, 297.15) for load in loads)
+    ours.solve(ChartCase("curve", points[-1], points[:-1]))
+    began = time.perf_counter()
+    ours.solve(ChartCase("curve", points[-1], points[:-1]))
+    return {
+        "points": len(loads), "first_step_2006_s": first, "curve_2006_s": whole,
+        "curve_field_s": time.perf_counter() - began, "first_step_then_s": 1800.0,
+    }  # fmt: skip

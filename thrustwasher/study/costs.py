@@ -1,0 +1,142 @@
+"""What a call of a rung costs: its compiled step, inputs moving a little from call to call.
+
+That is what a step costs in an FMU. A call of ``solve_*`` from Python adds tens of microseconds to
+any rung.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..command.kernels import step as command_step
+from ..model.kernel_tables import fill_table
+from ..model.prepare import filled
+from ..model.registry import kernel_of
+from ..model.spec import ModelSpec
+from .card_cases import cases
+from .reference_values import ReferencePoint
+
+BATCH = 10e-3  # [s] least time between two looks at the clock
+REPEATS = 9
+LEAST = 5e-8  # [s] a call is never taken for less
+WALK = 0.003  # load and speed move by so much from call to call
+TURN = 20  # calls in one direction
+STEP = 1e-3  # s, for parts that have states
+BRANCHES = {"film": 1.0, "contact": 3.0}
+FIRST = """
+import time, json, sys
+import thrustwasher
+began = time.perf_counter()
+from thrustwasher.model.registry import spec_of
+from thrustwasher.study.reference_cache import answer
+from thrustwasher.study.reference_values import ReferencePoint
+point = ReferencePoint({point!r}, None, None, {{}}, {{}})
+answer({model!r}, spec_of({model!r}).params(), {fidelity!r}, point)
+print(time.perf_counter() - began)
+"""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Seconds per call over repeats."""
+
+    median: float
+    iqr: float
+    least: float
+    repeats: int
+    first: float
+
+    def less(self, spent: float) -> Timing:
+        """Return it without what a call costs that does nothing; some is left in any case."""
+        median, least = max(self.median - spent, LEAST), max(self.least - spent, LEAST)
+        return replace(self, median=median, least=least)
+
+
+def time_call(
+    call: Callable[[], object], *, repeats: int = REPEATS, batch: float = BATCH
+) -> Timing:
+    """Return the time of a call; the first one is apart."""
+    first = _seconds(call, 1)
+    once = _seconds(call, 1)
+    n = max(1, math.ceil(batch / max(once, 1e-7)))
+    times = [_seconds(call, n) for _ in range(repeats)]
+    low, _, high = statistics.quantiles(times, n=4)
+    return Timing(statistics.median(times), high - low, min(times), repeats, first)
+
+
+def _seconds(call: Callable[[], object], n: int) -> float:
+    began = time.perf_counter()
+    for _ in range(n):
+        call()
+    return (time.perf_counter() - began) / n
+
+
+def stepper(
+    spec: ModelSpec, params: Any, fidelity: str, known: ReferencePoint, step: Any = None
+) -> Callable[[], int]:
+    """Return a call that makes one step of a rung near a point, load and speed a little further.
+
+    ``step`` replaces the kernel's.
+    """
+    kernel = kernel_of(spec)
+    step = step or kernel.step
+    par = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
+    branch = BRANCHES.get(known.branch or "", 0.0) if spec.key == "washer" else None
+    first = [known.point[s.name] for s in spec.inputs]
+    inp = np.array([*first, *([branch] if branch is not None else [])])
+    state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
+    out, iout = np.zeros(kernel.NOUT), np.zeros(max(kernel.NIOUT, 1), np.int32)
+    fill_table(spec, params, par, work)
+    walk = itertools.cycle(_walk(first[0], first[1], branch == BRANCHES["film"]))
+
+    def call() -> int:
+        inp[0], inp[1] = next(walk)
+        return int(step(par, inp, state, work, out, iout, 0.0, STEP))
+
+    call()
+    if branch is not None:
+        inp[4] = 0.0  # the branch was asked for once, from now on it is remembered
+    return call
+
+
+def _walk(load: float, speed: float, falls: bool) -> list[tuple[float, float]]:
+    """Return loads and speeds up and down again; away from the fold, a film's load falls."""
+    factors = [1.0 + WALK * (TURN - abs(TURN - k)) for k in range(2 * TURN)]
+    return [(load / f if falls else load * f, speed * f) for f in factors]
+
+
+def call_cost(
+    spec: ModelSpec, params: Any, fidelity: str, known: Sequence[ReferencePoint]
+) -> Timing:
+    """Return the cost of a call: the median of a few points of a chart."""
+    away = sorted((t for t in known if not t.beside_fold), key=lambda t: t.point["load"])
+    some = [away[k * (len(away) - 1) // 4] for k in (1, 2, 3)]
+    found = []
+    for t in some:
+        spent = time_call(stepper(spec, params, fidelity, t, command_step.step)).least
+        found.append(time_call(stepper(spec, params, fidelity, t)).less(spent))
+    return sorted(found, key=lambda t: t.median)[1]
+
+
+@cache
+def first_call(model: str, fidelity: str) -> float:
+    """Return the seconds of the first solve in a new process, compiled code in the cache.
+
+    Default parameters, the first held-out point; all parameter sets of a rung have this value.
+    """
+    code = FIRST.format(model=model, fidelity=fidelity, point=cases(model)[0].point(0))
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600
+    )
+    return float(done.stdout.split()[-1])

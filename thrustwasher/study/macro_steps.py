@@ -1,0 +1,305 @@
+"""Error of a shift against its cost, and where masters fail: over step, master, coupling and rung.
+
+The shift is the built-in ``planetary`` without washers and gear mesh: what is judged is how the
+packs and the driveline are coupled. ``study`` holds every way to couple them against its limit of
+small steps, in quantities that a shift does not forget: heat of the clutch, time of lock-up, peak
+temperature. ``masters`` judges the package's own masters as other methods are judged.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..errors import ParameterError, SolveError
+from ..shift.cosim.instances import Stepping
+from ..shift.masters.master import MASTERS
+from ..shift.run import run_shift
+from ..shift.scene.connections import PACKS
+from ..shift.scene.scene import Scene
+from ..shift.scene.scene_file import load_scene
+from ..shift.shift_result import ShiftResult
+from .failures.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+
+STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
+QUICK_STEPS = (1e-2, 2e-3)
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of masters that choose their steps
+QUICK_TOLERANCES = (1e-2, 1e-3)
+FIRST_STEP = 1e-3  # of those
+TRUE_STEPS, QUICK_TRUE_STEPS = (1e-4, 5e-5), (4e-4, 2e-4)
+SLOW_SLIP = 0.5  # [rad/s]; with smoothed friction less counts as locked
+MOST_TURNS = 2  # changes of the slip's sign after lock-up; more is chatter
+QUANTITIES: tuple[dict[str, Any], ...] = (
+    {"name": "slip_energy", "kind": "relative", "unit": "1", "floor": 0.0},
+    {"name": "lock_time", "kind": "absolute", "unit": "s", "floor": None},
+    {"name": "peak_temperature", "kind": "absolute", "unit": "K", "floor": None},
+)
+# Of ``masters``: what is wrong, and what is tried.
+WRONG_HEAT = 0.02
+MANY_STEPS = 10  # of the master for each that was asked for
+SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
+STOP, LOCKED = 1.1, 0.70  # s
+TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4  # of masters
+HAZARDS = {
+    "capacity, 1 ms": ("capacity", 1e-3),
+    "capacity, 5 ms": ("capacity", 5e-3),
+    "capacity, 10 ms": ("capacity", 1e-2),
+    "torque, 0.2 ms": ("torque", 2e-4),
+    "torque, 2 ms": ("torque", 2e-3),
+    "torque, 10 ms": ("torque", 1e-2),
+}
+Make = Callable[[Scene], Mapping[str, Stepping]]
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way to couple the shift."""
+
+    master: str
+    coupling: str = "capacity"
+    extrapolation: bool = True
+    rung: str = "field"
+
+    @property
+    def adaptive(self) -> bool:
+        """It has a tolerance instead of a step."""
+        return MASTERS[self.master].adaptive
+
+    @property
+    def name(self) -> str:
+        """What the line is called."""
+        what = "friction torque" if self.coupling == "torque" else (
+            "capacity, extrapolated" if self.extrapolation else "capacity, held"
+        )  # fmt: skip
+        rung = "" if self.rung == "field" else f", packs {self.rung}"
+        return f"{self.master}, {what}{rung}"
+
+
+WAYS = (
+    Way("gauss-seidel"),
+    Way("jacobi"),
+    Way("gauss-seidel", extrapolation=False),
+    Way("jacobi", extrapolation=False),
+    Way("gauss-seidel", "torque"),
+    Way("jacobi", "torque"),
+    Way("linearly-implicit", "torque"),
+    Way("step-doubling"),
+    Way("step-doubling", "torque"),
+    Way("gauss-seidel", rung="stribeck"),
+    Way("gauss-seidel", rung="closed"),
+)
+
+
+def scene_of(way: Way, step: float) -> Scene:
+    """Return the shift to be run; ``step`` is the first one where the master chooses others."""
+    scene = load_scene("planetary").with_options(step=step, master=way.master)
+    parts = {k: v for k, v in scene.parts.items() if k not in ("washer", "mesh")}
+    gearbox = parts["transmission"]
+    params = replace(
+        gearbox.params, washers=0, coupling=way.coupling, capacity_extrapolation=way.extrapolation
+    )
+    parts["transmission"] = replace(gearbox, params=params)
+    for pack in PACKS:
+        parts[pack] = replace(parts[pack], fidelity=way.rung)
+    return replace(scene, parts=parts)
+
+
+def figures(result: ShiftResult) -> dict[str, float]:
+    """Return what the shift is judged by; NaN for a lock-up that was not reached."""
+    signals, time = result.signals, result.time
+    slip = signals["transmission.clutch_speed"]
+    peak = float(np.max(signals["clutch.temperature"]))
+    located = [f.value for f in result.key_figures if f.name == "lock_time"]
+    lock = located[0] if located and located[0] is not None else _slow_since(time, slip)
+    energy = float(signals["transmission.clutch_heat"][-1])
+    return {"slip_energy": energy, "lock_time": lock, "peak_temperature": peak}
+
+
+def _slow_since(time: Any, slip: Any) -> float:
+    """Return when the slip first fell below ``SLOW_SLIP``, by interpolation; NaN if never."""
+    i = int(np.argmax(slip))
+    below = np.flatnonzero(np.abs(slip[i:]) < SLOW_SLIP)
+    if not len(below) or below[0] == 0:
+        return float("nan")
+    k = i + int(below[0])
+    share = (slip[k - 1] - SLOW_SLIP) / (slip[k - 1] - slip[k])
+    return float(time[k - 1] + min(max(share, 0.0), 1.0) * (time[k] - time[k - 1]))
+
+
+def complaint(result: ShiftResult, found: Mapping[str, float]) -> str:
+    """Say what is wrong with a run that came to its end; empty if nothing is.
+
+    Its numbers are kept all the same: that is what a user would have got.
+    """
+    if not all(map(np.isfinite, found.values())):
+        return "does not lock"
+    slip, time = result.signals["transmission.clutch_speed"], result.time
+    after = slip[time > found["lock_time"]]
+    turns = turns_of(after)
+    return f"chatters: the slip turns round {turns} times" if turns > MOST_TURNS else ""
+
+
+def turns_of(slip: Any) -> int:
+    """Return how often a slip changes its sign."""
+    moving = np.sign(slip[np.abs(slip) > 1e-3])
+    return int(np.count_nonzero(np.diff(moving)))
+
+
+def study(
+    make: Make, *, quick: bool = False, progress: Callable[[str], None] = print
+) -> dict[str, Any]:
+    """Return truth and samples of all ways and steps, as JSON types.
+
+    Parameters
+    ----------
+    make : gives an instance for each part of a scene
+    quick : few steps, one repeat
+    """
+    progress("shift: reference")
+    truth, uncertainty = small_step_limit(make, quick=quick)
+    samples = []
+    for way in WAYS:
+        progress(f"shift: {way.name}")
+        for knob in knobs(way, quick):
+            samples.append(sample(way, knob, make, truth, uncertainty, 1 if quick else 3))
+    return {
+        "scene": "planetary without washers and gear mesh", "quantities": list(QUANTITIES),
+        "truth": truth, "samples": samples,
+    }  # fmt: skip
+
+
+def knobs(way: Way, quick: bool) -> tuple[float, ...]:
+    """Return the steps [s] or tolerances to be tried."""
+    if way.adaptive:
+        return QUICK_TOLERANCES if quick else TOLERANCES
+    return QUICK_STEPS if quick else STEPS
+
+
+def small_step_limit(
+    make: Make, *, quick: bool = False
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the figures both masters tend to, and how far these limits are apart.
+
+    Two steps of each master are extrapolated with first order; the mean of the limits counts.
+    """
+    coarse, fine = QUICK_TRUE_STEPS if quick else TRUE_STEPS
+    limits = []
+    for master in ("gauss-seidel", "jacobi"):
+        a, b = (figures(run(Way(master), step, make)) for step in (coarse, fine))
+        limits.append({k: b[k] + (b[k] - a[k]) * fine / (coarse - fine) for k in b})
+    truth = {k: 0.5 * (limits[0][k] + limits[1][k]) for k in limits[0]}
+    apart = {k: abs(limits[0][k] - limits[1][k]) for k in truth}
+    return truth, apart
+
+
+def run(way: Way, knob: float, make: Make) -> ShiftResult:
+    """Run the shift once; ``knob``: the step [s], or the tolerance of an adaptive way."""
+    scene = scene_of(way, FIRST_STEP if way.adaptive else knob)
+    if way.adaptive:
+        scene = scene.with_options(master_tolerance=knob)
+    return run_shift(scene, make(scene))
+
+
+def sample(
+    way: Way, knob: float, make: Make, truth: Mapping[str, float],
+    uncertainty: Mapping[str, float], repeats: int,
+) -> dict[str, Any]:  # fmt: skip
+    """Return one sample in the layout of all charts; the cost is per simulated second."""
+    wall: list[float] = []
+    failures: dict[str, str] = {}
+    found: dict[str, float] = {}
+    count = 0
+    try:
+        for _ in range(repeats):
+            result = run(way, knob, make)
+            span = float(result.time[-1] - result.time[0])
+            wall.append(result.wall_time / span)
+        count = sum(c.steps for c in result.cost)
+        found = figures(result)
+        why = complaint(result, found)
+    except (ParameterError, SolveError) as error:
+        why = f"{type(error).__name__}: {error}"
+    if why:
+        failures["shift"] = why
+    errors = {}
+    for q in QUANTITIES:
+        size = abs(truth[q["name"]]) if q["kind"] == "relative" else 1.0
+        off = abs(found.get(q["name"], float("nan")) - truth[q["name"]]) / size
+        known = off if np.isfinite(off) else None
+        errors[q["name"]] = {"worst": known, "rms": known, "case": "shift"}
+    relative = {
+        q["name"]: uncertainty[q["name"]]
+        / (abs(truth[q["name"]]) if q["kind"] == "relative" else 1.0)
+        for q in QUANTITIES
+    }
+    value = f"{knob:g}" if way.adaptive else f"{1e3 * knob:g} ms"
+    quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
+    return {
+        "family": way.name, "label": f"{way.name}, {value}", "value": value,
+        "knob": "master_tolerance" if way.adaptive else "macro step", "cases": "planetary",
+        "errors": errors, "ref_uncertainty": relative,
+        "call_median": statistics.median(wall) if wall else None,
+        "call_iqr": quartiles[2] - quartiles[0], "call_min": min(wall) if wall else None,
+        "repeats": len(wall), "first_call_s": None, "setup_s": 0.0, "count": float(count),
+        "count_of": "steps of all parts", "n_cases": 1, "n_failed": len(failures),
+        "failures": failures, "is_rival": False, "slowest_call_s": None, "slowest_case": None,
+        "build_s": 0.0,
+    }  # fmt: skip
+
+
+def masters(make: Make, *, quick: bool = False) -> Group:
+    """Judge every master and coupling of the default shift by the clutch's heat and chatter.
+
+    ``make`` gives an instance for each part of a scene. Washers and gear mesh are left out. Each
+    coupling is held against its own limit of small steps: smoothed friction is another model.
+    ``quick``: that limit is taken from longer steps.
+    """
+
+    @cache
+    def true_heat(coupling: str) -> float:
+        step = QUICK_TRUE_STEP if quick else TRUE_STEP
+        return _heat(_smooth_run(make, "gauss-seidel", coupling, step))
+
+    def judge(master: str, hazard: tuple[str, float]) -> Cell:
+        return _judged(_smooth_run(make, master, *hazard), true_heat(hazard[0]))
+
+    named = {f"master {name}": name for name in MASTERS}
+    judged = f"clutch's heat off by more than {100 * WRONG_HEAT:g} %, or chatter"
+    return table("the default shift", judged, named, HAZARDS, judge)
+
+
+def _smooth_run(make: Make, master: str, coupling: str, step: float) -> ShiftResult:
+    scene = scene_of(Way(master, coupling), step)
+    parts = dict(scene.parts)
+    for pack in PACKS:
+        smooth = replace(parts[pack].params, speed_smoothing=SMOOTHING)
+        parts[pack] = replace(parts[pack], params=smooth)
+    scene = replace(scene, parts=parts).with_options(stop_time=STOP)
+    return run_shift(scene, make(scene))
+
+
+def _heat(result: ShiftResult) -> float:
+    return figures(result)["slip_energy"]
+
+
+def _judged(result: ShiftResult, true: float) -> Cell:
+    """Look at the heat, at the slip after lock-up, and at what the run says itself."""
+    error = _heat(result) / true - 1.0
+    slip = result.signals["transmission.clutch_speed"][result.time > LOCKED]
+    turns = turns_of(slip)
+    right = abs(error) <= WRONG_HEAT
+    if right and turns <= MOST_TURNS:
+        taken = len(result.time) - 1
+        slow = taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step
+        words = f"{taken} steps, heat off by {100 * abs(error):.2g} %"
+        if slow:
+            return Cell(SLOW, f"{taken} steps", words)
+        return Cell(OK, f"{100 * abs(error):.2f} %", words)
+    words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)
+    figure = off(error) if not right else "chatters"
+    return Cell(SAYS if words else LIES, figure, words or f"{turns} turns after lock-up")

@@ -1,0 +1,66 @@
+"""Reference values at held-out points, kept in a file: all rungs are compared with the same."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import asdict
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from ..errors import SolveError
+from ..storage.digests import closure, kernel_digest, params_digest
+from ..storage.journal import Journal
+from .card_cases import Case
+from .reference_values import FAILED, MARGIN, Answer, ReferencePoint, Source
+
+
+def source_of(model: str) -> Source:
+    """Return the source of a model's reference values."""
+    source: Source = import_module(f".reference_{model}", __package__).SOURCE
+    return source
+
+
+def answer(model: str, params: Any, fidelity: str, known: ReferencePoint) -> Answer:
+    """Return what a rung says at the point of a reference value, asked as a user asks."""
+    try:
+        return source_of(model).answer(params, fidelity, known)
+    except SolveError:
+        return Answer({}, FAILED)
+
+
+def reference_points(
+    case: Case, source: Source, n: int, progress: Callable[[int], None] = lambda k: None
+) -> list[ReferencePoint]:
+    """Return the reference's answers at ``n`` points; what is kept is not solved again.
+
+    A run that is stopped goes on where it was.
+    """
+    path, digest = _kept(case, source)
+    found: list[ReferencePoint] = []
+    with closing(Journal(path, {"source": digest}, "set of reference values")) as journal:
+        known = {
+            k: [ReferencePoint(**r) for r in json.loads(text)] for k, text in journal.entries()
+        }
+        for done, k in enumerate(case.numbers(n), 1):
+            if k not in known:
+                known[k] = source.solve(case.params, case.point(k))
+                journal.put(k, json.dumps([asdict(r) for r in known[k]]).encode())
+            found += known[k]
+            progress(done)
+    return found
+
+
+def _kept(case: Case, source: Source) -> tuple[Path, str]:
+    """Return the file for a case and the digest of kernels, parameters, box and method."""
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    axes = [asdict(a) for a in case.envelope.values()]
+    what = [kernel_digest(closure(*source.kernels)), params_digest(case.params), axes, case.seed,
+            list(source.routes), list(source.grid or ()), MARGIN]  # fmt: skip
+    digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
+    name = f"{case.spec.key}-{case.name}-{digest}.journal"
+    return Path(base) / "thrustwasher" / "references" / name, digest

@@ -1,0 +1,246 @@
+"""Reference values of the wet clutch: more rings, another integrator at tight tolerance.
+
+Chart `settled` is slip that lasts for ever, as ``solve_clutch`` takes it; chart `engagement` is a
+pack that closes while its slip runs out, as in a shift, at points of time.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..clutch.engagement import PackCourse, engage_clutch
+from ..clutch.kernels import advance, pack_outputs
+from ..clutch.kernels import layout as k
+from ..clutch.kernels import rates as clutch_rates
+from ..clutch.kernels.constants import derive_rings
+from ..clutch.parameters import ClutchParams
+from ..clutch.solve import prepare, solve_clutch, steady_pack
+from ..errors import ParameterError, SolveError, Status
+from ..ladder.card_parts import QUANTITIES
+from .reference_values import (
+    OK,
+    Answer,
+    Point,
+    ReferencePoint,
+    ReferenceValues,
+    Source,
+    Values,
+    extrapolated,
+)
+
+Array = NDArray[np.float64]
+RINGS = (2, 4, 8)
+BEFORE, GAIN = ((b / a) ** 2 - 1.0 for a, b in pairwise(RINGS))
+TOLERANCE = 1e-9
+PLACES = (k.O_TORQUE, k.O_TEMPERATURE, k.O_FILM, k.O_RATIO)  # of QUANTITIES, among the outputs
+# The engagement that rungs are compared in: the force rises, the slip falls. Its film is squeezed
+# out in the first of these times [s], the lining heats up until the last.
+TIMES = (0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6)
+RISE, HELD, LEFT = 0.1, 0.2, 0.05  # s of the force; s of full slip; share of the slip at the end
+
+
+def reference_clutch(
+    params: ClutchParams, *, load: float, speed: float, oil_temperature: float = 297.15
+) -> ReferenceValues:
+    """Return the steady state of a pack that slips, extrapolated over 2, 4 and 8 rings.
+
+    Parameters
+    ----------
+    params, load [N], speed [rad/s], oil_temperature [K] : as in solve_clutch
+
+    Raises
+    ------
+    ParameterError : an argument is outside its range
+    SolveError : no film or temperature was found
+    """
+    whole = solve_clutch(params, load=load, speed=speed, oil_temperature=oil_temperature,
+                         fidelity="fine")  # fmt: skip
+    sign = float(np.sign(speed))
+    rows = []
+    for n in RINGS:
+        par = prepare(params, "fine")
+        derive_rings(par, n)
+        s = steady_pack(par, load, speed, oil_temperature, whole.film_ratio)
+        rows.append({
+            "friction_torque": sign * (s.contact + s.viscous), "temperature": s.temperature,
+            "contact_torque": sign * s.contact, "viscous_torque": sign * s.viscous,
+            "friction_coefficient": s.coefficient, "film_ratio": whole.film_ratio,
+            "film_thickness": whole.film_thickness,
+        })  # fmt: skip
+    values, uncertainty = extrapolated(rows, (2.0, 2.0), 2.0)
+    return ReferenceValues(values, uncertainty, ("2, 4, 8 rings, order 2",))
+
+
+def reference_engagement(
+    params: ClutchParams, *, time: Any, load: Any, speed: Any, oil_temperature: float = 297.15
+) -> ReferenceValues:
+    """Return torque, temperature, film ratio and heat at the end of a course of load and slip.
+
+    Radau's method of order 5 at 1e-9 in place of the package's own integrator, on 2, 4 and 8 rings,
+    extrapolated; for a pack with a moving film and without ``contact_rise``.
+
+    Parameters
+    ----------
+    params : the pack
+    time, load, speed : points [s], force [N] and slip [rad/s] there, straight in between
+    oil_temperature : [K]
+
+    Raises
+    ------
+    ParameterError : the pack has ``contact_rise``, or no ``film_dynamics``
+    SolveError : the course could not be integrated
+    """
+    if params.contact_rise or not params.film_dynamics:
+        raise ParameterError(
+            f"contact_rise = {params.contact_rise}, film_dynamics = {params.film_dynamics}, "
+            "allowed for a reference: False and True"
+        )
+    t, force, slip = (np.asarray(x, float) for x in np.broadcast_arrays(time, load, speed))
+    rows = [_by_radau(params, n, t, force, slip, oil_temperature) for n in RINGS]
+    values, uncertainty = extrapolated(rows, (2.0, 2.0), 2.0)
+    return ReferenceValues(values, uncertainty, ("Radau at 1e-9", "2, 4, 8 rings, order 2"))
+
+
+def _by_radau(
+    params: ClutchParams, n: int, t: Array, force: Array, slip: Array, oil: float
+) -> dict[str, float]:
+    """Integrate film, rings and energy of a face over the course."""
+    from scipy.integrate import solve_ivp
+
+    par, work = prepare(params, "fine"), np.zeros(k.NWORK)
+    derive_rings(par, n)
+    status = int(advance.load_memory(par, force[0], oil, np.zeros(k.NSTATE), work))
+    gains = [par[k.D_GAIN] * par[k.D_AREA] / clutch_rates.ring_of(par, i)[k.D_AREA]
+             for i in range(n)]  # fmt: skip
+
+    def rates(at: float, y: Array, a: int) -> Array:
+        x = (at - t[a]) / (t[a + 1] - t[a])
+        work[k.W_SURFACE : k.W_SURFACE + n] = y[2:]
+        here = force[a] + (force[a + 1] - force[a]) * x, slip[a] + (slip[a + 1] - slip[a]) * x
+        clutch_rates.pack_rates(par, *here, y[0], work, k.W_KEPT)
+        film, first = work[k.W_KEPT + k.R_RATE], k.W_KEPT + k.R_RINGS + k.R_POWER
+        powers = work[first : first + n * k.N_OF_RING : k.N_OF_RING]
+        heat = np.array(gains) * powers - par[k.D_DECAY] * (y[2:] - oil)
+        return np.concatenate(([film, powers.sum()], heat))
+
+    y = np.concatenate(([work[k.W_NOW + k.Y_FILM], 0.0], np.full(n, oil)))
+    for a in range(len(t) - 1):  # courses have corners at their points
+        found = solve_ivp(rates, (t[a], t[a + 1]), y, method="Radau", args=(a,), rtol=TOLERANCE,
+                          atol=TOLERANCE * np.r_[1.0, 1e3, np.full(n, 10.0)])  # fmt: skip
+        if status or not found.success:
+            raise SolveError(
+                f"reference_engagement: not integrated beyond t = {t[a]:g} s; "
+                f"{Status(status).advice if status else found.message}; use shorter stretches"
+            )
+        y = found.y[:, -1]
+    out = np.zeros(k.NOUT)
+    work[k.W_SURFACE : k.W_SURFACE + n] = y[2:]
+    work[k.W_SURFACE_CHANGE : k.W_SURFACE_CHANGE + n] = 0.0
+    point = (float(force[-1]), float(slip[-1]), float(y[0]))
+    pack_outputs.ring_outputs(par, point, (0.0, 0.0, 0.0), work, out, np.zeros(k.NOUT))
+    return {
+        "friction_torque": float(out[k.O_TORQUE]), "film_ratio": float(y[0]),
+        "temperature": float(pack_outputs.mean_surface(par, work)[0]),
+        "energy": float(params.faces * y[1]),
+    }  # fmt: skip
+
+
+def engagement_points(load: float, speed: float) -> tuple[Any, Any, Any]:
+    """Return time [s], force [N] and slip [rad/s] of the engagement."""
+    t = np.array(TIMES)
+    fallen = np.clip((t - HELD) / (t[-1] - HELD), 0.0, 1.0)
+    return t, load * np.minimum(t / RISE, 1.0), speed * (1.0 - (1.0 - LEFT) * fallen)
+
+
+def engagement_corners(load: float, speed: float) -> tuple[list[float], list[float], list[float]]:
+    """Return the points [s] between which force [N] and slip [rad/s] are straight, and both."""
+    times = [0.0, RISE, HELD, TIMES[-1]]
+    return times, [0.0, load, load, load], [speed, speed, speed, LEFT * speed]
+
+
+def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
+    """Return the reference's answers at a held-out point, settled and in an engagement.
+
+    Both are extrapolated over the number of rings. A chart on which the equations have no solution
+    is left out, and slip that would burn the lining before it settles.
+    """
+    found = []
+    for chart, ask in (("settled", _settled), ("engagement", _engagement)):
+        try:
+            values, uncertainty = ask(params, point)
+        except SolveError:
+            continue
+        if chart == "settled" and float(np.max(values["temperature"])) > k.HOT_LIMIT:
+            continue
+        found.append(ReferencePoint(point, chart, None, values, uncertainty))
+    return found
+
+
+def _settled(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
+    """Return the quantities of slip that lasts, and what they may be off by."""
+    at: Any = point
+    r = reference_clutch(params, **at)
+    return {q: r.values[q] for q in QUANTITIES}, {q: r.uncertainty[q] for q in QUANTITIES}
+
+
+def _engagement(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
+    """Return the quantities over the course, and what they may be off by at worst."""
+    a, b, c = (_by_rings(params, n, point) for n in RINGS)
+    value, other = c + (c - b) / GAIN, b + (b - a) / BEFORE
+    off = np.maximum(np.abs(c - b) / GAIN, np.abs(value - other)).max(axis=1)
+    values: Values = dict(zip(QUANTITIES, value.tolist(), strict=True))
+    return values, dict(zip(QUANTITIES, off.tolist(), strict=True))
+
+
+def _by_rings(params: Any, n: int, point: Point) -> Array:
+    """Return the quantities over the course, one row each, of a pack in ``n`` rings."""
+    par, oil = prepare(params, "fine").copy(), point["oil_temperature"]
+    derive_rings(par, n)
+    time, load, slip = engagement_points(point["load"], point["speed"])
+    rows = np.empty((len(PLACES), len(time)))
+    pack = PackCourse(par, load[0], oil)
+    for i in range(len(time)):
+        if i:
+            ends = (load[i - 1], slip[i - 1], oil, load[i], slip[i], oil)
+            pack.advance(ends, time[i] - time[i - 1])
+        out = pack.show(load[i], slip[i])
+        if Status(pack.status).is_failure:
+            raise SolveError(f"engagement: {Status(pack.status).advice} (t = {time[i]:g} s)")
+        rows[:, i] = [out[place] for place in PLACES]
+    return rows
+
+
+def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:
+    """Return slip energy and temperature at the end of an engagement, of a case of the charts."""
+    time, load, speed = engagement_corners(*point[:2])
+    r = reference_engagement(
+        ClutchParams(), time=time, load=load, speed=speed, oil_temperature=point[2]
+    )
+    values, off = (
+        {"slip_energy": x["energy"], "end_temperature": x["temperature"]}
+        for x in (r.values, r.uncertainty)
+    )
+    return ReferenceValues(values, off, r.routes)
+
+
+def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
+    point: Any = known.point
+    if known.chart == "engagement":
+        time, load, speed = engagement_points(point["load"], point["speed"])
+        e = engage_clutch(
+            params, time=time, load=load, speed=speed, oil_temperature=point["oil_temperature"],
+            fidelity=fidelity,
+        )  # fmt: skip
+        return Answer({name: getattr(e, name).tolist() for name in QUANTITIES}, OK)
+    c = solve_clutch(params, **point, fidelity=fidelity)
+    return Answer({name: getattr(c, name) for name in QUANTITIES}, OK, float(c.iterations))
+
+
+SOURCE = Source(
+    _at_points, _answer, _at_case, ("clutch_advance", "clutch_steady", "clutch_constants"), None,
+    (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {k.HOT_LIMIT:g} K",),
+)  # fmt: skip

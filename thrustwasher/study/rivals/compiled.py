@@ -1,0 +1,36 @@
+"""Compile rivals like the kernels, with a cache of their own keyed by kernels and rivals."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import numba
+from numba.core import config
+
+from ...numerics.jit import cache_folder
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def _folder() -> str:
+    sources = sorted(Path(__file__).parent.glob("*.py"))
+    digest = hashlib.sha256(b"".join(f.read_bytes() for f in sources)).hexdigest()[:16]
+    return os.path.join(cache_folder(), f"rivals-{digest}")
+
+
+def _compiled(function: Callable[..., Any]) -> Any:
+    settings: Any = config
+    njit: Any = numba.njit
+    before = settings.CACHE_DIR
+    settings.CACHE_DIR = _folder()
+    try:
+        return njit(cache=True, fastmath=False, error_model="numpy", nogil=True)(function)
+    finally:
+        settings.CACHE_DIR = before
+
+
+rival = cast(Callable[[F], F], _compiled)

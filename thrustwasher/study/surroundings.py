@@ -1,0 +1,105 @@
+"""What a chart or a card says about its making: the machine, versions, state of the sources."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+import time
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from ..ladder.card import VERIFY
+
+SCHEMA = 1
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+def surroundings(command: str) -> dict[str, Any]:
+    """Return command, date, machine and versions, as JSON types."""
+    from ..numerics.jit import kernel_digest
+
+    made_by = sys.modules[__name__.partition(".")[0]].__version__
+    return {
+        "schema": SCHEMA,
+        "command": command,
+        "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+        "machine": {
+            "cpu": _cpu(), "cores": os.cpu_count(), "os": platform.platform(terse=True),
+            "python": platform.python_version(), "numpy": metadata.version("numpy"),
+            "numba": metadata.version("numba"), "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
+            "threads": {name: os.environ.get(name) for name in THREADS}, "load": load(),
+        },
+        "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
+        "calibration_s": calibration(),
+    }  # fmt: skip
+
+
+@cache
+def _once() -> dict[str, Any]:
+    return surroundings(VERIFY)
+
+
+def this_machine() -> dict[str, Any]:
+    """Return what the seconds of a card depend on."""
+    m = _once()["machine"]
+    kept = {name: m[name] for name in ("cpu", "cores", "os", "python", "numpy", "numba")}
+    return {**kept, "threads": 1, "load": m["load"] or 0.0}
+
+
+def this_package() -> dict[str, Any]:
+    """Return the package's version and, in a checkout, its commit and if it was changed since."""
+    package = _once()["package"]
+    return {name: package[name] for name in ("version", "commit", "dirty")}
+
+
+def load() -> float | None:
+    """Return how many processes wanted to run during the last minute."""
+    return round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None
+
+
+def calibration() -> float:
+    """Return the least seconds of a fixed loop of additions: what a second is worth here."""
+    best = float("inf")
+    for _ in range(5):
+        began, x = time.perf_counter(), 0.0
+        for i in range(200_000):
+            x += i * 0.5
+        best = min(best, time.perf_counter() - began)
+    return best
+
+
+def pin_threads() -> None:
+    """Hold every library that is not loaded yet to one thread."""
+    for name in THREADS:
+        if "numpy" not in sys.modules or name.startswith("NUMBA"):
+            os.environ.setdefault(name, "1")
+
+
+def _cpu() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
+    except OSError:
+        return platform.processor() or platform.machine()
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def _commit() -> dict[str, Any]:
+    """Return the commit of a checkout and if its files differ from it; None where there is none."""
+    folder = Path(__file__).parents[2]
+    if not (folder / ".git").exists():
+        return {"commit": None, "dirty": None}
+    try:
+        words = ["git", "-C", str(folder)]
+        head = subprocess.run([*words, "rev-parse", "HEAD"], capture_output=True, text=True)
+        state = subprocess.run(
+            [*words, "status", "--porcelain", "--untracked-files=no"],
+            capture_output=True, text=True,
+        )  # fmt: skip
+    except OSError:
+        return {"commit": None, "dirty": None}
+    return {"commit": head.stdout.strip()[:12] or None, "dirty": bool(state.stdout.strip())}

@@ -1,0 +1,165 @@
+"""Write cards: each rung's error at random held-out points against a reference, and its cost.
+
+python -m thrustwasher.study.verify [MODEL] [FIDELITY] [--sample N] [--params NAME] [--out DIR]
+python -m thrustwasher.study.verify [MODEL] [FIDELITY] --costs
+
+Without FIDELITY only cards that are stale or missing are made; a run that is stopped goes on where
+it was, because reference values and finished cards are kept.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError, SolveError
+from ..ladder.card import VERIFY, Card, forget, fresh_cards
+from ..model.parameters import as_numbers
+from ..model.registry import MODELS, spec_of
+from ..storage.digests import DATA
+from ..washer.map.map_file import find_map
+from .card_cases import POINTS_IN_PART, Case, cases
+from .card_writer import make_card, timed_card, write_card
+from .costs import call_cost, first_call
+from .reference_cache import answer, reference_points, source_of
+from .reference_values import ReferencePoint
+
+HELP = "measure the rungs against the reference and write their cards"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Make the cards asked for; return 0, or 1 if some could not be made."""
+    parser = argparse.ArgumentParser(VERIFY, description=HELP)
+    parser.add_argument("model", nargs="?", choices=list(MODELS), help="default: all")
+    parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
+    parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 500")
+    parser.add_argument(
+        "--costs", action="store_true", help="only time the rungs of fresh cards again"
+    )
+    parser.add_argument("--params", metavar="NAME", help="parameter set; default: all")
+    parser.add_argument("--out", type=Path, default=DATA / "cards", metavar="DIR")
+    options = parser.parse_args(argv)
+    rungs = spec_of(options.model).fidelities if options.model else {}
+    if options.fidelity and options.fidelity not in rungs:
+        parser.error(f"fidelity = {options.fidelity!r}, allowed: {', '.join(rungs)}")
+    make = time_again if options.costs else _case
+    failed = 0
+    for model in [options.model] if options.model else list(MODELS):
+        for case in cases(model):
+            if options.params in (None, case.name):
+                failed += make(case, options.fidelity, options.sample or case.n, options.out)
+    return 1 if failed else 0
+
+
+def _case(case: Case, only: str | None, n: int, out: Path) -> int:
+    """Make the cards of one parameter set; return how many rungs failed."""
+    wanted = [r for r in case.spec.fidelities if _is_wanted(case, r, only)]
+    if not wanted:
+        _say(f"{case.spec.key} {case.name}: nothing to do")
+        return 0
+    began = time.perf_counter()
+    known = _known(case, n)
+    _say(f"\r{case.spec.key} {case.name}: {len(known)} reference values at {n} points, "
+         f"{time.perf_counter() - began:.0f} s")  # fmt: skip
+    failed = 0
+    for rung in wanted:
+        try:
+            its_case = case_of(case, rung)
+            mine = known if its_case is case else _known(its_case, n)
+            for card in rung_cards(its_case, rung, mine):
+                write_card(card, out)
+                _say(summary(card))
+        except (SolveError, ParameterError, OSError, ValueError) as error:
+            failed += 1
+            _say(f"{case.spec.key} {case.name} {rung}: no card: {error}")
+    forget()
+    return failed
+
+
+def _known(case: Case, n: int) -> list[ReferencePoint]:
+    """Return the reference values of a case, of a part of its box fewer."""
+    n = n if case.part is None else min(n, POINTS_IN_PART)
+    return reference_points(case, source_of(case.spec.key), n, _progress(case, n))
+
+
+def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
+    """Measure the costs in fresh cards anew, on a machine that is idle now; return 0."""
+    for rung in [only] if only else case.spec.fidelities:
+        cards = fresh_cards(case.spec.key, rung, case.params)
+        known = _known(case_of(case, rung), n) if cards else []
+        for card in cards:
+            mine = [t for t in known if t.chart == card.chart]
+            timing = call_cost(case.spec, case.params, rung, mine)
+            write_card(timed_card(card, timing, first_call(case.spec.key, rung)), out)
+            _say(f"  {card.name}: {1e6 * timing.median:.3g} us")
+    forget()
+    return 0
+
+
+def holds(rung: str, params: Any) -> bool:
+    """Tell if a rung can be used with a parameter set at all; a map may not be there."""
+    return rung != "map" or find_map(as_numbers(params)) is not None
+
+
+def _is_wanted(case: Case, rung: str, only: str | None) -> bool:
+    if only is not None:
+        return rung == only
+    return holds(rung, case.params) and not fresh_cards(case.spec.key, rung, case.params)
+
+
+def case_of(case: Case, rung: str) -> Case:
+    """Return the case for a rung: a map is verified where it lies."""
+    if rung != "map":
+        return case
+    from ..washer.map.look_up import WasherMap
+
+    return case.within(WasherMap(case.params).box)
+
+
+def rung_cards(case: Case, rung: str, known: list[ReferencePoint]) -> Iterator[Card]:
+    """Yield the cards of a rung, one per chart, from the reference values."""
+    point = case.point(0)
+    blank = ReferencePoint(point, None, None, {}, {})
+    answer(case.spec.key, case.params, rung, blank)  # compiled from now on
+    once = first_call(case.spec.key, rung)
+    for chart in dict.fromkeys(t.chart for t in known):
+        mine = [t for t in known if t.chart == chart]
+        pairs = [(t, answer(case.spec.key, case.params, rung, t)) for t in mine]
+        timing = call_cost(case.spec, case.params, rung, mine)
+        yield make_card(case, rung, chart, pairs, timing, once)
+
+
+def summary(card: Card) -> str:
+    """Return a line of what a card says."""
+    worst = {
+        q: max((w for row in e.worst for w in row if w is not None), default=float("nan"))
+        for q, e in card.errors.items()
+    }
+    text = ", ".join(f"{q} {w:.2g}" for q, w in worst.items())
+    h = card.held_out
+    return (
+        f"  {card.name}: n {h.n}, failed {h.failed}, outside {h.outside}; {text}; "
+        f"{1e6 * card.cost.call_median_s:.3g} us"
+    )
+
+
+def _progress(case: Case, n: int) -> Callable[[int], None]:
+    def show(k: int) -> None:
+        if sys.stderr.isatty() or k % 50 == 0:
+            end = "" if sys.stderr.isatty() else "\n"
+            text = f"\r{case.spec.key} {case.name}: reference {k}/{n}"
+            print(text, end=end, file=sys.stderr, flush=True)
+
+    return show
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,137 @@
+"""Solve lines of operating points; this is what runs in the workers.
+
+A line starts without memory and is walked row by row: each point is solved warm from the one
+before it. Where several solutions exist the walk stays on its branch while that exists, as a
+loaded washer does: going up in load the film is kept to its fold, coming down again it is
+regained at the other one. A point that fails leaves the memory as it was.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import FIRST_FAILURE, ParameterError, Status
+from ..model.kernel_tables import fill_table, wants_table
+from ..model.prepare import filled
+from ..model.registry import kernel_of, spec_of
+from ..model.spec import REGIMES, ModelSpec, Signal
+from ..native.load import bound
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.int32]
+# The clutch slips for ever here: its heat has no end.
+NOT_SHOWN = {"clutch": ("energy", "heat_flux", "viscosity")}
+
+
+@dataclass(frozen=True)
+class Task:
+    """Some consecutive lines, complete with all that a worker needs to know."""
+
+    model: str
+    fidelity: str
+    first_row: int
+    inputs: Array  # (n, n_inputs)
+    starts: tuple[int, ...]  # of the lines, from 0, and the end
+    params: tuple[Any, ...]  # of each line; None: broken rule
+
+
+def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
+    """Return the real outputs of a row, and the whole-number ones with the status last."""
+    left_out = NOT_SHOWN.get(spec.key, ())
+    real = tuple(s for s in spec.outputs if s.kind == "real" and s.name not in left_out)
+    whole = [s for s in spec.outputs if s.kind != "real"]
+    whole.sort(key=lambda s: s.type == "SolverStatus")  # it is the last of them already
+    return real, tuple(whole)
+
+
+def solve_task(task: Task) -> tuple[Array, Flags]:
+    """Return the real and the whole-number outputs of the rows; NaN where a row failed."""
+    spec = spec_of(task.model)
+    real, whole = output_signals(spec)
+    numbers = np.empty((len(task.inputs), len(real)))
+    flags = np.zeros((len(task.inputs), len(whole)), np.int32)
+    walk = WALKS.get(spec.key, _walk_kernel)
+    for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
+        if params is None:
+            flags[a:b, -1] = Status.BAD_INPUT
+        else:
+            try:
+                walk(spec, params, task.fidelity, task.inputs[a:b], numbers[a:b], flags[a:b])
+            except ParameterError:  # parameters that only the kernel's constants refuse
+                flags[a:b, -1] = Status.BAD_INPUT
+    numbers[flags[:, -1] >= FIRST_FAILURE] = np.nan
+    return numbers, flags
+
+
+def _walk_kernel(
+    spec: ModelSpec, params: Any, fidelity: str, inputs: Array, numbers: Array, flags: Flags
+) -> None:
+    """Fill the rows of one line by steps of the model's kernel."""
+    kernel = kernel_of(spec)
+    state = np.zeros(kernel.NSTATE)
+    par = _constants(spec.key, fidelity, params)
+    work = _work(spec, fidelity, params, par)
+    step = bound(kernel.step, par=par, state=state, work=work)
+    for point, row, flag in zip(inputs, numbers, flags, strict=True):
+        status = step(point, row, flag, 0.0, 1.0)
+        if status >= FIRST_FAILURE:
+            flag[-1] = status
+
+
+def _walk_clutch(
+    spec: ModelSpec, params: Any, fidelity: str, inputs: Array, numbers: Array, flags: Flags
+) -> None:
+    """Fill the rows of one line with the steady state of a pack that slips."""
+    from ..clutch.solve import solve_clutch
+
+    regimes = {name: i for i, name in enumerate(REGIMES, 1)}
+    names = [s.name for s in output_signals(spec)[0]]
+    result = None
+    for point, row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
+        load, speed, oil = point
+        result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil,
+                              fidelity=fidelity, start=result, throw=False)  # fmt: skip
+        row[:] = [getattr(result, name) for name in names]
+        flag[0], flag[-1] = regimes[result.regime], result.status
+        if result.status.is_failure:
+            result = None
+
+
+WALKS = {"clutch": _walk_clutch}  # other models: by steps of their kernel
+
+
+@lru_cache(maxsize=64)
+def _constants(model: str, fidelity: str, params: Any) -> Array:
+    """Return the kernel's ``par``; many lines share their parameters."""
+    spec = spec_of(model)
+    kernel = kernel_of(spec)
+    par: Array = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
+    return par
+
+
+def _work(spec: ModelSpec, fidelity: str, params: Any, par: Array) -> Array:
+    """Return this worker's work array of a kernel; ParameterError if the rung's table is missing.
+
+    Only one with a table belongs to its parameters.
+    """
+    return _filled_work(spec.key, *((fidelity, params) if wants_table(spec, par) else (None, None)))
+
+
+@lru_cache(maxsize=4)
+def _filled_work(model: str, fidelity: str | None, params: Any) -> Array:
+    spec = spec_of(model)
+    work: Array = np.zeros(kernel_of(spec).NWORK)
+    if fidelity is not None:
+        fill_table(spec, params, _constants(model, fidelity, params), work)
+    return work
+
+
+def check_rung(spec: ModelSpec, fidelity: str, params: Any) -> None:
+    """Raise ParameterError if a rung lacks what it needs for the first parameters of a sweep."""
+    if spec.key not in WALKS and params is not None:
+        _work(spec, fidelity, params, _constants(spec.key, fidelity, params))

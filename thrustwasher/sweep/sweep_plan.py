@@ -1,0 +1,251 @@
+"""The rows of a sweep in their order, cut into lines: one line is one walk of warm starts."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError
+from ..model.registry import spec_of
+from ..model.spec import ModelSpec
+from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is solved: row by row the inputs, line by line the parameters.
+
+    Lines are consecutive rows; line ``i`` is rows ``starts[i] .. starts[i + 1] - 1``.
+    """
+
+    spec: ModelSpec
+    fidelity: str
+    inputs: Array  # (n_rows, n_inputs) as the model takes them; NaN: not an allowed point
+    shown: dict[str, Any]  # columns of the table before the outputs, by name
+    units: dict[str, str]  # of the columns shown
+    starts: NDArray[np.int64]  # (n_lines + 1,)
+    params: tuple[Any, ...]  # parameter objects; None: broken rule
+    params_of: NDArray[np.int64]  # (n_lines,) index into params
+    identity: dict[str, str] = field(default_factory=dict)  # digests by what they stand for
+    choice: str = ""  # why the cards chose this rung, if they did
+
+    @property
+    def n_rows(self) -> int:
+        """Number of points."""
+        return len(self.inputs)
+
+    @property
+    def n_lines(self) -> int:
+        """Number of lines."""
+        return len(self.params_of)
+
+
+def make_plan(
+    model: str, over: Mapping[str, Any], at: Mapping[str, Any], points: Mapping[str, Any] | None,
+    params: Any, fidelity: str | None,
+) -> Plan:  # fmt: skip
+    """Return the plan of a sweep; arguments as in ``run_sweep``."""
+    spec = spec_of(model)
+    known = places(spec)
+    rung = spec.default_fidelity if fidelity is None else fidelity
+    tolerance = _tolerance(rung, spec)
+    base = spec.params() if params is None else params
+    if not isinstance(base, spec.params):
+        raise ParameterError(f"params: {type(base).__name__}, allowed: {spec.params.__name__}")
+    held = {a.place.name: a.values[0] for a in _held(at, known, spec)}
+    axes = [read_axis(name, values, known, spec) for name, values in over.items()]
+    if points is None:
+        rows, lines, order = _grid(axes)
+    else:
+        if axes:
+            raise ParameterError("points: allowed: without axes to vary; it names every point")
+        rows, lines, order = _listed(points, known, spec)
+    given = [*held, *(a.place.name for a in axes), *(rows if points is not None else ())]
+    twice = [name for name in given if given.count(name) > 1]
+    if twice:
+        raise ParameterError(f"{twice[0]}: is given twice, allowed: varied or held, once")
+    plan = _assemble(spec, rung, base, held, rows, lines, [known[name] for name in order])
+    return plan if tolerance is None else _chosen(plan, tolerance)
+
+
+def _tolerance(rung: str, spec: ModelSpec) -> float | None:
+    """Return the tolerance of "auto:0.01", None for the name of a rung."""
+    if rung in spec.fidelities:
+        return None
+    name, _, text = rung.partition(":")
+    try:
+        if name == "auto" and 0.0 < float(text) < math.inf:
+            return float(text)
+    except ValueError:
+        pass
+    rungs = ", ".join(map(repr, spec.fidelities))
+    raise ParameterError(
+        f"fidelity = {rung!r}, allowed: {rungs} or 'auto:TOLERANCE', e.g. auto:0.01"
+    )
+
+
+def _chosen(plan: Plan, tolerance: float) -> Plan:
+    """Return the plan with the rung that the cards choose for all of its points.
+
+    Raises
+    ------
+    SolveError : no rung is verified to the tolerance
+    """
+    from ..ladder.choose import choose
+
+    if len(plan.params) != 1:
+        raise ParameterError("fidelity = 'auto': allowed: without varied parameters")
+    low, high = np.nanmin(plan.inputs, axis=0).tolist(), np.nanmax(plan.inputs, axis=0).tolist()
+    box = {s.name: (a, b) for s, a, b in zip(plan.spec.inputs, low, high, strict=True)}
+    choice = choose(plan.spec.key, box, tol=tolerance, n_calls=plan.n_rows, params=plan.params[0])
+    identity = {**plan.identity, "fidelity": choice.fidelity}
+    return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
+
+
+def _held(at: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec) -> list[Axis]:
+    """Return what is held at one value."""
+    found = []
+    for name, value in at.items():
+        axis = read_axis(name, value if isinstance(value, str) else [value], known, spec)
+        if len(axis.values) != 1:
+            raise ParameterError(f"{axis.place.name} = {value}, allowed: one value")
+        found.append(axis)
+    return found
+
+
+def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
+    """Return the columns of a full grid, the starts of its lines, the names in order.
+
+    Inputs run faster than parameters, and among each the one named first runs fastest.
+    """
+    if not axes:
+        raise ParameterError("over: nothing is varied, allowed: NAME=VALUES, e.g. load=50:1850:50")
+    order = [a for a in axes if a.place.is_input] + [a for a in axes if not a.place.is_input]
+    sizes = [len(a.values) for a in order]
+    n = int(np.prod(sizes, dtype=float))
+    if n > MOST_POINTS:
+        shape = " x ".join(map(str, sizes))
+        raise ParameterError(f"over: {shape} = {n} points, allowed: up to {MOST_POINTS}")
+    columns, inner = {}, 1
+    for axis, size in zip(order, sizes, strict=True):
+        kind = float if axis.place.kind == "real" else object
+        values = np.array(axis.values, kind)
+        columns[axis.place.name] = np.tile(np.repeat(values, inner), n // (inner * size))
+        inner *= size
+    long = sizes[0] if order[0].place.is_input else 1
+    return columns, np.arange(0, n + 1, long), [a.place.name for a in order]
+
+
+def _listed(
+    points: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec
+) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
+    """Return the columns of given points; rows with the same number in ``line`` are one line."""
+    columns: dict[str, Any] = {}
+    for name, values in points.items():
+        if name == "line":
+            continue
+        place = find_place(name, known, spec)
+        kind = float if place.kind == "real" else object
+        columns[name] = np.array([place.check(v) for v in values], kind)
+    lengths = {name: len(values) for name, values in points.items()}
+    if not columns or len(set(lengths.values())) != 1 or not 0 < min(lengths.values()):
+        raise ParameterError(f"points: columns of {lengths}, allowed: one length for all, above 0")
+    n = len(next(iter(columns.values())))
+    if n > MOST_POINTS:
+        raise ParameterError(f"points: {n}, allowed: up to {MOST_POINTS}")
+    first = np.ones(n, bool)
+    if "line" in points:
+        mark = np.asarray(points["line"], float)
+        first[1:] = mark[1:] != mark[:-1]
+        for name, column in columns.items():
+            if not known[name].is_input:
+                first[1:] |= column[1:] != column[:-1]
+    return columns, np.append(np.flatnonzero(first), n), list(columns)
+
+
+def _assemble(
+    spec: ModelSpec, fidelity: str, base: Any, held: dict[str, Any], rows: dict[str, Any],
+    starts: NDArray[np.int64], order: list[Place],
+) -> Plan:  # fmt: skip
+    """Fill in what is not varied and give every line its parameters."""
+    n = int(starts[-1])
+    varied = [place.name for place in order if not place.is_input]
+    fixed = {k: v for k, v in held.items() if k in spec.params.__dataclass_fields__}
+    params, params_of = _parameters(base, fixed, [rows[name] for name in varied], varied, starts)
+    shown: dict[str, Any] = {}
+    if "power" in rows or "power" in held:
+        if "load" in rows or "load" in held:
+            raise ParameterError("power: allowed: instead of load, not beside it")
+        shown["power"] = _column("power", rows, held, n, 0.0)
+    for signal in spec.inputs:
+        usual = signal.start or signal.nominal or 0.0
+        shown[signal.name] = _column(signal.name, rows, held, n, usual)
+    if "power" in shown:
+        shown["load"] = _torque(shown["power"], shown["speed"], spec)
+    inputs = np.ascontiguousarray(np.stack([shown[s.name] for s in spec.inputs], axis=1))
+    units = {s.name: s.unit for s in spec.inputs} | ({"power": "W"} if "power" in shown else {})
+    for name in varied:
+        shown[name] = rows[name]
+        units[name] = next(p.unit for p in order if p.name == name)
+    plan = Plan(spec, fidelity, inputs, shown, units, starts, params, params_of)
+    plan.identity.update(_identity(plan, base, fixed, varied))
+    return plan
+
+
+def _column(name: str, rows: dict[str, Any], held: dict[str, Any], n: int, usual: float) -> Array:
+    column: Array = rows[name] if name in rows else np.full(n, float(held.get(name, usual)))
+    return column
+
+
+def _torque(power: Array, speed: Array, spec: ModelSpec) -> Array:
+    """Return the pinion's torque [N m]; NaN where the power asks for more than is allowed."""
+    largest = next(s.high for s in spec.inputs if s.name == "load") or 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        torque: Array = np.where(power == 0.0, 0.0, np.abs(power / speed))
+    return np.where(torque <= largest, torque, np.nan)
+
+
+def _parameters(
+    base: Any, fixed: dict[str, Any], columns: list[Any], names: list[str],
+    starts: NDArray[np.int64],
+) -> tuple[tuple[Any, ...], NDArray[np.int64]]:  # fmt: skip
+    """Return the parameter objects of all lines and the index of each line's."""
+    keys = list(zip(*(column[starts[:-1]].tolist() for column in columns), strict=True))
+    if not names:
+        keys = [()] * (len(starts) - 1)
+    numbers: dict[Any, int] = {}
+    of_line = np.array([numbers.setdefault(key, len(numbers)) for key in keys], np.int64)
+    given = {name: getattr(base, name) for name in type(base).__dataclass_fields__} | fixed
+    found, first_error = [], None
+    for key in numbers:
+        try:
+            found.append(type(base)(**{**given, **dict(zip(names, key, strict=True))}))
+        except ParameterError as error:
+            first_error = first_error or error
+            found.append(None)
+    if first_error and not any(found):
+        raise first_error
+    return tuple(found), of_line
+
+
+def _identity(
+    plan: Plan, base: Any, fixed: dict[str, Any], varied: Iterable[str]
+) -> dict[str, str]:
+    """Return a digest of each thing that makes this sweep another one than the next."""
+    from ..numerics.jit import kernel_digest
+
+    held = {k: v for k, v in {**asdict(base), **fixed}.items() if k not in set(varied)}
+    parts = {"model": plan.spec.key, "fidelity": plan.fidelity, "parameters": repr(held)}
+    for name, column in plan.shown.items():
+        parts[name] = repr(column.tolist()) if column.dtype == object else column.tobytes().hex()
+    parts["lines"] = plan.starts.tobytes().hex()
+    parts["version of thrustwasher"] = kernel_digest()
+    return {k: hashlib.sha256(v.encode()).hexdigest()[:16] for k, v in parts.items()}

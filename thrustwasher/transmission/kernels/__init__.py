@@ -1,0 +1,17 @@
+"""Compiled code of the planetary set.
+
+==========================  ======================================================================
+``directional_derivative``  How the outputs of the shift transmission change with its inputs:
+                            exact, modes as they are
+``dynamics``                Dynamics of the planetary set: torques and accelerations for given
+                            modes of clutch and brake
+``integrate_step``          The course of one step: stretches of smooth motion between the
+                            instants where something changes
+``layout``                  Where every number of the shift transmission lies in the arrays of its
+                            step
+``step``                    One co-simulation step of the shift transmission: received torques in,
+                            speeds and loads out
+``stick_slip``              Stick and slip of two packs: which modes are consistent, and when they
+                            end
+==========================  ======================================================================
+"""

@@ -1,0 +1,119 @@
+# mypy: disable-error-code="no-any-return"
+"""How the outputs of the shift transmission change with its inputs: exact, modes as they are.
+
+Speeds and energies are states; torques follow the inputs at once, loads the torques.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import sign_of
+from ...numerics.status import NOT_FINITE, OK
+from . import layout as L
+from .dynamics import brake_capacity, clutch_capacity, clutch_share
+
+LEAST_WASHER_LOAD = 1.0  # N
+
+
+@kernel
+def pack_change(
+    par: Array, inp: Array, state: Array, pack: int, capacity: float, change: float
+) -> tuple[float, float]:
+    """Return changes of the torque given and of the capacity of clutch (0) or brake (1).
+
+    Right after a step the capacity is the one extrapolated to its end; another input counts from
+    there as it does from any other.
+    """
+    if par[L.P_COUPLING] == L.TORQUE_COUPLING:
+        return change, 0.0
+    if not (inp[np.uintp(L.I_CLUTCH + pack)] > 0.0 and capacity > 0.0):
+        return 0.0, 0.0
+    if par[L.P_CAPACITY_EXTRAPOLATION] != 0.0 and state[L.S_STARTED] != 0.0:
+        return 0.0, change * (1.0 + par[L.P_TORQUE_AGE])
+    return 0.0, change
+
+
+@kernel
+def torque_changes(
+    par: Array, work: Array, clutch: tuple[float, float], brake: tuple[float, float], drag: float
+) -> tuple[float, float]:
+    """Return changes of X and T_brake for the modes in ``work``, as ``solve_torques`` finds them.
+
+    ``clutch``, ``brake``: changes of torque given and capacity; ``drag`` that of the drag.
+    """
+    s_cc, s_cb, s_bb = par[L.D_SLIP_CC], par[L.D_SLIP_CB], par[L.D_SLIP_BB]
+    clutch_mode, brake_mode = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
+    if clutch_mode == L.STUCK and brake_mode == L.STUCK:
+        return 0.0, 0.0
+    x = clutch[0] + clutch_mode * (clutch[1] + drag)
+    held = brake[0] + brake_mode * brake[1]
+    if clutch_mode == L.STUCK:
+        x = -s_cb * held / s_cc
+    elif brake_mode == L.STUCK:
+        held = -s_cb * x / s_bb
+    return x, held
+
+
+@kernel
+def share_change(
+    work: Array, given: float, capacity: float, x: float, capacity_now: float
+) -> float:
+    """Return the change of the clutch's own part of X, as ``clutch_share`` divides it."""
+    if work[L.W_CLUTCH_MODE] != L.STUCK:
+        return given + work[L.W_CLUTCH_MODE] * capacity
+    if work[L.W_DRAG] == 0.0:
+        return x
+    carried = work[L.W_CLUTCH] - work[L.W_CLUTCH_GIVEN]
+    if abs(carried) <= capacity_now:
+        return x
+    return given + math.copysign(capacity, carried)
+
+
+@kernel
+def directional_derivative(
+    par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array
+) -> int:
+    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
+
+    ``work`` is as the last successful step with these inputs left it; its modes stay. A torque of
+    exactly 0 counts as standing in the corner of its size: slope 0. Returns 0, or NOT_FINITE.
+    """
+    for i in range(L.NOUT):
+        dout[np.uintp(i)] = 0.0
+    r, s = par[L.D_RATIO], state[L.S_LAST_DURATION]  # the instant matters after a step only
+    washers = par[L.P_WASHERS] * sign_of(inp[L.I_WASHER]) * seed[L.I_WASHER]
+    meshes = par[L.D_MESHES] * sign_of(inp[L.I_MESH]) * seed[L.I_MESH]
+    resists = (washers + meshes) * par[L.D_SPIN] * r / (1.0 + r)
+    capacity = clutch_capacity(work, s)
+    clutch = pack_change(par, inp, state, 0, capacity, seed[L.I_CLUTCH])
+    brake = pack_change(par, inp, state, 1, brake_capacity(work, s), seed[L.I_BRAKE])
+    x, held = torque_changes(par, work, clutch, brake, resists)
+    carried = share_change(work, clutch[0], clutch[1], x, capacity)
+
+    c, b = (1.0 + r) / r, 1.0 / r
+    inertia = par[L.P_SUN_INERTIA]
+    rate = par[L.D_INV_SS] * (b * held - c * x) + par[L.D_INV_SC] * c * (x - held)
+    drag = (x - carried) * c
+    tau = -carried - drag - inertia * rate
+    own = clutch_share(par, work, s)
+    torque = work[L.W_ENGINE] - own - (work[L.W_CLUTCH] - own) * c - inertia * work[L.W_SUN_RATE]
+    per_force = 1.0 / (par[L.P_PLANETS] * par[L.D_SUN_RADIUS])
+    per_couple = 2.0 * par[L.D_PLANET_RADIUS] * par[L.D_TAN_HELIX]
+    per_load = par[L.P_THRUST_SHARE] / (2.0 * par[L.P_WASHER_RADIUS])
+    force = sign_of(torque) * tau * per_force
+    couple = per_couple * force
+    if per_load * per_couple * abs(torque) * per_force > LEAST_WASHER_LOAD:
+        dout[L.O_WASHER_LOAD] = per_load * couple
+    dout[L.O_CLUTCH_LOAD] = par[L.P_CLUTCH_FORCE] * seed[L.I_COMMAND]
+    dout[L.O_BRAKE_LOAD] = -par[L.P_BRAKE_FORCE] * seed[L.I_COMMAND]
+    dout[L.O_MESH_LOAD] = force * par[L.D_PLANET_RADIUS]
+    dout[L.O_CLUTCH_REACTION], dout[L.O_BRAKE_REACTION] = carried, held
+    dout[L.O_SUN_TORQUE], dout[L.O_DRAG_TORQUE] = tau, drag
+    dout[L.O_TOOTH_FORCE], dout[L.O_TILTING_COUPLE] = force, couple
+    dout[L.O_SUN_THRUST] = force * par[L.P_PLANETS] * par[L.D_TAN_HELIX]
+    for i in range(L.NOUT):
+        if not math.isfinite(dout[np.uintp(i)]):
+            return NOT_FINITE
+    return OK

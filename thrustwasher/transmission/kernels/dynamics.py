@@ -1,0 +1,281 @@
+# mypy: disable-error-code="no-any-return"
+"""Dynamics of the planetary set: torques and accelerations for given modes of clutch and brake.
+
+Unknowns are the speeds of sun and carrier; the ring follows from the teeth, so that a ring without
+inertia is an ordinary case. Clutch and drag act on the same slip: the drag is carried along as the
+clutch torque that does the same work, X = T_clutch + T_drag r/(1 + r).
+
+With a stiffness the shaft behind the carrier is a spring and a damper to the vehicle, which then
+has a speed of its own and meets the load. Without, the carrier is the vehicle.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.status import NOT_FINITE, OK
+from . import layout as L
+
+
+@kernel
+def derive(par: Array) -> int:
+    """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
+    sun, ring = par[L.P_SUN_TEETH], par[L.P_RING_TEETH]
+    planet = par[L.P_PLANET_TEETH]
+    if planet == 0.0:
+        planet = 0.5 * (ring - sun)
+    r = ring / sun
+    par[L.D_RATIO] = r
+    par[L.D_SPIN] = sun / planet
+    pitch = 0.5 * par[L.P_NORMAL_MODULE] / math.cos(par[L.P_HELIX_ANGLE])
+    par[L.D_SUN_RADIUS] = pitch * sun
+    par[L.D_PLANET_RADIUS] = pitch * planet
+    par[L.D_TAN_HELIX] = math.tan(par[L.P_HELIX_ANGLE])
+    ring_share = (1.0 / planet - 1.0 / ring) / (1.0 / planet + 1.0 / sun)
+    par[L.D_MESHES] = par[L.P_PLANETS] * (1.0 + ring_share)
+
+    ring_inertia = par[L.P_RING_INERTIA] / (r * r)
+    m_ss = par[L.P_SUN_INERTIA] + ring_inertia
+    m_sc = -ring_inertia * (1.0 + r)
+    m_cc = par[L.P_CARRIER_INERTIA] + ring_inertia * (1.0 + r) * (1.0 + r)
+    det = m_ss * m_cc - m_sc * m_sc
+    i_ss, i_sc, i_cc = m_cc / det, -m_sc / det, m_ss / det
+    par[L.D_INV_SS], par[L.D_INV_SC], par[L.D_INV_CC] = i_ss, i_sc, i_cc
+    # Slips from speeds: clutch = c (sun - carrier), brake = c carrier - b sun.
+    c, b = (1.0 + r) / r, 1.0 / r
+    par[L.D_SLIP_CC] = c * c * (i_ss - 2.0 * i_sc + i_cc)
+    par[L.D_SLIP_CB] = c * (c * (i_sc - i_cc) - b * (i_ss - i_sc))
+    par[L.D_SLIP_BB] = c * c * i_cc - 2.0 * b * c * i_sc + b * b * i_ss
+    for i in range(L.N_PARAM, L.NPAR):
+        if not math.isfinite(par[np.uintp(i)]):
+            return NOT_FINITE
+    return OK
+
+
+@kernel
+def ring_speed(r: float, sun: float, carrier: float) -> float:
+    """Return the speed of the ring [rad/s]; exactly 0 if sun = (1 + r) carrier."""
+    return ((1.0 + r) * carrier - sun) / r
+
+
+@kernel
+def clutch_slip(r: float, sun: float, carrier: float) -> float:
+    """Return the slip of the clutch, sun minus ring [rad/s]; exactly 0 if sun = carrier."""
+    return (1.0 + r) / r * (sun - carrier)
+
+
+@kernel
+def load_torque(par: Array, speed: float) -> float:
+    """Return the torque of the load [N m] at a speed of what it acts on [rad/s]."""
+    x = speed / par[L.P_LOAD_SPEED]
+    return math.copysign(par[L.P_LOAD_TORQUE] * x * x, speed)
+
+
+@kernel
+def vehicle_speed(par: Array, work: Array, y: int) -> float:
+    """Return the speed of the vehicle [rad/s] for the vector at ``work[y:]``."""
+    at = L.Y_VEHICLE if par[L.P_SHAFT_STIFFNESS] > 0.0 else L.Y_CARRIER
+    return float(work[np.uintp(y + at)])
+
+
+@kernel
+def output_torque(par: Array, work: Array, y: int) -> float:
+    """Return the torque against the carrier [N m] for ``work[y:]``: the shaft's, or the load's."""
+    stiffness = par[L.P_SHAFT_STIFFNESS]
+    carrier = work[np.uintp(y + L.Y_CARRIER)]
+    if not stiffness > 0.0:
+        return load_torque(par, carrier)
+    twisting = carrier - work[np.uintp(y + L.Y_VEHICLE)]
+    return stiffness * work[np.uintp(y + L.Y_TWIST)] + par[L.P_SHAFT_DAMPING] * twisting
+
+
+@kernel
+def clutch_capacity(work: Array, s: float) -> float:
+    """Return the capacity of the clutch [N m], without drag, at ``s`` seconds into the step."""
+    return max(0.0, work[L.W_CLUTCH_START] + work[L.W_CLUTCH_SLOPE] * s)
+
+
+@kernel
+def brake_capacity(work: Array, s: float) -> float:
+    """Return the capacity of the brake [N m] at ``s`` seconds into the step."""
+    return max(0.0, work[L.W_BRAKE_START] + work[L.W_BRAKE_SLOPE] * s)
+
+
+@kernel
+def solve_torques(par: Array, work: Array, s: float, load: float) -> None:
+    """Fill the torques X and T_brake and the accelerations for the modes in ``work``.
+
+    A slipping pack has its capacity with the sign of its mode; a stuck one the torque that keeps
+    its slip acceleration at zero (a 2 x 2 system if both stick). ``load`` resists the carrier.
+    """
+    r = par[L.D_RATIO]
+    i_ss, i_sc, i_cc = par[L.D_INV_SS], par[L.D_INV_SC], par[L.D_INV_CC]
+    s_cc, s_cb, s_bb = par[L.D_SLIP_CC], par[L.D_SLIP_CB], par[L.D_SLIP_BB]
+    c, b = (1.0 + r) / r, 1.0 / r
+    engine = work[L.W_ENGINE]
+    free_sun = i_ss * engine - i_sc * load
+    free_carrier = i_sc * engine - i_cc * load
+    free_clutch = c * (free_sun - free_carrier)
+    free_brake = c * free_carrier - b * free_sun
+
+    clutch_mode, brake_mode = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
+    x = work[L.W_CLUTCH_GIVEN] + clutch_mode * (clutch_capacity(work, s) + work[L.W_DRAG])
+    brake = work[L.W_BRAKE_GIVEN] + brake_mode * brake_capacity(work, s)
+    if clutch_mode == L.STUCK and brake_mode == L.STUCK:
+        det = s_cc * s_bb - s_cb * s_cb
+        x = (s_bb * free_clutch - s_cb * free_brake) / det
+        brake = (s_cc * free_brake - s_cb * free_clutch) / det
+    elif clutch_mode == L.STUCK:
+        x = (free_clutch - s_cb * brake) / s_cc
+    elif brake_mode == L.STUCK:
+        brake = (free_brake - s_cb * x) / s_bb
+
+    sun_side = engine - c * x + b * brake
+    carrier_side = c * x - c * brake - load
+    work[L.W_CLUTCH], work[L.W_BRAKE] = x, brake
+    work[L.W_SUN_RATE] = i_ss * sun_side + i_sc * carrier_side
+    work[L.W_CARRIER_RATE] = i_sc * sun_side + i_cc * carrier_side
+
+
+@kernel
+def clutch_share(par: Array, work: Array, s: float) -> float:
+    """Return the part of X that the clutch itself carries [N m]; drag takes the rest.
+
+    A stuck clutch holds what it can; only beyond its capacity does the drag of the planets help.
+    """
+    given, mode = work[L.W_CLUTCH_GIVEN], work[L.W_CLUTCH_MODE]
+    capacity = clutch_capacity(work, s)
+    if mode != L.STUCK:
+        return given + mode * capacity
+    if work[L.W_DRAG] == 0.0:
+        return work[L.W_CLUTCH]
+    return given + min(max(work[L.W_CLUTCH] - given, -capacity), capacity)
+
+
+@kernel
+def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
+    """Write the time derivatives of the vector at ``work[y:]`` to ``work[slopes:]``.
+
+    The heats are integrated with the same solution as the speeds, so that the energy book closes
+    to the integrator's tolerance.
+    """
+    sun, carrier = work[np.uintp(y + L.Y_SUN)], work[np.uintp(y + L.Y_CARRIER)]
+    resists = output_torque(par, work, y)
+    solve_torques(par, work, s, resists)
+    work[np.uintp(slopes + L.Y_SUN)] = work[L.W_SUN_RATE]
+    work[np.uintp(slopes + L.Y_CARRIER)] = work[L.W_CARRIER_RATE]
+    work[np.uintp(slopes + L.Y_ENGINE)] = work[L.W_ENGINE] * sun
+    vehicle = vehicle_speed(par, work, y)
+    load = load_torque(par, vehicle)
+    work[np.uintp(slopes + L.Y_LOAD)] = load * vehicle
+    twisting, acceleration = 0.0, 0.0
+    if par[L.P_SHAFT_STIFFNESS] > 0.0:
+        twisting = carrier - vehicle
+        acceleration = (resists - load) / par[L.P_VEHICLE_INERTIA]
+    work[np.uintp(slopes + L.Y_VEHICLE)] = acceleration
+    work[np.uintp(slopes + L.Y_TWIST)] = twisting
+    work[np.uintp(slopes + L.Y_SHAFT)] = par[L.P_SHAFT_DAMPING] * twisting * twisting
+    r = par[L.D_RATIO]
+    clutch_heat, washer_heat, mesh_heat, brake_heat = 0.0, 0.0, 0.0, 0.0
+    if work[L.W_CLUTCH_MODE] != L.STUCK:
+        clutch_heat = clutch_share(par, work, s) * clutch_slip(r, sun, carrier)
+        spin = par[L.D_SPIN] * (sun - carrier) * work[L.W_CLUTCH_MODE]
+        washer_heat = work[L.W_WASHERS] * spin
+        mesh_heat = work[L.W_MESHES] * spin
+    if work[L.W_BRAKE_MODE] != L.STUCK:
+        brake_heat = work[L.W_BRAKE] * ring_speed(r, sun, carrier)
+    work[np.uintp(slopes + L.Y_CLUTCH)] = clutch_heat
+    work[np.uintp(slopes + L.Y_BRAKE)] = brake_heat
+    work[np.uintp(slopes + L.Y_WASHER)] = washer_heat
+    work[np.uintp(slopes + L.Y_MESH)] = mesh_heat
+
+
+@kernel
+def kinetic_energy(par: Array, sun: float, carrier: float, vehicle: float) -> float:
+    """Return the kinetic energy of sun, ring, carrier and vehicle [J]."""
+    ring = ring_speed(par[L.D_RATIO], sun, carrier)
+    energy = 0.5 * (
+        par[L.P_SUN_INERTIA] * sun * sun
+        + par[L.P_RING_INERTIA] * ring * ring
+        + par[L.P_CARRIER_INERTIA] * carrier * carrier
+    )
+    if par[L.P_SHAFT_STIFFNESS] > 0.0:
+        energy += 0.5 * par[L.P_VEHICLE_INERTIA] * vehicle * vehicle
+    return energy
+
+
+@kernel
+def spring_energy(par: Array, twist: float) -> float:
+    """Return the energy of the shaft's spring [J] since the start at a twist [rad]."""
+    start = par[L.P_INITIAL_TWIST]
+    return 0.5 * par[L.P_SHAFT_STIFFNESS] * (twist - start) * (twist + start)
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return the number, from 1, of the first rule the parameters break; 0 if they keep all.
+
+    Every parameter lies in its own range. The numbers are places in the model's list of texts.
+    """
+    sun, planet, ring = par[L.P_SUN_TEETH], par[L.P_PLANET_TEETH], par[L.P_RING_TEETH]
+    if not ring > sun:
+        return 1
+    if planet != 0.0 and not abs(ring - sun - 2.0 * planet) <= 2.0:
+        return 2
+    if par[L.P_SHAFT_STIFFNESS] == 0.0:
+        if par[L.P_SHAFT_DAMPING] != 0.0:
+            return 3
+        if par[L.P_INITIAL_TWIST] != 0.0:
+            return 4
+    return 0
+
+
+# Dormand & Prince (1980): stage times, stage weights row by row, and fifth minus fourth order.
+C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
+A = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [1 / 5, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3 / 40, 9 / 40, 0.0, 0.0, 0.0, 0.0],
+    [44 / 45, -56 / 15, 32 / 9, 0.0, 0.0, 0.0],
+    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0.0, 0.0],
+    [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0.0],
+    [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+])  # fmt: skip
+B_ERROR = np.array([
+    71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40,
+])  # fmt: skip
+SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
+TWIST_SCALE = 0.01  # rad
+ENERGY_SCALE = 100.0  # J
+
+
+@kernel
+def trial_step(par: Array, work: Array, s: float, h: float) -> float:
+    """Fill ``work[W_NEW:]`` with the solution ``h`` seconds after ``s``; return the error ratio.
+
+    The error ratio is the embedded estimate over the tolerance, 1 is just acceptable. The slope at
+    the end lies in the last stage.
+    """
+    for stage in range(L.N_STAGES):
+        for i in range(L.N_Y):
+            total = 0.0
+            for k in range(stage):
+                slope = work[np.uintp(L.W_SLOPES + k * L.N_Y + i)]
+                total += A[np.uintp(stage), np.uintp(k)] * slope
+            work[np.uintp(L.W_STAGE + i)] = work[np.uintp(L.W_Y + i)] + h * total
+        rates(par, work, s + C[np.uintp(stage)] * h, L.W_STAGE, L.W_SLOPES + stage * L.N_Y)
+    worst = 0.0
+    for i in range(L.N_Y):
+        error = 0.0
+        for k in range(L.N_STAGES):
+            error += B_ERROR[np.uintp(k)] * work[np.uintp(L.W_SLOPES + k * L.N_Y + i)]
+        new = work[np.uintp(L.W_STAGE + i)]  # the last stage is the fifth-order result
+        work[np.uintp(L.W_NEW + i)] = new
+        scale = ENERGY_SCALE
+        if i == L.Y_TWIST:
+            scale = TWIST_SCALE
+        elif i <= L.Y_VEHICLE:
+            scale = SPEED_SCALE
+        worst = max(worst, abs(h * error) / (par[L.P_TOLERANCE] * (scale + abs(new))))
+    return worst

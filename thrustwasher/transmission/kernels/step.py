@@ -1,0 +1,225 @@
+# mypy: disable-error-code="no-any-return"
+"""One co-simulation step of the shift transmission: received torques in, speeds and loads out."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.jit import Array, kernel
+from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, STALLED
+from . import dynamics
+from . import layout as L
+from .directional_derivative import LEAST_WASHER_LOAD, directional_derivative
+from .integrate_step import is_at_rest, run
+
+N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
+NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
+derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
+
+
+@kernel
+def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
+    """Copy the memory, or the start values, to where the step works."""
+    if state[L.S_STARTED] != 0.0:
+        for i in range(L.N_Y):
+            work[np.uintp(L.W_Y + i)] = state[np.uintp(L.S_Y + i)]
+        work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE]
+        for i in range(4):
+            work[np.uintp(L.W_EVENTS + i)] = state[np.uintp(L.S_LOCK_TIME + i)]
+        return
+    for i in range(L.N_Y):
+        work[np.uintp(L.W_Y + i)] = 0.0
+    sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
+    carrier = (sun + r * ring) / (1.0 + r)
+    work[L.W_Y + L.Y_CARRIER] = carrier
+    # With the drum at rest the slip must be zero to the last bit, or nothing can stick.
+    work[L.W_Y + L.Y_SUN] = (1.0 + r) * carrier if ring == 0.0 else sun
+    work[L.W_Y + L.Y_VEHICLE], work[L.W_Y + L.Y_TWIST] = carrier, par[L.P_INITIAL_TWIST]
+    work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = 1.0, 1.0
+    work[L.W_EVENTS], work[L.W_EVENTS + 1], work[L.W_EVENTS + 2] = -1.0, 0.0, -1.0
+    work[L.W_EVENTS + 3] = 0.0
+
+
+@kernel
+def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
+    """Turn the received torques into capacities over the step, or torques taken as they are.
+
+    Capacities arrive once per step and would be up to a step old at its end. They go on changing
+    as they did in the last step, from the instant they belong to (``torque_age`` steps ago): the
+    error then falls with the square of the step. Where the friction law has a kink the capacity
+    overshoots for one step (a few percent just before lock-up at 1 ms).
+    """
+    r = par[L.D_RATIO]
+    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(inp[L.I_WASHER])
+    work[L.W_MESHES] = par[L.D_MESHES] * abs(inp[L.I_MESH])
+    drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
+    work[L.W_DRAG] = drag * r / (1.0 + r)
+    for k in range(2):
+        given, start, slope = 0.0, 0.0, 0.0
+        if par[L.P_COUPLING] == L.TORQUE_COUPLING:
+            given = inp[np.uintp(L.I_CLUTCH + k)]
+        else:
+            start = max(0.0, inp[np.uintp(L.I_CLUTCH + k)])
+            last = max(0.0, state[np.uintp(L.S_LAST_CLUTCH + k)])
+            if dt == 0.0 and state[L.S_STARTED] != 0.0 and start == last:
+                start = state[np.uintp(L.S_CLUTCH_NOW + k)]
+            elif par[L.P_CAPACITY_EXTRAPOLATION] != 0.0 and state[L.S_STARTED] != 0.0:
+                slope = (start - last) / state[L.S_LAST_DURATION]
+                ahead = dt if dt > 0.0 else state[L.S_LAST_DURATION]
+                start += slope * par[L.P_TORQUE_AGE] * ahead
+        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given
+        work[np.uintp(L.W_CLUTCH_START + 2 * k)] = start
+        work[np.uintp(L.W_CLUTCH_SLOPE + 2 * k)] = slope if dt > 0.0 else 0.0
+
+
+@kernel
+def kinetic_start(par: Array, state: Array, dt: float) -> float:
+    """Return the kinetic energy at the start [J]; -1 before any step: that of now."""
+    if state[L.S_STARTED] != 0.0:
+        return float(state[L.S_KINETIC_START])
+    if dt == 0.0:
+        return -1.0
+    sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
+    carrier = (sun + r * ring) / (1.0 + r)
+    return float(dynamics.kinetic_energy(par, sun, carrier, carrier))
+
+
+@kernel
+def keep(inp: Array, state: Array, work: Array, start: float, dt: float) -> None:
+    """Take the result of a step over into the memory."""
+    state[L.S_KINETIC_START] = start
+    state[L.S_STARTED] = 1.0
+    for i in range(L.N_Y):
+        state[np.uintp(L.S_Y + i)] = work[np.uintp(L.W_Y + i)]
+    state[L.S_LAST_CLUTCH], state[L.S_LAST_BRAKE] = inp[L.I_CLUTCH], inp[L.I_BRAKE]
+    state[L.S_LAST_DURATION] = dt
+    state[L.S_CLUTCH_NOW] = dynamics.clutch_capacity(work, dt)
+    state[L.S_BRAKE_NOW] = dynamics.brake_capacity(work, dt)
+    state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
+    for i in range(4):
+        state[np.uintp(L.S_LOCK_TIME + i)] = work[np.uintp(L.W_EVENTS + i)]
+
+
+@kernel
+def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> None:
+    """Fill speeds, torques and loads at ``s`` seconds into the step."""
+    r = par[L.D_RATIO]
+    sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
+    resists = dynamics.output_torque(par, work, L.W_Y)
+    dynamics.solve_torques(par, work, s, resists)
+    clutch = dynamics.clutch_share(par, work, s)
+    drag = (work[L.W_CLUTCH] - clutch) * (1.0 + r) / r
+    tau = work[L.W_ENGINE] - clutch - drag - par[L.P_SUN_INERTIA] * work[L.W_SUN_RATE]
+    force = abs(tau) / (par[L.P_PLANETS] * par[L.D_SUN_RADIUS])
+    couple = 2.0 * par[L.D_PLANET_RADIUS] * force * par[L.D_TAN_HELIX]
+    command = inp[L.I_COMMAND]
+    spin = par[L.D_SPIN] * (sun - carrier)
+    out[L.O_CLUTCH_LOAD] = command * par[L.P_CLUTCH_FORCE]
+    out[L.O_CLUTCH_SPEED] = dynamics.clutch_slip(r, sun, carrier)
+    out[L.O_BRAKE_LOAD] = (1.0 - command) * par[L.P_BRAKE_FORCE]
+    out[L.O_BRAKE_SPEED] = dynamics.ring_speed(r, sun, carrier)
+    out[L.O_WASHER_LOAD] = max(
+        LEAST_WASHER_LOAD, par[L.P_THRUST_SHARE] * couple / (2.0 * par[L.P_WASHER_RADIUS])
+    )
+    out[L.O_WASHER_SPEED] = spin
+    out[L.O_WASHER_TILT] = par[L.P_PLANET_TILT]
+    out[L.O_MESH_LOAD] = force * par[L.D_PLANET_RADIUS]
+    out[L.O_MESH_SPEED] = spin
+    out[L.O_ENGINE_SPEED], out[L.O_OUTPUT_SPEED] = sun, carrier
+    out[L.O_RING_SPEED] = dynamics.ring_speed(r, sun, carrier)
+    out[L.O_DRIVE_TORQUE] = work[L.W_ENGINE]
+    vehicle = dynamics.vehicle_speed(par, work, L.W_Y)
+    out[L.O_RESISTANCE_TORQUE] = dynamics.load_torque(par, vehicle)
+    out[L.O_VEHICLE_SPEED], out[L.O_SHAFT_TORQUE] = vehicle, resists
+    out[L.O_SHAFT_TWIST] = work[L.W_Y + L.Y_TWIST]
+    out[L.O_CLUTCH_REACTION], out[L.O_BRAKE_REACTION] = clutch, work[L.W_BRAKE]
+    out[L.O_SUN_TORQUE], out[L.O_DRAG_TORQUE] = tau, drag
+    out[L.O_TOOTH_FORCE], out[L.O_TILTING_COUPLE] = force, couple
+    out[L.O_SUN_THRUST] = abs(tau) * par[L.D_TAN_HELIX] / par[L.D_SUN_RADIUS]
+    out[L.O_OIL_SUPPLY_TEMPERATURE] = par[L.P_OIL_TEMPERATURE]
+
+
+@kernel
+def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
+    """Fill the energy book, kinetic energy at the ``start`` [J] given; negative: that of now.
+
+    The residual is what the entries leave unexplained.
+    """
+    sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
+    vehicle = dynamics.vehicle_speed(par, work, L.W_Y)
+    kinetic = dynamics.kinetic_energy(par, sun, carrier, vehicle)
+    if start < 0.0:
+        start = kinetic
+    out[L.O_ENGINE_WORK] = work[L.W_Y + L.Y_ENGINE]
+    out[L.O_LOAD_WORK] = work[L.W_Y + L.Y_LOAD]
+    out[L.O_KINETIC_ENERGY], out[L.O_KINETIC_CHANGE] = kinetic, kinetic - start
+    out[L.O_CLUTCH_HEAT] = work[L.W_Y + L.Y_CLUTCH]
+    out[L.O_BRAKE_HEAT] = work[L.W_Y + L.Y_BRAKE]
+    out[L.O_WASHER_HEAT] = work[L.W_Y + L.Y_WASHER]
+    out[L.O_MESH_HEAT] = work[L.W_Y + L.Y_MESH]
+    out[L.O_SHAFT_HEAT] = work[L.W_Y + L.Y_SHAFT]
+    out[L.O_SHAFT_ENERGY] = dynamics.spring_energy(par, work[L.W_Y + L.Y_TWIST])
+    spent = out[L.O_KINETIC_CHANGE] + out[L.O_LOAD_WORK] + out[L.O_CLUTCH_HEAT]
+    spent += out[L.O_BRAKE_HEAT] + out[L.O_WASHER_HEAT] + out[L.O_MESH_HEAT]
+    spent += out[L.O_SHAFT_HEAT] + out[L.O_SHAFT_ENERGY]
+    out[L.O_ENERGY_RESIDUAL] = out[L.O_ENGINE_WORK] - spent
+    out[L.O_LOCK_TIME], out[L.O_LOCK_SPEED] = work[L.W_EVENTS], work[L.W_EVENTS + 1]
+    out[L.O_RELEASE_TIME] = work[L.W_EVENTS + 2]
+
+
+@kernel
+def step(
+    par: Array,
+    inp: Array,
+    state: Array,
+    work: Array,
+    out: Array,
+    iout: NDArray[np.int32],
+    t: float,
+    dt: float,
+) -> int:
+    """Advance the driveline from t to t + dt, then fill the outputs.
+
+    Returns 0 or the status of a failure; STALLED is advice and stands in ``iout`` only.
+    """
+    for i in range(L.NINP):
+        if not math.isfinite(inp[np.uintp(i)]):
+            iout[L.IO_STATUS] = BAD_INPUT
+            return BAD_INPUT
+    if not (
+        math.isfinite(t) and math.isfinite(dt) and dt >= 0.0 and 0.0 <= inp[L.I_COMMAND] <= 1.0
+    ):
+        iout[L.IO_STATUS] = BAD_INPUT
+        return BAD_INPUT
+    begin(par, inp, state, work)
+    receive(par, inp, state, work, dt)
+    status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
+    start = kinetic_start(par, state, dt)
+    show_motion(par, inp, work, out, dt)
+    show_energy(par, start, work, out)
+    if status == OK and not _is_finite(work, out, dt):
+        status = NOT_FINITE
+    if status == OK and dt > 0.0:
+        keep(inp, state, work, start, dt)
+    clutch_holds = dynamics.clutch_capacity(work, dt) > 0.0
+    iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
+    iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0
+    iout[L.IO_EVENTS] = int(work[L.W_EVENTS + 3])
+    iout[L.IO_STATUS] = STALLED if status == OK and is_at_rest(par, work) else status
+    return status
+
+
+@kernel
+def _is_finite(work: Array, out: Array, dt: float) -> bool:
+    """Tell if what the memory takes over and all outputs are numbers."""
+    good = math.isfinite(dt)
+    for i in range(L.N_Y):
+        good = good and math.isfinite(work[np.uintp(L.W_Y + i)])
+    for i in range(4):
+        good = good and math.isfinite(work[np.uintp(L.W_EVENTS + i)])
+    good = good and math.isfinite(dynamics.clutch_capacity(work, dt))
+    good = good and math.isfinite(dynamics.brake_capacity(work, dt))
+    for i in range(L.NOUT):
+        good = good and math.isfinite(out[np.uintp(i)])
+    return good

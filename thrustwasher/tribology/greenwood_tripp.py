@@ -1,0 +1,165 @@
+"""Contact of a rough lining: Greenwood & Tripp's integrals over the heights.
+
+F_n(u) = integral over s > u of (s - u)^n pdf(s) ds, pdf the standard normal density: F_5/2 and
+F_3/2 by quadrature, F_5/2 from a table, F_1 and F_2 closed, the separation of a pressure.
+"""
+
+import math
+
+import numpy as np
+
+from ..numerics.jit import kernel
+from ..numerics.status import MAX_ITERATIONS
+
+N_NODES = 48
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(N_NODES)
+NODES = 0.5 * (_NODES + 1.0)
+WEIGHTS = 0.5 * _WEIGHTS
+REACH = 9.0  # the density is cut where it has fallen by exp(-REACH^2/2) = 3e-18
+
+
+@kernel
+def height_integrals(u: float) -> tuple[float, float]:
+    """Return F_5/2(u) and F_3/2(u) [-]; dF_5/2/du = -5/2 F_3/2.
+
+    With s - u = w^2 the integrand is smooth, and Gauss-Legendre on the part of w that counts
+    gives both to about 1e-12, for u from -1000 to 30.
+    """
+    low = math.sqrt(max(0.0, -u - REACH))
+    high = math.sqrt(
+        REACH - u if u < 0.0 else REACH * REACH / (math.sqrt(u * u + REACH * REACH) + u)
+    )
+    five = 0.0
+    three = 0.0
+    for i in range(N_NODES):
+        w = low + (high - low) * NODES[np.uintp(i)]
+        t = w * w
+        density = math.exp(-0.5 * (u + t) * (u + t)) / math.sqrt(2.0 * math.pi)
+        term = WEIGHTS[np.uintp(i)] * 2.0 * w * w * w * w * density
+        three += term
+        five += term * t
+    return five * (high - low), three * (high - low)
+
+
+@kernel
+def pressure_scale(roughness: float, modulus: float, density: float, radius: float) -> float:
+    """Return the factor [Pa] of F_5/2 in Greenwood & Tripp's pressure."""
+    group = density * radius * roughness
+    return 16.0 * math.sqrt(2.0) * math.pi / 15.0 * group * group * math.sqrt(
+        roughness / radius
+    ) * modulus  # fmt: skip
+
+
+U_MIN, U_MAX = -8.0, 14.0
+N_KNOTS = 353
+FAR_BELOW = -30.0
+STEP = (U_MAX - U_MIN) / (N_KNOTS - 1)
+INV_SQRT2 = 0.7071067811865476
+INV_SQRT2PI = 0.3989422804014327
+N_TRIES = 60
+
+
+def _table() -> np.ndarray:
+    """Return ln F_5/2 at the knots, its slope and curvature times the knot distance."""
+    u = (U_MIN + STEP * np.arange(N_KNOTS))[:, None]
+    low = np.sqrt(np.maximum(0.0, -u - REACH))
+    high = np.sqrt(np.where(u < 0.0, REACH - u, REACH**2 / (np.hypot(u, REACH) + np.abs(u))))
+    s = (low + (high - low) * NODES) ** 2
+    # relative to the density at u, so that nothing underflows at large u
+    weight = 2.0 * (high - low) * WEIGHTS * np.exp(-0.5 * s * (s + 2.0 * u))
+    five, three, one = ((weight * s ** (n + 0.5)).sum(1) for n in (2.5, 1.5, 0.5))
+    slope = -2.5 * three / five
+    value = np.log(five * INV_SQRT2PI) - 0.5 * u[:, 0] ** 2
+    return np.array([value, STEP * slope, STEP**2 * (3.75 * one / five - slope**2)])
+
+
+TABLE = _table()
+
+
+@kernel
+def contact_integral(u: float) -> tuple[float, float]:
+    """Return F_5/2(u) and dF_5/2/du [-], to about 1e-10; nothing beyond u = 14.
+
+    Quintic Hermite interpolation of ln F_5/2; below the table the quadrature, far below the series
+    in 1/u^2 of the mean of (s - u)^2.5 over normal heights.
+    """
+    if not u < U_MAX:
+        return (u if math.isnan(u) else 0.0), 0.0
+    if u < FAR_BELOW:
+        a, square = -u, 1.0 / (u * u)
+        low = a * math.sqrt(a)
+        return (
+            a * low * (1.0 + square * (1.875 - square * (0.1171875 + square * 0.0732421875))),
+            -2.5 * low * (1.0 + square * (0.375 + square * (0.0703125 + square * 0.1025390625))),
+        )
+    if u < U_MIN:
+        five, three = height_integrals(u)
+        return five, -2.5 * three
+    x = (u - U_MIN) / STEP
+    i = np.uintp(min(int(x), N_KNOTS - 2))
+    j = np.uintp(i + np.uintp(1))
+    t = x - float(i)
+    g0, c0 = TABLE[1, i], TABLE[2, i]
+    # quintic through value, slope, curvature at both ends
+    a = TABLE[0, j] - TABLE[0, i] - g0 - 0.5 * c0
+    b = TABLE[1, j] - g0 - c0
+    c = TABLE[2, j] - c0
+    e3 = 10.0 * a - 4.0 * b + 0.5 * c
+    e4 = -15.0 * a + 7.0 * b - c
+    e5 = 6.0 * a - 3.0 * b + 0.5 * c
+    value = math.exp(TABLE[0, i] + t * (g0 + t * (0.5 * c0 + t * (e3 + t * (e4 + t * e5)))))
+    slope = g0 + t * (c0 + t * (3.0 * e3 + t * (4.0 * e4 + t * 5.0 * e5)))
+    return value, value * slope / STEP
+
+
+@kernel
+def separation(pressure_ratio: float, guess: float) -> tuple[float, int, int]:
+    """Return (u, status, iterations) of ``separation_and_slope``."""
+    u, _, status, iterations = separation_and_slope(pressure_ratio, guess)
+    return u, status, iterations
+
+
+@kernel
+def separation_and_slope(pressure_ratio: float, guess: float) -> tuple[float, float, int, int]:
+    """Return u with F_5/2(u) = ``pressure_ratio`` [-], and its slope over that ratio's logarithm.
+
+    With them status and number of iterations. Newton on ln F_5/2, which is concave and falling:
+    from any start the second iterate lies on the far side of the root and the rest approach it
+    from there, so no bracket is needed.
+    """
+    if not pressure_ratio > 1e-30:
+        return 11.0, 0.0, 0, 0
+    goal = math.log(pressure_ratio)
+    u, per = min(guess, 8.0), 0.0
+    for n in range(N_TRIES):
+        five, slope = contact_integral(u)
+        per = five / slope
+        step = (goal - math.log(five)) * per
+        u += step
+        if abs(step) < 1e-12 * (1.0 + abs(u)):
+            return u, per, 0, n + 1
+        u = min(u, 13.0)
+    return u, per, MAX_ITERATIONS, N_TRIES
+
+
+@kernel
+def area_integrals(u: float) -> tuple[float, float]:
+    """Return F_2(u) and F_1(u) [-]; dF_2/du = -2 F_1.
+
+    F_1 = pdf - u Q and F_2 = (1 + u^2) Q - u pdf with Q(u) = erfc(u/sqrt 2)/2. Above u = 5, where
+    the differences cancel, both come from a continued fraction of Q/pdf; to 1e-13.
+    """
+    if not u < 38.0:
+        return (u if math.isnan(u) else 0.0), 0.0
+    pdf = INV_SQRT2PI * math.exp(-0.5 * u * u)
+    if u <= 5.0:
+        tail = 0.5 * math.erfc(u * INV_SQRT2)
+        return (1.0 + u * u) * tail - u * pdf, pdf - u * tail
+    # Q/pdf = 1/(u + 1/(u + 2/(u + 3/(u + ...)))); k_n is the fraction from n on
+    k = u
+    for n in range(60, 2, -1):
+        k = u + n / k
+    k2 = u + 2.0 / k
+    k1 = u + 1.0 / k2
+    # 1 - u/k1 = (1/k2)/k1; F_2 = (Q - u F_1) = pdf (k2 - u)/(k1 k2)
+    return pdf * (2.0 / k) / (k1 * k2), pdf / (k1 * k2)

@@ -1,0 +1,271 @@
+"""The washer's constants for the kernels: parameters by name, mesh, contact tables.
+
+The mesh is polar: nodes at both rims and at the gear's inner radius. Radial nodes are uniform up
+to the gear's inner radius and then graded towards the outer rim, where film and contact are
+thinnest. Around the circumference they crowd near theta = 0, where the tilt about y closes the
+film: theta = s - c sin(s), s uniform, which keeps the trapezoid rule spectrally accurate.
+"""
+
+import math
+from typing import NamedTuple
+
+from ...numerics.jit import Array, kernel, matrix
+from ...numerics.spline import spline_weights
+from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
+from ...tribology.asperities import N_CONTACT_WORK, N_TABLE, asperity_args, contact_table
+from . import layout as L
+
+COARSE_GRADING, FINE_GRADING = 1.6, 2.0  # best below and from FINE_FROM radial nodes
+FINE_FROM = 16
+ANGULAR_GRADING = 0.3
+EVEN = 1e6  # spread that evens a ring out to a thousandth without spoiling the matrix
+
+
+class WasherModel(NamedTuple):
+    """Parameters by name (SI), derived scalars, mesh arrays, contact tables."""
+
+    par: Array  # all parameters, whole
+    inner_radius: float
+    outer_radius: float
+    carrier_thickness: float
+    washer_thickness: float
+    gear_thickness: float
+    conductivity: float
+    oil_conductivity: float
+    heat_split: float
+    film_heat_fraction: float
+    volume_heat: float  # [J/(m^3 K)] density times specific heat
+    carrier_spread: float  # factor on conduction around the circumference
+    rotating_spread: float
+    n_r: int
+    n_t: int
+    i_g: int  # radial node at the gear's inner radius
+    sigma1: float  # [m] film 1
+    sigma2: float  # [m] gap 2
+    shear: float  # (sigma_carrier^2 - sigma_washer^2)/sigma^2
+    mean_summit1: float  # [m] height of the summits' mean above the surface's
+    mean_summit2: float
+    summit_sigma1: float  # [m] scatter of the summits
+    summit_sigma2: float
+    table1: Array
+    table2: Array
+    r: Array  # (n_r,) nodes [m]
+    r_face: Array  # (n_r,) outer face of each cell [m]; the last is the rim
+    log_width: Array  # (n_r,) ln(outer/inner face)
+    weight1: Array  # (n_r,) spline weights x r over ri..ro [m^2]
+    weight2: Array  # (n_r,) the same over rig..ro, zero inside
+    along: Array  # (n_r,) outer face over the distance to the next node; last 0
+    gear_width: Array  # (n_r,) log_width, from rig outwards only
+    cos: Array  # (n_t,) at nodes
+    sin: Array
+    cos_face: Array  # (n_t,) at the face between j and j + 1
+    sin_face: Array
+    weight_t: Array  # (n_t,) trapezoid weights [rad]
+    width_t: Array  # (n_t,) cell widths [rad]
+    step_t: Array  # (n_t,) from j to j + 1 [rad]
+    per_step: Array  # (n_t,) its reciprocal
+
+
+@kernel
+def gear_node(n_r: int, share: float) -> int:
+    """Return the radial node on the gear's inner radius, which has ``share`` of the width inside.
+
+    A little less than its share of the intervals goes inside (a third for the default washer), for
+    the outer part is the harder one; each part keeps what its quadrature needs.
+    """
+    return min(max(1, int(0.86 * share * (n_r - 1) + 0.3)), n_r - 4)
+
+
+def size_of_par(n_r: int, n_t: int) -> int:
+    """Return the length of ``par`` for a grid; its tail is scratch for `derive_grid`."""
+    mesh = L.N_RADIAL * n_r + L.N_AROUND * n_t
+    return L.D_MESH + mesh + max(N_CONTACT_WORK, n_r * n_r + n_r)
+
+
+@kernel
+def _end_of_mesh(n_r: int, n_t: int) -> int:
+    return L.D_MESH + L.N_RADIAL * n_r + L.N_AROUND * n_t
+
+
+@kernel
+def mesh_arrays(par: Array, n_r: int, n_t: int) -> tuple[Array, Array]:
+    """Return the mesh in ``par``: (N_RADIAL, n_r) and (N_AROUND, n_t), rows as in the layout."""
+    around = L.D_MESH + L.N_RADIAL * n_r
+    end = around + L.N_AROUND * n_t
+    return matrix(par[L.D_MESH : around], L.N_RADIAL, n_r), matrix(par[around:end], L.N_AROUND, n_t)
+
+
+@kernel
+def roughness_pair(par: Array, first: int, second: int) -> tuple[float, float]:
+    """Return the RMS roughness of two surfaces, overrides taken into account."""
+    common = par[L.P_ROUGHNESS]
+    a = par[first] if par[first] > 0.0 else common
+    b = par[second] if par[second] > 0.0 else common
+    return a, b
+
+
+@kernel
+def summits(par: Array, sigma: float) -> tuple[float, float, bool]:
+    """Return height and scatter [m] of the summits (Jackson & Green Eq 15), and if they exist."""
+    density_radius = par[L.P_ASPERITY_DENSITY] * par[L.P_ASPERITY_RADIUS]
+    variance = sigma * sigma
+    if par[L.P_ASPERITY_HEIGHT_LAW] == L.SUMMIT_HEIGHTS:
+        variance -= 3.717e-4 / density_radius**2
+    if not variance > 0.0:
+        return 0.0, sigma, False
+    return 0.045944 / density_radius, math.sqrt(variance), True
+
+
+@kernel
+def _mesh(par: Array, n_r: int, n_t: int, i_g: int) -> bool:
+    """Fill the mesh arrays of ``par``."""
+    radial, around = mesh_arrays(par, n_r, n_t)
+    r, face, log_width = radial[L.RADIUS], radial[L.FACE], radial[L.LOG_WIDTH]
+    weight1, weight2 = radial[L.WEIGHT1], radial[L.WEIGHT2]
+    along, gear_width = radial[L.ALONG], radial[L.GEAR_WIDTH]
+    ri, ro, rg = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GEAR_INNER_RADIUS]
+    for i in range(i_g + 1):
+        r[i] = ri + (rg - ri) * i / i_g
+    grading = FINE_GRADING if n_r >= FINE_FROM else COARSE_GRADING
+    for i in range(i_g, n_r):
+        s = (i - i_g) / (n_r - 1 - i_g)
+        r[i] = rg + (ro - rg) * (1.0 - (1.0 - s) ** grading)
+    r[n_r - 1] = ro
+    for i in range(n_r):
+        face[i] = 0.5 * (r[i] + r[i + 1]) if i + 1 < n_r else ro
+        log_width[i] = math.log(face[i] / (face[i - 1] if i > 0 else ri))
+    for i in range(n_r):
+        along[i] = face[i] / (r[i + 1] - r[i]) if i + 1 < n_r else 0.0
+        gear_width[i] = math.log(face[i] / r[i]) if i == i_g else log_width[i]
+    scratch = par[_end_of_mesh(n_r, n_t) :]
+    good = spline_weights(r, weight1, n_r, scratch)
+    good = spline_weights(r[i_g:], weight2[i_g:], n_r - i_g, scratch) and good
+    least1, least2 = 1.0, 1.0
+    for i in range(n_r):
+        weight1[i] *= r[i]
+        weight2[i] = weight2[i] * r[i] if i >= i_g else 0.0
+        least1 = min(least1, weight1[i])
+        least2 = min(least2, weight2[i] if i >= i_g else 1.0)
+    # on parts of very unequal width a spline may count a node negative: cell areas instead
+    for i in range(n_r):
+        inner = face[i - 1] if i > 0 else ri
+        if least1 <= 0.0:
+            weight1[i] = 0.5 * (face[i] * face[i] - inner * inner)
+        if least2 <= 0.0 and i >= i_g:
+            inner = rg if i == i_g else inner
+            weight2[i] = 0.5 * (face[i] * face[i] - inner * inner)
+    c, step = ANGULAR_GRADING, 2.0 * math.pi / n_t
+    for j in range(n_t):
+        s, s_before, s_half = j * step, (j - 0.5) * step, (j + 0.5) * step
+        here, half = s - c * math.sin(s), s_half - c * math.sin(s_half)
+        around[L.COS, j], around[L.SIN, j] = math.cos(here), math.sin(here)
+        around[L.COS_FACE, j], around[L.SIN_FACE, j] = math.cos(half), math.sin(half)
+        around[L.WEIGHT_T, j] = step * (1.0 - c * math.cos(s))
+        around[L.WIDTH_T, j] = half - (s_before - c * math.sin(s_before))
+        around[L.STEP_T, j] = step - c * (math.sin(s + step) - math.sin(s))
+        around[L.PER_STEP, j] = 1.0 / around[L.STEP_T, j]
+    return good
+
+
+@kernel
+def derive_grid(par: Array, n_r: int, n_t: int) -> int:
+    """Fill everything behind the parameters in ``par`` for a grid; return a status.
+
+    ``par`` has at least ``size_of_par(n_r, n_t)`` entries; n_r >= 5, n_t >= 8.
+    """
+    inner, outer, gear = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GEAR_INNER_RADIUS]
+    if n_r < 5 or n_t < 8 or not (0.0 < inner < gear < outer):
+        return BAD_INPUT
+    i_g = gear_node(n_r, (gear - inner) / (outer - inner))
+    good = _mesh(par, n_r, n_t, i_g)
+    status = derive_surfaces(par, par[_end_of_mesh(n_r, n_t) :])
+    par[L.D_RADIAL], par[L.D_AROUND], par[L.D_GEAR_NODE] = n_r, n_t, i_g
+    return status if status != OK or good else NOT_FINITE
+
+
+@kernel
+def combined_roughness(par: Array) -> tuple[float, float, float]:
+    """Return the RMS roughness of film 1 and gap 2 [m], and how film 1 is shared (see D_SHEAR)."""
+    carrier, washer = roughness_pair(par, L.P_ROUGHNESS_CARRIER, L.P_ROUGHNESS_WASHER)
+    gear, _ = roughness_pair(par, L.P_ROUGHNESS_GEAR, L.P_ROUGHNESS_WASHER)
+    sigma1 = math.sqrt(carrier * carrier + washer * washer)
+    sigma2 = math.sqrt(gear * gear + washer * washer)
+    return sigma1, sigma2, (carrier * carrier - washer * washer) / (sigma1 * sigma1)
+
+
+@kernel
+def derive_surfaces(par: Array, scratch: Array) -> int:
+    """Fill the scalars and the contact tables of ``par``; ``scratch`` (N_CONTACT_WORK,) or more."""
+    sigma1, sigma2, shear = combined_roughness(par)
+    height1, scatter1, good1 = summits(par, sigma1)
+    height2, scatter2, good2 = summits(par, sigma2)
+    a = asperity_args(
+        par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO], par[L.P_YIELD_STRENGTH],
+        par[L.P_YIELD_STRAIN_LAW] == L.CONTACT_YIELD, par[L.P_ASPERITY_RADIUS],
+    )  # fmt: skip
+    density = par[L.P_ASPERITY_DENSITY]
+    first, second = par[L.D_TABLE1 : L.D_TABLE2], par[L.D_TABLE2 : L.D_MESH]
+    good = contact_table(a, density, scatter1, first, scratch)
+    if scatter2 == scatter1:
+        for k in range(N_TABLE):
+            second[k] = first[k]
+    else:
+        good = contact_table(a, density, scatter2, second, scratch) and good
+    par[L.D_RADIAL], par[L.D_AROUND], par[L.D_GEAR_NODE] = 0.0, 0.0, 0.0
+    par[L.D_SIGMA1], par[L.D_SIGMA2], par[L.D_SHEAR] = sigma1, sigma2, shear
+    par[L.D_MEAN_SUMMIT1], par[L.D_MEAN_SUMMIT2] = height1, height2
+    par[L.D_SUMMIT_SIGMA1], par[L.D_SUMMIT_SIGMA2] = scatter1, scatter2
+    if not (good1 and good2):
+        return BAD_INPUT
+    return OK if good else NOT_FINITE
+
+
+@kernel
+def washer_model(par: Array) -> WasherModel:
+    """Return ``par`` by name; the arrays are views."""
+    n_r, n_t = int(par[L.D_RADIAL]), int(par[L.D_AROUND])
+    radial, around = mesh_arrays(par, n_r, n_t)
+    carrier_spread = EVEN if par[L.P_CONDUCTION] == L.ONLY_ROTATING else 1.0
+    rotating_spread = EVEN if par[L.P_CONDUCTION] == L.ONLY_CARRIER else 1.0
+    return WasherModel(
+        par=par,
+        inner_radius=par[L.P_INNER_RADIUS],
+        outer_radius=par[L.P_OUTER_RADIUS],
+        carrier_thickness=par[L.P_CARRIER_THICKNESS],
+        washer_thickness=par[L.P_WASHER_THICKNESS],
+        gear_thickness=par[L.P_GEAR_THICKNESS],
+        conductivity=par[L.P_CONDUCTIVITY],
+        oil_conductivity=par[L.P_OIL_CONDUCTIVITY],
+        heat_split=par[L.P_HEAT_SPLIT],
+        film_heat_fraction=par[L.P_FILM_HEAT_FRACTION],
+        volume_heat=par[L.P_DENSITY] * par[L.P_SPECIFIC_HEAT],
+        carrier_spread=carrier_spread,
+        rotating_spread=rotating_spread,
+        n_r=n_r,
+        n_t=n_t,
+        i_g=int(par[L.D_GEAR_NODE]),
+        sigma1=par[L.D_SIGMA1],
+        sigma2=par[L.D_SIGMA2],
+        shear=par[L.D_SHEAR],
+        mean_summit1=par[L.D_MEAN_SUMMIT1],
+        mean_summit2=par[L.D_MEAN_SUMMIT2],
+        summit_sigma1=par[L.D_SUMMIT_SIGMA1],
+        summit_sigma2=par[L.D_SUMMIT_SIGMA2],
+        table1=par[L.D_TABLE1 : L.D_TABLE2],
+        table2=par[L.D_TABLE2 : L.D_MESH],
+        r=radial[L.RADIUS],
+        r_face=radial[L.FACE],
+        log_width=radial[L.LOG_WIDTH],
+        weight1=radial[L.WEIGHT1],
+        weight2=radial[L.WEIGHT2],
+        along=radial[L.ALONG],
+        gear_width=radial[L.GEAR_WIDTH],
+        cos=around[L.COS],
+        sin=around[L.SIN],
+        cos_face=around[L.COS_FACE],
+        sin_face=around[L.SIN_FACE],
+        weight_t=around[L.WEIGHT_T],
+        width_t=around[L.WIDTH_T],
+        step_t=around[L.STEP_T],
+        per_step=around[L.PER_STEP],
+    )

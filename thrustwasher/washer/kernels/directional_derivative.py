@@ -1,0 +1,203 @@
+"""Directional derivatives of the washer's outputs, from the factored heat balance.
+
+The unknowns' change solves the linearised equations exactly; the factor at hand, made at an earlier
+point, is only their preconditioner. Each round takes the heat residual through the factor, lets
+positions and film follow so that all forces keep their balance, and combines the last two changes
+for the least residual (truncated generalised conjugate residuals).
+"""
+
+import numpy as np
+
+from ...numerics.dense import dense_solve
+from ...numerics.jit import Array, inlined, kernel
+from ...numerics.status import MAX_ITERATIONS, OK, SINGULAR
+from . import layout as L
+from .constants import WasherModel
+from .heat import solve_heat
+from .jacobian import force_jacobian, forces_by_heat, heat_change
+from .layout import ON_GEAR, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
+from .newton import make_factor, size_of
+from .outputs import change_of_outputs
+from .workspace import (
+    Fields,
+    Point,
+    Workspace,
+    clear,
+    copy,
+    fields_of,
+    model_of,
+    negate,
+    square,
+    vector,
+)
+
+CLOSE = 2e-7  # of the heat that the change moves
+ROUNDS = 12  # then a new factor is made
+NEAR_FOLD = 1e-8  # dload/dfilm in load per sigma below which there is no derivative
+
+
+@kernel
+def _follow(m: WasherModel, f: Fields, dq: Array) -> bool:
+    """Fill ``dq`` so that the forces change by ``dq`` (on entry) [N, N, N m, N m]."""
+    ro = m.outer_radius
+    slopes = square(f.small, L.FORCE_SLOPES)
+    system, right = square(f.small, L.SYSTEM), vector(f.small, L.RIGHT)
+    for a in range(4):
+        row = 1.0 if a <= ON_GEAR else 1.0 / ro
+        for c in range(4):
+            unit = m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
+            system[a, c] = slopes[a, c] * unit * row
+        right[a] = dq[a] * row
+    if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4, 1):
+        return False
+    for c in range(4):
+        dq[c] = right[c] * (m.sigma1 if c <= Z_GEAR else m.sigma1 / ro)
+    return True
+
+
+@kernel
+def _add_slopes(f: Fields, dq: Array, dtemp: Array) -> None:
+    """Add what the temperatures gain when the positions change by ``dq``."""
+    dt0, dt1, dt2, dt3 = f.following[0], f.following[1], f.following[2], f.following[3]
+    for node in range(dtemp.size):
+        k = np.uintp(node)
+        dtemp[k] += dt0[k] * dq[0] + dt1[k] * dq[1] + dt2[k] * dq[2] + dt3[k] * dq[3]
+
+
+@kernel
+def _add(to: Array, share: float, a: Array) -> None:
+    for k in range(a.size):
+        to[np.uintp(k)] += share * a[np.uintp(k)]
+
+
+@kernel
+def _dot(a: Array, b: Array) -> float:
+    s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
+    n = a.size // 4 * 4
+    for k in range(0, n, 4):
+        s0 += a[np.uintp(k)] * b[np.uintp(k)]
+        s1 += a[np.uintp(k + 1)] * b[np.uintp(k + 1)]
+        s2 += a[np.uintp(k + 2)] * b[np.uintp(k + 2)]
+        s3 += a[np.uintp(k + 3)] * b[np.uintp(k + 3)]
+    for k in range(n, a.size):
+        s0 += a[np.uintp(k)] * b[np.uintp(k)]
+    return (s0 + s1) + (s2 + s3)
+
+
+@kernel
+def _start(m: WasherModel, pt: Point, change: Point, f: Fields, dtemp: Array, heat: Array) -> int:
+    """Fill a first change of positions and ``dtemp``, with ``heat`` the residual it leaves."""
+    s = f.small
+    dq = vector(s, L.CHANGE)
+    over_speed, over_tilt = vector(s, L.OVER_SPEED), vector(s, L.OVER_TILT)
+    over_oil = vector(s, L.OVER_OIL)
+    clear(dq)
+    clear(dtemp)
+    moved = abs(change.speed) + abs(change.tilt) + abs(change.oil_temperature)
+    if moved > 0.0:
+        heat_change(m, pt, change, dq, dtemp, f, heat)
+        negate(heat)
+        solve_heat(m, heat, dtemp, f)
+    forces_by_heat(m, dtemp, f, dq)
+    for a in range(4):
+        dq[a] = -dq[a] - (
+            over_speed[a] * change.speed
+            + over_tilt[a] * change.tilt
+            + over_oil[a] * change.oil_temperature
+        )
+    dq[ON_GEAR] += change.load
+    if not _follow(m, f, dq):
+        return SINGULAR
+    _add_slopes(f, dq, dtemp)
+    heat_change(m, pt, change, dq, dtemp, f, heat)
+    negate(heat)
+    return OK
+
+
+@kernel
+def _refine(m: WasherModel, pt: Point, f: Fields, dtemp: Array, heat: Array, enough: float) -> int:
+    """Improve CHANGE and ``dtemp`` until the residual ``heat`` is below ``enough`` [W]."""
+    n = dtemp.size
+    none = Point(0.0, 0.0, 0.0, 0.0)
+    dq, step = vector(f.small, L.CHANGE), vector(f.small, L.STEP)
+    before = vector(f.small, L.STEP_BEFORE)
+    gain, old, old_gain = f.keep[n : 2 * n], f.keep[2 * n : 3 * n], f.keep[3 * n : 4 * n]
+    old_square = 0.0
+    for _ in range(ROUNDS):
+        if size_of(heat) <= enough:
+            return OK
+        f.small[L.ROUNDS] += 1.0
+        solve_heat(m, heat, f.dtemp, f)
+        forces_by_heat(m, f.dtemp, f, step)
+        negate(step)
+        if not _follow(m, f, step):
+            return SINGULAR
+        _add_slopes(f, step, f.dtemp)
+        heat_change(m, pt, none, step, f.dtemp, f, gain)
+        if old_square > 0.0:
+            share = _dot(gain, old_gain) / old_square
+            _add(f.dtemp, -share, old)
+            _add(gain, -share, old_gain)
+            _add(step, -share, before)
+        old_square = _dot(gain, gain)
+        if not old_square > 0.0:
+            return MAX_ITERATIONS
+        share = _dot(gain, heat) / old_square
+        _add(dtemp, share, f.dtemp)
+        _add(heat, -share, gain)
+        _add(dq, share, step)
+        copy(f.dtemp, old)
+        copy(gain, old_gain)
+        copy(step, before)
+    return OK if size_of(heat) <= enough else MAX_ITERATIONS
+
+
+@kernel
+def _at_fold(m: WasherModel, pt: Point, f: Fields) -> bool:
+    """Tell if the load has an extremum over the film thickness here."""
+    rise = vector(f.small, L.LOOSE)
+    clear(rise)
+    rise[ON_GEAR] = pt.load
+    if not _follow(m, f, rise):
+        return True
+    move = max(abs(rise[Z_WASHER]), m.outer_radius * max(abs(rise[TILT_X]), abs(rise[TILT_Y])))
+    return not move * NEAR_FOLD < m.sigma1
+
+
+@inlined
+def _change_of_state(m: WasherModel, pt: Point, change: Point, q: Array, f: Fields) -> int:
+    """Fill CHANGE and the temperatures' change, ``f.keep[: n_temp]``; return a status."""
+    n = f.temp.size
+    dtemp, heat = f.keep[:n], f.heat
+    for attempt in range(2):
+        if attempt == 1 or f.tag[L.TAG_VALID] != 1.0:
+            if not make_factor(m, pt, q, f.temp, f):
+                return SINGULAR
+            f.small[L.JACOBIAN_READY] = 0.0
+        if not force_jacobian(m, pt, f) or _at_fold(m, pt, f):
+            return SINGULAR
+        status = _start(m, pt, change, f, dtemp, heat)
+        if status != OK:
+            return status
+        # what the change moves: a heat balance is as good as its largest terms
+        moved = size_of(dtemp)
+        spread = m.conductivity * m.outer_radius * m.outer_radius / m.carrier_thickness
+        status = _refine(m, pt, f, dtemp, heat, CLOSE * moved / n * spread)
+        if status == OK:
+            return OK
+    return status
+
+
+@inlined
+def differentiate(w: Workspace, pt: Point, change: Point, dout: Array) -> int:
+    """Fill ``dout``, the change of the outputs over a change of the point; return a status.
+
+    Everything is as the last solve at ``pt`` has left it. SINGULAR at a fold: there the film
+    thickness moves without bound as the load changes.
+    """
+    m, f = model_of(w), fields_of(w)
+    f.small[L.ROUNDS] = 0.0
+    status = _change_of_state(m, pt, change, w.q, f)
+    if status == OK:
+        status = change_of_outputs(m, pt, change, w, f, dout)
+    return status

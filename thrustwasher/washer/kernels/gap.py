@@ -1,0 +1,129 @@
+"""Film 1 and gap 2 at the nodes: gaps, contact pressures, viscosity, and what they balance.
+
+symbol | meaning                                   | unit
+q      | z_w, z_g (heights), gx, gy (washer tilts) | m, m, rad, rad
+h1     | z_w + y gx - x gy                         | m
+h2     | z_g - z_w - x (tilt - gy) - y gx          | m
+dh1/dq | 1, 0, y, -x        dh2/dq: -1, 1, -y, x
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...tribology.asperities import contact_pressure
+from ...tribology.flow_factors import mean_gap
+from ...tribology.viscosity import viscosity
+from . import layout as L
+from .constants import WasherModel
+from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
+from .workspace import Fields, Point, clear, square, vector
+
+FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, and its stiffness
+
+
+@kernel
+def dry_friction(par: Array, contact_load: float) -> tuple[float, float]:
+    """Return the dry friction coefficient and its slope over the contact force [1/N].
+
+    Source: Jackson & Green Eq 18 with the total contact force, f = a - b ln F, held constant
+    outside the range of the loads it was measured for; never negative.
+    """
+    if par[L.P_FRICTION_LAW] == L.CONSTANT_FRICTION:
+        return par[L.P_DRY_FRICTION], 0.0
+    lo, hi = par[L.P_FRICTION_LOAD_MIN], par[L.P_FRICTION_LOAD_MAX]
+    f = min(max(contact_load, lo), hi)
+    slope = par[L.P_FRICTION_SLOPE]
+    value = par[L.P_FRICTION_CONSTANT] - slope * math.log(f)
+    if value <= 0.0:
+        return 0.0, 0.0
+    return value, -slope / f if lo < contact_load < hi else 0.0
+
+
+@kernel
+def oil_viscosity(par: Array, temperature: float) -> tuple[float, float]:
+    """Return the oil's viscosity [Pa s] and its slope [Pa s/K] at a temperature [K]."""
+    constant, exponent = par[L.P_VISCOSITY_CONSTANT], par[L.P_VISCOSITY_EXPONENT]
+    return viscosity(temperature, par[L.P_VISCOSITY_SCALE], constant, exponent)
+
+
+@kernel
+def evaluate_gaps(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
+    """Fill gaps, contact pressures and their sums in ``f`` at the positions ``q``."""
+    s = f.small
+    clear(s[: L.JACOBIAN_READY + 1])
+    forces, slopes = vector(s, L.FORCES), square(s, L.STIFFNESS)
+    z_w, z_g, gx, gy = q[Z_WASHER], q[Z_GEAR], q[TILT_X], q[TILT_Y]
+    for j in range(m.n_t):
+        cj, sj = m.cos[j], m.sin[j]
+        for i in range(m.n_r):
+            k = np.uintp(j * m.n_r + i)
+            x, y = m.r[i] * cj, m.r[i] * sj
+            h = z_w + y * gx - x * gy
+            f.ht[k], f.dht[k] = mean_gap(h, m.sigma1)
+            p, dp = contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)
+            dp /= m.summit_sigma1
+            f.pc[k], f.dpc[k] = p, dp
+            if p > 0.0:
+                w = m.weight1[i] * m.weight_t[j]
+                wp, wd = w * p, w * dp
+                forces[ON_WASHER] += wp
+                forces[MOMENT_X] += wp * y
+                forces[MOMENT_Y] -= wp * x
+                slopes[ON_WASHER, Z_WASHER] += wd
+                slopes[ON_WASHER, TILT_X] += wd * y
+                slopes[ON_WASHER, TILT_Y] -= wd * x
+                slopes[MOMENT_X, TILT_X] += wd * y * y
+                slopes[MOMENT_X, TILT_Y] -= wd * x * y
+                slopes[MOMENT_Y, TILT_Y] += wd * x * x
+    s[L.CONTACT] = forces[ON_WASHER]
+    over = vector(s, L.CONTACT_SLOPES)
+    for c in range(4):
+        over[c] = slopes[ON_WASHER, c]
+    s[L.FRICTION], s[L.FRICTION_SLOPE] = dry_friction(m.par, s[L.CONTACT])
+    forces[ON_WASHER] += FLOAT
+    rel = pt.tilt - gy
+    for j in range(m.n_t):
+        cj, sj = m.cos[j], m.sin[j]
+        for i in range(m.i_g, m.n_r):
+            k = np.uintp(j * m.n_r + i)
+            x, y = m.r[i] * cj, m.r[i] * sj
+            h = z_g - z_w - x * rel - y * gx
+            f.ht2[k], f.dht2[k] = mean_gap(h, m.sigma2)
+            p, dp = contact_pressure((h - m.mean_summit2) / m.summit_sigma2, m.table2)
+            dp /= m.summit_sigma2
+            f.pc2[k], f.dpc2[k] = p, dp
+            if p > 0.0:
+                w = m.weight2[i] * m.weight_t[j]
+                wp, wd = w * p, w * dp
+                forces[ON_WASHER] -= wp
+                forces[ON_GEAR] += wp
+                forces[MOMENT_X] -= wp * y
+                forces[MOMENT_Y] += wp * x
+                slopes[ON_WASHER, Z_WASHER] += wd
+                slopes[ON_WASHER, Z_GEAR] -= wd
+                slopes[ON_WASHER, TILT_X] += wd * y
+                slopes[ON_WASHER, TILT_Y] -= wd * x
+                slopes[ON_GEAR, Z_GEAR] += wd
+                slopes[ON_GEAR, TILT_X] -= wd * y
+                slopes[ON_GEAR, TILT_Y] += wd * x
+                slopes[MOMENT_X, TILT_X] += wd * y * y
+                slopes[MOMENT_X, TILT_Y] -= wd * x * y
+                slopes[MOMENT_Y, TILT_Y] += wd * x * x
+    for a in range(4):
+        for b in range(a):
+            slopes[a, b] = slopes[b, a]
+
+
+@kernel
+def evaluate_viscosity(m: WasherModel, pt: Point, f: Fields) -> None:
+    """Fill viscosity and slope at the film temperature, the mean of carrier and washer."""
+    m_t = 3 * m.n_r - m.i_g
+    for j in range(m.n_t):
+        for i in range(m.n_r):
+            k = np.uintp(j * m.n_r + i)
+            a = j * m_t + i
+            rise = 0.5 * (f.temp[np.uintp(a)] + f.temp[np.uintp(a + m.n_r)])
+            f.mu[k], f.dmu[k] = oil_viscosity(m.par, pt.oil_temperature + rise)
+            f.fluidity[k] = 1.0 / f.mu[k]

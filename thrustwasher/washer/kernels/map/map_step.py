@@ -1,0 +1,179 @@
+"""One step of a washer through its map: which branch, where on it, what comes out."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....numerics.jit import Array, kernel
+from ....numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
+from .. import layout as L
+from ..branch import FILM_RATIO
+from ..outputs import are_finite
+from ..regime_and_status import LARGEST_RISE, change_of, judge, point_of
+from ..workspace import Point, copy
+from . import map_layout as M
+from .map_layout import THICK
+from .map_point import map_derivative, map_outputs
+from .map_search import (
+    AT_PIECE,
+    AT_RATIO,
+    FOUND,
+    LOST,
+    N_PLACE,
+    continue_map,
+    enter_map,
+    map_covers,
+    map_fits,
+    read_edges,
+    search_map,
+)
+
+OUTSIDE = -1.0  # in place of a branch: the map says nothing here
+NOT_HERE = -1  # the same as a status: ask the field
+CONTINUOUS = 0.3  # a film ratio that moves by less has stayed on its branch
+# scratch: a look-up, then the place found
+PLACE = M.N_LOOK_UP
+N_VERDICT = 2  # branch, and 2 where there are several
+N_MAP_WORK = PLACE + N_PLACE + N_VERDICT
+
+
+@kernel
+def branch_before(state: Array) -> float:
+    """Return the branch of the last solution, by map or field; L.ANY without one."""
+    if state[L.S_MAP_BRANCH] != 0.0:
+        return float(state[L.S_MAP_BRANCH])
+    return float(state[L.S_BRANCH]) if state[L.S_VALID] == 1.0 else L.ANY
+
+
+@kernel
+def search(
+    data: Array, w: Array, scale: float, load: float, wanted: float, first: float, place: Array
+) -> float:
+    """Search the branch ``first``, then the other unless ``wanted`` names one; fill ``place``."""
+    result = search_map(data, w, scale, load, first == L.FILM_BRANCH, place)
+    if result == FOUND:
+        return first
+    if result != LOST:
+        return OUTSIDE
+    if wanted != L.ANY:
+        return 0.0
+    result = search_map(data, w, scale, load, first != L.FILM_BRANCH, place)
+    if result != FOUND:
+        return OUTSIDE
+    return L.FILM_BRANCH + L.CONTACT_BRANCH - first
+
+
+@kernel
+def _locate(
+    data: Array, w: Array, scale: float, load: float, wanted: float, state: Array, place: Array
+) -> float:
+    """Fill ``place``; return the branch, 0 if the wanted one is not there, OUTSIDE."""
+    before = branch_before(state)
+    if state[L.S_MAP_BRANCH] != 0.0 and (wanted == L.ANY or wanted == before):
+        ratio = state[L.S_MAP_RATIO]
+        if continue_map(data, w, scale, load, ratio, CONTINUOUS, place):
+            return before
+    first = wanted
+    if wanted == L.ANY:
+        first = L.CONTACT_BRANCH if before == L.CONTACT_BRANCH else L.FILM_BRANCH
+    return search(data, w, scale, load, wanted, first, place)
+
+
+@kernel
+def place_without_memory(data: Array, pt: Point, wanted: float, w: Array) -> float:
+    """Find a point from nothing; return its branch, 0 if the wanted one is not there, OUTSIDE."""
+    if not map_covers(data, pt):
+        return OUTSIDE
+    place = w[PLACE:]
+    scale = enter_map(data, pt, w)
+    first = L.CONTACT_BRANCH if wanted == L.CONTACT_BRANCH else L.FILM_BRANCH
+    found = search(data, w, scale, pt.load, wanted, first, place)
+    if found > 0.0 and place[AT_PIECE] != THICK and not w[M.STEEP] > 0.0:
+        found = L.FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
+    if found > 0.0 and wanted != L.ANY and wanted != found:
+        return 0.0
+    return found
+
+
+@kernel
+def look_up(
+    data: Array, pt: Point, wanted: float, state: Array, w: Array, out: Array, branch: Array
+) -> int:
+    """Fill ``out`` (L.N_ALL,) at ``pt``; return OK, NO_BRANCH or NOT_HERE.
+
+    Parameters
+    ----------
+    data : the map
+    w : (N_MAP_WORK,) scratch
+    branch : (2,) out, the branch and 2 if there are several, 1 if not
+    """
+    if not map_covers(data, pt):
+        return NOT_HERE
+    place = w[PLACE:]
+    scale = enter_map(data, pt, w)
+    found = _locate(data, w, scale, pt.load, wanted, state, place)
+    if found == OUTSIDE:
+        return NOT_HERE
+    if found == 0.0:
+        return NO_BRANCH
+    several = False
+    if place[AT_PIECE] != THICK:
+        read_edges(data, w)
+        several = w[M.STEEP] > 0.0
+    if not several:
+        found = L.FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
+        if wanted != L.ANY and wanted != found:
+            return NO_BRANCH
+    map_outputs(data, w, pt, place, out)
+    branch[0], branch[1] = found, 1.0
+    if several:
+        branch[1] = 2.0
+    return OK
+
+
+@kernel
+def map_step(
+    par: Array, inp: Array, wanted: float, state: Array, numbers: Array, w: Array, data: Array,
+    out: Array, iout: NDArray[np.int32], dt: float,
+) -> int:  # fmt: skip
+    """Step by looking up: outputs, memory and verdict as of `washer_step.step`, or NOT_HERE.
+
+    Parameters
+    ----------
+    wanted : branch, see washer_branch
+    numbers : (L.N_ALL,) out, all outputs
+    w : (N_MAP_WORK,) scratch
+    data : the table in the caller's work; BAD_INPUT if it is not one of these parameters
+    """
+    if not map_fits(data, par, L.N_STEADY):
+        return BAD_INPUT
+    pt = point_of(inp)
+    branch = w[N_MAP_WORK - N_VERDICT :]
+    status = look_up(data, pt, wanted, state, w, numbers, branch)
+    if status == NOT_HERE:
+        return NOT_HERE
+    if status == OK:
+        copy(numbers, out)
+        if not are_finite(out):
+            status = NOT_FINITE
+    if status != OK:
+        iout[L.IO_STATUS] = status
+        return status
+    hot = out[L.O_MEAN] - pt.oil_temperature > LARGEST_RISE
+    distressed = hot or (branch[1] == 2.0 and branch[0] == L.CONTACT_BRANCH)
+    judge(pt, out[L.O_RATIO], distressed, OK, iout)
+    if dt > 0.0:
+        state[L.S_VALID] = 0.0  # fields solved before count no more
+        state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch[0], out[L.O_RATIO]
+    return OK
+
+
+@kernel
+def map_sens(inp: Array, seed: Array, numbers: Array, w: Array, data: Array, dout: Array) -> int:
+    """Fill ``dout`` along ``seed`` after a look-up; SINGULAR at a fold."""
+    pt, change = point_of(inp), change_of(inp, seed)
+    if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and numbers[L.O_CONTACT_LOAD] > 0.0:
+        return SINGULAR
+    read_edges(data, w)
+    if map_derivative(data, w, pt, change, w[PLACE:], numbers, dout):
+        return OK
+    return SINGULAR

@@ -1,0 +1,327 @@
+"""One Newton iteration for everything: positions, pressure, temperature; by block elimination.
+
+Temperatures depend on the positions only, T = T(q); the pressure on both, p = p(q, T). So the heat
+block is solved first (for the residual and four slopes), then the film block, and what remains
+is a system of four: two forces, two moments.
+
+Wanted is either a load (mode LOAD) or a film thickness (mode FILM, the load is a result), the
+latter single-valued through both folds. The film thickness that is wanted is smoothed where
+the washer's tilt vanishes: s = z_w - r_o sqrt(gx^2 + gy^2 + e^2), e r_o = sigma/20.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.dense import dense_solve
+from ...numerics.jit import Array, kernel
+from ...numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
+from . import layout as L
+from .constants import WasherModel
+from .film import evaluate_film, film_residual, film_solve
+from .gap import evaluate_gaps, evaluate_viscosity
+from .heat import factor_heat, heat_residual, heat_slopes, solve_heat
+from .layout import (
+    AT_FIXED,
+    MOMENT_X,
+    MOMENT_Y,
+    ON_GEAR,
+    ON_WASHER,
+    OVER_POSITIONS,
+    TILT_X,
+    TILT_Y,
+    Z_GEAR,
+    Z_WASHER,
+)
+from .workspace import (
+    Fields,
+    Point,
+    Workspace,
+    clear,
+    copy,
+    fields_of,
+    model_of,
+    negate,
+    square,
+    vector,
+)
+
+# modes and counts are floats: numba would compile anew for each integer constant
+LOAD, FILM = 0.0, 1.0
+NO_FLOOR = -100.0
+
+
+@kernel
+def tilt_of(q: Array) -> float:
+    """Return the washer's tilt [rad]."""
+    return math.sqrt(q[TILT_X] * q[TILT_X] + q[TILT_Y] * q[TILT_Y])
+
+
+@kernel
+def smooth_film(w: Workspace) -> float:
+    """Return the smoothed least film thickness s [m] that mode FILM prescribes."""
+    return float(w.q[Z_WASHER] - _reach(w.par[L.P_OUTER_RADIUS], w.par[L.D_SIGMA1], w.q))
+
+
+@kernel
+def _reach(ro: float, sigma: float, q: Array) -> float:
+    """Return by how much the rim dips below the washer's middle [m], smoothed."""
+    e = 0.05 * sigma
+    return math.sqrt(ro * ro * (q[TILT_X] * q[TILT_X] + q[TILT_Y] * q[TILT_Y]) + e * e)
+
+
+@kernel
+def film_ratio(w: Workspace) -> float:
+    """Return the least film thickness over the disc in sigma."""
+    least = w.q[Z_WASHER] - w.par[L.P_OUTER_RADIUS] * tilt_of(w.q)
+    return float(least / w.par[L.D_SIGMA1])
+
+
+@kernel
+def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields) -> bool:
+    """Factor the heat equations and solve for the slopes dT/dq; gaps are already evaluated."""
+    f.tag[L.TAG_VALID] = 0.0
+    if not factor_heat(m, pt, f):
+        return False
+    heat_slopes(m, pt, temp, f)
+    for c in range(4):
+        solve_heat(m, f.following[c], f.following[c], f)
+    f.tag[L.TAG_VALID], f.tag[L.TAG_RATE] = 1.0, f.small[L.RATE]
+    f.tag[L.TAG_SPEED], f.tag[L.TAG_TILT] = pt.speed, pt.tilt
+    f.tag[L.TAG_OIL] = pt.oil_temperature
+    copy(q, vector(f.tag, L.TAG_POSITIONS))
+    copy(temp, f.tag[L.N_TAG : L.N_TAG + temp.size])
+    return True
+
+
+@kernel
+def factor_here(w: Workspace, pt: Point) -> bool:
+    """Make the heat factor at the present solution; gaps are already evaluated."""
+    f = fields_of(w)
+    return make_factor(model_of(w), pt, w.q, f.temp, f)
+
+
+@kernel
+def _balance(m: WasherModel, p: Array, f: Fields) -> None:
+    """Fill the forces conjugate to q: film pressure and contacts."""
+    forces = vector(f.small, L.BALANCE)
+    copy(vector(f.small, L.FORCES), forces)
+    for j in range(m.n_t):
+        for i in range(1, m.n_r - 1):
+            push = m.weight1[i] * m.weight_t[j] * p[np.uintp(j * m.n_r + i)]
+            forces[ON_WASHER] += push
+            forces[MOMENT_X] += push * m.r[i] * m.sin[j]
+            forces[MOMENT_Y] -= push * m.r[i] * m.cos[j]
+
+
+@kernel
+def _linearise(m: WasherModel, f: Fields) -> None:
+    """Fill the forces after the step at fixed q and their slopes, film pressure following."""
+    forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
+    copy(vector(f.small, L.FORCES), forces)
+    copy(f.small[L.STIFFNESS : L.STIFFNESS + 16], f.small[L.SLOPES : L.SLOPES + 16])
+    for j in range(m.n_t):
+        for i in range(1, m.n_r - 1):
+            k = np.uintp(j * m.n_r + i)
+            weight = m.weight1[i] * m.weight_t[j]
+            wy, wx = weight * m.r[i] * m.sin[j], weight * m.r[i] * m.cos[j]
+            p0 = f.film_rhs[k, AT_FIXED]
+            forces[ON_WASHER] += weight * p0
+            forces[MOMENT_X] += wy * p0
+            forces[MOMENT_Y] -= wx * p0
+            for c in range(4):
+                dp = f.film_rhs[k, np.uintp(OVER_POSITIONS + c)]
+                slopes[ON_WASHER, np.uintp(c)] += weight * dp
+                slopes[MOMENT_X, np.uintp(c)] += wy * dp
+                slopes[MOMENT_Y, np.uintp(c)] -= wx * dp
+
+
+@kernel
+def _steps(m: WasherModel, mode: float, target: float, q: Array, f: Fields) -> bool:
+    """Solve the system of four for the step (RIGHT) and the tangent dq/ds (TANGENT)."""
+    ro = m.outer_radius
+    reach = _reach(ro, m.sigma1, q)
+    forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
+    system, right = square(f.small, L.SYSTEM), vector(f.small, L.RIGHT)
+    for kind in range(2):  # 0: tangent, always from the FILM row; 1: the step wanted
+        for c in range(4):
+            unit = m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
+            system[0, c] = slopes[ON_WASHER, c] * unit
+            system[1, c] = slopes[MOMENT_X, c] * unit / ro
+            system[2, c] = slopes[MOMENT_Y, c] * unit / ro
+            system[3, c] = slopes[ON_GEAR, c] * unit
+        if kind == 0 or mode == FILM:
+            system[3, Z_WASHER], system[3, Z_GEAR] = 1.0, 0.0
+            system[3, TILT_X], system[3, TILT_Y] = -ro * q[TILT_X] / reach, -ro * q[TILT_Y] / reach
+        if kind == 0:
+            right[0], right[1], right[2] = 0.0, 0.0, 0.0
+            right[3] = 1.0 / m.sigma1
+        else:
+            right[0], right[1] = -forces[ON_WASHER], -forces[MOMENT_X] / ro
+            right[2] = -forces[MOMENT_Y] / ro
+            if mode == FILM:
+                right[3] = (target - (q[Z_WASHER] - reach)) / m.sigma1
+            else:
+                right[3] = target - forces[ON_GEAR]
+        if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4, 1):
+            return False
+        for c in range(4):
+            right[c] *= m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
+        if kind == 0:
+            copy(right, vector(f.small, L.TANGENT))
+    return True
+
+
+@kernel
+def _limit(ro: float, sigma: float, pt: Point, q: Array, step: Array) -> float:
+    """Return the share of the step to take.
+
+    The least gaps change by a film thickness' fraction at most; elsewhere, where the gaps are wide
+    and a rocking washer moves most, eight times as much.
+    """
+    tilt = tilt_of(q)
+    ratio = (q[Z_WASHER] - ro * tilt) / sigma
+    limit = max(1.0, 0.3 * ratio) * sigma
+    small = 1e-3 * sigma / ro
+    gx, rel = q[TILT_X], pt.tilt - q[TILT_Y]
+    lean = math.sqrt(rel * rel + gx * gx) + small
+    turn = ro * math.sqrt(step[TILT_X] * step[TILT_X] + step[TILT_Y] * step[TILT_Y])
+    lift = step[Z_GEAR] - step[Z_WASHER]
+    one = step[Z_WASHER] - ro * (gx * step[TILT_X] + q[TILT_Y] * step[TILT_Y]) / (tilt + small)
+    two = lift + ro * (rel * step[TILT_Y] - gx * step[TILT_X]) / lean
+    far1, far2 = abs(step[Z_WASHER]) + turn, abs(lift) + turn
+    worst = max(abs(one), 0.5 * abs(two), far1 / 8.0, far2 / 16.0)
+    return limit / worst if worst > limit else 1.0
+
+
+@kernel
+def evaluate(m: WasherModel, pt: Point, q: Array, f: Fields) -> float:
+    """Evaluate everything at (q, f.temp, f.p); return the heat made [W]."""
+    evaluate_gaps(m, pt, q, f)
+    evaluate_viscosity(m, pt, f)
+    made = heat_residual(m, pt, f.temp, f)
+    evaluate_film(m, pt, q, f)
+    return made
+
+
+@kernel
+def evaluate_here(w: Workspace, pt: Point) -> None:
+    """Evaluate everything at a solution that was taken back."""
+    m, f = model_of(w), fields_of(w)
+    evaluate(m, pt, w.q, f)
+    film_residual(m, f.p, f)
+
+
+@kernel
+def size_of(a: Array) -> float:
+    """Return the sum of the sizes of all numbers."""
+    total = 0.0
+    for k in range(a.size):
+        total += abs(a[np.uintp(k)])
+    return total
+
+
+@kernel
+def _take(f: Fields, share: float, q: Array) -> None:
+    """Go ``share`` of the step: positions, the temperatures and pressures that follow them."""
+    step = vector(f.small, L.RIGHT)
+    d0, d1 = share * step[Z_WASHER], share * step[Z_GEAR]
+    d2, d3 = share * step[TILT_X], share * step[TILT_Y]
+    n_temp = f.temp.size
+    dt0, dt1, dt2, dt3 = f.following[0], f.following[1], f.following[2], f.following[3]
+    jump = 0.0
+    for node in range(n_temp):
+        k = np.uintp(node)
+        change = f.dtemp[k] + dt0[k] * d0 + dt1[k] * d1 + dt2[k] * d2 + dt3[k] * d3
+        f.dtemp[k] = change
+        jump = max(jump, abs(change))
+    damp = 1.0 if jump <= 1000.0 else 1000.0 / jump
+    for node in range(n_temp):
+        k = np.uintp(node)
+        f.temp[k] += damp * f.dtemp[k]
+    for node in range(f.p.size):
+        k = np.uintp(node)
+        f.p[k] = (
+            f.film_rhs[k, AT_FIXED]
+            + f.film_rhs[k, OVER_POSITIONS + Z_WASHER] * d0
+            + f.film_rhs[k, OVER_POSITIONS + Z_GEAR] * d1
+            + f.film_rhs[k, OVER_POSITIONS + TILT_X] * d2
+            + f.film_rhs[k, OVER_POSITIONS + TILT_Y] * d3
+        )
+    q[Z_WASHER] += d0
+    q[Z_GEAR] += d1
+    q[TILT_X] += d2
+    q[TILT_Y] += d3
+
+
+@kernel
+def newton(
+    w: Workspace, pt: Point, mode: float, target: float, floor: float, tolerance: float,
+    max_iterations: float,
+) -> int:  # fmt: skip
+    """Solve for positions ``w.q``, temperatures ``f.temp`` and pressures ``f.p``; return a status.
+
+    The heat factor and its slopes serve as long as each iteration gains a digit (chord), unless
+    ``forget_factor`` was called. Film, contacts and the system of four are always exact. What is in
+    ``w.q``, ``f.temp`` and ``f.p`` is the start, then the best estimate. ``w.info``: iterations and
+    factorings are added to; out: residual, load reached [N], dload/ds [N/m], heat made [W].
+
+    Parameters
+    ----------
+    mode, target : LOAD and a load [N], or FILM and a smoothed film thickness [m]
+    floor : give up when the film ratio falls below it
+    tolerance : on the largest of force and moment over load, pressure over its maximum, heat over
+        the heat made
+    """
+    m, f = model_of(w), fields_of(w)
+    forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
+    tangent = vector(f.small, L.TANGENT)
+    before = math.inf
+    for iteration in range(int(max_iterations) + 1):
+        made = evaluate(m, pt, w.q, f)
+        pressure_error, p_max, _ = film_residual(m, f.p, f)
+        _balance(m, f.p, f)
+        reached = forces[ON_GEAR]
+        load = target if mode == LOAD else max(reached, 1e-3)
+        moment = max(abs(forces[MOMENT_X]), abs(forces[MOMENT_Y])) / m.outer_radius
+        error = max(abs(forces[ON_WASHER]), moment) / load
+        if mode == LOAD:
+            error = max(error, abs(reached - target) / load)
+        else:
+            error = max(error, abs(smooth_film(w) - target) / m.sigma1)
+        scale = max(p_max, 1e-6 * load / (m.outer_radius * m.outer_radius))
+        error = max(error, pressure_error / scale)
+        lost = size_of(f.heat)
+        flow = made + (f.small[L.STORED] if f.small[L.RATE] != 0.0 else 0.0)
+        error = max(error, lost / max(flow, 1e-2))
+        w.info[L.RESIDUAL], w.info[L.REACHED_LOAD], w.info[L.HEAT] = error, reached, made
+        if not math.isfinite(error):
+            return NOT_FINITE
+        if error < tolerance and iteration > 0:
+            return OK
+        if iteration == int(max_iterations) or film_ratio(w) < floor:
+            break
+        if error > 0.1 * before or f.tag[L.TAG_VALID] != 1.0:
+            if not make_factor(m, pt, w.q, f.temp, f):
+                return SINGULAR
+            w.info[L.FACTORED] += 1.0
+        before = error
+        # a change of load alone leaves the heat balanced: no step at fixed positions then
+        balanced = lost < tolerance * max(flow, 1e-2)
+        negate(f.heat)
+        clear(f.dtemp)
+        if not balanced:
+            solve_heat(m, f.heat, f.dtemp, f)
+        if not film_solve(m, f.p, f):
+            return SINGULAR
+        _linearise(m, f)
+        if not _steps(m, mode, target, w.q, f):
+            return SINGULAR
+        slope = 0.0
+        for c in range(4):
+            slope += slopes[ON_GEAR, c] * tangent[c]
+        w.info[L.LOAD_SLOPE] = slope
+        share = _limit(m.outer_radius, m.sigma1, pt, w.q, vector(f.small, L.RIGHT))
+        _take(f, share, w.q)
+        w.info[L.ITERATIONS] += 1.0
+    return MAX_ITERATIONS

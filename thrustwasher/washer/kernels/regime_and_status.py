@@ -1,0 +1,103 @@
+# mypy: disable-error-code="no-any-return"
+"""What every rung of the washer makes of parameters and inputs, and what it says of its result."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.jit import Array, kernel
+from ...numerics.status import DISTRESS, OK, OUTSIDE_VERIFIED
+from . import layout as L
+from .constants import combined_roughness, summits
+from .workspace import Point
+
+FILM, MIXED, BOUNDARY = 1, 2, 3  # regimes
+LEAST_TILT = 1e-9  # [rad]; less counts as none: a wedge of 0.02 nm has lift of no account
+LEAST_LOAD = 1.0  # [N]; an unloaded washer counts as loaded so much
+LARGEST_SPREAD = 20.0  # outer over inner radius
+LEAST_ROUGHNESS = 1.5e-7  # [m]
+LARGEST_RISE = 200.0  # [K] mean rise that counts as distress
+
+
+@kernel
+def _too_smooth(roughness: float) -> bool:
+    """Tell if a surface's own roughness is given (not 0) and out of reach."""
+    return 0.0 < roughness < LEAST_ROUGHNESS
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return the number, from 1, of the first rule the parameters break; 0 if they keep all.
+
+    Every parameter lies in its own range. The numbers are places in the model's list of texts.
+    """
+    if not par[L.P_INNER_RADIUS] < par[L.P_GEAR_INNER_RADIUS] < par[L.P_OUTER_RADIUS]:
+        return 1
+    if not par[L.P_OUTER_RADIUS] <= LARGEST_SPREAD * par[L.P_INNER_RADIUS]:
+        return 2
+    for k in range(3):
+        if _too_smooth(par[np.uintp(L.P_ROUGHNESS_CARRIER + k)]):
+            return 3 + k
+    if not par[L.P_FRICTION_LOAD_MIN] < par[L.P_FRICTION_LOAD_MAX]:
+        return 6
+    sigma1, sigma2, _ = combined_roughness(par)
+    _, _, first = summits(par, sigma1)
+    _, _, second = summits(par, sigma2)
+    if not (first and second):
+        return 7
+    # the fidelity may be unknown yet
+    if par.size >= L.N_PARAM and par[L.P_THERMAL_MODE] == L.TRANSIENT:
+        return 0 if par[L.P_FIDELITY] >= L.COARSE else 8
+    return 0
+
+
+@kernel
+def is_bad(inp: Array) -> bool:
+    """Tell if an input is not finite, or the tilt negative."""
+    total = inp[L.I_LOAD] + inp[L.I_SPEED] + inp[L.I_TILT] + inp[L.I_OIL]
+    return not math.isfinite(total) or inp[L.I_TILT] < 0.0
+
+
+@kernel
+def point_of(inp: Array) -> Point:
+    """Return the operating point: load, speed, tilt, oil temperature as they count."""
+    tilt = inp[L.I_TILT] if inp[L.I_TILT] > LEAST_TILT else 0.0
+    return Point(max(inp[L.I_LOAD], LEAST_LOAD), inp[L.I_SPEED], tilt, inp[L.I_OIL])
+
+
+@kernel
+def change_of(inp: Array, seed: Array) -> Point:
+    """Return how the operating point changes; an input held at its bound does not."""
+    dload = seed[L.I_LOAD] if inp[L.I_LOAD] > LEAST_LOAD else 0.0
+    dtilt = seed[L.I_TILT] if inp[L.I_TILT] > LEAST_TILT else 0.0
+    return Point(dload, seed[L.I_SPEED], dtilt, seed[L.I_OIL])
+
+
+@kernel
+def is_verified(pt: Point) -> bool:
+    """Tell if the operating point is inside the range that the tests cover."""
+    return (
+        pt.load <= 3000.0 and abs(pt.speed) <= 1500.0 and pt.tilt <= 0.004
+        and 260.0 <= pt.oil_temperature <= 420.0
+    )  # fmt: skip
+
+
+@kernel
+def regime_of(ratio: float) -> int:
+    """Return the regime's number at a film ratio."""
+    if ratio > 3.0:
+        return FILM
+    return MIXED if ratio >= 1.0 else BOUNDARY
+
+
+@kernel
+def judge(pt: Point, ratio: float, distressed: bool, status: int, iout: NDArray[np.int32]) -> None:
+    """Fill ``iout``: regime, distress, and the status or the advice in its place."""
+    iout[L.IO_REGIME] = regime_of(ratio)
+    iout[L.IO_DISTRESS] = 1 if distressed else 0
+    iout[L.IO_STATUS] = status
+    if status == OK and distressed:
+        iout[L.IO_STATUS] = DISTRESS
+    elif status == OK and not is_verified(pt):
+        iout[L.IO_STATUS] = OUTSIDE_VERIFIED

@@ -1,0 +1,190 @@
+"""One washer solve with memory: warm where it can be, on the branch that the history asks for.
+
+What a washer remembers between calls is one flat array, ``state``; all zeros: nothing yet. The heat
+factor is not in it, only the positions and temperatures it was made at: a factor in the work is
+used if it was made at exactly these, else it is made again, so that results never depend on what
+the work happens to hold.
+"""
+
+import numpy as np
+
+from ...numerics.jit import Array, inlined, kernel
+from ...numerics.status import NO_BRANCH, OK
+from . import layout as L
+from .branch import FILM_RATIO, descend, is_clear_film, solve_cold
+from .gap import evaluate_gaps, evaluate_viscosity
+from .newton import LOAD, NO_FLOOR, factor_here, film_ratio, make_factor, newton
+from .workspace import Point, Workspace, copy, fields_of, forget_factor, model_of, vector
+
+WARM_TOLERANCE = 5e-6
+CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
+
+
+@kernel
+def _remembered(state: Array, n_temp: int, n: int) -> tuple[Array, Array, Array]:
+    """Return temperatures and pressures in ``state``, and the temperatures of the factor."""
+    pressure = L.S_FIELDS + n_temp
+    factor = pressure + n
+    end = factor + n_temp
+    return state[L.S_FIELDS : pressure], state[pressure:factor], state[factor:end]
+
+
+@kernel
+def _belongs(par: Array, state: Array, tag: Array, temp: Array) -> bool:
+    """Tell if the factor was made for these parameters, the remembered point and ``temp``."""
+    return (
+        tag[L.TAG_VALID] == 1.0
+        and tag[L.TAG_SPEED] == state[L.S_FACTOR_SPEED]
+        and tag[L.TAG_TILT] == state[L.S_FACTOR_TILT]
+        and tag[L.TAG_OIL] == state[L.S_FACTOR_OIL]
+        and tag[L.TAG_RATE] == state[L.S_FACTOR_RATE]
+        and _are_equal(vector(tag, L.TAG_POSITIONS), vector(state, L.S_FACTOR_POSITIONS))
+        and _are_equal(_owner(tag), par[: L.D_SIGMA1])
+        and _are_equal(tag[L.N_TAG : L.N_TAG + temp.size], temp)
+    )
+
+
+@kernel
+def _are_equal(one: Array, two: Array) -> bool:
+    for k in range(one.size):
+        if one[np.uintp(k)] != two[np.uintp(k)]:
+            return False
+    return True
+
+
+@kernel
+def _owner(tag: Array) -> Array:
+    """Return where the tag says which parameters and which grid the factor belongs to."""
+    return tag[L.TAG_PARAMETERS : L.TAG_PARAMETERS + L.D_SIGMA1]
+
+
+@kernel
+def recall_state(w: Workspace, state: Array) -> None:
+    """Take the remembered solution and its heat factor into ``w.q`` and the work."""
+    m, f = model_of(w), fields_of(w)
+    temp, pressure, of_factor = _remembered(state, f.temp.size, f.p.size)
+    if state[L.S_FACTOR_VALID] != 1.0:
+        forget_factor(w)
+    elif not _belongs(w.par, state, f.tag, of_factor):
+        pt = Point(1.0, state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT], state[L.S_FACTOR_OIL])
+        copy(vector(state, L.S_FACTOR_POSITIONS), w.q)
+        copy(of_factor, f.temp)
+        evaluate_gaps(m, pt, w.q, f)
+        evaluate_viscosity(m, pt, f)
+        rate = f.small[L.RATE]
+        f.small[L.RATE] = state[L.S_FACTOR_RATE]
+        make_factor(m, pt, w.q, f.temp, f)
+        f.small[L.RATE] = rate
+        copy(w.par[: L.D_SIGMA1], _owner(f.tag))
+    copy(vector(state, L.S_POSITIONS), w.q)
+    copy(temp, f.temp)
+    copy(pressure, f.p)
+
+
+@kernel
+def remember_state(w: Workspace, pt: Point, state: Array) -> None:
+    """Write the present solution and where its heat factor was made into ``state``."""
+    f = fields_of(w)
+    temp, pressure, of_factor = _remembered(state, f.temp.size, f.p.size)
+    state[L.S_VALID] = 1.0
+    state[L.S_LOAD], state[L.S_SPEED] = pt.load, pt.speed
+    state[L.S_TILT], state[L.S_OIL] = pt.tilt, pt.oil_temperature
+    copy(w.q, vector(state, L.S_POSITIONS))
+    copy(f.temp, temp)
+    copy(f.p, pressure)
+    copy(w.par[: L.D_SIGMA1], _owner(f.tag))
+    state[L.S_FACTOR_VALID] = f.tag[L.TAG_VALID]
+    state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT] = f.tag[L.TAG_SPEED], f.tag[L.TAG_TILT]
+    state[L.S_FACTOR_OIL], state[L.S_FACTOR_RATE] = f.tag[L.TAG_OIL], f.tag[L.TAG_RATE]
+    copy(vector(f.tag, L.TAG_POSITIONS), vector(state, L.S_FACTOR_POSITIONS))
+    copy(f.tag[L.N_TAG : L.N_TAG + temp.size], of_factor)
+
+
+@kernel
+def scan_holds(pt: Point, state: Array) -> bool:
+    """Tell if the last descent was at about this speed, tilt and oil temperature."""
+    return bool(
+        state[L.S_SCAN_TILT] >= 0.0
+        and abs(pt.speed - state[L.S_SCAN_SPEED]) <= 0.05 * abs(state[L.S_SCAN_SPEED])
+        and abs(pt.tilt - state[L.S_SCAN_TILT]) <= 0.05 * state[L.S_SCAN_TILT]
+        and abs(pt.oil_temperature - state[L.S_SCAN_OIL]) <= 3.0
+    )
+
+
+@inlined
+def _warm(w: Workspace, pt: Point, wanted: float, state: Array) -> bool:
+    """Solve from the remembered solution; return True if it arrived on the remembered branch."""
+    branch = state[L.S_BRANCH]
+    if branch == 0.0 or (wanted != L.ANY and wanted != branch):
+        return False
+    if newton(w, pt, LOAD, pt.load, NO_FLOOR, WARM_TOLERANCE, 12.0) != OK:
+        return False
+    w.found[L.BRANCH], w.found[L.MULTIPLICITY] = branch, state[L.S_MULTIPLICITY]
+    if branch == L.FILM_BRANCH and is_clear_film(w):
+        return True
+    ratio = film_ratio(w)
+    if abs(ratio - state[L.S_RATIO]) > CONTINUOUS or not scan_holds(pt, state):
+        return False
+    if w.info[L.LOAD_SLOPE] * w.par[L.D_SIGMA1] > -0.3 * w.info[L.REACHED_LOAD]:
+        # a fold may be near: the slope is needed with a heat factor made here
+        forget_factor(w)
+        if newton(w, pt, LOAD, pt.load, NO_FLOOR, WARM_TOLERANCE, 12.0) != OK:
+            return False
+        if not w.info[L.LOAD_SLOPE] < 0.0 or abs(film_ratio(w) - ratio) > 0.5 * CONTINUOUS:
+            return False
+    if w.found[L.MULTIPLICITY] == L.SINGLE:
+        w.found[L.BRANCH] = L.FILM_BRANCH if film_ratio(w) >= FILM_RATIO else L.CONTACT_BRANCH
+    return True
+
+
+@inlined
+def solve(w: Workspace, pt: Point, wanted: float, state: Array) -> int:
+    """Solve at ``pt``; return a status. The solution is in ``w``, evaluated, with its branch.
+
+    Parameters
+    ----------
+    wanted : ANY (the remembered branch while it exists, else the other; without memory the film
+        branch up to its fold), FILM_BRANCH or CONTACT_BRANCH
+    """
+    w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
+    scanned = False
+    arrived = False
+    status = OK
+    if state[L.S_VALID] == 1.0:
+        recall_state(w, state)
+        arrived = _warm(w, pt, wanted, state)
+        if not arrived:
+            before = state[L.S_BRANCH]
+            if wanted == L.ANY and before == L.CONTACT_BRANCH:
+                status = descend(w, pt, L.CONTACT_BRANCH)
+                if status == NO_BRANCH:
+                    status = OK
+                scanned = True
+    if not arrived and not scanned:
+        status = solve_cold(w, pt, wanted)
+        scanned = w.found[L.MULTIPLICITY] != 0.0
+    w.info[L.ARRIVED] = 1.0 if arrived else 0.0
+    w.info[L.SCANNED] = 1.0 if scanned else 0.0
+    return status
+
+
+@inlined
+def keep_solution(w: Workspace, pt: Point, state: Array) -> None:
+    """Write what ``solve`` has found to ``state``."""
+    if w.info[L.ARRIVED] == 0.0:  # a factor made here makes the next, warm solve quick
+        factor_here(w, pt)
+    remember_state(w, pt, state)
+    state[L.S_BRANCH], state[L.S_MULTIPLICITY] = w.found[L.BRANCH], w.found[L.MULTIPLICITY]
+    state[L.S_RATIO] = film_ratio(w)
+    if w.info[L.SCANNED] != 0.0:
+        state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
+        state[L.S_SCAN_OIL] = pt.oil_temperature
+    elif w.info[L.ARRIVED] == 0.0:
+        state[L.S_SCAN_TILT] = -1.0
+
+
+@kernel
+def is_distressed(w: Workspace, mean_rise: float) -> bool:
+    """Tell if the film is lost: contact branch of a multivalued curve, or 200 K mean rise."""
+    lost = w.found[L.BRANCH] == L.CONTACT_BRANCH and w.found[L.MULTIPLICITY] == L.MULTIPLE
+    return lost or not mean_rise <= 200.0

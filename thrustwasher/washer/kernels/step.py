@@ -1,0 +1,151 @@
+"""The washer behind the step ABI (see the package's docstring).
+
+Rungs: `closed` and `stribeck` have no mesh and no memory, the others are one kernel on meshes.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.jit import Array, inlined, kernel
+from ...numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
+from . import layout as L
+from .constants import derive_grid, size_of_par
+from .directional_derivative import differentiate
+from .layout import N_PARAM, NINP, NIOUT, NOUT
+from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
+from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
+from .outputs import outputs_at
+from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, point_of
+from .simple import derive_simple, simple_sens, simple_step
+from .solve import is_distressed, keep_solution, solve
+from .transient import advance_heat, look_for_folds, name_branch, set_rate, start_cold, take_up
+from .workspace import Point, Workspace, copy, size_of_state, size_of_work, workspace_of
+
+COARSE_GRID = (8, 20)  # radial and circumferential nodes of fidelity "coarse"
+FIELD_GRID = (10, 32)  # of "field"
+FINE_GRID = (19, 64)  # of "fine"
+NPAR = size_of_par(*FINE_GRID)
+NSTATE = size_of_state(*FINE_GRID)
+MAP_WORK = L.N_HEAD + size_of_work(*FINE_GRID)  # behind the fields: scratch of a look-up, then
+BY_MAP = MAP_WORK + N_MAP_WORK  # 1 if the last solution was looked up, then the map itself
+TABLE_AT = BY_MAP + 1
+TABLE = {
+    "AT": TABLE_AT, "ROOM": ROOM, "MAGIC": MAGIC, "SIZE": SIZE, "PARAMS": PARAMS,
+    "N_PARAMS": L.N_STEADY, "HEADER": DATA, "SWITCH": L.P_FIDELITY, "ON": L.MAP,
+}  # fmt: skip
+NWORK = TABLE_AT + ROOM
+
+__all__ = [
+    "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "broken_rule", "derive", "sens",
+    "step",
+]  # fmt: skip
+
+
+@kernel
+def derive(par: NDArray[np.float64]) -> int:
+    """Fill ``par`` behind its ``N_PARAM`` parameters: contact tables, scalars, mesh if any."""
+    fidelity = par[L.P_FIDELITY]
+    if fidelity == L.CLOSED or fidelity == L.STRIBECK:
+        return derive_simple(par)
+    if fidelity == L.COARSE:
+        return derive_grid(par, COARSE_GRID[0], COARSE_GRID[1])
+    if fidelity == L.FINE:
+        return derive_grid(par, FINE_GRID[0], FINE_GRID[1])
+    return derive_grid(par, FIELD_GRID[0], FIELD_GRID[1])
+
+
+@inlined
+def _in_time(w: Workspace, pt: Point, dt: float, fresh: bool, state: Array) -> tuple[int, float]:
+    """Go on from the remembered temperatures through ``dt``; return status and next substep."""
+    if not fresh:
+        w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
+        take_up(w, pt, state)
+        w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
+    w.info[L.ARRIVED], w.info[L.SCANNED] = 1.0, 0.0
+    status, substep = OK, 0.0
+    if dt > 0.0 or not fresh:
+        status, substep = advance_heat(w, pt, dt, state[L.S_SUBSTEP])
+    return status, substep
+
+
+@kernel
+def step(
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: NDArray[np.int32],
+    t: float, dt: float,
+) -> int:  # fmt: skip
+    """Advance by ``dt`` (quasi-steady: solve at the present inputs) and write the outputs.
+
+    ``inp`` is load, speed, tilt, oil temperature; a fifth entry, if there is one, names the wanted
+    branch, otherwise the one that ``state`` remembers goes on. ``work`` begins with the head of the
+    layout: for Python's results.
+    """
+    fidelity = par[L.P_FIDELITY]
+    if fidelity == L.CLOSED or fidelity == L.STRIBECK:
+        return simple_step(fidelity == L.STRIBECK, par, inp, work, out, iout)
+    iout[L.IO_REGIME], iout[L.IO_DISTRESS], iout[L.IO_STATUS] = BOUNDARY, 0, BAD_INPUT
+    if is_bad(inp):
+        return BAD_INPUT
+    is_asked = inp.size > L.I_BRANCH
+    wanted = inp[L.I_BRANCH] if is_asked else L.ANY
+    pt, w = point_of(inp), workspace_of(par, work)
+    if fidelity == L.MAP:
+        w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
+        work[BY_MAP] = 1.0
+        status = map_step(
+            par, inp, wanted, state, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], out, iout,
+            dt,
+        )  # fmt: skip
+        if status != NOT_HERE:
+            return status
+        work[BY_MAP] = 0.0
+        if wanted == L.ANY:
+            wanted = state[L.S_MAP_BRANCH]
+    in_time = par[L.P_THERMAL_MODE] == L.TRANSIENT
+    fresh = state[L.S_VALID] != 1.0
+    set_rate(w, 0.0)
+    if in_time and fresh and par[L.P_THERMAL_START] == L.FROM_OIL:
+        start_cold(w)
+    status = OK
+    for _ in range(2):
+        if in_time and not fresh:
+            break
+        status = solve(w, pt, wanted, state)
+        if status != NO_BRANCH or wanted == L.ANY or is_asked:
+            break
+        wanted = L.ANY  # the branch of the map ends outside it
+    substep = state[L.S_SUBSTEP]
+    if in_time and status == OK:
+        status, substep = _in_time(w, pt, dt, fresh, state)
+    if not outputs_at(w, pt) and status == OK:
+        status = NOT_FINITE
+    lost = in_time and name_branch(w, w.outputs[L.O_RATIO], w.outputs[L.O_FLUID_SHARE])
+    if dt > 0.0 and (status == OK or status == NO_BRANCH):
+        keep_solution(w, pt, state)
+        state[L.S_MAP_BRANCH] = 0.0
+        state[L.S_SUBSTEP] = substep
+        if lost:
+            look_for_folds(w, pt, state)
+    if in_time and dt > 0.0:
+        set_rate(w, 1.0 / dt)  # derivatives: of what the whole step brings
+    copy(w.outputs, out)
+    judge(pt, out[L.O_RATIO], is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
+    return status
+
+
+@kernel
+def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
+    """Fill ``dout`` (NOUT,), the derivative of the real outputs along ``seed`` (NINP,).
+
+    ``work`` is as ``step`` left it after solving at these inputs. Where an input is held at a
+    bound (an unloaded or a level washer) its derivative is zero. Returns SINGULAR at a fold, and at
+    rest with contact, where the torque jumps.
+    """
+    fidelity = par[L.P_FIDELITY]
+    if fidelity == L.CLOSED or fidelity == L.STRIBECK:
+        return simple_sens(fidelity == L.STRIBECK, par, inp, work, seed, dout)
+    pt, change, w = point_of(inp), change_of(inp, seed), workspace_of(par, work)
+    if fidelity == L.MAP and work[BY_MAP] == 1.0:
+        return map_sens(inp, seed, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)
+    if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and w.outputs[L.O_CONTACT_LOAD] > 0.0:
+        return SINGULAR
+    return differentiate(w, pt, change, dout)

@@ -1,0 +1,206 @@
+"""The whole curve of a washer's solutions over load, with its folds: continuation in the film."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import ParameterError, SolveError, Status
+from ..model.parameters import check_number
+from ..model.work_arrays import work_array
+from ..numerics.jit import Array
+from .kernel_arguments import NO_MESH, constants
+from .kernels import layout as L
+from .kernels.constants import washer_model
+from .kernels.continuation import enter_curve, find_fold, step_down, walk_to
+from .kernels.outputs import outputs_at
+from .kernels.solve import remember_state
+from .kernels.workspace import Point, fields_of, size_of_state, size_of_work, workspace_of
+from .parameters import WasherParams
+from .solve import ERRORS, check_point, resolve_grid, result_from
+from .washer_result import BRANCH_NAMES, Fold, WasherResult
+
+__all__ = ["Fold", "LoadCurve", "load_curve"]
+
+FINEST = 0.1  # [sigma] between points near contact
+_NUMBERS = {name: number for number, name in BRANCH_NAMES.items()}
+SHALLOW = 3e-4  # relative drop of the load that makes a fold; solve_washer uses the same
+
+
+@dataclass(frozen=True, slots=True)
+class LoadCurve:
+    """All solutions at fixed speed, tilt and oil temperature."""
+
+    points: list[WasherResult]  # ordered by falling film_thickness
+    folds: list[Fold]  # empty if the curve is single-valued
+
+
+def load_curve(
+    params: WasherParams, *, speed: float, tilt: float, oil_temperature: float = 297.15,
+    fidelity: str = "field", grid: tuple[int, int] | None = None, load_min: float = 20.0,
+    load_max: float = 3000.0,
+) -> LoadCurve:  # fmt: skip
+    """Return all solutions between two loads and the folds where the film is lost and regained.
+
+    The film thickness is prescribed and the load computed, so the curve is followed through both
+    folds and along the unstable branch between them.
+
+    Parameters
+    ----------
+    params, speed [rad/s], tilt [rad], oil_temperature [K], fidelity, grid : as in solve_washer
+    load_min, load_max : ends of the curve [N]
+
+    Returns
+    -------
+    LoadCurve : ``points`` by falling film thickness (each with load and branch), ``folds``
+
+    Raises
+    ------
+    ParameterError : an argument is outside its range
+    SolveError : the walk along the curve got stuck
+
+    Notes
+    -----
+    Folds are extrema of the load, located to 1e-5 sigma in film thickness; a pair whose loads
+    differ by less than 3e-4 counts as none.
+
+    Examples
+    --------
+    >>> curve = load_curve(WasherParams(), speed=545.0, tilt=0.002)
+    >>> [f"{fold.kind} {fold.load:.0f} N" for fold in curve.folds]
+    ['film_lost 773 N', 'film_regained 441 N']
+    """
+    nodes = resolve_grid(fidelity, grid)
+    if nodes == NO_MESH:
+        raise ParameterError(
+            f"fidelity = {fidelity!r}, allowed: 'coarse' or 'field' or 'fine'; without a mesh "
+            "there is one solution for each load: call solve_washer"
+        )
+    check_number("load_min", load_min, "N", 1.0, 1e4)
+    check_number("load_max", load_max, "N", load_min, 1e4)
+    point = Point(*check_point(load_min, speed, tilt, oil_temperature))
+    here = Continuation(params, point, nodes)
+    here.enter(load_min)
+    points: list[WasherResult] = [here.result(fidelity)]
+    folds: list[Fold] = []
+    places = [here.film]  # smoothed film thicknesses
+    top = 0  # the highest point since the film was regained, the lowest since it was lost
+    rising = True
+    while points[-1].load < load_max or not rising:
+        here.to(step_down(here.m.sigma1, here.film, FINEST))
+        places.append(here.film)
+        points.append(here.result(fidelity))
+        gain = points[-1].load - points[top].load
+        noise = SHALLOW * points[top].load + 1e-3
+        if gain < -noise if rising else gain > noise:
+            rising = not rising
+            kind = "film_regained" if rising else "film_lost"
+            folds.append(here.fold(kind, places[max(0, top - 1)], places[-1]))
+            top = len(points) - 1
+        elif gain > 0.0 if rising else gain < 0.0:
+            top = len(points) - 1
+    return LoadCurve(_labelled(points, folds), folds)
+
+
+def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:
+    """Name each point's branch: by the folds, or on a single-valued curve by the film ratio."""
+    named = []
+    for p in points:
+        passed = sum(p.film_ratio < fold.film_ratio for fold in folds)
+        if folds:
+            branch = "unstable" if passed % 2 else "contact" if passed else "film"
+        else:
+            branch = "film" if p.film_ratio >= 3.0 else "contact"
+        distress = (bool(folds) and branch == "contact") or (
+            p.temperature - p.oil_temperature > 200.0
+        )
+        p._state[L.S_BRANCH] = _NUMBERS[branch]
+        p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
+        named.append(dataclasses.replace(p, branch=branch, distress=distress))
+    return named
+
+
+class Continuation:
+    """A place on the curve of solutions, which moves as its film thickness is prescribed."""
+
+    def __init__(self, params: WasherParams, point: Point, nodes: tuple[int, int]) -> None:
+        self.params, self.pt, self.nodes = params, point, nodes
+        par = constants(params, nodes)
+        self.work = work_array(("washer", nodes), L.N_HEAD + size_of_work(*nodes))
+        self.w = workspace_of(par, self.work)
+        self.m, self.f = washer_model(par), fields_of(self.w)
+        self.w.curve[L.ACCURACY] = 1e-8
+
+    @property
+    def film(self) -> float:
+        """Film thickness [m]."""
+        return float(self.w.curve[L.AT_FILM])
+
+    @property
+    def load(self) -> float:
+        """Load [N]."""
+        return float(self.w.curve[L.AT_LOAD])
+
+    def copy(self) -> list[Array]:
+        """Return what `come_back` takes."""
+        return [a.copy() for a in self._moving()]
+
+    def come_back(self, kept: list[Array]) -> None:
+        """Go back to where a copy was made."""
+        for here, then in zip(self._moving(), kept, strict=True):
+            here[:] = then
+        self.f.tag[L.TAG_VALID] = 0.0
+
+    def _moving(self) -> list[Array]:
+        return [self.w.q, self.f.temp, self.f.p, self.w.curve]
+
+    def _check(self, code: int, where: str) -> None:
+        if code:
+            raise SolveError(
+                f"load_curve: {Status(code).advice} ({where}, film of "
+                f"{self.film / self.m.sigma1:.2f} sigma, speed = {self.pt.speed:g} rad/s, "
+                f"tilt = {self.pt.tilt:g} rad; tried: steps down to 1e-4 of the first); "
+                "use another grid"
+            )
+
+    def start(self, ratio: float) -> None:
+        """Solve from nothing at a film ratio."""
+        self._check(enter_curve(self.w, self.pt, ratio), "entry")
+
+    def enter(self, load: float) -> None:
+        """Go to where the washer carries less than ``load`` [N]."""
+        self.start(6.0)
+        while self.load > load and self.film < 1e3 * self.m.sigma1:
+            self.to(1.25 * self.film)
+
+    def to(self, s: float) -> None:
+        """Walk to a film thickness [m]."""
+        self._check(walk_to(self.w, self.pt, s), "walking")
+
+    def fold(self, kind: str, upper: float, lower: float) -> Fold:
+        """Locate a fold between two film thicknesses and come back."""
+        kept = self.copy()
+        self._check(find_fold(self.w, self.pt, upper, lower), kind)
+        load, out = self.load, self.outputs()
+        self.come_back(kept)
+        return Fold(kind, load, out[L.O_RATIO], out[L.O_MEAN], out[L.O_TORQUE])
+
+    def outputs(self) -> list[float]:
+        """Return all outputs here."""
+        outputs_at(self.w, self.pt._replace(load=self.load))
+        return [float(x) for x in self.w.outputs]
+
+    def result(self, fidelity: str) -> WasherResult:
+        """Return a result; its branch is not known yet."""
+        pt = self.pt._replace(load=self.load)
+        state = np.zeros(size_of_state(*self.nodes))
+        remember_state(self.w, pt, state)
+        state[L.S_RATIO] = self.outputs()[L.O_RATIO]
+        state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
+        state[L.S_SCAN_OIL] = pt.oil_temperature
+        return result_from(
+            self.params, pt, fidelity, self.nodes, state, self.work, Status.OK,
+            L.FILM_BRANCH, False, ERRORS[fidelity],
+        )  # fmt: skip

@@ -1,0 +1,252 @@
+"""A washer's map from Python: look-ups, rows of look-ups, folds."""
+
+from __future__ import annotations
+
+import math
+import os
+import threading
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ...errors import ParameterError, Status
+from ...model.parameters import as_numbers
+from ...model.recent import Recent
+from ...native.load import bound
+from ...numerics.jit import Array
+from ..kernel_arguments import NO_MESH
+from ..kernels import layout as L
+from ..kernels.map import map_layout as M
+from ..kernels.map.map_rows import look_up_rows, map_folds, map_tilts, single_look_up
+from ..kernels.map.map_search import map_covers
+from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
+from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
+from ..kernels.workspace import Point
+from ..parameters import WasherParams
+from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult
+from .map_file import MapFile, find_map, read_map
+
+ERROR = Unread(2e-3)  # of friction_torque where no card says better
+OUTPUTS = (
+    "friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
+    "fluid_load_share", "friction_coefficient", "friction_power", "fluid_load", "contact_load",
+)  # fmt: skip
+NOTHING = (math.nan,) * len(OUTPUTS)
+
+
+class _Memory(threading.local):
+    """What looking up in a map writes to: each thread has its own."""
+
+    def __init__(self, data: Array) -> None:
+        self.work = np.zeros(N_MAP_WORK + L.N_ALL)
+        self.torque = bound(single_look_up, data=data, w=self.work)
+
+
+class WasherMap:
+    """All steady states of one washer in a box of load, speed, tilt and oil temperature.
+
+    Parameters
+    ----------
+    params : the washer
+    path : a file of ``thrustwasher map build``; without it the first map found for ``params``
+
+    Raises
+    ------
+    ParameterError : no map was made for these parameters, or the file is none
+
+    Examples
+    --------
+    >>> washer = WasherMap(WasherParams())
+    >>> torque = washer.torque(load=300.0, speed=545.0, tilt=0.002, oil_temperature=297.15)
+    >>> f"{torque:.4f} N m"
+    '0.2052 N m'
+    """
+
+    def __init__(self, params: WasherParams, path: str | os.PathLike[str] | None = None) -> None:
+        self.params, self.file = params, map_for(params, path)
+        self.data, self.card = self.file.data, self.file.card
+        self._own = _Memory(self.data)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the memory: a copy has its own."""
+        return {name: value for name, value in self.__dict__.items() if name != "_own"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take over all but the memory."""
+        self.__dict__.update(state)
+        self._own = _Memory(self.data)
+
+    @property
+    def box(self) -> dict[str, tuple[float, float]]:
+        """Ends of load [N], speed [rad/s], tilt [rad] and oil temperature [K]."""
+        d, a = self.data, M.AXES
+        low = d[M.BEND] * np.sinh(d[a])
+        return {
+            "load": (float(d[M.LOAD_MIN]), float(d[M.LOAD_MAX])),
+            "speed": (0.0 if low <= M.FLOOR_SPEED else float(low), float(d[M.SPEED_MAX])),
+            "tilt": (float(np.exp(d[a + 3])), float(np.exp(d[a + 4]))),
+            "oil_temperature": (float(d[a + 6]), float(d[a + 7])),
+        }
+
+    def covers(self, *, load: float, speed: float, tilt: float, oil_temperature: float) -> bool:
+        """Tell if a point lies in the box."""
+        return bool(map_covers(self.data, Point(load, speed, tilt, oil_temperature)))
+
+    def torque(
+        self, load: float, speed: float, tilt: float, oil_temperature: float, branch: float = 0.0
+    ) -> float:
+        """Return the friction torque [N m], nan outside the box or where a branch is not.
+
+        ``branch``: 0 film up to its fold, then contact; 1 film; 3 contact.
+        """
+        torque: float = self._own.torque(load, speed, tilt, oil_temperature, branch)
+        return torque
+
+    def look_up(
+        self, *, load: Any, speed: Any, tilt: Any, oil_temperature: Any, branch: str | None = None
+    ) -> dict[str, Array]:
+        """Return all outputs at many points.
+
+        Parameters
+        ----------
+        load [N], speed [rad/s], tilt [rad], oil_temperature [K] : arrays that broadcast
+        branch : "film" or "contact" where there are both; else film up to its fold, then contact
+
+        Returns
+        -------
+        arrays of the common shape under the names of ``OUTPUTS``, ``branch`` (1 film, 3 contact,
+        0 no such branch, -1 outside the box) and ``several`` (True where there are both); numbers
+        are nan where ``branch`` is below 1
+        """
+        if branch is not None and branch not in BRANCHES:
+            raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
+        wanted = L.ANY if branch is None else BRANCHES[branch]
+        inputs = np.broadcast_arrays(load, speed, tilt, oil_temperature)
+        rows = np.column_stack([np.asarray(x, dtype=np.float64).ravel() for x in inputs])
+        out = np.empty((len(rows), L.N_ALL))
+        found = np.empty((len(rows), 2))
+        look_up_rows(self.data, rows, wanted, self._own.work, out, found)
+        shape = inputs[0].shape
+        columns = {name: out[:, k].reshape(shape) for k, name in enumerate(OUTPUTS)}
+        columns["branch"] = found[:, 0].reshape(shape)
+        columns["several"] = (found[:, 1] == 2.0).reshape(shape)
+        return columns
+
+    def folds(self, *, speed: float, tilt: float, oil_temperature: float) -> list[Fold]:
+        """Return the folds at a speed, tilt and oil temperature, as ``load_curve`` does.
+
+        Folds outside the box's loads are found as far as the map's curve goes.
+
+        Raises
+        ------
+        ParameterError : the point is outside the box
+        """
+        point = Point(self.box["load"][0], speed, tilt, oil_temperature)
+        if not map_covers(self.data, point):
+            raise ParameterError(
+                f"speed = {speed:g} rad/s, tilt = {tilt:g} rad, oil_temperature = "
+                f"{oil_temperature:g} K, allowed: inside the map's box {self.box}"
+            )
+        found = np.zeros((4, L.N_ALL + 2))
+        count = int(map_folds(self.data, speed, tilt, oil_temperature, self._own.work,
+                              found))  # fmt: skip
+        kinds = ("film_lost", "film_regained")
+        return [
+            Fold(kinds[k % 2], row[L.N_ALL], row[L.O_RATIO], row[L.O_MEAN], row[L.O_TORQUE])
+            for k, row in enumerate(found[:count].tolist())
+        ]
+
+
+class _Solver:
+    """A washer's map, ready to be looked up again: memory and the kernels."""
+
+    def __init__(self, params: WasherParams) -> None:
+        data = washer_map(params).data
+        work, self.state = np.zeros(N_MAP_WORK), np.zeros(L.S_FIELDS)
+        self.numbers, self.branch, self.tilts = np.zeros(L.N_ALL), np.zeros(2), np.zeros(2)
+        self.look_up = bound(
+            look_up, data=data, state=self.state, w=work, out=self.numbers, branch=self.branch
+        )
+        self.tilt = bound(map_tilts, data=data, w=work, tilts=self.tilts)
+
+
+_solver = Recent(_Solver)
+
+
+def solve_by_map(
+    params: WasherParams, point: tuple[float, float, float, float], wanted: float,
+    start: WasherResult | None,
+) -> WasherResult | None:  # fmt: skip
+    """Return the state at a point by look-up, None where the map says nothing.
+
+    ``wanted`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
+
+    Raises
+    ------
+    ParameterError : there is no map for these parameters
+    """
+    if point[2] <= LEAST_TILT:
+        washer_map(params)  # there has to be one
+        return None
+    solver, state = _solver(params), np.zeros(L.S_FIELDS)
+    before, ratio = 0.0, 0.0
+    if start is not None and start.branch in BRANCHES:
+        if start.params is params or start.params == params:
+            before, ratio = BRANCHES[start.branch], start.film_ratio
+    solver.state[L.S_MAP_BRANCH], solver.state[L.S_MAP_RATIO] = before, ratio
+    status = solver.look_up(point, wanted)
+    if status == NOT_HERE:
+        return None
+    if status != Status.OK:
+        state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
+        return _result(params, point, NOTHING, (math.nan, math.nan), "film", False,
+                       Status(status), state)  # fmt: skip
+    solver.tilt()
+    numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
+    tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
+    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch, numbers[L.O_RATIO]
+    lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
+    lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
+    return _result(params, point, numbers, tilts, BRANCH_NAMES[branch], lost, Status.OK, state)
+
+
+def _result(
+    params: WasherParams, point: tuple[float, float, float, float], x: Sequence[float],
+    tilts: Sequence[float], branch: str, distress: bool, status: Status, state: Array,
+) -> WasherResult:  # fmt: skip
+    """Build the result from the numbers of ``OUTPUTS``."""
+    return WasherResult(
+        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
+        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], tilts[0], tilts[1], branch, distress, status, 0,
+        "map", NO_MESH, ERROR, *point, params, state,
+    )  # fmt: skip
+
+
+def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) -> MapFile:
+    """Return the map file for parameters, or say how to make one."""
+    numbers = as_numbers(params)
+    if path is not None:
+        file = read_map(path)
+        if not file.made_for(numbers):
+            raise ParameterError(f"map = {str(path)!r} was made for other parameters")
+        return file
+    found = find_map(numbers)
+    if found is None:
+        raise ParameterError(
+            "fidelity = 'map': no map was made for these parameters; make one with "
+            "`thrustwasher map build`, or use fidelity 'field'"
+        )
+    return found
+
+
+@lru_cache(maxsize=8)
+def washer_map(params: WasherParams) -> WasherMap:
+    """Return the map of a washer, read once; see ``WasherMap``."""
+    return WasherMap(params)
+
+
+def map_data(params: WasherParams) -> Array:
+    """Return the map of a washer as the kernels take it; ParameterError if there is none."""
+    return map_for(params).data

@@ -1,0 +1,156 @@
+"""Map files: a zip archive with the map's numbers (single precision) and its card (JSON).
+
+Shipped maps lie in ``thrustwasher/data/maps``; further folders are taken from the environment
+variable ``THRUSTWASHER_MAPS`` (separated as in ``PATH``) and are looked through first.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import struct
+import zipfile
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ParameterError
+from ...storage.digests import DATA
+from ..kernels.layout import N_STEADY
+from ..kernels.map import map_layout as L
+
+Array = NDArray[np.float64]
+SHIPPED = DATA / "maps"
+SUFFIX = ".twm"
+NUMBERS, CARD = "map.f32", "card.json"
+VARIABLE = "THRUSTWASHER_MAPS"
+LARGEST = 64e6  # bytes of numbers; more is no map of ours
+
+
+@dataclass(frozen=True, slots=True)
+class MapFile:
+    """A map as read: ``data`` as the kernels take it (read only), ``card`` as a dictionary."""
+
+    path: Path
+    data: Array
+    card: dict[str, Any]
+
+    def made_for(self, numbers: Sequence[float]) -> bool:
+        """Tell if the map was made for these parameters, in the order of the dataclass."""
+        steady = tuple(float(x) for x in numbers[:N_STEADY])
+        return params_of(self.data, len(steady)) == steady
+
+
+def params_of(data: Array, count: int) -> tuple[float, ...]:
+    """Return the parameters in a map's header."""
+    return tuple(float(x) for x in data[L.PARAMS : L.PARAMS + count])
+
+
+def pack(data: Array, card: dict[str, Any]) -> bytes:
+    """Return the bytes of a map file; the same for the same contents."""
+    memory = io.BytesIO()
+    with zipfile.ZipFile(memory, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, content in ((CARD, json.dumps(card, indent=1).encode()), (NUMBERS, _bytes(data))):
+            archive.writestr(zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0)), content,
+                             zipfile.ZIP_DEFLATED)  # fmt: skip
+    return memory.getvalue()
+
+
+def plain(file: MapFile) -> bytes:
+    """Return a map as the resource of an FMU: header in doubles, single precision, CRC-32."""
+    numbers = _bytes(file.data)
+    return numbers + zlib.crc32(numbers).to_bytes(4, "little")
+
+
+def _bytes(data: Array) -> bytes:
+    return bytes(data[: L.DATA].astype("<f8").tobytes() + data[L.DATA :].astype("<f4").tobytes())
+
+
+def unpack(numbers: bytes) -> Array:
+    """Return the map in the numbers of a file.
+
+    Raises
+    ------
+    ValueError : these are no numbers of a map, or of another version
+    """
+    head = np.frombuffer(numbers[: 8 * L.DATA], "<f8")
+    if len(head) != L.DATA or head[L.KIND] != L.MAGIC:
+        raise ValueError("no map of this version")
+    body = np.frombuffer(numbers[8 * L.DATA :], "<f4") if len(numbers) % 4 == 0 else head[:0]
+    if head[L.SIZE] != L.DATA + len(body) or not expected_size(head) == head[L.SIZE]:
+        raise ValueError("the map is cut off")
+    data = np.concatenate([head, body.astype(np.float64)])
+    if not np.all(np.isfinite(data)):
+        raise ValueError("numbers in the map are not finite")
+    data.flags.writeable = False
+    return data
+
+
+def expected_size(head: Array) -> float:
+    """Return how many numbers a map with this header has; nan if the header is none."""
+    patches = head[L.AXES + 2 : L.AXES + 9 : 3]
+    if not (np.all(patches == np.floor(patches)) and np.all((patches >= 0) & (patches < 200))):
+        return float("nan")
+    return float(L.DATA + np.prod(3.0 * patches + 1.0) * L.LINE)
+
+
+@lru_cache(maxsize=16)
+def _read(path: str, _changed: int, _size: int) -> MapFile:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            if archive.getinfo(NUMBERS).file_size > LARGEST:
+                raise ValueError("the map is larger than any map is")
+            data, card = unpack(archive.read(NUMBERS)), json.loads(archive.read(CARD))
+        if not isinstance(card, dict):
+            raise ValueError("its card is no JSON object")
+    except (OSError, zipfile.BadZipFile, zipfile.LargeZipFile, KeyError, ValueError, EOFError,
+            NotImplementedError, RuntimeError, OverflowError, struct.error,
+            zlib.error) as problem:  # fmt: skip
+        raise ParameterError(
+            f"map = {path!r}: {problem}; allowed: a file written by `thrustwasher map build`"
+        ) from None
+    return MapFile(Path(path), data, card)
+
+
+def read_map(path: str | os.PathLike[str]) -> MapFile:
+    """Return a map file, read once per content.
+
+    Raises
+    ------
+    ParameterError : there is no such file, or it is no map of this version
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise ParameterError(f"map = {str(file)!r}, allowed: an existing file")
+    status = file.stat()
+    return _read(str(file.resolve()), status.st_mtime_ns, status.st_size)
+
+
+def map_folders() -> list[Path]:
+    """Return the folders that are looked through, the shipped one last."""
+    named = os.environ.get(VARIABLE, "")
+    return [Path(p) for p in named.split(os.pathsep) if p] + [SHIPPED]
+
+
+def all_maps() -> list[MapFile]:
+    """Return every readable map; files that are none are passed over."""
+    found = []
+    for folder in map_folders():
+        for path in sorted(folder.glob(f"*{SUFFIX}")):
+            try:
+                found.append(read_map(path))
+            except ParameterError:
+                continue  # `thrustwasher doctor` names it
+    return found
+
+
+def find_map(numbers: Sequence[float]) -> MapFile | None:
+    """Return the first map made for these parameters (numbers in the dataclass's order)."""
+    return next((m for m in all_maps() if m.made_for(numbers)), None)

@@ -1,0 +1,265 @@
+"""The thrust washer: one operating point.
+
+Average-flow Reynolds equation with cavitation, elasto-plastic asperity contact, heat balance of
+carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/theory/washer.md.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
+from ..model.parameters import check_number
+from ..model.prepare import OFFLINE
+from ..model.recent import Recent
+from ..model.work_arrays import work_array
+from ..native.load import bound
+from ..numerics.jit import Array
+from .kernel_arguments import NO_MESH, SIMPLE, constants
+from .kernels import layout as L
+from .kernels import step as kernel
+from .kernels.simple import N_WORK
+from .kernels.workspace import size_of_state, size_of_work
+from .parameters import SPEC, WasherParams
+from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult
+
+__all__ = ["WasherParams", "WasherResult", "solve_washer"]
+
+GRIDS = {
+    "closed": NO_MESH, "stribeck": NO_MESH, "map": kernel.FIELD_GRID, "coarse": kernel.COARSE_GRID,
+    "field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID,
+}  # fmt: skip
+# largest error of friction_torque against the grid-converged value over the verified range
+# (tests/models/test_washer_accuracy.py measures it again)
+ERRORS = {
+    "closed": 3.0, "stribeck": 1.0, "map": 6e-3, "coarse": 2e-2, "field": 6e-3, "fine": 1e-3,
+}  # fmt: skip
+UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
+OK = Status.OK
+LARGEST_GRID = (129, 512)
+
+
+def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]:
+    """Return (n_r, n_theta) or raise ParameterError naming what is wrong."""
+    if fidelity == "reference":
+        raise ParameterError(OFFLINE.format("washer"))
+    if fidelity not in GRIDS:
+        known = " or ".join(repr(name) for name in GRIDS)
+        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {known}")
+    if grid is None:
+        return GRIDS[fidelity]
+    if fidelity in SIMPLE:
+        raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity {fidelity!r} has no mesh")
+    try:
+        n_r, n_t = (int(n) for n in grid)
+        whole = (n_r, n_t) == tuple(grid)
+    except (TypeError, ValueError):
+        whole = False
+    if not whole or not (5 <= n_r <= LARGEST_GRID[0] and 8 <= n_t <= LARGEST_GRID[1]):
+        raise ParameterError(
+            f"grid = {grid!r} (radial x circumferential nodes), allowed: two integers from 5 x 8 "
+            f"to {LARGEST_GRID[0]} x {LARGEST_GRID[1]}"
+        )
+    return n_r, n_t
+
+
+_RANGES = tuple(
+    # an FMU takes 0 from an unconnected input; here a load is wanted
+    (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
+    for s in SPEC.inputs
+)
+
+
+def check_point(
+    load: float, speed: float, tilt: float, oil_temperature: float
+) -> tuple[float, float, float, float]:
+    """Return the operating point as floats, or raise ParameterError for the first bad one."""
+    a, b, c, d = (
+        check_number(name, value, unit, low, high)
+        for (name, unit, low, high), value in zip(
+            _RANGES, (load, speed, tilt, oil_temperature), strict=True
+        )
+    )
+    return a, b, c, d
+
+
+def result_from(
+    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    grid: tuple[int, int], state: Array, work: Array, status: Status, branch: float, lost: bool,
+    error: float,
+) -> WasherResult:  # fmt: skip
+    """Build the result from what the kernel left at the head of ``work``."""
+    x, q = work[L.AT_OUTPUTS : L.AT_POSITIONS].tolist(), work[L.AT_POSITIONS : L.N_HEAD].tolist()
+    return WasherResult(
+        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
+        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], q[L.TILT_X], q[L.TILT_Y],
+        BRANCH_NAMES.get(branch, "film"), lost, status, int(work[L.ITERATIONS]), fidelity, grid,
+        error, *point, params, state,
+    )  # fmt: skip
+
+
+def solve_washer(
+    params: WasherParams, *, load: float, speed: float, tilt: float,
+    oil_temperature: float = 297.15, fidelity: str = "field", grid: tuple[int, int] | None = None,
+    branch: str | None = None, start: WasherResult | None = None, throw: bool = True,
+) -> WasherResult:  # fmt: skip
+    """Return friction torque, temperature and film thickness of a thrust washer.
+
+    Parameters
+    ----------
+    params : geometry, surfaces, oil
+    load : axial load [N], 1 .. 1e4
+    speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
+    tilt : of the gear [rad], 0 .. 0.01
+    oil_temperature : [K], 233.15 .. 473.15
+    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64), "coarse" (8 x 20), "map", or without
+        mesh and memory "stribeck" (one film temperature) and "closed" (oil as supplied). A "map"
+        answers outside its box with the field, and the result says so
+    grid : (n_r, n_theta), overrides the nodes of the fidelity
+    branch : "film" or "contact", the one wanted where several solutions exist; without it the
+        branch of ``start``, else the film branch up to its fold and the contact branch beyond
+    start : a result to start from; same parameters and grid, else only its branch is used
+    throw : raise on failure, or return the best estimate with its status
+
+    Returns
+    -------
+    WasherResult
+
+    Raises
+    ------
+    ParameterError : an argument is outside its range (named, with unit and range)
+    BranchError : the branch asked for has no solution at this load
+    SolveError : not converged
+
+    Notes
+    -----
+    Source: Jackson & Green (2006), misprints corrected as listed in docs/theory/washer.md.
+    Quasi-steady: no heat capacity, no squeeze film.
+
+    Examples
+    --------
+    >>> r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
+    >>> f"{r.friction_torque:.3f} N m, film ratio {r.film_ratio:.1f}, {r.branch}"
+    '0.232 N m, film ratio 15.4, film'
+    """
+    nodes = resolve_grid(fidelity, grid)
+    point = check_point(load, speed, tilt, oil_temperature)
+    if branch is not None and branch not in BRANCHES:
+        raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
+    wanted = BRANCHES[branch] if branch is not None else 0.0
+    start = None if fidelity in SIMPLE else start
+    found = None
+    if fidelity == "map":
+        if grid is not None:
+            raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
+        found = _map_solver()(params, point, wanted, start)
+        fidelity = "map" if found else "field"  # outside the map
+    result = found or _solve(params, point, fidelity, nodes, wanted, start, grid is None)
+    if result.status is OK and grid is None:
+        return result
+    if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
+        result = _with_embedded_estimate(result, wanted)
+    if throw and result.status is Status.NO_BRANCH:
+        raise BranchError(
+            f"branch = {branch!r} has no solution at load = {point[0]:g} N, speed = {point[1]:g} "
+            f"rad/s, tilt = {point[2]:g} rad; allowed here: {result.branch!r} (the folds that "
+            "bound the branches come from load_curve)"
+        )
+    if throw and result.status.is_failure:
+        raise SolveError(
+            f"washer: {result.status.advice} (load = {point[0]:g} N, speed = {point[1]:g} rad/s, "
+            f"tilt = {point[2]:g} rad, oil_temperature = {point[3]:g} K, grid {nodes[0]} x "
+            f"{nodes[1]}; tried: warm start, Newton from a guess, descent in film thickness)"
+        )
+    return result
+
+
+@cache
+def _map_solver() -> Any:
+    """Return what solves by look-up; maps are read only where they are wanted."""
+    from .map.look_up import solve_by_map
+
+    return solve_by_map
+
+
+class _Prepared:
+    """One rung for one washer, ready to be solved again: constants, memory, the kernel."""
+
+    def __init__(self, params: WasherParams, fidelity: str, nodes: tuple[int, int]) -> None:
+        par = constants(params, nodes, fidelity)
+        self.simple = fidelity in SIMPLE
+        size = N_WORK if self.simple else L.N_HEAD + size_of_work(*nodes)
+        self.size_of_state = 1 if self.simple else size_of_state(*nodes)
+        self.work = work_array(("washer", nodes), size)
+        self.inp, self.iout = np.zeros(5), np.zeros(3, np.int32)
+        self.step = bound(
+            kernel.step, par=par, inp=self.inp, work=self.work, out=np.zeros(kernel.NOUT),
+            iout=self.iout,
+        )  # fmt: skip
+
+
+_prepared = Recent(_Prepared)
+
+
+def _solve(
+    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    nodes: tuple[int, int], wanted: float, start: WasherResult | None, card: bool = False,
+) -> WasherResult:  # fmt: skip
+    """Solve on a mesh or without one; ``card``: the rung is one whose cards know its error."""
+    ready = _prepared(params, fidelity, nodes)
+    if start is not None and not ready.simple and _continues(start, params, nodes):
+        state = start._state.copy()
+    else:
+        state = np.zeros(ready.size_of_state)
+        if start is not None and not ready.simple and wanted == 0.0:
+            wanted = BRANCHES.get(start.branch, 0.0)
+            return _prefer(params, point, fidelity, nodes, wanted, card)
+    ready.inp[:] = (*point, wanted)
+    code = ready.step(state, 0.0, 1.0)
+    status = OK if code == 0 else Status(code)
+    work = ready.work
+    if code >= FIRST_FAILURE and not ready.simple:
+        estimate = work[L.AT_POSITIONS : L.N_HEAD]  # so that fields() shows it
+        if np.all(np.isfinite(estimate)):
+            state[L.S_POSITIONS :][:4] = estimate
+    return result_from(
+        params, point, fidelity, nodes, state, work, status, float(work[L.AT_FOUND]),
+        bool(ready.iout[1]), UNREAD[fidelity] if card else ERRORS[fidelity],
+    )  # fmt: skip
+
+
+def _continues(start: WasherResult, params: WasherParams, nodes: tuple[int, int]) -> bool:
+    """Tell if a result's memory is one for these parameters and this grid."""
+    if start.grid != nodes or start._state.size != size_of_state(*nodes):
+        return False
+    return start.params is params or start.params == params
+
+
+def _prefer(
+    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    nodes: tuple[int, int], wanted: float, card: bool = False,
+) -> WasherResult:  # fmt: skip
+    """Solve from nothing on a preferred branch, on the other if it does not exist."""
+    result = _solve(params, point, fidelity, nodes, wanted, None, card)
+    if result.status is Status.NO_BRANCH:
+        return _solve(params, point, fidelity, nodes, 0.0, None, card)
+    return result
+
+
+def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:
+    """Replace the error estimate by the change from a grid of half the intervals."""
+    import dataclasses
+
+    half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
+    point = (result.load, result.speed, result.tilt, result.oil_temperature)
+    coarse = _prefer(result.params, point, result.fidelity, half, BRANCHES.get(result.branch, 0.0))
+    estimate = math.inf
+    if not coarse.status.is_failure and coarse.branch == result.branch:
+        change = abs(result.friction_torque - coarse.friction_torque)
+        # order 1.3, the lowest seen (boundary lubrication; 2.2 in full film): error = change/1.46
+        estimate = change / 1.46 / max(abs(result.friction_torque), 1e-12)
+    return dataclasses.replace(result, error_estimate=estimate)

@@ -33,9 +33,9 @@ import files
 from thrustwasher.cli._fmu_cache import fmu_paths
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.running.loading import description, unpack
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.model.registry import find_spec
 from thrustwasher.numerics.jit import kernel_digest
 from thrustwasher.washer.map.map_plan import DEFAULT_BOX
 

@@ -11,10 +11,10 @@ from importlib import metadata
 from pathlib import Path
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import all_specs, find_spec
 from thrustwasher.fmu.shell import c_tables
 from thrustwasher.fmu.shell.platform_libraries import headers as fmi_headers
 from thrustwasher.fmu.shell.platform_libraries import library, shell
+from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.model.spec import ModelSpec
 from thrustwasher.native import link
 from thrustwasher.native.targets import PLATFORMS

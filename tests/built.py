@@ -8,9 +8,9 @@ from filelock import FileLock
 
 from thrustwasher.cli._fmu_cache import fmu_paths, source_digest
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.running.loading import prune
 from thrustwasher.fmu.shell.platform_libraries import tools
+from thrustwasher.model.registry import find_spec
 from thrustwasher.native.link import find_linker
 
 HOME = Path(__file__).parents[1] / ".cache" / "test-fmus"

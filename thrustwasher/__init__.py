@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from .washer.solve import WasherParams, WasherResult, solve_washer
 
 _HOMES = {
-    "fidelity.choose": ("Choice", "choose"),
+    "ladder.choose": ("Choice", "choose"),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
-    "models.clutch": ("ClutchParams", "boundary_friction", "solve_clutch"),
-    "models.clutch_calibration": ("Calibration", "calibrate"),
-    "models.gearmesh": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
-    "models.clutch_engagement": ("Engagement", "engage_clutch"),
-    "models.washer": ("WasherParams", "WasherResult", "solve_washer"),
-    "models.washer_transient": ("WasherCourse", "follow_washer"),
-    "models.washer_load_curve": ("LoadCurve", "load_curve"),
-    "sweep.run": ("run_sweep",),
-    "sweep.table": ("SweepTable",),
+    "clutch.solve": ("ClutchParams", "boundary_friction", "solve_clutch"),
+    "clutch.calibration.calibration": ("Calibration", "calibrate"),
+    "gearmesh.solve": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
+    "clutch.engagement": ("Engagement", "engage_clutch"),
+    "washer.solve": ("WasherParams", "WasherResult", "solve_washer"),
+    "washer.follow": ("WasherCourse", "follow_washer"),
+    "washer.load_curve": ("LoadCurve", "load_curve"),
+    "sweep.run_sweep": ("run_sweep",),
+    "sweep.sweep_table": ("SweepTable",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [

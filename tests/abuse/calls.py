@@ -16,7 +16,7 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.fmu.model_kernels import find_spec
+from thrustwasher.model.registry import find_spec
 from thrustwasher.model.spec import Signal
 
 RIGHT, REFUSED, UNSOLVED = "right", "refused by name", "no solution, by name"

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from sampling import sizes
 
 from examples import examples
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.model.registry import find_spec
 
 randoms = st.randoms(use_true_random=False)
 MEASURED = Path(__file__).with_name("measured.csv")

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from sampling import sizes
 
 from examples import examples
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.model.registry import find_spec
 
 KINDS = [(model, kind) for model in ("clutch", "gearmesh", "transmission")
          for kind in ("native-fmi2", "python-fmi2")]  # fmt: skip

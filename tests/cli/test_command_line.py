@@ -146,7 +146,7 @@ def test_parameter_list_is_the_dataclass(command, spec, capsys):
 
 
 def test_help_of_build_names_every_fmu(capsys):
-    from thrustwasher.fmu.model_kernels import all_specs
+    from thrustwasher.model.registry import all_specs
 
     main(["build", "--help"])
     text = capsys.readouterr().out

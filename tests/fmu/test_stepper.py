@@ -8,8 +8,8 @@ from toy.places import TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.model.registry import find_spec
 from thrustwasher.native import link
 
 H = 1e-3

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from thrustwasher.fmu.model_kernels import all_specs, find_spec
 from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.shift import load_scene
 
 SPEC = find_spec("CommandSource")

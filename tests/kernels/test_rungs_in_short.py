@@ -7,8 +7,8 @@ import pytest
 
 from thrustwasher import ClutchParams, WasherParams, solve_clutch, solve_washer
 from thrustwasher.errors import Status
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.model.registry import find_spec
 from thrustwasher.washer.follow import follow_washer
 from thrustwasher.washer.kernel_arguments import constants
 from thrustwasher.washer.kernels import step as kernel

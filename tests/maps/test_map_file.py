@@ -141,7 +141,7 @@ def test_a_map_that_cannot_be_written_loses_no_line(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     out = tmp_path / "x.twm"
-    monkeypatch.setattr(map_build, "check_map", fail)
+    monkeypatch.setattr("thrustwasher.washer.map.map_build.check_map", fail)
     with pytest.raises(OSError, match="No space"):
         make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1)
     assert [p.name for p in tmp_path.iterdir()] == ["x.twm.journal"]

@@ -254,7 +254,7 @@ def test_the_long_way_of_emission_gives_the_same_numbers(tmp_path):
         "import sys, importlib\nimport llvmlite.binding as llvm\n"
         "from thrustwasher.native import emit, lean\nllvm.initialize_all_targets()\n"
         "lean.is_known = lambda: False\n"
-        "whole = emit.module(importlib.import_module('thrustwasher.gearmesh.kernels.step'), print)\n"
+        f"whole = emit.module(importlib.import_module('{GEAR}'), print)\n"
         "open(sys.argv[1], 'wb').write(whole.as_bitcode())\n"
     )
     from thrustwasher.native import emit, lower

@@ -2,7 +2,7 @@
 
 A command module has ``HELP`` (one sentence), ``add_arguments(parser)`` and ``run(arguments)``,
 which returns the exit status. Heavy imports happen inside ``run``: ``--help`` answers at once.
-A command that solves a model at one point is no file but a record in ``_models``.
+A command that solves a model at one point is no file: ``_solve`` makes it from the record.
 
 =============  ===================================================================
 ``_models``    a record for each model with such a command; ``_solve``: makes it
@@ -31,10 +31,11 @@ from typing import Any, NoReturn
 
 from .. import __version__
 from ..errors import EnvironmentProblem, ParameterError, SolveError
-from ._models import MODELS
+from ..model.registry import all_models
 
+MODELS = {model.key: model for model in all_models() if model.command}
 COMMANDS = (
-    *(name for model in MODELS.values() for name in (model.name, *model.more)),
+    *(name for key, model in MODELS.items() for name in (key, *model.command.more)),
     *("shift", "sweep", "chart", "build", "cards", "doctor"),
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141

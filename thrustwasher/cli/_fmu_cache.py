@@ -37,8 +37,8 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
 
 def _compile(models: list[str], target: str) -> None:
     """Compile what is not compiled yet, as many models at once as there are processors."""
-    from ..fmu.model_kernels import find_spec
     from ..fmu.shell.platform_libraries import compile_local
+    from ..model.registry import find_spec
 
     if target == "native":
         compile_local([find_spec(model) for model in models], note)
@@ -51,9 +51,10 @@ def cache_folder(target: str) -> Path:
 
 def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
-    from ..fmu.model_kernels import all_specs, package_version
+    from ..fmu.model_kernels import package_version
     from ..fmu.package.model_sources import source_folder
     from ..fmu.shell.platform_libraries import made_of
+    from ..model.registry import all_specs
     from ..washer.map.map_file import SUFFIX, map_folders
 
     native = target == "native"

@@ -6,11 +6,12 @@ import argparse
 import difflib
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
 from ..model.parameters import allowed
+from ..model.record import Option, resolve
 from ..units import parse_quantity
 
 if TYPE_CHECKING:  # they need numpy, which not every command does
@@ -113,17 +114,6 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
     )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Option:
-    """One more argument of a solve function; ``read`` makes its value of what was written."""
-
-    name: str
-    help: str
-    metavar: str | None = None
-    choices: tuple[str, ...] | None = None
-    read: Callable[[str], Any] = str
-
-
 def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> None:
     """Add options that may be left out."""
     for o in options:
@@ -133,10 +123,15 @@ def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> N
 def read_options(arguments: argparse.Namespace, options: Iterable[Option]) -> dict[str, Any]:
     """Return the value of every option, None where it was left out."""
     given = vars(arguments)
-    return {o.name: None if given[o.name] is None else o.read(given[o.name]) for o in options}
+    return {o.name: None if given[o.name] is None else _reader(o)(given[o.name]) for o in options}
 
 
-def _read_grid(text: str) -> tuple[int, int]:
+def _reader(option: Option) -> Callable[[str], Any]:
+    found: Callable[[str], Any] = resolve(option.read) if option.read else str
+    return found
+
+
+def read_grid(text: str) -> tuple[int, int]:
     """Return (n_r, n_theta); the model checks its limits."""
     match = re.fullmatch(r"\s*(\d{1,5})\s*[xX,]\s*(\d{1,5})\s*", text)
     if match is None:
@@ -144,8 +139,10 @@ def _read_grid(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-GRID = Option("grid", "nodes along the radius x around, e.g. 9x32 or 17x64", metavar="RxT",
-              read=_read_grid)  # fmt: skip
+GRID = Option(
+    name="grid", help="nodes along the radius x around, e.g. 9x32 or 17x64", metavar="RxT",
+    read=f"{__name__}:read_grid",
+)  # fmt: skip
 
 
 def option_name(name: str) -> str:

@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError
+from ..model.record import resolve
 from ..storage.whole_files import folder_for_trial
 from ..storage.whole_files import whole_file as whole_file
 from ..storage.whole_files import whole_folder as whole_folder
 from ..units import format_quantity
-from ._models import resolve
 
 PLOT_SUFFIXES = (".png", ".svg", ".pdf")
 LINES = 16  # of a table on the screen

@@ -5,21 +5,22 @@ import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..model.record import Command, Model, Variants, resolve
 from ..model.spec import ModelSpec, Signal
 from . import _fidelity, _options, _output
-from ._models import ModelCommand, Variants, resolve
 
 
 class PointCommand:
     """The command of one model, with the face of a command's module."""
 
-    def __init__(self, model: ModelCommand) -> None:
-        self.HELP = model.help
-        self._model = model
+    def __init__(self, model: Model) -> None:
+        assert model.command is not None
+        self.HELP = model.command.help
+        self._model, self._command = model, model.command
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         """Declare the options."""
-        model, spec = self._model, resolve(self._model.spec)
+        model, spec = self._command, self._model.spec
         # The model's own inputs come first.
         inputs = sorted(_inputs(model, spec), key=lambda signal: signal not in spec.inputs)
         _options.add_inputs(parser, inputs)
@@ -36,7 +37,7 @@ class PointCommand:
 
     def run(self, arguments: argparse.Namespace) -> int:
         """Solve, then print or draw."""
-        model, spec = self._model, resolve(self._model.spec)
+        model, spec = self._command, self._model.spec
         inputs = _inputs(model, spec)
         point = _options.read_inputs(arguments, inputs)
         settings = _options.read_settings(arguments, spec)
@@ -47,7 +48,7 @@ class PointCommand:
         targets = _output.targets(arguments)
 
         solve = resolve(model.solve)
-        fidelity = _fidelity.rung(arguments.fidelity, spec, params, model.place(point))
+        fidelity = _fidelity.rung(arguments.fidelity, spec, params, _place(model, point))
         began = time.perf_counter()
         result = solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
@@ -66,9 +67,15 @@ class PointCommand:
         return 0
 
 
-def _inputs(model: ModelCommand, spec: ModelSpec) -> list[Signal]:
+def _inputs(model: Command, spec: ModelSpec) -> list[Signal]:
     """Return the inputs of the command."""
     return [Signal(**model.instead[s.name]) if s.name in model.instead else s for s in spec.inputs]
+
+
+def _place(model: Command, point: dict[str, float]) -> dict[str, float]:
+    """Return the model's own inputs."""
+    found: dict[str, float] = resolve(model.place)(point) if model.place else point
+    return found
 
 
 def _changes(presets: Mapping[str, Mapping[str, Any]]) -> str:
@@ -81,7 +88,7 @@ def _changes(presets: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def _rows(
-    model: ModelCommand, spec: ModelSpec, result: Any, point: Mapping[str, float]
+    model: Command, spec: ModelSpec, result: Any, point: Mapping[str, float]
 ) -> Iterator[tuple[str, str, str]]:
     """Yield name, value and meaning of every result but inputs and those of variants."""
     known = {s.name: (s.unit, s.help, s.relative) for s in spec.outputs}

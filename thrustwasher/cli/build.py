@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = _output.check_folder(arguments.out, "--out")
 
     from ..fmu.build import build, validate
-    from ..fmu.model_kernels import find_spec
+    from ..model.registry import find_spec
 
     for model in arguments.models:
         find_spec(model)

@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     wall_time = time.perf_counter() - began
     for text in found.warnings:
         _output.note(f"warning: {text.partition(': ')[0]}")
-    targets.draw("report.fit_plot:calibration_figure", found, columns)
+    targets.draw("thrustwasher.report.model_plots.fit_plot:calibration_figure", found, columns)
     if arguments.json:
         inputs = {"data": arguments.data, "fit": names, **columns}
         pack = {"parameters": _output.parameters_of(found.params)}

@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from ..ladder.card import VERIFY
-from ..model.registry import MODELS, spec_of
+from ..model.registry import models_with_cards, spec_of
 from . import _output
 
 HELP = "list the verified errors of all rungs, where they hold and what a call costs"
@@ -14,7 +14,9 @@ HELP = "list the verified errors of all rungs, where they hold and what a call c
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument("model", nargs="?", choices=list(MODELS), help="only this model")
+    parser.add_argument(
+        "model", nargs="?", choices=list(models_with_cards()), help="only this model"
+    )
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 
 
@@ -22,7 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
     """List the cards, fresh or not; files that are no cards come last."""
     from ..ladder.card import load_cards, refused_files
 
-    wanted = [arguments.model] if arguments.model else list(MODELS)
+    wanted = [arguments.model] if arguments.model else list(models_with_cards())
     found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
     refused = {
         name: why

@@ -74,7 +74,7 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
     from ..study.surroundings import pin_threads, surroundings
 
     pin_threads()  # before numpy is loaded
-    from ..model.registry import MODELS
+    from ..model.registry import models_with_cards
     from ..study.charts.work_precision import work_precision
     from ..study.macro_steps import study
 
@@ -89,7 +89,7 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
             _output.note(
                 f"the machine is busy (load {load} on {cores} cores): ratios may be compared"
             )
-        for model in MODELS:
+        for model in models_with_cards():
             record["models"][model] = work_precision(model, quick=quick, progress=_say)
         record["macro_steps"] = study(_instances, quick=quick, progress=_say)
     record |= _stability(quick=quick)

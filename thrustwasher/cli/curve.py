@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     wall_time = time.perf_counter() - began
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)
-    targets.draw("report.washer_plots:curve_figure", curve, point)
+    targets.draw("thrustwasher.report.model_plots.washer_plots:curve_figure", curve, point)
     if arguments.json:
         _output.print_json({
             "points": [_output.scalars(p) for p in curve.points],

@@ -50,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
     wall_time = time.perf_counter() - began
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
-    targets.draw("report.clutch_plot:engagement_figure", result)
+    targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
     if arguments.json:
         inputs = {**times, "oil_temperature": point["oil_temperature"]}
         given = {"parameters": _output.parameters_of(params)}

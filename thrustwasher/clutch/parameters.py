@@ -236,7 +236,7 @@ SPEC = ModelSpec(
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                depends=_POINT, help="how the last solution was obtained"),
     ),
-    kernel="clutch_step",
+    kernel="thrustwasher.clutch.kernels.step",
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.PackFlange",

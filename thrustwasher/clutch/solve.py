@@ -7,12 +7,14 @@ from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.parameters import check_number
 from ..model.prepare import filled
-from ..model.spec import REGIMES
+from ..model.registry import find_model
+from ..model.spec import REGIMES, ModelSpec
+from ..numerics.jit import Array
 from .kernels import boundary_friction as boundary
 from .kernels import layout as k
 from .kernels import pack_friction, rates, steady
@@ -255,3 +257,22 @@ def solve_clutch(
         iterations=int(turns + s.iterations),
         fidelity=fidelity,
     )
+
+
+def walk_steady(
+    spec: ModelSpec, params: ClutchParams, fidelity: str, inputs: Array, numbers: Array,
+    flags: NDArray[np.int32],
+) -> None:  # fmt: skip
+    """Fill the rows of a sweep's line with the steady state of a pack that slips."""
+    regimes = {name: i for i, name in enumerate(REGIMES, 1)}
+    left_out = find_model(spec.key).sweep.not_shown
+    names = [s.name for s in spec.outputs if s.kind == "real" and s.name not in left_out]
+    result = None
+    for point, row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
+        load, speed, oil = point
+        result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil,
+                              fidelity=fidelity, start=result, throw=False)  # fmt: skip
+        row[:] = [getattr(result, name) for name in names]
+        flag[0], flag[-1] = regimes[result.regime], result.status
+        if result.status.is_failure:
+            result = None

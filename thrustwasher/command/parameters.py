@@ -39,6 +39,6 @@ SPEC = ModelSpec(
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                help="always OK"),
     ),
-    kernel="command_step",
+    kernel="thrustwasher.command.kernels.step",
     step_size=1e-3,
 )  # fmt: skip

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from importlib import metadata
 
 from ..errors import ParameterError
+from ..model.registry import all_specs
 from ..native.files import code_folder
 from ..native.link import find_linker
-from .model_kernels import all_specs, is_compiled, load_kernel, package_version
+from .model_kernels import is_compiled, load_kernel, package_version
 from .package.model_sources import source_folder
 
 

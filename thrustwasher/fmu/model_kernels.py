@@ -1,4 +1,4 @@
-"""Which models there are, their kernels, and the digest that ties an FMU to this package."""
+"""The kernels of a model, and the digest that ties an FMU to this package."""
 
 import hashlib
 import importlib
@@ -10,21 +10,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError
 from ..model.spec import ModelSpec
 from ..native.library import is_ready
 from ..numerics.jit import kernel_digest, way
-
-MODELS = {
-    "washer": "thrustwasher.washer.parameters:SPEC",
-    "clutch": "thrustwasher.clutch.parameters:SPEC",
-    "gearmesh": "thrustwasher.gearmesh.parameters:SPEC",
-    "transmission": "thrustwasher.transmission.parameters:SPEC",
-}
-# Built when named, not with all: parts that only a system of FMUs needs.
-HELPERS = {
-    "command": "thrustwasher.command.parameters:SPEC",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,34 +30,10 @@ class Kernel:
     n_iout: int
 
 
-def find_spec(model: str) -> ModelSpec:
-    """Return a model by key ("washer"), by FMU name ("ThrustWasher") or by "module:NAME"."""
-    places = MODELS | HELPERS
-    if model in places or ":" in model:
-        return _load(places.get(model, model))
-    specs = [_load(place) for place in places.values()]
-    for spec in specs:
-        if spec.name == model:
-            return spec
-    raise ParameterError(f"model = {model!r}, allowed: {', '.join(spec.name for spec in specs)}")
-
-
-def all_specs() -> list[ModelSpec]:
-    """Return the models of this version, in the order they are built."""
-    return [_load(place) for place in MODELS.values()]
-
-
-@cache
-def _load(place: str) -> ModelSpec:
-    module, _, name = place.partition(":")
-    spec: ModelSpec = getattr(importlib.import_module(module), name)
-    return spec
-
-
 @cache
 def load_kernel(name: str) -> Kernel:
-    """Import a kernel module: a name below ``thrustwasher.kernels``, or a dotted name."""
-    k = importlib.import_module(kernel_module(name))
+    """Import a kernel module, by its dotted name."""
+    k = importlib.import_module(name)
     sizes = (k.N_PARAM, k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT, k.NIOUT)
     return Kernel(k.derive, k.step, *sizes)
 
@@ -81,12 +45,12 @@ def has_derivatives(spec: ModelSpec) -> bool:
 
 def find_derivatives(spec: ModelSpec) -> Callable[..., int] | None:
     """Return ``sens(par, inp, state, work, seed, dout)`` of a model, None if it has none."""
-    return getattr(importlib.import_module(kernel_module(spec.kernel)), "sens", None)
+    return getattr(importlib.import_module(spec.kernel), "sens", None)
 
 
 def find_broken_rule(spec: ModelSpec) -> Callable[[Any], int] | None:
     """Return ``broken_rule(par)`` of a model, None if it has none."""
-    return getattr(importlib.import_module(kernel_module(spec.kernel)), "broken_rule", None)
+    return getattr(importlib.import_module(spec.kernel), "broken_rule", None)
 
 
 def kernel_table(spec: ModelSpec) -> dict[str, float]:
@@ -97,27 +61,21 @@ def kernel_table(spec: ModelSpec) -> dict[str, float]:
     many of its numbers are doubles in a file. ``SWITCH``, ``ON``: place in ``par`` and number of
     the fidelity that wants it.
     """
-    found = getattr(importlib.import_module(kernel_module(spec.kernel)), "TABLE", None)
+    found = getattr(importlib.import_module(spec.kernel), "TABLE", None)
     return dict(found) if found else {"ROOM": 0}
 
 
 def is_compiled(spec: ModelSpec) -> bool:
     """Tell if the model's kernels are compiled, so that their first call takes no minutes."""
-    return way() == "python" or is_ready(kernel_module(spec.kernel))
+    return way() == "python" or is_ready(spec.kernel)
 
 
 def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
     """Return (text, place in ``work``) of everything the model's solver counts."""
     found = [(text, *where.split(":")) for text, where in spec.counts]
     return tuple(
-        (text, int(getattr(importlib.import_module(kernel_module(module)), name)))
-        for text, module, name in found
+        (text, int(getattr(importlib.import_module(module), name))) for text, module, name in found
     )
-
-
-def kernel_module(kernel: str) -> str:
-    """Return the dotted name of a kernel module given below ``thrustwasher.kernels`` or dotted."""
-    return kernel if "." in kernel else f"thrustwasher.kernels.{kernel}"
 
 
 @cache
@@ -134,7 +92,7 @@ def package_version() -> str:
 
 def content_digest(spec: ModelSpec) -> str:
     """Return 16 hex digits over everything that decides the numbers: kernels, maps, parameters."""
-    return _content_digest(kernel_module(spec.kernel), spec.params.__module__, bool(spec.table))
+    return _content_digest(spec.kernel, spec.params.__module__, bool(spec.table))
 
 
 @cache

@@ -288,7 +288,7 @@ SPEC = ModelSpec(
     default_fidelity="field",
     inputs=(LOAD, SPEED, OIL),
     outputs=OUTPUTS,
-    kernel="gear_step",
+    kernel="thrustwasher.gearmesh.kernels.step",
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.MeshFlange",
@@ -303,5 +303,5 @@ SPEC = ModelSpec(
     # Run up under torque, work, coast down through standstill into reverse.
     course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 60.0, 120.0, 330.0),
             (0.9, 20.0, 0.0, 330.0), (1.0, -20.0, -30.0, 330.0)),
-    counts=(("viscosity iterations", "gear_layout:F_ITERATIONS"),),
+    counts=(("viscosity iterations", "thrustwasher.gearmesh.kernels.layout:F_ITERATIONS"),),
 )  # fmt: skip

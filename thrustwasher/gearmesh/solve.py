@@ -96,6 +96,12 @@ def pinion_torque(power: float, speed: float) -> float:
     return abs(power / speed)
 
 
+def under_torque(point: dict[str, float]) -> dict[str, float]:
+    """Return the inputs of a gear mesh: the power as a torque of the pinion."""
+    power, rest = point["power"], {n: v for n, v in point.items() if n != "power"}
+    return {**rest, "load": pinion_torque(power, point["speed"])}
+
+
 def solve_gearmesh(
     params: GearMeshParams,
     *,

@@ -18,10 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
+from ..model.registry import find_model
 from ..storage.digests import (
     CHECK,
     DATA,
-    KERNELS,
     closure,
     is_broken,
     kernel_digest,
@@ -47,35 +47,6 @@ SCHEMA = 1
 SAFETY = 1.5  # between a cell's worst held-out point and what is promised
 FOLDER = "THRUSTWASHER_CARDS"  # environment: one more folder with cards, for own parameter sets
 VERIFY = "python -m thrustwasher.study.verify"  # makes cards
-_CLUTCH = ("clutch_steady", "clutch_advance")
-_WASHER_FIELD = ("washer_solve", "washer_outputs", "washer_model")
-# model -> rung -> the modules that compute; what they import is found by itself
-ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
-    "washer": {
-        "closed": ("washer_simple",),
-        "stribeck": ("washer_simple",),
-        "map": ("washer_map_step",),
-        "coarse": _WASHER_FIELD,
-        "field": _WASHER_FIELD,
-        "fine": _WASHER_FIELD,
-    },
-    "clutch": {
-        "closed": _CLUTCH,
-        "boundary": _CLUTCH,
-        "stribeck": _CLUTCH,
-        "field": _CLUTCH,
-        "fine": ("clutch_step", "clutch_steady"),
-    },
-    "gearmesh": {
-        "closed": ("gear_point",),
-        "stribeck": ("gear_point",),
-        "field": ("gear_point",),
-        "fine": ("gear_line_of_action",),
-    },
-}
-# The file that sends each rung to its kernels and names the meshes; not what it imports, or every
-# rung would hang on every other one.
-DISPATCH = {"washer": "washer_step.py", "clutch": "clutch_step.py", "gearmesh": "gear_step.py"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,14 +245,17 @@ def error_estimate(
 
 
 def files_of(model: str, fidelity: str) -> tuple[str, ...]:
-    """Return the kernel files of a rung, sorted.
+    """Return the kernel modules of a rung, sorted: all it computes with, and the model's step.
+
+    The step's module sends each rung to its kernels; what else it imports does not count, or every
+    rung would hang on every other one.
 
     Raises
     ------
     KeyError : no such rung
-    FileNotFoundError : the rung has no kernels in this version
+    FileNotFoundError : a module is not there in this version
     """
-    dispatch = DISPATCH[model]
-    if not (KERNELS / dispatch).is_file():
-        raise FileNotFoundError(dispatch)
-    return tuple(sorted({*closure(*ROOTS[model][fidelity]), dispatch}))
+    found = find_model(model)
+    if found.ladder is None:
+        raise KeyError(model)
+    return tuple(sorted({*closure(*found.ladder.kernels[fidelity]), found.spec.kernel}))

@@ -26,7 +26,7 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
         return
     known = _known(spec)
     module, _, name = spec.table.partition(":")
-    table = getattr(import_module(f".{module}", __package__), name)(params)
+    table = getattr(import_module(module), name)(params)
     room = work[int(known["AT"]) :]
     if len(table) > len(room):
         raise ParameterError(
@@ -37,7 +37,6 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
 
 def _known(spec: ModelSpec) -> dict[str, float]:
     """Return what the kernel says about its table; empty if it has none."""
-    name = spec.kernel if "." in spec.kernel else f"thrustwasher.kernels.{spec.kernel}"
-    kernel = import_module(name)
+    kernel = import_module(spec.kernel)
     found: dict[str, float] = getattr(kernel, "TABLE", None) or {}
     return found

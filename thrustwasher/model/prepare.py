@@ -14,7 +14,7 @@ from .spec import ModelSpec
 Derive = Callable[[NDArray[np.float64]], int]
 OFFLINE = (
     "fidelity = 'reference' is no rung to solve with: it takes long and comes with an uncertainty; "
-    "call thrustwasher.ladder.reference_{0}.reference_{0}"
+    "call thrustwasher.study.reference_{0}.reference_{0}"
 )
 
 

@@ -1,30 +1,107 @@
-"""The models and their kernels by name."""
+"""Which models there are: the one list, by the package each lives in.
+
+A model is a package with its record ``MODEL`` in the module ``model`` and with compiled code in the
+package ``kernels``, whose head says what of it Python calls (``CALLED``). Nothing is imported
+before it is asked for.
+"""
 
 from __future__ import annotations
 
+from functools import cache
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
-from .spec import ModelSpec
+from .record import Ladder, Model, resolve
 
-MODELS = {"washer": "washer_params", "clutch": "clutch_params", "gearmesh": "gearmesh_params"}
+if TYPE_CHECKING:
+    from .spec import ModelSpec
+
+MODELS = {
+    "washer": "thrustwasher.washer",
+    "clutch": "thrustwasher.clutch",
+    "gearmesh": "thrustwasher.gearmesh",
+    "transmission": "thrustwasher.transmission",
+}
+# Built when named, not with all: parts that only a system of FMUs needs.
+HELPERS = {"command": "thrustwasher.command"}
+# Packages with compiled code that belongs to no model.
+OTHERS = ("thrustwasher.shift.cosim",)
 
 
-def spec_of(model: str) -> ModelSpec:
-    """Return what a model shows to the outside, or raise ParameterError with the models there are.
+def compiled_packages() -> tuple[str, ...]:
+    """Return the packages of compiled code."""
+    return (*(f"{home}.kernels" for home in (MODELS | HELPERS).values()), *OTHERS)
+
+
+@cache
+def _model_in(home: str) -> Model:
+    model: Model = import_module(f"{home}.model").MODEL
+    return model
+
+
+def all_models() -> list[Model]:
+    """Return the models of this version, in the order they are built."""
+    return [_model_in(home) for home in MODELS.values()]
+
+
+def models_with_cards() -> dict[str, Model]:
+    """Return the models that have a ladder of rungs with cards, by their keys."""
+    return {model.key: model for model in all_models() if model.ladder}
+
+
+def find_model(name: str) -> Model:
+    """Return a model by its key ("washer") or by the name of its FMU ("ThrustWasher").
+
+    Raises
+    ------
+    ParameterError : there is no such model; the message lists them
+    """
+    homes = MODELS | HELPERS
+    if name in homes:
+        return _model_in(homes[name])
+    models = [_model_in(home) for home in homes.values()]
+    for model in models:
+        if model.name == name:
+            return model
+    raise ParameterError(f"model = {name!r}, allowed: {', '.join(m.name for m in models)}")
+
+
+def find_spec(name: str) -> ModelSpec:
+    """Return the interface of a model by key, by the name of its FMU or by "module:NAME"."""
+    if ":" in name:
+        found: ModelSpec = resolve(name)
+        return found
+    return find_model(name).spec
+
+
+def all_specs() -> list[ModelSpec]:
+    """Return the interfaces of all models, in the order they are built."""
+    return [model.spec for model in all_models()]
+
+
+def spec_of(name: str) -> ModelSpec:
+    """Return the interface of a model with cards, or raise ParameterError with those there are.
 
     Examples
     --------
     >>> spec_of("washer").default_fidelity
     'field'
     """
-    if model not in MODELS:
-        raise ParameterError(f"model = {model!r}, allowed: {' or '.join(map(repr, MODELS))}")
-    spec: ModelSpec = import_module(f"..models.{MODELS[model]}", __package__).SPEC
-    return spec
+    models = models_with_cards()
+    if name not in models:
+        raise ParameterError(f"model = {name!r}, allowed: {' or '.join(map(repr, models))}")
+    return models[name].spec
+
+
+def ladder_of(name: str) -> Ladder:
+    """Return what the choice of a rung knows of a model; errors as in ``spec_of``."""
+    spec_of(name)
+    found = models_with_cards()[name].ladder
+    assert found is not None
+    return found
 
 
 def kernel_of(spec: ModelSpec) -> Any:
     """Return the module with a model's compiled step."""
-    return import_module(f"..kernels.{spec.kernel}", __package__)
+    return import_module(spec.kernel)

@@ -39,7 +39,7 @@ def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
     """Raise ParameterError for the first rule that parameters and fidelity break together."""
     if not spec.rules:  # a model from elsewhere may have its kernel elsewhere too
         return
-    rule = getattr(import_module(f"..kernels.{spec.kernel}", __package__), "broken_rule", None)
+    rule = getattr(import_module(spec.kernel), "broken_rule", None)
     if rule is None:
         return
     numbers = [*as_numbers(params), list(spec.fidelities).index(fidelity) + 1]

@@ -62,14 +62,14 @@ class ModelSpec:
     default_fidelity: str
     inputs: tuple[Signal, ...]
     outputs: tuple[Signal, ...]  # real outputs fill `out` in order, all others `iout`
-    kernel: str  # module below thrustwasher.kernels with derive(), step() and so on
+    kernel: str  # dotted name of the module with derive(), step() and so on
     rules: tuple[Rule, ...] = ()  # between parameters, in the order of the kernel's broken_rule()
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0
     step_size: float = 1e-3
-    # "module below thrustwasher.models:function" that returns the kernel's table for parameters.
+    # "module:function" that returns the kernel's table for parameters.
     table: str = ""
     # The reference run: rows of time and all inputs, linear between; none: inputs at their start.
     course: tuple[tuple[float, ...], ...] = ()
-    # What the solver counts: (text, "module below thrustwasher.kernels:NAME of the place in work").
+    # What the solver counts: (text, "module:NAME" of the place in work).
     counts: tuple[tuple[str, str], ...] = ()

@@ -12,10 +12,9 @@ import importlib.util
 import threading
 from collections.abc import Iterable, Mapping
 from functools import cache
-from importlib.machinery import ModuleSpec
 from pathlib import Path
 
-from .entries import called_modules
+from .entries import called_modules, lines
 
 PACKAGE = __name__.partition(".")[0]
 HERE = Path(__file__).parent
@@ -24,7 +23,7 @@ HERE = Path(__file__).parent
 RECIPE = 2
 MAKERS = ("entries.py", "targets.py")  # what is compiled, and how hard the compiler works
 # Modules that kernels import and that are no part of what is compiled.
-_NOT_COMPILED = ("errors", "native", "kernels._jit")
+_NOT_COMPILED = ("errors", "model", "native", "numerics.jit")
 
 _parsing = threading.Lock()  # CPython 3.11 miscounts its depth when two threads parse
 
@@ -32,12 +31,12 @@ _parsing = threading.Lock()  # CPython 3.11 miscounts its depth when two threads
 @cache
 def digest(kernel: str) -> str:
     """Return 16 hex digits over a kernel module, all it imports, and what compiles it."""
-    return digest_of({name: read(path) for name, path in sources(kernel).items()})
+    return digest_of(kernel, {name: read(path) for name, path in sources(kernel).items()})
 
 
-def digest_of(found: Mapping[str, bytes]) -> str:
-    """Return 16 hex digits over sources by the name of their module, and what compiles them."""
-    hashed = hashlib.sha256(_makers())
+def digest_of(kernel: str, found: Mapping[str, bytes]) -> str:
+    """Return 16 hex digits over a kernel module's sources by name, and what compiles them."""
+    hashed = hashlib.sha256(_makers() + "\n".join(lines(kernel)).encode())
     for name in sorted(found):
         hashed.update(f"{name}\0{len(found[name])}\0".encode() + found[name])
     return hashed.hexdigest()[:16]
@@ -59,26 +58,34 @@ def sources(kernel: str) -> dict[str, Path]:
     That is the module, those of the functions that Python calls, and all modules of their kind that
     these import.
     """
+    return closure(kernel, *called_modules(kernel))
+
+
+def closure(*modules: str) -> dict[str, Path]:
+    """Return module -> file of kernel modules and of all modules of their kind that they import.
+
+    The heads of packages hold no code and are left out.
+    """
     found: dict[str, Path] = {}
-    roots, todo = {kernel.partition(".")[0], PACKAGE}, [kernel, *called_modules(kernel)]
+    roots, todo = {PACKAGE, *(name.partition(".")[0] for name in modules)}, list(modules)
     while todo:
         name = todo.pop()
-        if name in found or not _is_compiled(name):
+        if name in found or not _is_compiled(name) or name.partition(".")[0] not in roots:
             continue
-        spec = _found(name)
-        if spec and spec.origin and name.partition(".")[0] in roots:
-            found[name] = Path(spec.origin)
-            package = name if found[name].name == "__init__.py" else spec.parent or ""
-            todo += _imported(found[name].read_bytes(), package)
+        path = file_of(name)
+        if path and path.name != "__init__.py":
+            found[name] = path
+            todo += _imported(path.read_bytes(), name.rpartition(".")[0])
     return found
 
 
-def _found(name: str) -> ModuleSpec | None:
-    """Return where a module is; None where a name is no module but something in one."""
+def file_of(name: str) -> Path | None:
+    """Return the file of a module; None where a name is no module but something in one."""
     try:
-        return importlib.util.find_spec(name)
+        spec = importlib.util.find_spec(name)
     except ModuleNotFoundError:
         return None
+    return Path(spec.origin) if spec and spec.origin else None
 
 
 def _is_compiled(name: str) -> bool:

@@ -1,115 +1,23 @@
 """Which functions of the kernels can be called from Python, and the library each is in.
 
 A model's library holds the entries of its step ABI for the FMU's shell, with arrays of fixed
-length, and the functions below for Python, with the lengths as they are given. What they take
-follows from their annotations: numbers, arrays, tuples of these. An array has one dimension unless
-it is named here, behind the function, as having two.
+length, and functions for Python, with the lengths as they are given. What these take
+follows from their annotations: numbers, arrays, tuples of these. The head of a model's package of
+kernels lists them: ``CALLED``, module of the library -> functions, each by its full name. An array
+has one dimension unless it is named there, behind the function, as having two.
 """
 
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, get_args, get_origin, get_type_hints
 
+from ..model.registry import OTHERS, compiled_packages
+
 ITEMS = ("float64", "int32", "int64", "uint8")  # of arrays
-PACKAGE = __name__.partition(".")[0]
-# module with a model's step, below the package -> functions, each with its arrays of two dimensions
-CALLED: dict[str, tuple[str, ...]] = {
-    "kernels.washer_step": (
-        "kernels.banded._forth",
-        "kernels.banded._reverse",
-        "kernels.banded.cholesky",
-        "kernels.banded.cholesky_solve",
-        "kernels.banded.cholesky_solve_many",
-        "kernels.banded.lu",
-        "kernels.banded.lu_solve",
-        "kernels.banded.mirror",
-        "kernels.asperities.contact_pressure",
-        "kernels.dense.dense_solve",
-        "kernels.flow_factors.flow_conductance",
-        "kernels.flow_factors.mean_gap",
-        "kernels.flow_factors.shear_flow",
-        "kernels.lumped_body.exponential_weights",
-        "kernels.viscosity.viscosity",
-        "kernels.washer_continuation.enter_curve",
-        "kernels.washer_continuation.find_fold",
-        "kernels.washer_continuation.recall",
-        "kernels.washer_continuation.remember",
-        "kernels.washer_continuation.walk_to",
-        "kernels.washer_map.map_covers",
-        "kernels.washer_map_rows.look_up_rows rows out found",
-        "kernels.washer_map_rows.map_folds folds",
-        "kernels.washer_map_rows.map_tilts",
-        "kernels.washer_map_rows.single_look_up",
-        "kernels.washer_map_step.look_up",
-        "kernels.washer_map_step.map_sens",
-        "kernels.washer_model.derive_grid",
-        "kernels.washer_newton.newton",
-        "kernels.washer_outputs.outputs_at",
-        "kernels.washer_regime_and_status.broken_rule",
-        "kernels.washer_simple.derive_simple",
-        "kernels.washer_solve.remember_state",
-        "kernels.washer_step.derive",
-        "kernels.washer_step.sens",
-        "kernels.washer_step.step",
-        "kernels.washer_wedge.lift",
-    ),
-    "kernels.clutch_step": (
-        "kernels.boundary.friction",
-        "kernels.boundary.ploughing",
-        "kernels.clutch_advance.advance",
-        "kernels.clutch_advance.load_memory",
-        "kernels.clutch_advance.settle_film",
-        "kernels.clutch_constants.derive",
-        "kernels.clutch_constants.derive_rings",
-        "kernels.clutch_directional_derivative.directional_derivative",
-        "kernels.clutch_friction.coefficient_of",
-        "kernels.clutch_friction.coefficient_slopes",
-        "kernels.clutch_friction.contact_share",
-        "kernels.clutch_friction.settled_ratio",
-        "kernels.clutch_friction.shear_of",
-        "kernels.clutch_friction.viscous_slopes",
-        "kernels.clutch_outputs.fill_outputs",
-        "kernels.clutch_outputs.mean_surface",
-        "kernels.clutch_outputs.ring_outputs",
-        "kernels.clutch_rates.pack_rates",
-        "kernels.clutch_constants.broken_rule",
-        "kernels.clutch_steady.steady_temperature",
-        "kernels.clutch_steady.steady_torques",
-        "kernels.clutch_step.step",
-    ),
-    "kernels.gear_step": (
-        "kernels.gear_constants.derive",
-        "kernels.gear_constants.effective_roughness",
-        "kernels.gear_line_of_action.solve_mesh",
-        "kernels.gear_constants.least_teeth",
-        "kernels.gear_constants.path_lengths",
-        "kernels.gear_constants.slide_roll",
-        "kernels.gear_constants.start_of_contact",
-        "kernels.gear_heat.surface_temperature",
-        "kernels.gear_line_of_action.place_mesh",
-        "kernels.gear_point.mesh_point",
-        "kernels.gear_constants.broken_rule",
-        "kernels.gear_step.sens",
-        "kernels.gear_step.step",
-    ),
-    "kernels.transmission_step": (
-        "kernels.transmission_dynamics.derive",
-        "kernels.transmission_dynamics.broken_rule",
-        "kernels.transmission_directional_derivative.directional_derivative",
-        "kernels.transmission_step.step",
-    ),
-    "kernels.command_step": (
-        "kernels.command_step.derive",
-        "kernels.command_step.step",
-    ),
-    "drivetrain.cosim.compiled_loop": (
-        "drivetrain.cosim.compiled_loop.run_operations operations rows",
-    ),
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,67 +46,77 @@ class Entry:
     is_tuple: bool  # what it returns is a tuple, also of one
 
 
-def dotted(name: str) -> str:
-    """Return the full name of a module given below the package; any other stays as it is."""
-    return f"{PACKAGE}.{name}" if name.startswith(("kernels.", "drivetrain.")) else name
+@cache
+def _called(package: str) -> Mapping[str, tuple[str, ...]]:
+    """Return what the head of a package of kernels says Python calls."""
+    try:
+        found: Mapping[str, tuple[str, ...]] = importlib.import_module(package).CALLED
+    except (ModuleNotFoundError, AttributeError):
+        return {}
+    return found
+
+
+def lines(library: str) -> tuple[str, ...]:
+    """Return a library's functions for Python, each with its arrays of two dimensions."""
+    return _called(library.rpartition(".")[0]).get(library, ())
+
+
+def libraries() -> list[str]:
+    """Return all modules that a library is made of."""
+    return [library for package in compiled_packages() for library in _called(package)]
 
 
 @cache
-def library_of(module: str, name: str) -> str | None:
-    """Return the module whose library has a function, None where none has it."""
+def _found(module: str, name: str) -> tuple[str, list[str]] | None:
+    """Return the library that has a function, and the function's arrays of two dimensions."""
     wanted = f"{module}.{name}"
-    for library in CALLED:
-        if any(dotted(place) == wanted for place in _places(library)):
-            return dotted(library)
+    for package in compiled_packages():
+        if package in OTHERS and not module.startswith(package):
+            continue
+        for library, called in _called(package).items():
+            for place, *two in map(str.split, called):
+                if place == wanted:
+                    return library, two
     return None
 
 
-def _places(library: str) -> list[str]:
-    return [line.split()[0] for line in CALLED[library]]
-
-
-@cache
-def symbols(library: str) -> tuple[str, ...]:
-    """Return the names of a library's functions for Python, sorted: their order in its table.
-
-    ``library`` is the dotted name of a module; one that is not in ``CALLED`` has none.
-    """
-    own = library.removeprefix(f"{PACKAGE}.")
-    places = _places(own) if own in CALLED else []
-    return tuple(sorted(symbol_of(*place.rsplit(".", 1)) for place in places))
-
-
-def called_modules(library: str) -> list[str]:
-    """Return the modules whose functions are in a library because Python calls them."""
-    own = library.removeprefix(f"{PACKAGE}.")
-    places = _places(own) if own in CALLED else []
-    return sorted({dotted(place.rpartition(".")[0]) for place in places})
-
-
-def symbol_of(module: str, name: str) -> str:
-    """Return the name a function has in its library."""
-    return f"tw_call_{module.rpartition('.')[2]}_{name}"
-
-
-def entries(library: str) -> list[Entry]:
-    """Return the functions of a library that Python calls; imports all their modules."""
-    own = library.removeprefix(f"{PACKAGE}.")
-    found = []
-    for line in CALLED.get(own, ()):
-        place, *two = line.split()
-        module, _, name = place.rpartition(".")
-        found.append(describe(getattr(importlib.import_module(dotted(module)), name), two))
-    return found
+def library_of(module: str, name: str) -> str | None:
+    """Return the module whose library has a function, None where none has it."""
+    found = _found(module, name)
+    return found[0] if found else None
 
 
 def arrays_of_two(module: str, name: str) -> list[str]:
     """Return which arguments of a function are arrays of two dimensions."""
-    for lines in CALLED.values():
-        for line in lines:
-            place, *two = line.split()
-            if dotted(place) == f"{module}.{name}":
-                return two
-    return []
+    found = _found(module, name)
+    return found[1] if found else []
+
+
+@cache
+def symbols(library: str) -> tuple[str, ...]:
+    """Return the names of a library's functions for Python, sorted: their order in its table."""
+    places = (line.split()[0].rpartition(".") for line in lines(library))
+    return tuple(sorted(symbol_of(module, name) for module, _, name in places))
+
+
+def called_modules(library: str) -> list[str]:
+    """Return the modules whose functions are in a library because Python calls them."""
+    return sorted({line.split()[0].rpartition(".")[0] for line in lines(library)})
+
+
+def symbol_of(module: str, name: str) -> str:
+    """Return the name a function has in its library."""
+    return f"tw_call_{module.partition('.')[2].replace('.', '_')}_{name}"
+
+
+def entries(library: str) -> list[Entry]:
+    """Return the functions of a library that Python calls; imports all their modules."""
+    found = []
+    for line in lines(library):
+        place, *two = line.split()
+        module, _, name = place.rpartition(".")
+        found.append(describe(getattr(importlib.import_module(module), name), two))
+    return found
 
 
 def describe(function: Any, two: Sequence[str]) -> Entry:

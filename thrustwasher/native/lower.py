@@ -55,7 +55,8 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
 
 def is_quick(symbol: str, level: Level) -> bool:
     """Tell if a function, by the name that numba gave it, is of a module that keeps all speed."""
-    return any(f"kernels{len(module)}{module}" in symbol for module in level.quick)
+    names = ("".join(f"{len(p)}{p}" for p in name.split(".")) for name in level.quick)
+    return any(name in symbol for name in names)
 
 
 @cache

@@ -20,7 +20,7 @@ from typing import Any
 
 from . import files, objects, shipped
 from .digest import digest, sources
-from .entries import CALLED, dotted
+from .entries import libraries as all_libraries
 from .files import to_stderr
 from .library import linked_library
 from .targets import PLATFORMS
@@ -143,7 +143,7 @@ def check(kernels: Sequence[str]) -> list[str]:
 
 def main(arguments: Sequence[str]) -> int:
     """Make or check the compiled files of the package."""
-    kernels = [dotted(name) for name in CALLED]
+    kernels = all_libraries()
     if list(arguments) == ["--check"]:
         wrong = check(kernels)
         print("\n".join(wrong) or "the compiled files are those of the sources")

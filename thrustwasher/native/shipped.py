@@ -42,7 +42,7 @@ def record(kernel: str) -> Mapping[str, Any] | None:
         return None
     try:
         found = {name: read(_file(name)) for name in about["sources"]}
-        return about if digest_of(found) == about["digest"] else None
+        return about if digest_of(kernel, found) == about["digest"] else None
     except (OSError, KeyError, TypeError, AttributeError, ValueError):  # changed by hand
         return None
 
@@ -112,4 +112,5 @@ def unpack(data: bytes) -> dict[tuple[str, str], bytes]:
 
 def short(kernel: str) -> str:
     """Return the name of a kernel module for file names."""
-    return kernel.removeprefix(f"{PACKAGE}.").rpartition(".")[2]
+    own = kernel.removeprefix(f"{PACKAGE}.").removesuffix(".step").removesuffix(".kernels")
+    return own.replace(".", "_")

@@ -47,7 +47,7 @@ class Platform:
 
 
 # All at full speed makes the washer 40 % larger and 5 % faster; all small makes it 40 % slower.
-_QUICK = ("banded", "chebyshev")
+_QUICK = ("numerics.banded", "numerics.chebyshev")
 _X86 = (
     Level(name="v2", cpu="x86-64-v2", attribute="optsize", quick=_QUICK),
     Level(name="v3", cpu="x86-64-v3", attribute="optsize", quick=_QUICK),

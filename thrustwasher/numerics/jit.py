@@ -31,6 +31,8 @@ from ..native.load import native_function
 Array = NDArray[np.float64]
 F = TypeVar("F", bound=Callable[..., Any])
 KEPT_VERSIONS = 5
+PACKAGE = Path(__file__).parents[1]
+KERNELS = ("numerics", "tribology", "**/kernels", "**/kernels/map")  # folders of kernels
 WAYS = ("native", "jit", "python")
 
 
@@ -92,8 +94,9 @@ class Kernel:
 def kernel_digest() -> str:
     """Return the first 16 hex digits of the SHA-256 over all kernel sources."""
     hashed = hashlib.sha256()
-    for file in sorted(Path(__file__).parent.glob("*.py")):
-        hashed.update(file.name.encode() + file.read_bytes().replace(b"\r\n", b"\n"))
+    for file in sorted(file for folder in KERNELS for file in PACKAGE.glob(f"{folder}/*.py")):
+        name = file.relative_to(PACKAGE).as_posix()
+        hashed.update(name.encode() + file.read_bytes().replace(b"\r\n", b"\n"))
     return hashed.hexdigest()[:16]
 
 

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from ..native import digest
+
 PACKAGE = Path(__file__).parents[1]
-KERNELS, DATA = PACKAGE / "kernels", PACKAGE / "data"
-DECORATOR = "_jit"  # says how kernels are run; the numbers are those of the functions it decorates
-# "from .module import ..." and "from . import module, ...", on one line or in brackets.
-IMPORT = re.compile(r"^[ \t]*from[ \t]+\.(\w*)[ \t]+import[ \t]+(\([^)]*\)|.*)", re.MULTILINE)
-NAME = re.compile(r"\w+")
+DATA = PACKAGE / "data"
 CHECK = "check"  # key of the checksum in a JSON file
 
 
@@ -46,34 +43,21 @@ def changed_fields(params: Any) -> dict[str, Any]:
 
 @cache
 def closure(*modules: str) -> tuple[str, ...]:
-    """Return the file names of kernel modules and of all that they import from ``kernels/``.
+    """Return the names of kernel modules and of all kernel modules that they import.
 
     Raises
     ------
-    FileNotFoundError : there is no such kernel module
+    FileNotFoundError : there is no such module
     """
-    found: set[str] = set()
-    waiting = list(modules)
-    while waiting:
-        name = waiting.pop()
+    found = digest.closure(*modules)
+    for name in modules:
         if name not in found:
-            found.add(name)
-            waiting += imports(name)
-    return tuple(sorted(f"{name}.py" for name in found))
-
-
-@cache
-def imports(module: str) -> tuple[str, ...]:
-    """Return the modules of the same package that one of them imports, wherever it does so."""
-    text = (KERNELS / f"{module}.py").read_text("utf-8")
-    names: list[str] = []
-    for source, inside in IMPORT.findall(text):
-        names += [source] if source else NAME.findall(inside)
-    return tuple(n for n in names if n != DECORATOR and (KERNELS / f"{n}.py").is_file())
+            raise FileNotFoundError(name)
+    return tuple(sorted(found))
 
 
 def kernel_digest(files: Iterable[str]) -> str:
-    """Return the SHA-256 over files of ``kernels/`` or, with a slash in the name, of ``data/``.
+    """Return the SHA-256 over kernel modules or, with a slash in the name, files of ``data/``.
 
     Line ends count as one character: a checkout on Windows has the same digest.
 
@@ -89,10 +73,12 @@ def kernel_digest(files: Iterable[str]) -> str:
 
 @cache
 def _file_digest(name: str) -> str:
-    content = ((DATA if "/" in name else KERNELS) / name).read_bytes()
-    if name.endswith(".py"):
-        content = content.replace(b"\r\n", b"\n")
-    return hashlib.sha256(content).hexdigest()
+    if "/" in name:
+        return hashlib.sha256((DATA / name).read_bytes()).hexdigest()
+    path = digest.file_of(name)
+    if path is None:
+        raise FileNotFoundError(name)
+    return hashlib.sha256(digest.read(path)).hexdigest()
 
 
 def seal_of(record: Mapping[str, Any]) -> str:

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from ..ladder.card_parts import Axis
-from ..model.registry import spec_of
+from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
 from ..units import parse_quantity
 
-SCENES = Path(__file__).parents[1] / "drivetrain" / "scenes"
+SCENES = Path(__file__).parents[1] / "shift" / "scenes"
 SEED = 7
 POINTS, POINTS_IN_PART = 500, 350
 MOST = 50  # points drawn for each one wanted in a part of a box
@@ -84,27 +84,6 @@ def _at(axis: Axis, share: float) -> float:
     return axis.min + share * (axis.max - axis.min)
 
 
-_OIL = (290.0, 400.0, "linear")
-_WASHER = {"tilt": (1e-3, 3e-3, "log"), "oil_temperature": _OIL}
-_GEARMESH = {"load": (1.0, 200.0, "log"), "speed": (1.0, 700.0, "log"), "oil_temperature": _OIL}
-_CLUTCH = {"load": (50.0, 10000.0, "log"), "speed": (1.0, 350.0, "log"), "oil_temperature": _OIL}
-# model -> parameter set -> low, high and scale of every input, in the model's order
-BOXES: dict[str, dict[str, dict[str, tuple[float, float, str]]]] = {
-    "washer": {
-        "default": {"load": (20.0, 1850.0, "log"), "speed": (50.0, 1400.0, "log"), **_WASHER},
-        "planetary": {"load": (1.0, 200.0, "log"), "speed": (1.0, 450.0, "log"), **_WASHER},
-    },
-    "clutch": {"default": _CLUTCH, "planetary": _CLUTCH},
-    "gearmesh": {"default": _GEARMESH, "planetary": _GEARMESH},
-}
-# model -> its part of a scene, and what of the part's parameters a held-out point has otherwise
-PARTS: dict[str, tuple[str, dict[str, Any]]] = {
-    "washer": ("washer", {}),
-    "clutch": ("clutch", {"input_course": "linear"}),
-    "gearmesh": ("mesh", {}),
-}
-
-
 def cases(model: str) -> list[Case]:
     """Return the cases of a model, or raise ParameterError with the models there are."""
     spec = spec_of(model)
@@ -114,17 +93,17 @@ def cases(model: str) -> list[Case]:
             spec, name, spec.params() if name == "default" else _scene_params(spec, name),
             {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}, POINTS,
         )
-        for name, box in BOXES[model].items()
+        for name, box in ladder_of(model).boxes.items()
     ]  # fmt: skip
 
 
 def _scene_params(spec: ModelSpec, scene: str) -> Any:
     """Return the parameters that a shipped scene gives to its part of a model."""
-    part, changed = PARTS[spec.key]
-    given = tomllib.loads((SCENES / f"{scene}.toml").read_text("utf-8"))[part]
+    ladder = ladder_of(spec.key)
+    given = tomllib.loads((SCENES / f"{scene}.toml").read_text("utf-8"))[ladder.part]
     meta = {f.name: f.metadata for f in fields(spec.params)}
     values = {n: v for n, v in given.items() if n != "fidelity"}
     for name, value in values.items():
         if isinstance(value, str) and meta[name]["kind"] == "real":
             values[name] = parse_quantity(value, meta[name]["unit"], name)
-    return spec.params(**{**values, **changed})
+    return spec.params(**{**values, **ladder.changed})

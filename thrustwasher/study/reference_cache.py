@@ -8,11 +8,12 @@ import os
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from ..errors import SolveError
+from ..model.record import resolve
+from ..model.registry import ladder_of
 from ..storage.digests import closure, kernel_digest, params_digest
 from ..storage.journal import Journal
 from .card_cases import Case
@@ -21,7 +22,7 @@ from .reference_values import FAILED, MARGIN, Answer, ReferencePoint, Source
 
 def source_of(model: str) -> Source:
     """Return the source of a model's reference values."""
-    source: Source = import_module(f".reference_{model}", __package__).SOURCE
+    source: Source = resolve(ladder_of(model).references)
     return source
 
 

@@ -241,6 +241,8 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
 
 
 SOURCE = Source(
-    _at_points, _answer, _at_case, ("clutch_advance", "clutch_steady", "clutch_constants"), None,
+    _at_points, _answer, _at_case,
+    tuple(f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "steady", "constants")),
+    None,
     (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {k.HOT_LIMIT:g} K",),
 )  # fmt: skip

@@ -146,6 +146,8 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
 
 
 SOURCE = Source(
-    _at_points, _answer, _at_case, ("gear_line_of_action", "gear_constants"), None,
+    _at_points, _answer, _at_case,
+    tuple(f"thrustwasher.gearmesh.kernels.{name}" for name in ("line_of_action", "constants")),
+    None,
     ("adaptive quadrature over the line of action", "search for the hottest position"),
 )  # fmt: skip

@@ -230,6 +230,8 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
 
 
 SOURCE = Source(
-    _at_points, _answer, _at_case, ("washer_solve", "washer_outputs", "washer_model"), GRIDS[-1],
+    _at_points, _answer, _at_case,
+    tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants")),
+    GRIDS[-1],
     tuple(f"{a} x {b} and {c} x {d} nodes, order 2" for (a, b), (c, d) in pairwise(GRIDS)),
 )  # fmt: skip

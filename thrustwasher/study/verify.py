@@ -19,7 +19,7 @@ from typing import Any
 from ..errors import ParameterError, SolveError
 from ..ladder.card import VERIFY, Card, forget, fresh_cards
 from ..model.parameters import as_numbers
-from ..model.registry import MODELS, spec_of
+from ..model.registry import models_with_cards, spec_of
 from ..storage.digests import DATA
 from ..washer.map.map_file import find_map
 from .card_cases import POINTS_IN_PART, Case, cases
@@ -34,7 +34,7 @@ HELP = "measure the rungs against the reference and write their cards"
 def main(argv: Sequence[str] | None = None) -> int:
     """Make the cards asked for; return 0, or 1 if some could not be made."""
     parser = argparse.ArgumentParser(VERIFY, description=HELP)
-    parser.add_argument("model", nargs="?", choices=list(MODELS), help="default: all")
+    parser.add_argument("model", nargs="?", choices=list(models_with_cards()), help="default: all")
     parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
     parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 500")
     parser.add_argument(
@@ -48,7 +48,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.error(f"fidelity = {options.fidelity!r}, allowed: {', '.join(rungs)}")
     make = time_again if options.costs else _case
     failed = 0
-    for model in [options.model] if options.model else list(MODELS):
+    for model in [options.model] if options.model else list(models_with_cards()):
         for case in cases(model):
             if options.params in (None, case.name):
                 failed += make(case, options.fidelity, options.sample or case.n, options.out)

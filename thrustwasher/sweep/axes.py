@@ -11,14 +11,11 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.parameters import allowed
+from ..model.registry import find_model
 from ..model.spec import ModelSpec, Signal
 from ..units import parse_quantity
 
 MOST_POINTS = 2_000_000
-# The gear mesh is loaded by a torque; a power in its place is turned into one, row by row.
-POWER = Signal(name="power", unit="W", help="transmitted power instead of the torque",
-               low=-1e9, high=1e9)  # fmt: skip
-MORE_INPUTS = {"gearmesh": (POWER,)}
 _TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 
 
@@ -71,7 +68,8 @@ class Axis:
 
 def places(spec: ModelSpec) -> dict[str, Place]:
     """Return everything of a model that a sweep may vary or hold, by name."""
-    signals = (*spec.inputs, *MORE_INPUTS.get(spec.key, ()))
+    more = find_model(spec.key).sweep.more_inputs
+    signals = (*spec.inputs, *(Signal(**fields_) for fields_ in more))
     found = {
         s.name: Place(
             s.name, s.unit, "real", True, -math.inf if s.low is None else s.low,

@@ -18,14 +18,13 @@ from numpy.typing import NDArray
 from ..errors import FIRST_FAILURE, ParameterError, Status
 from ..model.kernel_tables import fill_table, wants_table
 from ..model.prepare import filled
-from ..model.registry import kernel_of, spec_of
-from ..model.spec import REGIMES, ModelSpec, Signal
+from ..model.record import resolve
+from ..model.registry import find_model, kernel_of, spec_of
+from ..model.spec import ModelSpec, Signal
 from ..native.load import bound
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.int32]
-# The clutch slips for ever here: its heat has no end.
-NOT_SHOWN = {"clutch": ("energy", "heat_flux", "viscosity")}
 
 
 @dataclass(frozen=True)
@@ -42,7 +41,7 @@ class Task:
 
 def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
     """Return the real outputs of a row, and the whole-number ones with the status last."""
-    left_out = NOT_SHOWN.get(spec.key, ())
+    left_out = find_model(spec.key).sweep.not_shown
     real = tuple(s for s in spec.outputs if s.kind == "real" and s.name not in left_out)
     whole = [s for s in spec.outputs if s.kind != "real"]
     whole.sort(key=lambda s: s.type == "SolverStatus")  # it is the last of them already
@@ -55,7 +54,8 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
     real, whole = output_signals(spec)
     numbers = np.empty((len(task.inputs), len(real)))
     flags = np.zeros((len(task.inputs), len(whole)), np.int32)
-    walk = WALKS.get(spec.key, _walk_kernel)
+    given = find_model(spec.key).sweep.walk
+    walk = resolve(given) if given else _walk_kernel
     for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
         if params is None:
             flags[a:b, -1] = Status.BAD_INPUT
@@ -81,28 +81,6 @@ def _walk_kernel(
         status = step(point, row, flag, 0.0, 1.0)
         if status >= FIRST_FAILURE:
             flag[-1] = status
-
-
-def _walk_clutch(
-    spec: ModelSpec, params: Any, fidelity: str, inputs: Array, numbers: Array, flags: Flags
-) -> None:
-    """Fill the rows of one line with the steady state of a pack that slips."""
-    from ..clutch.solve import solve_clutch
-
-    regimes = {name: i for i, name in enumerate(REGIMES, 1)}
-    names = [s.name for s in output_signals(spec)[0]]
-    result = None
-    for point, row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
-        load, speed, oil = point
-        result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil,
-                              fidelity=fidelity, start=result, throw=False)  # fmt: skip
-        row[:] = [getattr(result, name) for name in names]
-        flag[0], flag[-1] = regimes[result.regime], result.status
-        if result.status.is_failure:
-            result = None
-
-
-WALKS = {"clutch": _walk_clutch}  # other models: by steps of their kernel
 
 
 @lru_cache(maxsize=64)
@@ -133,5 +111,5 @@ def _filled_work(model: str, fidelity: str | None, params: Any) -> Array:
 
 def check_rung(spec: ModelSpec, fidelity: str, params: Any) -> None:
     """Raise ParameterError if a rung lacks what it needs for the first parameters of a sweep."""
-    if spec.key not in WALKS and params is not None:
+    if not find_model(spec.key).sweep.walk and params is not None:
         _work(spec, fidelity, params, _constants(spec.key, fidelity, params))

@@ -162,7 +162,7 @@ SPEC = ModelSpec(
     default_fidelity="rigid",
     inputs=INPUTS,
     outputs=OUTPUTS,
-    kernel="transmission_step",
+    kernel="thrustwasher.transmission.kernels.step",
     rules=RULES,
     terminals=(
         Terminal(name="clutch", kind="thrustwasher.PackFlange",

@@ -1,4 +1,4 @@
-"""What several subjects share: films, asperities, viscosity, heat of a body. Numbers in, numbers out.
+"""What several subjects share: films, asperities, viscosity, heat of a body.
 
 ========================  ======================================================================
 ``asperities``            Elasto-plastic asperities: the force of one, and the pressure of many

@@ -170,7 +170,7 @@ SPEC = ModelSpec(
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                depends=_ALL, help="how the last solution was obtained"),
     ),
-    kernel="washer_step",
+    kernel="thrustwasher.washer.kernels.step",
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.WasherFlange",
@@ -182,10 +182,10 @@ SPEC = ModelSpec(
                  members=(("oil_temperature", "T", "signal"),
                           ("friction_power", "Q_flow", "outflow"))),
     ),
-    table="washer_map:map_data",
+    table="thrustwasher.washer.map.look_up:map_data",
     step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed
     course=((0.0, 100.0, 545.0, 2e-3, 297.15), (0.6, 400.0, 545.0, 2e-3, 310.0),
             (1.0, 200.0, 300.0, 1.5e-3, 310.0)),
-    counts=(("Newton iterations", "washer_layout:ITERATIONS"),
-            ("heat factors made", "washer_layout:FACTORED")),
+    counts=(("Newton iterations", "thrustwasher.washer.kernels.layout:ITERATIONS"),
+            ("heat factors made", "thrustwasher.washer.kernels.layout:FACTORED")),
 )  # fmt: skip

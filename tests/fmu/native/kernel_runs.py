@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import all_specs, find_spec, kernel_module, load_kernel
+from thrustwasher.fmu.model_kernels import load_kernel
 from thrustwasher.fmu.shell import c_tables, platform_libraries
+from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.numerics.jit import jitted, way
 
@@ -29,9 +30,7 @@ def probe(model: str, level: str) -> ctypes.CDLL:
     platform = replace(linux, levels=tuple(one for one in linux.levels if one.name == level))
     files = {**c_tables.sources(spec, fmi=2, guid="0"), "probe.c": (HERE / "probe.c").read_bytes()}
     name = f"{model}_{level}"
-    made = platform_libraries.link_kernel(
-        files, kernel_module(spec.kernel), platform, name, EXPORTS
-    )
+    made = platform_libraries.link_kernel(files, spec.kernel, platform, name, EXPORTS)
     path = Path(_folder.name) / f"{name}.so"
     path.write_bytes(made)
     return ctypes.CDLL(str(path))
@@ -43,7 +42,7 @@ class Python:
     def __init__(self, model: str) -> None:
         spec = find_spec(model)
         self.sizes = load_kernel(spec.kernel)
-        self.module = importlib.import_module(kernel_module(spec.kernel))
+        self.module = importlib.import_module(spec.kernel)
 
     def call(self, entry: str, *given):
         return getattr(self.module, entry)(*given)

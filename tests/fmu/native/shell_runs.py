@@ -14,10 +14,10 @@ import pytest
 from shelltoy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.package.model_sources import source_folder
 from thrustwasher.fmu.shell import c_tables
 from thrustwasher.fmu.shell.platform_libraries import library as native_library
+from thrustwasher.model.registry import find_spec
 
 HERE = Path(__file__).parent
 GUID = "0123456789abcdef0123456789abcdef"

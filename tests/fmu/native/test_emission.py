@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from kernel_runs import MODELS, Jit, Native, Run, anything, course, parameters
 
-from thrustwasher.fmu.model_kernels import find_spec
+from thrustwasher.model.registry import find_spec
 from thrustwasher.native.here import this_level, this_platform
 
 pytestmark = pytest.mark.skipif(

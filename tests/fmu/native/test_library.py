@@ -12,9 +12,9 @@ import pytest
 from kernel_runs import MODELS
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError
-from thrustwasher.fmu.model_kernels import find_spec, kernel_module
 from thrustwasher.fmu.package.model_sources import PACKAGE
 from thrustwasher.fmu.shell import call_table, platform_libraries
+from thrustwasher.model.registry import find_spec
 from thrustwasher.native import digest, emit, gate, link, linked
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
@@ -124,7 +124,7 @@ def test_the_first_build_of_a_platform_does_not_pass_in_silence(monkeypatch, tmp
 
 @pytest.mark.parametrize("model", MODELS)
 def test_code_is_kept_under_all_that_a_kernel_imports(model):
-    kernel = kernel_module(find_spec(model).kernel)
+    kernel = find_spec(model).kernel
     found, called = digest.sources(kernel), [kernel, *called_modules(kernel)]
     run = subprocess.run(
         [sys.executable, "-c", f"import sys, {', '.join(called)}\nprint(*sys.modules)"],

@@ -12,8 +12,8 @@ import pytest
 from kernel_runs import HERE, MODELS, Python, Run, course, parameters
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import find_spec
 from thrustwasher.fmu.shell import platform_libraries
+from thrustwasher.model.registry import find_spec
 from thrustwasher.native import link
 from thrustwasher.native.targets import PLATFORMS
 

@@ -21,7 +21,7 @@ from shell_runs import (
 from shelltoy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import find_spec
+from thrustwasher.model.registry import find_spec
 
 both = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 needs_valgrind = pytest.mark.skipif(

@@ -11,8 +11,8 @@ from twin import Twin
 
 from thrustwasher.errors import SolveError
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import find_spec, kernel_module
 from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.model.registry import find_spec
 
 pytestmark = needs_linux
 CHEAP = ["clutch", "gearmesh", "transmission", "command"]
@@ -106,7 +106,7 @@ def test_a_fresh_process_goes_on_to_the_bit(model, tmp_path):
 @pytest.mark.parametrize("model", ["clutch", "gearmesh", "transmission"])
 def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model):
     spec, rng = find_spec(model), random.Random(11)
-    kernel = importlib.import_module(kernel_module(spec.kernel))
+    kernel = importlib.import_module(spec.kernel)
     if not hasattr(kernel, "sens"):
         pytest.skip(f"the kernel of {model} has no derivatives")
     twin = Twin(spec, GUID)

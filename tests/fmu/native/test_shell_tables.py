@@ -9,9 +9,9 @@ from shell_runs import GUID, MADE, needs_gcc, run, taking, toy_library
 from shelltoy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import all_specs
 from thrustwasher.fmu.package.model_sources import source_folder
 from thrustwasher.fmu.shell import c_tables, call_table
+from thrustwasher.model.registry import all_specs
 
 HEADERS = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
 EXCHANGE_ONLY = {  # functions of FMI 2.0 that co-simulation has not

@@ -24,3 +24,31 @@
                             the pack
 ==========================  ======================================================================
 """
+
+# What Python calls: module of the library -> functions, each with its arrays of two dimensions.
+CALLED = {
+    "thrustwasher.clutch.kernels.step": (
+        "thrustwasher.clutch.kernels.advance.advance",
+        "thrustwasher.clutch.kernels.advance.load_memory",
+        "thrustwasher.clutch.kernels.advance.settle_film",
+        "thrustwasher.clutch.kernels.boundary_friction.friction",
+        "thrustwasher.clutch.kernels.boundary_friction.ploughing",
+        "thrustwasher.clutch.kernels.constants.broken_rule",
+        "thrustwasher.clutch.kernels.constants.derive",
+        "thrustwasher.clutch.kernels.constants.derive_rings",
+        "thrustwasher.clutch.kernels.directional_derivative.directional_derivative",
+        "thrustwasher.clutch.kernels.pack_friction.coefficient_of",
+        "thrustwasher.clutch.kernels.pack_friction.coefficient_slopes",
+        "thrustwasher.clutch.kernels.pack_friction.contact_share",
+        "thrustwasher.clutch.kernels.pack_friction.settled_ratio",
+        "thrustwasher.clutch.kernels.pack_friction.shear_of",
+        "thrustwasher.clutch.kernels.pack_friction.viscous_slopes",
+        "thrustwasher.clutch.kernels.pack_outputs.fill_outputs",
+        "thrustwasher.clutch.kernels.pack_outputs.mean_surface",
+        "thrustwasher.clutch.kernels.pack_outputs.ring_outputs",
+        "thrustwasher.clutch.kernels.rates.pack_rates",
+        "thrustwasher.clutch.kernels.steady.steady_temperature",
+        "thrustwasher.clutch.kernels.steady.steady_torques",
+        "thrustwasher.clutch.kernels.step.step",
+    ),
+}

@@ -10,8 +10,8 @@ from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any
 
 from ...errors import Status
+from ...model.registry import all_specs, find_spec
 from ...model.spec import REGIMES, ModelSpec, Signal
-from ..model_kernels import all_specs, find_spec
 
 __all__ = ["Item", "Variable", "all_specs", "enumerations", "find_spec", "variables"]
 

@@ -3,6 +3,7 @@
 from dataclasses import fields
 from html import escape
 
+from ...model.registry import MODELS, find_model
 from ...model.spec import ModelSpec
 from ..running.direct_instance import DirectInstance
 from .markup import list_of, table
@@ -14,36 +15,6 @@ GENERAL = (
     "Outputs are valid after the initialization and at the end of each step.",
     "Any communication step is accepted, also steps of different length.",
 )
-ADVICE: dict[str, tuple[str, ...]] = {
-    "ThrustWasher": (
-        "The model is quasi-steady: the step only decides how finely the inputs are followed.",
-        "Near the load at which the film is lost the torque jumps: a master that iterates should "
-        "save the state first and go back to it.",
-    ),
-    "WetClutch": (
-        "Into a ShiftTransmission: wire torque_capacity to it with coupling = capacity, there "
-        "stick and slip are decided inside the step and no step limit comes from friction; or "
-        "friction_torque with coupling = torque.",
-        "In another driveline wire friction_torque. Near zero slip it rises from -capacity to "
-        "+capacity over speed_smoothing, the stiffest spring of the system: the limit below holds, "
-        "a larger speed_smoothing relaxes it in proportion.",
-        "Give the slip its sign; the torque has the same sign and acts against the slip.",
-    ),
-    "GearMesh": (
-        "Subtract friction_torque from the torque that the mesh transmits, at the pinion.",
-        "In a ShiftTransmission plug it into the terminal mesh: one pair stands for one planet.",
-    ),
-    "ShiftTransmission": (
-        "coupling = capacity (default): feed the packs' torque_capacity. Lock-up and break-away "
-        "are located inside the step; no step limit comes from friction.",
-        "coupling = torque: feed the packs' friction_torque. With 389 N.m over 0.1 rad/s and the "
-        "0.1157 kg.m2 of the default set, steps above 0.06 ms are unstable when torques are one "
-        "step old; prefer capacity.",
-        "torque_age says how many steps old the torques are: 0 if the packs step first "
-        "(Gauss-Seidel), 1 if all step at once (Jacobi).",
-        "Give shift_command its value at the end of the step.",
-    ),
-}
 LIMIT = """<p>A torque that resists slip, fed back over one communication step, is an explicit
 method. With the slope c of friction_torque over speed, the inertia J that the slip sees
 (J1 J2/(J1 + J2) of two shafts) and the step H, it is stable for H c/J &lt; 2 and without
@@ -58,7 +29,7 @@ def wiring(spec: ModelSpec, *, runs: bool = True) -> str:
 
     The limit names the model's own slope if the model ``runs`` for it.
     """
-    lines = [*GENERAL, f"Suggested step: {spec.step_size:g} s.", *ADVICE.get(spec.name, ())]
+    lines = [*GENERAL, f"Suggested step: {spec.step_size:g} s.", *_advice(spec)]
     plugs = [
         (t.name, t.kind, ", ".join(f"{member} = {name}" for name, member, _ in t.members), t.help)
         for t in spec.terminals
@@ -67,6 +38,11 @@ def wiring(spec: ModelSpec, *, runs: bool = True) -> str:
     if plugs:
         parts.append(table(("terminal", "kind", "members", "meaning"), plugs))
     return "\n".join(filter(None, parts))
+
+
+def _advice(spec: ModelSpec) -> tuple[str, ...]:
+    """Return what a model of the package says itself."""
+    return find_model(spec.key).wiring if spec.key in MODELS else ()
 
 
 def _feedthrough(spec: ModelSpec) -> str:

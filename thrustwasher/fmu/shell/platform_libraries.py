@@ -15,7 +15,7 @@ from ...native.link import Linker, find_linker, local_linker, shared_library
 from ...native.objects import objects, prepare
 from ...native.targets import GLIBC, PLATFORMS, Platform
 from ...washer.map.map_file import all_maps, plain
-from ..model_kernels import kernel_module, load_kernel
+from ..model_kernels import load_kernel
 from ..package.model_sources import source_folder
 from . import c_tables, call_table
 
@@ -47,7 +47,7 @@ def local_level(spec: ModelSpec) -> str | None:
 
     What is shipped has them all; what has to be compiled is compiled for this processor alone.
     """
-    if shipped.has_objects(kernel_module(spec.kernel)):
+    if shipped.has_objects(spec.kernel):
         return None
     return this_level(this_platform()).name
 
@@ -59,7 +59,7 @@ def tools(linker: Linker) -> str:
 
 def made_of(spec: ModelSpec, *, local: bool) -> str:
     """Return what decides a model's libraries beside the FMU's own texts."""
-    kernel = kernel_module(spec.kernel)
+    kernel = spec.kernel
     linker = local_linker() if local else find_linker()
     return f"{shipped.digest_now(kernel)} {tools(linker)} {local_level(spec) if local else ''}"
 
@@ -72,7 +72,7 @@ def compile_local(specs: Iterable[ModelSpec], note: Note) -> None:
     missing = [spec for spec in largest_first if local_level(spec)]
     if missing:
         one = replace(platform, levels=(this_level(platform),))
-        prepare([kernel_module(spec.kernel) for spec in missing], [one], note)
+        prepare([spec.kernel for spec in missing], [one], note)
 
 
 def native_contents(
@@ -124,7 +124,7 @@ def library(
     files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi)}
     files |= c_tables.sources(spec, fmi=fmi, guid=guid)
     exports = call_table.functions(fmi)
-    kernel = kernel_module(spec.kernel)
+    kernel = spec.kernel
     return link_kernel(files, kernel, target, spec.name, exports, linker=linker, note=note)
 
 

@@ -16,3 +16,22 @@
                             and remembers nothing
 ==========================  ======================================================================
 """
+
+# What Python calls: module of the library -> functions, each with its arrays of two dimensions.
+CALLED = {
+    "thrustwasher.gearmesh.kernels.step": (
+        "thrustwasher.gearmesh.kernels.constants.broken_rule",
+        "thrustwasher.gearmesh.kernels.constants.derive",
+        "thrustwasher.gearmesh.kernels.constants.effective_roughness",
+        "thrustwasher.gearmesh.kernels.constants.least_teeth",
+        "thrustwasher.gearmesh.kernels.constants.path_lengths",
+        "thrustwasher.gearmesh.kernels.constants.slide_roll",
+        "thrustwasher.gearmesh.kernels.constants.start_of_contact",
+        "thrustwasher.gearmesh.kernels.flank_temperature.surface_temperature",
+        "thrustwasher.gearmesh.kernels.line_of_action.place_mesh",
+        "thrustwasher.gearmesh.kernels.line_of_action.solve_mesh",
+        "thrustwasher.gearmesh.kernels.mesh_point.mesh_point",
+        "thrustwasher.gearmesh.kernels.step.sens",
+        "thrustwasher.gearmesh.kernels.step.step",
+    ),
+}

@@ -9,3 +9,10 @@
 ``compiled_loop``    that code
 ===================  ==============================================================================
 """
+
+# What Python calls: module of the library -> functions, each with its arrays of two dimensions.
+CALLED = {
+    "thrustwasher.shift.cosim.compiled_loop": (
+        "thrustwasher.shift.cosim.compiled_loop.run_operations operations rows",
+    ),
+}

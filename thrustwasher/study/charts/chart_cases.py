@@ -9,6 +9,9 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 
+from ...model.record import resolve
+from ...model.registry import ladder_of
+
 OIL = 297.15
 
 
@@ -64,17 +67,15 @@ CLUTCH = (
     ChartCase("fast", (3000.0, 600.0, 297.15)),
     ChartCase("hot oil", (5898.0, 350.0, 353.15)),
 )
-# model -> its cases, and those of a quick look
-CASES = {
-    "washer": (WASHER, (0, 1, 8, 11, 12)),
-    "clutch": (CLUTCH, (0, 2, 3)),
-    "gearmesh": (GEARMESH, (0, 2, 3, 4)),
-}
+# with those of a quick look
+WASHER_CASES = (WASHER, (0, 1, 8, 11, 12))
+CLUTCH_CASES = (CLUTCH, (0, 2, 3))
+GEARMESH_CASES = (GEARMESH, (0, 2, 3, 4))
 
 
 def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:
     """Return the cases of a model, or those of a quick look."""
-    cases, few = CASES[model]
+    cases, few = resolve(ladder_of(model).cases)
     return tuple(cases[i] for i in few) if quick else cases
 
 

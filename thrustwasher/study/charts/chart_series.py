@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 
-from ...model.registry import spec_of
+from ...model.record import resolve
+from ...model.registry import ladder_of, spec_of
 from ...model.spec import ModelSpec
 from .methods import ClutchMethod, KernelMethod, Method, Method2006
 
@@ -112,16 +113,20 @@ class Chart:
 
 WARM = "warm call, 1 % away [s]"
 KELVIN = Quantity("temperature", False, unit="K")
-CHARTS = {
-    "washer": Chart((Quantity("friction_torque", True, 1e-3), KELVIN), WARM, _washer),
-    "clutch": Chart(
-        (Quantity("slip_energy", True), Quantity("end_temperature", False, unit="K")),
-        "engagement of 0.6 s [s]", _clutch,
-    ),
-    "gearmesh": Chart((Quantity("friction_torque", True, 1e-4), KELVIN), WARM, _rungs),
-}  # fmt: skip
+WASHER = Chart((Quantity("friction_torque", True, 1e-3), KELVIN), WARM, _washer)
+CLUTCH = Chart(
+    (Quantity("slip_energy", True), Quantity("end_temperature", False, unit="K")),
+    "engagement of 0.6 s [s]", _clutch,
+)  # fmt: skip
+GEARMESH = Chart((Quantity("friction_torque", True, 1e-4), KELVIN), WARM, _rungs)
+
+
+def chart_of(model: str) -> Chart:
+    """Return what a model's chart shows."""
+    found: Chart = resolve(ladder_of(model).chart)
+    return found
 
 
 def series_of(model: str, *, quick: bool = False) -> list[Configuration]:
     """Return everything that is measured for a model."""
-    return CHARTS[model].series(spec_of(model), quick=quick)
+    return chart_of(model).series(spec_of(model), quick=quick)

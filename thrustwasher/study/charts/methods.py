@@ -68,7 +68,7 @@ def _place_of_count(spec: ModelSpec) -> int | None:
     if not spec.counts:
         return None
     module, name = spec.counts[0][1].split(":")
-    return int(getattr(import_module(f"..kernels.{module}", __package__), name))
+    return int(getattr(import_module(module), name))
 
 
 class KernelMethod:

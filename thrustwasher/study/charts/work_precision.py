@@ -20,7 +20,7 @@ from ..reference_cache import source_of
 from ..reference_values import ReferenceValues
 from ..rivals.plain2006 import Plain2006
 from .chart_cases import ChartCase, cases_of, digest
-from .chart_series import CHARTS, Configuration, Quantity, series_of
+from .chart_series import Configuration, Quantity, chart_of, series_of
 from .methods import KernelMethod, Method, MethodAnswer
 
 Progress = Callable[[str], None]
@@ -173,7 +173,7 @@ def work_precision(
     progress(f"{model}: reference values of {len(cases)} cases")
     source = source_of(model)
     known = [source.at_case(case.point, case.before) for case in cases]
-    quantities = CHARTS[model].quantities
+    quantities = chart_of(model).quantities
     samples = []
     for setting in series_of(model, quick=quick):
         progress(f"{model}: {setting.label}")
@@ -181,7 +181,7 @@ def work_precision(
         samples.append(measure(setting, cases, known, quantities, repeats=repeats).as_dict())
     found: dict[str, Any] = {
         "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
-        "cases_digest": digest(cases), "cost_of": CHARTS[model].cost_of,
+        "cases_digest": digest(cases), "cost_of": chart_of(model).cost_of,
         "quantities": [
             {"name": q.name, "kind": "relative" if q.relative else "absolute", "unit": q.unit,
              "floor": q.floor if q.relative else None}

@@ -15,3 +15,13 @@
                             end
 ==========================  ======================================================================
 """
+
+# What Python calls: module of the library -> functions, each with its arrays of two dimensions.
+CALLED = {
+    "thrustwasher.transmission.kernels.step": (
+        "thrustwasher.transmission.kernels.directional_derivative.directional_derivative",
+        "thrustwasher.transmission.kernels.dynamics.broken_rule",
+        "thrustwasher.transmission.kernels.dynamics.derive",
+        "thrustwasher.transmission.kernels.step.step",
+    ),
+}

@@ -41,3 +41,46 @@
                             and its work
 ==========================  ======================================================================
 """
+
+# What Python calls: module of the library -> functions, each with its arrays of two dimensions.
+CALLED = {
+    "thrustwasher.washer.kernels.step": (
+        "thrustwasher.numerics.banded._forth",
+        "thrustwasher.numerics.banded._reverse",
+        "thrustwasher.numerics.banded.cholesky",
+        "thrustwasher.numerics.banded.cholesky_solve",
+        "thrustwasher.numerics.banded.cholesky_solve_many",
+        "thrustwasher.numerics.banded.lu",
+        "thrustwasher.numerics.banded.lu_solve",
+        "thrustwasher.numerics.banded.mirror",
+        "thrustwasher.numerics.dense.dense_solve",
+        "thrustwasher.tribology.asperities.contact_pressure",
+        "thrustwasher.tribology.flow_factors.flow_conductance",
+        "thrustwasher.tribology.flow_factors.mean_gap",
+        "thrustwasher.tribology.flow_factors.shear_flow",
+        "thrustwasher.tribology.lumped_body.exponential_weights",
+        "thrustwasher.tribology.viscosity.viscosity",
+        "thrustwasher.washer.kernels.constants.derive_grid",
+        "thrustwasher.washer.kernels.continuation.enter_curve",
+        "thrustwasher.washer.kernels.continuation.find_fold",
+        "thrustwasher.washer.kernels.continuation.recall",
+        "thrustwasher.washer.kernels.continuation.remember",
+        "thrustwasher.washer.kernels.continuation.walk_to",
+        "thrustwasher.washer.kernels.map.map_rows.look_up_rows rows out found",
+        "thrustwasher.washer.kernels.map.map_rows.map_folds folds",
+        "thrustwasher.washer.kernels.map.map_rows.map_tilts",
+        "thrustwasher.washer.kernels.map.map_rows.single_look_up",
+        "thrustwasher.washer.kernels.map.map_search.map_covers",
+        "thrustwasher.washer.kernels.map.map_step.look_up",
+        "thrustwasher.washer.kernels.map.map_step.map_sens",
+        "thrustwasher.washer.kernels.newton.newton",
+        "thrustwasher.washer.kernels.outputs.outputs_at",
+        "thrustwasher.washer.kernels.regime_and_status.broken_rule",
+        "thrustwasher.washer.kernels.simple.derive_simple",
+        "thrustwasher.washer.kernels.solve.remember_state",
+        "thrustwasher.washer.kernels.step.derive",
+        "thrustwasher.washer.kernels.step.sens",
+        "thrustwasher.washer.kernels.step.step",
+        "thrustwasher.washer.kernels.wedge.lift",
+    ),
+}

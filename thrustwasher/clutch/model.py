@@ -1,0 +1,57 @@
+"""The record of the wet clutch."""
+
+from ..model.record import Command, Ladder, Model, Sweep
+
+_PACK = ("thrustwasher.clutch.kernels.steady", "thrustwasher.clutch.kernels.advance")
+_BOX = {
+    "load": (50.0, 10000.0, "log"), "speed": (1.0, 350.0, "log"),
+    "oil_temperature": (290.0, 400.0, "linear"),
+}  # fmt: skip
+MODEL = Model(
+    key="clutch",
+    name="WetClutch",
+    interface="thrustwasher.clutch.parameters:SPEC",
+    command=Command(
+        help="friction torque of a wet clutch or brake pack at one load and slip speed",
+        solve="thrustwasher.clutch.solve:solve_clutch",
+        figure="thrustwasher.report.model_plots.clutch_plot:slip_figure",
+        figure_help="draw shear ratio, coefficient and torque over slip",
+        title="friction pack",
+        more=("engage", "calibrate"),
+        extra={  # some are outputs that mean something else here
+            "shear_ratio": ("1", "share of the full adhesive shear strength, s/s_m"),
+            "friction_torque": (
+                "N.m", "friction torque of the pack, sign of the slip, 0 without slip",
+            ),
+            "temperature": ("K", "interface temperature if this slip lasted for ever"),
+        },
+    ),
+    ladder=Ladder(
+        kernels={
+            "closed": _PACK,
+            "boundary": _PACK,
+            "stribeck": _PACK,
+            "field": _PACK,
+            "fine": ("thrustwasher.clutch.kernels.step", "thrustwasher.clutch.kernels.steady"),
+        },
+        boxes={"default": _BOX, "planetary": _BOX},
+        part="clutch",
+        changed={"input_course": "linear"},
+        references="thrustwasher.study.reference_clutch:SOURCE",
+        cases="thrustwasher.study.charts.chart_cases:CLUTCH_CASES",
+        chart="thrustwasher.study.charts.chart_series:CLUTCH",
+    ),
+    sweep=Sweep(
+        walk="thrustwasher.clutch.solve:walk_steady",
+        not_shown=("energy", "heat_flux", "viscosity"),  # it slips for ever: its heat has no end
+    ),
+    wiring=(
+        "Into a ShiftTransmission: wire torque_capacity to it with coupling = capacity, "
+        "there stick and slip are decided inside the step and no step limit comes from "
+        "friction; or friction_torque with coupling = torque.",
+        "In another driveline wire friction_torque. Near zero slip it rises from "
+        "-capacity to +capacity over speed_smoothing, the stiffest spring of the system: "
+        "the limit below holds, a larger speed_smoothing relaxes it in proportion.",
+        "Give the slip its sign; the torque has the same sign and acts against the slip.",
+    ),
+)  # fmt: skip

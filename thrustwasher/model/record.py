@@ -1,0 +1,115 @@
+"""The record of a model: all that the rest of the package knows of it.
+
+What lies above a model (plots, commands, reference values) stands here as data or as a dotted name
+"module:NAME", which is resolved when it is asked for: a record imports nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # it needs numpy, which not every command does
+    from .spec import ModelSpec
+
+Scaled = tuple[float, float, str]  # low, high, "linear" or "log"
+
+
+def resolve(name: str) -> Any:
+    """Return what a dotted name "module:NAME" stands for."""
+    module, _, attribute = name.partition(":")
+    return getattr(import_module(module), attribute)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Option:
+    """An argument of a model's ``solve`` as an option of its command."""
+
+    name: str
+    help: str
+    choices: tuple[str, ...] | None = None
+    read: str = ""  # dotted name of a function that makes its value of the text
+    metavar: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variants:
+    """Results side by side for several variants, such as two steels: a table below the others."""
+
+    head: str  # what a row is; the parameter of this name holds the chosen one
+    rows: Mapping[str, str]  # words -> ending of the fields' names
+    columns: Mapping[str, str]  # field without its ending -> head
+    chosen: str  # said of the row that the parameters choose
+
+    def name(self, column: str, row: str) -> str:
+        """Return the name of a field."""
+        return f"{column}_{self.rows[row]}"
+
+    def fields(self) -> set[str]:
+        """Return all fields in the table, and those of the chosen variant, which it repeats."""
+        table = {self.name(column, row) for column in self.columns for row in self.rows}
+        return table | set(self.columns)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command:
+    """The command that solves a model at one operating point, beside what its interface says."""
+
+    help: str
+    solve: str  # called with (parameters, **point, fidelity=, **options)
+    figure: str = ""  # called with (result, point, parameters); "": there is no --plot
+    figure_help: str = ""
+    title: str  # may name parameters: "gear mesh, {pinion_teeth} teeth"
+    closing: str = "{fidelity}"  # how it was solved; may name results
+    extra: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    """Results that are no output: unit and meaning."""
+    instead: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    """Name of a model's input -> fields of the signal that this command has instead of it."""
+    place: str = ""  # dotted name: from the command's point to the model's own inputs
+    presets: str = ""  # dotted name: names -> the parameters that they change
+    options: tuple[Option, ...] = ()  # more arguments of ``solve``
+    variants: Variants | None = None
+    more: tuple[str, ...] = ()  # other commands of this model, which are files
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ladder:
+    """What the choice of a rung and the making of its cards need to know."""
+
+    kernels: Mapping[str, tuple[str, ...]]  # rung -> modules that compute its numbers
+    boxes: Mapping[str, Mapping[str, Scaled]]  # parameter set -> range of every input
+    part: str  # the model's part of the scene that a parameter set is named after
+    changed: Mapping[str, Any] = field(default_factory=dict)  # otherwise in held-out points
+    references: str  # dotted name: where reference values come from
+    cases: str  # dotted name: operating points of the chart, and those of a quick look
+    chart: str  # dotted name: what the chart shows
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sweep:
+    """What a sweep does otherwise than by steps of the model's kernel."""
+
+    walk: str = ""  # dotted name of what fills the rows of a line
+    not_shown: tuple[str, ...] = ()  # outputs that make no sense there
+    more_inputs: tuple[Mapping[str, Any], ...] = ()  # fields of signals it takes as well
+
+
+@dataclass(frozen=True, kw_only=True)
+class Model:
+    """A model of the package."""
+
+    key: str  # "washer": on the command line, in sweeps and cards
+    name: str  # "ThrustWasher": of the FMU
+    interface: str  # dotted name of the ``ModelSpec``: parameters, inputs, outputs, kernel
+    command: Command | None = None
+    ladder: Ladder | None = None
+    sweep: Sweep = Sweep()
+    wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
+
+    @property
+    def spec(self) -> ModelSpec:
+        """What an importer sees."""
+        found: ModelSpec = resolve(self.interface)
+        return found

@@ -15,8 +15,8 @@ from ..kernels.washer_model import washer_model
 from ..kernels.washer_outputs import outputs_at
 from ..kernels.washer_solve import remember_state
 from ..kernels.washer_workspace import Point, fields_of, size_of_state, size_of_work, workspace_of
-from ._buffers import work_array
 from ._params import check_number
+from ._recent import work_array
 from .washer import ERRORS, check_point, resolve_grid, result_from
 from .washer_constants import NO_MESH, constants
 from .washer_params import WasherParams

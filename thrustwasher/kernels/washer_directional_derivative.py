@@ -16,7 +16,7 @@ from .washer_heat import solve_heat
 from .washer_jacobian import force_jacobian, forces_by_heat, heat_change
 from .washer_layout import ON_GEAR, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .washer_model import WasherModel
-from .washer_newton import make_factor, size_of
+from .washer_newton import make_factor
 from .washer_outputs import change_of_outputs
 from .washer_workspace import (
     Fields,
@@ -27,6 +27,7 @@ from .washer_workspace import (
     fields_of,
     model_of,
     negate,
+    size_of,
     square,
     vector,
 )

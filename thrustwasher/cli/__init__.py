@@ -35,7 +35,7 @@ from ..model.registry import all_models
 
 MODELS = {model.key: model for model in all_models() if model.command}
 COMMANDS = (
-    *(name for key, model in MODELS.items() for name in (key, *model.command.more)),
+    *(name for model in MODELS.values() for name in model.commands()),
     *("shift", "sweep", "chart", "build", "cards", "doctor"),
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141

@@ -113,3 +113,7 @@ class Model:
         """What an importer sees."""
         found: ModelSpec = resolve(self.interface)
         return found
+
+    def commands(self) -> tuple[str, ...]:
+        """Return the names of the model's commands."""
+        return (self.key, *self.command.more) if self.command else ()

@@ -9,7 +9,6 @@ import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.parameters import check_number
-from ..model.work_arrays import work_array
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants
 from .kernels import layout as L
@@ -19,6 +18,7 @@ from .kernels.outputs import outputs_at
 from .kernels.solve import remember_state
 from .kernels.workspace import Point, fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import WasherParams
+from .recent import work_array
 from .solve import ERRORS, check_point, resolve_grid, result_from
 from .washer_result import BRANCH_NAMES, Fold, WasherResult
 

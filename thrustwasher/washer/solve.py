@@ -15,8 +15,6 @@ import numpy as np
 from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
 from ..model.parameters import check_number
 from ..model.prepare import OFFLINE
-from ..model.recent import Recent
-from ..model.work_arrays import work_array
 from ..native.load import bound
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, SIMPLE, constants
@@ -25,7 +23,8 @@ from .kernels import step as kernel
 from .kernels.simple import N_WORK
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult
+from .recent import Recent, work_array
+from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
@@ -94,11 +93,9 @@ def result_from(
 ) -> WasherResult:  # fmt: skip
     """Build the result from what the kernel left at the head of ``work``."""
     x, q = work[L.AT_OUTPUTS : L.AT_POSITIONS].tolist(), work[L.AT_POSITIONS : L.N_HEAD].tolist()
-    return WasherResult(
-        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
-        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], q[L.TILT_X], q[L.TILT_Y],
-        BRANCH_NAMES.get(branch, "film"), lost, status, int(work[L.ITERATIONS]), fidelity, grid,
-        error, *point, params, state,
+    return result_of(
+        params, point, x, q[L.TILT_X :], BRANCH_NAMES.get(branch, "film"), lost, status,
+        int(work[L.ITERATIONS]), fidelity, grid, error, state,
     )  # fmt: skip
 
 

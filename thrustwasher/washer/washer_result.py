@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -147,6 +148,19 @@ def card_error(result: WasherResult) -> float | None:
     return error_estimate(
         "washer", result.fidelity, result.params, point, branch=branch,
         film_ratio=None if branch is None else result.film_ratio,
+    )  # fmt: skip
+
+
+def result_of(
+    params: WasherParams, point: tuple[float, float, float, float], x: Sequence[float],
+    tilts: Sequence[float], branch: str, distress: bool, status: Status, iterations: int,
+    fidelity: str, grid: tuple[int, int], error: float, state: Array,
+) -> WasherResult:  # fmt: skip
+    """Return the result with the kernels' outputs ``x`` and the washer's tilts about x and y."""
+    return WasherResult(
+        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
+        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], tilts[0], tilts[1], branch, distress, status,
+        iterations, fidelity, grid, error, *point, params, state,
     )  # fmt: skip
 
 

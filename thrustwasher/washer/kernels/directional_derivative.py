@@ -16,7 +16,7 @@ from .constants import WasherModel
 from .heat import solve_heat
 from .jacobian import force_jacobian, forces_by_heat, heat_change
 from .layout import ON_GEAR, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
-from .newton import make_factor, size_of
+from .newton import make_factor
 from .outputs import change_of_outputs
 from .workspace import (
     Fields,
@@ -27,6 +27,7 @@ from .workspace import (
     fields_of,
     model_of,
     negate,
+    size_of,
     square,
     vector,
 )

@@ -42,6 +42,7 @@ from .workspace import (
     fields_of,
     model_of,
     negate,
+    size_of,
     square,
     vector,
 )
@@ -210,15 +211,6 @@ def evaluate_here(w: Workspace, pt: Point) -> None:
     m, f = model_of(w), fields_of(w)
     evaluate(m, pt, w.q, f)
     film_residual(m, f.p, f)
-
-
-@kernel
-def size_of(a: Array) -> float:
-    """Return the sum of the sizes of all numbers."""
-    total = 0.0
-    for k in range(a.size):
-        total += abs(a[np.uintp(k)])
-    return total
 
 
 @kernel

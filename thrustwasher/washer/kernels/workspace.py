@@ -145,6 +145,15 @@ def negate(a: Array) -> None:
 
 
 @kernel
+def size_of(a: Array) -> float:
+    """Return the sum of the sizes of all numbers."""
+    total = 0.0
+    for k in range(a.size):
+        total += abs(a[np.uintp(k)])
+    return total
+
+
+@kernel
 def fields_of(w: Workspace) -> Fields:
     """Return the work by name; the arrays are views."""
     par, work = w.par, w.work

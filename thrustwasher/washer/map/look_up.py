@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 import threading
-from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -13,7 +12,6 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
-from ...model.recent import Recent
 from ...native.load import bound
 from ...numerics.jit import Array
 from ..kernel_arguments import NO_MESH
@@ -25,7 +23,8 @@ from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
 from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import WasherParams
-from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult
+from ..recent import Recent
+from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
 from .map_file import MapFile, find_map, read_map
 
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
@@ -201,27 +200,16 @@ def solve_by_map(
         return None
     if status != Status.OK:
         state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
-        return _result(params, point, NOTHING, (math.nan, math.nan), "film", False,
-                       Status(status), state)  # fmt: skip
+        return result_of(params, point, NOTHING, NOTHING, "film", False, Status(status), 0, "map",
+                         NO_MESH, ERROR, state)  # fmt: skip
     solver.tilt()
     numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
     tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
     state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch, numbers[L.O_RATIO]
     lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
     lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
-    return _result(params, point, numbers, tilts, BRANCH_NAMES[branch], lost, Status.OK, state)
-
-
-def _result(
-    params: WasherParams, point: tuple[float, float, float, float], x: Sequence[float],
-    tilts: Sequence[float], branch: str, distress: bool, status: Status, state: Array,
-) -> WasherResult:  # fmt: skip
-    """Build the result from the numbers of ``OUTPUTS``."""
-    return WasherResult(
-        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
-        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], tilts[0], tilts[1], branch, distress, status, 0,
-        "map", NO_MESH, ERROR, *point, params, state,
-    )  # fmt: skip
+    return result_of(params, point, numbers, tilts, BRANCH_NAMES[branch], lost, Status.OK, 0, "map",
+                     NO_MESH, ERROR, state)  # fmt: skip
 
 
 def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) -> MapFile:

@@ -113,13 +113,6 @@ def contact_integral(u: float) -> tuple[float, float]:
 
 
 @kernel
-def separation(pressure_ratio: float, guess: float) -> tuple[float, int, int]:
-    """Return (u, status, iterations) of ``separation_and_slope``."""
-    u, _, status, iterations = separation_and_slope(pressure_ratio, guess)
-    return u, status, iterations
-
-
-@kernel
 def separation_and_slope(pressure_ratio: float, guess: float) -> tuple[float, float, int, int]:
     """Return u with F_5/2(u) = ``pressure_ratio`` [-], and its slope over that ratio's logarithm.
 

@@ -79,6 +79,6 @@ def _course(params: Any, n: int, point: Point) -> Array:
 
 
 SOURCE = Source(
-    clutch_truths, ("clutch_advance", "clutch_steady", "clutch_constants"), "reference", None,
+    clutch_truths, ("clutch_advance", "clutch_outputs", "clutch_steady"), "reference", None,
     (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {HOT_LIMIT:g} K",),
 )  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .digests import KERNELS, closure
 
-_CLUTCH = ("clutch_steady", "clutch_advance")
+_CLUTCH = ("clutch_steady", "clutch_advance", "clutch_outputs")
 _WASHER_FIELD = ("washer_solve", "washer_outputs", "washer_model")
 # model -> rung -> the modules that compute; what they import is found by itself
 ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
@@ -21,7 +21,7 @@ ROOTS: dict[str, dict[str, tuple[str, ...]]] = {
         "boundary": _CLUTCH,
         "stribeck": _CLUTCH,
         "field": _CLUTCH,
-        "fine": ("clutch_step", "clutch_steady"),
+        "fine": _CLUTCH,
     },
     "gearmesh": {
         "closed": ("gear_point",),

@@ -173,7 +173,7 @@ def kept(tmp_path, monkeypatch):
         asked.append(point)
         return [truth(1.0, point)]
 
-    return asked, Source(solve, ("film",), "reference", None, ("one route",)), tmp_path
+    return asked, Source(solve, ("flow_factors",), "reference", None, ("one route",)), tmp_path
 
 
 def test_a_point_is_solved_once_and_a_stopped_run_goes_on(kept):

@@ -350,6 +350,19 @@ def test_one_ring_is_the_lumped_pack(changes):
     assert one["energy"] == pytest.approx(lumped["energy"], rel=1e-4)
 
 
+@pytest.mark.parametrize("changes", [{}, {"contact_rise": True}])
+def test_one_ring_steps_as_the_lumped_pack_does(changes):
+    """Steps so short that each is one substep of both: what is left is rounding."""
+    lumped = Part("clutch", "field", starts_pressed=True, **changes)
+    one = Part("clutch", "fine", starts_pressed=True, **changes)
+    derive_rings(one.par, 1)
+    for n in range(200):
+        for part in (one, lumped):
+            part.step([6e3, 120.0 - 0.1 * n, 350.0], 1e-5)
+            assert part.work[clutch_layout.W_SUBSTEPS] == 1.0
+    np.testing.assert_allclose(one.out, lumped.out, rtol=1e-9)
+
+
 def test_rings_converge_with_second_order():
     torques = [engaged("fine", n)["friction_torque"] for n in (1, 2, 4, 8)]
     changes = np.abs(np.diff(torques))

@@ -103,7 +103,7 @@ def test_a_fresh_card_is_not_stale():
 
 def test_only_what_a_rung_imports_makes_its_card_stale():
     files = set(files_of("washer", "field"))
-    assert {"washer_newton.py", "contact.py", "banded.py", "washer_step.py"} <= files
+    assert {"washer_newton.py", "asperities.py", "banded.py", "washer_step.py"} <= files
     assert not {f for f in files if f.startswith(("clutch", "gear", "transmission"))}
 
 

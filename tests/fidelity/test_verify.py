@@ -192,7 +192,9 @@ def kept(tmp_path, monkeypatch):
         asked.append(point)
         return [known(1.0, point)]
 
-    return asked, Source(solve, None, None, ("film",), None, ("one route",))
+    return asked, Source(
+        solve, None, None, ("thrustwasher.tribology.flow_factors",), None, ("one route",)
+    )
 
 
 def test_a_point_is_solved_once_and_a_stopped_run_goes_on(kept):

@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from thrustwasher.clutch.kernels.boundary_friction import friction, ploughing, shear_ratio
+from thrustwasher.clutch.kernels.boundary_friction import friction, ploughing, shear_and_slope
 
 
 @pytest.mark.parametrize(
@@ -39,6 +39,10 @@ def test_small_and_full_indentation_have_the_known_limits():
 def test_the_series_meets_the_closed_form():
     below, above = ploughing(np.nextafter(0.5, 0.0)), ploughing(0.5)
     assert below == pytest.approx(above, rel=1e-14)
+
+
+def shear_ratio(speed, *law):
+    return shear_and_slope(abs(speed), *law)[0]
 
 
 def test_shear_ratio_is_full_up_to_stick_speed_and_falls_to_the_floor():

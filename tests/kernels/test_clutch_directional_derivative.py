@@ -105,18 +105,19 @@ def engaging(unit, rng):
     return point, [0.1 * load, 0.1 * slip, 10.0]
 
 
-def test_a_moving_film_is_followed_over_the_stretch_it_has_just_passed():
+@pytest.mark.parametrize(("rung", "n"), [("field", 60), ("fine", 20)])
+def test_a_moving_film_is_followed_over_the_stretch_it_has_just_passed(rung, n):
     """Where the stretch was one substep: then its size does not change with the inputs."""
     rng = np.random.default_rng(6)
     compared = 0
-    for _ in range(60):
-        unit = random_pack(rng, ["field"], input_course="linear", film_dynamics=True)
+    for _ in range(n):
+        unit = random_pack(rng, [rung], input_course="linear", film_dynamics=True)
         point, scale = engaging(unit, rng)
         unit.step(point)
         if unit.work[L.W_SUBSTEPS] == 1.0:
             assert disagreement(unit, point, scale).max() < 1e-6
             compared += 1
-    assert compared > 20
+    assert compared > n // 3
 
 
 def passed(unit, point, sizes, seed):
@@ -140,7 +141,8 @@ def passed(unit, point, sizes, seed):
 def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
     rng = np.random.default_rng(8)
     for _ in range(5):
-        unit = random_pack(rng, [rung], input_course="linear", film_dynamics=True)
+        moves = rung == "field" or bool(rng.random() < 0.7)
+        unit = random_pack(rng, [rung], input_course="linear", film_dynamics=moves)
         point, scale = engaging(unit, rng)
         for seed in np.diag(scale):
             _, found = passed(unit, point, sizes, tuple(seed.tolist()))

@@ -357,13 +357,3 @@ def test_no_allowed_parameters_break_the_pack():
             assert status in (0, Status.MAX_ITERATIONS) and np.isfinite(pack.state).all()
             refused, n = refused + (status != 0), n + 1
     assert refused <= n // 1000
-
-
-@pytest.mark.parametrize("fidelity", ["boundary", "stribeck", "field"])
-def test_the_mirrored_slip_gives_the_mirrored_torque(fidelity):
-    packs = Pack(fidelity), Pack(fidelity)
-    for n in range(30):
-        for pack, sign in zip(packs, (1.0, -1.0), strict=True):
-            pack.step(200.0 * n, sign * (300.0 - 5.0 * n), H)
-    assert packs[0].out[k.O_TORQUE] == -packs[1].out[k.O_TORQUE] != 0.0
-    assert packs[0].out[k.O_TEMPERATURE] == packs[1].out[k.O_TEMPERATURE]

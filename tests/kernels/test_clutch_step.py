@@ -118,16 +118,6 @@ def test_friction_is_passive_odd_and_below_capacity(load, slip, oil):
     assert mirror.out[k.O_TORQUE] == -torque
 
 
-@pytest.mark.parametrize("bad", [(np.nan, 1.0), (-1.0, 1.0), (1.0, np.inf)])
-def test_bad_input_is_a_status_and_leaves_the_state(bad):
-    pack = Pack("stribeck")
-    pack.step(100.0, 10.0, 1e-3)
-    before = pack.state.copy()
-    assert pack.step(*bad, 1e-3) == Status.BAD_INPUT == pack.iout[k.IO_STATUS]
-    assert (pack.state == before).all()
-    assert pack.step(100.0, 10.0, 1e-3) == 0
-
-
 def test_an_interface_above_523_k_is_said():
     pack = Pack("stribeck")
     for _ in range(200):

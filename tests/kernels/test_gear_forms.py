@@ -49,9 +49,9 @@ def test_li_seireg_friction_at_a_checked_point_and_its_limits():
 def test_iso_friction_is_the_published_power_law_up_to_the_coefficient_without_film():
     args = (9423.0, 10.43, 0.0193, 0.2386, 1.6e-6)
     wanted = line_contact.iso_mean(*args)
-    assert contact.iso_mean(*args, 0.12) == pytest.approx(wanted, rel=1e-13)
-    assert contact.iso_mean(9423.0, 1e-9, 0.0193, 0.2386, 1.6e-6, 0.12) == 0.12
-    assert contact.iso_mean(*args, 0.0) == 0.0
+    assert contact.iso_and_slope(*args, 0.12)[0] == pytest.approx(wanted, rel=1e-13)
+    assert contact.iso_and_slope(9423.0, 1e-9, 0.0193, 0.2386, 1.6e-6, 0.12)[0] == 0.12
+    assert contact.iso_and_slope(*args, 0.0)[0] == 0.0
 
 
 def test_stresses_and_modification_of_a_chain_worked_by_hand():

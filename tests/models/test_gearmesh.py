@@ -213,16 +213,6 @@ def test_every_pair_of_a_wide_sweep_is_solved_and_consistent(surface, oil):
         )
 
 
-def test_fewer_teeth_than_the_least_are_refused_with_that_number():
-    for ratio, least in ((1.0, 13), (2.0, 15), (5.0, 16), (8.0, 17)):
-        for teeth in range(8, 20):
-            if teeth >= least:
-                GearMeshParams(gear_ratio=ratio, pinion_teeth=teeth)
-                continue
-            with pytest.raises(ParameterError, match=f"pinion_teeth = {teeth}, allowed: {least} "):
-                GearMeshParams(gear_ratio=ratio, pinion_teeth=teeth)
-
-
 def test_the_flanks_temperature_is_a_fixed_point_of_its_equation():
     """The rise equals the heat of a film with the viscosity at that very temperature."""
     for oil in OILS:

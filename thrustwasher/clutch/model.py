@@ -2,7 +2,9 @@
 
 from ..model.record import Command, Ladder, Model, Sweep
 
-_PACK = ("thrustwasher.clutch.kernels.steady", "thrustwasher.clutch.kernels.advance")
+_PACK = tuple(
+    f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "pack_outputs", "steady")
+)
 _BOX = {
     "load": (50.0, 10000.0, "log"), "speed": (1.0, 350.0, "log"),
     "oil_temperature": (290.0, 400.0, "linear"),
@@ -32,7 +34,7 @@ MODEL = Model(
             "boundary": _PACK,
             "stribeck": _PACK,
             "field": _PACK,
-            "fine": ("thrustwasher.clutch.kernels.step", "thrustwasher.clutch.kernels.steady"),
+            "fine": _PACK,
         },
         boxes={"default": _BOX, "planetary": _BOX},
         part="clutch",

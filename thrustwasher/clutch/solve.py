@@ -168,8 +168,8 @@ def _part(par: Any, load: float, slip: float, oil: float, ratio: float) -> Stead
     contact, viscous, _ = steady.steady_torques(par, load, slip, ratio, temperature)
     return SteadyPack(
         float(contact), float(viscous), float(temperature), float(temperature),
-        float(pack_friction.coefficient_of(par, slip, temperature)[0]),
-        float(pack_friction.shear_of(par, slip, temperature)[0]), int(status), int(rounds),
+        float(pack_friction.coefficient_slopes(par, slip, temperature)[0]),
+        float(pack_friction.shear_slopes(par, slip, temperature)[0]), int(status), int(rounds),
     )  # fmt: skip
 
 
@@ -228,7 +228,7 @@ def solve_clutch(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
         )
     guess = start.film_ratio if start else 1.0
-    ratio, film, turns = pack_friction.settled_ratio(par, load, guess)
+    ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
     s = steady_pack(par, load, speed, oil, ratio)
     contact, viscous = s.contact, s.viscous
     status = max(Status(film), Status(s.status))

@@ -242,7 +242,7 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
 
 SOURCE = Source(
     _at_points, _answer, _at_case,
-    tuple(f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "steady", "constants")),
+    tuple(f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "pack_outputs", "steady")),
     None,
     (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {k.HOT_LIMIT:g} K",),
 )  # fmt: skip

@@ -13,6 +13,15 @@ from ..numerics.quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 
 YIELD_END = 1.9  # w_t*: up to here the asperity counts as elastic
 
+D_MIN = -8.0  # d/sigma_s, first knot
+D_MAX = 14.0  # last knot; no contact beyond it
+N_KNOTS = 265
+STEP = (D_MAX - D_MIN) / (N_KNOTS - 1)
+N_TABLE = 3 * N_KNOTS  # ln P, its first and its second derivative times the knot distance
+N_NODES = 1200  # quadrature nodes: interference and weight x force, at most
+N_CONTACT_WORK = 2 * N_NODES
+_FAR = 9.0  # heights beyond this many sigma_s do not count
+
 
 class AsperityArgs(NamedTuple):
     """What one asperity needs: see `asperity_args`."""
@@ -62,16 +71,6 @@ def asperity_force(w: float, a: AsperityArgs) -> float:
     elastic = math.exp(-0.25 * math.exp(5.0 / 12.0 * log_x)) * x * math.sqrt(x)
     plastic = 4.0 * hardness / a.c * -math.expm1(-0.04 * math.exp(5.0 / 9.0 * log_x)) * x
     return a.critical_force * (elastic + plastic)
-
-
-D_MIN = -8.0  # d/sigma_s, first knot
-D_MAX = 14.0  # last knot; no contact beyond it
-N_KNOTS = 265
-STEP = (D_MAX - D_MIN) / (N_KNOTS - 1)
-N_TABLE = 3 * N_KNOTS  # ln P, its first and its second derivative times the knot distance
-N_NODES = 1200  # quadrature nodes: interference and weight x force, at most
-N_CONTACT_WORK = 2 * N_NODES
-_FAR = 9.0  # heights beyond this many sigma_s do not count
 
 
 @kernel

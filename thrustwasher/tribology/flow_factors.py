@@ -9,6 +9,11 @@ INV_SQRT2PI = 0.3989422804014327
 H30 = 0.039974329086230886  # flow conductance / sigma^3 at h = 0.5 sigma
 G0 = 7.191123823716943  # its logarithmic slope x sigma there
 
+FLOW_FROM = 0.1  # film ratio below which Patir & Cheng's fit is left
+_LOST = 0.9 * math.exp(-0.56 * FLOW_FROM)
+_FLOW = (1.0 - _LOST) * FLOW_FROM**3
+_STEEPNESS = 3.0 / FLOW_FROM + 0.56 * _LOST / (1.0 - _LOST)
+
 
 @kernel
 def mean_gap(h: float, sigma: float) -> tuple[float, float]:
@@ -58,12 +63,6 @@ def shear_flow(h: float, sigma: float) -> tuple[float, float]:
         return value, -0.25 * value / sigma
     value = 1.899 * math.exp(0.98 * math.log(u) - 0.92 * u + 0.05 * u * u)
     return value, value * (0.98 / u - 0.92 + 0.1 * u) / sigma
-
-
-FLOW_FROM = 0.1  # film ratio below which Patir & Cheng's fit is left
-_LOST = 0.9 * math.exp(-0.56 * FLOW_FROM)
-_FLOW = (1.0 - _LOST) * FLOW_FROM**3
-_STEEPNESS = 3.0 / FLOW_FROM + 0.56 * _LOST / (1.0 - _LOST)
 
 
 @kernel

@@ -17,6 +17,14 @@ NODES = 0.5 * (_NODES + 1.0)
 WEIGHTS = 0.5 * _WEIGHTS
 REACH = 9.0  # the density is cut where it has fallen by exp(-REACH^2/2) = 3e-18
 
+U_MIN, U_MAX = -8.0, 14.0
+N_KNOTS = 353
+FAR_BELOW = -30.0
+STEP = (U_MAX - U_MIN) / (N_KNOTS - 1)
+INV_SQRT2 = 0.7071067811865476
+INV_SQRT2PI = 0.3989422804014327
+N_TRIES = 60
+
 
 @kernel
 def height_integrals(u: float) -> tuple[float, float]:
@@ -48,15 +56,6 @@ def pressure_scale(roughness: float, modulus: float, density: float, radius: flo
     return 16.0 * math.sqrt(2.0) * math.pi / 15.0 * group * group * math.sqrt(
         roughness / radius
     ) * modulus  # fmt: skip
-
-
-U_MIN, U_MAX = -8.0, 14.0
-N_KNOTS = 353
-FAR_BELOW = -30.0
-STEP = (U_MAX - U_MIN) / (N_KNOTS - 1)
-INV_SQRT2 = 0.7071067811865476
-INV_SQRT2PI = 0.3989422804014327
-N_TRIES = 60
 
 
 def _table() -> np.ndarray:
@@ -110,13 +109,6 @@ def contact_integral(u: float) -> tuple[float, float]:
     value = math.exp(TABLE[0, i] + t * (g0 + t * (0.5 * c0 + t * (e3 + t * (e4 + t * e5)))))
     slope = g0 + t * (c0 + t * (3.0 * e3 + t * (4.0 * e4 + t * 5.0 * e5)))
     return value, value * slope / STEP
-
-
-@kernel
-def separation(pressure_ratio: float, guess: float) -> tuple[float, int, int]:
-    """Return (u, status, iterations) of ``separation_and_slope``."""
-    u, _, status, iterations = separation_and_slope(pressure_ratio, guess)
-    return u, status, iterations
 
 
 @kernel

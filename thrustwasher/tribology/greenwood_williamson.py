@@ -22,13 +22,6 @@ def normal_density(u: float) -> float:
 
 
 @kernel
-def relative_reach(u: float) -> float:
-    """Return F_1(u)/pdf(u) [-] of ``reach_and_mills``."""
-    reach, _ = reach_and_mills(u)
-    return reach
-
-
-@kernel
 def reach_and_mills(u: float) -> tuple[float, float]:
     """Return F_1(u)/pdf(u) and Q(u)/pdf(u) [-] for u >= 3 by Laplace's continued fraction.
 
@@ -57,20 +50,6 @@ def overlap_and_tail(u: float) -> tuple[float, float]:
         return density * reach, density * mills
     tail = 0.5 * math.erfc(u * INV_SQRT2)
     return normal_density(max(u, -38.0)) - u * tail, tail
-
-
-@kernel
-def mean_overlap(u: float) -> float:
-    """Return F_1(u) [-] of ``overlap_and_tail``."""
-    overlap, _ = overlap_and_tail(u)
-    return overlap
-
-
-@kernel
-def area_ratio(film_ratio: float, asperity_group: float) -> float:
-    """Return nominal over real area A_0/A_c [-] of ``area_and_slope``."""
-    ratio, _ = area_and_slope(film_ratio, asperity_group)
-    return ratio
 
 
 @kernel

@@ -15,18 +15,3 @@ def exponential_weights(z: float) -> tuple[float, float, float]:
         return decay, 1.0 - z * second, second
     first = -math.expm1(-min(z, 700.0)) / z
     return decay, first, (1.0 - first) / z
-
-
-@kernel
-def temperature_after(
-    start: float, ambient: float, capacity: float, cooling: float,
-    power_start: float, power_end: float, duration: float,
-) -> float:  # fmt: skip
-    """Return the temperature [K] after ``duration`` [s] under a power [W] that changes linearly.
-
-    Solves capacity dT/dt = power - cooling (T - ambient) in closed form; capacity [J/K] > 0,
-    cooling [W/K] >= 0.
-    """
-    decay, first, second = exponential_weights(cooling * duration / capacity)
-    gain = power_start * first + (power_end - power_start) * second
-    return ambient + (start - ambient) * decay + gain * duration / capacity

@@ -18,6 +18,19 @@ RISE = 0.05  # of the mean friction: a smaller rise with speed is not worth one
 CHANCE = 1e-4  # probability below which a rise is not the scatter's; the place is searched for
 FEWEST = 4  # points that can show a rise
 
+# Friction grows with each of these all over its range, or falls; so the bounds are the extremes.
+GROWS = {
+    "plough_weight": 1, "shear_floor": 1, "stick_speed": 1, "decay_speed": 1, "indentation": 1,
+    "adhesion_factor": 1, "hardness_ratio": -1,
+}  # fmt: skip
+MATERIAL = 0.02  # of the mean friction: less is not worth a warning
+SCATTERS = 3.0  # a point further off than this many standard deviations is off
+SEEN, HIDDEN = 0.5, 0.05  # of the fall still to come at the slowest point: before, after the fit
+TABLE = (
+    'take friction_law = "table" (ClutchParams.with_table), which follows a measured curve '
+    "in up to six points."
+)
+
 
 def warnings(
     problem: Problem, best: Array, first: Array, judged: list[Verdict], known_errors: bool
@@ -119,20 +132,6 @@ def _poor(problem: Problem, best: Array, alone: bool) -> str:
         "describe the nearest curve of this law, not the clutch"
         + (f"; if the points do not just scatter, {TABLE}" if alone else ".")
     )
-
-
-# Friction grows with each of these all over its range, or falls; so the bounds are the extremes.
-GROWS = {
-    "plough_weight": 1, "shear_floor": 1, "stick_speed": 1, "decay_speed": 1, "indentation": 1,
-    "adhesion_factor": 1, "hardness_ratio": -1,
-}  # fmt: skip
-MATERIAL = 0.02  # of the mean friction: less is not worth a warning
-SCATTERS = 3.0  # a point further off than this many standard deviations is off
-SEEN, HIDDEN = 0.5, 0.05  # of the fall still to come at the slowest point: before, after the fit
-TABLE = (
-    'take friction_law = "table" (ClutchParams.with_table), which follows a measured curve '
-    "in up to six points."
-)
 
 
 def out_of_reach(problem: Problem, scatter: Array, side: int) -> str:

@@ -17,6 +17,9 @@ VANISHES = 1e-4  # ... and so is one this much smaller beside the friction itsel
 LEAKS = 1e-6  # a larger share in a lost direction makes a constant unknown
 NAMED = 0.05  # constants with a smaller share in a direction are not worth a word
 
+SAME_LOAD = 1e-6  # relative spread of loads below which there is nothing to compare
+FOLLOWS = 1e-4  # share of the load's spread that the law's constants must leave free
+
 
 @dataclass(frozen=True)
 class Information:
@@ -117,10 +120,6 @@ def members(names: tuple[str, ...], direction: Array, scale: Array) -> set[str]:
 
 def _and(words: list[str]) -> str:
     return ", ".join(words[:-1]) + f" and {words[-1]}"
-
-
-SAME_LOAD = 1e-6  # relative spread of loads below which there is nothing to compare
-FOLLOWS = 1e-4  # share of the load's spread that the law's constants must leave free
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, OK
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
-from .pack_friction import coefficient_of, settled_ratio, settled_slope
+from .pack_friction import coefficient_slopes, settled_slope
 from .rates import moves_film, n_unknowns, surfaces
 from .rosenbrock import Course, attempt
 from .rosenbrock_derivatives import Change, follow
@@ -88,7 +88,7 @@ def warm_up(
 def settled_power(par: Array, load: float, slip: float, work: Array) -> float:
     """Return the friction power of a face [W] in the state W_NOW, the film settled."""
     surfaces(par, work, L.W_NOW, L.W_SURFACE)
-    mu, _ = coefficient_of(par, slip, work[L.W_SURFACE])
+    mu, _, _ = coefficient_slopes(par, slip, work[L.W_SURFACE])
     contact = par[L.P_FACES] * par[L.D_RADIUS] * mu * load
     smooth = math.tanh(abs(slip) / par[L.P_SPEED_SMOOTHING])
     return abs(slip) * (contact * smooth) / par[L.P_FACES]
@@ -97,7 +97,7 @@ def settled_power(par: Array, load: float, slip: float, work: Array) -> float:
 @kernel
 def settle(par: Array, course: Course, duration: float, power_start: float, work: Array) -> int:
     """Bring W_NOW through a stretch where the film is settled: heat only, return a status."""
-    work[np.uintp(L.W_NOW + L.Y_FILM)], status, _ = settled_ratio(
+    work[np.uintp(L.W_NOW + L.Y_FILM)], _, status, _ = settled_slope(
         par, course[3], work[np.uintp(L.W_NOW + L.Y_FILM)]
     )
     end = settled_power(par, course[3], course[4], work)

@@ -48,15 +48,6 @@ def friction(x: float, shear_ratio: float, plough_weight: float, hardness_ratio:
 
 
 @kernel
-def shear_ratio(
-    speed: float, floor: float, stick_speed: float, decay_speed: float, kink_width: float
-) -> float:
-    """Return the shear ratio s/s_m [-] of ``shear_and_slope`` at a slip speed [m/s]."""
-    ratio, _ = shear_and_slope(abs(speed), floor, stick_speed, decay_speed, kink_width)
-    return ratio
-
-
-@kernel
 def shear_and_slope(
     speed: float, floor: float, stick_speed: float, decay_speed: float, kink_width: float
 ) -> tuple[float, float]:

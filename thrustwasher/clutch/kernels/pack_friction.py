@@ -17,13 +17,6 @@ FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
 
 
 @kernel
-def shear_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
-    """Return the shear ratio s/s_m [-] and its slope [1/K] of ``shear_slopes``."""
-    ratio, slope, _ = shear_slopes(par, slip, temperature)
-    return ratio, slope
-
-
-@kernel
 def shear_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
     """Return the shear ratio s/s_m [-] and its slopes over temperature [1/K] and |slip| [s/rad].
 
@@ -63,13 +56,6 @@ def tabled(par: Array, speed: float) -> tuple[float, float]:
 
 
 @kernel
-def coefficient_of(par: Array, slip: float, temperature: float) -> tuple[float, float]:
-    """Return the coefficient of boundary friction [-] and its slope over temperature [1/K]."""
-    mu, slope, _ = coefficient_slopes(par, slip, temperature)
-    return mu, slope
-
-
-@kernel
 def coefficient_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
     """Return the coefficient of boundary friction [-], its slopes over temperature and |slip|."""
     if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == L.CONSTANT_LAW:
@@ -83,13 +69,6 @@ def coefficient_slopes(par: Array, slip: float, temperature: float) -> tuple[flo
 
 
 @kernel
-def settled_ratio(par: Array, load: float, guess: float) -> tuple[float, int, int]:
-    """Return (film thickness over roughness where the asperities carry all, status, iterations)."""
-    ratio, _, status, iterations = settled_slope(par, load, guess)
-    return ratio, status, iterations
-
-
-@kernel
 def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, int, int]:
     """Return the film ratio where the asperities carry all, its slope over the load [1/N].
 
@@ -100,20 +79,6 @@ def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, 
         return par[L.D_OPEN_RATIO], 0.0, OK, 0
     ratio, slope, status, iterations = separation_and_slope(pressure / par[L.D_PRESSURE], guess)
     return ratio, slope / load, status, iterations
-
-
-@kernel
-def contact_torque(
-    par: Array, load: float, slip: float, u: float, temperature: float
-) -> tuple[float, float, float, float, float]:
-    """Return the torque [N m >= 0] of the asperities at the film ratio ``u``; slopes; pressure.
-
-    (torque, d/du, d/dT [N m/K], contact pressure p_c [Pa], dp_c/du) of ``contact_slopes``.
-    """
-    torque, by_film, by_heat, _, _, pressure, rise = contact_slopes(
-        par, load, slip, u, temperature
-    )  # fmt: skip
-    return torque, by_film, by_heat, pressure, rise
 
 
 @kernel
@@ -185,20 +150,6 @@ def sheared_share(cdf: float, u: float) -> tuple[float, float]:
     z = 2.0 * cdf
     slope = 2.0 * INV_SQRT2PI * math.exp(-0.5 * min(u * u, 900.0))
     return z * z * (3.0 - 2.0 * z), 6.0 * (1.0 - z) / (z * (3.0 - 2.0 * z)) * slope
-
-
-@kernel
-def viscous_torque(
-    par: Array, slip: float, u: float, temperature: float
-) -> tuple[float, float, float, float, float, float]:
-    """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity and its slope.
-
-    (torque, d/du, d/dT, eta [Pa s], d eta/dT, share of the area in contact) of ``viscous_slopes``.
-    """
-    torque, by_film, by_heat, _, eta, eta_slope, share, _ = viscous_slopes(
-        par, slip, u, temperature
-    )  # fmt: skip
-    return torque, by_film, by_heat, eta, eta_slope, share
 
 
 @kernel

@@ -5,7 +5,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, NOT_FINITE, OK
 from . import layout as L
 from .constants import derive
-from .pack_friction import coefficient_of, contact_torque, viscous_torque
+from .pack_friction import coefficient_slopes, contact_slopes, viscous_slopes
 
 __all__ = ["derive", "steady_temperature", "steady_torques"]
 
@@ -17,13 +17,13 @@ def steady_torques(
     par: Array, load: float, slip: float, u: float, temperature: float
 ) -> tuple[float, float, float]:
     """Return (contact torque, viscous torque [N m >= 0], slope of their sum [N m/K])."""
-    mu, mu_slope = coefficient_of(par, slip, temperature)
+    mu, mu_slope, _ = coefficient_slopes(par, slip, temperature)
     lever = par[L.P_FACES] * par[L.D_RADIUS] * load
     if par[L.P_FIDELITY] != L.FIELD or par[L.P_FILM_DYNAMICS] == 0.0:
         return lever * mu, 0.0, lever * mu_slope
-    viscous, _, slope, _, _, _ = viscous_torque(par, slip, u, temperature)
+    viscous, _, slope, _, _, _, _, _ = viscous_slopes(par, slip, u, temperature)
     if load < L.OPEN_PRESSURE * par[L.D_AREA]:  # open: the asperities hardly touch
-        touching, _, rise, _, _ = contact_torque(par, load, slip, u, temperature)
+        touching, _, rise, _, _, _, _ = contact_slopes(par, load, slip, u, temperature)
         return touching, viscous, rise + slope
     return lever * mu, viscous, lever * mu_slope + slope
 

@@ -18,6 +18,10 @@ SIGMA_ROUGH, SIGMA_FINE = 2.26e-6, 0.566e-6  # m, composite RMS of two ground fl
 ROUGHNESS_ROUGH, ROUGHNESS_FINE = 4.5e-5, 1.5e-5  # S of Li & Seireg
 MEAN_OVER_RMS = 1.0 / math.sqrt(2.0)  # Ra of a flank, 1.6 and 0.4 um, over the composite RMS
 
+LEAST_EFFECTIVE = 2.143e-5 / 2.873  # the film's term of Li & Seireg's law changes sign there
+LARGEST_EFFECTIVE = 0.0864 / 1372.0  # the film has no effect from there on
+LEAST_SLIDE_ROLL = 0.27
+
 
 @kernel
 def effective_roughness(par: Array) -> float:
@@ -132,11 +136,6 @@ def loss_factor(ratio: float, teeth: float, approach: float, recess: float) -> f
         if k < whole:
             total += _moment(low + more, low + 1.0) / max(whole, 1.0)
     return 2.0 * math.pi * (ratio + 1.0) / (teeth * ratio) * total
-
-
-LEAST_EFFECTIVE = 2.143e-5 / 2.873  # the film's term of Li & Seireg's law changes sign there
-LARGEST_EFFECTIVE = 0.0864 / 1372.0  # the film has no effect from there on
-LEAST_SLIDE_ROLL = 0.27
 
 
 @kernel

@@ -72,15 +72,6 @@ def li_seireg_slope(film: float, radius: float, f0: float, roughness: float) -> 
 
 
 @kernel
-def iso_mean(
-    line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
-) -> float:
-    """Return the mean coefficient of friction [-] of ``iso_and_slope``."""
-    friction, _ = iso_and_slope(line_load, rolling, radius, viscosity, roughness, f0)
-    return friction
-
-
-@kernel
 def iso_and_slope(
     line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
 ) -> tuple[float, float]:

@@ -17,6 +17,24 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 
+# Dormand & Prince (1980): stage times, stage weights row by row, and fifth minus fourth order.
+C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
+A = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [1 / 5, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3 / 40, 9 / 40, 0.0, 0.0, 0.0, 0.0],
+    [44 / 45, -56 / 15, 32 / 9, 0.0, 0.0, 0.0],
+    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0.0, 0.0],
+    [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0.0],
+    [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+])  # fmt: skip
+B_ERROR = np.array([
+    71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40,
+])  # fmt: skip
+SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
+TWIST_SCALE = 0.01  # rad
+ENERGY_SCALE = 100.0  # J
+
 
 @kernel
 def derive(par: Array) -> int:
@@ -229,25 +247,6 @@ def broken_rule(par: Array) -> int:
         if par[L.P_INITIAL_TWIST] != 0.0:
             return 4
     return 0
-
-
-# Dormand & Prince (1980): stage times, stage weights row by row, and fifth minus fourth order.
-C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
-A = np.array([
-    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [1 / 5, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [3 / 40, 9 / 40, 0.0, 0.0, 0.0, 0.0],
-    [44 / 45, -56 / 15, 32 / 9, 0.0, 0.0, 0.0],
-    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0.0, 0.0],
-    [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0.0],
-    [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
-])  # fmt: skip
-B_ERROR = np.array([
-    71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40,
-])  # fmt: skip
-SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
-TWIST_SCALE = 0.01  # rad
-ENERGY_SCALE = 100.0  # J
 
 
 @kernel

@@ -84,7 +84,7 @@ class Cards:
 
     def __init__(self, folder):
         self.path = Path(folder) / "spoiled.json"
-        whole = sorted((Path(cards.__file__).parents[1] / "data" / "cards").glob("*.json"))
+        whole = sorted((Path(cards.__file__).parents[1] / "data" / "cards").rglob("*.json"))
         self.cards = [cards.read_card(path) for path in whole[::7]]
 
     def __call__(self, rng):

@@ -38,7 +38,7 @@ def test_every_card_is_fresh(card):
 
 def test_no_file_is_refused_and_each_is_named_as_its_card():
     assert refused_files() == {}
-    assert sorted(p.stem for p in (DATA / "cards").glob("*.json")) == sorted(c.name for c in CARDS)
+    assert sorted(p.stem for p in (DATA / "cards").rglob("*.json")) == sorted(c.name for c in CARDS)
 
 
 @pytest.mark.parametrize("case", CASES, ids=label)

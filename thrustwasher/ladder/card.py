@@ -182,7 +182,7 @@ def card_folders() -> list[Path]:
 def _folder(folder: Path) -> tuple[tuple[Card, ...], tuple[tuple[str, str], ...]]:
     """Return the cards of a folder, and name and reason of each file that is none."""
     cards, refused = [], []
-    for path in sorted(folder.glob("*.json")):
+    for path in sorted(folder.rglob("*.json"), key=lambda path: path.name):
         try:
             cards.append(read_card(path))
         except ParameterError as error:

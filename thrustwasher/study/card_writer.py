@@ -95,7 +95,8 @@ def timed_card(card: Card, timing: Timing, first: float) -> Card:
 
 def write_card(card: Card, folder: Path) -> Path:
     """Write a card's file; return its path."""
-    path = folder / f"{card.name}.json"
+    path = folder / f"{card.model}-{card.params.name}" / f"{card.name}.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(path) as draft:
         draft.write_text(card.as_json(), "utf-8")
     return path

@@ -32,7 +32,7 @@ def main(arguments: Sequence[str]) -> int:
         print("usage: python -m thrustwasher.study.stamp [FOLDER]", file=sys.stderr)
         return 2
     folder = Path(arguments[0]) if arguments else DATA / "cards"
-    cards = [read_card(path) for path in sorted(folder.glob("*.json"))]
+    cards = [read_card(path) for path in sorted(folder.rglob("*.json"))]
     stale = [card for card in cards if card.stale()]
     for card in stale:
         write_card(stamped(card), folder)

@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from thrustwasher.kernels.boundary import friction, ploughing, shear_and_slope
+from thrustwasher.kernels.clutch_friction import friction, ploughing, shear_and_slope
 
 
 @pytest.mark.parametrize(

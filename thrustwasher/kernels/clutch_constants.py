@@ -6,7 +6,7 @@ import numpy as np
 
 from . import clutch_layout as L
 from ._jit import Array, kernel
-from .boundary import ploughing
+from .clutch_friction import ploughing
 from .flow_factors import squeeze_group
 from .greenwood_tripp import pressure_scale
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS

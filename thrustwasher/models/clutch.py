@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import ParameterError, SolveError, Status
-from ..kernels import boundary, clutch_friction, clutch_rates, clutch_steady
+from ..kernels import clutch_friction, clutch_rates, clutch_steady
 from ..kernels import clutch_layout as k
 from ._params import check_number
 from ._prepare import filled
@@ -110,7 +110,7 @@ def boundary_friction(
         raise ParameterError(
             f"x, shear_ratio, plough_weight, hardness_ratio: shapes {shapes} do not go together"
         ) from None
-    values = [boundary.friction(*map(float, point)) for point in zip(*map(np.ravel, arrays))]  # noqa: B905 (broadcast: equal lengths)
+    values = [clutch_friction.friction(*map(float, point)) for point in zip(*map(np.ravel, arrays))]  # noqa: B905 (broadcast: equal lengths)
     return np.array(values).reshape(arrays[0].shape) if arrays[0].ndim else values[0]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.boundary import ploughing
+from ..kernels.clutch_friction import ploughing
 from .clutch_params import ClutchParams, mean_radius
 
 Array = NDArray[np.float64]

@@ -58,8 +58,6 @@ CALLED: dict[str, tuple[str, ...]] = {
         "kernels.washer_wedge.lift",
     ),
     "kernels.clutch_step": (
-        "kernels.boundary.friction",
-        "kernels.boundary.ploughing",
         "kernels.clutch_advance.advance",
         "kernels.clutch_advance.load_memory",
         "kernels.clutch_advance.settle_film",
@@ -68,6 +66,8 @@ CALLED: dict[str, tuple[str, ...]] = {
         "kernels.clutch_directional_derivative.directional_derivative",
         "kernels.clutch_friction.coefficient_slopes",
         "kernels.clutch_friction.contact_share",
+        "kernels.clutch_friction.friction",
+        "kernels.clutch_friction.ploughing",
         "kernels.clutch_friction.settled_slope",
         "kernels.clutch_friction.shear_slopes",
         "kernels.clutch_friction.viscous_slopes",

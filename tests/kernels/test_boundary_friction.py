@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from thrustwasher.clutch.kernels.boundary_friction import friction, ploughing, shear_and_slope
+from thrustwasher.clutch.kernels.pack_friction import friction, ploughing, shear_and_slope
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.parameters import check_ranges, choice, count, flag, quantity
-from ..model.rules import Rule, check_rules
-from ..model.spec import ModelSpec, Signal, Terminal
+from ..model.rules import check_rules
+from ..model.spec import ModelSpec, Rule, Signal, Terminal
 
 FRICTION_LAWS = {
     "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",

@@ -15,7 +15,6 @@ from ..model.prepare import filled
 from ..model.registry import find_model
 from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
-from .kernels import boundary_friction as boundary
 from .kernels import layout as k
 from .kernels import pack_friction, rates, steady
 from .parameters import LOAD, OIL, SPEC, SPEED, ClutchParams
@@ -113,7 +112,7 @@ def boundary_friction(
         raise ParameterError(
             f"x, shear_ratio, plough_weight, hardness_ratio: shapes {shapes} do not go together"
         ) from None
-    values = [boundary.friction(*map(float, point)) for point in zip(*map(np.ravel, arrays))]  # noqa: B905 (broadcast: equal lengths)
+    values = [pack_friction.friction(*map(float, point)) for point in zip(*map(np.ravel, arrays))]  # noqa: B905 (broadcast: equal lengths)
     return np.array(values).reshape(arrays[0].shape) if arrays[0].ndim else values[0]
 
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.parameters import as_numbers, check_ranges, choice, count, quantity
-from ..model.rules import Rule, check_rules
-from ..model.spec import ModelSpec, Signal, Terminal
+from ..model.rules import check_rules
+from ..model.spec import ModelSpec, Rule, Signal, Terminal
 
 SURFACES = {
     "rough": "rough ground: composite RMS 2.26 um, effective roughness 4.5e-5",

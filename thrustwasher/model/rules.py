@@ -3,36 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError
 from .parameters import as_numbers
-
-if TYPE_CHECKING:
-    from .spec import ModelSpec
-
-
-@dataclass(frozen=True)
-class Rule:
-    """What is said when parameters contradict each other.
-
-    ``text`` names parameters in braces and stands for itself wherever no Python runs; ``exact``,
-    if given, makes the message from the parameters with figures that have to be computed.
-    """
-
-    text: str
-    exact: Callable[[Any], str] | None = None
-
-    def message(self, params: Any) -> str:
-        """Return the text with the values of ``params`` in it."""
-        if self.exact is not None:
-            return self.exact(params)
-        names = type(params).__dataclass_fields__
-        return self.text.format(**{name: repr(getattr(params, name)) for name in names})
+from .spec import ModelSpec, Rule
 
 
 def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:

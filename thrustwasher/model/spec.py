@@ -3,10 +3,9 @@
 The FMU variables, the command line's columns and the documentation come from these lists.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
-
-from .rules import Rule as Rule
 
 REGIMES = {
     "film": "film ratio above 3: the oil film carries",
@@ -38,6 +37,25 @@ class Signal:
     depends: tuple[str, ...] = ()
     relative: bool = False  # a temperature difference, no absolute temperature
     events: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What is said when parameters contradict each other.
+
+    ``text`` names parameters in braces and stands for itself wherever no Python runs; ``exact``,
+    if given, makes the message from the parameters with figures that have to be computed.
+    """
+
+    text: str
+    exact: Callable[[Any], str] | None = None
+
+    def message(self, params: Any) -> str:
+        """Return the text with the values of ``params`` in it."""
+        if self.exact is not None:
+            return self.exact(params)
+        names = type(params).__dataclass_fields__
+        return self.text.format(**{name: repr(getattr(params, name)) for name in names})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,10 +12,9 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from .emit import Callback
+from .callbacks import Callback, check_convention, compiled, function_name
 
 # Methods that are replaced, with their arguments in the versions this was written for.
 _EXPECTED = {
@@ -51,12 +50,10 @@ def module(wanted: Sequence[Callback], done: Callable[[int, int], None]) -> Any:
 
     numba compiles for nothing else in this process from then on.
     """
-    from . import emit
-
     libraries = _gathered()
     names = {}
     for count, callback in enumerate(wanted, 1):
-        names[emit.function_name(emit.compiled(callback))] = callback.symbol
+        names[function_name(compiled(callback))] = callback.symbol
         done(count, len(wanted))
     return _linked(libraries, names)
 
@@ -96,14 +93,12 @@ def _linked(libraries: Sequence[Any], names: dict[str, str]) -> Any:
     """
     import llvmlite.binding as llvm
 
-    from . import emit
-
     whole = llvm.parse_assembly(_NO_COUNTING)
     for library in reversed(libraries):
         part = library._final_module.clone()
         own = {f.name for f in part.functions if not f.is_declaration}
         for name in own & names.keys():
-            emit.check_convention(str(part), name)
+            check_convention(str(part), name)
         for function in part.functions:
             external = function.linkage == llvm.Linkage.external
             if external and function.name in own and function.name not in names:

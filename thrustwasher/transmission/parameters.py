@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..model.parameters import check_ranges, choice, count, flag, quantity
-from ..model.rules import Rule, check_rules
-from ..model.spec import ModelSpec, Signal, Terminal
+from ..model.rules import check_rules
+from ..model.spec import ModelSpec, Rule, Signal, Terminal
 
 COUPLING = {
     "capacity": "the packs send the torque they can hold; stick and slip are decided in here",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..model.parameters import check_ranges, choice, quantity
-from ..model.rules import Rule, check_rules
-from ..model.spec import ModelSpec, Signal, Terminal
+from ..model.rules import check_rules
+from ..model.spec import ModelSpec, Rule, Signal, Terminal
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
 FRICTION_LAWS = {

@@ -15,7 +15,7 @@ from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.package.model_sources import PACKAGE
 from thrustwasher.fmu.shell import call_table, platform_libraries
 from thrustwasher.model.registry import find_spec
-from thrustwasher.native import digest, emit, gate, link, linked
+from thrustwasher.native import callbacks, digest, emit, gate, link, linked
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
 
@@ -182,10 +182,10 @@ def test_numba_with_another_convention_is_refused_plainly():
             return ""
 
     with pytest.raises(EnvironmentProblem, match=r"is not known to the native build: a callback"):
-        emit.function_in(Made())
+        callbacks.function_in(Made())
     Made.native_name = "cfunc.step"
     with pytest.raises(EnvironmentProblem, match="is not int32 f"):
-        emit.function_in(Made())
+        callbacks.function_in(Made())
 
 
 X86_64, ARM64 = 0x01000007, 0x0100000C

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.boundary_friction import ploughing
+from ..kernels.pack_friction import ploughing
 from ..parameters import ClutchParams, mean_radius
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from ...numerics.status import NOT_FINITE, OK
 from ...tribology.flow_factors import squeeze_group
 from ...tribology.greenwood_tripp import pressure_scale
 from . import layout as L
-from .boundary_friction import ploughing
+from .pack_friction import ploughing
 
 
 @kernel

@@ -1,8 +1,8 @@
 from dataclasses import dataclass
 
 from thrustwasher.model.parameters import check_ranges, choice, count, flag, quantity
-from thrustwasher.model.rules import Rule, check_rules
-from thrustwasher.model.spec import ModelSpec, Signal
+from thrustwasher.model.rules import check_rules
+from thrustwasher.model.spec import ModelSpec, Rule, Signal
 
 RULES = (
     Rule("inner_radius = {inner_radius} m, allowed: below outer_radius ({outer_radius} m)"),

@@ -1,7 +1,5 @@
 """``--fidelity auto:0.01``: the cheapest rung that holds a tolerance at the point asked for."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping
 from typing import Any

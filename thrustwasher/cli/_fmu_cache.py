@@ -1,7 +1,5 @@
 """FMUs built when needed, in a folder named by everything they are made of."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import time

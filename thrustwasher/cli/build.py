@@ -1,7 +1,5 @@
 """``thrustwasher build``: make the FMUs."""
 
-from __future__ import annotations
-
 import argparse
 
 from ..errors import EnvironmentProblem, ParameterError

@@ -1,7 +1,5 @@
 """``thrustwasher cards``: what is known of each rung's error, where, and what it costs."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

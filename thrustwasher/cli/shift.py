@@ -1,7 +1,5 @@
 """``thrustwasher shift``: the main job, a gear shift of FMUs with its report."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """``thrustwasher sweep``: a model over all combinations of inputs and parameters."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

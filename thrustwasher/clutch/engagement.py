@@ -1,7 +1,5 @@
 """An engagement of the wet clutch over time: load and slip are given, torque and heat follow."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from typing import Any
 

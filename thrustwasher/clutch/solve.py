@@ -1,7 +1,5 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple

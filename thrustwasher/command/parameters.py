@@ -4,8 +4,6 @@ A run of this package has its shift command from the scene; a system that anothe
 part that sends it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ..model.parameters import check_ranges, quantity

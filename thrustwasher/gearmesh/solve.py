@@ -1,7 +1,5 @@
 """Gear mesh: temperatures, contact and thermal stress where contact starts, loss of the mesh."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass
 from typing import Any

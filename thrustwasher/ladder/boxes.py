@@ -1,7 +1,5 @@
 """Boxes of inputs: what is asked of one, what part lies inside another, what share that is."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ refused with the command that renews it. A file that cannot be read is refused t
 stops because of a card.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

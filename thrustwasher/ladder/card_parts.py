@@ -1,7 +1,5 @@
 """The parts of a card: what was verified, where, against what, and what it cost."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, is_dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """How errors, times and shares are written for a person."""
 
-from __future__ import annotations
-
 import math
 
 

@@ -1,7 +1,5 @@
 """Checked courses of inputs over time."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

@@ -1,7 +1,5 @@
 """Tables that a rung reads: they lie behind the work of its kernel."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Rules between parameters: the kernel tests them, the texts here say which one is broken."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from importlib import import_module
 from typing import Any

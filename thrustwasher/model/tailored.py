@@ -1,7 +1,5 @@
 """A model with other defaults: the same kernels and names, the numbers of one place of use."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import field, fields, make_dataclass, replace
 from typing import Any

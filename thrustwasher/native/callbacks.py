@@ -4,8 +4,6 @@ numba makes of each entry a C callback around a compiled function. The callback 
 Python (lock, exceptions) and falls away; the function inside takes numbers and needs libm at most.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ It says nothing of the machine or of the compilers' versions: what is shipped wa
 the list that lies beside it, and holds whatever is installed where it is used.
 """
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import importlib.util

@@ -6,8 +6,6 @@ inside are taken. The bitcode is not optimised and names no CPU's instructions: 
 platform's object of it.
 """
 
-from __future__ import annotations
-
 import importlib
 import os
 import sys

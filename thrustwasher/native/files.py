@@ -5,8 +5,6 @@ folder that belongs to the user and has mode 0700; where no such folder can be h
 one of this process, and that is said.
 """
 
-from __future__ import annotations
-
 import atexit
 import hashlib
 import os

@@ -7,8 +7,6 @@ linked once. None of this is public in numba; ``is_known`` tells whether its par
 and without them the long way gives the same code.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Sequence
 from functools import cache

@@ -1,7 +1,5 @@
 """The library of this machine: a kernel module's functions where Python can call them."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 from dataclasses import replace
@@ -109,7 +107,7 @@ def linked_library(
     }
     parts["symbols.h"] = f"#define SYMBOLS(X) {names}\n"
     for name in ("cpu.h", "library.c"):
-        parts[name] = (HERE / name).read_bytes()
+        parts[name] = (HERE / "c" / name).read_bytes()
     levels = platform.levels
     defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
     made = link.shared_library(

@@ -1,7 +1,5 @@
 """A kernel's compiled function as a Python function: numbers and arrays in, numbers out."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache

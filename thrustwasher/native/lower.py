@@ -4,8 +4,6 @@
 process of its own uses another core.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from dataclasses import replace

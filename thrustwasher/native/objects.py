@@ -1,7 +1,5 @@
 """A kernel's object files: shipped with the package, kept from an earlier run, or compiled now."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import os

@@ -6,8 +6,6 @@ library for Python on Linux x86-64; ``index.json`` lists them. What has not chan
 byte if the same versions made it.
 """
 
-from __future__ import annotations
-
 import json
 import platform as machine
 import sys

@@ -5,8 +5,6 @@ files with their checksums. A source that differs, or a file that is not as list
 nothing had been shipped: what is needed is compiled again.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import zipfile

@@ -1,7 +1,5 @@
 """Run a shift: connect the instances of a scene, step them to the end, and read the result."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from time import perf_counter
 

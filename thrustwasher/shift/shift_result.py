@@ -1,7 +1,5 @@
 """What a shift run leaves: time series, events, energy balance, key figures, cost."""
 
-from __future__ import annotations
-
 import os
 import tempfile
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Which thermal mode the washer of a scene needs: its time constants beside the scene's."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Fingerprints: of a parameter set, of the sources of a rung's numbers, of a JSON file."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable, Mapping

@@ -5,8 +5,6 @@ then once a second and at the end: a signal loses nothing, a crash a second's wo
 notice a changed bit, so every entry has a checksum.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import sqlite3

@@ -1,7 +1,5 @@
 """Put a card together and write its file."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """From answers at held-out points to a card's tables: worst and rms error cell by cell."""
 
-from __future__ import annotations
-
 import math
 import statistics
 from collections import Counter

@@ -6,8 +6,6 @@ small steps, in quantities that a shift does not forget: heat of the clutch, tim
 temperature. ``masters`` judges the package's own masters as other methods are judged.
 """
 
-from __future__ import annotations
-
 import statistics
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Reference values at held-out points, kept in a file: all rungs are compared with the same."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

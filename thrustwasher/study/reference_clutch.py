@@ -4,8 +4,6 @@ Chart `settled` is slip that lasts for ever, as ``solve_clutch`` takes it; chart
 pack that closes while its slip runs out, as in a shift, at points of time.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Reference values of the gear mesh: the line of action by adaptive quadrature and search."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

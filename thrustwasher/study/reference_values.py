@@ -1,7 +1,5 @@
 """Reference values: what they are, at held-out points too, and what a rung says beside them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any

@@ -3,8 +3,6 @@
 A fine mesh starts where a coarser one ended: the solution is carried over.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from itertools import pairwise
 from typing import Any

@@ -6,8 +6,6 @@ shipped cards solve points of each again. After any other change measure anew:
 ``python -m thrustwasher.study.verify``.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """What a chart or a card says about its making: the machine, versions, state of the sources."""
 
-from __future__ import annotations
-
 import os
 import platform
 import subprocess

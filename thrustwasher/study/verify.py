@@ -7,8 +7,6 @@ Without FIDELITY only cards that are stale or missing are made; a run that is st
 it was, because reference values and finished cards are kept.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

@@ -1,7 +1,5 @@
 """What a sweep varies: ``load=50:1850:50`` becomes a name, a unit and values."""
 
-from __future__ import annotations
-
 import difflib
 import math
 import re

@@ -1,7 +1,5 @@
 """Solve a whole sweep: in this process, on all cores, or on a cluster."""
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping

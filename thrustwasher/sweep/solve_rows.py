@@ -6,8 +6,6 @@ loaded washer does: going up in load the film is kept to its fold, coming down a
 regained at the other one. A point that fails leaves the memory as it was.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any

@@ -1,7 +1,5 @@
 """The rows of a sweep in their order, cut into lines: one line is one walk of warm starts."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """The rows of a sweep as columns, and as a file."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass

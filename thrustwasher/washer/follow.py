@@ -1,7 +1,5 @@
 """The washer over time: inputs are given at points, friction and heat follow."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields
 from typing import Any

@@ -1,7 +1,5 @@
 """From the washer's parameters to what its kernels take: mesh, contact tables, scalars."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The whole curve of a washer's solutions over load, with its folds: continuation in the film."""
 
-from __future__ import annotations
-
 import dataclasses
 from dataclasses import dataclass
 

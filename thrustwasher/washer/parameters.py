@@ -1,7 +1,5 @@
 """Parameters, inputs and outputs of the thrust washer: the one list all interfaces come from."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ..model.parameters import check_ranges, choice, quantity

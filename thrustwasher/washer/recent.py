@@ -1,7 +1,5 @@
 """What is kept between calls, by each thread: work arrays, and what belongs to parameters."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar

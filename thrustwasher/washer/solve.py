@@ -4,8 +4,6 @@ Average-flow Reynolds equation with cavitation, elasto-plastic asperity contact,
 carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/theory/washer.md.
 """
 
-from __future__ import annotations
-
 import math
 from functools import cache
 from typing import Any

@@ -1,7 +1,5 @@
 """What a washer solve returns, and the error to expect of it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any

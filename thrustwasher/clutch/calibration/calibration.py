@@ -1,7 +1,5 @@
 """Fit the clutch's friction law to measured friction, and say what the points can tell."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """A friction law fitted to measurements: numbers, sentences, plain data."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass, field
 from typing import Any

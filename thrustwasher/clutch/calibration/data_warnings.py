@@ -1,7 +1,5 @@
 """Warnings of a calibration: points that the friction law cannot follow, in plain sentences."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The clutch's friction law as a function of its own constants: values and exact derivatives."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """What measured points can tell about the friction law: its constants, and whether load acts."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a calibration may be asked: names, points and confidence, checked one by one."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Sequence
 from typing import NamedTuple

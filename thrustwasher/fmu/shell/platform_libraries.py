@@ -164,7 +164,7 @@ def dispatch() -> dict[str, bytes]:
     """Return the C files between plain C and the kernels; they include the generated model.h."""
     folder = source_folder() / "shell"
     found = {name: (folder / name).read_bytes() for name in ("dispatch.c", "kernel.h", "tables.h")}
-    return {**found, "cpu.h": (digest.HERE / "cpu.h").read_bytes()}
+    return {**found, "cpu.h": (digest.HERE / "c" / "cpu.h").read_bytes()}
 
 
 def headers(fmi: int) -> dict[str, bytes]:

@@ -1,7 +1,5 @@
 """The report's section on rungs: which ran, why, how far off they were and what was run again."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..html import Section, Table

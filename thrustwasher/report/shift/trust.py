@@ -1,7 +1,5 @@
 """How far a run is to be trusted, in sentences."""
 
-from __future__ import annotations
-
 from ...units import format_quantity as say
 from . import shift_tables, summary
 from .shift_record import PACKS, Record

@@ -1,7 +1,5 @@
 """Lays a run out for the compiled loop: operations, addresses, buffers."""
 
-from __future__ import annotations
-
 import ctypes
 import sys
 import time

@@ -6,8 +6,6 @@ called in this process. Both kinds save their state and give slopes; ``saves_sta
 the compiled loop.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, cast
 

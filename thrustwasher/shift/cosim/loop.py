@@ -1,7 +1,5 @@
 """The loop over communication points, in Python; any instance can be stepped so."""
 
-from __future__ import annotations
-
 from typing import NamedTuple, Protocol
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a master does in a communication step: a list of actions, the same in every step."""
 
-from __future__ import annotations
-
 from typing import NamedTuple, Protocol
 
 from .system import ConnectedPart, System

@@ -1,7 +1,5 @@
 """The energy balance of a shift, read from its signals."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

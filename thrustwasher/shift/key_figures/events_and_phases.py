@@ -1,7 +1,5 @@
 """Events and phases of a shift, read from its signals."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

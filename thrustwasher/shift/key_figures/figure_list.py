@@ -3,8 +3,6 @@
 ``{pack}`` stands for the pack that engages, ``{other}`` for the one that lets go.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 # [rad/s] of a planet on its pin. A film vanishes with speed: its least ratio is looked for above

@@ -1,7 +1,5 @@
 """Key figures of the parts: packs, packs against each other, washer and gear mesh."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

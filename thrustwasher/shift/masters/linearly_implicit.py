@@ -13,8 +13,6 @@ and beyond it damp what grows: there S dT is left out, which stops the series of
 its second term, 1 + x + x^2 with x = H |c|/J.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -4,8 +4,6 @@ A master is a function that returns the schedule of one communication step. A ne
 function and a line in ``MASTERS``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

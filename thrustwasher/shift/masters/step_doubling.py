@@ -8,8 +8,6 @@ half are located and become communication points. FMUs do not let their states b
 halves are not extrapolated any further.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from math import inf
 from typing import Any, NamedTuple

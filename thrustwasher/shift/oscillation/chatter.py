@@ -4,8 +4,6 @@ With ``coupling`` = torque friction passes through zero over a narrow range of s
 is too long for that slope, the torque of one step throws the slip to the other side.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Fit of a growing or decaying oscillation to a stretch of a signal."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

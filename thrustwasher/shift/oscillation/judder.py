@@ -5,8 +5,6 @@ driveline with the slope of the pack's own friction law. What the master adds by
 capacities over once per step is computed as well: growth that is none of the physics is named.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass

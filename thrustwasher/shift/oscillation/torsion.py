@@ -6,8 +6,6 @@ complex factor on the slopes. A pack's slope is that of its own friction law, at
 has recorded.
 """
 
-from __future__ import annotations
-
 import cmath
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The parts of a shift, who passes what to whom, and all else that is told part by part."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The option ``fidelity``: a rung by name, or the cheapest that holds a tolerance."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

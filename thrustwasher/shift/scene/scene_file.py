@@ -4,8 +4,6 @@ A number may carry its unit, "24 degC" or "3000 rpm"; a bare number is SI. A sce
 takes everything from that scene and changes what it names.
 """
 
-from __future__ import annotations
-
 import difflib
 import tomllib
 from dataclasses import fields

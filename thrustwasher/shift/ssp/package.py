@@ -3,8 +3,6 @@
 The page says what the package is, how to run it, and what runs of different masters differ by.
 """
 
-from __future__ import annotations
-
 from html import escape
 
 from .structure_xml import structure, text

@@ -1,7 +1,5 @@
 """SystemStructure.ssd: the system of a shift as XML of the SSP 1.0 schemas."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any

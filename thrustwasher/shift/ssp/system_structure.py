@@ -9,8 +9,6 @@ Every part has an FMU of its own, whose defaults are the scene's: masters differ
 do with the values in a package, and some do nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """A shift at a tolerance: trial runs, a rung for every part, the run and its check."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -8,8 +8,6 @@ at these points only; one with a past of its own, such as a pack's film and temp
 whole record, since it would have another past in strides.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from time import perf_counter

@@ -5,8 +5,6 @@ together do not move the trial runs' figures by more than the rungs' share of th
 others the cards decide, over the inputs that the trial runs have seen.
 """
 
-from __future__ import annotations
-
 from ...errors import ParameterError, SolveError
 from ...ladder.card import fresh_cards
 from ...ladder.choose import Choice, choose

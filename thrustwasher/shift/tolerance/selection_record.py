@@ -1,7 +1,5 @@
 """What was chosen for a run at a tolerance and why, and what the guard found: plain data."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 from ...units import format_quantity as say

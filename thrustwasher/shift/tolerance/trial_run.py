@@ -6,8 +6,6 @@ Two runs, one with steps twice as long as the other, tell what the communication
 third one with the finest rungs of all other parts tells what theirs are worth.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace

@@ -4,8 +4,6 @@ A case is reached as a user would reach it: from rest over the points of ``befor
 branch is that of the history. Lists are data; a changed list is another list (``digest``).
 """
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass
 

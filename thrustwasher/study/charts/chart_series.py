@@ -1,7 +1,5 @@
 """The series of the charts: every rung, meshes and tolerances, rivals at their best setting."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial

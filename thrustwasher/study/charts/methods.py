@@ -1,7 +1,5 @@
 """Methods to solve a model that can be measured: the package's rungs and meshes, and rivals."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial

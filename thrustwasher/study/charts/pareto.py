@@ -1,7 +1,5 @@
 """Which samples nothing beats, with ties: noise of a clock decides nothing."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -4,8 +4,6 @@ Errors come from one call per case, costs from other calls. A method that raises
 failure is a failed sample of that case, counted and kept, never an exit of the run.
 """
 
-from __future__ import annotations
-
 import math
 import statistics
 import time

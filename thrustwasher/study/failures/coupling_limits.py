@@ -6,8 +6,6 @@ part is exact on its own, as the formulas take it: what a loop does wrong comes 
 signal over a step. A stepper takes all that the loop knows and returns what it knows a step later.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass

@@ -1,7 +1,5 @@
 """Where methods to find the washer's balance fail: by the branch they end on."""
 
-from __future__ import annotations
-
 import math
 from functools import cache, partial
 from itertools import pairwise

@@ -9,8 +9,6 @@ LIES     wrong, without a word
 =======  =========================================================================================
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

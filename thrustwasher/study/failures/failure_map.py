@@ -4,8 +4,6 @@ Here are a cavitating film, a surface that its oil heats, closed forms at the en
 lock-up in co-simulation and a shaft that swings; ``failure_balance`` has the washer's balance.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import asdict

@@ -12,8 +12,6 @@ linear complementarity problem. ``active_set`` meets it exactly: what the others
 ================  ================================================================================
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Compile rivals like the kernels, with a cache of their own keyed by kernels and rivals."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Callable

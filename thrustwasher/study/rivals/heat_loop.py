@@ -6,8 +6,6 @@ converges only while the slope there is above -1; beyond, it swings between two 
 Viscosity law and numbers: Atan (2005), Eq 13.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

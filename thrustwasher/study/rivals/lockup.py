@@ -5,8 +5,6 @@ is constant; friction is too, unless a film has to be squeezed out first. It is 
 of w_s where a method needs it. The methods are in ``lockup_methods``.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Methods for the clutch of ``lockup``: steps between communication points, and general solvers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import partial

@@ -12,8 +12,6 @@ Set as favourably as can be: over-relaxation 1.65 (best of 1.0 .. 1.9) also for 
 nowhere), temperatures relaxed where that keeps the branch, and all of it compiled.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -4,8 +4,6 @@ J x'' = -k x. Each method returns the energy at the end over that at the start, 
 The shaft's torque k x is what two parts of a co-simulation hand to each other.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

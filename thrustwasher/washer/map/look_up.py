@@ -1,7 +1,5 @@
 """A washer's map from Python: look-ups, rows of look-ups, folds."""
 
-from __future__ import annotations
-
 import math
 import os
 import threading

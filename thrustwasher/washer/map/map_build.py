@@ -1,7 +1,5 @@
 """From parameters to a map file: plan, lines solved side by side, check, card."""
 
-from __future__ import annotations
-
 import math
 import os
 import platform

@@ -1,7 +1,5 @@
 """Checking a map: random points that it was not built from, solved on the mesh it stands for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial

@@ -4,8 +4,6 @@ Shipped maps lie in ``thrustwasher/data/maps``; further folders are taken from t
 variable ``THRUSTWASHER_MAPS`` (separated as in ``PATH``) and are looked through first.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import os

@@ -1,7 +1,5 @@
 """One line of a map: the curve of solutions at one speed, tilt and oil temperature."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

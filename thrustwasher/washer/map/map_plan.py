@@ -1,7 +1,5 @@
 """What a map covers and how finely: box, patches, pieces; and its header."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -31,9 +31,9 @@ from typing import Any, NoReturn
 
 from .. import __version__
 from ..errors import EnvironmentProblem, ParameterError, SolveError
-from ..model.registry import all_models
+from ..model.registry import models_with_points
 
-MODELS = {model.key: model for model in all_models() if model.command}
+MODELS = models_with_points()
 COMMANDS = (
     *(name for model in MODELS.values() for name in model.commands()),
     *("shift", "sweep", "chart", "build", "cards", "doctor"),

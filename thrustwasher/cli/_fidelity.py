@@ -5,11 +5,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..model.spec import ModelSpec
-from . import _output
+from . import _options, _output
 
 
-def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
-    """Add ``--fidelity`` with one sentence per rung, and with ``auto``."""
+def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec, *, cards: bool) -> None:
+    """Add ``--fidelity`` with one sentence per rung, and with ``auto`` where there are cards."""
+    if not cards:
+        _options.add_fidelity(parser, spec)
+        return
     rungs = "; ".join(f"{name}: {text}" for name, text in spec.fidelities.items())
     auto = "auto:0.01: the cheapest rung whose torque is verified to 1 % at this point"
     parser.add_argument(

@@ -93,10 +93,13 @@ def note(message: str) -> None:
 def add_targets(
     parser: argparse.ArgumentParser, *, plot: str, out: str = "", instead: str = "a table"
 ) -> None:
-    """Add ``--out`` where there is a table to write, ``--plot`` and ``--json``."""
+    """Add ``--json``, ``--out`` where there is a table to write, ``--plot`` where a figure."""
     if out:
         parser.add_argument("--out", metavar="FILE", help=out)
-    parser.add_argument("--plot", metavar="FILE", help=plot)
+    if plot:
+        parser.add_argument("--plot", metavar="FILE", help=plot)
+    else:
+        parser.set_defaults(plot=None)
     parser.add_argument("--json", action="store_true", help=f"one JSON object instead of {instead}")
 
 

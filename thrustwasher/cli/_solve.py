@@ -31,7 +31,7 @@ class PointCommand:
                 "--preset", choices=list(presets), default=next(iter(presets)),
                 help=f"what --set starts from; {_changes(presets)}; default {next(iter(presets))}",
             )  # fmt: skip
-        _fidelity.add_fidelity(parser, spec)
+        _fidelity.add_fidelity(parser, spec, cards=self._model.ladder is not None)
         _options.add_options(parser, model.options)
         _output.add_targets(parser, plot=model.figure_help)
 

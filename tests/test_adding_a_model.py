@@ -31,13 +31,13 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def run(folder):
-    """What a command of the page prints."""
+    """What a command of the page prints, or says where it ends with another status."""
 
-    def run(*words):
+    def run(*words, status=0):
         command = [sys.executable, str(folder / "run.py"), *words]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
-        return done.stdout
+        assert done.returncode == status, done.stderr
+        return done.stderr if status else done.stdout
 
     return run
 
@@ -61,6 +61,11 @@ def test_help_comes_from_the_lists(run):
     assert "--plot" not in text and "auto" not in text  # it has neither figure nor cards
     assert "radial clearance" in run("journal", "--parameters")
     assert "journal   friction and film of a plain journal bearing" in run("--help")
+
+
+def test_a_model_without_cards_says_so(run):
+    said = run("sweep", "journal", "--over=load=1:2:1", "--fidelity=auto:0.01", status=2)
+    assert "model = 'journal' (it has no cards), allowed: 'washer'" in said
 
 
 def test_the_sweep_writes_a_table(run, solved, folder):

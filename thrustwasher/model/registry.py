@@ -98,7 +98,8 @@ def spec_of(name: str) -> ModelSpec:
 
 def _among(models: dict[str, Model], name: str) -> Model:
     if name not in models:
-        raise ParameterError(f"model = {name!r}, allowed: {' or '.join(map(repr, models))}")
+        why = " (it has no cards)" if name in models_with_points() else ""
+        raise ParameterError(f"model = {name!r}{why}, allowed: {' or '.join(map(repr, models))}")
     return models[name]
 
 

@@ -7,7 +7,6 @@ A command that solves a model at one point is no file: ``_solve`` makes it from 
 ==============  ===================================================================
 ``_solve``      the command of a model, made from its record
 ``_options``    options made from a model's inputs and parameters
-``_fidelity``   ``--fidelity auto:0.01``: the cheapest rung that holds a tolerance
 ``_table``      columns of a CSV file, found by their names
 ``_output``     JSON, tables, files that are written whole or not at all
 ``_progress``   how far it is and how long it will take

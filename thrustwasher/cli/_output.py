@@ -93,13 +93,11 @@ def note(message: str) -> None:
 def add_targets(
     parser: argparse.ArgumentParser, *, plot: str, out: str = "", instead: str = "a table"
 ) -> None:
-    """Add ``--json``, ``--out`` where there is a table to write, ``--plot`` where a figure."""
+    """Add ``--out`` and ``--plot`` where there is something to write or draw, and ``--json``."""
     if out:
         parser.add_argument("--out", metavar="FILE", help=out)
     if plot:
         parser.add_argument("--plot", metavar="FILE", help=plot)
-    else:
-        parser.set_defaults(plot=None)
     parser.add_argument("--json", action="store_true", help=f"one JSON object instead of {instead}")
 
 
@@ -131,7 +129,7 @@ class Targets(NamedTuple):
 
 def targets(arguments: argparse.Namespace) -> Targets:
     """Return the files that ``add_targets`` lets one ask for, checked before any work is done."""
-    out, plot = getattr(arguments, "out", None), arguments.plot
+    out, plot = getattr(arguments, "out", None), getattr(arguments, "plot", None)
     return Targets(
         check_file(out, "--out", (".csv",)) if out else None,
         check_file(plot, "--plot", PLOT_SUFFIXES) if plot else None,

@@ -1,13 +1,15 @@
 """The structure of the package, read from its imports: ``python benchmarks/structure.py``.
 
-Prints what is counted; ``--draw FILE.svg`` draws the folders in layers, what imports above what is
-imported. Imports inside functions and those for type checkers count like any other.
+Prints what is counted; ``--draw FILE.svg`` draws the folders in layers. Imports inside functions
+and those for type checkers count like any other.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import re
+import tomllib
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -15,7 +17,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "thrustwasher"
-WIDTH = 3  # of an arrow at most
+LEAST_WIDTH, LINE_WIDTH = 0.09, 1.3e-5  # of a box, as shares of the picture; per line of code
+HALF_HEIGHT = 0.22  # of a box, in layers
+SPACE = 0.015  # between a box and an arrow that passes it
+ARROW = {"arrowstyle": "-|>", "color": "0.5", "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
 
 
 @cache
@@ -133,61 +138,91 @@ def arrows() -> dict[tuple[str, str], int]:
     return dict(found)
 
 
-def levels(pairs: Iterable[tuple[str, str]]) -> dict[str, int]:
-    """Return the level of each folder: one above the highest of those it imports."""
+def layers() -> list[list[str]]:
+    """Return the folders from top to bottom, as the contract for imports in pyproject has them."""
+    tool = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]
+    rows = next(c["layers"] for c in tool["importlinter"]["contracts"] if c["type"] == "layers")
+    return [re.findall(r"thrustwasher\.(\w+)", row) for row in rows]
+
+
+def not_implied(pairs: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Return the arrows that no chain of others stands for."""
     below: dict[str, set[str]] = defaultdict(set)
     for source, target in pairs:
         below[source].add(target)
-        below.setdefault(target, set())
-    found: dict[str, int] = {}
 
-    def level(name: str) -> int:
-        if name not in found:
-            found[name] = 1 + max((level(other) for other in below[name]), default=-1)
-        return found[name]
+    def reached(name: str) -> set[str]:
+        return {name}.union(*(reached(other) for other in below.get(name, ())))
 
-    for name in below:
-        level(name)
-    return found
+    return [
+        (source, target)
+        for source, targets in sorted(below.items())
+        for target in sorted(targets)
+        if not any(target in reached(other) for other in targets - {target})
+    ]
+
+
+def arrows_in_words() -> str:
+    """Return the arrows of the picture as text, which stands in it: "cli to study"."""
+    return ", ".join(f"{source} to {target}" for source, target in not_implied(arrows()))
+
+
+def _way(
+    begin: tuple[float, float], end: tuple[float, float], gaps: list[list[tuple[float, float]]]
+) -> list[tuple[float, float]]:
+    """Return the points of an arrow, one in each layer: it passes between boxes."""
+    found = [begin]
+    for y in range(int(begin[1]) - 1, int(end[1]), -1):
+        x0, y0 = found[-1]
+        straight = x0 + (end[0] - x0) * (y0 - y) / (y0 - end[1])
+        free = [(a + SPACE, b - SPACE) for a, b in gaps[y] if b - a > 2.0 * SPACE]
+        found.append((min((min(max(straight, a), b) for a, b in free),
+                          key=lambda x: abs(x - straight)), float(y)))  # fmt: skip
+    return [*found, end]
 
 
 def draw(path: Path) -> None:
-    """Draw the folders in levels with their lines of code, and an arrow for each import."""
+    """Draw the folders in their layers, as wide as they have lines, with arrows for imports."""
     import matplotlib
 
     matplotlib.use("Agg")
-    matplotlib.rcParams["svg.hashsalt"] = "structure"
+    matplotlib.rcParams |= {"svg.hashsalt": "structure", "svg.fonttype": "none"}
     from matplotlib.figure import Figure
+    from matplotlib.patches import FancyBboxPatch
 
-    pairs = arrows()
-    level = levels(pairs)
     sizes: Counter[str] = Counter()
     for name, file in modules().items():
         sizes[room(name)] += lines_of([file])
-    rows: dict[int, list[str]] = defaultdict(list)
-    for name in sorted(level):
-        rows[level[name]].append(name)
-    place = {
-        name: ((k + 0.5) / len(row), float(y))
-        for y, row in rows.items()
-        for k, name in enumerate(row)
-    }
-    figure = Figure(figsize=(9.0, 1.0 + 0.85 * len(rows)), layout="constrained")
+    rows = [[name for name in row if sizes[name]] for row in layers()]
+    rows = [row for row in rows if row]
+    figure = Figure(figsize=(9.0, 1.05 * len(rows)), layout="constrained")
     axis = figure.add_subplot()
-    for (source, target), n in pairs.items():
-        (x0, y0), (x1, y1) = place[source], place[target]
-        axis.annotate(
-            "", (x1, y1 + 0.2), (x0, y0 - 0.2),
-            arrowprops={"arrowstyle": "->", "color": "0.65", "lw": min(0.5 + n / 20.0, WIDTH)},
-        )  # fmt: skip
-    for name, (x, y) in place.items():
-        axis.text(
-            x, y, f"{name}\n{sizes[name] / 1000:.1f} k lines", ha="center", va="center", fontsize=9,
-            bbox={"boxstyle": "round,pad=0.35", "fc": "white", "ec": "#0072b2"},
-        )  # fmt: skip
-    axis.set(xlim=(0.0, 1.0), ylim=(-0.6, len(rows) - 0.4))
+    place: dict[str, tuple[float, float]] = {}
+    gaps: list[list[tuple[float, float]]] = [[] for _ in rows]  # between the boxes of a layer
+    for y, row in zip(range(len(rows) - 1, -1, -1), rows, strict=True):
+        wide = {name: LEAST_WIDTH + LINE_WIDTH * sizes[name] for name in row}
+        gap = (1.0 - sum(wide.values())) / (len(row) + 1)
+        x = gap
+        for name in row:
+            place[name] = (x + 0.5 * wide[name], float(y))
+            axis.add_patch(FancyBboxPatch(
+                (x, y - HALF_HEIGHT), wide[name], 2.0 * HALF_HEIGHT, facecolor="#e8f1f8",
+                boxstyle="round,pad=0,rounding_size=0.012", edgecolor="#0072b2",
+                mutation_aspect=9.0,
+            ))  # fmt: skip
+            told = f"{name}\n{sizes[name] / 1000:.1f} k lines"
+            axis.text(*place[name], told, ha="center", va="center", fontsize=9)
+            gaps[y].append((x - gap, x))
+            x += wide[name] + gap
+        gaps[y].append((x - gap, x))
+    for source, target in not_implied(arrows()):
+        way = [point for x, y in _way(place[source], place[target], gaps)
+               for point in ((x, y + HALF_HEIGHT), (x, y - HALF_HEIGHT))][1:-1]  # fmt: skip
+        axis.plot(*zip(*way, strict=True), color="0.5", lw=0.9, solid_joinstyle="round")
+        axis.annotate("", way[-1], way[-2], arrowprops=ARROW)
+    axis.set(xlim=(0.0, 1.0), ylim=(-0.4, len(rows) - 0.6))
     axis.axis("off")
-    figure.savefig(path, metadata={"Date": None})
+    figure.savefig(path, metadata={"Date": None, "Description": arrows_in_words()})
 
 
 def main() -> None:

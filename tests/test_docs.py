@@ -5,17 +5,19 @@ import importlib
 import importlib.util
 import io
 import re
+import tomllib
 from functools import cache
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[1]
+PACKAGE = ROOT / "thrustwasher"
 README = ROOT / "README.md"
 DOCS = ROOT / "docs"
 PAGES = [README, ROOT / "CHANGELOG.md", *sorted(DOCS.rglob("*.md"))]
-# Written by commands, or drafts and history that name what is not there (any more).
-NAMES_UNCHECKED = {"CHANGELOG.md", "adding-a-model.md", "stability.md", "faults.md"}
+# History, and a made-up model.
+NAMES_UNCHECKED = {"CHANGELOG.md", "adding-a-model.md"}
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
 
 
@@ -70,6 +72,37 @@ def test_modules_and_files_that_are_named_exist(page):
     files = set(re.findall(r"\b(?:benchmarks|tests|examples|docs|fmu_src)/[\w/.-]*\w", text))
     assert sorted(d for d in dotted if not is_there(d)) == []
     assert sorted(f for f in files if not (ROOT / f).exists()) == []
+    first = "|".join(p.name for p in PACKAGE.iterdir() if p.is_dir())
+    inside = set(re.findall(rf"`((?:thrustwasher/)?(?:{first})/[\w/.]*)`", text))
+    inside |= set(re.findall(r"`(\w+\.py)`", text)) - {"slave.py", "build_fmu.py", "__init__.py"}
+    places = (PACKAGE, PACKAGE.parent)
+    assert [f for f in inside if not any((p / f).exists() for p in places)] == []
+
+
+@each_page
+def test_what_is_gone_is_not_promised(page):
+    if page.name == "CHANGELOG.md":
+        return
+    gone = r"(?i)cross-check|hand-over|C guard|integrator_check|rung guard|TODO|PICTURE:|\{[\w/]+\}"
+    assert re.findall(gone, prose(page)) == []
+
+
+def test_the_layers_on_the_page_are_those_that_are_checked():
+    page = (DOCS / "architecture.md").read_text("utf-8")
+    tool = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
+    rows = next(c["layers"] for c in tool["contracts"] if c["type"] == "layers")
+    assert "\n".join(rows).replace("thrustwasher.", "") + "\n```" in page
+    folders = {p.parent.name for p in PACKAGE.glob("*/__init__.py")}
+    assert {f for f in folders if f"\n  {f}/ " not in page} == set()
+    walked = re.findall(r"(?m)^\| [\d .]+ \| `([\w/]+\.(?:py|c))`", page)
+    assert len(set(walked)) <= 20 and f"That is {len(set(walked))} files" in page
+
+
+def test_the_picture_is_what_the_imports_say(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "benchmarks")
+    told = importlib.import_module("structure").arrows_in_words()
+    picture = (DOCS / "images" / "architecture.svg").read_text("utf-8")
+    assert told in picture, "python benchmarks/structure.py --draw docs/images/architecture.svg"
 
 
 def test_the_readme_is_short_and_begins_with_its_two_commands():

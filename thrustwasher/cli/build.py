@@ -3,9 +3,10 @@
 import argparse
 
 from ..errors import EnvironmentProblem, ParameterError
+from ..model.registry import all_models
 from . import _output
 
-HELP = "build FMUs for co-simulation: ThrustWasher, WetClutch, GearMesh, ShiftTransmission"
+HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"
 TARGETS = ("native", "python")
 
 
@@ -13,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
         "models", nargs="*", metavar="MODEL",
-        help="names of FMUs; default: the four above. CommandSource, a ramp for a shift command, "
+        help="names of FMUs; default: all above. CommandSource, a ramp for a shift command, "
         "is built when named",
     )  # fmt: skip
     parser.add_argument(

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..model.registry import models_with_cards, spec_of
+from ..model.registry import models_with_points, spec_of
 from ..model.spec import ModelSpec
 from ..sweep.axes import places, split_setting
 from . import _output
@@ -20,7 +20,7 @@ HELP = "solve a model over ranges of inputs and parameters, on all cores or on a
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument("model", metavar="MODEL", help=", ".join(models_with_cards()))
+    parser.add_argument("model", metavar="MODEL", help=", ".join(models_with_points()))
     parser.add_argument(
         "--over", metavar="NAME=VALUES", action="append", default=[],
         help="vary an input or parameter: load=50:1850:50 (start:stop:step), load=20:1850:x40 (40 "
@@ -138,7 +138,7 @@ def _workers(text: str | None) -> int | None:
 def _inputs() -> dict[str, str]:
     """Return the inputs of all models with the units that they have there."""
     found: dict[str, dict[str, None]] = {}
-    for model in models_with_cards():
+    for model in models_with_points():
         for place in places(spec_of(model)).values():
             if place.is_input:
                 found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..model.registry import spec_of
+from ..model.registry import ladder_of, spec_of
 from .boxes import Part, Request, checked_box
 from .candidates import Candidate, Plan, candidates, plans
 from .card import VERIFY
@@ -83,6 +83,7 @@ def choose(
     statistical: with n independent points and none above tol, less than 3/n of the verified box is
     above tol, with 95 % confidence. The same cards give the same answer.
     """
+    ladder_of(model)  # raises where no rung can have a card
     spec = spec_of(model)
     request = Request(
         spec, checked_box(spec, box), quantity, _above("tol", tol, 0.0, False),

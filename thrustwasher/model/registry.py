@@ -45,6 +45,11 @@ def all_models() -> list[Model]:
     return [_model_in(home) for home in MODELS.values()]
 
 
+def models_with_points() -> dict[str, Model]:
+    """Return the models that are solved at an operating point, by their keys."""
+    return {model.key: model for model in all_models() if model.command}
+
+
 def models_with_cards() -> dict[str, Model]:
     """Return the models that have a ladder of rungs with cards, by their keys."""
     return {model.key: model for model in all_models() if model.ladder}
@@ -81,23 +86,26 @@ def all_specs() -> list[ModelSpec]:
 
 
 def spec_of(name: str) -> ModelSpec:
-    """Return the interface of a model with cards, or raise ParameterError with those there are.
+    """Return the interface of a model that is solved at points; ParameterError names those.
 
     Examples
     --------
     >>> spec_of("washer").default_fidelity
     'field'
     """
-    models = models_with_cards()
+    return _among(models_with_points(), name).spec
+
+
+def _among(models: dict[str, Model], name: str) -> Model:
     if name not in models:
-        raise ParameterError(f"model = {name!r}, allowed: {' or '.join(map(repr, models))}")
-    return models[name].spec
+        why = " (it has no cards)" if name in models_with_points() else ""
+        raise ParameterError(f"model = {name!r}{why}, allowed: {' or '.join(map(repr, models))}")
+    return models[name]
 
 
 def ladder_of(name: str) -> Ladder:
     """Return what the choice of a rung knows of a model; errors as in ``spec_of``."""
-    spec_of(name)
-    found = models_with_cards()[name].ladder
+    found = _among(models_with_cards(), name).ladder
     assert found is not None
     return found
 

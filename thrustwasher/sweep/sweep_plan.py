@@ -238,6 +238,7 @@ def _identity(
     plan: Plan, base: Any, fixed: dict[str, Any], varied: Iterable[str]
 ) -> dict[str, str]:
     """Return a digest of each thing that makes this sweep another one than the next."""
+    from ..native.shipped import digest_now
     from ..numerics.jit import kernel_digest
 
     held = {k: v for k, v in {**asdict(base), **fixed}.items() if k not in set(varied)}
@@ -245,5 +246,5 @@ def _identity(
     for name, column in plan.shown.items():
         parts[name] = repr(column.tolist()) if column.dtype == object else column.tobytes().hex()
     parts["lines"] = plan.starts.tobytes().hex()
-    parts["version of thrustwasher"] = kernel_digest()
+    parts["version of thrustwasher"] = kernel_digest() + digest_now(plan.spec.kernel)
     return {k: hashlib.sha256(v.encode()).hexdigest()[:16] for k, v in parts.items()}

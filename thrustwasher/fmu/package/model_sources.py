@@ -6,7 +6,9 @@ from importlib.resources import files
 from pathlib import Path
 
 from ...errors import EnvironmentProblem
+from ...model.registry import MODELS as HOMES
 from ...model.spec import ModelSpec
+from ...native.digest import file_of
 from ..description.interface import enumerations, variables
 from ..model_kernels import content_digest, package_version
 
@@ -27,7 +29,14 @@ def source_folder() -> Path:
 
 
 def model_folder(spec: ModelSpec, sources: Path) -> Path:
-    """Return the folder of a model's slave and readme, such as ``thrust_washer``."""
+    """Return the folder of a model's slave and readme, such as ``thrust_washer``.
+
+    Of a model outside this package that is the folder of its record.
+    """
+    home = HOMES.get(spec.key, PACKAGE.name)
+    record = None if home.partition(".")[0] == PACKAGE.name else file_of(f"{home}.model")
+    if record:
+        return record.parent
     return sources / re.sub(r"(?<=[a-z])(?=[A-Z])", "_", spec.name).lower()
 
 

@@ -96,11 +96,11 @@ class Record:
     wall_time: float
     messages: Sequence[str] = ()
     judder: Any = None
-    """How the output shaft swings (``drivetrain.oscillation.judder.Judder``); None: not at all."""
+    """How the output shaft swings (``shift.oscillation.judder.Judder``); None: not at all."""
     chatter: Sequence[Any] = ()
-    """Packs whose slip flips from step to step (``drivetrain.oscillation.chatter.Chatter``)."""
+    """Packs whose slip flips from step to step (``shift.oscillation.chatter.Chatter``)."""
     selection: Any = None
-    """Why the rungs are what they are (``drivetrain.tolerance``); None: they were named."""
+    """Why the rungs are what they are (``shift.tolerance``); None: they were named."""
     guard: Any = None
     """How they were checked after the run, and what was run again; None: they were not."""
     steps: Any = None
@@ -156,7 +156,7 @@ class Record:
 
 
 def record_of(result: Any) -> Record:
-    """Return a shift result of the drivetrain as plain data."""
+    """Return the result of a shift as plain data."""
     scene = result.scene
     return Record(
         name=scene.name,

@@ -107,7 +107,7 @@ def _say(result: Any, folder: Path | None) -> None:
         print(text)
     for text in [*summary.sentences(record), *summary.warnings(record)]:
         print(text)
-    missing = f"{record.energy['residual_share']:.1e} of {summary.whole_name(record)}"
+    missing = f"{record.energy['residual_share']:.1e} of {record.whole_name}"
     print(f"Energy book: {missing} is missing.")
     if folder:
         print(f"Report: {folder / REPORT}")

@@ -108,6 +108,21 @@ def cost_table(record: Record) -> Table:
     )  # fmt: skip
 
 
+def check_table(record: Record) -> Table:
+    """Return a row per check of a rung, in the order they were made."""
+    rows = [
+        (c.part, c.rung, c.above, str(c.points), str(len(c.failed)), f"{100.0 * c.worst.share:.3g}",
+         f"{100.0 * c.tolerance:.3g}", "yes" if c.holds else "no", f"{1e3 * c.seconds:.2f}")
+        for c in record.guard.checks
+    ]  # fmt: skip
+    return Table(
+        heads=("", "rung", "compared with", "points", "without solution", "worst difference [%]",
+               "allowed [%]", "holds", "time [ms]"),
+        rows=rows,
+        numbers=(3, 4, 5, 6, 8),
+    )  # fmt: skip
+
+
 def parameter_tables(record: Record) -> list[Table]:
     """Return one folded table per FMU: every parameter with unit, meaning and origin."""
     return [_parameters(part) for part in record.parts if part.model in SPECS]

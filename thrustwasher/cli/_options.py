@@ -43,9 +43,9 @@ def read_inputs(arguments: argparse.Namespace, inputs: Iterable[Signal]) -> dict
 def add_parameters(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
     """Add ``--set`` and ``--parameters``."""
     group = parser.add_argument_group("parameters")
-    names = {f.name: f.default for f in fields(spec.params)}
+    names = {f.name: _default(f) for f in fields(spec.params)}
     first = next(iter(names))
-    example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]:g}"
+    example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]}"
     group.add_argument(
         "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
         help=f"change a parameter, e.g. --set {example}; may be repeated",
@@ -93,25 +93,45 @@ def parameter_table(spec: ModelSpec) -> str:
     rows = [("name", "default", "unit", "allowed", "meaning")]
     for f in fields(spec.params):
         m = f.metadata
-        shown = f"{f.default:.10g}" if m["kind"] == "real" else str(f.default)
         unit = "" if m["unit"] == "1" else m["unit"]
         span = allowed(m)
         if m["kind"] in ("real", "integer"):
             span = f"{m['min']:g} .. {m['max']:g}"
-        rows.append((f.name, shown, unit, span, m["help"]))
+        rows.append((f.name, _default(f), unit, span, m["help"]))
     widths = [max(len(row[i]) for row in rows) for i in range(4)]
     return "\n".join(
         "  ".join([*(row[i].ljust(widths[i]) for i in range(4)), row[4]]).rstrip() for row in rows
     )
 
 
-def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
-    """Add ``--fidelity`` with one sentence per rung."""
-    rungs = "; ".join(f"{name}: {text}" for name, text in spec.fidelities.items())
-    parser.add_argument(
-        "--fidelity", choices=list(spec.fidelities), default=spec.default_fidelity,
-        help=f"{rungs}; default {spec.default_fidelity}".replace("%", "%%"),
-    )  # fmt: skip
+def _default(field: Any) -> str:
+    """Return the default of a parameter as it is written."""
+    number = field.metadata["kind"] == "real"
+    return f"{field.default:.10g}" if number else str(field.default)
+
+
+def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec, *, auto: bool = False) -> None:
+    """Add ``--fidelity`` with one sentence per rung, and ``auto`` where the cards may choose."""
+    words = [f"{name}: {text}" for name, text in spec.fidelities.items()]
+    allowed: dict[str, Any] = {"choices": list(spec.fidelities)}
+    if auto:
+        words.append("auto:0.01: the cheapest rung whose torque is verified to 1 % at this point")
+        allowed = {"type": _rung_or_auto(spec), "metavar": "RUNG"}
+    usual = spec.default_fidelity
+    help = "; ".join([*words, f"default {usual}"]).replace("%", "%%")
+    parser.add_argument("--fidelity", default=usual, help=help, **allowed)
+
+
+def _rung_or_auto(spec: ModelSpec) -> Callable[[str], str]:
+    """Return the check of the option's text."""
+
+    def check(text: str) -> str:
+        if text not in spec.fidelities and not text.startswith("auto"):
+            known = " or ".join(repr(name) for name in spec.fidelities)
+            raise argparse.ArgumentTypeError(f"{text!r}, allowed: {known} or 'auto:TOLERANCE'")
+        return text
+
+    return check
 
 
 def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> None:

@@ -93,10 +93,11 @@ def note(message: str) -> None:
 def add_targets(
     parser: argparse.ArgumentParser, *, plot: str, out: str = "", instead: str = "a table"
 ) -> None:
-    """Add ``--out`` where there is a table to write, ``--plot`` and ``--json``."""
+    """Add ``--out`` and ``--plot`` where there is something to write or draw, and ``--json``."""
     if out:
         parser.add_argument("--out", metavar="FILE", help=out)
-    parser.add_argument("--plot", metavar="FILE", help=plot)
+    if plot:
+        parser.add_argument("--plot", metavar="FILE", help=plot)
     parser.add_argument("--json", action="store_true", help=f"one JSON object instead of {instead}")
 
 
@@ -128,7 +129,7 @@ class Targets(NamedTuple):
 
 def targets(arguments: argparse.Namespace) -> Targets:
     """Return the files that ``add_targets`` lets one ask for, checked before any work is done."""
-    out, plot = getattr(arguments, "out", None), arguments.plot
+    out, plot = getattr(arguments, "out", None), getattr(arguments, "plot", None)
     return Targets(
         check_file(out, "--out", (".csv",)) if out else None,
         check_file(plot, "--plot", PLOT_SUFFIXES) if plot else None,

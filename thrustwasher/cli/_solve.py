@@ -7,7 +7,7 @@ from typing import Any
 
 from ..model.record import Command, Model, Variants, resolve
 from ..model.spec import ModelSpec, Signal
-from . import _fidelity, _options, _output
+from . import _options, _output
 
 
 class PointCommand:
@@ -31,9 +31,9 @@ class PointCommand:
                 "--preset", choices=list(presets), default=next(iter(presets)),
                 help=f"what --set starts from; {_changes(presets)}; default {next(iter(presets))}",
             )  # fmt: skip
-        _fidelity.add_fidelity(parser, spec)
+        _options.add_fidelity(parser, spec, auto=True)
         _options.add_options(parser, model.options)
-        _output.add_targets(parser, plot=model.figure_help)
+        _output.add_targets(parser, plot=model.figure_help if model.figure else "")
 
     def run(self, arguments: argparse.Namespace) -> int:
         """Solve, then print or draw."""
@@ -48,7 +48,7 @@ class PointCommand:
         targets = _output.targets(arguments)
 
         solve = resolve(model.solve)
-        fidelity = _fidelity.rung(arguments.fidelity, spec, params, _place(model, point))
+        fidelity = _rung(arguments.fidelity, spec, params, _place(model, point))
         began = time.perf_counter()
         result = solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
@@ -76,6 +76,27 @@ def _place(model: Command, point: dict[str, float]) -> dict[str, float]:
     """Return the model's own inputs."""
     found: dict[str, float] = resolve(model.place)(point) if model.place else point
     return found
+
+
+def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:
+    """Return the rung asked for by name, or the one that the cards choose at ``point``.
+
+    Why it was chosen is written to standard error.
+
+    Raises
+    ------
+    ParameterError : the tolerance is none
+    SolveError : no rung is verified to it here
+    """
+    if asked in spec.fidelities:
+        return asked
+    from ..ladder.choose import choose
+    from ..shift.scene.fidelity_option import rung_and_tolerance
+
+    _, tolerance = rung_and_tolerance(spec.key, spec, asked)
+    choice = choose(spec.key, dict(point), tol=float(tolerance or 0.0), params=params)
+    _output.note(str(choice))
+    return choice.fidelity
 
 
 def _changes(presets: Mapping[str, Mapping[str, Any]]) -> str:

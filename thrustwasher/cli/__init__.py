@@ -4,15 +4,14 @@ A command module has ``HELP`` (one sentence), ``add_arguments(parser)`` and ``ru
 which returns the exit status. Heavy imports happen inside ``run``: ``--help`` answers at once.
 A command that solves a model at one point is no file: ``_solve`` makes it from the record.
 
-=============  ===================================================================
-``_models``    a record for each model with such a command; ``_solve``: makes it
-``_options``   options made from a model's inputs and parameters
-``_fidelity``  ``--fidelity auto:0.01``: the cheapest rung that holds a tolerance
-``_table``     columns of a CSV file, found by their names
-``_output``    JSON, tables, files that are written whole or not at all
-``_progress``  how far it is and how long it will take
-``_fmu_cache``, ``_ssp``  what ``shift`` builds, runs and packs
-=============  ===================================================================
+==============  ==================================================================
+``_solve``      the command that solves a model at one point, made from its record
+``_options``    options made from a model's inputs and parameters
+``_table``      columns of a CSV file, found by their names
+``_output``     JSON, tables, files that are written whole or not at all
+``_progress``   how far it is and how long it will take
+``_fmu_cache``  FMUs built when needed, for ``shift``
+==============  ==================================================================
 """
 
 import argparse

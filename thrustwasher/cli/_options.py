@@ -142,12 +142,10 @@ def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> N
 
 def read_options(arguments: argparse.Namespace, options: Iterable[Option]) -> dict[str, Any]:
     """Return the value of every option, None where it was left out."""
-    given = vars(arguments)
-    return {o.name: None if given[o.name] is None else _reader(o)(given[o.name]) for o in options}
-
-
-def _reader(option: Option) -> Callable[[str], Any]:
-    found: Callable[[str], Any] = resolve(option.read) if option.read else str
+    found = {}
+    for o in options:
+        text, read = getattr(arguments, o.name), resolve(o.read) if o.read else str
+        found[o.name] = None if text is None else read(text)
     return found
 
 

@@ -48,7 +48,8 @@ class PointCommand:
         targets = _output.targets(arguments)
 
         solve = resolve(model.solve)
-        fidelity = _rung(arguments.fidelity, spec, params, _place(model, point))
+        place = resolve(model.place)(point) if model.place else point
+        fidelity = _rung(arguments.fidelity, spec, params, place)
         began = time.perf_counter()
         result = solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
@@ -70,12 +71,6 @@ class PointCommand:
 def _inputs(model: Command, spec: ModelSpec) -> list[Signal]:
     """Return the inputs of the command."""
     return [Signal(**model.instead[s.name]) if s.name in model.instead else s for s in spec.inputs]
-
-
-def _place(model: Command, point: dict[str, float]) -> dict[str, float]:
-    """Return the model's own inputs."""
-    found: dict[str, float] = resolve(model.place)(point) if model.place else point
-    return found
 
 
 def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:

@@ -94,7 +94,7 @@ def cost_table(record: Record) -> Table:
     rest = max(record.wall_time - used, 0.0)
     rows = [
         (c.name, c.fidelity, _ms(c.instantiate), _ms(c.initialize), str(c.calls), _ms(c.steps),
-         _us(c.steps, c.calls), _percent(c.steps, record.wall_time))
+         f"{1e6 * c.steps / c.calls:.1f}" if c.calls else "", _percent(c.steps, record.wall_time))
         for c in record.costs
     ]  # fmt: skip
     parts = [("master, the rest", rest), ("together", record.wall_time)]
@@ -179,8 +179,3 @@ def _percent(part: float, whole: float) -> str:
 def _ms(seconds: float) -> str:
     """Return milliseconds."""
     return f"{1e3 * seconds:.1f}"
-
-
-def _us(seconds: float, calls: int) -> str:
-    """Return microseconds per call."""
-    return f"{1e6 * seconds / calls:.1f}" if calls else ""

@@ -38,32 +38,12 @@ _HOMES = {
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
-    "BranchError",
-    "Calibration",
-    "Choice",
-    "ClutchParams",
-    "Engagement",
-    "GearMeshParams",
-    "GearMeshResult",
-    "LoadCurve",
-    "ParameterError",
-    "SolveError",
-    "Status",
-    "SweepTable",
-    "WasherCourse",
-    "WasherParams",
-    "WasherResult",
-    "boundary_friction",
-    "calibrate",
-    "choose",
-    "engage_clutch",
-    "follow_washer",
-    "load_curve",
-    "run_sweep",
-    "solve_clutch",
-    "solve_gearmesh",
-    "solve_washer",
-]
+    "BranchError", "Calibration", "Choice", "ClutchParams", "Engagement", "GearMeshParams",
+    "GearMeshResult", "LoadCurve", "ParameterError", "SolveError", "Status", "SweepTable",
+    "WasherCourse", "WasherParams", "WasherResult", "boundary_friction", "calibrate", "choose",
+    "engage_clutch", "follow_washer", "load_curve", "run_sweep", "solve_clutch",
+    "solve_gearmesh", "solve_washer",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:

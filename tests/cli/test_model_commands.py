@@ -17,8 +17,7 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.cli import engage, main
-from thrustwasher.cli._models import MODELS
+from thrustwasher.cli import MODELS, engage, main
 from thrustwasher.gearmesh.parameters import PRESETS
 
 WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
@@ -189,8 +188,11 @@ def test_an_engagement_is_written_whole(tmp_path):
 
 
 def test_a_record_alone_makes_a_command(capsys, monkeypatch):
-    ring = replace(MODELS["washer"], name="ring", help="solve a ring", title="ring", options=())
-    monkeypatch.setitem(MODELS, "ring", ring)
+    washer = MODELS["washer"]
+    told = replace(washer.command, help="solve a ring", title="ring", options=(), figure="")
+    monkeypatch.setitem(MODELS, "ring", replace(washer, key="ring", command=told))
     monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, "ring"))
     assert "  ring      solve a ring\n" in shown([], capsys)
     assert shown(["ring", "--load", "300"], capsys).startswith("ring at load 300 N")
+    assert "--plot" in shown(["washer", "--help"], capsys)
+    assert "--plot" not in shown(["ring", "--help"], capsys)

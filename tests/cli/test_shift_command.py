@@ -134,7 +134,7 @@ def test_files_that_were_there_stay(tmp_path, capsys):
 def test_wrong_words_are_refused_before_any_work(words, named, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("file").write_text("x")
-    monkeypatch.setattr("thrustwasher.cli.shift._simulate", lambda *_: pytest.fail("it began"))
+    monkeypatch.setattr("thrustwasher.cli.shift._fmu_instances", lambda *_: pytest.fail("it began"))
     assert main(["shift", *words]) == 2
     out, err = capsys.readouterr()
     assert out == "" and err.count("\n") == 1

@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from shift_stand_in import record
-from thrustwasher.report.panels.motion_panels.shift_plots import judder_figure
 
+from thrustwasher.report.panels.shift_plots import judder_figure
 from thrustwasher.report.shift import summary
 from thrustwasher.report.shift.shift_report import shift_page
-from thrustwasher.report.shift.warnings_in_words import judder_text, judder_words
 from thrustwasher.shift.oscillation.judder import Judder
 
 GROWS = Judder(
@@ -22,6 +21,10 @@ BY_STEP = replace(GROWS, growth=1.5, mode_growth=-0.15, step_growth=1.8, step=1e
 HIDDEN = replace(GROWS, growth=-0.5, mode_growth=1.0, step_growth=-1.6)
 WORSE = replace(GROWS, growth=4.7, step_growth=1.7, step=1e-2)
 STRANGE = replace(GROWS, growth=9.0)
+
+
+def words_on(record):
+    return summary.paragraphs("judder", record)[0]
 
 
 def shown(judder):
@@ -47,7 +50,7 @@ def shown(judder):
     ],
 )  # fmt: skip
 def test_every_kind_of_swing_has_its_words(judder, kind, words):
-    text = judder_words(shown(judder))
+    text = words_on(shown(judder))
     assert judder.kind == kind
     assert [w for w in words if w not in text] == []
     assert judder.as_dict()["kind"] == kind
@@ -55,14 +58,14 @@ def test_every_kind_of_swing_has_its_words(judder, kind, words):
 
 def test_a_master_that_chooses_its_steps_is_asked_for_a_smaller_tolerance():
     adaptive = replace(shown(WORSE), master="step-doubling")
-    assert "lower master_tolerance" in judder_words(adaptive)
-    assert "master_tolerance" not in judder_words(shown(WORSE))
+    assert "lower master_tolerance" in words_on(adaptive)
+    assert "master_tolerance" not in words_on(shown(WORSE))
 
 
 def test_a_swing_that_decays_is_no_warning_and_all_others_are():
-    assert judder_text(shown(DECAYS)) == judder_text(record()) == []
+    assert summary.warnings(shown(DECAYS)) == summary.warnings(record(washer=False)) == []
     for judder in (GROWS, BY_STEP, HIDDEN, WORSE, STRANGE):
-        assert judder_words(shown(judder)) in summary.warnings(shown(judder))
+        assert words_on(shown(judder)) in summary.warnings(shown(judder))
 
 
 def test_a_step_that_would_do_makes_half_the_tolerance():

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import shift_stand_in
 
-from thrustwasher.report.shift.rung_section import rung_sections
-from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.report.shift.shift_report import rung_sections, shift_page
 from thrustwasher.shift.tolerance.selection_record import (
     Check,
     Difference,

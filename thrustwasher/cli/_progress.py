@@ -37,8 +37,3 @@ def _duration(seconds: float) -> str:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60.0)
     return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"
-
-
-def progress_bar(label: str) -> Callable[[int, int], None] | None:
-    """Return the same for a run of seconds: nothing in a pipe."""
-    return time_left(label) if sys.stderr.isatty() else None

@@ -76,7 +76,9 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
     pin_threads()  # before numpy is loaded
     from ..model.registry import models_with_cards
     from ..study.charts.work_precision import work_precision
-    from ..study.macro_steps import study
+    from ..study.failures.coupling_limits import as_rows, limits
+    from ..study.failures.failure_map import stability
+    from ..study.macro_steps import masters, study
 
     quick = arguments.quick
     words = f" --only {arguments.only}" if arguments.only else ""
@@ -92,21 +94,12 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
         for model in models_with_cards():
             record["models"][model] = work_precision(model, quick=quick, progress=_say)
         record["macro_steps"] = study(_instances, quick=quick, progress=_say)
-    record |= _stability(quick=quick)
+    more = (("masters of a shift", lambda: masters(_instances)),)
+    record["stability"] = stability(quick=quick, progress=_say, more=more)
+    _say("limits of coupling")
+    record["limits"] = as_rows(limits())
     record["run_s"] = time.perf_counter() - began
     return record
-
-
-def _stability(*, quick: bool) -> dict[str, Any]:
-    """Return the stability map with the masters of the driveline, and the limits of coupling."""
-    from ..study.failures.coupling_limits import as_rows, limits
-    from ..study.failures.failure_map import stability
-    from ..study.macro_steps import masters
-
-    more = (("masters of a shift", lambda: masters(_instances)),)
-    groups = stability(quick=quick, progress=_say, more=more)
-    _say("limits of coupling")
-    return {"stability": groups, "limits": as_rows(limits())}
 
 
 def _instances(scene: Any) -> dict[str, Any]:

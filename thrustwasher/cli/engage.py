@@ -92,20 +92,16 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
 
 def _print_summary(result: Any) -> None:
     """Say the largest torque and temperature, the heat, and when the asperities carry."""
-    top = int(abs(result.friction_torque).argmax())
-    hot = int(result.temperature.argmax())
-    words = [
-        f"largest torque {format_quantity(float(result.friction_torque[top]), 'N.m')} at "
-        f"{format_quantity(float(result.time[top]), 's')}",
-        f"hottest {format_quantity(float(result.temperature[hot]), 'K')} at "
-        f"{format_quantity(float(result.time[hot]), 's')}",
-        f"heat {format_quantity(float(result.energy[-1]), 'J')}",
-    ]
+
+    def at(name: str, index: Any) -> str:
+        return format_quantity(float(getattr(result, name)[index]), COLUMNS[name])
+
+    top, hot = abs(result.friction_torque).argmax(), result.temperature.argmax()
     thin = (result.film_ratio < 1.0).nonzero()[0]
-    words.append(
-        f"boundary lubrication from {format_quantity(float(result.time[thin[0]]), 's')}"
-        if len(thin)
-        else "boundary lubrication was not reached"
+    begin = f"from {at('time', thin[0])}" if len(thin) else "was not reached"
+    print(
+        f"largest torque {at('friction_torque', top)} at {at('time', top)}; hottest "
+        f"{at('temperature', hot)} at {at('time', hot)}; heat {at('energy', -1)}; "
+        f"boundary lubrication {begin}"
     )
-    print("; ".join(words))
     print(f"  {result.status.advice}; {result.fidelity}, {result.substeps} substeps")

@@ -1,6 +1,7 @@
 """``thrustwasher shift``: the main job, a gear shift of FMUs with its report."""
 
 import argparse
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -10,7 +11,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..units import parse_quantity
 from . import _output
-from ._progress import progress_bar
+from ._progress import time_left
 from .build import chosen_platforms, chosen_target
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
@@ -68,7 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
-    from ..shift import load_scene, with_fidelities
+    from ..shift import load_scene, run_auto, with_fidelities
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     tolerance = arguments.master_tolerance
@@ -85,15 +86,17 @@ def run(arguments: argparse.Namespace) -> int:
 
     target = chosen_target(arguments.fmu)
     began = time.perf_counter()
-    result = _simulate(scene, target, guard=not arguments.no_guard)
+    progress = time_left(scene.name) if sys.stderr.isatty() else None
+    with _fmu_instances(scene, target) as make:
+        result = run_auto(scene, make, guard=not arguments.no_guard, progress=progress)
     if folder:
         with _output.whole_folder(folder) as draft:
             _write(result, draft)
     if arguments.json:
         total, out = time.perf_counter() - began, str(folder) if folder else None
         _output.print_json({**result.as_dict(), "total_time": total, "out": out})
-        return 0
-    _say(result, folder)
+    else:
+        _say(result, folder)
     return 0
 
 
@@ -107,20 +110,12 @@ def _say(result: Any, folder: Path | None) -> None:
         print(text)
     for text in [*summary.sentences(record), *summary.warnings(record)]:
         print(text)
-    missing = f"{record.energy['residual_share']:.1e} of {summary.whole_name(record)}"
+    missing = f"{record.energy['residual_share']:.1e} of {record.whole_name}"
     print(f"Energy book: {missing} is missing.")
     if folder:
         print(f"Report: {folder / REPORT}")
     if result.guard:
         print(f"Guard: {result.guard.closing()}.")
-
-
-def _simulate(scene: Any, target: str, guard: bool) -> Any:
-    """Return the finished shift; the FMUs are built, loaded and freed here."""
-    from ..shift import run_auto
-
-    with _fmu_instances(scene, target) as make:
-        return run_auto(scene, make, guard=guard, progress=progress_bar(scene.name))
 
 
 @contextmanager
@@ -181,8 +176,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
         draft.write_bytes(archive.pack(parts))
     if arguments.json:
         total = time.perf_counter() - began
-        record = {"ssp": str(target), "files": sorted(parts), "total_time": total}
-        _output.print_json(record)
+        _output.print_json({"ssp": str(target), "files": sorted(parts), "total_time": total})
     else:
         print(target)
     return 0

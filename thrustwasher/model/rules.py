@@ -4,8 +4,6 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-import numpy as np
-
 from ..errors import ParameterError
 from .parameters import as_numbers
 from .spec import ModelSpec, Rule
@@ -18,13 +16,14 @@ def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
     rule = getattr(import_module(spec.kernel), "broken_rule", None)
     if rule is None:
         return
-    numbers = [*as_numbers(params), list(spec.fidelities).index(fidelity) + 1]
-    if number := rule(np.array(numbers, float)):
-        raise ParameterError(spec.rules[number - 1].message(params))
+    check_rules(params, spec.rules, rule, list(spec.fidelities).index(fidelity) + 1)
 
 
-def check_rules(params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int]) -> None:
+def check_rules(
+    params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int], *more: float
+) -> None:
     """Raise ParameterError for the first broken rule; every value must be in its range already."""
-    number = broken_rule(np.array(as_numbers(params)))
-    if number:
+    import numpy as np  # late: --help needs none
+
+    if number := broken_rule(np.array([*as_numbers(params), *more], float)):
         raise ParameterError(rules[number - 1].message(params))

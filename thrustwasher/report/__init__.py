@@ -1,13 +1,11 @@
 """What a run looks like: pages, plots and tables.
 
-===============  ================================================================================
-``html``         One self-contained page: text, tables and plots in a single file that works
-                 offline
-``model_plots``  Pictures of one model
-``palette``      Colours told apart by everyone, and what axis labels share
-``panels``       Pictures of a shift over time
-``shift``        The report of a shift, chapter by chapter
-``style``        One look for all plots: colours told apart by everyone, units on axes, no global
-                 state
-===============  ================================================================================
+===============  ============================================================
+``html``         one page that holds text, tables and plots and works offline
+``model_plots``  pictures of one model
+``palette``      colours told apart by everyone, and what axis labels share
+``panels``       pictures of a shift over time
+``shift``        the report of a shift, chapter by chapter
+``style``        one look for all plots
+===============  ============================================================
 """

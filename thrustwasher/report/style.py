@@ -79,11 +79,6 @@ def time_figure(
     return figure, panels
 
 
-def beside(axes: Axes, **options: Any) -> None:
-    """Put the legend to the right of the axes, where it hides no line."""
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, **options)
-
-
 def label(axes: Axes, title: str, across: str, up: str, *, above: float = 0.0) -> None:
     """Set title and axis labels; a label carries its unit in brackets, "" leaves it as it is.
 

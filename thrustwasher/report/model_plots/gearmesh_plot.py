@@ -1,6 +1,6 @@
 """Temperatures of a gear mesh and what they leave of its endurance, against tooth number."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -25,7 +25,6 @@ STEELS = {"aisi1020": ("AISI 1020", BLUE, 3.0), "aisi4340": ("AISI 4340", RED, 1
 FEWEST_TEETH, MOST_TEETH = 5, 60
 LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
 Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
-Reading = Callable[[Any], float]
 
 
 def over_teeth(
@@ -90,20 +89,18 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
 
 def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
     """Draw surface, film and asperity temperatures; surface and film do not know the roughness."""
-
-    def celsius(name: str) -> Reading:
-        return lambda r: getattr(r, name) - CELSIUS
-
     first = next(iter(sweeps.values()))
-    _line(axes, teeth, first, celsius("film_temperature"), GREY, "film", ls=":")
+    _line(axes, teeth, first, "film_temperature", GREY, "film", zero=CELSIUS, ls=":")
     for surface, results in sweeps.items():
         words, colour, dashes, marker = SURFACES[surface]
         _line(
-            axes, teeth, results, celsius("asperity_temperature"), colour, f"asperities, {words}",
-            ls=dashes, marker=marker, lw=2.4,
+            axes, teeth, results, "asperity_temperature", colour, f"asperities, {words}",
+            zero=CELSIUS, ls=dashes, marker=marker, lw=2.4,
         )  # fmt: skip
-    surface_of = celsius("surface_temperature")
-    _line(axes, teeth, first, surface_of, BLUE, "surface $T_s$", lw=1.1, zorder=4)
+    _line(
+        axes, teeth, first, "surface_temperature", BLUE, "surface $T_s$",
+        zero=CELSIUS, lw=1.1, zorder=4,
+    )  # fmt: skip
     label(axes, "Temperatures", "teeth of the pinion [1]", "temperature [°C]")
     axes.legend(loc="upper right")
 
@@ -134,26 +131,23 @@ def _draw_steels(
     axes: Axes, teeth: Sequence[int], sweeps: Sweeps, name: str, least: float = 0.0
 ) -> None:
     """Draw one line for each steel and surface; values up to ``least`` are left out."""
-
-    def read(field: str) -> Reading:
-        return lambda r: float(v) if (v := getattr(r, field)) > least else float("nan")
-
     for surface, results in sweeps.items():
         words, _, dashes, marker = SURFACES[surface]
         for steel, (name_of_steel, colour, width) in STEELS.items():
             _line(
-                axes, teeth, results, read(f"{name}_{steel}"), colour,
-                f"{name_of_steel}, {words}", ls=dashes, marker=marker, lw=width,
+                axes, teeth, results, f"{name}_{steel}", colour, f"{name_of_steel}, {words}",
+                least=least, ls=dashes, marker=marker, lw=width,
             )  # fmt: skip
 
 
 def _line(
-    axes: Axes, teeth: Sequence[int], results: Sequence[Any], read: Reading, colour: str,
-    words: str, **look: Any,
+    axes: Axes, teeth: Sequence[int], results: Sequence[Any], name: str, colour: str, words: str,
+    zero: float = 0.0, least: float = 0.0, **look: Any,
 ) -> None:  # fmt: skip
-    """Draw a reading over the teeth, with gaps where there is no result."""
-    values = [float("nan") if r is None else read(r) for r in results]
+    """Draw a result over the teeth, with gaps where there is none above ``least``."""
+    values = np.array([getattr(r, name, np.nan) for r in results], float)
+    shown = np.where(values > least, values - zero, np.nan)
     axes.plot(
-        teeth, values, color=colour, label=words, ms=3.2, markevery=max(1, len(teeth) // 12), **look
+        teeth, shown, color=colour, label=words, ms=3.2, markevery=max(1, len(teeth) // 12), **look
     )
     axes.set_xlim(min(teeth) - 1, max(teeth) + 1)

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..shift.shift_record import Array, Record
-from ..style import beside, label
+from ..style import label
 
 MOST_EVENTS, FIRST_EVENTS = 8, 5  # numbered in a panel: all, or the first of too many
 SHADES = ("#F1F1F1", "#FFF3D9", "#E2F0FA", "#E3F4EC", "#F7E9F1")
@@ -69,6 +69,6 @@ def draw_phase_lines(axis: Axes, record: Record) -> None:
 
 
 def finish(axis: Axes, title: str, up: str) -> None:
-    """Set title and label of the axis, and the legend beside it."""
+    """Set title and label of the axis, and the legend to the right, where it hides no line."""
     label(axis, title, "", up)
-    beside(axis)
+    axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)

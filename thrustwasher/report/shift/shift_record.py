@@ -120,6 +120,11 @@ class Record:
         """The pack that the ramp lets go."""
         return "brake" if self.engaging == "clutch" else "clutch"
 
+    @property
+    def whole_name(self) -> str:
+        """What shares of the energy book refer to."""
+        return "the engine's work" if self.energy["engine_work"] else "the kinetic energy"
+
     def presses(self, pack: str) -> bool:
         """Return whether a pack is pressed at any time of the run."""
         load = self.series(f"{pack}.load")

@@ -9,10 +9,8 @@ from ..html import Card, Page, Plot, Section
 from ..model_plots.washer_plots import field_figure
 from ..panels import shift_plots
 from . import shift_tables, summary
-from .rung_section import rung_sections
 from .shift_record import Record
-from .trust import trust_texts
-from .warnings_in_words import TITLES, judder_words
+from .summary import paragraphs
 from .worst_moments import Moment, highest, solve_moment, worst_film
 
 SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged as well
@@ -23,7 +21,7 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
     sections = [
         *_course_sections(record),
         *_drawn("temperatures", "Temperatures", shift_plots.temperature_figure(record),
-                _temperature_caption(record)),
+                *paragraphs("temperatures", record)),
         *_drawn("films", "Film ratios", shift_plots.film_figure(record), FILM_CAPTION,
                 "film_ratios"),
         *_friction_sections(record),
@@ -35,13 +33,14 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
                 tables=[shift_tables.energy_table(record)]),
         Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
         *rung_sections(record),
-        _cost_section(record),
+        Section("cost", "Time spent", texts=paragraphs("cost", record),
+                tables=[shift_tables.cost_table(record)]),
         Section(
             "parameters", "What was simulated",
-            texts=[record.help, f"{_stepping(record)} All values in SI units."],
+            texts=paragraphs("simulated", record),
             tables=shift_tables.parameter_tables(record),
         ),
-        Section("trust", "How far to trust it", texts=trust_texts(record)),
+        Section("trust", "How far to trust it", texts=summary.trust_texts(record)),
     ]  # fmt: skip
     return Page(
         title=record.title,
@@ -77,6 +76,12 @@ STRESS_CAPTION = (
     "Above: contact stress and thermal stress together, each over what the steel endures; at "
     "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
 )
+TITLES = {
+    "physical": "Judder",
+    "decaying": "A swing of the shaft that decays",
+    "numerical": "A swing of the shaft made by the communication step",
+    "unexplained": "A swing of the shaft",
+}
 
 
 def _drawn(
@@ -121,21 +126,7 @@ def _cards(record: Record) -> list[Card]:
         for name in names if (f := known.get(name)) is not None and f.value is not None
     ]  # fmt: skip
     share = f"{record.energy['residual_share']:.1e}"
-    return [*cards, Card(f"energy missing, of {summary.whole_name(record)}", share)]
-
-
-def _temperature_caption(record: Record) -> str:
-    """Return what to know about the temperatures of this run."""
-    texts = []
-    other = record.series(f"{record.releasing}.temperature")
-    if record.presses(record.releasing) and other is not None and other.max() - other[0] < 5.0:
-        taken = say(record.energy[record.releasing], "J", digits=3)
-        texts.append(f"The {record.releasing} stays cool: it takes up {taken}, no more.")
-    if record.part("washer"):
-        texts.append("Washer temperatures are quasi-steady, an upper bound during a shift.")
-    if record.part("mesh"):
-        texts.append("Of the teeth: at the start of contact, where they are hottest.")
-    return " ".join(texts)
+    return [*cards, Card(f"energy missing, of {record.whole_name}", share)]
 
 
 def _friction_sections(record: Record) -> list[Section]:
@@ -157,8 +148,19 @@ def _judder_sections(record: Record) -> list[Section]:
     caption = "Between the dashed lines the swing was small enough to judge its growth."
     return _drawn(
         "judder", TITLES[record.judder.kind], shift_plots.judder_figure(record), caption,
-        texts=[judder_words(record)], tables=[shift_tables.judder_table(record)],
+        texts=paragraphs("judder", record), tables=[shift_tables.judder_table(record)],
     )  # fmt: skip
+
+
+def rung_sections(record: Record) -> list[Section]:
+    """Return which rungs ran and why, how far off they were and what was run again."""
+    if record.selection is None:
+        return []
+    texts = [*record.selection.words(), *paragraphs("rungs", record)]
+    if record.guard is None:
+        return [Section("rungs", "Rungs", texts=texts)]
+    tables = [shift_tables.check_table(record)]
+    return [Section("rungs", "Rungs and their check", texts=texts, tables=tables)]
 
 
 def _washer_sections(record: Record) -> list[Section]:
@@ -186,29 +188,3 @@ def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:
     )
     figure = field_figure(moment.result, moment.point, words=heading)
     return Plot(stem, figure, caption, square=True, bitmap=True)
-
-
-def _cost_section(record: Record) -> Section:
-    """Return what the run took."""
-    span = float(record.time[-1] - record.time[0])
-    words = (
-        f"{say(record.wall_time, 's', digits=3)} for {say(span, 's')} of shift, "
-        f"{span / record.wall_time:.2g} simulated seconds a second, without building and "
-        "loading the FMUs. FMUs through FMPy; the time of a step includes setting inputs "
-        "and reading outputs."
-    )
-    if record.steps is not None:
-        words += f" {_stepping(record)} Calls count what was rolled back."
-    return Section("cost", "Time spent", texts=[words], tables=[shift_tables.cost_table(record)])
-
-
-def _stepping(record: Record) -> str:
-    """Say which communication steps were taken."""
-    taken = record.steps
-    if taken is None:
-        return f"Communication step {say(record.step, 's')}, master {record.master}."
-    return (
-        f"Communication steps of {say(taken.shortest, 's')} to {say(taken.longest, 's')}, master "
-        f"{record.master}: {taken.accepted} taken, {taken.rejected} tries rolled back, "
-        f"{taken.located} put on events."
-    )

@@ -94,7 +94,7 @@ def cost_table(record: Record) -> Table:
     rest = max(record.wall_time - used, 0.0)
     rows = [
         (c.name, c.fidelity, _ms(c.instantiate), _ms(c.initialize), str(c.calls), _ms(c.steps),
-         _us(c.steps, c.calls), _percent(c.steps, record.wall_time))
+         f"{1e6 * c.steps / c.calls:.1f}" if c.calls else "", _percent(c.steps, record.wall_time))
         for c in record.costs
     ]  # fmt: skip
     parts = [("master, the rest", rest), ("together", record.wall_time)]
@@ -105,6 +105,21 @@ def cost_table(record: Record) -> Table:
                "per call [µs]", "share [%]"),
         rows=rows,
         numbers=(2, 3, 4, 5, 6, 7),
+    )  # fmt: skip
+
+
+def check_table(record: Record) -> Table:
+    """Return a row per check of a rung, in the order they were made."""
+    rows = [
+        (c.part, c.rung, c.above, str(c.points), str(len(c.failed)), f"{100.0 * c.worst.share:.3g}",
+         f"{100.0 * c.tolerance:.3g}", "yes" if c.holds else "no", f"{1e3 * c.seconds:.2f}")
+        for c in record.guard.checks
+    ]  # fmt: skip
+    return Table(
+        heads=("", "rung", "compared with", "points", "without solution", "worst difference [%]",
+               "allowed [%]", "holds", "time [ms]"),
+        rows=rows,
+        numbers=(3, 4, 5, 6, 8),
     )  # fmt: skip
 
 
@@ -164,8 +179,3 @@ def _percent(part: float, whole: float) -> str:
 def _ms(seconds: float) -> str:
     """Return milliseconds."""
     return f"{1e3 * seconds:.1f}"
-
-
-def _us(seconds: float, calls: int) -> str:
-    """Return microseconds per call."""
-    return f"{1e6 * seconds / calls:.1f}" if calls else ""

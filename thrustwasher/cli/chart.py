@@ -99,14 +99,14 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def _stability(*, quick: bool) -> dict[str, Any]:
     """Return the stability map with the masters of the driveline, and the limits of coupling."""
-    from ..study.failures.coupling_limits import as_rows, limits
+    from ..study.failures.coupling_limits import limits
     from ..study.failures.failure_map import stability
     from ..study.macro_steps import masters
 
     more = (("masters of a shift", lambda: masters(_instances)),)
     groups = stability(quick=quick, progress=_say, more=more)
     _say("limits of coupling")
-    return {"stability": groups, "limits": as_rows(limits())}
+    return {"stability": groups, "limits": limits()}
 
 
 def _instances(scene: Any) -> dict[str, Any]:
@@ -146,7 +146,7 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     from ..report.html import render, save_plots
     from ..storage.digests import sealed
     from ..study.charts.chart_page import markdown, page_of
-    from ..study.charts.pareto import front
+    from ..study.charts.chart_text import front
 
     studies = dict(record["models"])
     if "macro_steps" in record:

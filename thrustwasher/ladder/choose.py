@@ -9,11 +9,42 @@ from typing import Any
 
 from ..errors import ParameterError, SolveError
 from ..model.registry import spec_of
+from ..model.spec import ModelSpec
 from .boxes import Part, Request, checked_box
 from .candidates import Candidate, Plan, candidates, plans
 from .card import VERIFY
 from .card_parts import QUANTITIES
 from .formats import plain, shown_error, shown_seconds, shown_share
+
+AUTO = "auto"
+TOLERANCE = 0.01  # of "auto" alone
+TOLERANCES = (1e-6, 0.5)
+
+
+def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
+    """Return rung and tolerance of "field", "auto" or "auto:0.01"; tolerance None: the rung as is.
+
+    With a tolerance the rung is the model's own default, until one is chosen.
+    """
+    rung, _, given = text.partition(":") if isinstance(text, str) else ("", "", "")
+    if rung != AUTO and text not in spec.fidelities:
+        options = " or ".join(map(repr, spec.fidelities))
+        raise ParameterError(
+            f"{where}: fidelity = {text!r}, allowed: {options} or 'auto:TOLERANCE'"
+        )
+    if rung != AUTO:
+        return rung, None
+    low, high = TOLERANCES
+    try:
+        tolerance = TOLERANCE if text == AUTO else float(given)
+    except ValueError:
+        tolerance = -1.0
+    if not low <= tolerance <= high:
+        raise ParameterError(
+            f"{where}: fidelity = {text!r}, allowed: auto:TOLERANCE with {low:g} .. {high:g}, "
+            "for example auto:0.01"
+        )
+    return spec.default_fidelity, tolerance
 
 
 @dataclass(frozen=True, slots=True)

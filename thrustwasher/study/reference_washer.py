@@ -232,4 +232,5 @@ SOURCE = Source(
     tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants")),
     GRIDS[-1],
     tuple(f"{a} x {b} and {c} x {d} nodes, order 2" for (a, b), (c, d) in pairwise(GRIDS)),
+    BRANCHES,
 )  # fmt: skip

@@ -24,10 +24,22 @@ from ...washer.kernels.workspace import size_of_state, size_of_work
 from ...washer.map.look_up import map_for
 from ..reference_clutch import TIMES, engagement_corners
 from ..rivals.plain2006 import Plain2006
-from .chart_cases import ChartCase
 
 STEP = 0.01  # how far apart warm calls are in the first input, relative
 LEAST_STEP = 1e-9  # s
+
+
+@dataclass(frozen=True)
+class ChartCase:
+    """An operating point in the order of the model's inputs, and the way to it.
+
+    It is reached as a user would reach it: from rest over the points of ``before``, so that the
+    branch is that of the history.
+    """
+
+    name: str
+    point: tuple[float, ...]
+    before: tuple[tuple[float, ...], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -169,15 +169,17 @@ def decide(request: Request, found: list[Candidate], refused: dict[str, str]) ->
 def _choice(plan: Plan, lines: tuple[str, ...]) -> Choice:
     """Return a plan and what follows it as choices."""
     after = None if plan.outside is None else _choice(plan.outside, ())
-    return Choice(plan.fidelity, plan.error, plan.seconds, lines, after, plan.share, plan.where)
+    return Choice(
+        plan.rung.fidelity, plan.seen.error, plan.seconds, lines, after, plan.share, plan.where
+    )
 
 
 def _first_line(request: Request, plan: Plan) -> str:
-    kind, unit = plan.kind, plan.unit
-    asked = shown_error(request.tol, kind, unit)
-    promise = f"{request.quantity} within {shown_error(plan.error, kind, unit)} (asked {asked})"
-    time = f"{shown_seconds(plan.call)} per call"
-    return f"{request.spec.key}: {plan.fidelity}{plan.charts}, {promise}, {time}"
+    seen = plan.seen
+    asked = shown_error(request.tol, seen.kind, seen.unit)
+    promise = f"{request.quantity} within {seen.promise} (asked {asked})"
+    time = f"{shown_seconds(plan.rung.call)} per call"
+    return f"{request.spec.key}: {plan.rung.fidelity}{seen.charts}, {promise}, {time}"
 
 
 def _outside_lines(request: Request, plan: Plan) -> list[str]:
@@ -186,30 +188,28 @@ def _outside_lines(request: Request, plan: Plan) -> list[str]:
     after = plan.outside
     while after is not None:
         part = f"outside it ({shown_share(after.share)} of the box, {after.where})"
-        if math.isinf(after.error):
-            lines.append(f"{part}: no card speaks there; {after.fidelity}, not verified")
+        if math.isinf(after.seen.error):
+            lines.append(f"{part}: no card speaks there; {after.rung.fidelity}, not verified")
         else:
-            promise = shown_error(after.error, after.kind, after.unit)
-            lines.append(f"{part}: {after.fidelity}, within {promise}, {shown_seconds(after.call)}")
+            rung, promise = after.rung, after.seen.promise
+            lines.append(f"{part}: {rung.fidelity}, within {promise}, {shown_seconds(rung.call)}")
         after = after.outside
-    if plan.beside_folds:
-        lines.append(plan.beside_folds)
-    return lines
+    return [*lines, *filter(None, [plan.seen.beside_folds])]
 
 
 def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
     """Say of every rung that was not taken why: too coarse, dearer, or not verified here."""
     coarse, dear, away = [], [], []
     for rung in found:
-        if rung.fidelity == best.fidelity:
+        if rung is best.rung:
             continue
         seen = rung.over([Part(request.box)], request)
         if seen is None:
             away.append(rung.fidelity)
             continue
-        text = f"{rung.fidelity} {shown_error(seen.error, seen.kind, seen.unit)}"
+        text = f"{rung.fidelity} {seen.promise}"
         if seen.error > request.tol:
-            coarse.append((rung.call <= best.call, text))
+            coarse.append((rung.call <= best.rung.call, text))
         else:
             dear.append(f"{text} in {shown_seconds(rung.call)}")
     lines = []

@@ -26,6 +26,7 @@ from ..shift.shift_result import ShiftResult
 from .charts.chart_series import Quantity
 from .charts.work_precision import Sample
 from .failures.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+from .rivals.lockup import turns_of
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
@@ -34,6 +35,7 @@ QUICK_TOLERANCES = (1e-2, 1e-3)
 FIRST_STEP = 1e-3  # of those
 TRUE_STEPS, QUICK_TRUE_STEPS = (1e-4, 5e-5), (4e-4, 2e-4)
 SLOW_SLIP = 0.5  # [rad/s]; with smoothed friction less counts as locked
+STANDING = 1e-3  # [rad/s]
 MOST_TURNS = 2  # changes of the slip's sign after lock-up; more is chatter
 QUANTITIES = (
     Quantity("slip_energy", True),
@@ -140,15 +142,8 @@ def complaint(result: ShiftResult, found: Mapping[str, float]) -> str:
     if not all(map(np.isfinite, found.values())):
         return "does not lock"
     slip, time = result.signals["transmission.clutch_speed"], result.time
-    after = slip[time > found["lock_time"]]
-    turns = turns_of(after)
+    turns = turns_of(slip[time > found["lock_time"]], STANDING)
     return f"chatters: the slip turns round {turns} times" if turns > MOST_TURNS else ""
-
-
-def turns_of(slip: Any) -> int:
-    """Return how often a slip changes its sign."""
-    moving = np.sign(slip[np.abs(slip) > 1e-3])
-    return int(np.count_nonzero(np.diff(moving)))
 
 
 def study(
@@ -254,7 +249,7 @@ def masters(make: Make, *, quick: bool = False) -> Group:
     @cache
     def true_heat(coupling: str) -> float:
         step = QUICK_TRUE_STEP if quick else TRUE_STEP
-        return _heat(_smooth_run(make, "gauss-seidel", coupling, step))
+        return figures(_smooth_run(make, "gauss-seidel", coupling, step))["slip_energy"]
 
     def judge(master: str, hazard: tuple[str, float]) -> Cell:
         return _judged(_smooth_run(make, master, *hazard), true_heat(hazard[0]))
@@ -274,21 +269,16 @@ def _smooth_run(make: Make, master: str, coupling: str, step: float) -> ShiftRes
     return run_shift(scene, make(scene))
 
 
-def _heat(result: ShiftResult) -> float:
-    return figures(result)["slip_energy"]
-
-
 def _judged(result: ShiftResult, true: float) -> Cell:
     """Look at the heat, at the slip after lock-up, and at what the run says itself."""
-    error = _heat(result) / true - 1.0
+    error = figures(result)["slip_energy"] / true - 1.0
     slip = result.signals["transmission.clutch_speed"][result.time > LOCKED]
-    turns = turns_of(slip)
+    turns = turns_of(slip, STANDING)
     right = abs(error) <= WRONG_HEAT
     if right and turns <= MOST_TURNS:
         taken = len(result.time) - 1
-        slow = taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step
         words = f"{taken} steps, heat off by {100 * abs(error):.2g} %"
-        if slow:
+        if taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step:
             return Cell(SLOW, f"{taken} steps", words)
         return Cell(OK, f"{100 * abs(error):.2f} %", words)
     words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)

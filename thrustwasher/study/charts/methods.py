@@ -1,5 +1,6 @@
 """Methods to solve a model that can be measured: the package's rungs and meshes, and rivals."""
 
+import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -73,6 +74,12 @@ def path_to(case: ChartCase) -> tuple[tuple[float, ...], ...]:
     return (*case.before, (first * (1.0 - STEP), *others), case.point)
 
 
+def _neighbours(case: ChartCase) -> list[tuple[float, ...]]:
+    """Return points half a per cent above and below a case in the first input."""
+    first, *others = case.point
+    return [(first * (1.0 + side * 0.5 * STEP), *others) for side in (1.0, -1.0)]
+
+
 def _place_of_count(spec: ModelSpec) -> int | None:
     """Return where a kernel leaves the first of its counts in ``work``; None if it counts none."""
     if not spec.counts:
@@ -129,17 +136,9 @@ class KernelMethod:
         return self._call(case, np.zeros(self._n_state), command_step.step)
 
     def _call(self, case: ChartCase, state: Any, step: Any) -> Callable[[], object]:
-        first, *others = case.point
-        points = [np.array((first * (1.0 + s * 0.5 * STEP), *others)) for s in (-1.0, 1.0)]
+        points = itertools.cycle(map(np.array, _neighbours(case)))
         par, work, out, iout = self._par, self._work, self._out, self._iout
-        turn = 0
-
-        def call() -> None:
-            nonlocal turn
-            turn = 1 - turn
-            step(par, points[turn], state, work, out, iout, 0.0, 1.0)
-
-        return call
+        return lambda: step(par, next(points), state, work, out, iout, 0.0, 1.0)
 
 
 class Method2006:
@@ -168,15 +167,8 @@ class Method2006:
     def warm(self, case: ChartCase) -> Callable[[], object]:
         """Return a call that goes back and forth over one per cent of the load."""
         washer, _ = self._at(case)
-        load, *others = case.point
-        turn = -1.0
-
-        def call() -> None:
-            nonlocal turn
-            turn = -turn
-            washer.solve(load * (1.0 + turn * 0.5 * STEP), *others)
-
-        return call
+        points = itertools.cycle(_neighbours(case))
+        return lambda: washer.solve(*next(points))
 
     def idle(self, case: ChartCase) -> None:
         """Return nothing: a call from Python is nothing beside a solve."""

@@ -262,14 +262,9 @@ class Plain2006:
     def solve(self, load: float, speed: float, tilt: float, oil_temperature: float) -> Status:
         """Solve one point, warm if there was one before; the results are the properties below."""
         settings = Settings(
-            self.relaxation,
-            HEAT_RELAXATION,
-            self.tolerance,
-            DIFFERENCE,
-            self.share,
-            MOST_ROUNDS,
+            self.relaxation, HEAT_RELAXATION, self.tolerance, DIFFERENCE, self.share, MOST_ROUNDS,
             1.0 if self.limited else 1e300,
-        )
+        )  # fmt: skip
         if self.level and self.memory[0] == 0.0:
             gap = 3.0 * float(self._par[D_SIGMA1])
             self.memory[0] = gap

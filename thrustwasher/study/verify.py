@@ -118,8 +118,7 @@ def case_of(case: Case, rung: str) -> Case:
 
 def rung_cards(case: Case, rung: str, known: list[ReferencePoint]) -> Iterator[Card]:
     """Yield the cards of a rung, one per chart, from the reference values."""
-    point = case.point(0)
-    blank = ReferencePoint(point, None, None, {}, {})
+    blank = ReferencePoint(case.point(0), None, None, {}, {})
     answer(case.spec.key, case.params, rung, blank)  # compiled from now on
     once = first_call(case.spec.key, rung)
     for chart in dict.fromkeys(t.chart for t in known):

@@ -22,17 +22,15 @@ def beats(a: Sampled, b: Sampled, quantity: str) -> bool:
 
 def front(samples: Sequence[Sampled], quantity: str) -> list[int]:
     """Return the indices of the samples that no other beats, by rising cost."""
-    valid = [i for i, s in enumerate(samples) if _has(s, quantity)]
+    valid = [
+        i for i, s in enumerate(samples)
+        if s["call_median"] is not None and s["errors"].get(quantity, {}).get("worst") is not None
+    ]  # fmt: skip
     kept = [
         i for i in valid
         if not any(beats(samples[j], samples[i], quantity) for j in valid if j != i)
     ]  # fmt: skip
     return sorted(kept, key=lambda i: samples[i]["call_median"])
-
-
-def _has(sample: Sampled, quantity: str) -> bool:
-    error = sample["errors"].get(quantity, {}).get("worst")
-    return error is not None and sample["call_median"] is not None
 
 
 def _error(sample: Sampled, quantity: str) -> float:

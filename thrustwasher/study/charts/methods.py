@@ -4,7 +4,6 @@ import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from importlib import import_module
 from typing import Any, Protocol
 
 import numpy as np
@@ -17,6 +16,7 @@ from ...command.kernels import step as command_step
 from ...errors import Status
 from ...model.kernel_tables import fill_table
 from ...model.prepare import filled
+from ...model.record import resolve
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...washer.kernel_arguments import constants
@@ -80,34 +80,26 @@ def _neighbours(case: ChartCase) -> list[tuple[float, ...]]:
     return [(first * (1.0 + side * 0.5 * STEP), *others) for side in (1.0, -1.0)]
 
 
-def _place_of_count(spec: ModelSpec) -> int | None:
-    """Return where a kernel leaves the first of its counts in ``work``; None if it counts none."""
-    if not spec.counts:
-        return None
-    module, name = spec.counts[0][1].split(":")
-    return int(getattr(import_module(module), name))
-
-
 class KernelMethod:
     """The kernel of a model at a rung, or the washer's on a mesh of one's own."""
 
     def __init__(self, spec: ModelSpec, fidelity: str, grid: tuple[int, int] | None = None) -> None:
         kernel = self._kernel = kernel_of(spec)
-        self._n_state, n_work, self._nodes, self.build_s = kernel.NSTATE, kernel.NWORK, 1, 0.0
+        self._n_state, self._nodes, self.build_s = kernel.NSTATE, 1, 0.0
         if grid is None:
             self._par = filled(spec, spec.params(), fidelity, kernel.NPAR, kernel.derive)
-        else:
-            self._par = constants(spec.params(), grid)
-            self._n_state, n_work = size_of_state(*grid), N_HEAD + size_of_work(*grid)
-            self._nodes = grid[0] * grid[1]
-        self._work = np.zeros(n_work)
-        if grid is None:
+            self._work = np.zeros(kernel.NWORK)
             fill_table(spec, spec.params(), self._par, self._work)
+        else:
+            self._par, self._n_state = constants(spec.params(), grid), size_of_state(*grid)
+            self._work = np.zeros(N_HEAD + size_of_work(*grid))
+            self._nodes = grid[0] * grid[1]
         if fidelity == "map":
             self.build_s = float(map_for(spec.params()).card["build_s"])
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._real = [s.name for s in spec.outputs if s.kind == "real"]
-        self._count = _place_of_count(spec)
+        # where the kernel leaves the first of its counts in ``work``
+        self._count = int(resolve(spec.counts[0][1])) if spec.counts else None
 
     def _walk(self, case: ChartCase) -> tuple[Any, int, float]:
         """Return state, status and count after walking to a case from nothing."""

@@ -92,13 +92,11 @@ class Card:
         """
         if quantity not in self.errors or not self.covers(point):
             return None
-        place = [
+        i, j = (
             self.cells.index(k, _size(self.envelope[name], point[name]))
             for k, name in enumerate(self.cells.axes)
-        ]
-        if place[0] is None or place[1] is None:
-            return None
-        found = worst_near(self.errors[quantity], place[0], place[1])
+        )
+        found = None if i is None or j is None else worst_near(self.errors[quantity], i, j)
         if found is None or film_ratio is None or self.by_film_ratio is None:
             return found
         alike = self.by_film_ratio.error_of(quantity, film_ratio)

@@ -48,14 +48,8 @@ MANY_STEPS = 10  # of the master for each that was asked for
 SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
 STOP, LOCKED = 1.1, 0.70  # s
 TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4  # of masters
-HAZARDS = {
-    "capacity, 1 ms": ("capacity", 1e-3),
-    "capacity, 5 ms": ("capacity", 5e-3),
-    "capacity, 10 ms": ("capacity", 1e-2),
-    "torque, 0.2 ms": ("torque", 2e-4),
-    "torque, 2 ms": ("torque", 2e-3),
-    "torque, 10 ms": ("torque", 1e-2),
-}
+TRIED = {"capacity": (1e-3, 5e-3, 1e-2), "torque": (2e-4, 2e-3, 1e-2)}  # s
+HAZARDS = {f"{c}, {1e3 * step:g} ms": (c, step) for c, steps in TRIED.items() for step in steps}
 Make = Callable[[Scene], Mapping[str, Stepping]]
 
 

@@ -250,12 +250,16 @@ def ended(words: list[str], folder: Path, delay: float, numbers: tuple[int, ...]
             os.killpg(running.pid, number)
             time.sleep(0.02)
     try:
-        return_code, said = None, running.communicate(timeout=DEAF)[1]
-        return_code = running.returncode
+        said = running.communicate(timeout=DEAF)[1]
     except subprocess.TimeoutExpired:
         os.killpg(running.pid, signal.SIGKILL)
         return -1, running.communicate()[1]
-    return return_code, said
+    return running.returncode, said
+
+
+def complaints(said: str) -> list[str]:
+    """Return the lines on standard error that are no progress."""
+    return [x for x in said.splitlines() if not x.startswith(("built", "compil", "the f"))]
 
 
 COMMANDS = {
@@ -288,7 +292,7 @@ def signals(folder: Path, n: int, seed: int) -> Iterator[Row]:
                 delay = rng.uniform(0.4, 3.0)
                 code, said = ended(words, work, delay, numbers, **fresh)
                 left = {str(p.relative_to(work)) for p in work.rglob("*")}
-            lines = [x for x in said.splitlines() if not x.startswith(("built", "compil", "the f"))]
+            lines = complaints(said)
             found = []
             if code not in (0, ways[numbers]):
                 found.append(f"status {code}")
@@ -315,7 +319,7 @@ def small_disk(folder: Path) -> Iterator[Row]:
         for name in ("sweep", "map build", "shift"):
             code, said = ended(COMMANDS[name], place, 0.0, ())
             row.tried += 1
-            lines = [x for x in said.splitlines() if not x.startswith(("built", "compil", "the f"))]
+            lines = complaints(said)
             left = {str(p.relative_to(place)) for p in place.rglob("*")} - WHOLE - {"t.csv"}
             if code != 2 or len(lines) != 1 or "No space" not in said or left:
                 row.lost.append(f"{name}: {code} {said[-300:]} {sorted(left)}")

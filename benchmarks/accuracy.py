@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
 
-from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
+from thrustwasher import WasherParams, load_curve, solve_washer
 
 # (what it is, speed rad/s, load N, branch)
 CASES = [
@@ -42,21 +41,6 @@ TILT, OIL = 0.002, 297.15
 PARAMS = WasherParams()
 
 
-@dataclass
-class Converged:
-    """Extrapolated values and the order seen in the torque."""
-
-    torque: float
-    ratio: float
-    temperature: float
-    order: float
-
-
-def at(grid: tuple[int, int], speed: float, load: float, branch: str) -> WasherResult:
-    """Solve one case on one grid."""
-    return solve_washer(PARAMS, load=load, speed=speed, tilt=TILT, grid=grid, branch=branch)
-
-
 def order_of(values: list[float]) -> float:
     """Return the order of convergence seen on three grids with intervals 2 : 4/3 : 1."""
     a, b, c = values
@@ -71,14 +55,17 @@ def order_of(values: list[float]) -> float:
     return p
 
 
-def converged(speed: float, load: float, branch: str) -> Converged:
-    """Extrapolate from the family's two finest grids."""
-    runs = [at(grid, speed, load, branch) for grid in FAMILY]
+def converged(speed: float, load: float, branch: str) -> tuple[float, ...]:
+    """Return torque, film ratio, temperature, extrapolated; and the order seen in the torque."""
+    runs = [
+        solve_washer(PARAMS, load=load, speed=speed, tilt=TILT, grid=grid, branch=branch)
+        for grid in FAMILY
+    ]
     values = [(r.friction_torque, r.film_ratio, r.temperature) for r in runs]
     far = [
         c + (c - b) / ((4.0 / 3.0) ** 2 - 1.0) for b, c in zip(values[1], values[2], strict=True)
     ]
-    return Converged(far[0], far[1], far[2], order_of([v[0] for v in values]))
+    return (*far, order_of([v[0] for v in values]))
 
 
 def case_table() -> None:
@@ -90,23 +77,23 @@ def case_table() -> None:
     print("|---|---|---|---|---|")
     worst = {"field": [0.0, 0.0, 0.0, 0.0], "fine": [0.0, 0.0, 0.0, 0.0]}
     for what, speed, load, branch in CASES:
-        ref = converged(speed, load, branch)
+        torque, ratio, temperature, order = converged(speed, load, branch)
         cells = []
         for fidelity, most in worst.items():
             r = solve_washer(
                 PARAMS, load=load, speed=speed, tilt=TILT, fidelity=fidelity, branch=branch
             )
             errors = [
-                100.0 * (r.friction_torque / ref.torque - 1.0), r.film_ratio - ref.ratio,
-                r.temperature - ref.temperature,
-                100.0 * (r.temperature - ref.temperature) / (ref.temperature - OIL),
+                100.0 * (r.friction_torque / torque - 1.0), r.film_ratio - ratio,
+                r.temperature - temperature,
+                100.0 * (r.temperature - temperature) / (temperature - OIL),
             ]  # fmt: skip
             for k, e in enumerate(errors):
                 most[k] = max(most[k], abs(e))
             cells.append(f"{errors[0]:+.3f}, {errors[1]:+.4f}, {errors[2]:+.3f}")
         print(
-            f"| {what} | {speed:g}, {load:g} | {ref.torque:.6f}, {ref.ratio:.4f}, "
-            f"{ref.temperature - OIL:.3f} ({ref.order:.2f}) | {cells[0]} | {cells[1]} |"
+            f"| {what} | {speed:g}, {load:g} | {torque:.6f}, {ratio:.4f}, "
+            f"{temperature - OIL:.3f} ({order:.2f}) | {cells[0]} | {cells[1]} |"
         )
     for fidelity, most in worst.items():
         print(

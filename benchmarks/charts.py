@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from thrustwasher.study.charts.pareto import Sampled, beats, front
+from thrustwasher.study.charts.chart_text import Sampled, beats, front
 
 
 def studies(record: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -39,16 +39,14 @@ def compare(one: dict[str, Any], two: dict[str, Any]) -> int:
     return count
 
 
-def disagreements(
-    one: Sequence[Sampled], two: Sequence[Sampled], quantity: str, kind: str = "worst"
-) -> list[str]:
+def disagreements(one: Sequence[Sampled], two: Sequence[Sampled], quantity: str) -> list[str]:
     """Return the labels on one front only though the two runs' spreads do not explain it.
 
     A sample is explained if in the run where it is beaten some sample that beats it does so by
     less than the change of its own or the other's median between the runs.
     """
     labels = {s["label"]: s for s in one}, {s["label"]: s for s in two}
-    fronts = [{run[i]["label"] for i in front(run, quantity, kind)} for run in (one, two)]
+    fronts = [{run[i]["label"] for i in front(run, quantity)} for run in (one, two)]
     found = []
     for label in sorted(fronts[0] ^ fronts[1]):
         if label not in labels[0] or label not in labels[1]:
@@ -56,16 +54,15 @@ def disagreements(
             continue
         loser = 1 if label in fronts[0] else 0
         mine = labels[loser][label]
-        rivals = [s for s in labels[loser].values() if beats(s, mine, quantity, kind)]
-        if not any(_explained(labels, label, s["label"], quantity, kind) for s in rivals):
+        rivals = [s for s in labels[loser].values() if beats(s, mine, quantity)]
+        if not any(_explained(labels, label, s["label"]) for s in rivals):
             found.append(label)
     return found
 
 
 def _explained(
-    labels: tuple[dict[str, Sampled], dict[str, Sampled]], label: str, other: str, quantity: str,
-    kind: str,
-) -> bool:  # fmt: skip
+    labels: tuple[dict[str, Sampled], dict[str, Sampled]], label: str, other: str
+) -> bool:
     """Tell if the order of two samples changed by no more than the spreads of both runs."""
     gaps, spread = [], 0.0
     for run in labels:

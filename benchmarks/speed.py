@@ -1,8 +1,10 @@
-"""What a washer solve costs: warm, cold, curve, import; and where the time of an iteration goes.
+"""What a washer solve costs: warm, cold, curve; where its time goes; what a newcomer waits for.
 
-python benchmarks/speed.py
+python benchmarks/speed.py [--start]
 
-One process, one thread; medians over repeats, minima in brackets. Run it on an idle machine.
+``--start``: only whole processes by the wall clock, everything compiled and the FMUs built, and
+what Python adds to a solve. One thread; medians over repeats, minima in brackets. Run it on an idle
+machine.
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ from __future__ import annotations
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from functools import partial
@@ -17,6 +20,7 @@ from functools import partial
 import numpy as np
 
 from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
+from thrustwasher.washer import solve
 from thrustwasher.washer.kernel_arguments import constants
 from thrustwasher.washer.kernels import gap, heat, layout, newton
 from thrustwasher.washer.kernels.constants import washer_model
@@ -30,6 +34,23 @@ POINTS = [
     ("transition", 545.0, 700.0), ("boundary", 136.0, 1361.0), ("contact", 545.0, 1200.0),
     ("contact", 1367.0, 1000.0),
 ]  # fmt: skip
+
+FIRST = (
+    "from thrustwasher import *; import sys; "
+    "solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002); "
+    "sys.exit('numba' in sys.modules)"
+)
+SHIFT = ["-m", "thrustwasher", "shift"]
+PROCESSES = {
+    "bare interpreter": ["-c", "pass"],
+    "Python, numpy imported": ["-c", "import numpy"],
+    "import thrustwasher": ["-c", "import thrustwasher"],
+    "a first solve": ["-c", FIRST],
+    "thrustwasher shift": SHIFT,
+    "shift --fidelity auto:0.01 --json --no-report": [
+        *SHIFT, "--fidelity", "auto:0.01", "--json", "--no-report",
+    ],
+}  # fmt: skip
 
 
 def timed(work: Callable[[], object], repeats: int) -> tuple[float, float]:
@@ -85,20 +106,29 @@ def curve() -> None:
 
 
 def starts() -> None:
-    """Print the cost of importing and of a first solve in a new process, caches warm."""
-    first = (
-        "import thrustwasher as t; t.solve_washer(t.WasherParams(), load=300, speed=953, "
-        "tilt=0.002)"
-    )
-    for name, code in (
-        ("import thrustwasher", "import thrustwasher"),
-        ("first solve", first),
-        ("bare interpreter", "pass"),
-    ):
-        run = partial(subprocess.run, [sys.executable, "-c", code], check=True)
-        run()
-        t = timed(run, 7)
-        print(f"{name}, new process: {t[0]:.2f} s ({t[1]:.2f})")
+    """Print what a newcomer waits for, and what Python adds to a solve."""
+    print("| what | median (minimum) |\n|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in PROCESSES.items():
+            run = partial(subprocess.run, [sys.executable, *words], check=True, cwd=folder,
+                          capture_output=True)  # fmt: skip
+            run()
+            t = timed(run, 5)
+            print(f"| {name}, new process | {t[0]:.3g} ({t[1]:.3g}) s |", flush=True)
+    point = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
+    start = solve_washer(PARAMS, **point)
+    bench, state = solve._bench(PARAMS, "field", start.grid), start._state.copy()
+    bench.inp[:] = (*point.values(), 297.15, 0.0)
+    calls: dict[str, Callable[[], object]] = {
+        "solve_washer, fidelity map": lambda: solve_washer(PARAMS, fidelity="map", **point),
+        "solve_washer, field, warm": lambda: solve_washer(PARAMS, start=start, **point),
+        "of it the compiled step": lambda: bench.step(state, 0.0, 1.0),
+    }
+    found = [timed(call, 10_000) for call in calls.values()]
+    added = tuple(a - b for a, b in zip(found[1], found[2], strict=True))
+    names = [*calls, "what Python adds to a warm solve"]
+    for name, (median, least) in zip(names, [*found, added], strict=True):
+        print(f"| {name} | {1e6 * median:.3g} ({1e6 * least:.3g}) us |")
 
 
 def profile() -> None:
@@ -126,7 +156,8 @@ def profile() -> None:
 
 
 if __name__ == "__main__":
-    solves()
-    curve()
+    if "--start" not in sys.argv:
+        solves()
+        curve()
+        profile()
     starts()
-    profile()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from thrustwasher.study.charts.pareto import beats, front
+from thrustwasher.study.charts.chart_text import beats, front
 
 CHARTS = Path(__file__).parents[2] / "benchmarks" / "charts.py"
 disagreements = runpy.run_path(str(CHARTS))["disagreements"]

@@ -7,9 +7,14 @@ import pytest
 
 from thrustwasher.errors import ParameterError, Status
 from thrustwasher.model.registry import spec_of
-from thrustwasher.study.charts.chart_cases import ChartCase, cases_of, digest
-from thrustwasher.study.charts.chart_series import Configuration, Quantity, series_of
-from thrustwasher.study.charts.methods import MethodAnswer
+from thrustwasher.study.charts.chart_series import (
+    Configuration,
+    Quantity,
+    cases_of,
+    digest,
+    series_of,
+)
+from thrustwasher.study.charts.methods import ChartCase, MethodAnswer
 from thrustwasher.study.charts.work_precision import measure
 from thrustwasher.study.costs import Timing, time_call
 from thrustwasher.study.reference_values import ReferenceValues

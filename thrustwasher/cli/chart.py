@@ -76,7 +76,7 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
     pin_threads()  # before numpy is loaded
     from ..model.registry import models_with_cards
     from ..study.charts.work_precision import work_precision
-    from ..study.failures.coupling_limits import as_rows, limits
+    from ..study.failures.coupling_limits import limits
     from ..study.failures.failure_map import stability
     from ..study.macro_steps import masters, study
 
@@ -97,7 +97,7 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
     more = (("masters of a shift", lambda: masters(_instances)),)
     record["stability"] = stability(quick=quick, progress=_say, more=more)
     _say("limits of coupling")
-    record["limits"] = as_rows(limits())
+    record["limits"] = limits()
     record["run_s"] = time.perf_counter() - began
     return record
 
@@ -139,7 +139,7 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     from ..report.html import render, save_plots
     from ..storage.digests import sealed
     from ..study.charts.chart_page import markdown, page_of
-    from ..study.charts.pareto import front
+    from ..study.charts.chart_text import front
 
     studies = dict(record["models"])
     if "macro_steps" in record:

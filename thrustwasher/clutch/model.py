@@ -40,7 +40,6 @@ MODEL = Model(
         part="clutch",
         changed={"input_course": "linear"},
         references="thrustwasher.study.reference_clutch:SOURCE",
-        cases="thrustwasher.study.charts.chart_cases:CLUTCH_CASES",
         chart="thrustwasher.study.charts.chart_series:CLUTCH",
     ),
     sweep=Sweep(

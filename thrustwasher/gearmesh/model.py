@@ -55,7 +55,6 @@ MODEL = Model(
         boxes={"default": _BOX, "planetary": _BOX},
         part="mesh",
         references="thrustwasher.study.reference_gearmesh:SOURCE",
-        cases="thrustwasher.study.charts.chart_cases:GEARMESH_CASES",
         chart="thrustwasher.study.charts.chart_series:GEARMESH",
     ),
     # A power in place of the torque is turned into one, row by row.

@@ -6,7 +6,7 @@ A plan is a rung for the part of a box that it is verified in, and the next one 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..model.spec import ModelSpec
@@ -15,15 +15,6 @@ from .boxes import Box, Part, Request, sizes, split
 from .card import VERIFY, Card, load_cards, refused_files
 from .card_parts import Axis, worst_near
 from .formats import shown_error, shown_share
-
-
-@dataclass(frozen=True, slots=True)
-class Told:
-    """What one card says of a box: worst error, share of points without an answer, its chart."""
-
-    worst: float
-    silent: float
-    chart: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +27,11 @@ class Seen:
     rest: list[Part]  # where the rung is not verified or does not answer
     charts: str
     beside_folds: str
+
+    @property
+    def promise(self) -> str:
+        """The error in words."""
+        return shown_error(self.error, self.kind, self.unit)
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +59,7 @@ class Candidate:
     @property
     def setup(self) -> float:
         """Seconds spent once: loading and compiling, building what is not shipped."""
-        return max(
-            c.cost.first_call_s + (0.0 if c.is_built else c.cost.build_s) for c in self.cards
-        )
+        return max(c.cost.first_call_s + (0.0 if c.built else c.cost.build_s) for c in self.cards)
 
     def spread(self, n_calls: float) -> float:
         """Seconds within which two costs count as equal."""
@@ -74,19 +68,19 @@ class Candidate:
     def over(self, parts: list[Part], request: Request) -> Seen | None:
         """Return what the cards say of parts of a box, or None if they do not speak of any."""
         envelope, quantity = self.envelope, request.quantity
-        told: list[Told] = []
+        told: list[tuple[float, float, str | None]] = []
         rest: list[Part] = []
         for part in parts:
             inside, pieces = split(part, envelope)
             rest += pieces
             if inside is None:
                 continue
-            found = [t for t in (_read(c, quantity, inside.box) for c in self.cards) if t]
+            found = [t for c in self.cards if (t := _read(c, quantity, inside.box))]
             told += found
             if not found:
                 rest.append(Part(inside.box, inside.share, "where no held-out point fell"))
                 continue
-            silent = max(t.silent for t in found)
+            silent = max(share for _, share, _ in found)
             if silent > 0.0:
                 words = f"where {self.fidelity} itself says it is outside"
                 rest.append(Part(inside.box, silent * inside.share, words))
@@ -94,11 +88,11 @@ class Candidate:
             return None
         errors = self.cards[0].errors[quantity]
         return Seen(
-            error=request.safety * max(t.worst for t in told),
+            error=request.safety * max(worst for worst, _, _ in told),
             kind=errors.kind,
             unit=errors.unit,
             rest=rest,
-            charts=_charts({t.chart for t in told if t.chart}),
+            charts=_charts({chart for _, _, chart in told if chart}),
             beside_folds=self._beside_folds(quantity, request.safety),
         )
 
@@ -119,8 +113,11 @@ def _charts(names: set[str]) -> str:
     return f" ({known} chart{'s' * (len(names) > 1)})" if names else ""
 
 
-def _read(card: Card, quantity: str, box: Box) -> Told | None:
-    """Return what a card says of a box inside its envelope, or None if no point fell there."""
+def _read(card: Card, quantity: str, box: Box) -> tuple[float, float, str | None] | None:
+    """Return what a card says of a box inside its envelope, or None if no point fell there.
+
+    That is the worst error, the share of points without an answer, and the card's chart.
+    """
     errors = card.errors.get(quantity)
     if errors is None:
         return None
@@ -135,7 +132,7 @@ def _read(card: Card, quantity: str, box: Box) -> Told | None:
     answered = sum(errors.n[i][j] for i, j in cells)
     silent = sum(card.cells.outside[i][j] for i, j in cells)
     worst = max(*found, card.reference.uncertainty.get(quantity, 0.0))
-    return Told(worst, silent / max(answered + silent, 1), card.chart)
+    return worst, silent / max(answered + silent, 1), card.chart
 
 
 def candidates(
@@ -168,15 +165,10 @@ def _no_card(model: str, rung: str, others: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A rung, its promise, and the plan for what it leaves open."""
+    """A rung, what its cards say, and the plan for what it leaves open."""
 
-    fidelity: str
-    error: float
-    kind: str
-    unit: str | None
-    charts: str
-    beside_folds: str
-    call: float  # seconds per call
+    rung: Candidate
+    seen: Seen
     seconds: float  # of this rung: all its calls and what is spent once
     spread: float
     share: float  # of the box that the plan is for
@@ -191,7 +183,7 @@ class Plan:
     @property
     def unverified(self) -> float:
         """Share of the box that no card speaks for."""
-        here = self.share if math.isinf(self.error) else 0.0
+        here = self.share if math.isinf(self.seen.error) else 0.0
         return here + (self.outside.unverified if self.outside else 0.0)
 
 
@@ -222,10 +214,8 @@ def _plan(
         outside = after[0] if after else _unverified(request, rung, others, seen)
     share = sum(p.share for p in parts)
     calls = request.n_calls * max(share - left, 0.0)
-    return Plan(
-        rung.fidelity, seen.error, seen.kind, seen.unit, seen.charts, seen.beside_folds, rung.call,
-        calls * rung.call + rung.setup, rung.spread(calls), share, _where(parts), outside,
-    )  # fmt: skip
+    seconds = calls * rung.call + rung.setup
+    return Plan(rung, seen, seconds, rung.spread(calls), share, _where(parts), outside)
 
 
 def _unverified(request: Request, rung: Candidate, others: list[Candidate], seen: Seen) -> Plan:
@@ -235,10 +225,8 @@ def _unverified(request: Request, rung: Candidate, others: list[Candidate], seen
     if rungs.index(rung.fidelity) < rungs.index(usual):
         last = next((c for c in others if c.fidelity == usual), rung)
     share = sum(p.share for p in seen.rest)
-    return Plan(
-        last.fidelity, math.inf, seen.kind, seen.unit, "", "", last.call, 0.0, 0.0, share,
-        _where(seen.rest), None,
-    )  # fmt: skip
+    blank = replace(seen, error=math.inf, charts="", beside_folds="")
+    return Plan(last, blank, 0.0, 0.0, share, _where(seen.rest), None)
 
 
 def _where(parts: list[Part]) -> str:
@@ -259,7 +247,7 @@ def _ordered(options: list[Plan]) -> list[Plan]:
             if round(p.unverified, 9) == round(best.unverified, 9)
             and p.total - best.total <= min(p.spread, best.spread)
         ]
-        chosen = min(ties, key=lambda p: (p.error, p.total))
+        chosen = min(ties, key=lambda p: (p.seen.error, p.total))
         ordered.append(chosen)
         left.remove(chosen)
     return ordered

@@ -92,13 +92,11 @@ class Card:
         """
         if quantity not in self.errors or not self.covers(point):
             return None
-        place = [
+        i, j = (
             self.cells.index(k, _size(self.envelope[name], point[name]))
             for k, name in enumerate(self.cells.axes)
-        ]
-        if place[0] is None or place[1] is None:
-            return None
-        found = worst_near(self.errors[quantity], place[0], place[1])
+        )
+        found = None if i is None or j is None else worst_near(self.errors[quantity], i, j)
         if found is None or film_ratio is None or self.by_film_ratio is None:
             return found
         alike = self.by_film_ratio.error_of(quantity, film_ratio)
@@ -112,11 +110,9 @@ class Card:
         renew = f"renew it: {VERIFY} {self.model} {self.fidelity}"
         if params is not None and params_digest(params) != self.params.sha256:
             return f"made for other parameters ({self.params.name}); {renew}"
-        built = [name for name in self.kernels.files if "/" in name]
         try:
-            if tuple(sorted([*files_of(self.model, self.fidelity), *built])) != tuple(
-                sorted(self.kernels.files)
-            ):
+            files = (*files_of(self.model, self.fidelity), *self.built)
+            if sorted(files) != sorted(self.kernels.files):
                 return f"the kernels are made of other files since {self.made}; {renew}"
             if kernel_digest(self.kernels.files) != self.kernels.sha256:
                 return f"the kernels have changed since {self.made}; {renew}"
@@ -125,9 +121,9 @@ class Card:
         return None
 
     @property
-    def is_built(self) -> bool:
-        """True if what has to be built before the first call is shipped beside the card."""
-        return any("/" in name for name in self.kernels.files)
+    def built(self) -> tuple[str, ...]:
+        """Shipped files that would else have to be built before the first call."""
+        return tuple(name for name in self.kernels.files if "/" in name)
 
     def as_json(self) -> str:
         """Return the text of the card's file, with a checksum as its last key."""

@@ -9,11 +9,42 @@ from typing import Any
 
 from ..errors import ParameterError, SolveError
 from ..model.registry import ladder_of, spec_of
+from ..model.spec import ModelSpec
 from .boxes import Part, Request, checked_box
 from .candidates import Candidate, Plan, candidates, plans
 from .card import VERIFY
 from .card_parts import QUANTITIES
 from .formats import plain, shown_error, shown_seconds, shown_share
+
+AUTO = "auto"
+TOLERANCE = 0.01  # of "auto" alone
+TOLERANCES = (1e-6, 0.5)
+
+
+def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
+    """Return rung and tolerance of "field", "auto" or "auto:0.01"; tolerance None: the rung as is.
+
+    With a tolerance the rung is the model's own default, until one is chosen.
+    """
+    rung, _, given = text.partition(":") if isinstance(text, str) else ("", "", "")
+    if rung != AUTO and text not in spec.fidelities:
+        options = " or ".join(map(repr, spec.fidelities))
+        raise ParameterError(
+            f"{where}: fidelity = {text!r}, allowed: {options} or 'auto:TOLERANCE'"
+        )
+    if rung != AUTO:
+        return rung, None
+    low, high = TOLERANCES
+    try:
+        tolerance = TOLERANCE if text == AUTO else float(given)
+    except ValueError:
+        tolerance = -1.0
+    if not low <= tolerance <= high:
+        raise ParameterError(
+            f"{where}: fidelity = {text!r}, allowed: auto:TOLERANCE with {low:g} .. {high:g}, "
+            "for example auto:0.01"
+        )
+    return spec.default_fidelity, tolerance
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,15 +170,17 @@ def decide(request: Request, found: list[Candidate], refused: dict[str, str]) ->
 def _choice(plan: Plan, lines: tuple[str, ...]) -> Choice:
     """Return a plan and what follows it as choices."""
     after = None if plan.outside is None else _choice(plan.outside, ())
-    return Choice(plan.fidelity, plan.error, plan.seconds, lines, after, plan.share, plan.where)
+    return Choice(
+        plan.rung.fidelity, plan.seen.error, plan.seconds, lines, after, plan.share, plan.where
+    )
 
 
 def _first_line(request: Request, plan: Plan) -> str:
-    kind, unit = plan.kind, plan.unit
-    asked = shown_error(request.tol, kind, unit)
-    promise = f"{request.quantity} within {shown_error(plan.error, kind, unit)} (asked {asked})"
-    time = f"{shown_seconds(plan.call)} per call"
-    return f"{request.spec.key}: {plan.fidelity}{plan.charts}, {promise}, {time}"
+    seen = plan.seen
+    asked = shown_error(request.tol, seen.kind, seen.unit)
+    promise = f"{request.quantity} within {seen.promise} (asked {asked})"
+    time = f"{shown_seconds(plan.rung.call)} per call"
+    return f"{request.spec.key}: {plan.rung.fidelity}{seen.charts}, {promise}, {time}"
 
 
 def _outside_lines(request: Request, plan: Plan) -> list[str]:
@@ -156,30 +189,28 @@ def _outside_lines(request: Request, plan: Plan) -> list[str]:
     after = plan.outside
     while after is not None:
         part = f"outside it ({shown_share(after.share)} of the box, {after.where})"
-        if math.isinf(after.error):
-            lines.append(f"{part}: no card speaks there; {after.fidelity}, not verified")
+        if math.isinf(after.seen.error):
+            lines.append(f"{part}: no card speaks there; {after.rung.fidelity}, not verified")
         else:
-            promise = shown_error(after.error, after.kind, after.unit)
-            lines.append(f"{part}: {after.fidelity}, within {promise}, {shown_seconds(after.call)}")
+            rung, promise = after.rung, after.seen.promise
+            lines.append(f"{part}: {rung.fidelity}, within {promise}, {shown_seconds(rung.call)}")
         after = after.outside
-    if plan.beside_folds:
-        lines.append(plan.beside_folds)
-    return lines
+    return [*lines, *filter(None, [plan.seen.beside_folds])]
 
 
 def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
     """Say of every rung that was not taken why: too coarse, dearer, or not verified here."""
     coarse, dear, away = [], [], []
     for rung in found:
-        if rung.fidelity == best.fidelity:
+        if rung is best.rung:
             continue
         seen = rung.over([Part(request.box)], request)
         if seen is None:
             away.append(rung.fidelity)
             continue
-        text = f"{rung.fidelity} {shown_error(seen.error, seen.kind, seen.unit)}"
+        text = f"{rung.fidelity} {seen.promise}"
         if seen.error > request.tol:
-            coarse.append((rung.call <= best.call, text))
+            coarse.append((rung.call <= best.rung.call, text))
         else:
             dear.append(f"{text} in {shown_seconds(rung.call)}")
     lines = []

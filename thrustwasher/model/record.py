@@ -83,8 +83,7 @@ class Ladder:
     part: str  # the model's part of the scene that a parameter set is named after
     changed: Mapping[str, Any] = field(default_factory=dict)  # otherwise in held-out points
     references: str  # dotted name: where reference values come from
-    cases: str  # dotted name: operating points of the chart, and those of a quick look
-    chart: str  # dotted name: what the chart shows
+    chart: str  # dotted name: what the chart shows, at which operating points
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,8 +1,7 @@
 """Files that appear whole or not at all, work that can be resumed, digests.
 
 ===============  ===============================================================================
-``digests``      Fingerprints: of a parameter set, of the sources of a rung's numbers, of a JSON
-                 file
+``digests``      Fingerprints: of parameters, of the sources of a rung's numbers, of a file
 ``journal``      Finished work on disk, in an SQLite file: what was stopped goes on where it was
 ``whole_files``  Files and folders that are written whole or not at all
 ===============  ===============================================================================

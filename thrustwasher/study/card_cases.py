@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
-from pathlib import Path
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,9 +12,8 @@ import numpy as np
 from ..ladder.card_parts import Axis
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
-from ..units import parse_quantity
+from ..shift.scene.scene_file import load_scene
 
-SCENES = Path(__file__).parents[1] / "shift" / "scenes"
 SEED = 7
 POINTS, POINTS_IN_PART = 500, 350
 MOST = 50  # points drawn for each one wanted in a part of a box
@@ -100,10 +97,4 @@ def cases(model: str) -> list[Case]:
 def _scene_params(spec: ModelSpec, scene: str) -> Any:
     """Return the parameters that a shipped scene gives to its part of a model."""
     ladder = ladder_of(spec.key)
-    given = tomllib.loads((SCENES / f"{scene}.toml").read_text("utf-8"))[ladder.part]
-    meta = {f.name: f.metadata for f in fields(spec.params)}
-    values = {n: v for n, v in given.items() if n != "fidelity"}
-    for name, value in values.items():
-        if isinstance(value, str) and meta[name]["kind"] == "real":
-            values[name] = parse_quantity(value, meta[name]["unit"], name)
-    return spec.params(**{**values, **ladder.changed})
+    return replace(load_scene(scene).parts[ladder.part].params, **ladder.changed)

@@ -72,29 +72,27 @@ def _cost(
     done = [a.work for a in answers if a.verdict == OK]
     count = float(f"{sum(done) / max(len(done), 1):.4g}") or None  # None: nothing is iterated
     what = "iterations x mesh nodes, from nothing" if rung in MESHED else "iterations"
-    median, iqr, least, once = _seconds(timing, first)
     build = float(built.card.get("build_s") or 0.0) if built else 0.0
     solves = math.prod(built.card.get("nodes") or (0,)) if built else 0
-    return Cost(median, iqr, least, once, build, solves, count, what if count else None)
+    return Cost(*_seconds(timing, first), build, solves, count, what if count else None)
 
 
-def _seconds(timing: Timing, first: float) -> tuple[float, ...]:
-    return tuple(float(f"{t:.3g}") for t in (timing.median, timing.iqr, timing.least, first))
+def _seconds(timing: Timing, first: float) -> tuple[float, float, float, float]:
+    times = (timing.median, timing.iqr, timing.least, first)
+    median, iqr, least, once = (float(f"{t:.3g}") for t in times)
+    return median, iqr, least, once
 
 
 def timed_card(card: Card, timing: Timing, first: float) -> Card:
     """Return a card with times measured anew, on this machine."""
-    median, iqr, least, once = _seconds(timing, first)
-    cost = replace(
-        card.cost, call_median_s=median, call_iqr_s=iqr, call_min_s=least, first_call_s=once
-    )
+    c = card.cost
+    cost = Cost(*_seconds(timing, first), c.build_s, c.build_solves, c.count, c.count_of)
     return replace(card, cost=cost, machine=this_machine())
 
 
 def write_card(card: Card, folder: Path) -> Path:
     """Write a card's file; return its path."""
     path = folder / f"{card.model}-{card.params.name}" / f"{card.name}.json"
-    path.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(path) as draft:
         draft.write_text(card.as_json(), "utf-8")
     return path

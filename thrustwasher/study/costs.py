@@ -25,6 +25,7 @@ from ..model.prepare import filled
 from ..model.registry import kernel_of
 from ..model.spec import ModelSpec
 from .card_cases import cases
+from .reference_cache import source_of
 from .reference_values import ReferencePoint
 
 BATCH = 10e-3  # [s] least time between two looks at the clock
@@ -33,7 +34,6 @@ LEAST = 5e-8  # [s] a call is never taken for less
 WALK = 0.003  # load and speed move by so much from call to call
 TURN = 20  # calls in one direction
 STEP = 1e-3  # s, for parts that have states
-BRANCHES = {"film": 1.0, "contact": 3.0}
 FIRST = """
 import time, json, sys
 import thrustwasher
@@ -92,21 +92,21 @@ def stepper(
     kernel = kernel_of(spec)
     step = step or kernel.step
     par = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
-    branch = BRANCHES.get(known.branch or "", 0.0) if spec.key == "washer" else None
+    branches = source_of(spec.key).branches
     first = [known.point[s.name] for s in spec.inputs]
-    inp = np.array([*first, *([branch] if branch is not None else [])])
+    inp = np.array([*first, *([branches.get(known.branch or "", 0.0)] if branches else [])])
     state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
     out, iout = np.zeros(kernel.NOUT), np.zeros(max(kernel.NIOUT, 1), np.int32)
     fill_table(spec, params, par, work)
-    walk = itertools.cycle(_walk(first[0], first[1], branch == BRANCHES["film"]))
+    walk = itertools.cycle(_walk(first[0], first[1], known.branch == "film"))
 
     def call() -> int:
         inp[0], inp[1] = next(walk)
         return int(step(par, inp, state, work, out, iout, 0.0, STEP))
 
     call()
-    if branch is not None:
-        inp[4] = 0.0  # the branch was asked for once, from now on it is remembered
+    if branches:
+        inp[-1] = 0.0  # the branch was asked for once, from now on it is remembered
     return call
 
 

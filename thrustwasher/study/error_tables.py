@@ -4,6 +4,7 @@ import math
 import statistics
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -83,14 +84,12 @@ def error_tables(pairs: Pairs, envelope: dict[str, Axis]) -> tuple[dict[str, Err
     """Return the error tables and cells of one chart; points beside folds are left out."""
     pairs = [(t, a) for t, a in pairs if not t.beside_fold]
     blank = cells_for([t.point for t, _ in pairs], envelope)
-    place = [place_of(blank, t.point) for t, _ in pairs]
+    placed = [(place_of(blank, t.point), (t, a)) for t, a in pairs]
     shape = (len(blank.edges[0]) - 1, len(blank.edges[1]) - 1)
-    outside = np.zeros(shape, int)
-    for at, (_, a) in zip(place, pairs, strict=True):
-        outside[at] += a.verdict == OUTSIDE
-    placed = list(zip(place, pairs, strict=True))
     errors = {q: _table(q, placed, shape, floor_of(q, [t for t, _ in pairs])) for q in KINDS}
-    return errors, Cells(AXES, blank.edges, tuple(map(tuple, outside.tolist())))
+    silent = Counter(at for at, (_, a) in placed if a.verdict == OUTSIDE)
+    outside = tuple(tuple(silent[i, j] for j in range(shape[1])) for i in range(shape[0]))
+    return errors, replace(blank, outside=outside)
 
 
 def _table(quantity: str, placed: list[tuple[Place, Pair]], shape: Place, floor: float) -> Errors:

@@ -6,6 +6,7 @@ small steps, in quantities that a shift does not forget: heat of the clutch, tim
 temperature. ``masters`` judges the package's own masters as other methods are judged.
 """
 
+import math
 import statistics
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -22,7 +23,10 @@ from ..shift.scene.connections import PACKS
 from ..shift.scene.scene import Scene
 from ..shift.scene.scene_file import load_scene
 from ..shift.shift_result import ShiftResult
+from .charts.chart_series import Quantity
+from .charts.work_precision import Sample
 from .failures.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+from .rivals.lockup import turns_of
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
@@ -31,11 +35,12 @@ QUICK_TOLERANCES = (1e-2, 1e-3)
 FIRST_STEP = 1e-3  # of those
 TRUE_STEPS, QUICK_TRUE_STEPS = (1e-4, 5e-5), (4e-4, 2e-4)
 SLOW_SLIP = 0.5  # [rad/s]; with smoothed friction less counts as locked
+STANDING = 1e-3  # [rad/s]
 MOST_TURNS = 2  # changes of the slip's sign after lock-up; more is chatter
-QUANTITIES: tuple[dict[str, Any], ...] = (
-    {"name": "slip_energy", "kind": "relative", "unit": "1", "floor": 0.0},
-    {"name": "lock_time", "kind": "absolute", "unit": "s", "floor": None},
-    {"name": "peak_temperature", "kind": "absolute", "unit": "K", "floor": None},
+QUANTITIES = (
+    Quantity("slip_energy", True),
+    Quantity("lock_time", False, unit="s"),
+    Quantity("peak_temperature", False, unit="K"),
 )
 # Of ``masters``: what is wrong, and what is tried.
 WRONG_HEAT = 0.02
@@ -43,14 +48,8 @@ MANY_STEPS = 10  # of the master for each that was asked for
 SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
 STOP, LOCKED = 1.1, 0.70  # s
 TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4  # of masters
-HAZARDS = {
-    "capacity, 1 ms": ("capacity", 1e-3),
-    "capacity, 5 ms": ("capacity", 5e-3),
-    "capacity, 10 ms": ("capacity", 1e-2),
-    "torque, 0.2 ms": ("torque", 2e-4),
-    "torque, 2 ms": ("torque", 2e-3),
-    "torque, 10 ms": ("torque", 1e-2),
-}
+TRIED = {"capacity": (1e-3, 5e-3, 1e-2), "torque": (2e-4, 2e-3, 1e-2)}  # s
+HAZARDS = {f"{c}, {1e3 * step:g} ms": (c, step) for c, steps in TRIED.items() for step in steps}
 Make = Callable[[Scene], Mapping[str, Stepping]]
 
 
@@ -137,15 +136,8 @@ def complaint(result: ShiftResult, found: Mapping[str, float]) -> str:
     if not all(map(np.isfinite, found.values())):
         return "does not lock"
     slip, time = result.signals["transmission.clutch_speed"], result.time
-    after = slip[time > found["lock_time"]]
-    turns = turns_of(after)
+    turns = turns_of(slip[time > found["lock_time"]], STANDING)
     return f"chatters: the slip turns round {turns} times" if turns > MOST_TURNS else ""
-
-
-def turns_of(slip: Any) -> int:
-    """Return how often a slip changes its sign."""
-    moving = np.sign(slip[np.abs(slip) > 1e-3])
-    return int(np.count_nonzero(np.diff(moving)))
 
 
 def study(
@@ -166,8 +158,8 @@ def study(
         for knob in knobs(way, quick):
             samples.append(sample(way, knob, make, truth, uncertainty, 1 if quick else 3))
     return {
-        "scene": "planetary without washers and gear mesh", "quantities": list(QUANTITIES),
-        "truth": truth, "samples": samples,
+        "scene": "planetary without washers and gear mesh", "truth": truth, "samples": samples,
+        "quantities": [q.as_dict() for q in QUANTITIES],
     }  # fmt: skip
 
 
@@ -224,30 +216,20 @@ def sample(
         why = f"{type(error).__name__}: {error}"
     if why:
         failures["shift"] = why
-    errors = {}
+    errors: dict[str, dict[str, Any]] = {}
     for q in QUANTITIES:
-        size = abs(truth[q["name"]]) if q["kind"] == "relative" else 1.0
-        off = abs(found.get(q["name"], float("nan")) - truth[q["name"]]) / size
-        known = off if np.isfinite(off) else None
-        errors[q["name"]] = {"worst": known, "rms": known, "case": "shift"}
-    relative = {
-        q["name"]: uncertainty[q["name"]]
-        / (abs(truth[q["name"]]) if q["kind"] == "relative" else 1.0)
-        for q in QUANTITIES
-    }
+        apart = q.error(found.get(q.name, math.nan), truth[q.name])
+        errors[q.name] = {"worst": apart, "rms": apart, "case": "shift"}
     value = f"{knob:g}" if way.adaptive else f"{1e3 * knob:g} ms"
     quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
-    return {
-        "family": way.name, "label": f"{way.name}, {value}", "value": value,
-        "knob": "master_tolerance" if way.adaptive else "macro step", "cases": "planetary",
-        "errors": errors, "ref_uncertainty": relative,
-        "call_median": statistics.median(wall) if wall else None,
-        "call_iqr": quartiles[2] - quartiles[0], "call_min": min(wall) if wall else None,
-        "repeats": len(wall), "first_call_s": None, "setup_s": 0.0, "count": float(count),
-        "count_of": "steps of all parts", "n_cases": 1, "n_failed": len(failures),
-        "failures": failures, "is_rival": False, "slowest_call_s": None, "slowest_case": None,
-        "build_s": 0.0,
-    }  # fmt: skip
+    return Sample(
+        way.name, f"{way.name}, {value}", "master_tolerance" if way.adaptive else "macro step",
+        value, "planetary", errors,
+        {q.name: uncertainty[q.name] / q.size(truth[q.name]) for q in QUANTITIES},
+        statistics.median(wall) if wall else math.nan, quartiles[2] - quartiles[0],
+        min(wall, default=math.nan), len(wall), math.nan, 0.0, float(count), "steps of all parts",
+        1, len(failures), failures,
+    ).as_dict()  # fmt: skip
 
 
 def masters(make: Make, *, quick: bool = False) -> Group:
@@ -261,7 +243,7 @@ def masters(make: Make, *, quick: bool = False) -> Group:
     @cache
     def true_heat(coupling: str) -> float:
         step = QUICK_TRUE_STEP if quick else TRUE_STEP
-        return _heat(_smooth_run(make, "gauss-seidel", coupling, step))
+        return figures(_smooth_run(make, "gauss-seidel", coupling, step))["slip_energy"]
 
     def judge(master: str, hazard: tuple[str, float]) -> Cell:
         return _judged(_smooth_run(make, master, *hazard), true_heat(hazard[0]))
@@ -281,21 +263,16 @@ def _smooth_run(make: Make, master: str, coupling: str, step: float) -> ShiftRes
     return run_shift(scene, make(scene))
 
 
-def _heat(result: ShiftResult) -> float:
-    return figures(result)["slip_energy"]
-
-
 def _judged(result: ShiftResult, true: float) -> Cell:
     """Look at the heat, at the slip after lock-up, and at what the run says itself."""
-    error = _heat(result) / true - 1.0
+    error = figures(result)["slip_energy"] / true - 1.0
     slip = result.signals["transmission.clutch_speed"][result.time > LOCKED]
-    turns = turns_of(slip)
+    turns = turns_of(slip, STANDING)
     right = abs(error) <= WRONG_HEAT
     if right and turns <= MOST_TURNS:
         taken = len(result.time) - 1
-        slow = taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step
         words = f"{taken} steps, heat off by {100 * abs(error):.2g} %"
-        if slow:
+        if taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step:
             return Cell(SLOW, f"{taken} steps", words)
         return Cell(OK, f"{100 * abs(error):.2f} %", words)
     words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)

@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import os
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict
@@ -12,6 +11,7 @@ from typing import Any
 from ..errors import SolveError
 from ..model.record import resolve
 from ..model.registry import ladder_of
+from ..native.files import user_cache
 from ..storage.digests import closure, kernel_digest, params_digest
 from ..storage.journal import Journal
 from .card_cases import Case
@@ -56,10 +56,9 @@ def reference_points(
 
 def _kept(case: Case, source: Source) -> tuple[Path, str]:
     """Return the file for a case and the digest of kernels, parameters, box and method."""
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     axes = [asdict(a) for a in case.envelope.values()]
     what = [kernel_digest(closure(*source.kernels)), params_digest(case.params), axes, case.seed,
             list(source.routes), list(source.grid or ()), MARGIN]  # fmt: skip
     digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
     name = f"{case.spec.key}-{case.name}-{digest}.journal"
-    return Path(base) / "thrustwasher" / "references" / name, digest
+    return user_cache() / "references" / name, digest

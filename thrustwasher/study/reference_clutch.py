@@ -181,8 +181,7 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
 def _settled(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
     """Return the quantities of slip that lasts, and what they may be off by."""
     at: Any = point
-    r = reference_clutch(params, **at)
-    return {q: r.values[q] for q in QUANTITIES}, {q: r.uncertainty[q] for q in QUANTITIES}
+    return reference_clutch(params, **at).of(QUANTITIES)
 
 
 def _engagement(params: Any, point: Point) -> tuple[Values, dict[str, float]]:

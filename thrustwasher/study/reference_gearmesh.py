@@ -110,11 +110,9 @@ def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
 def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
     """Return the reference's answer at a held-out point; none where there is none."""
     try:
-        r = _reference(params, **point)
+        return [ReferencePoint(point, None, None, *_reference(params, **point).of(QUANTITIES))]
     except SolveError:
         return []
-    values, off = ({q: x[q] for q in QUANTITIES} for x in (r.values, r.uncertainty))
-    return [ReferencePoint(point, None, None, dict(values), off)]
 
 
 def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:

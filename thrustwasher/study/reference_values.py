@@ -1,6 +1,6 @@
 """Reference values: what they are, at held-out points too, and what a rung says beside them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -21,6 +21,11 @@ class ReferenceValues:
     values: dict[str, float]
     uncertainty: dict[str, float]
     routes: tuple[str, ...] = ()
+
+    def of(self, names: Iterable[str]) -> tuple[Values, dict[str, float]]:
+        """Return some of the values, and what they may be off by."""
+        names = tuple(names)
+        return {q: self.values[q] for q in names}, {q: self.uncertainty[q] for q in names}
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,8 @@ class Source:
     kernels: tuple[str, ...]  # whose change makes kept values worthless
     grid: tuple[int, ...] | None
     routes: tuple[str, ...]
+    branches: Mapping[str, float] = field(default_factory=dict)
+    """What asks the kernel for a branch, behind its inputs."""
 
 
 def extrapolated(

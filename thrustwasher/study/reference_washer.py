@@ -69,29 +69,29 @@ def reference_washer(
     Extrapolated with order 2 from the two finest meshes; the uncertainty also counts how far the
     value moved from that of the two coarser ones.
     """
-    grids = FINER if finer else GRIDS
-    result = solve_washer(params, load=load, speed=speed, tilt=tilt,
-                          oil_temperature=oil_temperature, branch=branch)  # fmt: skip
-    rows = []
+    base = solve_washer(params, load=load, speed=speed, tilt=tilt,
+                        oil_temperature=oil_temperature, branch=branch)  # fmt: skip
+    return _converged(base, FINER if finer else GRIDS)[0]
+
+
+def _converged(
+    base: WasherResult, grids: tuple[tuple[int, int], ...]
+) -> tuple[ReferenceValues, dict[str, float]]:
+    """Return the values on a branch extrapolated over meshes, and what the first mesh said."""
+    result, rows = base, []
     for grid in grids:
-        branch_before = result.branch
         result = solve_on(result, grid)
-        if result.status.is_failure or result.branch != branch_before:
+        if result.status.is_failure or result.branch != base.branch:
             raise SolveError(
                 f"reference_washer: {grid[0]} x {grid[1]} nodes have no solution on the branch "
-                f"{branch_before!r} at load = {load:g} N; tried: from the next coarser mesh; move "
-                "the load away from the fold"
+                f"{base.branch!r} at load = {base.load:g} N; tried: from the next coarser mesh; "
+                "move the load away from the fold"
             )
         rows.append({name: float(getattr(result, name)) for name in NAMES})
-    values, uncertainty = extrapolated(rows, _ratios(grids), 2.0)
+    i, j, k = (n_r - 1 for n_r, _ in grids)  # intervals along the radius
+    values, uncertainty = extrapolated(rows, (j / i, k / j), 2.0)
     meshes = ", ".join(f"{a} x {b}" for a, b in grids)
-    return ReferenceValues(values, uncertainty, (f"{meshes} nodes, order 2",))
-
-
-def _ratios(grids: tuple[tuple[int, int], ...]) -> tuple[float, float]:
-    """Return the ratios of the intervals along the radius from mesh to mesh."""
-    a, b, c = (n_r - 1 for n_r, _ in grids)
-    return b / a, c / b
+    return ReferenceValues(values, uncertainty, (f"{meshes} nodes, order 2",)), rows[0]
 
 
 def solve_on(result: WasherResult, grid: tuple[int, int]) -> WasherResult:
@@ -159,12 +159,16 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
         return []
     found = []
     for branch in _branches(point["load"], folds):
-        chain = [solve_washer(params, load=point["load"], **place, branch=branch, throw=False)]
-        for grid in GRIDS:
-            chain.append(solve_on(chain[-1], grid))
-        if all(_good(r, chain[0].branch) for r in chain):
-            beside = any(abs(point["load"] / load - 1.0) < MARGIN for load in folds.values())
-            found.append(_extrapolated(point, chain[0].branch, chain, beside))
+        try:
+            base = solve_washer(params, load=point["load"], **place, branch=branch)
+            known, first = _converged(base, GRIDS)
+        except SolveError:
+            continue
+        beside = any(abs(point["load"] / load - 1.0) < MARGIN for load in folds.values())
+        by_mesh: dict[str, Values] = {_mesh_name(GRIDS[0]): {q: first[q] for q in QUANTITIES}}
+        found.append(
+            ReferencePoint(point, base.branch, base.branch, *known.of(QUANTITIES), beside, by_mesh)
+        )
     return found
 
 
@@ -174,20 +178,6 @@ def _branches(load: float, folds: dict[str, float]) -> list[str | None]:
         return [None]
     film = ["film"] if load < folds["film_lost"] else []
     return [*film, *(["contact"] if load > folds["film_regained"] else [])]
-
-
-def _good(result: WasherResult, branch: str) -> bool:
-    return not result.status.is_failure and result.branch == branch
-
-
-def _extrapolated(
-    point: Point, branch: str, chain: list[WasherResult], beside_fold: bool
-) -> ReferencePoint:
-    """Return the extrapolated values and what the fine mesh said."""
-    rows = [{name: float(getattr(r, name)) for name in QUANTITIES} for r in chain[1:]]
-    values, uncertainty = extrapolated(rows, _ratios(GRIDS), 2.0)
-    by_mesh: dict[str, Values] = {_mesh_name(GRIDS[0]): dict(rows[0])}
-    return ReferencePoint(point, branch, branch, dict(values), uncertainty, beside_fold, by_mesh)
 
 
 def _mesh_name(grid: tuple[int, ...]) -> str:
@@ -232,4 +222,5 @@ SOURCE = Source(
     tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants")),
     GRIDS[-1],
     tuple(f"{a} x {b} and {c} x {d} nodes, order 2" for (a, b), (c, d) in pairwise(GRIDS)),
+    BRANCHES,
 )  # fmt: skip

@@ -19,8 +19,7 @@ from .card_writer import write_card
 
 def stamped(card: Card) -> Card:
     """Return a card tied to today's kernels."""
-    built = [name for name in card.kernels.files if "/" in name]
-    files = (*files_of(card.model, card.fidelity), *built)
+    files = (*files_of(card.model, card.fidelity), *card.built)
     return replace(card, kernels=Sources(files, kernel_digest(files)))
 
 

@@ -5,6 +5,7 @@ import platform
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -89,15 +90,13 @@ def _cpu() -> str:
 def _commit() -> dict[str, Any]:
     """Return the commit of a checkout and if its files differ from it; None where there is none."""
     folder = Path(__file__).parents[2]
-    if not (folder / ".git").exists():
-        return {"commit": None, "dirty": None}
-    try:
-        words = ["git", "-C", str(folder)]
-        head = subprocess.run([*words, "rev-parse", "HEAD"], capture_output=True, text=True)
-        state = subprocess.run(
-            [*words, "status", "--porcelain", "--untracked-files=no"],
-            capture_output=True, text=True,
-        )  # fmt: skip
-    except OSError:
-        return {"commit": None, "dirty": None}
-    return {"commit": head.stdout.strip()[:12] or None, "dirty": bool(state.stdout.strip())}
+
+    def git(*words: str) -> str:
+        done = subprocess.run(["git", "-C", str(folder), *words], capture_output=True, text=True)
+        return done.stdout.strip()
+
+    if (folder / ".git").exists():
+        with suppress(OSError):  # no git
+            changes = git("status", "--porcelain", "--untracked-files=no")
+            return {"commit": git("rev-parse", "HEAD")[:12] or None, "dirty": bool(changes)}
+    return {"commit": None, "dirty": None}

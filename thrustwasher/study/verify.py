@@ -55,7 +55,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _case(case: Case, only: str | None, n: int, out: Path) -> int:
     """Make the cards of one parameter set; return how many rungs failed."""
-    wanted = [r for r in case.spec.fidelities if _is_wanted(case, r, only)]
+    wanted = [only] if only else [r for r in case.spec.fidelities if _lacks_cards(case, r)]
     if not wanted:
         _say(f"{case.spec.key} {case.name}: nothing to do")
         return 0
@@ -103,9 +103,7 @@ def holds(rung: str, params: Any) -> bool:
     return rung != "map" or find_map(as_numbers(params)) is not None
 
 
-def _is_wanted(case: Case, rung: str, only: str | None) -> bool:
-    if only is not None:
-        return rung == only
+def _lacks_cards(case: Case, rung: str) -> bool:
     return holds(rung, case.params) and not fresh_cards(case.spec.key, rung, case.params)
 
 
@@ -120,8 +118,7 @@ def case_of(case: Case, rung: str) -> Case:
 
 def rung_cards(case: Case, rung: str, known: list[ReferencePoint]) -> Iterator[Card]:
     """Yield the cards of a rung, one per chart, from the reference values."""
-    point = case.point(0)
-    blank = ReferencePoint(point, None, None, {}, {})
+    blank = ReferencePoint(case.point(0), None, None, {}, {})
     answer(case.spec.key, case.params, rung, blank)  # compiled from now on
     once = first_call(case.spec.key, rung)
     for chart in dict.fromkeys(t.chart for t in known):

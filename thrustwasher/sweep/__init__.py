@@ -1,10 +1,10 @@
 """Many operating points at once: on all cores or on a cluster, resumable, one table at the end.
 
-===========  =====================================================================================
-``axes``     what is varied: texts such as ``50:1850:50`` into values
-``plan``     the rows in their order, cut into lines that are solved one point after the other
-``rows``     solves lines; runs in the workers
-``table``    the rows as columns, as CSV or Parquet
-``run``      ``run_sweep``: lines handed to processes here or to a Dask cluster
-===========  =====================================================================================
+===============  =================================================================================
+``axes``         What is varied: texts such as ``50:1850:50`` into values
+``run_sweep``    Lines handed to processes here or to a Dask cluster
+``solve_rows``   Solves lines; runs in the workers
+``sweep_plan``   The rows in their order, cut into lines that are solved one point after the other
+``sweep_table``  The rows as columns, as CSV or Parquet
+===============  =================================================================================
 """

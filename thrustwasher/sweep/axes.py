@@ -3,7 +3,7 @@
 import difflib
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -22,37 +22,33 @@ class Place:
     """An input or a parameter that can be varied."""
 
     name: str
-    unit: str
-    kind: str
     is_input: bool
-    low: float
-    high: float
-    relative: bool
-    options: tuple[str, ...] = ()
+    meta: Mapping[str, Any]  # as a parameter's field has it
 
-    def allowed(self) -> str:
-        """Say the range in words."""
-        return allowed({"kind": self.kind, "unit": self.unit, "min": self.low, "max": self.high,
-                        "options": self.options})  # fmt: skip
+    @property
+    def unit(self) -> str:
+        """Unit of numbers without one."""
+        return str(self.meta["unit"])
+
+    @property
+    def kind(self) -> str:
+        """Real, integer, boolean or enumeration."""
+        return str(self.meta["kind"])
 
     def check(self, value: Any) -> float | int | bool | str:
         """Return a value given in Python, or raise ParameterError naming what is allowed."""
-        if self.kind == "enumeration":
-            if value not in self.options:
-                raise ParameterError(f"{self.name} = {value!r}, allowed: {self.allowed()}")
-            return str(value)
-        if self.kind == "boolean":
-            if value not in (0, 1):
-                raise ParameterError(f"{self.name} = {value!r}, allowed: {self.allowed()}")
-            return bool(value)
+        if self.kind in ("enumeration", "boolean"):
+            if value not in self.meta.get("options", (0, 1)):
+                raise ParameterError(f"{self.name} = {value!r}, allowed: {allowed(self.meta)}")
+            return str(value) if self.kind == "enumeration" else bool(value)
         number = parse_quantity(
             value if isinstance(value, str) else float(value), self.unit, self.name,
-            difference=self.relative,
+            difference=bool(self.meta.get("relative")),
         )  # fmt: skip
         whole = self.kind != "integer" or number == int(number)
-        if not self.low <= number <= self.high or not whole:
+        if not self.meta["min"] <= number <= self.meta["max"] or not whole:
             unit = "" if self.unit == "1" else f" {self.unit}"
-            raise ParameterError(f"{self.name} = {number!r}{unit}, allowed: {self.allowed()}")
+            raise ParameterError(f"{self.name} = {number!r}{unit}, allowed: {allowed(self.meta)}")
         return int(number) if self.kind == "integer" else number
 
 
@@ -67,22 +63,12 @@ class Axis:
 def places(spec: ModelSpec) -> dict[str, Place]:
     """Return everything of a model that a sweep may vary or hold, by name."""
     more = find_model(spec.key).sweep.more_inputs
-    signals = (*spec.inputs, *(Signal(**fields_) for fields_ in more))
-    found = {
-        s.name: Place(
-            s.name, s.unit, "real", True, -math.inf if s.low is None else s.low,
-            math.inf if s.high is None else s.high, s.relative,
-        )
-        for s in signals
-    }  # fmt: skip
-    for f in fields(spec.params):
-        m = f.metadata
-        options = tuple(m.get("options", ()))
-        found[f.name] = Place(
-            f.name, m["unit"], m["kind"], False, m["min"], m["max"], bool(m.get("relative")),
-            options,
-        )  # fmt: skip
-    return found
+    found = {}
+    for s in (*spec.inputs, *(Signal(**fields_) for fields_ in more)):
+        low, high = -math.inf if s.low is None else s.low, math.inf if s.high is None else s.high
+        meta = {"kind": "real", "unit": s.unit, "min": low, "max": high, "relative": s.relative}
+        found[s.name] = Place(s.name, True, meta)
+    return found | {f.name: Place(f.name, False, f.metadata) for f in fields(spec.params)}
 
 
 def find_place(name: str, known: dict[str, Place], spec: ModelSpec) -> Place:

@@ -1,7 +1,6 @@
 """The rows of a sweep in their order, cut into lines: one line is one walk of warm starts."""
 
 import hashlib
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from ..ladder import choose as chooser
 from ..model.registry import spec_of
 from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
@@ -53,8 +53,8 @@ def make_plan(
     """Return the plan of a sweep; arguments as in ``run_sweep``."""
     spec = spec_of(model)
     known = places(spec)
-    rung = spec.default_fidelity if fidelity is None else fidelity
-    tolerance = _tolerance(rung, spec)
+    asked = spec.default_fidelity if fidelity is None else fidelity
+    rung, tolerance = chooser.rung_and_tolerance(spec.key, spec, asked)
     base = spec.params() if params is None else params
     if not isinstance(base, spec.params):
         raise ParameterError(f"params: {type(base).__name__}, allowed: {spec.params.__name__}")
@@ -74,22 +74,6 @@ def make_plan(
     return plan if tolerance is None else _chosen(plan, tolerance)
 
 
-def _tolerance(rung: str, spec: ModelSpec) -> float | None:
-    """Return the tolerance of "auto:0.01", None for the name of a rung."""
-    if rung in spec.fidelities:
-        return None
-    name, _, text = rung.partition(":")
-    try:
-        if name == "auto" and 0.0 < float(text) < math.inf:
-            return float(text)
-    except ValueError:
-        pass
-    rungs = ", ".join(map(repr, spec.fidelities))
-    raise ParameterError(
-        f"fidelity = {rung!r}, allowed: {rungs} or 'auto:TOLERANCE', e.g. auto:0.01"
-    )
-
-
 def _chosen(plan: Plan, tolerance: float) -> Plan:
     """Return the plan with the rung that the cards choose for all of its points.
 
@@ -97,13 +81,13 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
     ------
     SolveError : no rung is verified to the tolerance
     """
-    from ..ladder.choose import choose
-
     if len(plan.params) != 1:
         raise ParameterError("fidelity = 'auto': allowed: without varied parameters")
     low, high = np.nanmin(plan.inputs, axis=0).tolist(), np.nanmax(plan.inputs, axis=0).tolist()
     box = {s.name: (a, b) for s, a, b in zip(plan.spec.inputs, low, high, strict=True)}
-    choice = choose(plan.spec.key, box, tol=tolerance, n_calls=plan.n_rows, params=plan.params[0])
+    choice = chooser.choose(
+        plan.spec.key, box, tol=tolerance, n_calls=plan.n_rows, params=plan.params[0]
+    )
     identity = {**plan.identity, "fidelity": choice.fidelity}
     return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
 

@@ -55,7 +55,6 @@ MODEL = Model(
         },
         part="washer",
         references="thrustwasher.study.reference_washer:SOURCE",
-        cases="thrustwasher.study.charts.chart_cases:WASHER_CASES",
         chart="thrustwasher.study.charts.chart_series:WASHER",
     ),
     wiring=(

@@ -4,42 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ...errors import ParameterError
-from ...model.spec import ModelSpec
+from ...ladder.choose import rung_and_tolerance
 from .scene import Part, Scene
-
-AUTO = "auto"
-TOLERANCE = 0.01  # of "auto" alone
-TOLERANCES = (1e-6, 0.5)
-
-
-def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
-    """Return rung and tolerance of "field", "auto" or "auto:0.01"; tolerance None: the rung as is.
-
-    With a tolerance the rung is the model's own default, until one is chosen.
-    """
-    if isinstance(text, str) and text.partition(":")[0] == AUTO:
-        return spec.default_fidelity, _tolerance(where, text)
-    if not isinstance(text, str) or text not in spec.fidelities:
-        options = " or ".join(repr(n) for n in spec.fidelities)
-        raise ParameterError(
-            f"{where}: fidelity = {text!r}, allowed: {options} or 'auto:TOLERANCE'"
-        )
-    return text, None
-
-
-def _tolerance(where: str, text: str) -> float:
-    given = text.partition(":")[2]
-    low, high = TOLERANCES
-    try:
-        tolerance = float(given) if given or text.endswith(":") else TOLERANCE
-    except ValueError:
-        tolerance = -1.0
-    if not low <= tolerance <= high:
-        raise ParameterError(
-            f"{where}: fidelity = {text!r}, allowed: auto:TOLERANCE with {low:g} .. {high:g}, "
-            "for example auto:0.01"
-        )
-    return tolerance
 
 
 def has_choice(part: Part) -> bool:

@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ParameterError
+from ...ladder.choose import rung_and_tolerance
 from ...model.parameters import allowed
 from ...model.spec import ModelSpec
 from ...units import parse_quantity
 from ..key_figures.figure_list import FIGURES
 from .connections import PARTS, REQUIRED
-from .fidelity_option import rung_and_tolerance
 from .scene import STEP_RANGE, TOLERANCE_RANGE, Part, Published, Scene
 
 # Key -> (unit, least, largest); texts have no unit.

@@ -1,4 +1,4 @@
-"""The words beside the charts: who won, where it flips, what failed, what set-up costs."""
+"""Which samples nothing beats, and the words beside the charts: what failed, what set-up costs."""
 
 import math
 import re
@@ -6,8 +6,36 @@ from collections.abc import Mapping, Sequence
 from statistics import linear_regression
 from typing import Any
 
-Sampled = Mapping[str, Any]
+Sampled = Mapping[str, Any]  # a sample as in the JSON file
 Row = list[str]
+
+
+def beats(a: Sampled, b: Sampled, quantity: str) -> bool:
+    """Tell if ``a`` is faster by more than both spreads, errs no more and fails no oftener.
+
+    Errors below the uncertainty of the reference count as equal.
+    """
+    faster = a["call_median"] + a["call_iqr"] + b["call_iqr"] < b["call_median"]
+    no_worse = _error(a, quantity) <= _error(b, quantity)
+    return bool(faster and no_worse and a["n_failed"] <= b["n_failed"])
+
+
+def front(samples: Sequence[Sampled], quantity: str) -> list[int]:
+    """Return the indices of the samples that no other beats, by rising cost."""
+    valid = [
+        i for i, s in enumerate(samples)
+        if s["call_median"] is not None and s["errors"].get(quantity, {}).get("worst") is not None
+    ]  # fmt: skip
+    kept = [
+        i for i in valid
+        if not any(beats(samples[j], samples[i], quantity) for j in valid if j != i)
+    ]  # fmt: skip
+    return sorted(kept, key=lambda i: samples[i]["call_median"])
+
+
+def _error(sample: Sampled, quantity: str) -> float:
+    uncertainty = sample["ref_uncertainty"].get(quantity) or 0.0
+    return max(float(sample["errors"][quantity]["worst"]), uncertainty)
 
 
 def seconds(value: float | None) -> str:

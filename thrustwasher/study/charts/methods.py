@@ -1,9 +1,9 @@
 """Methods to solve a model that can be measured: the package's rungs and meshes, and rivals."""
 
+import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from importlib import import_module
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,6 +16,7 @@ from ...command.kernels import step as command_step
 from ...errors import Status
 from ...model.kernel_tables import fill_table
 from ...model.prepare import filled
+from ...model.record import resolve
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...washer.kernel_arguments import constants
@@ -24,10 +25,22 @@ from ...washer.kernels.workspace import size_of_state, size_of_work
 from ...washer.map.look_up import map_for
 from ..reference_clutch import TIMES, engagement_corners
 from ..rivals.plain2006 import Plain2006
-from .chart_cases import ChartCase
 
 STEP = 0.01  # how far apart warm calls are in the first input, relative
 LEAST_STEP = 1e-9  # s
+
+
+@dataclass(frozen=True)
+class ChartCase:
+    """An operating point in the order of the model's inputs, and the way to it.
+
+    It is reached as a user would reach it: from rest over the points of ``before``, so that the
+    branch is that of the history.
+    """
+
+    name: str
+    point: tuple[float, ...]
+    before: tuple[tuple[float, ...], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -61,12 +74,10 @@ def path_to(case: ChartCase) -> tuple[tuple[float, ...], ...]:
     return (*case.before, (first * (1.0 - STEP), *others), case.point)
 
 
-def _place_of_count(spec: ModelSpec) -> int | None:
-    """Return where a kernel leaves the first of its counts in ``work``; None if it counts none."""
-    if not spec.counts:
-        return None
-    module, name = spec.counts[0][1].split(":")
-    return int(getattr(import_module(module), name))
+def _neighbours(case: ChartCase) -> list[tuple[float, ...]]:
+    """Return points half a per cent above and below a case in the first input."""
+    first, *others = case.point
+    return [(first * (1.0 + side * 0.5 * STEP), *others) for side in (1.0, -1.0)]
 
 
 class KernelMethod:
@@ -74,21 +85,21 @@ class KernelMethod:
 
     def __init__(self, spec: ModelSpec, fidelity: str, grid: tuple[int, int] | None = None) -> None:
         kernel = self._kernel = kernel_of(spec)
-        self._n_state, n_work, self._nodes, self.build_s = kernel.NSTATE, kernel.NWORK, 1, 0.0
+        self._n_state, self._nodes, self.build_s = kernel.NSTATE, 1, 0.0
         if grid is None:
             self._par = filled(spec, spec.params(), fidelity, kernel.NPAR, kernel.derive)
-        else:
-            self._par = constants(spec.params(), grid)
-            self._n_state, n_work = size_of_state(*grid), N_HEAD + size_of_work(*grid)
-            self._nodes = grid[0] * grid[1]
-        self._work = np.zeros(n_work)
-        if grid is None:
+            self._work = np.zeros(kernel.NWORK)
             fill_table(spec, spec.params(), self._par, self._work)
+        else:
+            self._par, self._n_state = constants(spec.params(), grid), size_of_state(*grid)
+            self._work = np.zeros(N_HEAD + size_of_work(*grid))
+            self._nodes = grid[0] * grid[1]
         if fidelity == "map":
             self.build_s = float(map_for(spec.params()).card["build_s"])
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._real = [s.name for s in spec.outputs if s.kind == "real"]
-        self._count = _place_of_count(spec)
+        # where the kernel leaves the first of its counts in ``work``
+        self._count = int(resolve(spec.counts[0][1])) if spec.counts else None
 
     def _walk(self, case: ChartCase) -> tuple[Any, int, float]:
         """Return state, status and count after walking to a case from nothing."""
@@ -117,17 +128,9 @@ class KernelMethod:
         return self._call(case, np.zeros(self._n_state), command_step.step)
 
     def _call(self, case: ChartCase, state: Any, step: Any) -> Callable[[], object]:
-        first, *others = case.point
-        points = [np.array((first * (1.0 + s * 0.5 * STEP), *others)) for s in (-1.0, 1.0)]
+        points = itertools.cycle(map(np.array, _neighbours(case)))
         par, work, out, iout = self._par, self._work, self._out, self._iout
-        turn = 0
-
-        def call() -> None:
-            nonlocal turn
-            turn = 1 - turn
-            step(par, points[turn], state, work, out, iout, 0.0, 1.0)
-
-        return call
+        return lambda: step(par, next(points), state, work, out, iout, 0.0, 1.0)
 
 
 class Method2006:
@@ -156,15 +159,8 @@ class Method2006:
     def warm(self, case: ChartCase) -> Callable[[], object]:
         """Return a call that goes back and forth over one per cent of the load."""
         washer, _ = self._at(case)
-        load, *others = case.point
-        turn = -1.0
-
-        def call() -> None:
-            nonlocal turn
-            turn = -turn
-            washer.solve(load * (1.0 + turn * 0.5 * STEP), *others)
-
-        return call
+        points = itertools.cycle(_neighbours(case))
+        return lambda: washer.solve(*next(points))
 
     def idle(self, case: ChartCase) -> None:
         """Return nothing: a call from Python is nothing beside a solve."""

@@ -12,19 +12,14 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from ...errors import ParameterError, Status
-from ...model.registry import spec_of
 from ..costs import REPEATS, Timing, time_call
 from ..reference_cache import source_of
 from ..reference_values import ReferenceValues
-from ..rivals.plain2006 import Plain2006
-from .chart_cases import ChartCase, cases_of, digest
-from .chart_series import Configuration, Quantity, chart_of, series_of
-from .methods import KernelMethod, Method, MethodAnswer
+from .chart_series import Configuration, Quantity, cases_of, chart_of, digest, series_of
+from .methods import ChartCase, Method, MethodAnswer
 
 Progress = Callable[[str], None]
 GOOD = (Status.OK, Status.DISTRESS, Status.HOT)
-BEST_2006 = 1e-5  # tolerance of the method of 2006 beyond which its answers do not change
-LOADS = tuple(range(50, 1851, 50))  # of the washer's whole curve
 
 
 @dataclass(frozen=True)
@@ -171,7 +166,8 @@ def work_precision(
     progress(f"{model}: reference values of {len(cases)} cases")
     source = source_of(model)
     known = [source.at_case(case.point, case.before) for case in cases]
-    quantities = chart_of(model).quantities
+    chart = chart_of(model)
+    quantities = chart.quantities
     samples = []
     for setting in series_of(model, quick=quick):
         progress(f"{model}: {setting.label}")
@@ -179,41 +175,12 @@ def work_precision(
         samples.append(measure(setting, cases, known, quantities, repeats=repeats).as_dict())
     found: dict[str, Any] = {
         "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
-        "cases_digest": digest(cases), "cost_of": chart_of(model).cost_of,
-        "quantities": [
-            {"name": q.name, "kind": "relative" if q.relative else "absolute", "unit": q.unit,
-             "floor": q.floor if q.relative else None}
-            for q in quantities
-        ],
+        "cases_digest": digest(cases), "cost_of": chart.cost_of,
+        "quantities": [q.as_dict() for q in quantities],
         "truths": [{q.name: t.values[q.name] for q in quantities} for t in known],
         "samples": samples,
     }  # fmt: skip
-    if model == "washer":
-        progress("washer: the whole curve by the method of 2006")
-        found["curve"] = whole_curve(quick=quick)
+    for name, measured in chart.more.items():
+        progress(f"{model}: {name}")
+        found[name] = measured(quick=quick)
     return found
-
-
-def whole_curve(*, quick: bool = False) -> dict[str, float]:
-    """Return the seconds that one curve up in load takes, by the method of 2006 and by ours.
-
-    545 rad/s, tilt 0.002 rad, 24 degC, 50 .. 1850 N in steps of 50 N; and the first load step of
-    the method of 2006 alone, which took 30 minutes then.
-    """
-    loads = LOADS[::4] if quick else LOADS
-    washer = Plain2006(tolerance=BEST_2006)
-    began = time.perf_counter()
-    washer.solve(loads[0], 545.0, 2e-3, 297.15)
-    first = time.perf_counter() - began
-    for load in loads[1:]:
-        washer.solve(load, 545.0, 2e-3, 297.15)
-    whole = time.perf_counter() - began
-    ours = KernelMethod(spec_of("washer"), "field")
-    points = tuple((float(load), 545.0, 2e-3, 297.15) for load in loads)
-    ours.solve(ChartCase("curve", points[-1], points[:-1]))
-    began = time.perf_counter()
-    ours.solve(ChartCase("curve", points[-1], points[:-1]))
-    return {
-        "points": len(loads), "first_step_2006_s": first, "curve_2006_s": whole,
-        "curve_field_s": time.perf_counter() - began, "first_step_then_s": 1800.0,
-    }  # fmt: skip

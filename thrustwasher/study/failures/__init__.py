@@ -1,8 +1,7 @@
 """Where methods fail, and the limits of co-simulation.
 
 ===================  ============================================================================
-``coupling_limits``  Steps and slopes at which a loop of two parts stops being stable: formulas,
-                     measured
+``coupling_limits``  Steps and slopes at which a loop of two parts stops being stable
 ``failure_balance``  Where methods to find the washer's balance fail: by the branch they end on
 ``failure_cells``    Cells of the stability map: what one method does at one hazard, measured
 ``failure_map``      The failure map: each method meets each hazard, and what comes out is judged

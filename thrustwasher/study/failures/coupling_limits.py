@@ -8,7 +8,6 @@ signal over a step. A stepper takes all that the loop knows and returns what it 
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
 from typing import Any
 
 ONE, TWO, THREE = (1.0,), (1.0, 1.0), (1.0, 0.0, 0.0)
@@ -20,6 +19,7 @@ Stepper = Callable[[State], State]
 MANY = 3000  # steps that tell if a deviation grows
 HUGE, TINY = 1e6, 1e-6
 Make = Callable[[float], Any]
+Limit = dict[str, Any]
 
 
 def torque_held(kappa: float) -> Stepper:
@@ -129,36 +129,29 @@ def edge(holds: Callable[[float], bool], inside: float, outside: float) -> float
     return 0.5 * (inside + outside)
 
 
-@dataclass(frozen=True)
-class Limit:
-    """One formula and what a run of its loop gives."""
-
-    loop: str
-    formula: str
-    predicted: float
-    measured: float
-
-    @property
-    def deviation(self) -> float:
-        """Measured over predicted, less 1."""
-        return self.measured / self.predicted - 1.0
+def _limit(loop: str, formula: str, predicted: float, measured: float) -> Limit:
+    """Return one formula and what a run of its loop gives."""
+    return {
+        "loop": loop, "formula": formula, "predicted": predicted, "measured": measured,
+        "deviation": measured / predicted - 1.0,
+    }  # fmt: skip
 
 
 def limits() -> list[Limit]:
-    """Return all limits, each by bisection or by the growth over a run."""
+    """Return all limits as JSON types, each by bisection or by the growth over a run."""
     return [
-        Limit("torque fresh, held (Gauss-Seidel)", "H < 2 J/c: stable", 2.0,
+        _limit("torque fresh, held (Gauss-Seidel)", "H < 2 J/c: stable", 2.0,
               _stable(torque_held, ONE)),
-        Limit("torque fresh, held (Gauss-Seidel)", "H < J/c: no overshoot", 1.0,
+        _limit("torque fresh, held (Gauss-Seidel)", "H < J/c: no overshoot", 1.0,
               _smooth(torque_held, ONE)),
-        Limit("torque a step old (Jacobi)", "H < J/c: stable", 1.0, _stable(torque_late, TWO)),
-        Limit("torque a step old (Jacobi)", "H < J/(4 c): no overshoot", 0.25,
+        _limit("torque a step old (Jacobi)", "H < J/c: stable", 1.0, _stable(torque_late, TWO)),
+        _limit("torque a step old (Jacobi)", "H < J/(4 c): no overshoot", 0.25,
               _smooth(torque_late, TWO)),
-        Limit("torque extrapolated", "H < J/c: stable", 1.0, _stable(torque_drawn_on, TWO)),
-        Limit("T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0, _stable(tanh_held, (1e-6,))),
-        Limit("torque with its slope, kappa 10", "factor 1/(1 + kappa) a step: always stable",
+        _limit("torque extrapolated", "H < J/c: stable", 1.0, _stable(torque_drawn_on, TWO)),
+        _limit("T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0, _stable(tanh_held, (1e-6,))),
+        _limit("torque with its slope, kappa 10", "factor 1/(1 + kappa) a step: always stable",
               1.0 / 11.0, factor(torque_implicit(10.0), ONE, 40)),
-        Limit("falling friction, kappa -0.1", "grows by 1 + H abs(c)/J a step: physics",
+        _limit("falling friction, kappa -0.1", "grows by 1 + H abs(c)/J a step: physics",
               1.1, factor(torque_held(-0.1), ONE)),
         *_springs(), *_rest(),
     ]  # fmt: skip
@@ -186,14 +179,14 @@ def _springs() -> list[Limit]:
 
     undamped = spring_held(SPRING, 0.0, STEP)
     return [
-        Limit("undamped spring, force held", "grows by sqrt(1 + k H^2/(2 m)) a step: never",
+        _limit("undamped spring, force held", "grows by sqrt(1 + k H^2/(2 m)) a step: never",
               math.sqrt(1.0 + SPRING * STEP**2 / (2.0 * MASS)),
               factor(undamped, (1.0, 0.0), 5000)),
-        Limit("spring and damper, force held", "c > k H/2: stable", 0.5 * SPRING * STEP,
+        _limit("spring and damper, force held", "c > k H/2: stable", 0.5 * SPRING * STEP,
               edge(held, 50.0, 0.0)),
-        Limit("spring and damper, force held", "c < 2 m/H: stable", 2.0 * MASS / STEP,
+        _limit("spring and damper, force held", "c < 2 m/H: stable", 2.0 * MASS / STEP,
               edge(held, 50.0, 1e4)),
-        Limit("spring and damper, force a step old", "c > 1.5 k H for small H: stable",
+        _limit("spring and damper, force a step old", "c > 1.5 k H for small H: stable",
               1.5 * SPRING * 1e-4, edge(late, 50.0, 0.0)),
     ]  # fmt: skip
 
@@ -207,17 +200,12 @@ def _rest() -> list[Limit]:
     least = -CONDUCTANCE / math.tanh(0.5 * CONDUCTANCE * HEAT_STEP / CAPACITY)
     low, high = coulomb_reach(FRICTION, DRIVE, STEP)
     return [
-        Limit("power held, G and C exact", "dq/dT < G: stable", CONDUCTANCE,
+        _limit("power held, G and C exact", "dq/dT < G: stable", CONDUCTANCE,
               edge(settles, 0.0, 100.0)),
-        Limit("power held, G and C exact", "dq/dT > -G coth(G H/(2 C)): stable", least,
+        _limit("power held, G and C exact", "dq/dT > -G coth(G H/(2 C)): stable", least,
               edge(settles, 0.0, -200.0)),
-        Limit("Coulomb friction, held", "slip up to (T + T_x) H/J: bounded chatter",
+        _limit("Coulomb friction, held", "slip up to (T + T_x) H/J: bounded chatter",
               (FRICTION + DRIVE) * STEP, high),
-        Limit("Coulomb friction, held", "slip down to -(T - T_x) H/J: bounded chatter",
+        _limit("Coulomb friction, held", "slip down to -(T - T_x) H/J: bounded chatter",
               -(FRICTION - DRIVE) * STEP, low),
     ]  # fmt: skip
-
-
-def as_rows(found: list[Limit]) -> list[dict[str, Any]]:
-    """Return limits as JSON types."""
-    return [{**asdict(one), "deviation": one.deviation} for one in found]

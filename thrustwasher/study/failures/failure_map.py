@@ -268,24 +268,20 @@ def drift(*, quick: bool = False) -> Group:
     return table("a shaft that swings", judged, methods, hazards, judge)
 
 
-def measures(*, quick: bool = False) -> list[Measure]:
-    """Return what is measured, in order, by its name."""
-    return [
+def stability(
+    *, quick: bool = False, progress: Callable[[str], None] = print, more: tuple[Measure, ...] = ()
+) -> list[dict[str, Any]]:
+    """Return all groups, as JSON types; ``more`` are measured after the package's own."""
+    own: tuple[Measure, ...] = (
         ("a cavitating film", partial(cavitation, quick=quick)),
         ("the washer's balance", balance),
         ("a flank that its oil heats", heat_loop),
         ("closed forms", closed_forms),
         ("lock-up in co-simulation", coupling),
         ("a shaft that swings", partial(drift, quick=quick)),
-    ]
-
-
-def stability(
-    *, quick: bool = False, progress: Callable[[str], None] = print, more: tuple[Measure, ...] = ()
-) -> list[dict[str, Any]]:
-    """Return all groups, as JSON types; ``more`` are measured after the package's own."""
+    )
     groups: list[Group] = []
-    for name, made in (*measures(quick=quick), *more):
+    for name, made in (*own, *more):
         progress("where methods fail: " + name)
         groups.append(made())
     return [asdict(g) for g in groups]

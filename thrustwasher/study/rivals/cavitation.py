@@ -105,13 +105,8 @@ def _band(p: Pad) -> Array:
     n = len(p.source)
     band = np.zeros((n * n, n + 1))
     band[:, 0] = p.diagonal.ravel()
-    for i in range(n):
-        for j in range(n):
-            k = i * n + j
-            if j:
-                band[k, 1] = -p.north[i, j]
-            if i:
-                band[k, n] = -p.east[i, j]
+    west, south = band[:, n].reshape(n, n), band[:, 1].reshape(n, n)
+    west[1:], south[:, 1:] = -p.east[1:-1], -p.north[:, 1:-1]
     return band
 
 

@@ -101,9 +101,12 @@ class Run:
         """Return how often the slip turns round after lock-up."""
         n = len(self.slip)
         first = min(n - 1, math.ceil(clutch.lock_time / clutch.span * (n - 1)))
-        after = self.slip[first:]
-        moving = np.sign(after[np.abs(after) > 0.2 * clutch.width])
-        return int(np.count_nonzero(np.diff(moving)))
+        return turns_of(self.slip[first:], 0.2 * clutch.width)
+
+
+def turns_of(slip: Row, least: float) -> int:
+    """Return how often a slip changes its sign, sizes up to ``least`` left out."""
+    return int(np.count_nonzero(np.diff(np.sign(slip[np.abs(slip) > least]))))
 
 
 Advance = Callable[[Clutch, Now, float], Now]

@@ -91,7 +91,8 @@ def _sloped(c: Clutch, now: Now, h: float) -> Now:
 def _doubled(c: Clutch, now: Now, h: float) -> Now:
     """Held torque, a step against two half ones; given back and halved where they disagree."""
     end, least = now.time + h, LEAST_SHARE * h
-    size = min(h, now.own) if now.own > 0.0 else h
+    known = now.time > 0.0 and now.own > 0.0  # what `lockup.begin` keeps is a torque, no step
+    size = min(h, now.own) if known else h
     while end - now.time > 1e-9 * h:
         size = min(size, end - now.time)
         once = _held(c, now, size)
@@ -108,17 +109,7 @@ def _doubled(c: Clutch, now: Now, h: float) -> Now:
     return now._replace(time=end, own=size)
 
 
-def step_doubling(clutch: Clutch, step: float, rewind: Rewind | None = None) -> Run:
-    """Held torque, a step against two half ones; given back and halved where they disagree."""
-
-    def advance(c: Clutch, now: Now, h: float) -> Now:
-        # what `lockup.begin` keeps is a torque, which is no step
-        return _doubled(c, now if now.time > 0.0 else now._replace(own=h), h)
-
-    return walk(clutch, step, advance, rewind)
-
-
-runge_kutta, located = _method(_stages), _method(_stick_slip)
+runge_kutta, located, step_doubling = _method(_stages), _method(_stick_slip), _method(_doubled)
 gauss_seidel, jacobi, linearly_implicit = _method(_held), _method(_late), _method(_sloped)
 
 

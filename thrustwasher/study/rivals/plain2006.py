@@ -12,17 +12,30 @@ Set as favourably as can be: over-relaxation 1.65 (best of 1.0 .. 1.9) also for 
 nowhere), temperatures relaxed where that keeps the branch, and all of it compiled.
 """
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Status
+from ...tribology.asperities import contact_pressure
+from ...tribology.flow_factors import mean_gap
 from ...washer.kernel_arguments import constants
+from ...washer.kernels.constants import WasherModel, washer_model
+from ...washer.kernels.gap import dry_friction, oil_viscosity
 from ...washer.kernels.layout import D_SIGMA1
 from ...washer.parameters import WasherParams
-from . import plain2006_kernel as kernel
-from .plain2006_heat import Settings
+from .compiled import rival
+from .plain2006_fields import (
+    Mesh,
+    Settings,
+    conductances,
+    gap_at,
+    heat,
+    make_mesh,
+    relax_pressure,
+)
 
 Array = NDArray[np.float64]
 GRID = (9, 67)
@@ -30,6 +43,202 @@ RELAXATION, HEAT_RELAXATION = 1.65, 1.9
 DIFFERENCE = 0.1  # [sigma]; less is lost in the pressures' stop test
 SHARE = 0.3  # 1 lands on the contact branch up to 28 % below the fold
 MOST_ROUNDS = 400
+OK, MAX_ITERATIONS, NOT_FINITE = 0, 10, 14  # errors.Status
+MOST_SWEEPS = 3000  # of pressure, per residual
+N_Q = 4  # positions in `memory`, before pressures and temperature rises
+TORQUE, TEMPERATURE, FILM, SWEEPS, RATIO, N_OUT = 0, 1, 2, 3, 4, 5  # what `solve_point` reports
+
+
+@rival
+def forces(
+    m: WasherModel, g: Mesh, q: Array, tilt: float, p: Array, force: Array
+) -> tuple[float, float]:
+    """Fill force and moment balance (4,), the last one the force on the gear; return contact."""
+    n_t, n_r = p.shape
+    for k in range(4):
+        force[k] = 0.0
+    contact = 0.0
+    for j in range(n_t):
+        for i in range(n_r):
+            x, y = g.r[i] * g.cos[j], g.r[i] * g.sin[j]
+            h = q[0] + y * q[2] - x * q[3]
+            pc, _ = contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)
+            f = (p[j, i] + pc) * g.area[i]
+            contact += pc * g.area[i]
+            force[0] += f
+            force[1] += f * y
+            force[2] -= f * x
+            if i >= g.i_g:
+                h = q[1] - q[0] - x * (tilt - q[3]) - y * q[2]
+                pc, _ = contact_pressure((h - m.mean_summit2) / m.summit_sigma2, m.table2)
+                f = pc * g.gear_area[i]
+                force[0] -= f
+                force[1] -= f * y
+                force[2] += f * x
+                force[3] += f
+    return contact, force[3]
+
+
+@rival
+def solve_four(a: Array, b: Array) -> bool:
+    """Gauss elimination with pivoting, in place; the solution is in ``b``."""
+    n = b.size
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(a[i, k]) > abs(a[best, k]):
+                best = i
+        if not abs(a[best, k]) > 0.0:
+            return False
+        for j in range(n):
+            a[k, j], a[best, j] = a[best, j], a[k, j]
+        b[k], b[best] = b[best], b[k]
+        for i in range(k + 1, n):
+            factor = a[i, k] / a[k, k]
+            for j in range(k, n):
+                a[i, j] -= factor * a[k, j]
+            b[i] -= factor * b[k]
+    for k in range(n - 1, -1, -1):
+        for j in range(k + 1, n):
+            b[k] -= a[k, j] * b[j]
+        b[k] /= a[k, k]
+    return True
+
+
+@rival
+def _residual(
+    m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, load: float, mu: Array, p: Array,
+    s: Settings, east: Array, north: Array, source: Array, force: Array,
+) -> int:  # fmt: skip
+    """Solve the pressure at ``q`` and fill the scaled residual of the four balances."""
+    conductances(m, g, q, speed, mu, east, north, source)
+    sweeps = relax_pressure(east, north, source, p, s, MOST_SWEEPS)
+    forces(m, g, q, tilt, p, force)
+    force[3] -= load
+    for k in range(4):
+        force[k] /= load if k in (0, 3) else load * m.outer_radius
+    return sweeps
+
+
+@rival
+def balance(
+    m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, load: float, mu: Array, p: Array,
+    s: Settings, out: Array,
+) -> int:  # fmt: skip
+    """Newton-Raphson on four positions with centred differences; return a status."""
+    n_t, n_r = p.shape
+    east, north, source = np.zeros((n_t, n_r)), np.zeros((n_t, n_r)), np.zeros((n_t, n_r))
+    force, plus, minus = np.zeros(4), np.zeros(4), np.zeros(4)
+    jacobian, trial, pressure = np.zeros((4, 4)), np.zeros(4), np.zeros((n_t, n_r))
+    scale = np.array((m.sigma1, m.sigma1, m.sigma1 / m.outer_radius, m.sigma1 / m.outer_radius))
+    for _ in range(80):
+        out[SWEEPS] += _residual(m, g, q, speed, tilt, load, mu, p, s, east, north, source, force)
+        worst = 0.0
+        for k in range(4):
+            worst = max(worst, abs(force[k]))
+        if not math.isfinite(worst):
+            return NOT_FINITE
+        # no better than the pressures behind it
+        if worst <= 10.0 * s.tolerance:
+            return OK
+        for k in range(4):
+            for sign in (1.0, -1.0):
+                trial[:] = q
+                trial[k] += sign * s.difference * scale[k]
+                pressure[:] = p
+                side = plus if sign > 0.0 else minus
+                out[SWEEPS] += _residual(
+                    m, g, trial, speed, tilt, load, mu, pressure, s, east, north, source, side
+                )
+            for row in range(4):
+                jacobian[row, k] = (plus[row] - minus[row]) / (2.0 * s.difference)
+        if not solve_four(jacobian, force):
+            return MAX_ITERATIONS
+        # the largest change of either gap stays near a third of the film, or one sigma
+        tilted = math.sqrt(force[2] ** 2 + force[3] ** 2)
+        least = (q[0] - m.outer_radius * math.sqrt(q[2] ** 2 + q[3] ** 2)) / m.sigma1
+        allowed = max(1.0, 0.3 * least)
+        change = max(abs(force[0]) + tilted, 0.5 * (abs(force[1] - force[0]) + tilted))
+        step = min(1.0, s.limit * allowed / change) if change > 0.0 else 1.0
+        for k in range(4):
+            q[k] -= step * force[k] * scale[k]
+    return MAX_ITERATIONS
+
+
+@rival
+def outputs(
+    m: WasherModel, g: Mesh, q: Array, speed: float, mu: Array, rise: Array, contact: float,
+    oil: float, out: Array,
+) -> None:  # fmt: skip
+    """Fill torque, mean temperature and least film thickness."""
+    n_t, n_r = mu.shape
+    friction, _ = dry_friction(m.par, contact)
+    torque, warmth, area = 0.0, 0.0, 0.0
+    for j in range(n_t):
+        for i in range(n_r):
+            h = gap_at(g, q, j, i)
+            mean, _ = mean_gap(h, m.sigma1)
+            pc, _ = contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)
+            viscous = mu[j, i] * speed * g.r[i] * g.r[i] / mean
+            dry = friction * pc * g.r[i]
+            torque += g.area[i] * (viscous + (dry if speed > 0.0 else -dry))
+            warmth += g.area[i] * 0.5 * (rise[0, j, i] + rise[1, j, i])
+            area += g.area[i]
+    out[TORQUE] = torque if speed != 0.0 else 0.0
+    out[TEMPERATURE] = oil + warmth / area
+    out[FILM] = q[0] - m.outer_radius * math.sqrt(q[2] ** 2 + q[3] ** 2)
+    out[RATIO] = out[FILM] / m.sigma1
+
+
+@rival
+def solve_point(
+    par: Array, n_r: int, n_t: int, load: float, speed: float, tilt: float, oil: float,
+    s: Settings, memory: Array, out: Array,
+) -> int:  # fmt: skip
+    """Solve one operating point from what ``memory`` holds (all zero: the start), into ``out``.
+
+    Temperature, viscosity and balance follow each other until the temperatures stay.
+    """
+    m = washer_model(par)
+    g = make_mesh(m, n_r, n_t)
+    n = n_r * n_t
+    q, p = memory[:N_Q], memory[N_Q : N_Q + n].reshape(n_t, n_r)
+    rise = memory[N_Q + n :].reshape(3, n_t, n_r)
+    if q[0] == 0.0:
+        q[3] = 0.95 * tilt
+        q[0] = q[3] * m.outer_radius + 6.0 * m.sigma1
+        q[1] = q[0] + 3.0 * m.sigma1 + 0.05 * tilt * m.outer_radius
+    mu, old, force = np.empty((n_t, n_r)), np.empty((3, n_t, n_r)), np.zeros(4)
+    for k in range(N_OUT):
+        out[k] = 0.0
+    status, contact = MAX_ITERATIONS, 0.0
+    for _ in range(s.most_rounds):
+        for j in range(n_t):
+            for i in range(n_r):
+                warm = oil + 0.5 * (rise[0, j, i] + rise[1, j, i])
+                mu[j, i], _ = oil_viscosity(m.par, warm)
+        inner = balance(m, g, q, speed, tilt, load, mu, p, s, out)
+        if inner != OK:
+            status = inner
+            break
+        contact, _ = forces(m, g, q, tilt, p, force)
+        old[:] = rise
+        out[SWEEPS] += heat(m, g, q, speed, tilt, mu, contact, rise, s)
+        worst, most = 0.0, 0.0
+        for body in range(3):
+            for j in range(n_t):
+                for i in range(n_r):
+                    step = rise[body, j, i] - old[body, j, i]
+                    rise[body, j, i] = old[body, j, i] + s.share * step
+                    worst, most = max(worst, abs(step)), max(most, abs(rise[body, j, i]))
+        if not math.isfinite(worst):
+            status = NOT_FINITE
+            break
+        if worst <= max(s.tolerance, 1e-9) * 10.0 * most + 1e-6:
+            status = OK
+            break
+    outputs(m, g, q, speed, mu, rise, contact, oil, out)
+    return status
 
 
 @dataclass
@@ -47,25 +256,20 @@ class Plain2006:
     def __post_init__(self) -> None:
         n_r, n_t = self.grid
         self._par = constants(self.params, (10, 32))  # scalars and contact tables; not its mesh
-        self.memory = np.zeros(kernel.N_Q + 4 * n_r * n_t)
-        self.out = np.zeros(kernel.N_OUT)
+        self.memory = np.zeros(N_Q + 4 * n_r * n_t)
+        self.out = np.zeros(N_OUT)
 
     def solve(self, load: float, speed: float, tilt: float, oil_temperature: float) -> Status:
         """Solve one point, warm if there was one before; the results are the properties below."""
         settings = Settings(
-            self.relaxation,
-            HEAT_RELAXATION,
-            self.tolerance,
-            DIFFERENCE,
-            self.share,
-            MOST_ROUNDS,
+            self.relaxation, HEAT_RELAXATION, self.tolerance, DIFFERENCE, self.share, MOST_ROUNDS,
             1.0 if self.limited else 1e300,
-        )
+        )  # fmt: skip
         if self.level and self.memory[0] == 0.0:
             gap = 3.0 * float(self._par[D_SIGMA1])
             self.memory[0] = gap
             self.memory[1] = 2.0 * gap + tilt * self.params.outer_radius
-        status = kernel.solve(
+        status = solve_point(
             self._par, *self.grid, float(load), float(speed), float(tilt), float(oil_temperature),
             settings, self.memory, self.out,
         )  # fmt: skip
@@ -78,24 +282,24 @@ class Plain2006:
     @property
     def friction_torque(self) -> float:
         """[N m] of the last solve."""
-        return float(self.out[kernel.TORQUE])
+        return float(self.out[TORQUE])
 
     @property
     def temperature(self) -> float:
         """[K] mean of the film."""
-        return float(self.out[kernel.TEMPERATURE])
+        return float(self.out[TEMPERATURE])
 
     @property
     def film_thickness(self) -> float:
         """[m] least separation."""
-        return float(self.out[kernel.FILM])
+        return float(self.out[FILM])
 
     @property
     def film_ratio(self) -> float:
         """[-] least separation over sigma."""
-        return float(self.out[kernel.RATIO])
+        return float(self.out[RATIO])
 
     @property
     def sweeps(self) -> int:
         """Sweeps over a field, of pressure and of temperature."""
-        return int(self.out[kernel.SWEEPS])
+        return int(self.out[SWEEPS])

@@ -21,6 +21,7 @@ class Shaft:
 
 Advance = Callable[[float, float, float, float], tuple[float, float, float]]
 OVERFLOW = 1e150
+TOLERANCE = 1e-4  # of step doubling
 
 
 def _walk(shaft: Shaft, advance: Advance) -> float:
@@ -59,11 +60,7 @@ def _push(x: float, v: float, torque: float, h: float) -> tuple[float, float]:
 
 def gauss_seidel(shaft: Shaft) -> float:
     """Torque fresh in each step, held over it."""
-
-    def advance(x: float, v: float, kept: float, h: float) -> tuple[float, float, float]:
-        return *_push(x, v, x, h), kept
-
-    return _walk(shaft, advance)
+    return _walk(shaft, lambda x, v, kept, h: (*_push(x, v, x, h), kept))
 
 
 def jacobi(shaft: Shaft) -> float:
@@ -81,23 +78,17 @@ def linearly_implicit(shaft: Shaft) -> float:
     return _walk(shaft, advance)
 
 
-def step_doubling(shaft: Shaft, tolerance: float = 1e-4) -> float:
+def step_doubling(shaft: Shaft) -> float:
     """Held torque, a step against two half ones; halved until they agree."""
-    h = shaft.turn
-    x, v = 1.0, 0.0
-    parts = 1
-    for _ in range(shaft.steps):
-        x, v, parts = _doubled(x, v, h, parts, tolerance)
-        if abs(x) > OVERFLOW:
-            return math.inf
-    return x * x + v * v
+    return _walk(shaft, _doubled)
 
 
-def _doubled(x: float, v: float, h: float, parts: int, tol: float) -> tuple[float, float, int]:
-    """Take one macro step in as many equal parts as the tolerance asks for."""
+def _doubled(x: float, v: float, kept: float, h: float) -> tuple[float, float, float]:
+    """Take one macro step in as many equal parts as the tolerance asks for; keep their number."""
+    parts = int(kept)
     while True:
         size, a, b, worst = h / parts, x, v, 0.0
-        limit = tol * max(abs(x), abs(v))
+        limit = TOLERANCE * max(abs(x), abs(v))
         for _ in range(parts):
             once = _push(a, b, a, size)
             half = _push(a, b, a, 0.5 * size)

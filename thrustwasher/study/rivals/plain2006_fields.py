@@ -1,6 +1,6 @@
-"""Settings and mesh of the method of 2006, and its temperatures of carrier, washer and gear.
+"""Settings and mesh of the method of 2006, its pressures, and temperatures of the three bodies.
 
-Temperatures are found by Gauss-Seidel sweeps, over-relaxed.
+Both fields are found by Gauss-Seidel sweeps, over-relaxed.
 """
 
 import math
@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...tribology.asperities import contact_pressure
-from ...tribology.flow_factors import mean_gap
+from ...tribology.flow_factors import flow_conductance, mean_gap, shear_flow
 from ...washer.kernels.constants import WasherModel
 from ...washer.kernels.gap import dry_friction
 from ...washer.kernels.layout import P_GEAR_INNER_RADIUS
 from .compiled import rival
 
 Array = NDArray[np.float64]
-MOST_SWEEPS = 20000
+MOST_SWEEPS = 20000  # of temperature
 
 
 class Settings(NamedTuple):
@@ -75,6 +75,67 @@ def make_mesh(m: WasherModel, n_r: int, n_t: int) -> Mesh:
 def gap_at(g: Mesh, q: Array, j: int, i: int) -> float:
     """Return the gap of film 1 [m] at a node."""
     return float(q[0] + g.r[i] * (g.sin[j] * q[2] - g.cos[j] * q[3]))
+
+
+@rival
+def conductances(
+    m: WasherModel, g: Mesh, q: Array, speed: float, mu: Array, east: Array, north: Array,
+    source: Array,
+) -> None:  # fmt: skip
+    """Fill the flow conductances to the next angle and radius, and what drives the flow."""
+    n_t, n_r = mu.shape
+    source[:, 1 : n_r - 1] = 0.0
+    for j in range(n_t):
+        jn = (j + 1) % n_t
+        for i in range(n_r):
+            h0, h1 = gap_at(g, q, j, i), gap_at(g, q, jn, i)
+            h = 0.5 * (h0 + h1)
+            flow, _ = flow_conductance(h, m.sigma1)
+            if 0 < i < n_r - 1:
+                dr = 0.5 * (g.r[i + 1] - g.r[i - 1])
+                east[j, i] = flow * dr / (g.r[i] * g.d_theta) / (6.0 * (mu[j, i] + mu[jn, i]))
+                mean, _ = mean_gap(h, m.sigma1)
+                if m.shear != 0.0:
+                    phi, _ = shear_flow(h, m.sigma1)
+                    mean -= m.sigma1 * m.shear * phi
+                through = 0.5 * speed * g.r[i] * dr * mean
+                source[j, i] -= through
+                source[jn, i] += through
+            if i < n_r - 1:
+                h = 0.5 * (h0 + gap_at(g, q, j, i + 1))
+                flow, _ = flow_conductance(h, m.sigma1)
+                north[j, i] = (
+                    flow * 0.5 * (g.r[i] + g.r[i + 1]) * g.d_theta / (g.r[i + 1] - g.r[i])
+                    / (6.0 * (mu[j, i] + mu[j, i + 1]))
+                )  # fmt: skip
+
+
+@rival
+def relax_pressure(
+    east: Array, north: Array, source: Array, p: Array, s: Settings, most: int
+) -> int:
+    """Gauss-Seidel with over-relaxation and p >= 0; return the sweeps made.
+
+    The stop test is the paper's kind: the change of a sweep against the sum of pressures.
+    """
+    n_t, n_r = p.shape
+    for sweep in range(most):
+        change, total = 0.0, 0.0
+        for j in range(n_t):
+            jb, jn = (j - 1) % n_t, (j + 1) % n_t
+            for i in range(1, n_r - 1):
+                a, b = east[j, i], east[jb, i]
+                c, d = north[j, i], north[j, i - 1]
+                value = (
+                    a * p[jn, i] + b * p[jb, i] + c * p[j, i + 1] + d * p[j, i - 1] + source[j, i]
+                ) / (a + b + c + d)
+                value = max(p[j, i] + s.relaxation * (value - p[j, i]), 0.0)
+                change += abs(value - p[j, i])
+                total += value
+                p[j, i] = value
+        if change <= s.tolerance * total:
+            return sweep + 1
+    return most
 
 
 @rival

@@ -39,6 +39,13 @@ class Signal:
     events: tuple[str, str] | None = None
 
 
+def output(
+    name: str, unit: str, nominal: float, help: str, depends: tuple[str, ...] = (), **more: Any
+) -> Signal:
+    """Return a real output."""
+    return Signal(name=name, unit=unit, nominal=nominal, help=help, depends=depends, **more)
+
+
 @dataclass(frozen=True)
 class Rule:
     """What is said when parameters contradict each other.
@@ -66,6 +73,12 @@ class Terminal:
     kind: str
     help: str
     members: tuple[tuple[str, str, str], ...]
+
+
+OIL_PORT = Terminal(
+    name="oil", kind="thrustwasher.HeatPort", help="Oil temperature in, friction power out",
+    members=(("oil_temperature", "T", "signal"), ("friction_power", "Q_flow", "outflow")),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,8 +5,9 @@ from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...numerics.jit import Array
 from ..parameters import ClutchParams
 from .calibration_result import Calibration, Estimate
 from .data_warnings import warnings
@@ -17,7 +18,6 @@ from .measurements import checked_names, checked_points, checked_start
 
 __all__ = ["Calibration", "Estimate", "calibrate"]
 
-Array = NDArray[np.float64]
 DEFAULT_FIT = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
 
 

@@ -5,14 +5,14 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...numerics.jit import Array
 from ..parameters import ClutchParams
 from .friction_law import friction_slopes
 from .identifiability import Information, LoadTest, counted
 from .least_squares import Problem
 
-Array = NDArray[np.float64]
 NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
 CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
 

@@ -5,11 +5,10 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from .friction_law import end_frictions, friction_over
 from .identifiability import Verdict
 from .least_squares import Problem, bounds_of
-
-Array = NDArray[np.float64]
 
 POOR = 0.2  # of the mean friction: an rms residual above it is always worth a warning
 RISE = 0.05  # of the mean friction: a smaller rise with speed is not worth one

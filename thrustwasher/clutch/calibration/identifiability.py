@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from .friction_law import shares
 from .least_squares import Problem
-
-Array = NDArray[np.float64]
 
 LOST = 1e-9  # a singular value this small beside the largest is rounding
 VANISHES = 1e-4  # ... and so is one this much smaller beside the friction itself

@@ -8,13 +8,11 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import SolveError
+from ...numerics.jit import Array
 from ..parameters import ClutchParams
 from .friction_law import friction_over, friction_slopes
-
-Array = NDArray[np.float64]
 
 N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
 N_STARTS = 4  # best of them, refined

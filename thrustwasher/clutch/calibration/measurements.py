@@ -5,14 +5,13 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...errors import ParameterError
+from ...numerics.jit import Array
 from ..parameters import LOAD, SPEED, ClutchParams
 from .friction_law import CONSTANT_LAW, constants_of, friction_radius, law_values
 from .least_squares import Problem, bounds_of
-
-Array = NDArray[np.float64]
 
 LARGEST_FRICTION = 2.0
 SPEEDS = ("stick_speed", "decay_speed")

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.parameters import check_ranges, choice, count, flag, quantity
-from ..model.rules import check_rules
+from ..model.prepare import check_rules
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 FRICTION_LAWS = {

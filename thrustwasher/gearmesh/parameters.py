@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.parameters import as_numbers, check_ranges, choice, count, quantity
-from ..model.rules import check_rules
+from ..model.prepare import check_rules
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 SURFACES = {

@@ -104,3 +104,8 @@ class ModelSpec:
     course: tuple[tuple[float, ...], ...] = ()
     # What the solver counts: (text, "module:NAME" of the place in work).
     counts: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def real_outputs(self) -> list[str]:
+        """Names of the outputs that are real numbers, as they lie in `out`."""
+        return [signal.name for signal in self.outputs if signal.kind == "real"]

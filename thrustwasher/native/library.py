@@ -8,23 +8,24 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import EnvironmentProblem
-from . import files, link, linked, shipped
+from . import binaries, files, link, shipped
 from .digest import HERE
 from .entries import symbols
 from .files import Note, to_stderr
-from .here import this_level, this_platform
+from .link import this_level, this_platform
 from .objects import kept_folder, objects
 from .targets import GLIBC, Platform
 
 TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order
 Addresses = dict[str, int]  # symbol -> address
-
-
 _failed: dict[str, EnvironmentProblem] = {}  # what cannot be had is not tried at every call
 
 
 def addresses(kernel: str) -> Addresses:
-    """Return where the functions of a kernel module are, after loading its library; see ``_found``.
+    """Return where the functions of a kernel module are, after loading its library.
+
+    It is the one shipped with the package, else one kept from an earlier run, else it is linked;
+    where nothing can link, the object is loaded by llvmlite.
 
     Raises
     ------
@@ -41,26 +42,13 @@ def addresses(kernel: str) -> Addresses:
 
 @cache
 def _found(kernel: str) -> Addresses:
-    """Return where the functions of a kernel module are, after loading its library.
-
-    It is the one shipped with the package, else one kept from an earlier run, else it is linked;
-    where nothing can link, the object is loaded by llvmlite.
-
-    Raises
-    ------
-    EnvironmentProblem : it can neither be found nor made; the message says what to do
-    """
     platform = this_platform()
     shown = shipped.library_file(kernel, platform.name)
-    if shown:
-        found = _loaded(kernel, shown)
-        if found:
-            return found
+    if shown and (found := _loaded(kernel, shown)):
+        return found
     kept = _kept_file(kernel, platform)
-    if files.kept(kept) is not None:
-        found = _loaded(kernel, kept)
-        if found:
-            return found
+    if files.kept(kept) is not None and (found := _loaded(kernel, kept)):
+        return found
     return _made(kernel, platform, kept)
 
 
@@ -84,8 +72,7 @@ def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
         except OSError as error:
             to_stderr(f"{place} is not kept: {error.strerror or error}")
             continue
-        found = _loaded(kernel, place)
-        if found:
+        if found := _loaded(kernel, place):
             return found
     return _by_llvm(kernel, platform, code)
 
@@ -114,7 +101,7 @@ def linked_library(
         parts, platform=platform, name=shipped.short(kernel), defines=defines, linker=linker,
         note=note,
     )  # fmt: skip
-    linked.check(made, exports=[TABLE], glibc=GLIBC if linker.is_cross else None)
+    binaries.check(made, exports=[TABLE], glibc=GLIBC if linker.is_cross else None)
     return made
 
 

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.input_courses import course_of, rising
-from ..model.parameters import as_numbers
+from ..model.parameters import as_numbers, course_of, rising
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants
 from .kernels import layout as L
@@ -164,9 +163,8 @@ def _packed(
     params: WasherParams, points: Array, inputs: Array, rows: Array,
     lost: NDArray[np.bool_], said: list[Status], fidelity: str, grid: tuple[int, int],
 ) -> WasherCourse:  # fmt: skip
-    names = [s.name for s in SPEC.outputs if s.kind == "real"]
     given = {s.name: inputs[:, i].copy() for i, s in enumerate(SPEC.inputs)}
-    shown = {name: rows[:, i].copy() for i, name in enumerate(names)}
+    shown = {name: rows[:, i].copy() for i, name in enumerate(SPEC.real_outputs)}
     return WasherCourse(
         time=points, **given, **shown, distress=lost.copy(), status=list(said),
         thermal_mode=params.thermal_mode, fidelity=fidelity, grid=grid,

@@ -15,13 +15,12 @@ from ..model.parameters import check_number
 from ..model.prepare import OFFLINE
 from ..native.load import bound
 from ..numerics.jit import Array
-from .kernel_arguments import NO_MESH, SIMPLE, constants
+from .kernel_arguments import NO_MESH, SIMPLE, Recent, constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.simple import N_WORK
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .recent import Recent, work_array
 from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]

@@ -44,6 +44,8 @@ class Problem:
     """(constants,) a change that would certainly matter."""
     is_constant: bool = False
     """The constant law instead of Wang, Wei & Wu's."""
+    known_errors: bool = False
+    """The weights are one over known standard deviations; else the residuals' scatter counts."""
 
     def values(self, guess: Array) -> dict[str, float]:
         """Return the law's numbers with the guess put in."""

@@ -12,7 +12,7 @@ from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
 from ...native.load import bound
 from ...numerics.jit import Array
-from ..kernel_arguments import NO_MESH
+from ..kernel_arguments import NO_MESH, Recent
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
 from ..kernels.map.map_rows import look_up_rows, map_folds, map_tilts, single_look_up
@@ -21,7 +21,6 @@ from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
 from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import WasherParams
-from ..recent import Recent
 from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
 from .map_file import MapFile, find_map, read_map
 

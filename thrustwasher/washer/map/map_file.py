@@ -17,14 +17,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import ParameterError
+from ...numerics.jit import Array
 from ...storage.digests import DATA
 from ..kernels.layout import N_STEADY
 from ..kernels.map import map_layout as L
 
-Array = NDArray[np.float64]
 SHIPPED = DATA / "maps"
 SUFFIX = ".twm"
 NUMBERS, CARD = "map.f32", "card.json"

@@ -136,18 +136,11 @@ def engage_clutch(
                 f"t = {points[i]:g} s, load = {forces[i]:g} N, speed = {slips[i]:g} rad/s: "
                 f"{Status(pack.status).advice}"
             )
-    return _engagement(par, points, forces, slips, rows, substeps, fidelity)
-
-
-def _engagement(
-    par: Array, points: Array, forces: Array, slips: Array, rows: Array, substeps: int, rung: str
-) -> Engagement:
-    kept = {f.name for f in fields(Engagement)}
+    kept, stages = {f.name for f in fields(Engagement)}, list(REGIMES)
     columns = {n: rows[:, i].copy() for i, n in enumerate(SPEC.real_outputs) if n in kept}
-    stages = list(REGIMES)
     hot = bool((columns["temperature"] > k.HOT_LIMIT).any())
     return Engagement(
-        time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=rung,
+        time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=fidelity,
         regime=[
             stages[pack_friction.regime_of(par, u, slip) - 1]
             for u, slip in zip(columns["film_ratio"], slips, strict=True)

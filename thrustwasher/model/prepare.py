@@ -55,15 +55,14 @@ def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
     rule = getattr(import_module(spec.kernel), "broken_rule", None)
     if rule is None:
         return
-    numbers = [*as_numbers(params), list(spec.fidelities).index(fidelity) + 1]
-    if number := rule(np.array(numbers, float)):
-        raise ParameterError(spec.rules[number - 1].message(params))
+    check_rules(params, spec.rules, rule, list(spec.fidelities).index(fidelity) + 1)
 
 
-def check_rules(params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int]) -> None:
+def check_rules(
+    params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int], *more: float
+) -> None:
     """Raise ParameterError for the first broken rule; every value must be in its range already."""
-    number = broken_rule(np.array(as_numbers(params)))
-    if number:
+    if number := broken_rule(np.array([*as_numbers(params), *more], float)):
         raise ParameterError(rules[number - 1].message(params))
 
 

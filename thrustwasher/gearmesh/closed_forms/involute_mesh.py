@@ -150,15 +150,3 @@ def loss_factor(mesh: Mesh) -> float:
 def _slid(end: float) -> float:
     """Return the integral of |s| from 0 to ``end``."""
     return 0.5 * end * abs(end)
-
-
-def ohlendorf_factor(mesh: Mesh) -> float:
-    """Return H_v [-] in the usual form; neither approach nor recess may exceed a base pitch."""
-    approach, recess = path_of_contact(mesh)
-    shape = 1.0 - approach - recess + approach**2 + recess**2
-    return math.pi * (1.0 + 1.0 / mesh.ratio) / mesh.pinion_teeth * shape
-
-
-def pitch_line_speed(mesh: Mesh, speed: float) -> float:
-    """Return the speed of the pitch circles [m/s]."""
-    return speed * pinion_radius(mesh)

@@ -30,11 +30,6 @@ def pitch_radius(teeth: float, normal_module: float, helix_angle: float) -> floa
     return 0.5 * teeth * normal_module / math.cos(helix_angle)
 
 
-def can_be_assembled(sun_teeth: int, ring_teeth: int, planets: int) -> bool:
-    """Return True if equally spaced planets fit between sun and ring."""
-    return (sun_teeth + ring_teeth) % planets == 0
-
-
 def ring_speed(ratio: float, sun: float, carrier: float) -> float:
     """Return the speed of the ring [rad/s] from w_s + r w_r = (1 + r) w_c."""
     return ((1.0 + ratio) * carrier - sun) / ratio

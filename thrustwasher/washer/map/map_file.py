@@ -42,12 +42,7 @@ class MapFile:
     def made_for(self, numbers: Sequence[float]) -> bool:
         """Tell if the map was made for these parameters, in the order of the dataclass."""
         steady = tuple(float(x) for x in numbers[:N_STEADY])
-        return params_of(self.data, len(steady)) == steady
-
-
-def params_of(data: Array, count: int) -> tuple[float, ...]:
-    """Return the parameters in a map's header."""
-    return tuple(float(x) for x in data[L.PARAMS : L.PARAMS + count])
+        return tuple(self.data[L.PARAMS :][: len(steady)].tolist()) == steady
 
 
 def pack(data: Array, card: dict[str, Any]) -> bytes:

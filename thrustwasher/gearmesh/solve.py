@@ -132,10 +132,8 @@ def solve_gearmesh(
 
     Raises
     ------
-    ParameterError
-        An argument is out of range; the message names it.
-    SolveError
-        The flank's temperature was not found (no case is known).
+    ParameterError : an argument is out of range; the message names it
+    SolveError : the flank's temperature was not found (no case is known)
 
     Notes
     -----

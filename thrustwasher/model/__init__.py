@@ -6,7 +6,6 @@
 ``registry``    the models and their kernels by name
 ``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
 ``prepare``     from parameters to what a kernel takes: rules, constants, tables
-``tailored``    a model with other defaults: the numbers of one place of use
 ==============  ===============================================================================
 
 Every model has one module ``kernels.step`` with the same face, the step ABI, so that Python, the

@@ -11,9 +11,9 @@ from ..errors import EnvironmentProblem
 from . import binaries, files, link, shipped
 from .digest import HERE
 from .entries import symbols
-from .files import Note, to_stderr
+from .files import to_stderr
 from .link import this_level, this_platform
-from .objects import kept_folder, objects
+from .objects import Objects, kept_folder, objects
 from .targets import GLIBC, Platform
 
 TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order
@@ -78,9 +78,8 @@ def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
 
 
 def linked_library(
-    kernel: str, platform: Platform, code: dict[tuple[str, str], bytes], *,
-    linker: link.Linker | None = None, note: Note = to_stderr,
-) -> bytes:  # fmt: skip
+    kernel: str, platform: Platform, code: Objects, linker: link.Linker | None = None
+) -> bytes:
     """Return the objects of a kernel module linked to a library for Python, checked.
 
     Raises
@@ -98,9 +97,8 @@ def linked_library(
     levels = platform.levels
     defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
     made = link.shared_library(
-        parts, platform=platform, name=shipped.short(kernel), defines=defines, linker=linker,
-        note=note,
-    )  # fmt: skip
+        parts, platform=platform, name=shipped.short(kernel), defines=defines, linker=linker
+    )
     binaries.check(made, exports=[TABLE], glibc=GLIBC if linker.is_cross else None)
     return made
 
@@ -125,7 +123,7 @@ def _loaded(kernel: str, path: Path) -> Addresses:
 _engines: list[Any] = []  # what has been loaded by llvmlite lives as long as the process
 
 
-def _by_llvm(kernel: str, platform: Platform, code: dict[tuple[str, str], bytes]) -> Addresses:
+def _by_llvm(kernel: str, platform: Platform, code: Objects) -> Addresses:
     """Return the addresses in an object file loaded by llvmlite."""
     import llvmlite.binding as llvm
 

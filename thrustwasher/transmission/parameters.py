@@ -178,7 +178,6 @@ SPEC = ModelSpec(
                  members=(("washer_speed", "w", "signal"), ("washer_torque", "tau", "inflow"),
                           ("washer_load", "load", "signal"), ("washer_tilt", "tilt", "signal"))),
     ),
-    stop_time=1.0,
     # An upshift: the brake lets go while the clutch takes over and locks.
     course=((0.0, 0.0, 400.0, 0.05, 0.2, 0.0), (0.2, 0.0, 400.0, 0.05, 0.2, 0.0),
             (0.5, 150.0, 0.0, 0.05, 0.2, 0.6), (0.7, 300.0, 0.0, 0.05, 0.2, 1.0),

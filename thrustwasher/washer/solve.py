@@ -5,6 +5,7 @@ carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/
 """
 
 import math
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -246,8 +247,6 @@ def _prefer(
 
 def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:
     """Replace the error estimate by the change from a grid of half the intervals."""
-    import dataclasses
-
     half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
     point = (result.load, result.speed, result.tilt, result.oil_temperature)
     coarse = _prefer(result.params, point, result.fidelity, half, BRANCHES.get(result.branch, 0.0))
@@ -256,4 +255,4 @@ def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult
         change = abs(result.friction_torque - coarse.friction_torque)
         # order 1.3, the lowest seen (boundary lubrication; 2.2 in full film): error = change/1.46
         estimate = change / 1.46 / max(abs(result.friction_torque), 1e-12)
-    return dataclasses.replace(result, error_estimate=estimate)
+    return replace(result, error_estimate=estimate)

@@ -3,7 +3,7 @@
 import difflib
 from collections.abc import Sequence
 from dataclasses import fields, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -69,10 +69,8 @@ def calibrate(
 
     Raises
     ------
-    ParameterError
-        Wrong shapes, numbers out of range, unknown names.
-    SolveError
-        No starting point led to a fit.
+    ParameterError : wrong shapes, numbers out of range, unknown names
+    SolveError : no starting point led to a fit
 
     Notes
     -----
@@ -92,12 +90,14 @@ def calibrate(
     (0.2, 2.0)
     """
     names = checked_names(params, fit)
-    points = checked_points(params, speed, load, friction, friction_error)
-    problem, first = checked_start(params, names, points, confidence, friction_error is not None)
+    problem = checked_problem(params, names, speed, load, friction, friction_error)
+    if not isinstance(confidence, int | float) or not 0.0 < confidence < 1.0:
+        raise ParameterError(f"confidence = {confidence!r}, allowed: above 0 and below 1")
+    first = np.array([problem.base[name] for name in names])
     best, told, judged = _settled(problem, first, confidence)
     values = problem.values(best)
     changes: dict[str, Any] = {name: values[name] for name in names}
-    residuals = points.friction - problem.curve(best)
+    residuals = problem.friction - problem.curve(best)
     chi = problem.cost(best) / told.freedom if told.freedom > 0 else None
     return Calibration(
         params=replace(params, **changes),
@@ -112,7 +112,7 @@ def calibrate(
         rms=float(np.sqrt(np.mean(residuals**2))),
         degrees_of_freedom=told.freedom,
         reduced_chi_square=chi if problem.known_errors else None,
-        load_test=load_test(problem, best, points.load, told),
+        load_test=load_test(problem, best, told),
         warnings=warnings(problem, best, first, judged),
         confidence=float(confidence),
         _problem=problem, _best=best, _told=told,
@@ -192,16 +192,6 @@ def _correlation(problem: Problem, told: Information) -> Array:
     return np.asarray(matrix)
 
 
-class Points(NamedTuple):
-    """Measured points, all arrays of one length."""
-
-    slip_speed: Array
-    """[m/s] at the friction radius, not negative."""
-    load: Array
-    friction: Array
-    weight: Array
-
-
 def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
     """Return the names to fit, or say which one cannot be."""
     names = (fit,) if isinstance(fit, str) else tuple(fit)
@@ -228,14 +218,11 @@ def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
-def checked_points(
-    params: ClutchParams,
-    speed: ArrayLike,
-    load: ArrayLike,
-    friction: ArrayLike,
-    friction_error: ArrayLike | None,
-) -> Points:
-    """Return the points as arrays, or name the first value that cannot be used."""
+def checked_problem(
+    params: ClutchParams, names: tuple[str, ...], speed: ArrayLike, load: ArrayLike,
+    friction: ArrayLike, friction_error: ArrayLike | None,
+) -> Problem:  # fmt: skip
+    """Return what is to be solved, or name the first value that cannot be used."""
     mu = _column("friction", friction, "", -LARGEST_FRICTION, LARGEST_FRICTION)
     count = len(mu)
     slip = _column("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, count, False)
@@ -248,32 +235,14 @@ def checked_points(
         raise ParameterError(
             f"friction is {mu.mean():.3g} on average, allowed: above 0 (for either sign of speed)"
         )
-    return Points(
-        np.abs(slip) * friction_radius(params), _above_zero("load", force, "N"), mu, weight
-    )
-
-
-def checked_start(
-    params: ClutchParams,
-    names: tuple[str, ...],
-    points: Points,
-    confidence: float,
-    known_errors: bool,
-) -> tuple[Problem, Array]:
-    """Return the problem to solve and the values to start from."""
-    if not isinstance(confidence, int | float) or not 0.0 < confidence < 1.0:
-        raise ParameterError(f"confidence = {confidence!r}, allowed: above 0 and below 1")
-    low, high = bounds_of(names)
-    base = law_values(params)
-    fastest = float(points.slip_speed.max()) or 1.0
-    scale = np.array([fastest if name in SPEEDS else 1.0 for name in names])
+    force, slip_speed = _above_zero("load", force, "N"), np.abs(slip) * friction_radius(params)
+    scale = np.where(np.isin(names, SPEEDS), float(slip_speed.max()) or 1.0, 1.0)
     if names == CONSTANT_LAW:
-        scale[0] = float(points.friction.mean())
-    problem = Problem(
-        base, names, points.slip_speed, points.friction, points.weight, low, high, scale,
-        names == CONSTANT_LAW, known_errors,
+        scale[0] = float(mu.mean())
+    return Problem(
+        law_values(params), names, slip_speed, mu, force, weight, *bounds_of(names), scale,
+        names == CONSTANT_LAW, friction_error is not None,
     )  # fmt: skip
-    return problem, np.array([base[name] for name in names])
 
 
 def _column(

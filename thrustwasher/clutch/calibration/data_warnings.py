@@ -31,11 +31,7 @@ TABLE = (
 def warnings(problem: Problem, best: Array, first: Array, judged: list[Verdict]) -> tuple[str, ...]:
     """Return what is wrong with the fit as a whole, the gravest first; each "headline: details".
 
-    Parameters
-    ----------
-    problem, best : the fit
-    first : (constants,) the values before it
-    judged : the verdict on every constant
+    ``first`` are the values before the fit, ``judged`` is the verdict on every constant.
     """
     scatter = 1.0 / problem.weight if problem.known_errors else _scatter(problem)
     found = [_rising(problem)]
@@ -121,11 +117,7 @@ def _poor(share: float, alone: bool) -> str:
 def out_of_reach(problem: Problem, scatter: Array, side: int) -> str:
     """Return a sentence if points lie above (side 1) or below (-1) all the law can give, or "".
 
-    Parameters
-    ----------
-    problem : what is fitted, within which ranges
-    scatter : (points,) standard deviation of ``friction``
-    side : 1 for points that are too high, -1 for those too low
+    ``scatter`` is the standard deviation of ``friction``, (points,).
     """
     measured = problem.friction
     edge = friction_over(_corner(problem, side), problem.speed)

@@ -50,6 +50,10 @@ class Information:
             return np.inf
         return float(np.sqrt(np.sum((along[told] / self.strength[told]) ** 2)))
 
+    def half_width_of(self, gradient: Array) -> float:
+        """Return the half width of a quantity's interval; infinite if not told."""
+        return self.error_of(gradient) * self.quantile if np.isfinite(self.quantile) else np.inf
+
     def blurred(self) -> list[Array]:
         """Return directions, in changes of the constants, that the points do not resolve."""
         wide = self.quantile > self.strength if np.isfinite(self.quantile) else self.strength <= 0.0
@@ -121,8 +125,9 @@ class LoadTest:
         return self.p_value is not None and self.p_value < 0.01
 
 
-def load_test(problem: Problem, best: Array, load: Array, told: Information) -> LoadTest:
-    """Return the test of a term linear in load [N] (points,) beside the law's own constants."""
+def load_test(problem: Problem, best: Array, told: Information) -> LoadTest:
+    """Return the test of a term linear in load beside the law's own constants."""
+    load = problem.load
     spread = float(np.ptp(load))
     if spread <= SAME_LOAD * float(load.max()):
         return LoadTest(None, None, "all points have one load: its influence cannot be tested")
@@ -135,10 +140,10 @@ def load_test(problem: Problem, best: Array, load: Array, told: Information) -> 
     if free @ free < FOLLOWS * (column @ column):
         text = "load changes only together with speed: its influence cannot be told from speed's"
         return LoadTest(None, None, text)
-    return _tested(problem, best, free, load, told.freedom - 1)
+    return _tested(problem, best, free, told.freedom - 1)
 
 
-def _tested(problem: Problem, best: Array, free: Array, load: Array, freedom: int) -> LoadTest:
+def _tested(problem: Problem, best: Array, free: Array, freedom: int) -> LoadTest:
     """Return the size of the term and its significance."""
     from scipy.stats import norm, t
 
@@ -150,7 +155,7 @@ def _tested(problem: Problem, best: Array, free: Array, load: Array, freedom: in
     score = abs(slope) * float(np.sqrt(free @ free)) / deviation
     p_value = 2.0 * float(norm.sf(score) if problem.known_errors else t.sf(score, freedom))
     change = slope / float(problem.friction.mean())
-    where = f"from {load.min():g} to {load.max():g} N"
+    where = f"from {problem.load.min():g} to {problem.load.max():g} N"
     if p_value < 0.01:
         text = (
             f"friction changes by {100 * change:+.2g} % {where}, more than scatter explains "
@@ -188,8 +193,7 @@ def verdicts(
     blurred = told.blurred()
     found = []
     for i in range(len(best)):
-        error = told.error_of(np.eye(len(best))[i])
-        half = error * told.quantile if np.isfinite(told.quantile) else np.inf
+        half = told.half_width_of(np.eye(len(best))[i])
         known = bool(half <= problem.scale[i]) and not (weak is not None and weak[i])
         side = _side(problem, best, i)
         words = [] if known else [_why_not(problem, best, told, i, half, blurred)]

@@ -36,6 +36,8 @@ class Problem:
     speed: Array
     """(points,) slip speed [m/s], not negative."""
     friction: Array
+    load: Array
+    """[N]; the law does not know it."""
     weight: Array
     """(points,) one over the standard deviation, or 1."""
     low: Array
@@ -90,16 +92,11 @@ def bounds_of(names: tuple[str, ...]) -> tuple[Array, Array]:
 def best_fit(problem: Problem, first: Array) -> Array:
     """Return the constants with the least sum of squares that any start leads to.
 
-    Parameters
-    ----------
-    problem : what is fitted
-    first : (constants,) the values before the fit; the result nearest to them is taken where
-        several fit equally well
+    Where several fit equally well, the nearest to ``first``, the values before the fit, is taken.
 
     Raises
     ------
-    SolveError
-        No start converged.
+    SolveError : no start converged
     """
     starts = [first, *_coarse(problem, first)]
     noise = (1e-13 * np.abs(problem.friction * problem.weight).max()) ** 2 * len(problem.speed)
@@ -141,16 +138,8 @@ def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation:
 def profile_end(problem: Problem, best: Array, index: int, end: float, wanted: float) -> float:
     """Return where one constant alone costs ``wanted`` more, the others refitted.
 
-    Parameters
-    ----------
-    problem, best : the fit
-    index : which constant
-    end : first guess of the place, on the wanted side of ``best``
-    wanted : rise of the sum of squares
-
-    Returns
-    -------
-    float : the place, or the constant's bound if the rise there is less
+    ``end`` is a first guess of the place, on the wanted side of ``best``. Where the sum of squares
+    rises less up to the constant's bound, it is that bound.
     """
     centre, least = best[index], problem.cost(best)
     bound = problem.high[index] if end > centre else problem.low[index]

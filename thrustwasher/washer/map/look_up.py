@@ -36,8 +36,12 @@ class _Memory(threading.local):
     """What looking up in a map writes to: each thread has its own."""
 
     def __init__(self, data: Array) -> None:
-        self.work = np.zeros(N_MAP_WORK + L.N_ALL)
+        self.data, self.work = data, np.zeros(N_MAP_WORK + L.N_ALL)
         self.torque = bound(single_look_up, data=data, w=self.work)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let a copy have its own."""
+        return _Memory, (self.data,)
 
 
 class WasherMap:
@@ -63,15 +67,6 @@ class WasherMap:
     def __init__(self, params: WasherParams, path: str | os.PathLike[str] | None = None) -> None:
         self.params, self.file = params, map_for(params, path)
         self.data, self.card = self.file.data, self.file.card
-        self._own = _Memory(self.data)
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out the memory: a copy has its own."""
-        return {name: value for name, value in self.__dict__.items() if name != "_own"}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Take over all but the memory."""
-        self.__dict__.update(state)
         self._own = _Memory(self.data)
 
     @property

@@ -24,15 +24,12 @@ class Information:
     scale: Array
     strength: Array
     """(constants,) one over the standard error of each direction, in scaled constants; 0: lost."""
-    directions: Array
-    """(constants, constants) one direction per row, scaled constants."""
+    directions: Array  # (constants, constants) one direction per row, scaled constants
     quantile: float
     """Half width of an interval in standard errors; infinite where no scatter can be judged."""
     rank: int
-    freedom: int
-    """Points less independent constants."""
-    deviation: float
-    """Standard deviation of one weighted point."""
+    freedom: int  # points less independent constants
+    deviation: float  # standard deviation of one weighted point
 
     def covariance(self) -> Array:
         """Return the covariance of the constants without the directions that are lost."""
@@ -173,11 +170,9 @@ def _tested(problem: Problem, best: Array, free: Array, freedom: int) -> LoadTes
 class Verdict:
     """One constant: told by the points or not, and the reason."""
 
-    half_width: float
-    """Of the linearised interval; infinite if nothing is known."""
+    half_width: float  # of the linearised interval; infinite if nothing is known
     identifiable: bool
-    at_bound: str
-    """"lower", "upper" or ""."""
+    at_bound: str  # "lower", "upper" or ""
     reason: str
 
 

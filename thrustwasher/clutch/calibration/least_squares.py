@@ -30,22 +30,16 @@ _LINEAR = ("plough_weight", "shear_floor")
 class Problem:
     """Measured points and what may be changed to meet them."""
 
-    base: Mapping[str, float]
-    """Every number of the law; those in ``names`` are replaced."""
+    base: Mapping[str, float]  # every number of the law; those in ``names`` are replaced
     names: tuple[str, ...]
-    speed: Array
-    """(points,) slip speed [m/s], not negative."""
+    speed: Array  # (points,) slip speed [m/s], not negative
     friction: Array
-    load: Array
-    """[N]; the law does not know it."""
-    weight: Array
-    """(points,) one over the standard deviation, or 1."""
+    load: Array  # [N]; the law does not know it
+    weight: Array  # (points,) one over the standard deviation, or 1
     low: Array
     high: Array
-    scale: Array
-    """(constants,) a change that would certainly matter."""
-    is_constant: bool = False
-    """The constant law instead of Wang, Wei & Wu's."""
+    scale: Array  # (constants,) a change that would certainly matter
+    is_constant: bool = False  # the constant law instead of Wang, Wei & Wu's
     known_errors: bool = False
     """The weights are one over known standard deviations; else the residuals' scatter counts."""
 

@@ -30,10 +30,8 @@ class Mobility(NamedTuple):
 class Limit(NamedTuple):
     """Where the torsional mode neither grows nor decays."""
 
-    damping: float
-    """[N m s/rad] of the shaft"""
-    frequency: float
-    """[rad/s]"""
+    damping: float  # [N m s/rad] of the shaft
+    frequency: float  # [rad/s]
 
 
 def planetary(

@@ -113,14 +113,9 @@ def this_level(platform: Platform) -> Level:
 
 
 def shared_library(
-    files: Mapping[str, str | bytes],
-    *,
-    platform: Platform,
-    name: str,
-    defines: Sequence[str] = (),
-    linker: Linker | None = None,
-    note: Note = to_stderr,
-) -> bytes:
+    files: Mapping[str, str | bytes], *, platform: Platform, name: str,
+    defines: Sequence[str] = (), linker: Linker | None = None, note: Note = to_stderr,
+) -> bytes:  # fmt: skip
     """Compile and link C files and objects to a shared library.
 
     Parameters

@@ -21,7 +21,7 @@ from .friction_law import (
     friction_slopes,
     law_values,
 )
-from .identifiability import Information, Verdict, confounded, information, load_test, verdicts
+from .identifiability import Information, Verdict, combination, information, load_test, verdicts
 from .least_squares import Problem, best_fit, bounds_of, profile_end, settled
 
 __all__ = ["Calibration", "Estimate", "calibrate"]
@@ -107,7 +107,7 @@ def calibrate(
         ),
         end_frictions=() if names == CONSTANT_LAW else _end_estimates(problem, best, told),
         correlation=_correlation(problem, told),
-        confounded=confounded(problem, told),
+        confounded=tuple(combination(problem, direction) for direction in told.blurred()),
         residuals=residuals,
         rms=float(np.sqrt(np.mean(residuals**2))),
         degrees_of_freedom=told.freedom,

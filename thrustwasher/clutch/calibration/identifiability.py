@@ -190,23 +190,13 @@ def verdicts(
     for i in range(len(best)):
         half = told.half_width_of(np.eye(len(best))[i])
         known = bool(half <= problem.scale[i]) and not (weak is not None and weak[i])
-        side = _side(problem, best, i)
+        low, high = best[i] <= problem.low[i], best[i] >= problem.high[i]
+        side = "lower" if low else "upper" if high else ""
         words = [] if known else [_why_not(problem, best, told, i, half, blurred)]
         if side:
             words.append(_bound_text(problem, best, i, side))
         found.append(Verdict(half, known, side, "; ".join(words)))
     return found
-
-
-def confounded(problem: Problem, told: Information) -> tuple[str, ...]:
-    """Return one sentence for every combination of constants that the points do not resolve."""
-    return tuple(combination(problem, direction) for direction in told.blurred())
-
-
-def _side(problem: Problem, best: Array, i: int) -> str:
-    if best[i] <= problem.low[i]:
-        return "lower"
-    return "upper" if best[i] >= problem.high[i] else ""
 
 
 def _bound_text(problem: Problem, best: Array, i: int, side: str) -> str:

@@ -4,7 +4,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -45,19 +45,21 @@ def local_processes(n: int) -> Iterator[Executor]:
 
 
 @contextmanager
-def processes_if_many(n: int) -> Iterator[Executor | None]:
-    """Give ``n`` fresh processes, or None for one.
+def mapped(
+    n: int, job: Callable[[Any], Any], tasks: Sequence[Any], chunksize: int
+) -> Iterator[Iterator[Any]]:
+    """Give what a job makes of each task, in order: by ``n`` fresh processes; for one, here.
 
     Raises
     ------
     EnvironmentProblem : a worker process has ended before its work was done
     """
     if n <= 1:
-        yield None
+        yield map(job, tasks)
         return
     try:
         with local_processes(n) as pool:
-            yield pool
+            yield pool.map(job, tasks, chunksize=chunksize)
     except BrokenProcessPool:
         raise EnvironmentProblem(
             "a worker process has ended before its work was done (too little memory?); what is "

@@ -65,19 +65,14 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
 
     Parameters
     ----------
-    value : str or float
-        "24 degC", "3000 rpm", "0.1 deg"; a bare number, or a text without unit, is SI.
-    unit : str
-        SI unit of the argument, e.g. "rad/s"; the unit in ``value`` must measure the same thing.
-    name : str
-        Name of the argument, for the message.
-    difference : bool
-        True for a difference of temperatures: 10 degC is then 10 K.
+    value : "24 degC", "3000 rpm", "0.1 deg"; a bare number, or a text without unit, is SI
+    unit : SI unit of the argument, e.g. "rad/s"; that in ``value`` must measure the same thing
+    name : of the argument, for the message
+    difference : True for a difference of temperatures: 10 degC is then 10 K
 
     Raises
     ------
-    ParameterError
-        One line with the argument, the text and the units allowed.
+    ParameterError : one line with the argument, the text and the units allowed
 
     Examples
     --------

@@ -7,7 +7,7 @@ import pytest
 from thrustwasher.cli import _fmu_cache, main
 from thrustwasher.cli.build import chosen_target
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.native import here, link
+from thrustwasher.native import link
 
 PART = "CommandSource"
 
@@ -51,7 +51,7 @@ def test_it_holds_this_machine_only_and_no_reference_results(cache, linker):
     with zipfile.ZipFile(path) as fmu:
         names = fmu.namelist()
     libraries = [n for n in names if n.startswith("binaries/")]
-    assert [n.split("/")[1] for n in libraries] == [here.this_platform().fmi2]
+    assert [n.split("/")[1] for n in libraries] == [link.this_platform().fmi2]
     assert [n for n in names if n.endswith("_out.csv")] == []
 
 

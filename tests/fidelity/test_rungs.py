@@ -25,9 +25,8 @@ from thrustwasher.fmu.description.interface import enumerations
 from thrustwasher.gearmesh import parameters as gearmesh_params
 from thrustwasher.gearmesh.kernels import layout as gear_layout
 from thrustwasher.gearmesh.kernels import step as gear_step
-from thrustwasher.model.kernel_tables import fill_table
 from thrustwasher.model.parameters import as_numbers
-from thrustwasher.model.prepare import filled
+from thrustwasher.model.prepare import fill_table, filled
 from thrustwasher.washer import parameters as washer_params
 from thrustwasher.washer.kernels import layout as washer_layout
 from thrustwasher.washer.kernels import step as washer_step

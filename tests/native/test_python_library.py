@@ -14,7 +14,7 @@ from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.gearmesh.kernels.constants import slide_roll
 from thrustwasher.native import digest, files, library, link, objects, shipped
 from thrustwasher.native.entries import CALLED, called_modules, describe, dotted, symbols
-from thrustwasher.native.here import this_platform
+from thrustwasher.native.link import this_platform
 from thrustwasher.native.load import python_function
 from thrustwasher.native.targets import PLATFORMS
 

@@ -91,7 +91,7 @@ def chosen_platforms(words: str | None, target: str) -> list[str] | None:
         return None
     if target != "native":
         raise ParameterError(f"--platforms {words}: for target native only")
-    from ..native.here import this_platform
+    from ..native.link import this_platform
     from ..native.targets import PLATFORMS
 
     named = [word.strip() for word in words.split(",")]

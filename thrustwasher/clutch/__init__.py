@@ -1,14 +1,12 @@
 """The wet clutch: a pack of friction plates in oil.
 
-================  ==============================================================================
-``calibration``   The friction law fitted to measurements, and what they tell of it
-``closed_forms``  Exact solutions that the clutch is compared with
-``engagement``    An engagement of the wet clutch over time: load and slip are given, torque and
-                  heat follow
-``kernels``       Compiled code of the wet clutch
-``parameters``    Parameters, inputs and outputs of the wet clutch: the one list all interfaces
-                  come from
-``solve``         Wet clutch: coefficient of boundary friction, and a pack that slips at a
-                  constant speed
-================  ==============================================================================
+================  =====================================================================
+``model``         its record
+``parameters``    parameters, inputs and outputs: the one list all interfaces come from
+``solve``         boundary friction, and a pack that slips at a constant speed
+``engagement``    load and slip are given over time, torque and heat follow
+``calibration``   the friction law fitted to measurements, and what they tell of it
+``closed_forms``  exact solutions that it is compared with
+``kernels``       compiled code
+================  =====================================================================
 """

@@ -4,12 +4,12 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..errors import SolveError, Status
-from ..model.input_courses import course_of, rising
-from ..model.parameters import check_number
+from ..model.parameters import check_number, course_of, rising
 from ..model.spec import REGIMES
+from ..numerics.jit import Array
 from .kernels import advance as clutch_advance
 from .kernels import layout as k
 from .kernels import pack_friction, pack_outputs, rates
@@ -17,9 +17,6 @@ from .parameters import LOAD, OIL, SPEC, SPEED, ClutchParams
 from .solve import prepare
 
 __all__ = ["Engagement", "engage_clutch"]
-
-Array = NDArray[np.float64]
-
 
 Course = tuple[float, float, float, float, float, float]
 
@@ -139,19 +136,11 @@ def engage_clutch(
                 f"t = {points[i]:g} s, load = {forces[i]:g} N, speed = {slips[i]:g} rad/s: "
                 f"{Status(pack.status).advice}"
             )
-    return _engagement(par, points, forces, slips, rows, substeps, fidelity)
-
-
-def _engagement(
-    par: Array, points: Array, forces: Array, slips: Array, rows: Array, substeps: int, rung: str
-) -> Engagement:
-    names = [s.name for s in SPEC.outputs if s.kind == "real"]
-    kept = {f.name for f in fields(Engagement)}
-    columns = {n: rows[:, i].copy() for i, n in enumerate(names) if n in kept}
-    stages = list(REGIMES)
+    kept, stages = {f.name for f in fields(Engagement)}, list(REGIMES)
+    columns = {n: rows[:, i].copy() for i, n in enumerate(SPEC.real_outputs) if n in kept}
     hot = bool((columns["temperature"] > k.HOT_LIMIT).any())
     return Engagement(
-        time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=rung,
+        time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=fidelity,
         regime=[
             stages[pack_friction.regime_of(par, u, slip) - 1]
             for u, slip in zip(columns["film_ratio"], slips, strict=True)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ..errors import ParameterError
 from ..model.parameters import check_ranges, choice, count, flag, quantity
-from ..model.rules import check_rules
-from ..model.spec import ModelSpec, Rule, Signal, Terminal
+from ..model.prepare import check_rules
+from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 FRICTION_LAWS = {
     "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",
@@ -189,6 +190,7 @@ OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling 
              low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
 _POINT = ("load", "speed")
 _ALL = (*_POINT, "oil_temperature")
+_out = partial(output, depends=_ALL)
 
 SPEC = ModelSpec(
     key="clutch",
@@ -205,32 +207,25 @@ SPEC = ModelSpec(
     default_fidelity="field",
     inputs=(LOAD, SPEED, OIL),
     outputs=(
-        Signal(name="friction_torque", unit="N.m", nominal=100.0, depends=_ALL,
-               help="friction torque of the pack, sign of the slip, smooth through zero"),
-        Signal(name="temperature", unit="K", nominal=300.0, depends=("oil_temperature",),
-               help="interface temperature of the steel plates"),
-        Signal(name="film_thickness", unit="m", nominal=1e-5, depends=_ALL,
-               help="separation of the mean surfaces of lining and steel"),
-        Signal(name="torque_capacity", unit="N.m", nominal=100.0, depends=_ALL, low=0.0,
-               help="largest torque the pack can hold at this load and slip"),
-        Signal(name="friction_coefficient", unit="1", nominal=0.1, depends=_ALL,
-               help="coefficient of boundary friction of the contacting faces"),
-        Signal(name="film_ratio", unit="1", nominal=1.0, depends=_ALL,
-               help="film thickness over the combined RMS roughness"),
-        Signal(name="friction_power", unit="W", nominal=1e4, depends=_ALL,
-               help="heat made by friction, torque times slip"),
-        Signal(name="energy", unit="J", nominal=1e4, low=0.0,
-               help="heat made by friction since the start"),
-        Signal(name="contact_torque", unit="N.m", nominal=100.0, depends=_ALL,
-               help="share of the friction torque that the asperities make"),
-        Signal(name="viscous_torque", unit="N.m", nominal=10.0, depends=_ALL,
-               help="share of the friction torque that shear of the oil makes"),
-        Signal(name="contact_share", unit="1", nominal=0.1, depends=_ALL, low=0.0, high=1.0,
-               help="share of the faces' area in contact"),
-        Signal(name="heat_flux", unit="W/m2", nominal=1e5, depends=_ALL, low=0.0,
-               help="friction power over the area of all faces"),
-        Signal(name="viscosity", unit="Pa.s", nominal=0.05, depends=_ALL,
-               help="viscosity of the oil at the interface temperature"),
+        _out("friction_torque", "N.m", 100.0,
+             "friction torque of the pack, sign of the slip, smooth through zero"),
+        _out("temperature", "K", 300.0, "interface temperature of the steel plates",
+             depends=("oil_temperature",)),
+        _out("film_thickness", "m", 1e-5, "separation of the mean surfaces of lining and steel"),
+        _out("torque_capacity", "N.m", 100.0,
+             "largest torque the pack can hold at this load and slip", low=0.0),
+        _out("friction_coefficient", "1", 0.1,
+             "coefficient of boundary friction of the contacting faces"),
+        _out("film_ratio", "1", 1.0, "film thickness over the combined RMS roughness"),
+        _out("friction_power", "W", 1e4, "heat made by friction, torque times slip"),
+        _out("energy", "J", 1e4, "heat made by friction since the start", depends=(), low=0.0),
+        _out("contact_torque", "N.m", 100.0,
+             "share of the friction torque that the asperities make"),
+        _out("viscous_torque", "N.m", 10.0,
+             "share of the friction torque that shear of the oil makes"),
+        _out("contact_share", "1", 0.1, "share of the faces' area in contact", low=0.0, high=1.0),
+        _out("heat_flux", "W/m2", 1e5, "friction power over the area of all faces", low=0.0),
+        _out("viscosity", "Pa.s", 0.05, "viscosity of the oil at the interface temperature"),
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
                help="lubrication regime of the friction faces"),
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
@@ -247,10 +242,7 @@ SPEC = ModelSpec(
                  help="Slip speed and load in, torque capacity out (coupling capacity)",
                  members=(("speed", "w", "signal"), ("torque_capacity", "tau", "inflow"),
                           ("load", "load", "signal"))),
-        Terminal(name="oil", kind="thrustwasher.HeatPort",
-                 help="Oil temperature in, friction power out",
-                 members=(("oil_temperature", "T", "signal"),
-                          ("friction_power", "Q_flow", "outflow"))),
+        OIL_PORT,
     ),
     # An engagement: the force rises, the slip falls to zero, then the pack holds.
     course=((0.0, 0.0, 120.0, 320.0), (0.2, 5000.0, 120.0, 320.0), (0.7, 5000.0, 0.0, 320.0),

@@ -263,10 +263,9 @@ def walk_steady(
     """Fill the rows of a sweep's line with the steady state of a pack that slips."""
     regimes = {name: i for i, name in enumerate(REGIMES, 1)}
     left_out = find_model(spec.key).sweep.not_shown
-    names = [s.name for s in spec.outputs if s.kind == "real" and s.name not in left_out]
+    names = [name for name in spec.real_outputs if name not in left_out]
     result = None
-    for point, row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
-        load, speed, oil = point
+    for (load, speed, oil), row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
         result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil,
                               fidelity=fidelity, start=result, throw=False)  # fmt: skip
         row[:] = [getattr(result, name) for name in names]

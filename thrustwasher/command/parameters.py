@@ -38,5 +38,4 @@ SPEC = ModelSpec(
                help="always OK"),
     ),
     kernel="thrustwasher.command.kernels.step",
-    step_size=1e-3,
 )  # fmt: skip

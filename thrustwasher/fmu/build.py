@@ -7,7 +7,7 @@ from pathlib import Path
 from ..errors import ParameterError
 from ..model.spec import ModelSpec
 from ..native.files import Note
-from ..native.here import this_platform
+from ..native.link import this_platform
 from .description.interface import all_specs, find_spec
 from .description.model_description import description, terminals_and_icons
 from .description.xml_parts import text

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ..errors import ParameterError
 from ..model.parameters import as_numbers, check_ranges, choice, count, quantity
-from ..model.rules import check_rules
-from ..model.spec import ModelSpec, Rule, Signal, Terminal
+from ..model.prepare import check_rules
+from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 SURFACES = {
     "rough": "rough ground: composite RMS 2.26 um, effective roughness 4.5e-5",
@@ -240,11 +241,7 @@ SPEED = Signal(name="speed", unit="rad/s", help="speed of the pinion, either sig
 OIL = Signal(name="oil_temperature", unit="K", help="temperature of oil and gear bodies",
              low=233.15, high=473.15, nominal=300.0, start=299.85)  # fmt: skip
 _ALL = ("load", "speed", "oil_temperature")
-
-
-def _out(name: str, unit: str, nominal: float, text: str, **extra: Any) -> Signal:
-    return Signal(**{"depends": _ALL, **extra}, name=name, unit=unit, nominal=nominal, help=text)
-
+_out = partial(output, depends=_ALL)
 
 OUTPUTS = (
     _out("friction_torque", "N.m", 1.0, "mesh loss as a torque on the pinion, sign of speed"),
@@ -295,10 +292,7 @@ SPEC = ModelSpec(
                  help="Speed and torque of the pinion in, its friction torque out",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
                           ("load", "load", "signal"))),
-        Terminal(name="oil", kind="thrustwasher.HeatPort",
-                 help="Oil temperature in, friction power out",
-                 members=(("oil_temperature", "T", "signal"),
-                          ("friction_power", "Q_flow", "outflow"))),
+        OIL_PORT,
     ),
     # Run up under torque, work, coast down through standstill into reverse.
     course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 60.0, 120.0, 330.0),

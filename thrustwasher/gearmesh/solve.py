@@ -132,10 +132,8 @@ def solve_gearmesh(
 
     Raises
     ------
-    ParameterError
-        An argument is out of range; the message names it.
-    SolveError
-        The flank's temperature was not found (no case is known).
+    ParameterError : an argument is out of range; the message names it
+    SolveError : the flank's temperature was not found (no case is known)
 
     Notes
     -----
@@ -169,36 +167,16 @@ def _result(
 ) -> GearMeshResult:
     loss = f[k.F_FRICTION] * float(par[k.D_LOSS]) * torque
     ratio = f[k.F_RATIO]
+    shown = dict(zip(SPEC.real_outputs, f, strict=False))  # they come first
+    shown["friction_torque"] = math.copysign(loss, speed) if speed else 0.0
+    shown["friction_power"] = loss * abs(speed)
+    asperity = shown.pop("temperature")
     return GearMeshResult(
-        friction_torque=math.copysign(loss, speed) if speed else 0.0,
-        friction_power=loss * abs(speed),
-        friction_coefficient=f[k.F_FRICTION],
-        contact_stress=f[k.F_STRESS],
-        hertz_pressure=4.0 / math.pi * f[k.F_PRESSURE],
-        hertz_width=f[k.F_WIDTH],
-        film_thickness=f[k.F_FILM],
-        film_ratio=ratio,
-        viscosity=f[k.F_VISCOSITY],
-        surface_temperature=f[k.F_SURFACE],
-        film_temperature=f[k.F_FILM_TEMPERATURE],
-        asperity_temperature=f[k.F_ASPERITY],
-        flash_rise=f[k.F_FLASH],
-        area_ratio=f[k.F_AREA],
-        thermal_stress=f[k.F_THERMAL],
-        modification_factor=f[k.F_MODIFICATION],
-        allowable_ratio=f[k.F_ALLOWABLE],
-        modification_factor_aisi1020=f[k.F_MODIFICATION_1020],
-        modification_factor_aisi4340=f[k.F_MODIFICATION_4340],
-        allowable_ratio_aisi1020=f[k.F_ALLOWABLE_1020],
-        allowable_ratio_aisi4340=f[k.F_ALLOWABLE_4340],
-        stress_utilization_aisi1020=f[k.F_UTILIZATION_1020],
-        stress_utilization_aisi4340=f[k.F_UTILIZATION_4340],
-        start_of_contact=float(par[k.D_START]),
-        contact_ratio=float(par[k.D_CONTACT_RATIO]),
-        sliding_speed=f[k.F_SLIDING],
-        slide_roll_ratio=float(par[k.D_SLIDE_ROLL]),
+        **shown, asperity_temperature=asperity,
+        hertz_pressure=4.0 / math.pi * f[k.F_PRESSURE], hertz_width=f[k.F_WIDTH],
+        viscosity=f[k.F_VISCOSITY], area_ratio=f[k.F_AREA], sliding_speed=f[k.F_SLIDING],
+        start_of_contact=float(par[k.D_START]), contact_ratio=float(par[k.D_CONTACT_RATIO]),
+        slide_roll_ratio=float(par[k.D_SLIDE_ROLL]), status=status, fidelity=fidelity,
         regime="film" if ratio > 3.0 else "mixed" if ratio >= 1.0 else "boundary",
-        status=status,
         iterations=int(f[k.F_ITERATIONS]),
-        fidelity=fidelity,
-    )
+    )  # fmt: skip

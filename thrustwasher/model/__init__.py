@@ -1,19 +1,35 @@
 """What a model is, and the one list of models.
 
-=================  ===============================================================================
-``input_courses``  Checked courses of inputs over time
-``kernel_tables``  Tables that a rung reads: they lie behind the work of its kernel
-``parameters``     One field, one source: the metadata feeds checks, FMU variables, command line
-                   and docs
-``prepare``        From a parameter dataclass to the array a kernel takes
-``recent``         What belongs to a parameter object, kept while that very object is used again
-                   and again
-``registry``       The models and their kernels by name
-``rules``          Rules between parameters: the kernel tests them, the texts here say which one
-                   is broken
-``spec``           What a model shows to the outside: inputs, outputs, parameters, kernel; as data
-``tailored``       A model with other defaults: the same kernels and names, the numbers of one
-                   place of use
-``work_arrays``    Per-thread work arrays for kernels, kept alive between calls
-=================  ===============================================================================
+==============  ===============================================================================
+``spec``        what a model shows to the outside: inputs, outputs, parameters, kernel; as data
+``record``      all that the rest of the package knows of a model
+``registry``    the models and their kernels by name
+``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
+``prepare``     from parameters to what a kernel takes: rules, constants, tables
+==============  ===============================================================================
+
+Every model has one module ``kernels.step`` with the same face, the step ABI, so that Python, the
+Python FMU and the native FMU call the same code:
+
+=====================  ============================================================================
+``N_PARAM``            parameters the caller fills in: dataclass fields in order, then the fidelity
+``NPAR``               length of ``par``: the parameters, then constants that ``derive`` computes
+``NINP .. NIOUT``      lengths of ``inp``, ``state``, ``work``, ``out``, ``iout``
+``derive(par)``        fill ``par[N_PARAM:]``; return a status; called once per parameter change
+``broken_rule(par)``   number of the first broken rule between parameters, 0 if there is none
+``step(...)``          ``step(par, inp, state, work, out, iout, t, dt)`` returns a status
+``sens(...)``          ``sens(par, inp, state, work, seed, dout)`` returns a status
+=====================  ============================================================================
+
+``par`` and ``inp`` are read only. ``state`` is all the memory there is (all zeros: no history); it
+changes only if ``dt > 0`` and the step succeeds; with ``dt = 0`` the outputs at the present inputs
+come back and ``state`` stays as it was to the bit. ``work`` belongs to the caller; whatever it
+holds on entry, the result is the same. ``out`` holds the real outputs, ``iout`` (int32) the
+enumerations and Booleans, both in the order of the model's list of outputs. A step that fails
+leaves ``state`` as it was to the bit; ``out`` and ``iout`` may hold anything then.
+
+``sens`` fills ``dout`` with the change of the real outputs of a step with ``dt = 0`` when the
+inputs change by ``seed`` and ``state`` is held; ``work`` must be as the last successful step with
+these ``par``, ``inp`` and ``state`` left it, and may be used. Exact, no differences of solutions;
+where the model has a corner, the side counts that the point is on.
 """

@@ -3,8 +3,8 @@
 The FMU variables, the command line's columns and the documentation come from these lists.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields, make_dataclass, replace
 from typing import Any
 
 REGIMES = {
@@ -39,6 +39,13 @@ class Signal:
     events: tuple[str, str] | None = None
 
 
+def output(
+    name: str, unit: str, nominal: float, help: str, depends: tuple[str, ...] = (), **more: Any
+) -> Signal:
+    """Return a real output."""
+    return Signal(name=name, unit=unit, nominal=nominal, help=help, depends=depends, **more)
+
+
 @dataclass(frozen=True)
 class Rule:
     """What is said when parameters contradict each other.
@@ -68,6 +75,12 @@ class Terminal:
     members: tuple[tuple[str, str, str], ...]
 
 
+OIL_PORT = Terminal(
+    name="oil", kind="thrustwasher.HeatPort", help="Oil temperature in, friction power out",
+    members=(("oil_temperature", "T", "signal"), ("friction_power", "Q_flow", "outflow")),
+)  # fmt: skip
+
+
 @dataclass(frozen=True, kw_only=True)
 class ModelSpec:
     """A model as an FMU importer sees it."""
@@ -91,3 +104,41 @@ class ModelSpec:
     course: tuple[tuple[float, ...], ...] = ()
     # What the solver counts: (text, "module:NAME" of the place in work).
     counts: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def real_outputs(self) -> list[str]:
+        """Names of the outputs that are real numbers, as they lie in `out`."""
+        return [signal.name for signal in self.outputs if signal.kind == "real"]
+
+
+def tailored(
+    spec: ModelSpec, parameters: Mapping[str, Any], starts: Mapping[str, float], *,
+    stop_time: float, step_size: float,
+) -> ModelSpec:  # fmt: skip
+    """Return the model with these values of parameters and inputs as its defaults: same kernels.
+
+    Parameters
+    ----------
+    spec : the model
+    parameters : values by name, ``fidelity`` among them; those not named stay as they are
+    starts : start values of inputs by name
+    stop_time, step_size : of its default experiment [s]
+    """
+    kept = [
+        (f.name, f.type, field(default=parameters.get(f.name, f.default), metadata=f.metadata))
+        for f in fields(spec.params)
+    ]
+    params = make_dataclass(
+        spec.params.__name__, kept, bases=(spec.params,), frozen=True, kw_only=True,
+        namespace={"__module__": spec.params.__module__, "__doc__": spec.params.__doc__},
+    )  # fmt: skip
+    params()  # raises what the model says about values that do not go together
+    return replace(
+        spec,
+        params=params,
+        default_fidelity=parameters.get("fidelity", spec.default_fidelity),
+        inputs=tuple(replace(s, start=starts.get(s.name, s.start)) for s in spec.inputs),
+        course=(),
+        stop_time=stop_time,
+        step_size=step_size,
+    )

@@ -1,18 +1,19 @@
 """The one compilation: kernels become machine code that Python, the command line and FMUs share.
 
-=============  =====================================================================================
+=============  ==========================================================================
 ``entries``    which kernel functions can be called from outside, and with what
 ``digest``     the name of a compilation: a digest of the sources it is made from
-``emit``       kernels to one module of LLVM (needs numba); ``lean`` leaves out what it does not use
+``callbacks``  each entry as a C callback, which numba makes
+``emit``       kernels to one module of LLVM; ``lean`` leaves out what it does not use
 ``lower``      that module to an object file for one platform and processor level
-``gate``       what an object may need of the machine it runs on; ``symbols`` reads object files
+``gate``       what an object may need of the machine it runs on
+``binaries``   what objects and libraries need and show; a finished library is checked
 ``targets``    the platforms and levels
-``objects``    an object: shipped with the package, kept from an earlier run, or compiled now
+``objects``    an object: shipped with the package, kept from an earlier run, or compiled
 ``shipped``    the compiled files inside the package; ``ship`` makes them
-``link``       C files and objects to a shared library; ``linked`` checks what it needs
-``here``       which of the platforms this machine is
+``link``       C files and objects to a shared library; which platform this machine is
 ``files``      files written at once, in folders that are the user's alone
 ``library``    the library of this machine that Python loads
 ``load``       a kernel function of that library as a Python function
-=============  =====================================================================================
+=============  ==========================================================================
 """

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..errors import EnvironmentProblem
-from .symbols import undefined
+from .binaries import undefined
 
 # The list grows by a reviewed line, never by a pattern. The C standard's names, of doubles; and the
 # stack probe of Windows for frames above 4 kB, which the linker puts into the library itself. The
@@ -19,25 +19,20 @@ ALLOWED = frozenset(
     memset_pattern8 memset_pattern16
     """.split()
 )
-# Beginning of a symbol -> what is behind it and what to write instead.
+# Beginnings of a symbol -> what is behind it and what to write instead.
 CAUSES = (
-    ("NRT_Allocate", "memory is allocated: pass it as work; copy slices in a loop"),
-    ("NRT_Free", "memory is allocated: pass it as work; copy slices in a loop"),
+    ("NRT_Allocate NRT_Free", "memory is allocated: pass it as work; copy slices in a loop"),
     ("NRT_MemInfo_alloc", "an array is allocated: pass it as work"),
     ("NRT_", "an object of numba's run time, like a list: pass an array as work"),
     ("numba_attempt_nocopy_reshape", "reshape, or a reduction like np.max: write the loop"),
     ("numba_gamma", "math.gamma: write the series as a kernel"),
     ("numba_xxdot", "np.dot: write the loop"),
-    ("numba_xx", "np.linalg: use kernels.banded or kernels.dense"),
-    ("numba_ez", "np.linalg: use kernels.banded or kernels.dense"),
+    ("numba_xx numba_ez", "np.linalg: use kernels.banded or kernels.dense"),
     ("numba_gil", "Python's lock, for np.dot, np.linalg or print: leave them out"),
-    ("numba_get_np_random", "np.random: random numbers are inputs"),
-    ("numba_rnd", "np.random: random numbers are inputs"),
+    ("numba_get_np_random numba_rnd", "np.random: random numbers are inputs"),
     ("numba_", "a helper of numba's run time: write it as a kernel"),
-    ("PyErr_", "raise with a value: return a status"),
-    ("PyExc_", "raise with a value: return a status"),
-    ("Py", "a Python object: numbers in, numbers out"),
-    ("_Py", "a Python object: numbers in, numbers out"),
+    ("PyErr_ PyExc_", "raise with a value: return a status"),
+    ("Py _Py", "a Python object: numbers in, numbers out"),
     ("__svml_", "Intel's vector library: NUMBA_DISABLE_INTEL_SVML=1"),
     ("__chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
     ("inttoptr", "an address of the building process, of a Python object or ctypes function"),
@@ -80,8 +75,8 @@ def _is_allowed(name: str) -> bool:
 
 def cause(symbol: str) -> str:
     """Return what is behind a symbol and the cure."""
-    for beginning, text in CAUSES:
-        if symbol.startswith(beginning):
+    for beginnings, text in CAUSES:
+        if symbol.startswith(tuple(beginnings.split())):
             return text
     return "not on the list in thrustwasher/native/gate.py"
 

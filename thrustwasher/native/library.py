@@ -8,23 +8,24 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import EnvironmentProblem
-from . import files, link, linked, shipped
+from . import binaries, files, link, shipped
 from .digest import HERE
 from .entries import symbols
-from .files import Note, to_stderr
-from .here import this_level, this_platform
-from .objects import kept_folder, objects
+from .files import to_stderr
+from .link import this_level, this_platform
+from .objects import Objects, kept_folder, objects
 from .targets import GLIBC, Platform
 
 TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order
 Addresses = dict[str, int]  # symbol -> address
-
-
 _failed: dict[str, EnvironmentProblem] = {}  # what cannot be had is not tried at every call
 
 
 def addresses(kernel: str) -> Addresses:
-    """Return where the functions of a kernel module are, after loading its library; see ``_found``.
+    """Return where the functions of a kernel module are, after loading its library.
+
+    It is the one shipped with the package, else one kept from an earlier run, else it is linked;
+    where nothing can link, the object is loaded by llvmlite.
 
     Raises
     ------
@@ -41,26 +42,13 @@ def addresses(kernel: str) -> Addresses:
 
 @cache
 def _found(kernel: str) -> Addresses:
-    """Return where the functions of a kernel module are, after loading its library.
-
-    It is the one shipped with the package, else one kept from an earlier run, else it is linked;
-    where nothing can link, the object is loaded by llvmlite.
-
-    Raises
-    ------
-    EnvironmentProblem : it can neither be found nor made; the message says what to do
-    """
     platform = this_platform()
     shown = shipped.library_file(kernel, platform.name)
-    if shown:
-        found = _loaded(kernel, shown)
-        if found:
-            return found
+    if shown and (found := _loaded(kernel, shown)):
+        return found
     kept = _kept_file(kernel, platform)
-    if files.kept(kept) is not None:
-        found = _loaded(kernel, kept)
-        if found:
-            return found
+    if files.kept(kept) is not None and (found := _loaded(kernel, kept)):
+        return found
     return _made(kernel, platform, kept)
 
 
@@ -84,16 +72,14 @@ def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
         except OSError as error:
             to_stderr(f"{place} is not kept: {error.strerror or error}")
             continue
-        found = _loaded(kernel, place)
-        if found:
+        if found := _loaded(kernel, place):
             return found
     return _by_llvm(kernel, platform, code)
 
 
 def linked_library(
-    kernel: str, platform: Platform, code: dict[tuple[str, str], bytes], *,
-    linker: link.Linker | None = None, note: Note = to_stderr,
-) -> bytes:  # fmt: skip
+    kernel: str, platform: Platform, code: Objects, linker: link.Linker | None = None
+) -> bytes:
     """Return the objects of a kernel module linked to a library for Python, checked.
 
     Raises
@@ -111,10 +97,9 @@ def linked_library(
     levels = platform.levels
     defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
     made = link.shared_library(
-        parts, platform=platform, name=shipped.short(kernel), defines=defines, linker=linker,
-        note=note,
-    )  # fmt: skip
-    linked.check(made, exports=[TABLE], glibc=GLIBC if linker.is_cross else None)
+        parts, platform=platform, name=shipped.short(kernel), defines=defines, linker=linker
+    )
+    binaries.check(made, exports=[TABLE], glibc=GLIBC if linker.is_cross else None)
     return made
 
 
@@ -138,7 +123,7 @@ def _loaded(kernel: str, path: Path) -> Addresses:
 _engines: list[Any] = []  # what has been loaded by llvmlite lives as long as the process
 
 
-def _by_llvm(kernel: str, platform: Platform, code: dict[tuple[str, str], bytes]) -> Addresses:
+def _by_llvm(kernel: str, platform: Platform, code: Objects) -> Addresses:
     """Return the addresses in an object file loaded by llvmlite."""
     import llvmlite.binding as llvm
 

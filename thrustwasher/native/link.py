@@ -1,4 +1,4 @@
-"""From C files and objects to a shared library, for this platform or another."""
+"""From C files and objects to a shared library, for this platform or another; which one this is."""
 
 import importlib.util
 import platform as this
@@ -15,10 +15,12 @@ from pathlib import Path
 
 from ..errors import EnvironmentProblem
 from .files import Note, to_stderr, user_cache
-from .targets import PLATFORMS, Platform
+from .targets import PLATFORMS, Level, Platform
 
 # -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
 COMMON = ("-Os", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
+# What a processor must have for a level beyond the first one of its platform.
+FEATURES = {"v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")}
 SHORT, LONG = 6.0, 60.0  # seconds until something is said, at the first build and at later ones
 MISSING = (
     "native FMUs need a C compiler to be built (not to be run): pip install 'thrustwasher[build]' "
@@ -60,12 +62,7 @@ def find_linker() -> Linker:
 
 @cache
 def local_linker() -> Linker:
-    """Return what links for this machine soonest: its own compiler, else that of ``find_linker``.
-
-    Raises
-    ------
-    EnvironmentProblem : there is neither; the message says what to install
-    """
+    """Return what links for this machine soonest: its own compiler, else `find_linker`'s."""
     return _of_this_machine() or find_linker()
 
 
@@ -91,31 +88,44 @@ def local_machine() -> tuple[str, str]:
     return this.system(), {"amd64": "x86_64", "arm64": "arm64"}.get(machine, machine)
 
 
+def this_platform() -> Platform:
+    """Return the platform of this machine.
+
+    Raises
+    ------
+    EnvironmentProblem : native FMUs are not made for it
+    """
+    for platform in PLATFORMS.values():
+        if platform.machine == local_machine():
+            return platform
+    raise EnvironmentProblem(
+        f"native code is made for {', '.join(PLATFORMS)}, this is {' '.join(local_machine())}"
+    )
+
+
+def this_level(platform: Platform) -> Level:
+    """Return the last of the platform's levels that this processor runs."""
+    from llvmlite import binding
+
+    has = binding.get_host_cpu_features()
+    able = [x for x in platform.levels if all(has.get(f, False) for f in FEATURES.get(x.name, ()))]
+    return able[-1]
+
+
 def shared_library(
-    files: Mapping[str, str | bytes],
-    *,
-    platform: Platform,
-    name: str,
-    defines: Sequence[str] = (),
-    linker: Linker | None = None,
-    note: Note = to_stderr,
-) -> bytes:
+    files: Mapping[str, str | bytes], *, platform: Platform, name: str,
+    defines: Sequence[str] = (), linker: Linker | None = None, note: Note = to_stderr,
+) -> bytes:  # fmt: skip
     """Compile and link C files and objects to a shared library.
 
     Parameters
     ----------
-    files
-        Name -> content of everything: ``.c`` is compiled, ``.o`` linked, headers are found.
-    platform
-        What it is for.
-    name
-        Of the library, without extension; stands inside the file on macOS only.
-    defines
-        Macros, "NAME" or "NAME=VALUE".
-    linker
-        None: that of ``find_linker``.
-    note
-        Called with a line of progress before anything that takes long.
+    files : name -> content of everything; ``.c`` is compiled, ``.o`` linked, headers are found
+    platform : what it is for
+    name : of the library, without extension; stands inside the file on macOS only
+    defines : macros, "NAME" or "NAME=VALUE"
+    linker : None: that of ``find_linker``
+    note : called with a line of progress before anything that takes long
 
     Raises
     ------

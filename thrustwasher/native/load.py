@@ -8,15 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import EnvironmentProblem
-from .entries import (
-    ITEMS,
-    Entry,
-    Kind,
-    arrays_of_two,
-    describe,
-    library_of,
-    symbol_of,
-)  # fmt: skip
+from .entries import ITEMS, Entry, Kind, arrays_of_two, describe, library_of, symbol_of
 from .files import to_stderr
 
 _BACK = {"float": "_numbers[{}]", "int": "int(_numbers[{}])", "bool": "_numbers[{}] != 0.0"}
@@ -60,7 +52,7 @@ def native_function(
 @cache
 def _has_platform() -> bool:
     """Tell if libraries are made for this machine; if not, say once what happens instead."""
-    from .here import this_platform
+    from .link import this_platform
 
     try:
         this_platform()

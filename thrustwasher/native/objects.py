@@ -23,6 +23,7 @@ from .files import Note, to_stderr
 from .targets import Level, Platform
 
 Objects = dict[tuple[str, str], bytes]  # (platform, level) -> object file
+Wanted = dict[tuple[str, str], tuple[Platform, Level]]
 PACKAGE = __name__.rpartition(".")[0]
 KEPT_VERSIONS = 5
 OFTEN = 5.0  # seconds between lines of progress
@@ -34,30 +35,23 @@ def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) 
 
     Parameters
     ----------
-    kernel
-        Dotted name of a module with the step ABI.
-    platforms
-        For which; what several of them need is made once.
-    note
-        Called with a line of progress before and while something takes long.
+    kernel : dotted name of a module with the step ABI
+    platforms : for which; what several of them need is made once
+    note : called with a line of progress before and while something takes long
 
     Raises
     ------
     EnvironmentProblem : the kernel needs what an FMU does not have, or numba is not as expected
     """
-    wanted = {(p.name, level.name): (p, level) for p in platforms for level in p.levels}
-    found = shipped.objects_of(kernel)
+    wanted, found = wanted_for(platforms), shipped.objects_of(kernel)
     if wanted.keys() <= found.keys():
         return {which: found[which] for which in wanted}
-    folder = kept_folder(kernel)
-    paths = {which: folder / f"{which[0]}-{which[1]}.o" for which in wanted}
-    if any(files.kept(path) is None for path in paths.values()):
-        compile_objects(kernel, folder, wanted, note)
-    ready = {which: files.kept(path) for which, path in paths.items()}
-    made = {which: data for which, data in ready.items() if data is not None}
-    if made.keys() != wanted.keys():
-        raise EnvironmentProblem(f"{folder}: what was compiled is not there any more; start again")
-    return made
+    return compile_objects(kernel, kept_folder(kernel), wanted, note)
+
+
+def wanted_for(platforms: Iterable[Platform]) -> Wanted:
+    """Return all levels of some platforms."""
+    return {(p.name, level.name): (p, level) for p in platforms for level in p.levels}
 
 
 def prepare(kernels: Iterable[str], platforms: Sequence[Platform], note: Note = to_stderr) -> None:
@@ -65,39 +59,39 @@ def prepare(kernels: Iterable[str], platforms: Sequence[Platform], note: Note = 
     side_by_side(objects, [(kernel, platforms, note) for kernel in kernels])
 
 
-def is_ready(kernel: str, platform: Platform) -> bool:
-    """Tell if a kernel's objects for the levels of a platform need not be compiled."""
-    wanted = {(platform.name, level.name) for level in platform.levels}
-    if wanted <= shipped.objects_of(kernel).keys():
-        return True
-    folder = kept_folder(kernel)
-    return all(files.kept(folder / f"{p}-{level}.o") is not None for p, level in wanted)
-
-
 def kept_folder(kernel: str) -> Path:
     """Return the folder of this version of a kernel in the user's cache; it need not exist."""
     return files.code_folder() / f"{shipped.short(kernel)}-{digest(kernel)}"
 
 
-def compile_objects(
-    kernel: str, folder: Path, wanted: dict[tuple[str, str], tuple[Platform, Level]],
-    note: Note = to_stderr,
-) -> None:  # fmt: skip
-    """Compile what is missing in ``folder``; one process at a time does it."""
-    name = shipped.short(kernel)
+def compile_objects(kernel: str, folder: Path, wanted: Wanted, note: Note = to_stderr) -> Objects:
+    """Return the objects in ``folder`` after compiling what is missing; one process does it."""
+    name, made = shipped.short(kernel), _kept(folder, wanted)
     try:
-        _compile_missing(kernel, name, folder, wanted, note)
+        if made.keys() != wanted.keys():
+            _compile_missing(kernel, name, folder, wanted, note)
+            made = _kept(folder, wanted)
     except OSError as error:
         raise EnvironmentProblem(
             f"compiling {name}: {error.filename or folder}: {error.strerror or error}; free room "
             "there, or let XDG_CACHE_HOME name another folder"
         ) from None
+    if made.keys() != wanted.keys():
+        raise EnvironmentProblem(f"{folder}: what was compiled is not there any more; start again")
+    return made
 
 
-def _compile_missing(
-    kernel: str, name: str, folder: Path, wanted: dict[tuple[str, str], tuple[Platform, Level]],
-    note: Note,
-) -> None:  # fmt: skip
+def _object(folder: Path, which: tuple[str, str]) -> Path:
+    return folder / f"{which[0]}-{which[1]}.o"
+
+
+def _kept(folder: Path, wanted: Wanted) -> Objects:
+    """Return those objects that are there."""
+    found = {which: files.kept(_object(folder, which)) for which in wanted}
+    return {which: data for which, data in found.items() if data is not None}
+
+
+def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note: Note) -> None:
     _forget_old(folder, name)
     folder.mkdir(exist_ok=True, mode=0o700)
 
@@ -105,8 +99,7 @@ def _compile_missing(
         note(f"{name} is being compiled by another process: waiting for it")
 
     with files.locked(folder / "lock", waiting):
-        paths = {which: folder / f"{which[0]}-{which[1]}.o" for which in wanted}
-        missing = [which for which, path in paths.items() if files.kept(path) is None]
+        missing = wanted.keys() - _kept(folder, wanted).keys()
         if not missing:
             return
         start, bitcode = time.perf_counter(), folder / "module.bc"
@@ -115,7 +108,9 @@ def _compile_missing(
             last = f"; last time {took:.0f} s" if took else ": seconds, the washer about a minute"
             note(f"compiling {name}, whose source is new here{last}")
             _make(bitcode, "emit", kernel, digest(kernel), note=_progress(name, note))
-        side_by_side(_lower, [(paths[w], bitcode, *wanted[w], name) for w in missing])
+        side_by_side(
+            _lower, [(_object(folder, w), bitcode, *wanted[w], name) for w in sorted(missing)]
+        )
         took = time.perf_counter() - start
         note(f"compiled {name} in {took:.0f} s")
         with suppress(OSError):

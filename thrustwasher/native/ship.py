@@ -11,16 +11,17 @@ import platform as machine
 import sys
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from . import files, objects, shipped
+from . import files, shipped
 from .digest import digest, sources
 from .entries import libraries as all_libraries
 from .files import to_stderr
 from .library import linked_library
+from .objects import Objects, compile_objects, wanted_for
 from .targets import PLATFORMS
 
 LIBRARIES = ("linux64",)  # platforms whose libraries for Python lie in the checkout
@@ -32,25 +33,18 @@ def toolchain() -> dict[str, str]:
     return {"python": machine.python_version(), **versions}
 
 
-def made(kernel: str, folder: Path) -> tuple[dict[tuple[str, str], bytes], float]:
+def made(kernel: str) -> tuple[Objects, float]:
     """Return a kernel module's objects for all platforms, compiled now, and the seconds it took."""
-    wanted = {(p.name, level.name): (p, level) for p in PLATFORMS.values() for level in p.levels}
-    start = time.perf_counter()
-    objects.compile_objects(kernel, folder, wanted)
-    took = time.perf_counter() - start
-    code = {which: files.kept(folder / f"{which[0]}-{which[1]}.o") for which in wanted}
-    return {which: data for which, data in code.items() if data is not None}, took
+    start, wanted = time.perf_counter(), wanted_for(PLATFORMS.values())
+    with tempfile.TemporaryDirectory() as folder:
+        code = compile_objects(kernel, Path(folder) / "made", wanted)
+    return code, time.perf_counter() - start
 
 
-def libraries(
-    kernel: str, code: Mapping[tuple[str, str], bytes], platforms: Sequence[str] = LIBRARIES
-) -> dict[str, bytes]:
+def libraries(kernel: str, code: Objects, platforms: Sequence[str] = LIBRARIES) -> dict[str, bytes]:
     """Return the libraries for Python that go with the objects: platform -> content."""
-    found = {}
-    for name in platforms:
-        own = {which: data for which, data in code.items() if which[0] == name}
-        found[name] = linked_library(kernel, PLATFORMS[name], own)
-    return found
+    own = {name: {w: data for w, data in code.items() if w[0] == name} for name in platforms}
+    return {name: linked_library(kernel, PLATFORMS[name], own[name]) for name in platforms}
 
 
 def ship(kernels: Sequence[str]) -> None:
@@ -61,9 +55,7 @@ def ship(kernels: Sequence[str]) -> None:
     for kernel in kernels:
         about: Any = shipped.record(kernel)
         if not (about and same_tools and shipped.objects_of(kernel)):
-            with tempfile.TemporaryDirectory() as folder:
-                code, took = made(kernel, Path(folder) / "made")
-            about = _write(kernel, code, took)
+            about = _write(kernel, *made(kernel))
         index["kernels"][kernel] = about
         _list(index)
         keep |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
@@ -77,28 +69,28 @@ def _list(index: dict[str, Any], folder: Path = shipped.FOLDER) -> None:
     files.write(folder / shipped.INDEX, text.encode())
 
 
-def _write(kernel: str, code: dict[tuple[str, str], bytes], took: float) -> dict[str, Any]:
+def _write(kernel: str, code: Objects, took: float) -> dict[str, Any]:
     name = f"{shipped.short(kernel)}-{digest(kernel)}"
-    packed = shipped.pack(code)
-    files.write(shipped.FOLDER / f"{name}.zip", packed)
-    about: dict[str, Any] = {
+    return {
         "digest": digest(kernel), "sources": sorted(sources(kernel)), "seconds": round(took, 1),
-        "objects": {"file": f"{name}.zip", "sha256": files.checksum(packed)},
+        "objects": _put(shipped.FOLDER / f"{name}.zip", shipped.pack(code)),
+        "libraries": _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES),
     }  # fmt: skip
-    about["libraries"] = _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES)
-    return about
 
 
 def _write_libraries(
-    folder: Path, kernel: str, name: str, code: Mapping[tuple[str, str], bytes],
-    platforms: Sequence[str],
-) -> dict[str, Any]:  # fmt: skip
-    found = {}
-    for platform, data in libraries(kernel, code, platforms).items():
-        file = f"{name}-{platform}.{PLATFORMS[platform].extension}"
-        files.write(folder / file, data)
-        found[platform] = {"file": file, "sha256": files.checksum(data)}
-    return found
+    folder: Path, kernel: str, name: str, code: Objects, platforms: Sequence[str]
+) -> dict[str, Any]:
+    return {
+        platform: _put(folder / f"{name}-{platform}.{PLATFORMS[platform].extension}", data)
+        for platform, data in libraries(kernel, code, platforms).items()
+    }
+
+
+def _put(path: Path, data: bytes) -> dict[str, str]:
+    """Write a file; return its line in the list."""
+    files.write(path, data)
+    return {"file": path.name, "sha256": files.checksum(data)}
 
 
 def relist(folder: Path, platforms: Sequence[str]) -> None:
@@ -124,8 +116,7 @@ def check(kernels: Sequence[str]) -> list[str]:
             continue
         if not same_tools:
             continue
-        with tempfile.TemporaryDirectory() as folder:
-            again, _ = made(kernel, Path(folder) / "made")
+        again, _ = made(kernel)
         wrong += [f"{kernel}: {' '.join(which)} is made otherwise"
                   for which in sorted(again) if again[which] != code.get(which)]  # fmt: skip
         for platform, data in libraries(kernel, again).items():

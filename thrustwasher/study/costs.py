@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 
 from ..command.kernels import step as command_step
-from ..model.kernel_tables import fill_table
-from ..model.prepare import filled
+from ..model.prepare import fill_table, filled
 from ..model.registry import kernel_of
 from ..model.spec import ModelSpec
 from .card_cases import cases

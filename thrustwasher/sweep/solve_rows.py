@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status
-from ..model.kernel_tables import fill_table, wants_table
-from ..model.prepare import filled
+from ..model.prepare import fill_table, filled, wants_table
 from ..model.record import resolve
 from ..model.registry import find_model, kernel_of, spec_of
 from ..model.spec import ModelSpec, Signal

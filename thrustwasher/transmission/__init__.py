@@ -1,9 +1,9 @@
 """The planetary set with engine, vehicle, clutch and brake.
 
-================  =============================================================================
-``closed_forms``  Exact solutions that the planetary set is compared with
-``kernels``       Compiled code of the planetary set
-``parameters``    Parameters, inputs and outputs of the shift transmission: the one list of all
-                  interfaces
-================  =============================================================================
+================  ==============================================================
+``model``         its record
+``parameters``    parameters, inputs and outputs: the one list of all interfaces
+``closed_forms``  exact solutions that it is compared with
+``kernels``       compiled code
+================  ==============================================================
 """

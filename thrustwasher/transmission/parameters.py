@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..model.parameters import check_ranges, choice, count, flag, quantity
-from ..model.rules import check_rules
-from ..model.spec import ModelSpec, Rule, Signal, Terminal
+from ..model.prepare import check_rules
+from ..model.spec import ModelSpec, Rule, Signal, Terminal, output
 
 COUPLING = {
     "capacity": "the packs send the torque they can hold; stick and slip are decided in here",
@@ -85,10 +85,6 @@ def _torque(name: str, text: str) -> Signal:
     return Signal(name=name, unit="N.m", help=text, low=-1e6, high=1e6, nominal=100.0, start=0.0)
 
 
-def _out(name: str, unit: str, nominal: float, text: str, depends: tuple[str, ...] = ()) -> Signal:
-    return Signal(name=name, unit=unit, nominal=nominal, help=text, depends=depends)
-
-
 INPUTS = (
     _torque("clutch_torque", "clutch's torque capacity (coupling torque: friction torque)"),
     _torque("brake_torque", "brake's torque capacity (coupling torque: friction torque)"),
@@ -102,45 +98,45 @@ _PACKS = _TORQUES[:2]  # drag decides only who holds a clutch beyond its capacit
 _COMMAND = ("shift_command",)
 
 OUTPUTS = (
-    _out("clutch_load", "N", 5e3, "axial force on the clutch pack", _COMMAND),
-    _out("clutch_speed", "rad/s", 100.0, "slip of the clutch, sun minus ring"),
-    _out("brake_load", "N", 5e3, "axial force on the brake pack", _COMMAND),
-    _out("brake_speed", "rad/s", 100.0, "slip of the brake, speed of the ring"),
-    _out("washer_load", "N", 100.0, "axial load on one thrust washer", _TORQUES),
-    _out("washer_speed", "rad/s", 100.0, "speed of a planet on its pin"),
-    _out("washer_tilt", "rad", 1e-3, "tilt of a planet against the carrier"),
-    _out("mesh_load", "N.m", 10.0, "torque of one planet in the sun mesh", _TORQUES),
-    _out("mesh_speed", "rad/s", 100.0, "speed of a planet against the carrier"),
-    _out("engine_speed", "rad/s", 100.0, "speed of engine and sun"),
-    _out("output_speed", "rad/s", 100.0, "speed of carrier and output"),
-    _out("ring_speed", "rad/s", 100.0, "speed of ring and drum"),
-    _out("drive_torque", "N.m", 100.0, "torque of the engine now"),
-    _out("resistance_torque", "N.m", 100.0, "torque of the load now"),
-    _out("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _PACKS),
-    _out("brake_reaction", "N.m", 100.0, "torque the brake really holds", _TORQUES),
-    _out("sun_torque", "N.m", 100.0, "torque in the sun's teeth", _TORQUES),
-    _out("drag_torque", "N.m", 1.0, "drag of all washers and meshes at the sun", _TORQUES),
-    _out("tooth_force", "N", 1e3, "tangential force in one mesh", _TORQUES),
-    _out("tilting_couple", "N.m", 10.0, "couple of the axial tooth forces on a planet", _TORQUES),
-    _out("sun_thrust", "N", 1e3, "axial force on the sun gear", _TORQUES),
-    _out("engine_work", "J", 1e4, "work of the engine since the start"),
-    _out("load_work", "J", 1e4, "work into the load since the start"),
-    _out("kinetic_energy", "J", 1e4, "kinetic energy of the driveline"),
-    _out("kinetic_change", "J", 1e4, "kinetic energy gained since the start"),
-    _out("clutch_heat", "J", 1e4, "heat of the clutch since the start, mechanical side"),
-    _out("brake_heat", "J", 1e4, "heat of the brake since the start, mechanical side"),
-    _out("washer_heat", "J", 100.0, "heat of all washers since the start"),
-    _out("mesh_heat", "J", 100.0, "heat of all meshes since the start"),
-    _out("energy_residual", "J", 1.0, "energy that the book cannot account for"),
-    _out("lock_time", "s", 1.0, "time the clutch last locked (-1: it never did)"),
-    _out("lock_speed", "rad/s", 100.0, "engine speed when the clutch last locked"),
-    _out("release_time", "s", 1.0, "time the brake last broke away (-1: it never did)"),
-    _out("oil_supply_temperature", "K", 300.0, "temperature of the oil sent to every part"),
-    _out("vehicle_speed", "rad/s", 100.0, "speed of the vehicle behind the output shaft"),
-    _out("shaft_torque", "N.m", 100.0, "torque of the output shaft (rigid: of the load)"),
-    _out("shaft_twist", "rad", 0.1, "twist of the output shaft, carrier before vehicle"),
-    _out("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
-    _out("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
+    output("clutch_load", "N", 5e3, "axial force on the clutch pack", _COMMAND),
+    output("clutch_speed", "rad/s", 100.0, "slip of the clutch, sun minus ring"),
+    output("brake_load", "N", 5e3, "axial force on the brake pack", _COMMAND),
+    output("brake_speed", "rad/s", 100.0, "slip of the brake, speed of the ring"),
+    output("washer_load", "N", 100.0, "axial load on one thrust washer", _TORQUES),
+    output("washer_speed", "rad/s", 100.0, "speed of a planet on its pin"),
+    output("washer_tilt", "rad", 1e-3, "tilt of a planet against the carrier"),
+    output("mesh_load", "N.m", 10.0, "torque of one planet in the sun mesh", _TORQUES),
+    output("mesh_speed", "rad/s", 100.0, "speed of a planet against the carrier"),
+    output("engine_speed", "rad/s", 100.0, "speed of engine and sun"),
+    output("output_speed", "rad/s", 100.0, "speed of carrier and output"),
+    output("ring_speed", "rad/s", 100.0, "speed of ring and drum"),
+    output("drive_torque", "N.m", 100.0, "torque of the engine now"),
+    output("resistance_torque", "N.m", 100.0, "torque of the load now"),
+    output("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _PACKS),
+    output("brake_reaction", "N.m", 100.0, "torque the brake really holds", _TORQUES),
+    output("sun_torque", "N.m", 100.0, "torque in the sun's teeth", _TORQUES),
+    output("drag_torque", "N.m", 1.0, "drag of all washers and meshes at the sun", _TORQUES),
+    output("tooth_force", "N", 1e3, "tangential force in one mesh", _TORQUES),
+    output("tilting_couple", "N.m", 10.0, "couple of the axial tooth forces on a planet", _TORQUES),
+    output("sun_thrust", "N", 1e3, "axial force on the sun gear", _TORQUES),
+    output("engine_work", "J", 1e4, "work of the engine since the start"),
+    output("load_work", "J", 1e4, "work into the load since the start"),
+    output("kinetic_energy", "J", 1e4, "kinetic energy of the driveline"),
+    output("kinetic_change", "J", 1e4, "kinetic energy gained since the start"),
+    output("clutch_heat", "J", 1e4, "heat of the clutch since the start, mechanical side"),
+    output("brake_heat", "J", 1e4, "heat of the brake since the start, mechanical side"),
+    output("washer_heat", "J", 100.0, "heat of all washers since the start"),
+    output("mesh_heat", "J", 100.0, "heat of all meshes since the start"),
+    output("energy_residual", "J", 1.0, "energy that the book cannot account for"),
+    output("lock_time", "s", 1.0, "time the clutch last locked (-1: it never did)"),
+    output("lock_speed", "rad/s", 100.0, "engine speed when the clutch last locked"),
+    output("release_time", "s", 1.0, "time the brake last broke away (-1: it never did)"),
+    output("oil_supply_temperature", "K", 300.0, "temperature of the oil sent to every part"),
+    output("vehicle_speed", "rad/s", 100.0, "speed of the vehicle behind the output shaft"),
+    output("shaft_torque", "N.m", 100.0, "torque of the output shaft (rigid: of the load)"),
+    output("shaft_twist", "rad", 0.1, "twist of the output shaft, carrier before vehicle"),
+    output("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
+    output("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
     Signal(name="clutch_locked", unit="1", kind="boolean", depends=_TORQUES,
            help="the clutch sticks, its slip is exactly zero",
            events=("clutch locked", "clutch broke away")),
@@ -165,14 +161,11 @@ SPEC = ModelSpec(
     kernel="thrustwasher.transmission.kernels.step",
     rules=RULES,
     terminals=(
-        Terminal(name="clutch", kind="thrustwasher.PackFlange",
-                 help="Slip speed and load of the clutch out, its torque in",
-                 members=(("clutch_speed", "w", "signal"), ("clutch_torque", "tau", "inflow"),
-                          ("clutch_load", "load", "signal"))),
-        Terminal(name="brake", kind="thrustwasher.PackFlange",
-                 help="Slip speed and load of the brake out, its torque in",
-                 members=(("brake_speed", "w", "signal"), ("brake_torque", "tau", "inflow"),
-                          ("brake_load", "load", "signal"))),
+        *(Terminal(name=pack, kind="thrustwasher.PackFlange",
+                   help=f"Slip speed and load of the {pack} out, its torque in",
+                   members=((f"{pack}_speed", "w", "signal"), (f"{pack}_torque", "tau", "inflow"),
+                            (f"{pack}_load", "load", "signal")))
+          for pack in ("clutch", "brake")),
         Terminal(name="mesh", kind="thrustwasher.MeshFlange",
                  help="Speed and torque of a planet in the sun mesh out, its friction torque in",
                  members=(("mesh_speed", "w", "signal"), ("mesh_torque", "tau", "inflow"),
@@ -182,7 +175,6 @@ SPEC = ModelSpec(
                  members=(("washer_speed", "w", "signal"), ("washer_torque", "tau", "inflow"),
                           ("washer_load", "load", "signal"), ("washer_tilt", "tilt", "signal"))),
     ),
-    stop_time=1.0,
     # An upshift: the brake lets go while the clutch takes over and locks.
     course=((0.0, 0.0, 400.0, 0.05, 0.2, 0.0), (0.2, 0.0, 400.0, 0.05, 0.2, 0.0),
             (0.5, 150.0, 0.0, 0.05, 0.2, 0.6), (0.7, 300.0, 0.0, 0.05, 0.2, 1.0),

@@ -1,17 +1,15 @@
 """The thrust washer in mixed lubrication.
 
-====================  ============================================================================
-``closed_forms``      Exact solutions that the washer is compared with
-``follow``            The washer over time: inputs are given at points, friction and heat follow
-``kernel_arguments``  From the washer's parameters to what its kernels take: mesh, contact tables,
-                      scalars
-``kernels``           Compiled code of the thrust washer
-``load_curve``        The whole curve of a washer's solutions over load, with its folds:
-                      continuation in the film
-``map``               The washer's map: solutions on both branches, charted for look-up
-``parameters``        Parameters, inputs and outputs of the thrust washer: the one list all
-                      interfaces come from
-``solve``             The thrust washer: one operating point
-``washer_result``     What a washer solve returns, and the error to expect of it
-====================  ============================================================================
+====================  =====================================================================
+``model``             its record
+``parameters``        parameters, inputs and outputs: the one list all interfaces come from
+``kernel_arguments``  what its kernels take: constants, and memory that each thread keeps
+``solve``             one operating point
+``washer_result``     what a solve returns, and the error to expect of it
+``load_curve``        all solutions over load, with the folds: continuation in the film
+``follow``            inputs are given over time, friction and heat follow
+``map``               solutions on both branches, charted for look-up
+``closed_forms``      exact solutions that it is compared with
+``kernels``           compiled code
+====================  =====================================================================
 """

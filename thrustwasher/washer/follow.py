@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.input_courses import course_of, rising
-from ..model.parameters import as_numbers
+from ..model.parameters import as_numbers, course_of, rising
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants
 from .kernels import layout as L
@@ -113,18 +112,27 @@ def follow_washer(
     run = _Run(params, resolve_grid(fidelity, grid))
     rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
     said: list[Status] = []
+
+    def packed(n: int) -> WasherCourse:
+        """Return the first points."""
+        return WasherCourse(
+            time=points[:n], distress=lost[:n].copy(), status=said, fidelity=fidelity,
+            thermal_mode=params.thermal_mode, grid=run.grid,
+            **{s.name: inputs[:n, k].copy() for k, s in enumerate(SPEC.inputs)},
+            **{name: rows[:n, k].copy() for k, name in enumerate(SPEC.real_outputs)},
+        )  # fmt: skip
+
     for i in range(len(points)):
         duration = points[i] - points[i - 1] if i else 0.0
         code = run.go(inputs[max(i - 1, 0)], inputs[i], duration)
         if Status(code).is_failure:
             values = ", ".join(f"{s.name} = {x:g} {s.unit}"
                                for s, x in zip(SPEC.inputs, inputs[i], strict=True))  # fmt: skip
-            done = _packed(params, points[:i], inputs[:i], rows[:i], lost[:i], said, fidelity,
-                           run.grid)  # fmt: skip
-            raise CourseError(f"t = {points[i]:g} s, {values}: {Status(code).advice}", done)
+            text = f"t = {points[i]:g} s, {values}: {Status(code).advice}"
+            raise CourseError(text, packed(i))
         rows[i], lost[i] = run.out, bool(run.iout[L.IO_DISTRESS])
         said.append(Status(int(run.iout[L.IO_STATUS])))
-    return _packed(params, points, inputs, rows, lost, said, fidelity, run.grid)
+    return packed(len(points))
 
 
 class _Run:
@@ -158,16 +166,3 @@ class _Run:
     def _step(self, inputs: Array, duration: float) -> int:
         return int(kernel.step(self.par, inputs, self.state, self.work, self.out, self.iout,
                                0.0, duration))  # fmt: skip
-
-
-def _packed(
-    params: WasherParams, points: Array, inputs: Array, rows: Array,
-    lost: NDArray[np.bool_], said: list[Status], fidelity: str, grid: tuple[int, int],
-) -> WasherCourse:  # fmt: skip
-    names = [s.name for s in SPEC.outputs if s.kind == "real"]
-    given = {s.name: inputs[:, i].copy() for i, s in enumerate(SPEC.inputs)}
-    shown = {name: rows[:, i].copy() for i, name in enumerate(names)}
-    return WasherCourse(
-        time=points, **given, **shown, distress=lost.copy(), status=list(said),
-        thermal_mode=params.thermal_mode, fidelity=fidelity, grid=grid,
-    )  # fmt: skip

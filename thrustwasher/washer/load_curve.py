@@ -8,7 +8,7 @@ import numpy as np
 from ..errors import ParameterError, SolveError, Status
 from ..model.parameters import check_number
 from ..numerics.jit import Array
-from .kernel_arguments import NO_MESH, constants
+from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
 from .kernels.constants import washer_model
 from .kernels.continuation import enter_curve, find_fold, step_down, walk_to
@@ -16,7 +16,6 @@ from .kernels.outputs import outputs_at
 from .kernels.solve import remember_state
 from .kernels.workspace import Point, fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import WasherParams
-from .recent import work_array
 from .solve import ERRORS, check_point, resolve_grid, result_from
 from .washer_result import BRANCH_NAMES, Fold, WasherResult
 

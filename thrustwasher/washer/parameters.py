@@ -1,10 +1,11 @@
 """Parameters, inputs and outputs of the thrust washer: the one list all interfaces come from."""
 
 from dataclasses import dataclass
+from functools import partial
 
 from ..model.parameters import check_ranges, choice, quantity
-from ..model.rules import check_rules
-from ..model.spec import ModelSpec, Rule, Signal, Terminal
+from ..model.prepare import check_rules
+from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
 FRICTION_LAWS = {
@@ -127,6 +128,7 @@ TILT = Signal(name="tilt", unit="rad", help="tilt of the gear about the y axis",
 OIL = Signal(name="oil_temperature", unit="K", help="temperature of oil and outer faces",
              low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
 _ALL = ("load", "speed", "tilt", "oil_temperature")
+_out = partial(output, depends=_ALL)
 
 SPEC = ModelSpec(
     key="washer",
@@ -144,22 +146,14 @@ SPEC = ModelSpec(
     default_fidelity="field",
     inputs=(LOAD, SPEED, TILT, OIL),
     outputs=(
-        Signal(name="friction_torque", unit="N.m", nominal=0.1, depends=_ALL,
-               help="friction torque on the washer, sign of the speed"),
-        Signal(name="temperature", unit="K", nominal=300.0, depends=_ALL,
-               help="area mean of the film temperature over the annulus"),
-        Signal(name="film_thickness", unit="m", nominal=1e-6, depends=_ALL,
-               help="least separation of the mean surfaces of film 1"),
-        Signal(name="temperature_max", unit="K", nominal=300.0, depends=_ALL,
-               help="highest temperature of carrier and washer"),
-        Signal(name="film_ratio", unit="1", nominal=3.0, depends=_ALL,
-               help="film thickness over the combined RMS roughness"),
-        Signal(name="fluid_load_share", unit="1", nominal=1.0, depends=_ALL,
-               help="share of the load that the film carries"),
-        Signal(name="friction_coefficient", unit="1", nominal=0.05, depends=_ALL,
-               help="torque over load and mean friction radius"),
-        Signal(name="friction_power", unit="W", nominal=100.0, depends=_ALL,
-               help="heat made by friction, torque times speed"),
+        _out("friction_torque", "N.m", 0.1, "friction torque on the washer, sign of the speed"),
+        _out("temperature", "K", 300.0, "area mean of the film temperature over the annulus"),
+        _out("film_thickness", "m", 1e-6, "least separation of the mean surfaces of film 1"),
+        _out("temperature_max", "K", 300.0, "highest temperature of carrier and washer"),
+        _out("film_ratio", "1", 3.0, "film thickness over the combined RMS roughness"),
+        _out("fluid_load_share", "1", 1.0, "share of the load that the film carries"),
+        _out("friction_coefficient", "1", 0.05, "torque over load and mean friction radius"),
+        _out("friction_power", "W", 100.0, "heat made by friction, torque times speed"),
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
                help="lubrication regime of the loaded film"),
         Signal(name="distress", unit="1", kind="boolean", depends=_ALL,
@@ -175,10 +169,7 @@ SPEC = ModelSpec(
                  help="Slip speed, load and tilt in, friction torque out",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
                           ("load", "load", "signal"), ("tilt", "tilt", "signal"))),
-        Terminal(name="oil", kind="thrustwasher.HeatPort",
-                 help="Oil temperature in, friction power out",
-                 members=(("oil_temperature", "T", "signal"),
-                          ("friction_power", "Q_flow", "outflow"))),
+        OIL_PORT,
     ),
     table="thrustwasher.washer.map.look_up:map_data",
     step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed

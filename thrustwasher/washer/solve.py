@@ -5,6 +5,7 @@ carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/
 """
 
 import math
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -15,13 +16,12 @@ from ..model.parameters import check_number
 from ..model.prepare import OFFLINE
 from ..native.load import bound
 from ..numerics.jit import Array
-from .kernel_arguments import NO_MESH, SIMPLE, constants
+from .kernel_arguments import NO_MESH, SIMPLE, Recent, constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.simple import N_WORK
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .recent import Recent, work_array
 from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
@@ -247,8 +247,6 @@ def _prefer(
 
 def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:
     """Replace the error estimate by the change from a grid of half the intervals."""
-    import dataclasses
-
     half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
     point = (result.load, result.speed, result.tilt, result.oil_temperature)
     coarse = _prefer(result.params, point, result.fidelity, half, BRANCHES.get(result.branch, 0.0))
@@ -257,4 +255,4 @@ def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult
         change = abs(result.friction_torque - coarse.friction_torque)
         # order 1.3, the lowest seen (boundary lubrication; 2.2 in full film): error = change/1.46
         estimate = change / 1.46 / max(abs(result.friction_torque), 1e-12)
-    return dataclasses.replace(result, error_estimate=estimate)
+    return replace(result, error_estimate=estimate)

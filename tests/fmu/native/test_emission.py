@@ -9,7 +9,7 @@ import pytest
 from kernel_runs import MODELS, Jit, Native, Run, anything, course, parameters
 
 from thrustwasher.model.registry import find_spec
-from thrustwasher.native.here import this_level, this_platform
+from thrustwasher.native.link import this_level, this_platform
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or platform.machine() != "x86_64",

@@ -10,7 +10,7 @@ import llvmlite.binding as llvm
 import pytest
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.native import emit, gate, symbols
+from thrustwasher.native import binaries, emit, gate
 from thrustwasher.native.targets import PLATFORMS
 
 
@@ -58,7 +58,7 @@ def compiled(text, platform):
 def test_the_object_file_is_read_too_on_every_platform(platform):
     text = DOUBLE.format("secret") + "\ndeclare double @secret(double)\n"
     _, code = compiled(text, platform)
-    assert symbols.undefined(code) == {"secret"}
+    assert binaries.undefined(code) == {"secret"}
     with pytest.raises(EnvironmentProblem, match=r"k\.step .* it needs secret \(not on the list"):
         gate.check_object(code, "k.step")
 
@@ -67,7 +67,7 @@ def test_the_object_file_is_read_too_on_every_platform(platform):
 def test_an_intrinsic_that_becomes_a_call_of_libm_passes(platform):
     text = DOUBLE.format("llvm.exp.f64") + "\ndeclare double @llvm.exp.f64(double)\n"
     module, code = compiled(text, platform)
-    assert symbols.undefined(code) == {"exp"}
+    assert binaries.undefined(code) == {"exp"}
     gate.check_module(module, "k")
     gate.check_object(code, "k")
 
@@ -88,4 +88,4 @@ def test_a_variable_that_is_only_declared_is_refused():
 
 def test_an_unknown_kind_of_object_is_said():
     with pytest.raises(EnvironmentProblem, match="neither ELF"):
-        symbols.undefined(b"garbage that is no object file")
+        binaries.undefined(b"garbage that is no object file")

@@ -15,7 +15,7 @@ from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.package.model_sources import PACKAGE
 from thrustwasher.fmu.shell import call_table, platform_libraries
 from thrustwasher.model.registry import find_spec
-from thrustwasher.native import callbacks, digest, emit, gate, link, linked
+from thrustwasher.native import binaries, callbacks, digest, emit, gate, link
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
 
@@ -37,7 +37,7 @@ def made(platform, fmi=2, model="gearmesh", guid=GUID):
 @pytest.mark.parametrize("fmi", [2, 3])
 @each_platform
 def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else(platform, fmi):
-    found = linked.read(made(platform, fmi))
+    found = binaries.read(made(platform, fmi))
     assert found.format == PLATFORMS[platform].format
     assert set(call_table.functions(fmi)) == found.exports - {"__dso_handle", "_mh_dylib_header"}
     names = {name.lower() for name in found.needed}
@@ -45,7 +45,7 @@ def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else
         name for name in names if name.startswith("api-ms-win-crt-")
     }
     if link.find_linker().is_cross:
-        assert all(linked._number(version) <= GLIBC for version in found.versions)
+        assert all(binaries._number(version) <= GLIBC for version in found.versions)
 
 
 @each_platform
@@ -67,11 +67,11 @@ def test_no_path_of_this_machine_is_inside(platform):
 def test_what_is_too_much_in_a_library_is_named():
     code, names = made("linux64"), call_table.functions(2)
     with pytest.raises(EnvironmentProblem, match="it exports fmi2"):
-        linked.check(code, exports=names[1:], glibc=None)
+        binaries.check(code, exports=names[1:], glibc=None)
     with pytest.raises(EnvironmentProblem, match="it does not export fmi2Dream"):
-        linked.check(code, exports=[*names, "fmi2Dream"], glibc=None)
+        binaries.check(code, exports=[*names, "fmi2Dream"], glibc=None)
     with pytest.raises(EnvironmentProblem, match=r"it needs GLIBC_2\."):
-        linked.check(code, exports=names, glibc=(2, 0))
+        binaries.check(code, exports=names, glibc=(2, 0))
 
 
 def test_another_platform_is_refused_by_name():
@@ -94,7 +94,7 @@ def test_without_ziglang_the_local_compiler_builds_for_this_platform_only(withou
         pytest.skip("needs gcc (Debian package gcc) on Linux, x86-64")
     assert link.find_linker().platforms == ("linux64",)
     code = link.shared_library({"a.c": "int a = 1;"}, platform=PLATFORMS["linux64"], name="a")
-    assert linked.read(code).format == "ELF"
+    assert binaries.read(code).format == "ELF"
     with pytest.raises(EnvironmentProblem, match=r"builds for linux64 only; for win64: pip"):
         link.shared_library({"a.c": ""}, platform=PLATFORMS["win64"], name="a")
 

@@ -1,23 +1,33 @@
 """Fit the clutch's friction law to measured friction, and say what the points can tell."""
 
+import difflib
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ..parameters import ClutchParams
+from ...errors import ParameterError
+from ...numerics.jit import Array
+from ..parameters import LOAD, SPEED, ClutchParams
 from .calibration_result import Calibration, Estimate
 from .data_warnings import warnings
-from .friction_law import CONSTANT_LAW, end_frictions, friction_slopes
-from .identifiability import Information, Verdict, confounded, information, load_test, verdicts
-from .least_squares import Problem, best_fit, profile_end, settled
-from .measurements import checked_names, checked_points, checked_start
+from .friction_law import (
+    CONSTANT_LAW,
+    constants_of,
+    end_frictions,
+    friction_radius,
+    friction_slopes,
+    law_values,
+)
+from .identifiability import Information, Verdict, combination, information, load_test, verdicts
+from .least_squares import Problem, best_fit, bounds_of, profile_end, settled
 
 __all__ = ["Calibration", "Estimate", "calibrate"]
 
-Array = NDArray[np.float64]
+LARGEST_FRICTION = 2.0
+SPEEDS = ("stick_speed", "decay_speed")
 DEFAULT_FIT = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
 
 
@@ -59,10 +69,8 @@ def calibrate(
 
     Raises
     ------
-    ParameterError
-        Wrong shapes, numbers out of range, unknown names.
-    SolveError
-        No starting point led to a fit.
+    ParameterError : wrong shapes, numbers out of range, unknown names
+    SolveError : no starting point led to a fit
 
     Notes
     -----
@@ -82,12 +90,14 @@ def calibrate(
     (0.2, 2.0)
     """
     names = checked_names(params, fit)
-    points = checked_points(params, speed, load, friction, friction_error)
-    problem, first = checked_start(params, names, points, confidence)
-    best, told, judged = _settled(problem, first, confidence, friction_error is not None)
+    problem = checked_problem(params, names, speed, load, friction, friction_error)
+    if not isinstance(confidence, int | float) or not 0.0 < confidence < 1.0:
+        raise ParameterError(f"confidence = {confidence!r}, allowed: above 0 and below 1")
+    first = np.array([problem.base[name] for name in names])
+    best, told, judged = _settled(problem, first, confidence)
     values = problem.values(best)
     changes: dict[str, Any] = {name: values[name] for name in names}
-    residuals = points.friction - problem.curve(best)
+    residuals = problem.friction - problem.curve(best)
     chi = problem.cost(best) / told.freedom if told.freedom > 0 else None
     return Calibration(
         params=replace(params, **changes),
@@ -97,24 +107,24 @@ def calibrate(
         ),
         end_frictions=() if names == CONSTANT_LAW else _end_estimates(problem, best, told),
         correlation=_correlation(problem, told),
-        confounded=confounded(problem, told),
+        confounded=tuple(combination(problem, direction) for direction in told.blurred()),
         residuals=residuals,
         rms=float(np.sqrt(np.mean(residuals**2))),
         degrees_of_freedom=told.freedom,
-        reduced_chi_square=chi if friction_error is not None else None,
-        load_test=load_test(problem, best, points.load, told, friction_error is not None),
-        warnings=warnings(problem, best, first, judged, friction_error is not None),
+        reduced_chi_square=chi if problem.known_errors else None,
+        load_test=load_test(problem, best, told),
+        warnings=warnings(problem, best, first, judged),
         confidence=float(confidence),
         _problem=problem, _best=best, _told=told,
     )  # fmt: skip
 
 
 def _settled(
-    problem: Problem, first: Array, confidence: float, known_errors: bool
+    problem: Problem, first: Array, confidence: float
 ) -> tuple[Array, Information, list[Verdict]]:
     """Return the fit, what it tells, and the verdicts; constants not told stay near their first."""
     best = best_fit(problem, first)
-    told = information(problem, best, confidence, known_errors)
+    told = information(problem, best, confidence)
     deviation = told.deviation
     weak = np.zeros(len(best))
     for _ in problem.names:
@@ -124,7 +134,7 @@ def _settled(
             break
         weak = now
         best = settled(problem, best, first, weak, deviation)
-        told = information(problem, best, confidence, known_errors)
+        told = information(problem, best, confidence)
     return best, told, verdicts(problem, best, told, weak)
 
 
@@ -180,3 +190,91 @@ def _correlation(problem: Problem, told: Information) -> Array:
     matrix = covariance / np.outer(width, width)
     matrix[~np.outer(known, known)] = np.nan
     return np.asarray(matrix)
+
+
+def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
+    """Return the names to fit, or say which one cannot be."""
+    names = (fit,) if isinstance(fit, str) else tuple(fit)
+    acting = constants_of(params)
+    if not acting:
+        raise ParameterError(
+            f"friction_law = {params.friction_law!r}: its points are the measurement itself, there "
+            "is nothing to fit; allowed: 'wang' or 'constant'"
+        )
+    allowed = f"allowed under friction_law {params.friction_law!r}: {', '.join(acting)}"
+    if not names:
+        raise ParameterError(f"fit names nothing, {allowed}")
+    for name in names:
+        if name == "load":
+            raise ParameterError(
+                f"fit = 'load': the friction law does not depend on load; {allowed}"
+            )
+        if name not in acting:
+            near = difflib.get_close_matches(str(name), acting, n=1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise ParameterError(f"fit = {name!r}, {hint}{allowed}")
+        if names.count(name) > 1:
+            raise ParameterError(f"fit names {name} twice")
+    return names
+
+
+def checked_problem(
+    params: ClutchParams, names: tuple[str, ...], speed: ArrayLike, load: ArrayLike,
+    friction: ArrayLike, friction_error: ArrayLike | None,
+) -> Problem:  # fmt: skip
+    """Return what is to be solved, or name the first value that cannot be used."""
+    mu = _column("friction", friction, "", -LARGEST_FRICTION, LARGEST_FRICTION)
+    count = len(mu)
+    slip = _column("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, count, False)
+    force = _column("load", load, "N", 0.0, LOAD.high or 0.0, count)
+    weight = np.ones(count)
+    if friction_error is not None:
+        error = _column("friction_error", friction_error, "", 0.0, LARGEST_FRICTION, count)
+        weight = 1.0 / _above_zero("friction_error", error, "")
+    if mu.mean() <= 0.0:
+        raise ParameterError(
+            f"friction is {mu.mean():.3g} on average, allowed: above 0 (for either sign of speed)"
+        )
+    force, slip_speed = _above_zero("load", force, "N"), np.abs(slip) * friction_radius(params)
+    scale = np.where(np.isin(names, SPEEDS), float(slip_speed.max()) or 1.0, 1.0)
+    if names == CONSTANT_LAW:
+        scale[0] = float(mu.mean())
+    return Problem(
+        law_values(params), names, slip_speed, mu, force, weight, *bounds_of(names), scale,
+        names == CONSTANT_LAW, friction_error is not None,
+    )  # fmt: skip
+
+
+def _column(
+    name: str, values: ArrayLike, unit: str, low: float, high: float, count: int = 0,
+    scalar: bool = True,
+) -> Array:  # fmt: skip
+    """Return a finite one-dimensional array in range; one value serves all points if allowed."""
+    try:
+        array = np.asarray(values, float)
+    except (TypeError, ValueError):
+        raise ParameterError(f"{name}: numbers{_in(unit, ' in')} are wanted") from None
+    if array.ndim == 0 and count and scalar:
+        array = np.full(count, float(array))
+    if array.ndim != 1 or len(array) == 0:
+        raise ParameterError(f"{name} has shape {array.shape}, allowed: one value per point")
+    if count and len(array) != count:
+        raise ParameterError(f"{name} has {len(array)} values, friction has {count}")
+    bad = ~((array >= low) & (array <= high))
+    if bad.any():
+        i = int(np.argmax(bad))
+        span = f"allowed: {low:g} .. {high:g} {unit}".rstrip()
+        raise ParameterError(f"{name}[{i}] = {float(array[i])!r}{_in(unit)}, {span}")
+    return array
+
+
+def _above_zero(name: str, array: Array, unit: str) -> Array:
+    """Return the array, or name its first zero."""
+    if (array == 0.0).any():
+        i = int(np.argmax(array == 0.0))
+        raise ParameterError(f"{name}[{i}] = 0{_in(unit)}, allowed: above 0")
+    return array
+
+
+def _in(unit: str, word: str = "") -> str:
+    return f"{word} {unit}" if unit else ""

@@ -5,14 +5,14 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...numerics.jit import Array
 from ..parameters import ClutchParams
 from .friction_law import friction_slopes
 from .identifiability import Information, LoadTest, counted
 from .least_squares import Problem
 
-Array = NDArray[np.float64]
 NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
 CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
 
@@ -88,11 +88,25 @@ class Calibration:
 
     def as_dict(self) -> dict[str, Any]:
         """Return what JSON can hold; None stands for infinite and for not known."""
-        return as_dict(self)
+        load = asdict(self.load_test) | {"is_significant": self.load_test.is_significant}
+        return {
+            "warnings": list(self.warnings),
+            "fitted": {e.name: e.value for e in self.estimates},
+            "estimates": [_plain(asdict(e)) for e in self.estimates],
+            "end_frictions": [_plain(asdict(e)) for e in self.end_frictions],
+            "correlation": _plain(self.correlation.tolist()),
+            "confounded": list(self.confounded),
+            "residuals": self.residuals.tolist(),
+            "rms": self.rms,
+            "degrees_of_freedom": self.degrees_of_freedom,
+            "reduced_chi_square": self.reduced_chi_square,
+            "load_test": load,
+            "confidence": self.confidence,
+        }
 
     def __str__(self) -> str:
-        """Return the summary."""
-        return summary(self)
+        """Return the calibration in sentences and one table."""
+        return "\n".join(_sentences(self))
 
 
 def spanned(low: float, high: float) -> str:
@@ -104,27 +118,7 @@ def spanned(low: float, high: float) -> str:
     return f"{low:.{digits}g} .. {high:.{digits}g}"
 
 
-def as_dict(found: Calibration) -> dict[str, Any]:
-    """Return the calibration as JSON types; None for infinite and NaN."""
-    load = asdict(found.load_test) | {"is_significant": found.load_test.is_significant}
-    return {
-        "warnings": list(found.warnings),
-        "fitted": {e.name: e.value for e in found.estimates},
-        "estimates": [_plain(asdict(e)) for e in found.estimates],
-        "end_frictions": [_plain(asdict(e)) for e in found.end_frictions],
-        "correlation": _plain(found.correlation.tolist()),
-        "confounded": list(found.confounded),
-        "residuals": found.residuals.tolist(),
-        "rms": found.rms,
-        "degrees_of_freedom": found.degrees_of_freedom,
-        "reduced_chi_square": found.reduced_chi_square,
-        "load_test": load,
-        "confidence": found.confidence,
-    }
-
-
-def summary(found: Calibration) -> str:
-    """Return the calibration in sentences and one table."""
+def _sentences(found: Calibration) -> list[str]:
     count, share = len(found.residuals), f"{100 * found.confidence:g} %"
     lines = [f"WARNING. {text}" for text in found.warnings]
     lines.append(
@@ -134,8 +128,7 @@ def summary(found: Calibration) -> str:
     if found.reduced_chi_square is not None:
         lines.append(_chi_text(found))
     lines += [_row(e, share) for e in (*found.estimates, *found.end_frictions)]
-    reasons = dict.fromkeys(e.reason for e in found.estimates if e.reason)
-    for reason in reasons:
+    for reason in dict.fromkeys(e.reason for e in found.estimates if e.reason):
         names = [e.name for e in found.estimates if e.reason == reason]
         lines.append(f"{', '.join(names)}: {reason}.")
     lines += [_curved_text(e) for e in found.estimates if _is_curved(e)]
@@ -151,7 +144,7 @@ def summary(found: Calibration) -> str:
         + ("the given errors" if found.reduced_chi_square is not None else "the points' scatter")
         + ("; they suppose a law that can follow the points." if found.warnings else ".")
     )
-    return "\n".join(lines)
+    return lines
 
 
 def _row(e: Estimate, share: str) -> str:

@@ -3,13 +3,11 @@
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from .friction_law import end_frictions, friction_over
-from .identifiability import Verdict
+from .identifiability import Verdict, listed
 from .least_squares import Problem, bounds_of
-
-Array = NDArray[np.float64]
 
 POOR = 0.2  # of the mean friction: an rms residual above it is always worth a warning
 RISE = 0.05  # of the mean friction: a smaller rise with speed is not worth one
@@ -30,27 +28,21 @@ TABLE = (
 )
 
 
-def warnings(
-    problem: Problem, best: Array, first: Array, judged: list[Verdict], known_errors: bool
-) -> tuple[str, ...]:
+def warnings(problem: Problem, best: Array, first: Array, judged: list[Verdict]) -> tuple[str, ...]:
     """Return what is wrong with the fit as a whole, the gravest first; each "headline: details".
 
-    Parameters
-    ----------
-    problem, best : the fit
-    first : (constants,) the values before it
-    judged : the verdict on every constant
-    known_errors : the weights are one over known standard deviations
+    ``first`` are the values before the fit, ``judged`` is the verdict on every constant.
     """
-    scatter = 1.0 / problem.weight if known_errors else _scatter(problem)
+    scatter = 1.0 / problem.weight if problem.known_errors else _scatter(problem)
     found = [_rising(problem)]
     if not problem.is_constant:
         found = [out_of_reach(problem, scatter, side) for side in (1, -1)] + found
+    rms = float(np.sqrt(np.mean((problem.curve(best) - problem.friction) ** 2)))
     if not any(found):
-        found.append(_missed(problem, best, judged, scatter))
+        found.append(_missed(problem, rms, judged, scatter))
         if not problem.is_constant:
             found.append(hidden_fall(problem, best, first))
-    found.append(_poor(problem, best, alone=not any(found)))
+    found.append(_poor(rms / float(problem.friction.mean()), alone=not any(found)))
     return tuple(text for text in found if text)
 
 
@@ -75,7 +67,8 @@ def _rising(problem: Problem) -> str:
     speed, friction = problem.speed[order], problem.friction[order]
     falling = isotonic_regression(friction, weights=problem.weight[order] ** 2, increasing=False)
     cost = (problem.weight[order] * (friction - falling.x)) ** 2
-    piece = slice(*_worst(cost, falling.blocks))
+    worst = int(np.argmax(np.add.reduceat(cost, falling.blocks[:-1])))
+    piece = slice(*falling.blocks[worst : worst + 2])
     speed, friction, mean = speed[piece], friction[piece], problem.friction.mean()
     if len(speed) < FEWEST or np.ptp(speed) <= 0.0:
         return ""
@@ -90,18 +83,9 @@ def _rising(problem: Problem) -> str:
     )
 
 
-def _worst(cost: Array, blocks: NDArray[np.int64]) -> tuple[int, int]:
-    """Return begin and end of the block with the largest sum."""
-    sums = np.add.reduceat(cost, blocks[:-1])
-    k = int(np.argmax(sums))
-    return int(blocks[k]), int(blocks[k + 1])
-
-
-def _missed(problem: Problem, best: Array, judged: list[Verdict], scatter: Array) -> str:
+def _missed(problem: Problem, rms: float, judged: list[Verdict], scatter: Array) -> str:
     """Return a sentence if the law misses the points by more than they scatter."""
-    residuals = problem.curve(best) - problem.friction
-    rms, mean = float(np.sqrt(np.mean(residuals**2))), float(problem.friction.mean())
-    usual = float(np.sqrt(np.mean(scatter**2)))
+    mean, usual = float(problem.friction.mean()), float(np.sqrt(np.mean(scatter**2)))
     if rms <= max(SCATTERS * usual, MATERIAL * mean):
         return ""
     stops = [
@@ -119,10 +103,8 @@ def _missed(problem: Problem, best: Array, judged: list[Verdict], scatter: Array
     )
 
 
-def _poor(problem: Problem, best: Array, alone: bool) -> str:
+def _poor(share: float, alone: bool) -> str:
     """Return a sentence if the residuals are a large part of the friction itself."""
-    rms = float(np.sqrt(np.mean((problem.curve(best) - problem.friction) ** 2)))
-    share = rms / float(problem.friction.mean())
     if share <= POOR:
         return ""
     return (
@@ -135,14 +117,10 @@ def _poor(problem: Problem, best: Array, alone: bool) -> str:
 def out_of_reach(problem: Problem, scatter: Array, side: int) -> str:
     """Return a sentence if points lie above (side 1) or below (-1) all the law can give, or "".
 
-    Parameters
-    ----------
-    problem : what is fitted, within which ranges
-    scatter : (points,) standard deviation of ``friction``
-    side : 1 for points that are too high, -1 for those too low
+    ``scatter`` is the standard deviation of ``friction``, (points,).
     """
     measured = problem.friction
-    edge = _extreme(problem, side)
+    edge = friction_over(_corner(problem, side), problem.speed)
     slack = np.maximum(SCATTERS * scatter, MATERIAL * measured.mean())
     beyond = side * (measured - edge) > slack
     if not beyond.any():
@@ -154,8 +132,10 @@ def out_of_reach(problem: Problem, scatter: Array, side: int) -> str:
         gap = side * (measured - friction_over(values, problem.speed))
         return bool(np.all(gap <= 1e-12))
 
+    count, total = int(np.count_nonzero(beyond)), len(beyond)
+    these = "any of these points" if count == total else f"{count} of {total} points"
     return (
-        f"The law cannot reach {_share(beyond)} (it gives at {most} {limit:.4g}, measured are "
+        f"The law cannot reach {these} (it gives at {most} {limit:.4g}, measured are "
         f"{'up' if side > 0 else 'down'} to {far:.4g}): {_stopped(problem, side, beyond)}. "
         f"{_cures(problem, side, reached)}"
     )
@@ -196,20 +176,10 @@ def _corner(
     return {**values, **(changes or {})}
 
 
-def _extreme(problem: Problem, side: int) -> Array:
-    """Return the most or least friction at each measured speed."""
-    return friction_over(_corner(problem, side), problem.speed)
-
-
 def _fall_left(values: Mapping[str, float], speed: Array) -> float:
     """Return the share of the law's fall that is still to come at a slip speed."""
     unit = {**values, "plough_weight": 0.0, "shear_floor": 0.0}
     return float(friction_over(unit, speed)[0] / end_frictions(unit)[0])
-
-
-def _share(beyond: Array) -> str:
-    count, total = int(np.count_nonzero(beyond)), len(beyond)
-    return "any of these points" if count == total else f"{count} of {total} points"
 
 
 def _stopped(problem: Problem, side: int, points: Array | None) -> str:
@@ -241,7 +211,7 @@ def _cures(problem: Problem, side: int, reached: Callable[[Mapping[str, float]],
             continue
         enough = f" ({_enough(corner, name, bound, reached)})" if reached(at_bound) else ""
         words.append(f"a {'larger' if bound == high else 'smaller'} {name}{enough}")
-    helps = f"What would help: {_or(words)}. " if words else ""
+    helps = f"What would help: {listed(words, 'or')}. " if words else ""
     return f"{helps}Or {TABLE}"
 
 
@@ -258,7 +228,3 @@ def _enough(
     if bound > corner[name]:
         return f"{min(far + step, bound):.3g} or more"
     return f"{max(far - step, bound):.3g} or less"
-
-
-def _or(words: list[str]) -> str:
-    return " or ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else words[0]

@@ -5,12 +5,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from ..kernels.pack_friction import ploughing
 from ..parameters import ClutchParams, mean_radius
-
-Array = NDArray[np.float64]
 
 WANG_CONSTANTS = (
     "plough_weight", "shear_floor", "stick_speed", "decay_speed", "hardness_ratio", "indentation",

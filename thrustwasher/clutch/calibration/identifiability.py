@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from .friction_law import shares
 from .least_squares import Problem
-
-Array = NDArray[np.float64]
 
 LOST = 1e-9  # a singular value this small beside the largest is rounding
 VANISHES = 1e-4  # ... and so is one this much smaller beside the friction itself
@@ -23,19 +21,15 @@ FOLLOWS = 1e-4  # share of the load's spread that the law's constants must leave
 class Information:
     """Singular values of the misfit's slopes, in changes that matter over the scatter."""
 
-    names: tuple[str, ...]
     scale: Array
     strength: Array
     """(constants,) one over the standard error of each direction, in scaled constants; 0: lost."""
-    directions: Array
-    """(constants, constants) one direction per row, scaled constants."""
+    directions: Array  # (constants, constants) one direction per row, scaled constants
     quantile: float
     """Half width of an interval in standard errors; infinite where no scatter can be judged."""
     rank: int
-    freedom: int
-    """Points less independent constants."""
-    deviation: float
-    """Standard deviation of one weighted point."""
+    freedom: int  # points less independent constants
+    deviation: float  # standard deviation of one weighted point
 
     def covariance(self) -> Array:
         """Return the covariance of the constants without the directions that are lost."""
@@ -53,23 +47,21 @@ class Information:
             return np.inf
         return float(np.sqrt(np.sum((along[told] / self.strength[told]) ** 2)))
 
+    def half_width_of(self, gradient: Array) -> float:
+        """Return the half width of a quantity's interval; infinite if not told."""
+        return self.error_of(gradient) * self.quantile if np.isfinite(self.quantile) else np.inf
+
     def blurred(self) -> list[Array]:
         """Return directions, in changes of the constants, that the points do not resolve."""
         wide = self.quantile > self.strength if np.isfinite(self.quantile) else self.strength <= 0.0
         return [direction * self.scale for direction in self.directions[wide]]
 
 
-def information(
-    problem: Problem, best: Array, confidence: float, known_errors: bool
-) -> Information:
+def information(problem: Problem, best: Array, confidence: float) -> Information:
     """Return what the points tell, by linearising at the optimum.
 
-    Parameters
-    ----------
-    problem, best : the fit
-    confidence : probability of the intervals
-    known_errors : the weights are one over known standard deviations; otherwise the scatter of
-        the residuals gives them, and Student's distribution the quantile
+    Without known errors the scatter of the residuals gives the standard deviation of a point, and
+    Student's distribution the quantile of the intervals' probability ``confidence``.
     """
     from scipy.stats import norm, t
 
@@ -82,7 +74,7 @@ def information(
     rank = int(np.count_nonzero(singular))
     freedom = n - rank
     tail = 0.5 + 0.5 * confidence
-    if known_errors:
+    if problem.known_errors:
         deviation, quantile = 1.0, float(norm.ppf(tail))
     elif freedom > 0:
         deviation, quantile = np.sqrt(problem.cost(best) / freedom), float(t.ppf(tail, freedom))
@@ -91,33 +83,27 @@ def information(
     floor = 1e-16 * float(np.abs(problem.friction * problem.weight).max())
     strength = singular / max(float(deviation), floor, 1e-300)
     return Information(
-        problem.names, problem.scale, strength, directions, quantile, rank, freedom,
-        float(deviation),
-    )  # fmt: skip
-
-
-def combination(names: tuple[str, ...], direction: Array, scale: Array) -> str:
-    """Say in one sentence which constants the points cannot tell apart."""
-    share = np.abs(direction / scale)
-    named = [i for i in np.argsort(-share) if share[i] > NAMED * share.max()]
-    if len(named) == 1:
-        return f"no point says enough about {names[named[0]]}"
-    change = direction / direction[named[0]] * 0.01 * scale[named[0]]
-    parts = [f"{names[i]} {change[i]:+.3g}" for i in named]
-    return (
-        f"the points cannot tell {_and([names[i] for i in named])} apart: changed together by "
-        f"{_and(parts)} they move the friction at no point beyond its scatter"
+        problem.scale, strength, directions, quantile, rank, freedom, float(deviation)
     )
 
 
-def members(names: tuple[str, ...], direction: Array, scale: Array) -> set[str]:
-    """Return the constants that a direction is about."""
-    share = np.abs(direction / scale)
-    return {n for n, s in zip(names, share, strict=True) if s > NAMED * share.max()}
+def members(problem: Problem, direction: Array) -> list[int]:
+    """Return the places of the constants that a direction is about, the largest share first."""
+    share = np.abs(direction / problem.scale)
+    return [int(i) for i in np.argsort(-share) if share[i] > NAMED * share.max()]
 
 
-def _and(words: list[str]) -> str:
-    return ", ".join(words[:-1]) + f" and {words[-1]}"
+def combination(problem: Problem, direction: Array) -> str:
+    """Say in one sentence which constants the points cannot tell apart."""
+    named, names = members(problem, direction), problem.names
+    if len(named) == 1:
+        return f"no point says enough about {names[named[0]]}"
+    change = direction / direction[named[0]] * 0.01 * problem.scale[named[0]]
+    parts = [f"{names[i]} {change[i]:+.3g}" for i in named]
+    return (
+        f"the points cannot tell {listed([names[i] for i in named], 'and')} apart: changed "
+        f"together by {listed(parts, 'and')} they move the friction at no point beyond its scatter"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,17 +122,9 @@ class LoadTest:
         return self.p_value is not None and self.p_value < 0.01
 
 
-def load_test(
-    problem: Problem, best: Array, load: Array, told: Information, known_errors: bool
-) -> LoadTest:
-    """Return the test of a term linear in load beside the law's own constants.
-
-    Parameters
-    ----------
-    problem, best, told : the fit and what it tells
-    load : (points,) [N]
-    known_errors : the weights are one over known standard deviations
-    """
+def load_test(problem: Problem, best: Array, told: Information) -> LoadTest:
+    """Return the test of a term linear in load beside the law's own constants."""
+    load = problem.load
     spread = float(np.ptp(load))
     if spread <= SAME_LOAD * float(load.max()):
         return LoadTest(None, None, "all points have one load: its influence cannot be tested")
@@ -159,12 +137,10 @@ def load_test(
     if free @ free < FOLLOWS * (column @ column):
         text = "load changes only together with speed: its influence cannot be told from speed's"
         return LoadTest(None, None, text)
-    return _tested(problem, best, free, load, told.freedom - 1, known_errors)
+    return _tested(problem, best, free, told.freedom - 1)
 
 
-def _tested(
-    problem: Problem, best: Array, free: Array, load: Array, freedom: int, known_errors: bool
-) -> LoadTest:
+def _tested(problem: Problem, best: Array, free: Array, freedom: int) -> LoadTest:
     """Return the size of the term and its significance."""
     from scipy.stats import norm, t
 
@@ -172,11 +148,11 @@ def _tested(
     slope = float(free @ misfit / (free @ free))
     left = max(problem.cost(best) - slope * slope * float(free @ free), 0.0)
     floor = 1e-13 * float(np.abs(problem.friction * problem.weight).max())
-    deviation = max(1.0 if known_errors else float(np.sqrt(left / freedom)), floor)
+    deviation = max(1.0 if problem.known_errors else float(np.sqrt(left / freedom)), floor)
     score = abs(slope) * float(np.sqrt(free @ free)) / deviation
-    p_value = 2.0 * float(norm.sf(score) if known_errors else t.sf(score, freedom))
+    p_value = 2.0 * float(norm.sf(score) if problem.known_errors else t.sf(score, freedom))
     change = slope / float(problem.friction.mean())
-    where = f"from {load.min():g} to {load.max():g} N"
+    where = f"from {problem.load.min():g} to {problem.load.max():g} N"
     if p_value < 0.01:
         text = (
             f"friction changes by {100 * change:+.2g} % {where}, more than scatter explains "
@@ -194,11 +170,9 @@ def _tested(
 class Verdict:
     """One constant: told by the points or not, and the reason."""
 
-    half_width: float
-    """Of the linearised interval; infinite if nothing is known."""
+    half_width: float  # of the linearised interval; infinite if nothing is known
     identifiable: bool
-    at_bound: str
-    """"lower", "upper" or ""."""
+    at_bound: str  # "lower", "upper" or ""
     reason: str
 
 
@@ -214,26 +188,15 @@ def verdicts(
     blurred = told.blurred()
     found = []
     for i in range(len(best)):
-        error = told.error_of(np.eye(len(best))[i])
-        half = error * told.quantile if np.isfinite(told.quantile) else np.inf
+        half = told.half_width_of(np.eye(len(best))[i])
         known = bool(half <= problem.scale[i]) and not (weak is not None and weak[i])
-        side = _side(problem, best, i)
+        low, high = best[i] <= problem.low[i], best[i] >= problem.high[i]
+        side = "lower" if low else "upper" if high else ""
         words = [] if known else [_why_not(problem, best, told, i, half, blurred)]
         if side:
             words.append(_bound_text(problem, best, i, side))
         found.append(Verdict(half, known, side, "; ".join(words)))
     return found
-
-
-def confounded(problem: Problem, told: Information) -> tuple[str, ...]:
-    """Return one sentence for every combination of constants that the points do not resolve."""
-    return tuple(combination(problem.names, d, problem.scale) for d in told.blurred())
-
-
-def _side(problem: Problem, best: Array, i: int) -> str:
-    if best[i] <= problem.low[i]:
-        return "lower"
-    return "upper" if best[i] >= problem.high[i] else ""
 
 
 def _bound_text(problem: Problem, best: Array, i: int, side: str) -> str:
@@ -271,9 +234,9 @@ def _why_not(
         lead = f"all points have one slip speed ({fastest:.4g} m/s); "
     elif name == "stick_speed" and slowest >= stick:
         lead = f"all points lie above it (slowest slip {slowest:.4g} m/s); "
-    about = [d for d in blurred if name in members(problem.names, d, problem.scale)]
+    about = [direction for direction in blurred if i in members(problem, direction)]
     if about:
-        return lead + combination(problem.names, about[0], problem.scale)
+        return lead + combination(problem, about[0])
     if not np.isfinite(told.quantile):
         return f"{few}: no scatter is left to judge by, add points or give friction_error"
     return f"{lead}at this scatter its interval would be +- {half:.2g}"
@@ -282,3 +245,8 @@ def _why_not(
 def counted(number: int, noun: str) -> str:
     """Return "1 point" or "2 points"."""
     return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def listed(words: list[str], last: str) -> str:
+    """Return "a, b and c" for the word "and"."""
+    return f" {last} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)

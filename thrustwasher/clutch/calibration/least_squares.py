@@ -8,13 +8,11 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import SolveError
+from ...numerics.jit import Array
 from ..parameters import ClutchParams
 from .friction_law import friction_over, friction_slopes
-
-Array = NDArray[np.float64]
 
 N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
 N_STARTS = 4  # best of them, refined
@@ -32,20 +30,18 @@ _LINEAR = ("plough_weight", "shear_floor")
 class Problem:
     """Measured points and what may be changed to meet them."""
 
-    base: Mapping[str, float]
-    """Every number of the law; those in ``names`` are replaced."""
+    base: Mapping[str, float]  # every number of the law; those in ``names`` are replaced
     names: tuple[str, ...]
-    speed: Array
-    """(points,) slip speed [m/s], not negative."""
+    speed: Array  # (points,) slip speed [m/s], not negative
     friction: Array
-    weight: Array
-    """(points,) one over the standard deviation, or 1."""
+    load: Array  # [N]; the law does not know it
+    weight: Array  # (points,) one over the standard deviation, or 1
     low: Array
     high: Array
-    scale: Array
-    """(constants,) a change that would certainly matter."""
-    is_constant: bool = False
-    """The constant law instead of Wang, Wei & Wu's."""
+    scale: Array  # (constants,) a change that would certainly matter
+    is_constant: bool = False  # the constant law instead of Wang, Wei & Wu's
+    known_errors: bool = False
+    """The weights are one over known standard deviations; else the residuals' scatter counts."""
 
     def values(self, guess: Array) -> dict[str, float]:
         """Return the law's numbers with the guess put in."""
@@ -90,16 +86,11 @@ def bounds_of(names: tuple[str, ...]) -> tuple[Array, Array]:
 def best_fit(problem: Problem, first: Array) -> Array:
     """Return the constants with the least sum of squares that any start leads to.
 
-    Parameters
-    ----------
-    problem : what is fitted
-    first : (constants,) the values before the fit; the result nearest to them is taken where
-        several fit equally well
+    Where several fit equally well, the nearest to ``first``, the values before the fit, is taken.
 
     Raises
     ------
-    SolveError
-        No start converged.
+    SolveError : no start converged
     """
     starts = [first, *_coarse(problem, first)]
     noise = (1e-13 * np.abs(problem.friction * problem.weight).max()) ** 2 * len(problem.speed)
@@ -141,16 +132,8 @@ def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation:
 def profile_end(problem: Problem, best: Array, index: int, end: float, wanted: float) -> float:
     """Return where one constant alone costs ``wanted`` more, the others refitted.
 
-    Parameters
-    ----------
-    problem, best : the fit
-    index : which constant
-    end : first guess of the place, on the wanted side of ``best``
-    wanted : rise of the sum of squares
-
-    Returns
-    -------
-    float : the place, or the constant's bound if the rise there is less
+    ``end`` is a first guess of the place, on the wanted side of ``best``. Where the sum of squares
+    rises less up to the constant's bound, it is that bound.
     """
     centre, least = best[index], problem.cost(best)
     bound = problem.high[index] if end > centre else problem.low[index]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
-from ...model.kernel_tables import fill_table, wants_table
+from ...model.prepare import fill_table, wants_table
 from ...model.spec import ModelSpec
 from ...native.load import bound
 from ..description.interface import Variable, enumerations, variables

@@ -8,10 +8,16 @@ from pathlib import Path
 
 from ...errors import ParameterError
 from ...model.spec import ModelSpec
-from ...native import digest, linked, shipped
+from ...native import binaries, digest, shipped
 from ...native.files import Note, to_stderr
-from ...native.here import this_level, this_platform
-from ...native.link import Linker, find_linker, local_linker, shared_library
+from ...native.link import (
+    Linker,
+    find_linker,
+    local_linker,
+    shared_library,
+    this_level,
+    this_platform,
+)  # fmt: skip
 from ...native.objects import objects, prepare
 from ...native.targets import GLIBC, PLATFORMS, Platform
 from ...washer.map.map_file import all_maps, plain
@@ -149,7 +155,7 @@ def link_kernel(
         linker=linker, note=note,
     )  # fmt: skip
     glibc = GLIBC if linker.is_cross else None
-    linked.check(made, exports=exports, glibc=glibc)
+    binaries.check(made, exports=exports, glibc=glibc)
     return made
 
 

@@ -1,13 +1,9 @@
 """Exact and published solutions that the gear mesh is compared with.
 
-=====================  ==========================================================================
-``flash_temperature``  Heat of a sliding line contact: flash temperature of a deep body, shear of
-                       the oil film
-``involute_mesh``      Where two involute spur gears touch first, how their flanks move there,
-                       what sliding costs
-``line_contact``       Two long cylinders pressed together: Hertz's contact, its oil film,
-                       friction of gear flanks
-``thermal_fatigue``    Contact stress that a flank bears while thermal shocks strain it too (Atan
-                       2005, Eq 8-12)
-=====================  ==========================================================================
+=====================  ================================================================
+``involute_mesh``      where two gears touch first, how flanks move, what sliding costs
+``line_contact``       two cylinders: Hertz's contact, its oil film, friction of flanks
+``flash_temperature``  heat of a sliding contact: flash temperature, shear of the film
+``thermal_fatigue``    contact stress borne beside thermal shocks (Atan 2005, Eq 8-12)
+=====================  ================================================================
 """

@@ -19,14 +19,10 @@ ISO_GEOMETRY, ISO_ANGLE = 0.51, 1.22
 class Body(NamedTuple):
     """What a flank is made of."""
 
-    compliance: float
-    """[1/Pa] (1 - nu^2)/E"""
-    conductivity: float
-    """[W/(m K)]"""
-    density: float
-    """[kg/m3]"""
-    heat_capacity: float
-    """[J/(kg K)]"""
+    compliance: float  # [1/Pa] (1 - nu^2)/E
+    conductivity: float  # [W/(m K)]
+    density: float  # [kg/m3]
+    heat_capacity: float  # [J/(kg K)]
 
     @property
     def effusivity(self) -> float:

@@ -11,30 +11,22 @@ from typing import NamedTuple
 class Mesh(NamedTuple):
     """A gear pair seen along its line of action; ``addendum`` is in modules."""
 
-    ratio: float
-    """[-] teeth of the gear over teeth of the pinion"""
+    ratio: float  # [-] teeth of the gear over teeth of the pinion
     pinion_teeth: float
-    centre_distance: float
-    """[m]"""
-    pressure_angle: float
-    """[rad]"""
+    centre_distance: float  # [m]
+    pressure_angle: float  # [rad]
     addendum: float = 1.0
 
 
 class Flanks(NamedTuple):
     """The two flanks where they touch."""
 
-    radius_pinion: float
-    """[m] of curvature"""
-    radius_gear: float
-    """[m]"""
-    radius: float
-    """[m] of the cylinder on a plane with the same gap"""
-    speed_pinion: float
-    """[m/s] of the contact along the flank"""
+    radius_pinion: float  # [m] of curvature
+    radius_gear: float  # [m]
+    radius: float  # [m] of the cylinder on a plane with the same gap
+    speed_pinion: float  # [m/s] of the contact along the flank
     speed_gear: float
-    sliding: float
-    """[m/s] gear against pinion; above 0 before the pitch point"""
+    sliding: float  # [m/s] gear against pinion; above 0 before the pitch point
 
 
 def pinion_radius(mesh: Mesh) -> float:
@@ -106,10 +98,8 @@ def line_load(torque: float, mesh: Mesh, face_width: float) -> float:
 class PathOfContact(NamedTuple):
     """Lengths along the line of action, in base pitches."""
 
-    approach: float
-    """from the start of contact to the pitch point"""
-    recess: float
-    """from the pitch point to the end of contact"""
+    approach: float  # from the start of contact to the pitch point
+    recess: float  # from the pitch point to the end of contact
 
     @property
     def contact_ratio(self) -> float:
@@ -150,15 +140,3 @@ def loss_factor(mesh: Mesh) -> float:
 def _slid(end: float) -> float:
     """Return the integral of |s| from 0 to ``end``."""
     return 0.5 * end * abs(end)
-
-
-def ohlendorf_factor(mesh: Mesh) -> float:
-    """Return H_v [-] in the usual form; neither approach nor recess may exceed a base pitch."""
-    approach, recess = path_of_contact(mesh)
-    shape = 1.0 - approach - recess + approach**2 + recess**2
-    return math.pi * (1.0 + 1.0 / mesh.ratio) / mesh.pinion_teeth * shape
-
-
-def pitch_line_speed(mesh: Mesh, speed: float) -> float:
-    """Return the speed of the pitch circles [m/s]."""
-    return speed * pinion_radius(mesh)

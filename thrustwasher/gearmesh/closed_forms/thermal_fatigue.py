@@ -12,10 +12,8 @@ CONTACT = 0.591
 class Endurance(NamedTuple):
     """Fatigue limits of a steel over its ultimate strength."""
 
-    mechanical: float
-    """K_m [-]"""
-    thermal: float
-    """K_t [-]"""
+    mechanical: float  # K_m [-]
+    thermal: float  # K_t [-]
 
 
 def thermal_stress(

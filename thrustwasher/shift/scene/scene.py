@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from ...errors import ParameterError
-from ...model.rules import check_together
+from ...model.prepare import check_together
 from ...model.spec import ModelSpec
 from ..masters.master import MASTERS
 

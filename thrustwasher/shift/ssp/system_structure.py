@@ -13,8 +13,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ...command import parameters as command_params
-from ...model.spec import ModelSpec, Signal
-from ...model.tailored import tailored
+from ...model.spec import ModelSpec, Signal, tailored
 from ..cosim.instances import Stepping
 from ..run import connected
 from ..scene.connections import COMMAND, SHOWN, SOURCE, Link, links

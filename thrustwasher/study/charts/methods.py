@@ -14,8 +14,7 @@ from ...clutch.parameters import SPEC as CLUTCH
 from ...clutch.parameters import ClutchParams
 from ...command.kernels import step as command_step
 from ...errors import Status
-from ...model.kernel_tables import fill_table
-from ...model.prepare import filled
+from ...model.prepare import fill_table, filled
 from ...model.record import resolve
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
@@ -97,7 +96,7 @@ class KernelMethod:
         if fidelity == "map":
             self.build_s = float(map_for(spec.params()).card["build_s"])
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
-        self._real = [s.name for s in spec.outputs if s.kind == "real"]
+        self._real = spec.real_outputs
         # where the kernel leaves the first of its counts in ``work``
         self._count = int(resolve(spec.counts[0][1])) if spec.counts else None
 

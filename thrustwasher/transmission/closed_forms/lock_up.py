@@ -7,12 +7,9 @@ from typing import NamedTuple
 class Engagement(NamedTuple):
     """How a clutch locks."""
 
-    lock_time: float
-    """[s] from the start of slip"""
-    heat: float
-    """[J] in the clutch"""
-    speed: float
-    """[rad/s] common speed at lock-up"""
+    lock_time: float  # [s] from the start of slip
+    heat: float  # [J] in the clutch
+    speed: float  # [rad/s] common speed at lock-up
 
 
 def engagement(

@@ -11,28 +11,17 @@ from typing import NamedTuple
 class PlanetForces(NamedTuple):
     """Forces on one planet and thrust on the central gears."""
 
-    tangential: float
-    """[N] in one mesh"""
-    axial: float
-    """[N] in one mesh"""
-    couple: float
-    """[N m] tilting the planet"""
-    pin_load: float
-    """[N] radial load on the planet's pin"""
-    sun_thrust: float
-    """[N] axial force on the sun; that on the ring is the opposite"""
-    planet_torque: float
-    """[N m] of one mesh about the planet's axis"""
+    tangential: float  # [N] in one mesh
+    axial: float  # [N] in one mesh
+    couple: float  # [N m] tilting the planet
+    pin_load: float  # [N] radial load on the planet's pin
+    sun_thrust: float  # [N] axial force on the sun; that on the ring is the opposite
+    planet_torque: float  # [N m] of one mesh about the planet's axis
 
 
 def pitch_radius(teeth: float, normal_module: float, helix_angle: float) -> float:
     """Return the pitch radius [m] of a helical gear."""
     return 0.5 * teeth * normal_module / math.cos(helix_angle)
-
-
-def can_be_assembled(sun_teeth: int, ring_teeth: int, planets: int) -> bool:
-    """Return True if equally spaced planets fit between sun and ring."""
-    return (sun_teeth + ring_teeth) % planets == 0
 
 
 def ring_speed(ratio: float, sun: float, carrier: float) -> float:

@@ -30,15 +30,8 @@ class Mobility(NamedTuple):
 class Limit(NamedTuple):
     """Where the torsional mode neither grows nor decays."""
 
-    damping: float
-    """[N m s/rad] of the shaft"""
-    frequency: float
-    """[rad/s]"""
-
-
-def two_inertias(engine: float, output: float, vehicle: float) -> Mobility:
-    """Return the mobility of engine - clutch - output - shaft - vehicle [kg m2]."""
-    return Mobility(1.0 / engine + 1.0 / output, -1.0 / output, 1.0 / output + 1.0 / vehicle)
+    damping: float  # [N m s/rad] of the shaft
+    frequency: float  # [rad/s]
 
 
 def planetary(
@@ -95,8 +88,3 @@ def damping_limit(m: Mobility, slope: float, stiffness: float) -> Limit:
     damping = 2.0 * c * stiffness * m.cross**2 / (middle + math.sqrt(max(inner, 0.0)))
     square = m.twist * stiffness - rest * c * damping
     return Limit(damping, math.sqrt(max(square, 0.0)))
-
-
-def small_slope_growth(m: Mobility, slope: float, damping: float) -> float:
-    """Return the growth of the mode [1/s] for small slope and damping: the first-order formula."""
-    return -0.5 * (m.twist * damping + slope * m.cross**2 / m.twist)

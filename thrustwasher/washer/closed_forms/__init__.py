@@ -1,9 +1,7 @@
 """Exact solutions that the washer is compared with.
 
-===============  =================================================================================
-``heated_ring``  Thin annuli that are heated: unevenly around the circumference, or in a stack of
-                 three
-``thin_film``    Films between a disc and a plate: parallel, across a narrow tilted ring, slightly
-                 tilted
-===============  =================================================================================
+===============  =============================================================================
+``heated_ring``  thin annuli heated unevenly around the circumference, or in a stack of three
+``thin_film``    films between disc and plate: parallel, across a narrow ring, slightly tilted
+===============  =============================================================================
 """

@@ -12,7 +12,7 @@ from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
 from ...native.load import bound
 from ...numerics.jit import Array
-from ..kernel_arguments import NO_MESH
+from ..kernel_arguments import NO_MESH, Recent
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
 from ..kernels.map.map_rows import look_up_rows, map_folds, map_tilts, single_look_up
@@ -21,7 +21,6 @@ from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
 from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import WasherParams
-from ..recent import Recent
 from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
 from .map_file import MapFile, find_map, read_map
 
@@ -37,8 +36,12 @@ class _Memory(threading.local):
     """What looking up in a map writes to: each thread has its own."""
 
     def __init__(self, data: Array) -> None:
-        self.work = np.zeros(N_MAP_WORK + L.N_ALL)
+        self.data, self.work = data, np.zeros(N_MAP_WORK + L.N_ALL)
         self.torque = bound(single_look_up, data=data, w=self.work)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let a copy have its own."""
+        return _Memory, (self.data,)
 
 
 class WasherMap:
@@ -64,15 +67,6 @@ class WasherMap:
     def __init__(self, params: WasherParams, path: str | os.PathLike[str] | None = None) -> None:
         self.params, self.file = params, map_for(params, path)
         self.data, self.card = self.file.data, self.file.card
-        self._own = _Memory(self.data)
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out the memory: a copy has its own."""
-        return {name: value for name, value in self.__dict__.items() if name != "_own"}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Take over all but the memory."""
-        self.__dict__.update(state)
         self._own = _Memory(self.data)
 
     @property

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...errors import ParameterError, SolveError, naming
 from ...numerics.jit import Array, kernel_digest
-from ...processes import processes_if_many
+from ...processes import mapped
 from ...storage.digests import params_digest
 from ...storage.journal import Journal
 from ..kernels.layout import O_FLUID_LOAD
@@ -117,11 +117,7 @@ def build_lines(
     try:
         done = kept.load(lines, flags) if kept else np.zeros(len(tasks), bool)
         rest = np.flatnonzero(~done).tolist()
-        with processes_if_many(workers) as pool:
-            waiting = [tasks[i] for i in rest]
-            found = pool.map(solve_line, waiting, chunksize=BATCH) if pool else map(
-                solve_line, waiting
-            )  # fmt: skip
+        with mapped(workers, solve_line, [tasks[i] for i in rest], BATCH) as found:
             for count, (i, line) in enumerate(zip(rest, found, strict=True), int(done.sum()) + 1):
                 lines[i] = line
                 if kept:

@@ -1,6 +1,6 @@
 """Checking a map: random points that it was not built from, solved on the mesh it stands for."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import BranchError, SolveError
-from ...processes import processes_if_many
+from ...processes import mapped
 from ..load_curve import load_curve
 from ..parameters import WasherParams
 from ..solve import solve_washer
@@ -47,26 +47,21 @@ class Verdict:
 
 
 def check_map(
-    params: WasherParams, path: str, *, points: int = 200, fidelity: str = "fine", seed: int = 7,
+    params: WasherParams, path: str, *, points: int = 200, fidelity: str = "fine",
     workers: int = 1, progress: Callable[[int, int], None] | None = None,
 ) -> Verdict:  # fmt: skip
     """Compare a map file with solutions on a mesh at random points of its box, on both branches.
 
-    Parameters
-    ----------
-    params, path : the washer and its map
-    points : how many; spread evenly over the logarithms of load, speed and tilt
-    fidelity : mesh of the solutions
-    seed : of the random points; the map is built from none of them
+    ``points`` of them are spread evenly over the logarithms of load, speed and tilt; the map is
+    built from none of them. ``fidelity`` is the mesh of the solutions.
     """
     washer = WasherMap(params, path)
-    tasks = [(TWINS[k % 2], point) for k, point in enumerate(_points(washer, points, seed))]
+    tasks = [(TWINS[k % 2], point) for k, point in enumerate(_points(washer, points))]
     compare = partial(_compare, params, path, fidelity)
     held: list[Held] = []
     folds: list[float] = []
     unanswered = 0
-    with processes_if_many(workers) as pool:
-        found = pool.map(compare, tasks, chunksize=4) if pool else map(compare, tasks)
+    with mapped(workers, compare, tasks, 4) as found:
         for k, (row, differences, odd) in enumerate(found):
             held += [row] if row else []
             folds += differences
@@ -76,9 +71,9 @@ def check_map(
     return _verdict(held, folds, unanswered)
 
 
-def _points(washer: WasherMap, n: int, seed: int) -> list[tuple[float, float, float, float]]:
+def _points(washer: WasherMap, n: int) -> list[tuple[float, float, float, float]]:
     """Return random points: even in the logarithms, speed as the map's own axis."""
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(7)
     box = washer.box
     columns = []
     for name in INPUTS:
@@ -135,13 +130,16 @@ def _compare(
 
 
 def _verdict(held: list[Held], folds: list[float], unanswered: int) -> Verdict:
-    away = np.abs([h.torque for h in held if not h.near_fold] or [0.0])
-    near = np.abs([h.torque for h in held if h.near_fold] or [0.0])
+    away = [h for h in held if not h.near_fold]
+    torques = np.array([h.torque for h in away] or [0.0])
     return Verdict(
-        points=len(held), torque=float(away.max()), torque_rms=float(np.sqrt(np.mean(away**2))),
-        torque_near_fold=float(near.max()),
-        film_ratio=float(np.max(np.abs([h.ratio for h in held if not h.near_fold] or [0.0]))),
-        temperature=float(np.max(np.abs([h.rise for h in held if not h.near_fold] or [0.0]))),
-        fold_load=float(np.max(np.abs(folds or [0.0]))), folds=len(folds),
-        unanswered=unanswered,
+        points=len(held), torque=_largest(h.torque for h in away),
+        torque_rms=float(np.sqrt(np.mean(torques**2))),
+        torque_near_fold=_largest(h.torque for h in held if h.near_fold),
+        film_ratio=_largest(h.ratio for h in away), temperature=_largest(h.rise for h in away),
+        fold_load=_largest(folds), folds=len(folds), unanswered=unanswered,
     )  # fmt: skip
+
+
+def _largest(values: Iterable[float]) -> float:
+    return max(map(abs, values), default=0.0)

@@ -17,14 +17,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import ParameterError
+from ...numerics.jit import Array
 from ...storage.digests import DATA
 from ..kernels.layout import N_STEADY
 from ..kernels.map import map_layout as L
 
-Array = NDArray[np.float64]
 SHIPPED = DATA / "maps"
 SUFFIX = ".twm"
 NUMBERS, CARD = "map.f32", "card.json"
@@ -43,12 +42,7 @@ class MapFile:
     def made_for(self, numbers: Sequence[float]) -> bool:
         """Tell if the map was made for these parameters, in the order of the dataclass."""
         steady = tuple(float(x) for x in numbers[:N_STEADY])
-        return params_of(self.data, len(steady)) == steady
-
-
-def params_of(data: Array, count: int) -> tuple[float, ...]:
-    """Return the parameters in a map's header."""
-    return tuple(float(x) for x in data[L.PARAMS : L.PARAMS + count])
+        return tuple(self.data[L.PARAMS :][: len(steady)].tolist()) == steady
 
 
 def pack(data: Array, card: dict[str, Any]) -> bytes:

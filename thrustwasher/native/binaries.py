@@ -1,12 +1,14 @@
-"""What a finished library needs from the machine that loads it, and what it shows: checked."""
+"""Object files and shared libraries: what they need and what they show.
+
+ELF, PE (COFF) and Mach-O, 64 bit, little endian.
+"""
 
 import re
 import struct
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ..errors import EnvironmentProblem
-from .symbols import elf_sections, text_at
 
 ALLOWED = {
     "ELF": r"(libc\.so\.6|libm\.so\.6|ld-linux-.*)",
@@ -15,8 +17,11 @@ ALLOWED = {
 }
 _OWN = {"__dso_handle", "_mh_dylib_header"}  # places that zig's linker for macOS always shows
 _NEEDED = 1  # tag in ELF's dynamic section
-_DYNAMIC, _DYNSYM, _VERNEED = 6, 11, 0x6FFFFFFE  # section types
+_DYNAMIC, _DYNSYM, _VERNEED = 6, 11, 0x6FFFFFFE  # section types of ELF
+_SYMTAB = 2  # section type in ELF and load command in Mach-O
+_COFF = (0x8664, 0xAA64)
 _EXPORT, _IMPORT = 0, 1  # directories of PE
+_MACHO = 0xFEEDFACF
 _LOAD = (0xC, 0x80000018)  # commands of Mach-O: LOAD_DYLIB and the weak one
 _TRIE = {0x80000022: 40, 0x80000033: 8}  # DYLD_INFO_ONLY, DYLD_EXPORTS_TRIE: where the tree lies
 
@@ -50,6 +55,25 @@ def check(data: bytes, *, exports: Iterable[str], glibc: tuple[int, int] | None)
         raise EnvironmentProblem(f"the linked library is not as it should be: {problems[0]}")
 
 
+def undefined(code: bytes) -> set[str]:
+    """Return the symbols that an object file refers to and does not define.
+
+    Raises
+    ------
+    EnvironmentProblem : the file is of another kind
+    """
+    if code[:4] == b"\x7fELF":
+        return _elf_undefined(code)
+    number = _word(code, 0)
+    if number == _MACHO:
+        return _macho_undefined(code)
+    if number & 0xFFFF in _COFF:
+        return _coff_undefined(code)
+    raise EnvironmentProblem(
+        f"an object file starts with {code[:4]!r}: neither ELF, COFF nor MachO"
+    )
+
+
 def read(data: bytes) -> Linked:
     """Return what a shared library of any of the formats needs and exports."""
     if data[:4] == b"\x7fELF":
@@ -61,19 +85,79 @@ def _number(version: str) -> tuple[int, ...]:
     return tuple(int(part) for part in version.removeprefix("GLIBC_").split("."))
 
 
+def _word(data: bytes, place: int) -> int:
+    return int(struct.unpack_from("<I", data, place)[0])
+
+
+def _text(data: bytes, start: int) -> str:
+    """Return the zero-terminated text at a place."""
+    return data[start : data.index(b"\0", start)].decode("ascii")
+
+
+def _elf_sections(code: bytes) -> list[tuple[int, ...]]:
+    """Return (name, type, flags, address, offset, size, link, info, align, entry size) of each."""
+    start, size, number = *struct.unpack_from("<Q", code, 40), *struct.unpack_from("<HH", code, 58)
+    return [struct.unpack_from("<IIQQQQIIQQ", code, start + i * size) for i in range(number)]
+
+
+def _commands(code: bytes) -> Iterator[tuple[int, int]]:
+    """Give the number and the place of each load command of Mach-O."""
+    place = 32
+    for _ in range(_word(code, 16)):
+        yield _word(code, place), place
+        place += _word(code, place + 4)
+
+
+def _elf_undefined(code: bytes) -> set[str]:
+    sections = _elf_sections(code)
+    found = set()
+    for section in sections:
+        if section[1] == _SYMTAB:
+            names = sections[section[6]][4]
+            for place in range(section[4] + 24, section[4] + section[5], 24):  # the first is empty
+                name, _, _, home = struct.unpack_from("<IBBH", code, place)
+                if home == 0:
+                    found.add(_text(code, names + name))
+    return found
+
+
+def _coff_undefined(code: bytes) -> set[str]:
+    start, number = struct.unpack_from("<II", code, 8)
+    names, found, i = start + 18 * number, set(), 0
+    while i < number:
+        raw, value, home, _, kind, extra = struct.unpack_from("<8sIhHBB", code, start + 18 * i)
+        if kind == 2 and home == 0 and value == 0:  # external, in no section, no common block
+            zero, offset = struct.unpack("<II", raw)
+            found.add(raw.rstrip(b"\0").decode("ascii") if zero else _text(code, names + offset))
+        i += 1 + extra
+    return found
+
+
+def _macho_undefined(code: bytes) -> set[str]:
+    found = set()
+    for command, place in _commands(code):
+        if command == _SYMTAB:
+            start, number, names, _ = struct.unpack_from("<IIII", code, place + 8)
+            for i in range(number):
+                name, kind, home, _, value = struct.unpack_from("<IBBHQ", code, start + 16 * i)
+                if kind & 0x0E == 0 and kind & 0x01 and home == 0 and value == 0:
+                    found.add(_text(code, names + name).removeprefix("_"))
+    return found
+
+
 def _elf(data: bytes) -> Linked:
-    sections, needed, exports, versions = elf_sections(data), set(), set(), set()
+    sections, needed, exports, versions = _elf_sections(data), set(), set(), set()
     for section in sections:
         kind, start, size = section[1], section[4], section[5]
         names = sections[section[6]][4] if section[6] < len(sections) else 0
         if kind == _DYNAMIC:
             for tag, value in struct.iter_unpack("<QQ", data[start : start + size]):
                 if tag == _NEEDED:
-                    needed.add(text_at(data, names + value))
+                    needed.add(_text(data, names + value))
         elif kind == _DYNSYM:
             for symbol in struct.iter_unpack("<IBBHQQ", data[start : start + size]):
                 if symbol[3] and symbol[1] >> 4:  # defined, not local
-                    exports.add(text_at(data, names + symbol[0]))
+                    exports.add(_text(data, names + symbol[0]))
         elif kind == _VERNEED:
             versions |= _versions(data, start, names)
     return Linked("ELF", frozenset(needed), frozenset(exports), frozenset(versions))
@@ -87,14 +171,14 @@ def _versions(data: bytes, start: int, names: int) -> set[str]:
         place = start + first
         for _ in range(number):
             _, _, _, name, following = struct.unpack_from("<IHHII", data, place)
-            found.add(text_at(data, names + name))
+            found.add(_text(data, names + name))
             place += following
         start += step
     return found
 
 
 def _pe(data: bytes) -> Linked:
-    header = struct.unpack_from("<I", data, 0x3C)[0]
+    header = _word(data, 0x3C)
     sections, optional = struct.unpack_from("<H", data, header + 6)[0], header + 24
     first = optional + struct.unpack_from("<H", data, header + 20)[0]
     table = [struct.unpack_from("<IIII", data, first + 40 * i + 8) for i in range(sections)]
@@ -106,34 +190,29 @@ def _pe(data: bytes) -> Linked:
         raise EnvironmentProblem(f"the library refers to {address:#x}, which it does not have")
 
     def directory(number: int) -> int:
-        return int(struct.unpack_from("<I", data, optional + 112 + 8 * number)[0])
+        return _word(data, optional + 112 + 8 * number)
 
     needed, exports = set(), set()
     entry = place(directory(_IMPORT))
-    while name := struct.unpack_from("<I", data, entry + 12)[0]:
-        needed.add(text_at(data, place(name)))
+    while name := _word(data, entry + 12):
+        needed.add(_text(data, place(name)))
         entry += 20
     if directory(_EXPORT):
         shown = place(directory(_EXPORT))
-        number, names = (
-            *struct.unpack_from("<I", data, shown + 24),
-            place(struct.unpack_from("<I", data, shown + 32)[0]),
-        )
+        number, names = _word(data, shown + 24), place(_word(data, shown + 32))
         for address in struct.unpack_from(f"<{number}I", data, names):
-            exports.add(text_at(data, place(address)))
+            exports.add(_text(data, place(address)))
     return Linked("PE", frozenset(needed), frozenset(exports))
 
 
 def _macho(data: bytes) -> Linked:
-    commands, place, needed, exports = struct.unpack_from("<I", data, 16)[0], 32, set(), set()
-    for _ in range(commands):
-        command, size = struct.unpack_from("<II", data, place)
+    needed, exports = set(), set()
+    for command, place in _commands(data):
         if command in _LOAD:
-            needed.add(text_at(data, place + struct.unpack_from("<I", data, place + 8)[0]))
+            needed.add(_text(data, place + _word(data, place + 8)))
         elif command in _TRIE:
             start, length = struct.unpack_from("<II", data, place + _TRIE[command])
             exports |= {name.removeprefix("_") for name in _trie(data[start : start + length])}
-        place += size
     return Linked("MachO", frozenset(needed), frozenset(exports))
 
 
@@ -148,7 +227,7 @@ def _trie(data: bytes) -> set[str]:
         place += size
         edges, place = data[place], place + 1
         for _ in range(edges):
-            piece = text_at(data, place)
+            piece = _text(data, place)
             child, place = _uleb(data, place + len(piece) + 1)
             todo.append((child, name + piece))
     return found

@@ -43,7 +43,7 @@ def rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -
     if asked in spec.fidelities:
         return asked
     from ..ladder.choose import choose
-    from ..shift.scene.fidelity_option import rung_and_tolerance
+    from ..shift.scene.scene import rung_and_tolerance
 
     _, tolerance = rung_and_tolerance(spec.key, spec, asked)
     choice = choose(spec.key, dict(point), tol=float(tolerance or 0.0), params=params)

@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
-from .cosim.instances import Stepping, capable, tells_values
+from .cosim.instances import Stepping, capable
 from .cosim.loop import Loop, PythonLoop, Recorder, Run, Steps
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, System
-from .key_figures.energy_balance import energy_balance
 from .key_figures.events_and_phases import find_events, find_phases
-from .key_figures.key_figures import key_figures
+from .key_figures.key_figures import energy_balance, key_figures
 from .masters.master import MASTERS
 from .masters.step_doubling import Doubling
 from .oscillation.chatter import find_chatter
@@ -227,7 +226,7 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
     """
     for name, part in scene.parts.items():
         instance = instances[name]
-        if not tells_values(instance):
+        if not hasattr(instance, "get"):
             continue
         wanted = _numbers(part)
         found = capable(instance).get(list(wanted))

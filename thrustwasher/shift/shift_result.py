@@ -1,7 +1,5 @@
 """What a shift run leaves: time series, events, energy balance, key figures, cost."""
 
-import os
-import tempfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from ..storage.whole_files import whole_file
 from .cosim.loop import Steps
 from .key_figures.events_and_phases import Event, Phase
 from .key_figures.figure_list import KeyFigure
@@ -140,25 +139,14 @@ class ShiftResult:
         units = self.units()
         head = ["time [s]", *(f"{name} [{units[name]}]" for name in self.signals)]
         columns = [self.time.tolist(), *(s.tolist() for s in self.signals.values())]
-        part = ""
         try:
-            handle, part = tempfile.mkstemp(dir=target.parent, prefix=target.name, suffix=".part")
-            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            target.parent.stat()  # a folder that is missing is not made
+            with whole_file(target) as part, part.open("w", encoding="utf-8", newline="\n") as file:
                 file.write(",".join(head) + "\n")
-                for row in zip(*columns, strict=True):
-                    file.write(",".join(map(repr, row)) + "\n")
-            os.chmod(part, 0o666 & ~_umask())
-            os.replace(part, target)
+                file.writelines(
+                    ",".join(map(repr, row)) + "\n" for row in zip(*columns, strict=True)
+                )
         except OSError as problem:
-            if part:
-                Path(part).unlink(missing_ok=True)
             raise ParameterError(
                 f"path = {str(target)!r}: cannot be written ({problem.strerror})"
             ) from None
-
-
-def _umask() -> int:
-    """Return the process's umask; it can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.spec import ModelSpec
 from ..description.interface import enumerations, variables
-from ..model_kernels import find_derivatives, has_derivatives
+from ..model_kernels import load_kernel
 from .core import Core, Mode
 from .snapshot import from_bytes
 
@@ -28,7 +28,8 @@ class DirectInstance:
         self._outputs = [v.reference for v in found if v.causality == "output"]
         self._parameters = dict(parameters or {})
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
-        self.saves_state, self.gives_derivatives = True, has_derivatives(spec)
+        self._sens = load_kernel(spec.kernel).sens
+        self.saves_state, self.gives_derivatives = True, self._sens is not None
         self.reset()
         self.instantiate_time = perf_counter() - start
 
@@ -102,8 +103,7 @@ class DirectInstance:
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
     ) -> list[float]:
         """Return how real outputs change along a direction of the inputs, memory held."""
-        sens = find_derivatives(self.spec)
-        if sens is None:
+        if self._sens is None:
             raise SolveError(f"{self.spec.name} has no derivatives")
         core = self.core
         along, slopes = np.zeros_like(core.inp), np.zeros_like(core.out)
@@ -113,7 +113,7 @@ class DirectInstance:
         core.refresh()
         # What a derivative starts from lies in `work`, which any other solve may have overwritten.
         core.solve_aside()
-        rc = sens(core.par, core.inp, core.state, core.work, along, slopes)
+        rc = self._sens(core.par, core.inp, core.state, core.work, along, slopes)
         if rc >= FIRST_FAILURE:
             raise SolveError(f"{self.spec.name} has no derivative here: {Status(rc).advice}")
         return [float(slopes[place]) for place in places]

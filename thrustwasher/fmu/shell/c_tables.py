@@ -7,13 +7,7 @@ from ...errors import FIRST_FAILURE, Status
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
 from ..description.xml_parts import LOG_CATEGORIES, log_categories
-from ..model_kernels import (
-    count_places,
-    find_broken_rule,
-    has_derivatives,
-    kernel_table,
-    load_kernel,
-)
+from ..model_kernels import count_places, load_kernel
 from . import call_table
 
 MOST_INPUTS = 32  # dependencies are bits of one word
@@ -112,9 +106,9 @@ def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, li
         "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
-        **{f"TABLE_{name}": value for name, value in kernel_table(spec).items()},
-        "HAS_RULES": int(find_broken_rule(spec) is not None),
-        "HAS_SENS": int(has_derivatives(spec)),
+        **{f"TABLE_{name}": value for name, value in kernel.table.items()},
+        "HAS_RULES": int(kernel.broken_rule is not None),
+        "HAS_SENS": int(kernel.sens is not None),
     }  # fmt: skip
     shown = [v for v in found if v.causality == "input" or v.name in ("film_ratio", "engine_speed")]
     return "\n".join([

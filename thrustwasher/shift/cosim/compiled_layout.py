@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import way
 from ..scene.connections import COMMAND
-from .instances import CCall, capable, has_c_addresses
+from .instances import capable
 from .loop import Run
 from .schedule import Correct, Pull
 from .system import ConnectedPart, renamed
@@ -23,7 +23,7 @@ def can_compile(run: Run) -> bool:
         return False
     if any(isinstance(action, Correct) for action in run.schedule):
         return False
-    return all(has_c_addresses(p.instance) for p in run.system.parts.values())
+    return all(hasattr(p.instance, "machine") for p in run.system.parts.values())
 
 
 class Layout:
@@ -86,7 +86,7 @@ class Layout:
             self._call(c.GET, number, group, recorder.output_place(part, 0))
         self._add(c.END, number)
 
-    def _call(self, kind: int, number: int, group: CCall, first: int) -> None:
+    def _call(self, kind: int, number: int, group: Any, first: int) -> None:
         values = self._kinds[group.kind]
         buffer, offset, count = self.buffers[values], self._used[values], len(group.places)
         self._used[values] += count

@@ -16,9 +16,9 @@ its second term, 1 + x + x^2 with x = H |c|/J.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError
+from ...numerics.jit import Array
 from ..cosim.instances import capable, gives_derivatives, saves_state
 from ..cosim.schedule import Correct, Pull, Schedule, Step
 from ..cosim.system import ConnectedPart, System, with_state
@@ -30,7 +30,6 @@ QUIET = 1e-4  # of H c/J: less does not matter
 PROBE = 1e-3  # of a torque: how far it is moved to find S
 WIDTH = 1e-6  # of an input's nominal value: half the distance of a difference
 LONG = 0.5  # of H |c|/J where friction falls: more is worth a word
-Array = NDArray[np.float64]
 
 
 def schedule(system: System) -> Schedule:

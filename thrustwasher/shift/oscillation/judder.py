@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from ..key_figures.figure_list import Found
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
@@ -25,7 +26,6 @@ from .torsion import (
     torsional_mode,
 )  # fmt: skip
 
-Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 Signals = dict[str, Array]
 PERIODS = 2.0  # of the mode in one window

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ...clutch.kernels.pack_friction import coefficient_slopes, viscous_slopes
 from ...clutch.solve import prepare
+from ...numerics.jit import Array
 
-Array = NDArray[np.float64]
 Matrix = NDArray[np.complex128]
 HALVINGS = 40
 

@@ -18,8 +18,7 @@ from ...model.spec import ModelSpec
 from ...units import parse_quantity
 from ..key_figures.figure_list import FIGURES
 from .connections import PARTS, REQUIRED
-from .fidelity_option import rung_and_tolerance
-from .scene import STEP_RANGE, TOLERANCE_RANGE, Part, Published, Scene
+from .scene import STEP_RANGE, TOLERANCE_RANGE, Part, Published, Scene, rung_and_tolerance
 
 # Key -> (unit, least, largest); texts have no unit.
 TEXTS = ("title", "description", "base", "master", "fidelity")

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError, Status
+from ...numerics.jit import Array
 from ..cosim.instances import Stepping
 from ..scene.connections import SPEED, WITHOUT_PAST
 from ..scene.scene import Part
@@ -24,7 +25,6 @@ from .selection import above, still_verified
 from .selection_record import Check, Difference, Scale, Selected
 from .trial_run import Pool
 
-Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 POINTS = 30
 CHANGES = 8  # of those at most are points after a change of regime

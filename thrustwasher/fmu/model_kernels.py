@@ -45,8 +45,9 @@ def load_kernel(name: str) -> Kernel:
     """Import a kernel module, by its dotted name."""
     k = importlib.import_module(name)
     sizes = (k.N_PARAM, k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT, k.NIOUT)
-    some = (getattr(k, entry, None) for entry in ("sens", "broken_rule"))
-    return Kernel(k.derive, k.step, *sizes, *some, getattr(k, "TABLE", None) or {"ROOM": 0})
+    sens, broken_rule = (getattr(k, entry, None) for entry in ("sens", "broken_rule"))
+    table = getattr(k, "TABLE", None) or {"ROOM": 0}
+    return Kernel(k.derive, k.step, *sizes, sens=sens, broken_rule=broken_rule, table=table)
 
 
 def has_derivatives(spec: ModelSpec) -> bool:

@@ -136,6 +136,7 @@ def _result(
     events = find_events(scene, time, signals)
     judder = find_judder(scene, time, signals)
     need = thermal_need(scene, time, signals)
+    corrections = [action.change for action in run.schedule if isinstance(action, Correct)]
     return ShiftResult(
         scene=scene,
         step=run.h,
@@ -153,7 +154,7 @@ def _result(
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
         messages=[
             *messages,
-            *_said(run),
+            *(line for change in corrections for line in change.words()),
             *steps.words(),
             *_advice(time, signals),
             *([] if need is None else [need]),
@@ -161,12 +162,6 @@ def _result(
         judder=judder,
         chatter=find_chatter(scene, time, signals, run.h),
     )
-
-
-def _said(run: Run) -> list[str]:
-    """Return what the master itself has to say."""
-    corrections = [action for action in run.schedule if isinstance(action, Correct)]
-    return [line for action in corrections for line in action.change.words()]
 
 
 def _drive(advance: Callable[[int, int], None], n: int, progress: Progress | None) -> None:

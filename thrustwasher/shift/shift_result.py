@@ -20,6 +20,9 @@ from .scene.connections import PARTS
 from .scene.scene import Scene
 from .tolerance.selection_record import GuardRecord, Selection
 
+# Of a scene, in the JSON of its run.
+RAMP = ("oil_temperature", "shift_start", "shift_duration", "shift_from", "shift_to", "engaging")
+
 
 @dataclass(frozen=True, kw_only=True)
 class Cost:
@@ -90,10 +93,11 @@ class ShiftResult:
 
     def units(self) -> dict[str, str]:
         """Return the unit of every signal."""
-        found = {}
-        for part, spec in PARTS.items():
-            for signal in (*spec.inputs, *spec.outputs):
-                found[f"{part}.{signal.name}"] = signal.unit
+        found = {
+            f"{part}.{signal.name}": signal.unit
+            for part, spec in PARTS.items()
+            for signal in (*spec.inputs, *spec.outputs)
+        }
         return {name: found.get(name, "1") for name in self.signals}
 
     def as_dict(self) -> dict[str, Any]:
@@ -101,19 +105,12 @@ class ShiftResult:
         scene = self.scene
         return {
             "scene": scene.name,
-            "title": scene.title,
-            "start_time": scene.start_time,
-            "stop_time": scene.stop_time,
+            **{name: getattr(scene, name) for name in ("title", "start_time", "stop_time")},
             "step": self.step,
             "master": self.master,
             "master_tolerance": scene.master_tolerance if MASTERS[self.master].adaptive else None,
             "steps": self.steps._asdict(),
-            "oil_temperature": scene.oil_temperature,
-            "shift_start": scene.shift_start,
-            "shift_duration": scene.shift_duration,
-            "shift_from": scene.shift_from,
-            "shift_to": scene.shift_to,
-            "engaging": scene.engaging,
+            **{name: getattr(scene, name) for name in RAMP},
             **self.figures,
             **{f"{f.name}_time": f.time for f in self.key_figures if f.time is not None},
             "published": self.comparison(),

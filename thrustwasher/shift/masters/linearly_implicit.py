@@ -203,11 +203,6 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
             "state that can be saved, allowed: with parts that have one of them, such as the "
             "native FMUs"
         )
-    return _difference(part, output, given)
-
-
-def _difference(part: ConnectedPart, output: str, given: str) -> float:
-    """Return the central difference at the part's present inputs."""
     instance, k = part.instance, part.input_names.index(given)
     place, signal = part.output_names.index(output), part.spec.inputs[k]
     width = WIDTH * (signal.nominal or 1.0)

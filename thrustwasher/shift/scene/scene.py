@@ -105,15 +105,11 @@ class Scene:
         master_tolerance: float | None = None,
     ) -> Scene:
         """Return the scene with another step, master or end; what hangs on them is adapted."""
-        tolerance = self.master_tolerance if master_tolerance is None else master_tolerance
-        scene = replace(
-            self,
-            step=self.step if step is None else step,
-            master=self.master if master is None else master,
-            stop_time=self.stop_time if stop_time is None else stop_time,
-            master_tolerance=tolerance,
-        )
-        return scene.checked()
+        given: dict[str, Any] = {
+            "step": step, "master": master, "stop_time": stop_time,
+            "master_tolerance": master_tolerance,
+        }  # fmt: skip
+        return replace(self, **{k: x for k, x in given.items() if x is not None}).checked()
 
     def checked(self) -> Scene:
         """Check what concerns several values; hand oil and master on to the parts."""
@@ -121,8 +117,8 @@ class Scene:
         if self.master not in MASTERS:
             options = " or ".join(repr(n) for n in MASTERS)
             raise ParameterError(f"{where}: master = {self.master!r}, allowed: {options}")
-        if not STEP_RANGE[0] <= self.step <= STEP_RANGE[1]:
-            low, high = STEP_RANGE
+        low, high = STEP_RANGE
+        if not low <= self.step <= high:
             raise ParameterError(f"{where}: step = {self.step!r} s, allowed: {low:g} .. {high:g} s")
         low, high = TOLERANCE_RANGE
         if not low <= self.master_tolerance <= high:

@@ -82,8 +82,13 @@ def page(system: Structure, *, tool: str) -> str:
         "after FMI 2.0; each brings its own documentation.</p>",
         "<h2>How to step it</h2>", MASTER.format(**times),
         "<h2>What masters differ by</h2>", DIFFERENCES,
-        "<h2>Parts</h2>", _parts(system), "<h2>Connections</h2>", _connections(system),
-        "<h2>Outputs of the system</h2>", _outputs(system),
+        "<h2>Parts</h2>", _table(["part", "FMU", "fidelity", "what it is"], [
+            [p.name, p.spec.name, p.parameters["fidelity"], p.spec.help]
+            for p in system.components]),
+        "<h2>Connections</h2>", _table(["from", "to"], [
+            [f"{k.source}.{k.output}", f"{k.target}.{k.input}"] for k in system.links]),
+        "<h2>Outputs of the system</h2>", _table(["output", "unit", "meaning"], [
+            [b.name, "" if b.signal.unit == "1" else b.signal.unit, b.signal.help] for b in system.border]),
     ]  # fmt: skip
     title = f"<title>{escape(scene.title)}</title><style>{STYLE}</style>"
     head = f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{title}</head>'
@@ -96,24 +101,6 @@ def _table(heads: list[str], rows: list[list[str]]) -> str:
         "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
     )
     return f"<table><tr>{top}</tr>\n{body}</table>"
-
-
-def _parts(system: Structure) -> str:
-    rows = [[p.name, p.spec.name, p.parameters["fidelity"], p.spec.help] for p in system.components]
-    return _table(["part", "FMU", "fidelity", "what it is"], rows)
-
-
-def _connections(system: Structure) -> str:
-    rows = [[f"{k.source}.{k.output}", f"{k.target}.{k.input}"] for k in system.links]
-    return _table(["from", "to"], rows)
-
-
-def _outputs(system: Structure) -> str:
-    rows = [
-        [b.name, "" if b.signal.unit == "1" else b.signal.unit, b.signal.help]
-        for b in system.border
-    ]
-    return _table(["output", "unit", "meaning"], rows)
 
 
 def structure(system: Structure, *, tool: str, date: str, plain: bool = False) -> Element:

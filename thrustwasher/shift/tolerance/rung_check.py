@@ -8,7 +8,6 @@ at these points only; one with a past of its own, such as a pack's film and temp
 whole record, since it would have another past in strides.
 """
 
-import math
 from collections.abc import Callable, Sequence
 from time import perf_counter
 
@@ -22,7 +21,7 @@ from ..scene.connections import SPEED, WITHOUT_PAST
 from ..scene.scene import Part
 from ..shift_result import ShiftResult
 from .selection import above, still_verified
-from .selection_record import Check, Difference, Scale, Selected
+from .selection_record import Check, Difference, Selected
 from .trial_run import Pool
 
 Places = NDArray[np.intp]
@@ -150,13 +149,7 @@ def _farthest(
         for scale in chosen.scales:
             served = float(result.signals[f"{chosen.part}.{scale.output}"][i])
             other = outputs[names.index(scale.output)]
-            share = _share(scale, served, other)
+            share = scale.between(served, other)
             if share > worst.share:
                 worst = Difference(share, scale.output, float(result.time[i]), served, other)
     return worst
-
-
-def _share(scale: Scale, served: float, above: float) -> float:
-    """Return a difference; infinite if it is no number."""
-    share = scale.between(served, above)
-    return math.inf if math.isnan(share) else share

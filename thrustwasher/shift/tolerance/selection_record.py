@@ -1,5 +1,6 @@
 """What was chosen for a run at a tolerance and why, and what the guard found: plain data."""
 
+from math import inf, isnan
 from typing import Any, NamedTuple
 
 from ...units import format_quantity as say
@@ -20,8 +21,9 @@ class Scale(NamedTuple):
     relative: bool = True
 
     def between(self, served: float, above: float) -> float:
-        """Return the difference as a share."""
-        return abs(served - above) / max(self.floor, abs(above) if self.relative else 0.0)
+        """Return the difference as a share; infinite if it is no number."""
+        share = abs(served - above) / max(self.floor, abs(above) if self.relative else 0.0)
+        return inf if isnan(share) else share
 
 
 class Selected(NamedTuple):

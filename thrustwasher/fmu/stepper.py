@@ -147,15 +147,7 @@ class Instance:
     def directional_derivative(
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
     ) -> list[float]:
-        """Return how real outputs change along a direction of the inputs, memory held.
-
-        Parameters
-        ----------
-        unknowns, knowns
-            Names of outputs and of inputs.
-        seed
-            The direction: one number per input.
-        """
+        """Return how real outputs change along a direction of the inputs, memory held."""
         start = perf_counter()
         asked = tuple(unknowns), tuple(knowns)
         direction = self._directions.get(asked)

@@ -35,14 +35,7 @@ def shell_files(fmi: int) -> tuple[str, ...]:
 def sources(spec: ModelSpec, *, fmi: int, guid: str) -> dict[str, str]:
     """Return model.h and model.c, file name -> text.
 
-    Parameters
-    ----------
-    spec
-        The model.
-    fmi
-        2 or 3: the functions in the table of calls, and their names in messages.
-    guid
-        What the description calls guid (FMI 2) or instantiationToken (FMI 3).
+    ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
     lists = _lists(spec, fmi)
     return {"model.h": _header(spec, fmi, guid, lists), "model.c": _tables(lists)}
@@ -57,7 +50,6 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
     events = {s.name: s.events for s in spec.outputs if s.events}
     declared = log_categories(spec)
     assert set(_CATEGORIES) == set(LOG_CATEGORIES), "the shell knows every category"
-    rules = [rule.text for rule in getattr(spec, "rules", ())]
     return {
         "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in found]),
         "ENUMERATIONS": ("Enumeration", [
@@ -69,7 +61,7 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
             _row(v.slot, *map(_text, events[v.name])) for v in found if v.name in events]),
         "COUNTS": ("Count", [
             _row(_text(text), place) for text, place in count_places(spec)]),
-        "RULES": ("Rule", [_row(_text(rule)) for rule in rules]),
+        "RULES": ("Rule", [_row(_text(rule.text)) for rule in spec.rules]),
         "CATEGORIES": ("Category", [
             _row(_text(name), int(name in declared)) for name in _CATEGORIES]),
         "TYPES": ("TypeText", [_row(_text(name)) for name in _TYPES[fmi]]),

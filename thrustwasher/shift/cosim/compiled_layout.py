@@ -44,13 +44,14 @@ class CompiledLoop:
         self._now = np.zeros(recorder.rows.shape[1])
         columns = (self._operations, self._places, [a.third for a in self.addresses],
                    [a.said for a in self.addresses])  # fmt: skip
-        self._arguments = (
+        self._arguments: tuple[Any, ...] = (
             *(np.array(column, np.int64) for column in columns), self._now, *self._buffers,
             self._told.ctypes.data, self._clock, tick, self._ticks, self._begun, self._spent,
             self._calls, run.time, run.h, run.commands,
             recorder.input_place(hub, hub.input_names.index(COMMAND)), recorder.rows,
         )  # fmt: skip
-        c.run_operations(*self._arguments, 0, self._report)  # compiled or loaded before time counts
+        self._function: Any = c.run_operations
+        self._function(*self._arguments, 0, self._report)  # compiled or loaded before time counts
 
     def _lay_out(self) -> None:
         """List the operations of one communication step, and make the buffers they use."""
@@ -115,7 +116,7 @@ class CompiledLoop:
         self._now[:] = self.run.recorder.rows[i]
         report[:] = i, 0, 0
         try:
-            while c.run_operations(*self._arguments, stop, report) == c.REPORTED:
+            while self._function(*self._arguments, stop, report) == c.REPORTED:
                 self._judge()
         finally:
             self._count()

@@ -1,6 +1,6 @@
 """The loop over communication points, in Python; any instance can be stepped so."""
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,16 +93,6 @@ class Run(NamedTuple):
     recorder: Recorder
 
 
-class Loop(Protocol):
-    """A way to carry a run from one communication point to another."""
-
-    def advance(self, i: int, stop: int) -> None:
-        """Step from point ``i`` to point ``stop`` and record every point on the way.
-
-        ParameterError or SolveError names the part and the time where it failed.
-        """
-
-
 class PythonLoop:
     """Steps the parts one call after another."""
 
@@ -110,7 +100,7 @@ class PythonLoop:
         self.run = run
 
     def advance(self, i: int, stop: int) -> None:
-        """Step from point ``i`` to point ``stop``."""
+        """Step from point ``i`` to point ``stop`` and record every point on the way."""
         system, schedule, time, h, commands, recorder = self.run
         for k in range(i, stop):
             t = float(time[k])

@@ -192,10 +192,6 @@ class Doubling:
         ]  # fmt: skip
         self._rejected = self._located = self._forced = 0
 
-    def begin(self, time: float) -> None:
-        """Record the start."""
-        self._keep(time)
-
     def advance(self) -> float:
         """Take one step, in halves, and return the time reached."""
         t, points, start = self.time[-1], len(self.time), self._back.hold()
@@ -266,7 +262,7 @@ class Doubling:
                 if self._control.shortest < event < (1.0 - NEAR) * h:
                     return t + event
                 self._step(t, goal)
-            self._keep(goal)
+            self.keep(goal)
             return None
         finally:
             self._back.drop(start)
@@ -290,7 +286,8 @@ class Doubling:
         self.system.set_command(self._command(goal))
         carry_out(self._schedule, t, goal - t)
 
-    def _keep(self, time: float) -> None:
+    def keep(self, time: float) -> None:
+        """Record the present point."""
         if len(self.time) >= MOST:
             raise SolveError(
                 f"t = {time:g} s is reached after {MOST} communication points; take a larger "

@@ -18,13 +18,7 @@ from ..key_figures.figure_list import Found
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 from .damped_oscillation import Oscillation, fit_oscillation
-from .torsion import (
-    capacity_slopes,
-    damping_limit_of,
-    handed_over,
-    matrix,
-    torsional_mode,
-)  # fmt: skip
+from .torsion import capacity_slopes, damping_limit_of, handed_over, matrix, torsional_mode
 
 Places = NDArray[np.intp]
 Signals = dict[str, Array]

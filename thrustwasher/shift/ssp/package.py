@@ -58,11 +58,7 @@ less heat, and the brake has 9 % more. Stepping the transmission last with fresh
 def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
     """Return the files of the package by path, all but the FMUs.
 
-    Parameters
-    ----------
-    system : what ``plan`` found
-    tool : the name of the tool and its version
-    date : when it was made, ISO 8601
+    ``tool`` is the name of the tool and its version, ``date`` when it was made, ISO 8601.
     """
     return {
         "SystemStructure.ssd": text(structure(system, tool=tool, date=date)),
@@ -88,7 +84,8 @@ def page(system: Structure, *, tool: str) -> str:
         "<h2>Connections</h2>", _table(["from", "to"], [
             [f"{k.source}.{k.output}", f"{k.target}.{k.input}"] for k in system.links]),
         "<h2>Outputs of the system</h2>", _table(["output", "unit", "meaning"], [
-            [b.name, "" if b.signal.unit == "1" else b.signal.unit, b.signal.help] for b in system.border]),
+            [b.name, "" if b.signal.unit == "1" else b.signal.unit, b.signal.help]
+            for b in system.border]),
     ]  # fmt: skip
     title = f"<title>{escape(scene.title)}</title><style>{STYLE}</style>"
     head = f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{title}</head>'

@@ -44,14 +44,17 @@ class CompiledLoop:
         self._now = np.zeros(recorder.rows.shape[1])
         columns = (self._operations, self._places, [a.third for a in self.addresses],
                    [a.said for a in self.addresses])  # fmt: skip
-        self._arguments: tuple[Any, ...] = (
+        self._arguments: list[Any] = [
             *(np.array(column, np.int64) for column in columns), self._now, *self._buffers,
             self._told.ctypes.data, self._clock, tick, self._ticks, self._begun, self._spent,
             self._calls, run.time, run.h, run.commands,
             recorder.input_place(hub, hub.input_names.index(COMMAND)), recorder.rows,
-        )  # fmt: skip
-        self._function: Any = c.run_operations
-        self._function(*self._arguments, 0, self._report)  # compiled or loaded before time counts
+        ]  # fmt: skip
+        self._run(0)  # compiled or loaded before time counts
+
+    def _run(self, stop: int) -> int:
+        """Work through the operations up to a point, or until an instance reports something."""
+        return self.codes.run_operations(*[*self._arguments, stop, self._report])
 
     def _lay_out(self) -> None:
         """List the operations of one communication step, and make the buffers they use."""
@@ -116,7 +119,7 @@ class CompiledLoop:
         self._now[:] = self.run.recorder.rows[i]
         report[:] = i, 0, 0
         try:
-            while self._function(*self._arguments, stop, report) == c.REPORTED:
+            while self._run(stop) == c.REPORTED:
                 self._judge()
         finally:
             self._count()

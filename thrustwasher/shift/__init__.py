@@ -14,15 +14,36 @@
 ================  =========================================================================
 """
 
-from .key_figures.events_and_phases import Event, Phase
-from .key_figures.figure_list import FIGURES, KeyFigure
-from .run import run_shift
-from .scene.scene import Part, Published, Scene, with_fidelities
-from .scene.scene_file import builtin_scenes, load_scene
-from .shift_result import Cost, ShiftResult
-from .tolerance.run_to_tolerance import run_auto
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
+if TYPE_CHECKING:
+    from .key_figures.events_and_phases import Event, Phase
+    from .key_figures.figure_list import FIGURES, KeyFigure
+    from .run import run_shift
+    from .scene.scene import Part, Published, Scene, with_fidelities
+    from .scene.scene_file import builtin_scenes, load_scene
+    from .shift_result import Cost, ShiftResult
+    from .tolerance.run_to_tolerance import run_auto
+
+_HOMES = {
+    "key_figures.events_and_phases": ("Event", "Phase"),
+    "key_figures.figure_list": ("FIGURES", "KeyFigure"),
+    "run": ("run_shift",),
+    "scene.scene": ("Part", "Published", "Scene", "with_fidelities"),
+    "scene.scene_file": ("builtin_scenes", "load_scene"),
+    "shift_result": ("Cost", "ShiftResult"),
+    "tolerance.run_to_tolerance": ("run_auto",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "FIGURES", "Cost", "Event", "KeyFigure", "Part", "Phase", "Published", "Scene", "ShiftResult",
     "builtin_scenes", "load_scene", "run_auto", "run_shift", "with_fidelities",
 ]  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used: its parts can be had without the whole."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f".{_HOME_OF[name]}", __name__), name)

@@ -18,7 +18,7 @@ from .oscillation.chatter import Chatter
 from .oscillation.judder import Judder
 from .scene.connections import PARTS
 from .scene.scene import Scene
-from .tolerance.selection_record import GuardRecord, Selection
+from .tolerance.selection_record import CheckRecord, Selection
 
 # Of a scene, in the JSON of its run.
 RAMP = ("oil_temperature", "shift_start", "shift_duration", "shift_from", "shift_to", "engaging")
@@ -65,7 +65,7 @@ class ShiftResult:
     real_time_factor: float
     """Simulated time over wall-clock time."""
     messages: list[str]
-    guard: GuardRecord | None = None
+    guard: CheckRecord | None = None
     """How the chosen rungs were checked afterwards, and what was run again; None: they were not."""
     judder: Judder | None = None
     """How the output shaft swings while a pack slips; None: it is rigid or does not swing."""

@@ -1,4 +1,4 @@
-"""The guard: after a run it checks the rungs that were chosen for it.
+"""After a run: check of the rungs that were chosen for it.
 
 The choice rests on cards and on the inputs that trial runs have seen. The inputs that the run
 itself has recorded are compared with those, and the rung above is solved at some thirty recorded

@@ -1,4 +1,4 @@
-"""What was chosen for a run at a tolerance and why, and what the guard found: plain data."""
+"""What was chosen for a run at a tolerance and why, and what its check found: plain data."""
 
 from math import inf, isnan
 from typing import Any, NamedTuple
@@ -33,7 +33,7 @@ class Selected(NamedTuple):
     model: str
     rung: str
     above: str | None
-    """The rung that the guard compares with; None: there is none, or no card chose."""
+    """The rung that the check compares with; None: there is none, or no card chose."""
     tolerance: float
     """The rung's share of the tolerance asked for."""
     verified: bool
@@ -101,7 +101,7 @@ class Difference(NamedTuple):
 
 
 class Check(NamedTuple):
-    """What the guard found of one part after a run."""
+    """What the check of one part after a run found."""
 
     run: int
     """Which run: 1 is the first."""
@@ -137,8 +137,8 @@ class Check(NamedTuple):
         return f"{text}; {self.outside}" if self.outside else text
 
 
-class GuardRecord(NamedTuple):
-    """What the guard checked after a run, and what was run again."""
+class CheckRecord(NamedTuple):
+    """What was checked after a run, and what was run again."""
 
     checks: list[Check]
     """In the order they were made: those of every run."""

@@ -142,12 +142,11 @@ def contents(
     reference = reference and not local
     note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     derivatives = native and has_derivatives(spec)
+    described = description(spec, fmi=fmi, guid=guid, derivatives=derivatives)
     told = page(spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms,
                 runs=reference)  # fmt: skip
     return {
-        "modelDescription.xml": text(
-            description(spec, fmi=fmi, guid=guid, derivatives=derivatives)
-        ),
+        "modelDescription.xml": text(described),
         "documentation/index.html": told.encode(),
         **_icons(spec, folder, fmi),
         **licences(target, platforms),

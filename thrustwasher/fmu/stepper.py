@@ -108,7 +108,9 @@ class Instance:
         self._call(self._protocol.begin, start_time)
         self._set_named(inputs or {}, "input")
         self._call(self._fmu.exitInitializationMode)
-        self._check_status()
+        status = self._read_status()
+        if status >= FIRST_FAILURE:
+            raise SolveError(f"{self.path.stem} at the start: {status.name}: {status.advice}")
         self.initialize_time = perf_counter() - start
 
     def set_inputs(self, values: Sequence[float]) -> None:
@@ -251,8 +253,7 @@ class Instance:
 
     def _call(self, function: Callable[..., Any], *args: Any) -> Any:
         """Call FMPy, which raises at a bad status, and judge as above."""
-        failed = ""
-        result = None
+        failed, result = "", None
         try:
             result = function(*args)
         except self._call_failure as problem:
@@ -283,8 +284,3 @@ class Instance:
         failed = any(group.get() > WARNING for group in one.groups)
         del self._messages[said:]
         return Status.NOT_FINITE if failed else Status(int(one.read()[0]))
-
-    def _check_status(self) -> None:
-        status = self._read_status()
-        if status >= FIRST_FAILURE:
-            raise SolveError(f"{self.path.stem} at the start: {status.name}: {status.advice}")

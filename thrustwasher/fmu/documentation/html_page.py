@@ -61,7 +61,9 @@ def page(
         outputs=[(v.name, _unit(v), v.help) for v in found if v.causality == "output"],
         enumerations=[(name, str(i.value), i.name, i.help)
                       for name, items in enumerations(spec).items() for i in items],
-        wiring=wiring(spec, runs=runs), statuses=_statuses(),
+        wiring=wiring(spec, runs=runs),
+        statuses=[(str(int(s)), s.name, "failure" if s.is_failure else "advice" if s else "-",
+                   s.advice) for s in sorted(Status)],
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
         accuracy=accuracy(spec), equations=_equations(folder),
         licences=listed_licences(target, platforms),
@@ -70,22 +72,14 @@ def page(
 
 def _settable(found: tuple[Variable, ...], causality: str) -> Rows:
     shown = [v for v in found if v.causality == causality]
-    return [(v.name, _unit(v), _allowed(v), f"{v.start:g}", v.help) for v in shown]
+    return [
+        (v.name, _unit(v), "" if v.low is None or v.high is None else f"{v.low:g} .. {v.high:g}",
+         f"{v.start:g}", v.help) for v in shown
+    ]  # fmt: skip
 
 
 def _unit(v: Variable) -> str:
     return v.unit if v.type == "Real" else v.type_name or v.type
-
-
-def _allowed(v: Variable) -> str:
-    return f"{v.low:g} .. {v.high:g}" if v.low is not None and v.high is not None else ""
-
-
-def _statuses() -> Rows:
-    return [
-        (str(int(s)), s.name, "failure" if s.is_failure else "advice" if s else "-", s.advice)
-        for s in sorted(Status)
-    ]
 
 
 def accuracy(spec: ModelSpec) -> Rows:

@@ -22,17 +22,14 @@ class Recorder:
         self.rows: NDArray[np.float64] = np.empty((n, width))
 
     def keep(self, i: int) -> None:
-        """Copy the present values to row ``i``."""
+        """Copy the present values to row ``i``; in some runs the number of points is not known."""
+        if i >= len(self.rows):
+            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
         row, at = self.rows[i], 0
         for part in self.parts:
             for values in (part.inputs, part.outputs):
                 row[at : at + len(values)] = values
                 at += len(values)
-
-    def make_room(self, i: int) -> None:
-        """See to it that there is a row ``i``, for runs whose points are not known beforehand."""
-        if i >= len(self.rows):
-            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
 
     def give_back(self, row: NDArray[np.float64]) -> None:
         """Let the parts have the values of a row for their present ones."""

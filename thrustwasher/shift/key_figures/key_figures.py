@@ -14,7 +14,7 @@ from .figure_list import FILM_SPEED, Found, KeyFigure, assemble
 
 FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
 TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlaps a little
-# Figure -> signal; of some the least value counts, of the others the greatest.
+# Figure -> signal whose greatest value counts.
 MESH_PEAKS = {
     "peak_mesh_load": "mesh.load",
     "peak_flash_temperature": "mesh.temperature",
@@ -136,13 +136,10 @@ def peak(values: Array, time: Array) -> tuple[float, float]:
     return float(values[i]), float(time[i])
 
 
-def least(values: Array, time: Array, where: NDArray[np.bool_] | None = None) -> tuple[
-    float | None, float | None
-]:  # fmt: skip
-    """Return the least value among the places given, and its time."""
-    shown = values if where is None else np.where(where, values, np.inf)
-    i = int(np.argmin(shown))
-    return (float(shown[i]), float(time[i])) if np.isfinite(shown[i]) else (None, None)
+def least(values: Array, time: Array) -> tuple[float | None, float | None]:
+    """Return the least value and its time."""
+    i = int(np.argmin(values))
+    return (float(values[i]), float(time[i])) if np.isfinite(values[i]) else (None, None)
 
 
 def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Found:

@@ -20,7 +20,7 @@ import numpy as np
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import Array
 from ..cosim.instances import capable, gives_derivatives, saves_state
-from ..cosim.schedule import Correct, Pull, Schedule, Step
+from ..cosim.schedule import Correct, Schedule, gauss_seidel
 from ..cosim.system import ConnectedPart, System, with_state
 from ..scene.connections import SPEED
 
@@ -34,11 +34,9 @@ LONG = 0.5  # of H |c|/J where friction falls: more is worth a word
 
 def schedule(system: System) -> Schedule:
     """Return the schedule of one communication step."""
-    friction: Schedule = [
-        action for part in system.friction_parts for action in (Pull(part), Step(part))
-    ]  # fmt: skip
-    hub = system.transmission
-    return [*friction, Pull(hub), Correct(hub, Correction(system)), Step(hub)]
+    actions = gauss_seidel(system)
+    actions.insert(-1, Correct(system.transmission, Correction(system)))
+    return actions
 
 
 class Wire(NamedTuple):

@@ -196,14 +196,14 @@ def _value(given: Element, spec: ModelSpec, name: str, value: Any) -> None:
     """Add one value in the type that the FMU's variable has."""
     entry = SubElement(given, "ssv:Parameter", {"name": name})
     meta = _meta(spec).get(name, {"kind": "real", "unit": ""})
-    if meta["kind"] == "enumeration":
-        SubElement(entry, "ssv:Enumeration", {"value": str(value), "name": meta["type"]})
-    elif meta["kind"] == "boolean":
-        SubElement(entry, "ssv:Boolean", {"value": str(bool(value)).lower()})
-    elif meta["kind"] == "integer":
-        SubElement(entry, "ssv:Integer", {"value": str(int(value))})
+    kind, said = meta["kind"], {"value": str(value)}
+    if kind == "enumeration":
+        said["name"] = meta["type"]
+    elif kind == "real":
+        said = {"value": repr(float(value)), "unit": meta["unit"]}
     else:
-        SubElement(entry, "ssv:Real", {"value": repr(float(value)), "unit": meta["unit"]})
+        said["value"] = str(bool(value)).lower() if kind == "boolean" else str(int(value))
+    SubElement(entry, f"ssv:{kind.capitalize()}", said)
 
 
 def _meta(spec: ModelSpec) -> dict[str, Mapping[str, Any]]:
@@ -220,11 +220,9 @@ def _fidelity(spec: ModelSpec) -> str:
 
 def _connections(top: Element, links: Sequence[Link], border: Sequence[Border]) -> None:
     listed = SubElement(top, "ssd:Connections")
+    names = ("startElement", "startConnector", "endElement", "endConnector")
     for link in links:
-        SubElement(listed, "ssd:Connection", {
-            "startElement": link.source, "startConnector": link.output,
-            "endElement": link.target, "endConnector": link.input,
-        })  # fmt: skip
+        SubElement(listed, "ssd:Connection", dict(zip(names, link, strict=True)))
     for out in border:
         SubElement(listed, "ssd:Connection", {
             "startElement": out.part, "startConnector": out.signal.name, "endConnector": out.name,

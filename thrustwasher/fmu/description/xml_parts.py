@@ -144,31 +144,9 @@ def add_units(root: Element, found: tuple[Variable, ...]) -> None:
             SubElement(unit, "DisplayUnit", {"name": display, **given})
 
 
-def add_log_categories(root: Element, spec: ModelSpec) -> None:
-    """Add LogCategories: those this model sends messages in."""
-    categories = SubElement(root, "LogCategories")
-    for name, meaning in log_categories(spec).items():
-        SubElement(categories, "Category", {"name": name, "description": meaning})
-
-
-def add_experiment(root: Element, spec: ModelSpec) -> None:
-    """Add the DefaultExperiment."""
-    stop, step = default_experiment(spec)
-    SubElement(root, "DefaultExperiment", {
-        "startTime": "0.0", "stopTime": number(stop), "tolerance": "1e-06",
-        "stepSize": number(step),
-    })  # fmt: skip
-
-
 def number(value: float) -> str:
     """Return the shortest text that reads back as the same number."""
     return repr(float(value))
-
-
-def used_types(found: tuple[Variable, ...]) -> list[RealType]:
-    """Return the declared types of the real variables, by name."""
-    used = {t.name: t for v in found if v.type == "Real" and (t := declared_type(v))}
-    return [used[name] for name in sorted(used)]
 
 
 def type_attributes(t: RealType) -> dict[str, str]:

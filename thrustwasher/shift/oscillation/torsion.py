@@ -22,15 +22,6 @@ Matrix = NDArray[np.complex128]
 HALVINGS = 40
 
 
-def slip_rows(params: Any) -> dict[str, Array]:
-    """Return, per pack, its slip as a row over (sun, carrier)."""
-    r = params.ring_teeth / params.sun_teeth
-    return {
-        "clutch": np.array([(1.0 + r) / r, -(1.0 + r) / r]),
-        "brake": np.array([-1.0 / r, (1.0 + r) / r]),
-    }
-
-
 def matrix(
     params: Any, slopes: Mapping[str, complex], held: tuple[str, ...] = (), vehicle: float = 0.0
 ) -> Matrix:
@@ -43,7 +34,11 @@ def matrix(
     held : packs that stick
     vehicle : speed of the vehicle [rad/s], for the slope of the load; 0: it has none
     """
-    rows = slip_rows(params)
+    r = params.ring_teeth / params.sun_teeth
+    rows = {  # of each pack its slip, as a row over (sun, carrier)
+        "clutch": np.array([(1.0 + r) / r, -(1.0 + r) / r]),
+        "brake": np.array([-1.0 / r, (1.0 + r) / r]),
+    }
     ring = params.ring_inertia * np.outer(rows["brake"], rows["brake"])
     mass = np.diag([params.sun_inertia, params.carrier_inertia]) + ring
     basis = _free(rows, held)

@@ -48,34 +48,23 @@ def build(
 
     Parameters
     ----------
-    models
-        FMU names such as "ThrustWasher" (or keys such as "washer"); None: all.
-    target
-        "native": compiled, needs nothing where it runs. "python": needs this package of the same
-        version there.
-    fmi
-        2 or 3; the Python target knows 2 only.
-    out
-        Folder of the results; existing files are replaced at once.
-    sources
-        Folder with one folder per model (slave.py, readme.md); None: those of this package.
-    platforms
-        Native only: what to build for ("linux64", "win64", "aarch64-linux", "darwin-x86_64",
-        "darwin-arm64"); None: all that the compiler found on this machine can do.
-    note
-        Is called with one sentence before each step that takes time.
-    local
-        For use on this machine only: compiled for its processor alone, without reference results.
-    maps
-        Native only: put in what fidelity "map" looks up. Without, the washer's FMU is smaller by
-        2.5 MB and refuses that fidelity.
+    models : FMU names such as "ThrustWasher" (or keys such as "washer"); None: all
+    target : "native": compiled, needs nothing where it runs; "python": needs this package of the
+        same version there
+    fmi : 2 or 3; the Python target knows 2 only
+    out : folder of the results; existing files are replaced at once
+    sources : folder with one folder per model (slave.py, readme.md); None: those of this package
+    platforms : native only, what to build for ("linux64", "win64", "aarch64-linux",
+        "darwin-x86_64", "darwin-arm64"); None: all that the compiler found here can do
+    note : is called with one sentence before each step that takes time
+    local : for use on this machine only: compiled for its processor, without reference results
+    maps : native only, put in what fidelity "map" looks up; without, the washer's FMU is smaller by
+        2.5 MB and refuses that fidelity
 
     Raises
     ------
-    ParameterError
-        Unknown model, target, FMI version or platform.
-    EnvironmentProblem
-        No C compiler for the native target; the message says what to install.
+    ParameterError : unknown model, target, FMI version or platform
+    EnvironmentProblem : no C compiler for the native target; the message says what to install
     """
     _check(target, fmi, platforms, maps)
     specs = [find_spec(model) for model in models] if models else all_specs()

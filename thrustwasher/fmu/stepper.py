@@ -41,12 +41,9 @@ class Instance:
 
     Parameters
     ----------
-    path
-        The FMU.
-    parameters
-        Values by name, set again after every ``reset``; enumerations as number or item name.
-    name
-        Instance name that messages carry.
+    path : the FMU
+    parameters : values by name, set again after every ``reset``; enumerations as number or name
+    name : instance name that messages carry
 
     A call that fails raises: ParameterError for a value that is not taken over, SolveError for a
     step or solution that failed, with the FMU's own message; after a failed step the FMU is where

@@ -8,7 +8,7 @@ from scene_runs import shift
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.shift import load_scene
-from thrustwasher.shift.key_figures.part_figures import area_of, radius_of
+from thrustwasher.shift.key_figures.key_figures import area_of, radius_of
 
 SCENES = {"brake-test": 30.0, "brake-test-sample": 0.036}
 START = 3000.0 * math.pi / 30.0

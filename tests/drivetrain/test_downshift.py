@@ -7,7 +7,7 @@ import pytest
 from scene_runs import NO_DRAG, instances
 
 from thrustwasher.shift import load_scene, run_shift
-from thrustwasher.shift.key_figures.part_figures import radius_of
+from thrustwasher.shift.key_figures.key_figures import radius_of
 
 
 @pytest.fixture(scope="module")

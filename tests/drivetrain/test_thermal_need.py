@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
-from thrustwasher.shift.scene.fidelity_option import with_fidelities
+from thrustwasher.shift.scene.scene import with_fidelities
 from thrustwasher.shift.scene.scene_file import load_scene
 from thrustwasher.shift.thermal_need import body_times, change_time, thermal_need
 from thrustwasher.shift.tolerance.run_to_tolerance import _without_choice

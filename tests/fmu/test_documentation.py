@@ -9,9 +9,8 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, Status
 from thrustwasher.fmu.description.interface import all_specs, find_spec, variables
-from thrustwasher.fmu.documentation.html_page import accuracy, page
+from thrustwasher.fmu.documentation.html_page import accuracy, page, slope
 from thrustwasher.fmu.documentation.markup import markup
-from thrustwasher.fmu.documentation.wiring import slope
 from thrustwasher.fmu.package import licences as module
 from thrustwasher.fmu.package.licences import PLACE, licences, listed_licences
 from thrustwasher.fmu.package.model_sources import model_folder, source_folder

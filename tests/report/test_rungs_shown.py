@@ -7,8 +7,8 @@ import shift_stand_in
 from thrustwasher.report.shift.shift_report import rung_sections, shift_page
 from thrustwasher.shift.tolerance.selection_record import (
     Check,
+    CheckRecord,
     Difference,
-    GuardRecord,
     Selected,
     Selection,
     StepShare,
@@ -25,7 +25,7 @@ CHECKS = [
         2, "washer", "field", "fine", 0.006, 29, ("at t = 0.1 s: no",), Difference(1e-3), "", 0.4
     ),
 ]
-GUARD = GuardRecord(CHECKS, ["run again with washer field"], 0.02)
+GUARD = CheckRecord(CHECKS, ["run again with washer field"], 0.02)
 
 
 def record(**changes):
@@ -53,6 +53,6 @@ def test_a_choice_that_was_not_checked_says_so():
 
 def test_inputs_that_left_their_box_are_told():
     left = CHECKS[0]._replace(outside="load of 0 .. 9 left 0 .. 5, for which it was chosen")
-    (section,) = rung_sections(replace(record(), guard=GuardRecord([left], [], 0.0)))
+    (section,) = rung_sections(replace(record(), guard=CheckRecord([left], [], 0.0)))
     assert f"washer, map: {left.outside}." in section.texts
     assert "Nothing had to run again." in section.texts

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import SolveError, Status
-from ..model.parameters import check_number, course_of, rising
+from ..model.parameters import check_number
+from ..model.prepare import course_of, rising
 from ..model.spec import REGIMES
 from ..numerics.jit import Array
 from .kernels import advance as clutch_advance

@@ -9,8 +9,7 @@ from functools import partial
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.parameters import check_ranges, choice, count, flag, quantity
-from ..model.prepare import check_rules
+from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 FRICTION_LAWS = {

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Sequence
+from importlib import metadata
 from pathlib import Path
 
 from ..errors import ParameterError
@@ -13,14 +14,22 @@ from .description.model_description import description, terminals_and_icons
 from .description.xml_parts import text
 from .documentation.html_page import accuracy, page
 from .documentation.reference_results import reference_files
-from .model_kernels import has_derivatives
+from .model_kernels import content_digest, has_derivatives, package_version
 from .package import archive
 from .package.licences import licences
 from .package.model_sources import identifier, model_folder, source_folder
-from .python.python_contents import python_contents
 from .shell.platform_libraries import chosen, made_of, native_contents
 
 TARGETS = ("native", "python")
+NEEDS = """This FMU calls Python and the package thrustwasher {version}.
+Install both on the machine that runs it: pip install thrustwasher=={version}
+The libraries in binaries/ and the modules in resources/pythonfmu are of pythonfmu {pythonfmu}, MIT.
+Linux, x86-64: the importing process must have libpython's symbols loaded, as every Python has;
+another host loads the shared library first, for example LD_PRELOAD=libpython3.x.so.
+Windows, x86-64: python3.dll on PATH and the Visual C++ runtime; not tested.
+Only a step can fail: it returns fmi2Discard. Calls that set and read values return fmi2OK; that a
+value was refused is said to the logger, in solver_status and by the next step.
+"""
 
 
 def build(
@@ -39,38 +48,27 @@ def build(
 
     Parameters
     ----------
-    models
-        FMU names such as "ThrustWasher" (or keys such as "washer"); None: all.
-    target
-        "native": compiled, needs nothing where it runs. "python": needs this package of the same
-        version there.
-    fmi
-        2 or 3; the Python target knows 2 only.
-    out
-        Folder of the results; existing files are replaced at once.
-    sources
-        Folder with one folder per model (slave.py, readme.md); None: those of this package.
-    platforms
-        Native only: what to build for ("linux64", "win64", "aarch64-linux", "darwin-x86_64",
-        "darwin-arm64"); None: all that the compiler found on this machine can do.
-    note
-        Is called with one sentence before each step that takes time.
-    local
-        For use on this machine only: compiled for its processor alone, without reference results.
-    maps
-        Native only: put in what fidelity "map" looks up. Without, the washer's FMU is smaller by
-        2.5 MB and refuses that fidelity.
+    models : FMU names such as "ThrustWasher" (or keys such as "washer"); None: all
+    target : "native": compiled, needs nothing where it runs; "python": needs this package of the
+        same version there
+    fmi : 2 or 3; the Python target knows 2 only
+    out : folder of the results; existing files are replaced at once
+    sources : folder with one folder per model (slave.py, readme.md); None: those of this package
+    platforms : native only, what to build for ("linux64", "win64", "aarch64-linux",
+        "darwin-x86_64", "darwin-arm64"); None: all that the compiler found here can do
+    note : is called with one sentence before each step that takes time
+    local : for use on this machine only: compiled for its processor, without reference results
+    maps : native only, put in what fidelity "map" looks up; without, the washer's FMU is smaller by
+        2.5 MB and refuses that fidelity
 
     Raises
     ------
-    ParameterError
-        Unknown model, target, FMI version or platform.
-    EnvironmentProblem
-        No C compiler for the native target; the message says what to install.
+    ParameterError : unknown model, target, FMI version or platform
+    EnvironmentProblem : no C compiler for the native target; the message says what to install
     """
     _check(target, fmi, platforms, maps)
     specs = [find_spec(model) for model in models] if models else all_specs()
-    say = note or _silent
+    say = note or (lambda _: None)
     places: Sequence[str] = ()
     if target == "native":
         places = [this_platform().name] if local else chosen(platforms, say)
@@ -96,18 +94,13 @@ def pack_native(
     It has no reference results: those of a model with its usual defaults are in the usual FMU.
     ``platforms`` and ``note`` are those of ``build``.
     """
-    say = note or _silent
+    say = note or (lambda _: None)
     places = chosen(platforms, say)
     folder = model_folder(spec, source_folder())
-    return archive.pack(
-        contents(
-            spec, folder, target="native", fmi=2, platforms=places, note=say, reference=False
-        )
-    )  # fmt: skip
-
-
-def _silent(sentence: str) -> None:
-    """Say nothing."""
+    files = contents(
+        spec, folder, target="native", fmi=2, platforms=places, note=say, reference=False
+    )
+    return archive.pack(files)
 
 
 def _check(target: str, fmi: int, platforms: Sequence[str] | None, maps: bool) -> None:
@@ -132,20 +125,17 @@ def contents(
     tools = made_of(spec, local=local) if native else ""
     guid = identifier(spec, folder, target=target, fmi=fmi, tools=f"{tools} {accuracy(spec)}")
     if native:
-        own = native_contents(
-            spec, fmi=fmi, guid=guid, platforms=platforms, note=note, local=local
-        )  # fmt: skip
+        own = native_contents(spec, fmi=fmi, guid=guid, platforms=platforms, note=note, local=local)
     else:
-        own = python_contents(spec, folder, guid=guid)
+        own = _python_contents(spec, folder, guid)
     reference = reference and not local
     note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     derivatives = native and has_derivatives(spec)
+    described = description(spec, fmi=fmi, guid=guid, derivatives=derivatives)
     told = page(spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms,
                 runs=reference)  # fmt: skip
     return {
-        "modelDescription.xml": text(
-            description(spec, fmi=fmi, guid=guid, derivatives=derivatives)
-        ),
+        "modelDescription.xml": text(described),
         "documentation/index.html": told.encode(),
         **_icons(spec, folder, fmi),
         **licences(target, platforms),
@@ -163,6 +153,36 @@ def _icons(spec: ModelSpec, folder: Path, fmi: int) -> dict[str, bytes]:
         names = (f"{place}/icon.png", "model.png")[: 2 if fmi == 2 else 1]
         found |= dict.fromkeys(names, file.read_bytes())
     return found
+
+
+def _python_contents(spec: ModelSpec, folder: Path, guid: str) -> dict[str, bytes]:
+    """Return what only the Python target carries: pythonfmu, the slave, what the host must have."""
+    module = f"thrustwasher_fmu_{folder.name}_{guid[:8]}"
+    template = (folder / "slave.py").read_text("utf-8")
+    slave = template.replace("@VERSION@", package_version()).replace("@GUID@", guid)
+    slave = slave.replace("@DIGEST@", content_digest(spec))
+    needs = NEEDS.format(version=package_version(), pythonfmu=metadata.version("pythonfmu"))
+    return {
+        "documentation/externalDependencies.txt": needs.encode(),
+        f"resources/{module}.py": slave.encode(),
+        "resources/slavemodule.txt": module.encode(),
+        **_pythonfmu(spec.name),
+    }
+
+
+def _pythonfmu(model: str) -> dict[str, bytes]:
+    """Return pythonfmu's libraries, renamed to the model, and its modules."""
+    # Not by import: a process that has run an FMU imported the FMU's own, smaller pythonfmu.
+    root = Path(str(metadata.distribution("pythonfmu").locate_file("pythonfmu")))
+    binaries = root / "resources" / "binaries"
+    files = {
+        f"binaries/linux64/{model}.so": binaries / "linux64" / "libpythonfmu-export.so",
+        f"binaries/win64/{model}.dll": binaries / "win64" / "pythonfmu-export.dll",
+    }
+    for module in sorted(root.iterdir(), key=lambda entry: entry.name):
+        if module.name.endswith(".py"):
+            files[f"resources/pythonfmu/{module.name}"] = module
+    return {name: file.read_bytes() for name, file in files.items()}
 
 
 def validate(path: str | os.PathLike[str]) -> list[str]:

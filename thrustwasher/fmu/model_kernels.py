@@ -4,20 +4,18 @@ import hashlib
 import importlib
 import importlib.util
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..model.spec import ModelSpec
 from ..native.library import is_ready
 from ..numerics.jit import kernel_digest, way
 
 
-@dataclass(frozen=True, slots=True)
-class Kernel:
-    """The compiled entries of a model and the lengths of their arrays."""
+class Kernel(NamedTuple):
+    """The compiled entries of a model, the lengths of their arrays, and what only some have."""
 
     derive: Callable[[Any], int]
     step: Callable[..., int]
@@ -28,6 +26,18 @@ class Kernel:
     n_work: int
     n_out: int
     n_iout: int
+    sens: Callable[..., int] | None
+    """``sens(par, inp, state, work, seed, dout)``: directional derivatives."""
+    broken_rule: Callable[[Any], int] | None
+    """``broken_rule(par)``: number of the first rule that the parameters break, 0: none."""
+    table: dict[str, float]
+    """Where in ``work`` a model's table lies and how it is known, by name; ROOM 0: none.
+
+    ``AT``, ``ROOM``: place and length. ``MAGIC``: its first number. ``SIZE``: place of its length.
+    ``PARAMS``, ``N_PARAMS``: place and number of the parameters it was made for. ``HEADER``: how
+    many of its numbers are doubles in a file. ``SWITCH``, ``ON``: place in ``par`` and number of
+    the fidelity that wants it.
+    """
 
 
 @cache
@@ -35,34 +45,14 @@ def load_kernel(name: str) -> Kernel:
     """Import a kernel module, by its dotted name."""
     k = importlib.import_module(name)
     sizes = (k.N_PARAM, k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT, k.NIOUT)
-    return Kernel(k.derive, k.step, *sizes)
+    sens, broken_rule = (getattr(k, entry, None) for entry in ("sens", "broken_rule"))
+    table = getattr(k, "TABLE", None) or {"ROOM": 0}
+    return Kernel(k.derive, k.step, *sizes, sens=sens, broken_rule=broken_rule, table=table)
 
 
 def has_derivatives(spec: ModelSpec) -> bool:
     """Tell if the model's kernels give directional derivatives."""
-    return find_derivatives(spec) is not None
-
-
-def find_derivatives(spec: ModelSpec) -> Callable[..., int] | None:
-    """Return ``sens(par, inp, state, work, seed, dout)`` of a model, None if it has none."""
-    return getattr(importlib.import_module(spec.kernel), "sens", None)
-
-
-def find_broken_rule(spec: ModelSpec) -> Callable[[Any], int] | None:
-    """Return ``broken_rule(par)`` of a model, None if it has none."""
-    return getattr(importlib.import_module(spec.kernel), "broken_rule", None)
-
-
-def kernel_table(spec: ModelSpec) -> dict[str, float]:
-    """Return where in ``work`` a model's table lies and how it is known, by name; ROOM 0: none.
-
-    ``AT``, ``ROOM``: place and length. ``MAGIC``: its first number. ``SIZE``: place of its length.
-    ``PARAMS``, ``N_PARAMS``: place and number of the parameters it was made for. ``HEADER``: how
-    many of its numbers are doubles in a file. ``SWITCH``, ``ON``: place in ``par`` and number of
-    the fidelity that wants it.
-    """
-    found = getattr(importlib.import_module(spec.kernel), "TABLE", None)
-    return dict(found) if found else {"ROOM": 0}
+    return load_kernel(spec.kernel).sens is not None
 
 
 def is_compiled(spec: ModelSpec) -> bool:

@@ -41,12 +41,9 @@ class Instance:
 
     Parameters
     ----------
-    path
-        The FMU.
-    parameters
-        Values by name, set again after every ``reset``; enumerations as number or item name.
-    name
-        Instance name that messages carry.
+    path : the FMU
+    parameters : values by name, set again after every ``reset``; enumerations as number or name
+    name : instance name that messages carry
 
     A call that fails raises: ParameterError for a value that is not taken over, SolveError for a
     step or solution that failed, with the FMU's own message; after a failed step the FMU is where
@@ -108,7 +105,9 @@ class Instance:
         self._call(self._protocol.begin, start_time)
         self._set_named(inputs or {}, "input")
         self._call(self._fmu.exitInitializationMode)
-        self._check_status()
+        status = self._read_status()
+        if status >= FIRST_FAILURE:
+            raise SolveError(f"{self.path.stem} at the start: {status.name}: {status.advice}")
         self.initialize_time = perf_counter() - start
 
     def set_inputs(self, values: Sequence[float]) -> None:
@@ -147,15 +146,7 @@ class Instance:
     def directional_derivative(
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
     ) -> list[float]:
-        """Return how real outputs change along a direction of the inputs, memory held.
-
-        Parameters
-        ----------
-        unknowns, knowns
-            Names of outputs and of inputs.
-        seed
-            The direction: one number per input.
-        """
+        """Return how real outputs change along a direction of the inputs, memory held."""
         start = perf_counter()
         asked = tuple(unknowns), tuple(knowns)
         direction = self._directions.get(asked)
@@ -259,8 +250,7 @@ class Instance:
 
     def _call(self, function: Callable[..., Any], *args: Any) -> Any:
         """Call FMPy, which raises at a bad status, and judge as above."""
-        failed = ""
-        result = None
+        failed, result = "", None
         try:
             result = function(*args)
         except self._call_failure as problem:
@@ -291,8 +281,3 @@ class Instance:
         failed = any(group.get() > WARNING for group in one.groups)
         del self._messages[said:]
         return Status.NOT_FINITE if failed else Status(int(one.read()[0]))
-
-    def _check_status(self) -> None:
-        status = self._read_status()
-        if status >= FIRST_FAILURE:
-            raise SolveError(f"{self.path.stem} at the start: {status.name}: {status.advice}")

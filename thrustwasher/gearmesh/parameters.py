@@ -8,8 +8,7 @@ from functools import partial
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.parameters import as_numbers, check_ranges, choice, count, quantity
-from ..model.prepare import check_rules
+from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, quantity
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 SURFACES = {

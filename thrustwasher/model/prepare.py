@@ -1,6 +1,7 @@
 """From a parameter dataclass to what a kernel takes: checked by its rules, filled in, with tables.
 
 The kernel tests the rules between parameters, the texts in the interface say which one is broken.
+Courses of inputs over time are checked here too.
 """
 
 from collections.abc import Callable
@@ -9,12 +10,14 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, Status
-from .parameters import as_numbers
+from .parameters import as_numbers, check_rules
 from .record import resolve
-from .spec import ModelSpec, Rule
+from .spec import ModelSpec
 
+Array = NDArray[np.float64]
 OFFLINE = (
     "fidelity = 'reference' is no rung to solve with: it takes long and comes with an uncertainty; "
     "call thrustwasher.study.reference_{0}.reference_{0}"
@@ -58,14 +61,6 @@ def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
     check_rules(params, spec.rules, rule, list(spec.fidelities).index(fidelity) + 1)
 
 
-def check_rules(
-    params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int], *more: float
-) -> None:
-    """Raise ParameterError for the first broken rule; every value must be in its range already."""
-    if number := broken_rule(np.array([*as_numbers(params), *more], float)):
-        raise ParameterError(rules[number - 1].message(params))
-
-
 def wants_table(spec: ModelSpec, par: Any) -> bool:
     """Tell if the rung in ``par`` reads a table."""
     known = _known(spec)
@@ -96,3 +91,32 @@ def _known(spec: ModelSpec) -> dict[str, float]:
     kernel = import_module(spec.kernel)
     found: dict[str, float] = getattr(kernel, "TABLE", None) or {}
     return found
+
+
+def rising(time: ArrayLike) -> Array:
+    """Return points in time [s]; at least two, rising."""
+    points = course_of("time", time, "s", -1e9, 1e9)
+    if len(points) < 2 or not (np.diff(points) > 0.0).all():
+        raise ParameterError("time: at least two rising points [s] are wanted")
+    return points
+
+
+def course_of(
+    name: str, values: ArrayLike, unit: str, low: float, high: float, n: int | None = None
+) -> Array:
+    """Return a checked array; one number stands for ``n`` equal ones."""
+    array = np.asarray(values, float)
+    if n is not None and array.ndim == 0:
+        array = np.full(n, float(array))
+    if array.ndim != 1 or (n is not None and len(array) != n):
+        raise ParameterError(
+            f"{name}: shape {array.shape}, allowed: one number per point"
+            + ("" if n is None else f" ({n})")
+        )
+    bad = ~((array >= low) & (array <= high))
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise ParameterError(
+            f"{name}[{i}] = {float(array[i])!r} {unit}, allowed: {low:g} .. {high:g} {unit}"
+        )
+    return array

@@ -1,32 +1,49 @@
 """A gear shift: parts that run together through FMI.
 
-================  ===============================================================================
-``cosim``         Co-simulation: connected instances and the loop over communication points
-``key_figures``   What is read from the signals of a finished shift
-``masters``       Co-simulation masters
-``oscillation``   Oscillations of a shift, and whether they are the driveline's or the master's
-``run``           Run a shift: connect the instances of a scene, step them to the end, and read
-                  the result
-``scene``         What is simulated
-``shift_result``  What a shift run leaves: time series, events, energy balance, key figures, cost
-``ssp``           A shift as a System Structure and Parameterization (SSP 1.0) package, for any
-                  SSP master
-``thermal_need``  Which thermal mode the washer of a scene needs: its time constants beside the
-                  scene's
-``tolerance``     A shift with the cheapest rungs that hold a tolerance
-================  ===============================================================================
+================  =========================================================================
+``cosim``         connected instances and the loop over communication points
+``key_figures``   what is read from the signals of a finished shift
+``masters``       co-simulation masters
+``oscillation``   oscillations, and whether they are the driveline's or the master's
+``run``           run a shift: connect the instances, step them to the end, read the result
+``scene``         what is simulated
+``shift_result``  what a run leaves: time series, events, key figures, cost
+``ssp``           a shift as an SSP 1.0 package, for any SSP master
+``thermal_need``  which thermal mode the washer of a scene needs
+``tolerance``     a shift with the cheapest rungs that hold a tolerance
+================  =========================================================================
 """
 
-from .key_figures.events_and_phases import Event, Phase
-from .key_figures.figure_list import FIGURES, KeyFigure
-from .run import run_shift
-from .scene.fidelity_option import with_fidelities
-from .scene.scene import Part, Published, Scene
-from .scene.scene_file import builtin_scenes, load_scene
-from .shift_result import Cost, ShiftResult
-from .tolerance.run_to_tolerance import run_auto
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
+if TYPE_CHECKING:
+    from .key_figures.events_and_phases import Event, Phase
+    from .key_figures.figure_list import FIGURES, KeyFigure
+    from .run import run_shift
+    from .scene.scene import Part, Published, Scene, with_fidelities
+    from .scene.scene_file import builtin_scenes, load_scene
+    from .shift_result import Cost, ShiftResult
+    from .tolerance.run_to_tolerance import run_auto
+
+_HOMES = {
+    "key_figures.events_and_phases": ("Event", "Phase"),
+    "key_figures.figure_list": ("FIGURES", "KeyFigure"),
+    "run": ("run_shift",),
+    "scene.scene": ("Part", "Published", "Scene", "with_fidelities"),
+    "scene.scene_file": ("builtin_scenes", "load_scene"),
+    "shift_result": ("Cost", "ShiftResult"),
+    "tolerance.run_to_tolerance": ("run_auto",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "FIGURES", "Cost", "Event", "KeyFigure", "Part", "Phase", "Published", "Scene", "ShiftResult",
     "builtin_scenes", "load_scene", "run_auto", "run_shift", "with_fidelities",
 ]  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used: its parts can be had without the whole."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f".{_HOME_OF[name]}", __name__), name)

@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
-from .cosim.instances import Stepping, capable, tells_values
-from .cosim.loop import Loop, PythonLoop, Recorder, Run, Steps
+from .cosim.instances import Stepping, capable
+from .cosim.loop import PythonLoop, Recorder, Run, Steps
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, System
-from .key_figures.energy_balance import energy_balance
 from .key_figures.events_and_phases import find_events, find_phases
-from .key_figures.key_figures import key_figures
+from .key_figures.key_figures import energy_balance, key_figures
 from .masters.master import MASTERS
 from .masters.step_doubling import Doubling
 from .oscillation.chatter import find_chatter
@@ -72,10 +71,10 @@ def run_shift(
         run, steps = run_adaptive(scene, system, progress)
     else:
         run.recorder.keep(0)
-        loop, n = loop_for(run, compiled), len(run.time) - 1
+        advance, n = advance_of(run, compiled), len(run.time) - 1
         steps = Steps(n, 0, run.h, run.h, 0, 0)
         begin = perf_counter()
-        _drive(loop.advance, n, progress)
+        _drive(advance, n, progress)
     wall = perf_counter() - begin
     return _result(scene, run, steps, wall, _costs(scene, system, before, wall), messages)
 
@@ -86,7 +85,7 @@ def run_adaptive(scene: Scene, system: System, progress: Progress | None) -> tup
     corners = (scene.shift_start, scene.shift_start + scene.shift_duration)
     stops = [*(t for t in corners if begin < t < end), end]
     master = Doubling(system, scene.master_tolerance, scene.command, stops, scene.step)
-    master.begin(begin)
+    master.keep(begin)
     time, said = begin, 0
     while time < end:
         time = master.advance()
@@ -137,6 +136,7 @@ def _result(
     events = find_events(scene, time, signals)
     judder = find_judder(scene, time, signals)
     need = thermal_need(scene, time, signals)
+    corrections = [action.change for action in run.schedule if isinstance(action, Correct)]
     return ShiftResult(
         scene=scene,
         step=run.h,
@@ -154,7 +154,7 @@ def _result(
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
         messages=[
             *messages,
-            *_said(run),
+            *(line for change in corrections for line in change.words()),
             *steps.words(),
             *_advice(time, signals),
             *([] if need is None else [need]),
@@ -162,12 +162,6 @@ def _result(
         judder=judder,
         chatter=find_chatter(scene, time, signals, run.h),
     )
-
-
-def _said(run: Run) -> list[str]:
-    """Return what the master itself has to say."""
-    corrections = [action for action in run.schedule if isinstance(action, Correct)]
-    return [line for action in corrections for line in action.change.words()]
 
 
 def _drive(advance: Callable[[int, int], None], n: int, progress: Progress | None) -> None:
@@ -183,20 +177,19 @@ def _drive(advance: Callable[[int, int], None], n: int, progress: Progress | Non
             stretch *= 2
 
 
-def loop_for(run: Run, compiled: bool | None) -> Loop:
-    """Return the compiled loop where it can run, else the one in Python."""
-    if compiled is False:
-        return PythonLoop(run)
-    from .cosim.compiled_layout import CompiledLoop, can_compile
+def advance_of(run: Run, compiled: bool | None) -> Callable[[int, int], None]:
+    """Return what steps a run from one point to another: compiled where that can run."""
+    if compiled is not False:
+        from .cosim.compiled_layout import CompiledLoop, can_compile
 
-    if can_compile(run):
-        return CompiledLoop(run)
+        if can_compile(run):
+            return CompiledLoop(run).advance
     if compiled:
         raise ParameterError(
             "compiled = True, allowed: with FMUs for all parts and master 'gauss-seidel' or "
             "'jacobi', on a 64-bit machine where numba compiles"
         )
-    return PythonLoop(run)
+    return PythonLoop(run).advance
 
 
 def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
@@ -215,19 +208,15 @@ def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
 
 
 def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
-    """Compare the parameters of initialized instances with those of the scene's parts.
+    """Refuse initialized instances whose parameters are not those of the scene's parts.
 
     Inputs and outputs of a model are the same in every scene: an instance of another one would run
     without a complaint and answer another question. Instances without a ``get`` (stand-ins for a
     model) are taken as they are.
-
-    Raises
-    ------
-    ParameterError : names the part, the parameter, both values and how to make the instance
     """
     for name, part in scene.parts.items():
         instance = instances[name]
-        if not tells_values(instance):
+        if not hasattr(instance, "get"):
             continue
         wanted = _numbers(part)
         found = capable(instance).get(list(wanted))

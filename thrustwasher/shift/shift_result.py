@@ -1,7 +1,5 @@
 """What a shift run leaves: time series, events, energy balance, key figures, cost."""
 
-import os
-import tempfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from ..storage.whole_files import whole_file
 from .cosim.loop import Steps
 from .key_figures.events_and_phases import Event, Phase
 from .key_figures.figure_list import KeyFigure
@@ -19,7 +18,10 @@ from .oscillation.chatter import Chatter
 from .oscillation.judder import Judder
 from .scene.connections import PARTS
 from .scene.scene import Scene
-from .tolerance.selection_record import GuardRecord, Selection
+from .tolerance.selection_record import CheckRecord, Selection
+
+# Of a scene, in the JSON of its run.
+RAMP = ("oil_temperature", "shift_start", "shift_duration", "shift_from", "shift_to", "engaging")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +65,7 @@ class ShiftResult:
     real_time_factor: float
     """Simulated time over wall-clock time."""
     messages: list[str]
-    guard: GuardRecord | None = None
+    guard: CheckRecord | None = None
     """How the chosen rungs were checked afterwards, and what was run again; None: they were not."""
     judder: Judder | None = None
     """How the output shaft swings while a pack slips; None: it is rigid or does not swing."""
@@ -91,10 +93,11 @@ class ShiftResult:
 
     def units(self) -> dict[str, str]:
         """Return the unit of every signal."""
-        found = {}
-        for part, spec in PARTS.items():
-            for signal in (*spec.inputs, *spec.outputs):
-                found[f"{part}.{signal.name}"] = signal.unit
+        found = {
+            f"{part}.{signal.name}": signal.unit
+            for part, spec in PARTS.items()
+            for signal in (*spec.inputs, *spec.outputs)
+        }
         return {name: found.get(name, "1") for name in self.signals}
 
     def as_dict(self) -> dict[str, Any]:
@@ -102,19 +105,12 @@ class ShiftResult:
         scene = self.scene
         return {
             "scene": scene.name,
-            "title": scene.title,
-            "start_time": scene.start_time,
-            "stop_time": scene.stop_time,
+            **{name: getattr(scene, name) for name in ("title", "start_time", "stop_time")},
             "step": self.step,
             "master": self.master,
             "master_tolerance": scene.master_tolerance if MASTERS[self.master].adaptive else None,
             "steps": self.steps._asdict(),
-            "oil_temperature": scene.oil_temperature,
-            "shift_start": scene.shift_start,
-            "shift_duration": scene.shift_duration,
-            "shift_from": scene.shift_from,
-            "shift_to": scene.shift_to,
-            "engaging": scene.engaging,
+            **{name: getattr(scene, name) for name in RAMP},
             **self.figures,
             **{f"{f.name}_time": f.time for f in self.key_figures if f.time is not None},
             "published": self.comparison(),
@@ -140,25 +136,14 @@ class ShiftResult:
         units = self.units()
         head = ["time [s]", *(f"{name} [{units[name]}]" for name in self.signals)]
         columns = [self.time.tolist(), *(s.tolist() for s in self.signals.values())]
-        part = ""
         try:
-            handle, part = tempfile.mkstemp(dir=target.parent, prefix=target.name, suffix=".part")
-            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            target.parent.stat()  # a folder that is missing is not made
+            with whole_file(target) as part, part.open("w", encoding="utf-8", newline="\n") as file:
                 file.write(",".join(head) + "\n")
-                for row in zip(*columns, strict=True):
-                    file.write(",".join(map(repr, row)) + "\n")
-            os.chmod(part, 0o666 & ~_umask())
-            os.replace(part, target)
+                file.writelines(
+                    ",".join(map(repr, row)) + "\n" for row in zip(*columns, strict=True)
+                )
         except OSError as problem:
-            if part:
-                Path(part).unlink(missing_ok=True)
             raise ParameterError(
                 f"path = {str(target)!r}: cannot be written ({problem.strerror})"
             ) from None
-
-
-def _umask() -> int:
-    """Return the process's umask; it can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..model.parameters import check_ranges, choice, count, flag, quantity
-from ..model.prepare import check_rules
+from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.spec import ModelSpec, Rule, Signal, Terminal, output
 
 COUPLING = {

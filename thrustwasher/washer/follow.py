@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.parameters import as_numbers, course_of, rising
+from ..model.parameters import as_numbers
+from ..model.prepare import course_of, rising
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants
 from .kernels import layout as L

@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from functools import partial
 
-from ..model.parameters import check_ranges, choice, quantity
-from ..model.prepare import check_rules
+from ..model.parameters import check_ranges, check_rules, choice, quantity
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved

@@ -6,6 +6,7 @@ they are the same for every target and FMI version.
 """
 
 import sys
+from collections.abc import Iterator
 from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any
 
@@ -71,12 +72,14 @@ def variables(spec: ModelSpec) -> tuple[Variable, ...]:
             "variability": "continuous", "initial": None, "unit": "s",
             "help": "time of the present communication point",
         }  # fmt: skip
-        entries = [time, *map(_input, range(len(spec.inputs)), spec.inputs)]
-        entries += map(_parameter, range(len(fields(spec.params))), fields(spec.params))
-        entries.append(_fidelity(spec))
-        entries += _outputs(spec)
+        entries = [time, *(_signal(s, "inp", i) for i, s in enumerate(spec.inputs))]
+        entries += (_parameter(i, f) for i, f in enumerate(fields(spec.params)))
+        entries += [_fidelity(spec), *_outputs(spec)]
+        items = enumerations(spec)
         for entry in entries:
-            _bound_enumeration(entry, enumerations(spec))
+            if entry["type"] == "Enumeration":
+                numbers = [item.value for item in items[entry["type_name"]]]
+                entry["low"], entry["high"] = min(numbers), max(numbers)
         made = tuple(Variable(reference=i, **entry) for i, entry in enumerate(entries))
         _made[id(spec)] = spec, made
     return _made[id(spec)][1]
@@ -98,44 +101,30 @@ def enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
     return found | {name: items for name, items in shared.items() if name in used}
 
 
-def _bound_enumeration(entry: dict[str, Any], found: dict[str, tuple[Item, ...]]) -> None:
-    if entry["type"] == "Enumeration":
-        numbers = [item.value for item in found[entry["type_name"]]]
-        entry["low"], entry["high"] = min(numbers), max(numbers)
-
-
 def _counted(options: dict[str, str]) -> tuple[Item, ...]:
     return tuple(Item(name=n, value=i, help=t) for i, (n, t) in enumerate(options.items(), 1))
 
 
-def _input(slot: int, signal: Signal) -> dict[str, Any]:
-    kind = signal.kind.capitalize()
-    return _shown(signal, kind) | {
-        "causality": "input", "variability": "continuous" if kind == "Real" else "discrete",
-        "initial": None, "store": "inp", "slot": slot, "start": signal.start or 0.0,
-    }  # fmt: skip
-
-
-def _outputs(spec: ModelSpec) -> list[dict[str, Any]]:
+def _outputs(spec: ModelSpec) -> Iterator[dict[str, Any]]:
     """Real outputs fill ``out``, the others ``iout``, both in the order of the list."""
-    entries, filled = [], {"out": 0, "iout": 0}
+    filled = {"out": 0, "iout": 0}
     for signal in spec.outputs:
-        kind = signal.kind.capitalize()
-        store = "out" if kind == "Real" else "iout"
-        entries.append(_shown(signal, kind) | {
-            "causality": "output", "variability": "continuous" if kind == "Real" else "discrete",
-            "initial": "calculated", "store": store, "slot": filled[store],
-            "depends": signal.depends,
-        })  # fmt: skip
+        store = "out" if signal.kind == "real" else "iout"
+        yield _signal(signal, store, filled[store])
         filled[store] += 1
-    return entries
 
 
-def _shown(signal: Signal, kind: str) -> dict[str, Any]:
-    return {
-        "name": signal.name, "type": kind, "unit": signal.unit, "help": signal.help,
-        "type_name": signal.type, "low": signal.low, "high": signal.high,
-        "nominal": signal.nominal, "relative": signal.relative,
+def _signal(signal: Signal, store: str, slot: int) -> dict[str, Any]:
+    start = signal.start or 0.0
+    own = (
+        {"causality": "input", "initial": None, "start": start} if store == "inp" else
+        {"causality": "output", "initial": "calculated", "depends": signal.depends}
+    )  # fmt: skip
+    return own | {
+        "name": signal.name, "type": signal.kind.capitalize(), "unit": signal.unit,
+        "help": signal.help, "type_name": signal.type, "low": signal.low, "high": signal.high,
+        "nominal": signal.nominal, "relative": signal.relative, "store": store, "slot": slot,
+        "variability": "continuous" if signal.kind == "real" else "discrete",
     }  # fmt: skip
 
 
@@ -156,7 +145,7 @@ def _fidelity(spec: ModelSpec) -> dict[str, Any]:
     return {
         "name": "fidelity", "type": "Enumeration", "causality": "parameter",
         "variability": "fixed", "initial": "exact", "unit": "1", "store": "par",
-        "slot": len(fields(spec.params)), "type_name": "Fidelity", "low": 1,
-        "high": len(spec.fidelities), "help": "how finely the model is resolved",
+        "slot": len(fields(spec.params)), "type_name": "Fidelity",
+        "help": "how finely the model is resolved",
         "start": float(list(spec.fidelities).index(spec.default_fidelity) + 1),
     }  # fmt: skip

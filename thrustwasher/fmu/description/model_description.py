@@ -53,8 +53,13 @@ def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = Fal
     found = variables(spec)
     parts.add_units(root, found)
     _types(root, spec, found, second)
-    parts.add_log_categories(root, spec)
-    parts.add_experiment(root, spec)
+    categories = SubElement(root, "LogCategories")
+    for name, meaning in parts.log_categories(spec).items():
+        SubElement(categories, "Category", {"name": name, "description": meaning})
+    stop, step = map(parts.number, parts.default_experiment(spec))
+    SubElement(root, "DefaultExperiment", {
+        "startTime": "0.0", "stopTime": stop, "tolerance": "1e-06", "stepSize": step,
+    })  # fmt: skip
     listed = SubElement(root, "ModelVariables")
     for v in found:
         head, value = parts.head_attributes(v), parts.value_attributes(v)
@@ -68,7 +73,8 @@ def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = Fal
 
 def _types(root: Element, spec: ModelSpec, found: tuple[Variable, ...], second: bool) -> None:
     definitions = SubElement(root, "TypeDefinitions")
-    for t in parts.used_types(found):
+    used = {parts.declared_type(v) for v in found if v.type == "Real"}
+    for t in sorted(filter(None, used), key=lambda t: t.name):
         name, said = {"name": t.name}, parts.type_attributes(t)
         if second:
             SubElement(SubElement(definitions, "SimpleType", name), "Real", said)

@@ -3,9 +3,9 @@
 import os
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from math import pi
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ...model.spec import ModelSpec
@@ -37,8 +37,7 @@ DISPLAY: dict[str, tuple[tuple[str, float, float], ...]] = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RealType:
+class RealType(NamedTuple):
     """A declared type: what a number means, whatever variable has it."""
 
     name: str
@@ -51,23 +50,19 @@ class RealType:
 
 
 TYPES = (
-    RealType(name="Temperature", quantity="ThermodynamicTemperature", unit="K", display="degC",
-             low=0.0, nominal=300.0),
-    RealType(name="TemperatureDifference", quantity="TemperatureDifference", unit="K",
-             nominal=10.0, relative=True),
-    RealType(name="AngularVelocity", quantity="AngularVelocity", unit="rad/s", display="rpm",
-             nominal=100.0),
-    RealType(name="Angle", quantity="Angle", unit="rad", display="mrad", nominal=1e-3),
-    RealType(name="Torque", quantity="Torque", unit="N.m", nominal=10.0),
-    RealType(name="Force", quantity="Force", unit="N", nominal=1e3),
-    RealType(name="Length", quantity="Length", unit="m", nominal=0.01),
-    RealType(name="Pressure", quantity="Pressure", unit="Pa", display="MPa", nominal=1e6),
-    RealType(name="Power", quantity="Power", unit="W", nominal=100.0),
-    RealType(name="Energy", quantity="Energy", unit="J", display="kJ", nominal=1e3),
-    RealType(name="Viscosity", quantity="DynamicViscosity", unit="Pa.s", display="mPa.s",
-             nominal=0.01),
-    RealType(name="Fraction", quantity="Dimensionless", unit="1"),
-)  # fmt: skip
+    RealType("Temperature", "ThermodynamicTemperature", "K", "degC", low=0.0, nominal=300.0),
+    RealType("TemperatureDifference", "TemperatureDifference", "K", nominal=10.0, relative=True),
+    RealType("AngularVelocity", "AngularVelocity", "rad/s", "rpm", nominal=100.0),
+    RealType("Angle", "Angle", "rad", "mrad", nominal=1e-3),
+    RealType("Torque", "Torque", "N.m", nominal=10.0),
+    RealType("Force", "Force", "N", nominal=1e3),
+    RealType("Length", "Length", "m", nominal=0.01),
+    RealType("Pressure", "Pressure", "Pa", "MPa", nominal=1e6),
+    RealType("Power", "Power", "W", nominal=100.0),
+    RealType("Energy", "Energy", "J", "kJ", nominal=1e3),
+    RealType("Viscosity", "DynamicViscosity", "Pa.s", "mPa.s", nominal=0.01),
+    RealType("Fraction", "Dimensionless", "1"),
+)
 
 
 def declared_type(v: Variable) -> RealType | None:
@@ -149,31 +144,9 @@ def add_units(root: Element, found: tuple[Variable, ...]) -> None:
             SubElement(unit, "DisplayUnit", {"name": display, **given})
 
 
-def add_log_categories(root: Element, spec: ModelSpec) -> None:
-    """Add LogCategories: those this model sends messages in."""
-    categories = SubElement(root, "LogCategories")
-    for name, meaning in log_categories(spec).items():
-        SubElement(categories, "Category", {"name": name, "description": meaning})
-
-
-def add_experiment(root: Element, spec: ModelSpec) -> None:
-    """Add the DefaultExperiment."""
-    stop, step = default_experiment(spec)
-    SubElement(root, "DefaultExperiment", {
-        "startTime": "0.0", "stopTime": number(stop), "tolerance": "1e-06",
-        "stepSize": number(step),
-    })  # fmt: skip
-
-
 def number(value: float) -> str:
     """Return the shortest text that reads back as the same number."""
     return repr(float(value))
-
-
-def used_types(found: tuple[Variable, ...]) -> list[RealType]:
-    """Return the declared types of the real variables, by name."""
-    used = {t.name: t for v in found if v.type == "Real" and (t := declared_type(v))}
-    return [used[name] for name in sorted(used)]
 
 
 def type_attributes(t: RealType) -> dict[str, str]:

@@ -29,20 +29,17 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
     rows are kept. Written are what processors agree on: nine digits, and 0 for less than a
     millionth of the nominal value.
     """
-    files = {}
-    if spec.course:
-        names = [signal.name for signal in spec.inputs]
-        files[f"{spec.name}_in.csv"] = table(names, input_rows(spec))
-    names = [signal.name for signal in spec.outputs]
     rows = reference_run(spec)
-    files[f"{spec.name}_out.csv"] = table(names, rows[:: max(1, len(rows) // ROWS)])
-    root = Element("fmiReferences", ROOT)
-    told = {
-        "in": ("testcase", "inputs of the default experiment, linear between the rows"),
-        "out": ("result", "outputs of the default experiment, at the ends of some of its steps"),
-    }
-    for name in files:
-        role, meaning = told[name.rpartition("_")[2].removesuffix(".csv")]
+    told = [
+        ("in", "testcase", "inputs of the default experiment, linear between the rows",
+         spec.inputs, input_rows(spec)),
+        ("out", "result", "outputs of the default experiment, at the ends of some of its steps",
+         spec.outputs, rows[:: max(1, len(rows) // ROWS)]),
+    ]  # fmt: skip
+    root, files = Element("fmiReferences", ROOT), {}
+    for ending, role, meaning, signals, shown in told if spec.course else told[1:]:
+        name = f"{spec.name}_{ending}.csv"
+        files[name] = table([signal.name for signal in signals], shown)
         SubElement(root, "Related", {"type": "text/csv", "source": name, "role": role,
                                      "description": meaning})  # fmt: skip
     files["fmi-ls-manifest.xml"] = text(root)

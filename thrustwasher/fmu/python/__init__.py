@@ -1,9 +1,1 @@
-"""FMUs that run in Python.
-
-===================  ===========================================================================
-``python_contents``  What only the Python target carries: pythonfmu's libraries and modules, and
-                     the slave
-``slave``            The slave of every Python FMU: the protocol of pythonfmu 0.7.0 around
-                     ``Core``
-===================  ===========================================================================
-"""
+"""``slave``: FMUs that run in Python, the protocol of pythonfmu around ``Core``."""

@@ -13,7 +13,7 @@ from ...model.prepare import fill_table, wants_table
 from ...model.spec import ModelSpec
 from ...native.load import bound
 from ..description.interface import Variable, enumerations, variables
-from ..model_kernels import content_digest, count_places, find_broken_rule, load_kernel
+from ..model_kernels import content_digest, count_places, load_kernel
 from .snapshot import Snapshot
 
 
@@ -37,7 +37,7 @@ class Core:
     def __init__(self, spec: ModelSpec) -> None:
         kernel = load_kernel(spec.kernel)
         self.spec, self._derive = spec, kernel.derive
-        self._broken_rule = find_broken_rule(spec)
+        self._broken_rule = kernel.broken_rule
         self.variables = variables(spec)
         self.par, self.inp = np.zeros(kernel.n_par), np.zeros(kernel.n_inp)
         self.state, self.work = np.zeros(kernel.n_state), np.zeros(kernel.n_work)

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.spec import ModelSpec
-from ..description.interface import enumerations, variables
-from ..model_kernels import find_derivatives, has_derivatives
+from ..description.interface import Variable, enumerations, variables
+from ..model_kernels import load_kernel
 from .core import Core, Mode
 from .snapshot import from_bytes
 
@@ -28,7 +28,8 @@ class DirectInstance:
         self._outputs = [v.reference for v in found if v.causality == "output"]
         self._parameters = dict(parameters or {})
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
-        self.saves_state, self.gives_derivatives = True, has_derivatives(spec)
+        self._sens = load_kernel(spec.kernel).sens
+        self.saves_state, self.gives_derivatives = True, self._sens is not None
         self.reset()
         self.instantiate_time = perf_counter() - start
 
@@ -41,10 +42,9 @@ class DirectInstance:
     def reset(self) -> None:
         """Go back to the start values and the parameters given at construction."""
         self.core = Core(self.spec)
-        named = {v.name: v for v in self.core.variables if v.causality == "parameter"}
         items = enumerations(self.spec)
         for name, value in self._parameters.items():
-            v = named.get(name) or unknown(name, list(named))
+            v = self._find(name, "parameter")
             numbers = {i.name: i.value for i in items.get(v.type_name or "", ())}
             self.core.set([v.reference], [number(name, value, numbers)], v.type)
 
@@ -60,9 +60,7 @@ class DirectInstance:
             )
         self.core.time, self.core.mode = start_time, Mode.INITIALIZING
         for name, value in (inputs or {}).items():
-            if name not in self.input_names:
-                unknown(name, self.input_names)
-            self.core.set([self._inputs[self.input_names.index(name)]], [float(value)], "Real")
+            self.core.set([self._find(name, "input").reference], [float(value)], "Real")
         self.core.prepare()
         self.core.mode = Mode.STEPPING
         self.core.refresh()
@@ -94,34 +92,32 @@ class DirectInstance:
 
     def get(self, names: Sequence[str]) -> list[float]:
         """Return variables by name."""
-        known = {v.name: v for v in self.core.variables}
-        found = [known.get(name) or unknown(name, list(known)) for name in names]
+        found = [self._find(name) for name in names]
         return [float(self.core.get([v.reference], v.type)[0]) for v in found]
 
     def directional_derivative(
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
     ) -> list[float]:
         """Return how real outputs change along a direction of the inputs, memory held."""
-        sens = find_derivatives(self.spec)
-        if sens is None:
+        if self._sens is None:
             raise SolveError(f"{self.spec.name} has no derivatives")
         core = self.core
         along, slopes = np.zeros_like(core.inp), np.zeros_like(core.out)
         for name, value in zip(knowns, seed, strict=True):
-            along[self._slot(name, "input")] += value
-        places = [self._slot(name, "output") for name in unknowns]
+            along[self._find(name, "input").slot] += value
+        places = [self._find(name, "output").slot for name in unknowns]
         core.refresh()
         # What a derivative starts from lies in `work`, which any other solve may have overwritten.
         core.solve_aside()
-        rc = sens(core.par, core.inp, core.state, core.work, along, slopes)
+        rc = self._sens(core.par, core.inp, core.state, core.work, along, slopes)
         if rc >= FIRST_FAILURE:
             raise SolveError(f"{self.spec.name} has no derivative here: {Status(rc).advice}")
         return [float(slopes[place]) for place in places]
 
-    def _slot(self, name: str, causality: str) -> int:
-        known = {v.name: v for v in self.core.variables if v.causality == causality}
-        v = known.get(name) or unknown(name, list(known))
-        return int(v.slot)
+    def _find(self, name: str, causality: str | None = None) -> Variable:
+        """Return a variable by name, of any causality or of one."""
+        known = {v.name: v for v in self.core.variables if causality in (None, v.causality)}
+        return known.get(name) or unknown(name, list(known))
 
     def get_state(self) -> Any:
         """Return the complete state."""

@@ -135,11 +135,9 @@ def capabilities(folder: Path) -> tuple[bool, bool]:
     root = ElementTree.parse(folder / "modelDescription.xml").getroot()
     found = root.find("CoSimulation")
     flags = {} if found is None else {name.lower(): said for name, said in found.attrib.items()}
-    state = flags.get("cangetandsetfmustate")
-    slopes = flags.get("providesdirectionalderivatives") or flags.get(
-        "providesdirectionalderivative"
-    )
-    return state in ("true", "1"), slopes in ("true", "1")
+    slope = "providesdirectionalderivative"
+    said = flags.get("cangetandsetfmustate"), flags.get(f"{slope}s") or flags.get(slope)
+    return said[0] in ("true", "1"), said[1] in ("true", "1")
 
 
 def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> Any:

@@ -13,7 +13,8 @@ from ...errors import ParameterError
 MAGIC = b"thrustw2"
 # magic, total length, identity of the model's content, lengths, time, mode, flags, latch
 HEADER = struct.Struct("<8sQ16s7Id3i")
-N_REALS = 4  # of the seven arrays; the others hold integers
+TYPES = {"par": "<f8", "inp": "<f8", "state": "<f8", "out": "<f8", "iout": "<i4",
+         "refused": "<i4", "seen": "<i4"}  # fmt: skip
 CHECK = struct.Struct("<I")  # CRC-32 over all that precedes it
 
 
@@ -37,11 +38,10 @@ class Snapshot:
 
     def to_bytes(self) -> bytes:
         """Return the same bytes on every platform: little endian, header first, CRC last."""
-        reals = (self.par, self.inp, self.state, self.out)
-        whole = (self.iout, self.refused, self.seen)
-        payload = b"".join(a.astype("<f8").tobytes() for a in reals)
-        payload += b"".join(a.astype("<i4").tobytes() for a in whole)
-        sizes = [len(a) for a in (*reals, *whole)]
+        arrays = [getattr(self, name) for name in TYPES]
+        pairs = zip(arrays, TYPES.values(), strict=True)
+        payload = b"".join(array.astype(kind).tobytes() for array, kind in pairs)
+        sizes = [len(array) for array in arrays]
         length = HEADER.size + len(payload) + CHECK.size
         flags = int(self.dirty) + 2 * int(self.prepared)
         head = HEADER.pack(MAGIC, length, self.identity.encode(), *sizes, self.time, self.mode,
@@ -56,19 +56,19 @@ def from_bytes(data: bytes) -> Snapshot:
     _, length, identity, *rest = HEADER.unpack_from(data)
     sizes: list[Any] = rest[:7]
     time, mode, flags, latch = rest[7:]
-    expected = HEADER.size + 8 * sum(sizes[:N_REALS]) + 4 * sum(sizes[N_REALS:]) + CHECK.size
+    expected = HEADER.size + 8 * sum(sizes[:4]) + 4 * sum(sizes[4:]) + CHECK.size
     if length != len(data) or expected != len(data):
         raise ParameterError(f"FMU state = {len(data)} bytes, allowed: {length}; it is truncated")
     (check,) = CHECK.unpack_from(data, length - CHECK.size)
     if check != zlib.crc32(data[: -CHECK.size]):
         raise ParameterError("FMU state = bytes with a wrong checksum; they were changed")
-    arrays, offset = [], HEADER.size
-    for size, dtype in zip(sizes, ["<f8"] * N_REALS + ["<i4"] * 3, strict=True):
-        array = np.frombuffer(data, dtype, size, offset)
-        arrays.append(array.astype(array.dtype.newbyteorder("=")))
+    arrays: dict[str, Any] = {}
+    offset = HEADER.size
+    for (name, kind), size in zip(TYPES.items(), sizes, strict=True):
+        array = np.frombuffer(data, kind, size, offset)
+        arrays[name] = array.astype(array.dtype.newbyteorder("="))
         offset += array.nbytes
-    par, inp, state, out, iout, refused, seen = arrays
     return Snapshot(
-        identity.decode("ascii", "replace"), par, inp, state, out, iout,
-        time, mode, bool(flags & 1), bool(flags & 2), latch, refused, seen,
+        identity=identity.decode("ascii", "replace"), time=time, mode=mode,
+        dirty=bool(flags & 1), prepared=bool(flags & 2), latch=latch, **arrays,
     )  # fmt: skip

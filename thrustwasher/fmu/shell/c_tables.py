@@ -7,13 +7,7 @@ from ...errors import FIRST_FAILURE, Status
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
 from ..description.xml_parts import LOG_CATEGORIES, log_categories
-from ..model_kernels import (
-    count_places,
-    find_broken_rule,
-    has_derivatives,
-    kernel_table,
-    load_kernel,
-)
+from ..model_kernels import count_places, load_kernel
 from . import call_table
 
 MOST_INPUTS = 32  # dependencies are bits of one word
@@ -41,14 +35,7 @@ def shell_files(fmi: int) -> tuple[str, ...]:
 def sources(spec: ModelSpec, *, fmi: int, guid: str) -> dict[str, str]:
     """Return model.h and model.c, file name -> text.
 
-    Parameters
-    ----------
-    spec
-        The model.
-    fmi
-        2 or 3: the functions in the table of calls, and their names in messages.
-    guid
-        What the description calls guid (FMI 2) or instantiationToken (FMI 3).
+    ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
     lists = _lists(spec, fmi)
     return {"model.h": _header(spec, fmi, guid, lists), "model.c": _tables(lists)}
@@ -63,7 +50,6 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
     events = {s.name: s.events for s in spec.outputs if s.events}
     declared = log_categories(spec)
     assert set(_CATEGORIES) == set(LOG_CATEGORIES), "the shell knows every category"
-    rules = [rule.text for rule in getattr(spec, "rules", ())]
     return {
         "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in found]),
         "ENUMERATIONS": ("Enumeration", [
@@ -75,7 +61,7 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
             _row(v.slot, *map(_text, events[v.name])) for v in found if v.name in events]),
         "COUNTS": ("Count", [
             _row(_text(text), place) for text, place in count_places(spec)]),
-        "RULES": ("Rule", [_row(_text(rule)) for rule in rules]),
+        "RULES": ("Rule", [_row(_text(rule.text)) for rule in spec.rules]),
         "CATEGORIES": ("Category", [
             _row(_text(name), int(name in declared)) for name in _CATEGORIES]),
         "TYPES": ("TypeText", [_row(_text(name)) for name in _TYPES[fmi]]),
@@ -112,9 +98,9 @@ def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, li
         "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
-        **{f"TABLE_{name}": value for name, value in kernel_table(spec).items()},
-        "HAS_RULES": int(find_broken_rule(spec) is not None),
-        "HAS_SENS": int(has_derivatives(spec)),
+        **{f"TABLE_{name}": value for name, value in kernel.table.items()},
+        "HAS_RULES": int(kernel.broken_rule is not None),
+        "HAS_SENS": int(kernel.sens is not None),
     }  # fmt: skip
     shown = [v for v in found if v.causality == "input" or v.name in ("film_ratio", "engine_speed")]
     return "\n".join([

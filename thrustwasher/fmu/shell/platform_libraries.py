@@ -116,11 +116,6 @@ def library(
     ``guid`` is compiled in: a description of another build is refused. ``level`` is the one CPU
     level to compile for; None: all, chosen by the CPU at run time. ``note`` is called with a line
     of progress before anything that takes long.
-
-    Raises
-    ------
-    ParameterError : there is no such platform
-    EnvironmentProblem : something is missing to build it; the message says what
     """
     if platform not in PLATFORMS:
         raise ParameterError(f"platform = {platform!r}, allowed: {' or '.join(PLATFORMS)}")
@@ -130,20 +125,13 @@ def library(
     files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi)}
     files |= c_tables.sources(spec, fmi=fmi, guid=guid)
     exports = call_table.functions(fmi)
-    kernel = spec.kernel
-    return link_kernel(files, kernel, target, spec.name, exports, linker=linker, note=note)
+    return link_kernel(files, spec.kernel, target, spec.name, exports, linker=linker, note=note)
 
 
 def link_kernel(
-    files: Mapping[str, str | bytes],
-    kernel: str,
-    platform: Platform,
-    name: str,
-    exports: Iterable[str],
-    *,
-    linker: Linker | None = None,
-    note: Note = to_stderr,
-) -> bytes:
+    files: Mapping[str, str | bytes], kernel: str, platform: Platform, name: str,
+    exports: Iterable[str], *, linker: Linker | None = None, note: Note = to_stderr,
+) -> bytes:  # fmt: skip
     """Return C files linked with the dispatch to a kernel's objects, checked for what it needs."""
     code = objects(kernel, [platform], note)
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}

@@ -1,4 +1,4 @@
-"""Lays a run out for the compiled loop: operations, addresses, buffers."""
+"""Lays a run out for the compiled loop, operations, addresses and buffers, and drives it."""
 
 import ctypes
 import sys
@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import way
 from ..scene.connections import COMMAND
-from .instances import CCall, capable, has_c_addresses
+from .instances import capable
 from .loop import Run
 from .schedule import Correct, Pull
-from .system import ConnectedPart, renamed
+from .system import renamed
 
 
 def can_compile(run: Run) -> bool:
@@ -23,40 +23,56 @@ def can_compile(run: Run) -> bool:
         return False
     if any(isinstance(action, Correct) for action in run.schedule):
         return False
-    return all(has_c_addresses(p.instance) for p in run.system.parts.values())
+    return all(hasattr(p.instance, "machine") for p in run.system.parts.values())
 
 
-class Layout:
-    """The operations of one communication step, and the buffers they use."""
+class CompiledLoop:
+    """Steps the parts in compiled code; comes back to Python when one has something to say."""
 
     def __init__(self, run: Run) -> None:
         from . import compiled_loop as c
 
-        self._kinds = {"real": c.REAL, "int32": c.INT32, "int64": c.INT64, "byte": c.BYTE}
         self.run, self.codes = run, c
         self.parts = list(run.system.parts.values())
+        self._lay_out()
+        n, recorder, hub = len(self.parts), run.recorder, run.system.transmission
+        self._report = np.zeros(3, np.int64)
+        self._begun, self._spent = np.zeros(n), np.zeros(n)
+        self._calls = np.zeros(n, np.int64)
+        self._told, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
+        self._clock, tick = wall_clock(self._ticks)
+        self._now = np.zeros(recorder.rows.shape[1])
+        columns = (self._operations, self._places, [a.third for a in self.addresses],
+                   [a.said for a in self.addresses])  # fmt: skip
+        self._arguments: list[Any] = [
+            *(np.array(column, np.int64) for column in columns), self._now, *self._buffers,
+            self._told.ctypes.data, self._clock, tick, self._ticks, self._begun, self._spent,
+            self._calls, run.time, run.h, run.commands,
+            recorder.input_place(hub, hub.input_names.index(COMMAND)), recorder.rows,
+        ]  # fmt: skip
+        self._run(0)  # compiled or loaded before time counts
+
+    def _run(self, stop: int) -> int:
+        """Work through the operations up to a point, or until an instance reports something."""
+        return self.codes.run_operations(*[*self._arguments, stop, self._report])
+
+    def _lay_out(self) -> None:
+        """List the operations of one communication step, and make the buffers they use."""
+        c = self.codes
+        self._kinds = {"real": c.REAL, "int32": c.INT32, "int64": c.INT64, "byte": c.BYTE}
         self.addresses = [capable(p.instance).machine() for p in self.parts]
         room = sum(len(p.input_names) + len(p.output_names) for p in self.parts)
         types = (np.float64, np.int32, np.int64, np.uint8)
-        self.buffers: list[NDArray[Any]] = [np.zeros(room, t) for t in types]
-        self._used = [0] * len(self.buffers)
+        self._buffers: list[NDArray[Any]] = [np.zeros(room, t) for t in types]
+        self._used = [0] * len(self._buffers)
         self._places: list[int] = []
         self._operations: list[list[int]] = []
-        for action in run.schedule:
+        for action in self.run.schedule:
             number = self.parts.index(action.part)
             if isinstance(action, Pull):
                 self._pull(number)
             else:
                 self._step(number)
-        self.operations = np.array(self._operations, np.int64)
-        self.places = np.array(self._places, np.int64)
-        self.third = np.array([a.third for a in self.addresses], np.int64)
-        self.said = np.array([a.said for a in self.addresses], np.int64)
-
-    def stage(self, operation: int) -> tuple[ConnectedPart, str]:
-        """Return the part of a call and what it does."""
-        c, op = self.codes, self._operations[operation]
-        return self.parts[op[c.PART]], {c.SET: "set", c.STEP: "step", c.GET: "get"}[op[c.KIND]]
 
     def _add(self, kind: int, part: int, **columns: int) -> None:
         c = self.codes
@@ -86,9 +102,9 @@ class Layout:
             self._call(c.GET, number, group, recorder.output_place(part, 0))
         self._add(c.END, number)
 
-    def _call(self, kind: int, number: int, group: CCall, first: int) -> None:
+    def _call(self, kind: int, number: int, group: Any, first: int) -> None:
         values = self._kinds[group.kind]
-        buffer, offset, count = self.buffers[values], self._used[values], len(group.places)
+        buffer, offset, count = self._buffers[values], self._used[values], len(group.places)
         self._used[values] += count
         self._add(
             kind, number, function=group.function, component=self.addresses[number].component,
@@ -97,38 +113,13 @@ class Layout:
         )  # fmt: skip
         self._places += [first + place for place in group.places]
 
-
-class CompiledLoop:
-    """Steps the parts in compiled code; comes back to Python when one has something to say."""
-
-    def __init__(self, run: Run) -> None:
-        self.run, self.layout = run, Layout(run)
-        c, n = self.layout.codes, len(self.layout.parts)
-        self._report = np.zeros(3, np.int64)
-        self._begun, self._spent = np.zeros(n), np.zeros(n)
-        self._calls = np.zeros(n, np.int64)
-        self._told, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
-        self._clock, tick = wall_clock(self._ticks)
-        self._now = np.zeros(run.recorder.rows.shape[1])
-        command = run.recorder.input_place(
-            run.system.transmission, run.system.transmission.input_names.index(COMMAND)
-        )
-        a = self.layout
-        self._arguments = (
-            a.operations, a.places, a.third, a.said, self._now, *a.buffers, self._told.ctypes.data,
-            self._clock, tick, self._ticks, self._begun, self._spent, self._calls, run.time, run.h,
-            run.commands, command, run.recorder.rows,
-        )  # fmt: skip
-        self._function = c.run_operations
-        self._function(*self._arguments, 0, self._report)  # compiled or loaded before time counts
-
     def advance(self, i: int, stop: int) -> None:
         """Step from point ``i`` to point ``stop``."""
-        c, report = self.layout.codes, self._report
+        c, report = self.codes, self._report
         self._now[:] = self.run.recorder.rows[i]
         report[:] = i, 0, 0
         try:
-            while self._function(*self._arguments, stop, report) == c.REPORTED:
+            while self._run(stop) == c.REPORTED:
                 self._judge()
         finally:
             self._count()
@@ -136,8 +127,10 @@ class CompiledLoop:
 
     def _judge(self) -> None:
         """Raise if the last call failed, as stepping in Python would."""
-        c, report = self.layout.codes, self._report
-        part, stage = self.layout.stage(int(report[c.AT_OPERATION]) - 1)
+        c, report = self.codes, self._report
+        operation = self._operations[int(report[c.AT_OPERATION]) - 1]
+        part = self.parts[operation[c.PART]]
+        stage = {c.SET: "set", c.STEP: "step", c.GET: "get"}[operation[c.KIND]]
         try:
             capable(part.instance).judge(stage, int(report[c.LAST_STATUS]))
         except (ParameterError, SolveError) as problem:
@@ -146,7 +139,7 @@ class CompiledLoop:
 
     def _count(self) -> None:
         """Add calls and time to the instances' own counts."""
-        for part, calls, spent in zip(self.layout.parts, self._calls, self._spent, strict=True):
+        for part, calls, spent in zip(self.parts, self._calls, self._spent, strict=True):
             part.instance.calls += int(calls)
             part.instance.wall_time += float(spent)
         self._calls[:], self._spent[:] = 0, 0.0

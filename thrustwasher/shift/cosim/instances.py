@@ -33,36 +33,6 @@ class Stepping(Protocol):
         """Return all outputs, in the order of ``output_names``."""
 
 
-class CCall(Protocol):
-    """A C function that sets or gets the values of one type."""
-
-    function: int
-    """Its address."""
-    references: int
-    """Address of the value references."""
-    places: list[int]
-    """Where the values stand among all inputs or all outputs."""
-    kind: str
-    """C type of a value: "real", "int32", "int64" or "byte"."""
-
-
-class CAddresses(Protocol):
-    """The addresses of an instance."""
-
-    third: bool
-    """True for the calls of FMI 3, False for those of FMI 2."""
-    component: int
-    """The instance, the first argument of every call."""
-    step: int
-    """The function that steps."""
-    setters: Sequence[CCall]
-    """Calls that set all inputs."""
-    getters: Sequence[CCall]
-    """Calls that get all outputs."""
-    said: int
-    """A 64-bit number that is not 0 once the instance has logged something."""
-
-
 class Capable(Stepping, Protocol):
     """All that an instance may be able to do; ask before: ``saves_state`` and the like."""
 
@@ -83,8 +53,8 @@ class Capable(Stepping, Protocol):
     def get(self, names: Sequence[str]) -> list[float]:
         """Return variables by name, parameters among them."""
 
-    def machine(self) -> CAddresses:
-        """Return the addresses of the C functions, valid until the instance is closed."""
+    def machine(self) -> Any:
+        """Return the addresses of the C functions, as ``fmu.running.protocol`` lists them."""
 
     def judge(self, stage: str, status: int) -> None:
         """Raise what a call with this status means; ``stage``: "set", "step" or "get"."""
@@ -98,16 +68,6 @@ def saves_state(instance: Stepping) -> bool:
 def gives_derivatives(instance: Stepping) -> bool:
     """Tell if an instance has directional derivatives."""
     return bool(getattr(instance, "gives_derivatives", False))
-
-
-def tells_values(instance: Stepping) -> bool:
-    """Tell if an instance returns variables by name."""
-    return hasattr(instance, "get")
-
-
-def has_c_addresses(instance: Stepping) -> bool:
-    """Tell if an instance gives the addresses of its C functions."""
-    return hasattr(instance, "machine") and hasattr(instance, "judge")
 
 
 def capable(instance: Stepping) -> Capable:

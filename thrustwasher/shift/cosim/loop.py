@@ -1,6 +1,6 @@
 """The loop over communication points, in Python; any instance can be stepped so."""
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,17 +22,14 @@ class Recorder:
         self.rows: NDArray[np.float64] = np.empty((n, width))
 
     def keep(self, i: int) -> None:
-        """Copy the present values to row ``i``."""
+        """Copy the present values to row ``i``; in some runs the number of points is not known."""
+        if i >= len(self.rows):
+            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
         row, at = self.rows[i], 0
         for part in self.parts:
             for values in (part.inputs, part.outputs):
                 row[at : at + len(values)] = values
                 at += len(values)
-
-    def make_room(self, i: int) -> None:
-        """See to it that there is a row ``i``, for runs whose points are not known beforehand."""
-        if i >= len(self.rows):
-            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
 
     def give_back(self, row: NDArray[np.float64]) -> None:
         """Let the parts have the values of a row for their present ones."""
@@ -93,16 +90,6 @@ class Run(NamedTuple):
     recorder: Recorder
 
 
-class Loop(Protocol):
-    """A way to carry a run from one communication point to another."""
-
-    def advance(self, i: int, stop: int) -> None:
-        """Step from point ``i`` to point ``stop`` and record every point on the way.
-
-        ParameterError or SolveError names the part and the time where it failed.
-        """
-
-
 class PythonLoop:
     """Steps the parts one call after another."""
 
@@ -110,7 +97,7 @@ class PythonLoop:
         self.run = run
 
     def advance(self, i: int, stop: int) -> None:
-        """Step from point ``i`` to point ``stop``."""
+        """Step from point ``i`` to point ``stop`` and record every point on the way."""
         system, schedule, time, h, commands, recorder = self.run
         for k in range(i, stop):
             t = float(time[k])

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...clutch.kernels.layout import HOT_LIMIT
+from ...numerics.jit import Array
 from ..oscillation.judder import FEW
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 
-Array = NDArray[np.float64]
 Signals = dict[str, Array]
 STANDSTILL = 1.0  # rad/s
 # What a change of a Boolean signal means: (signal, kind and text when it rises, when it falls,

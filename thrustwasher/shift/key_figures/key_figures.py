@@ -1,24 +1,29 @@
-"""The key figures of a shift, read from its signals."""
+"""The key figures of a shift and its energy balance, read from its signals."""
+
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...clutch.parameters import lining_area, mean_radius
+from ...numerics.jit import Array
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.scene import Scene
-from .events_and_phases import Event
-from .figure_list import Found, KeyFigure, assemble
-from .part_figures import (
-    area_of,
-    friction_figures,
-    mesh_figures,
-    pack_figures,
-    peak,
-    tie_up_figures,
-    washer_figures,
-)  # fmt: skip
+from .events_and_phases import Event, Signals, turning
+from .figure_list import FILM_SPEED, Found, KeyFigure, assemble
 
-Array = NDArray[np.float64]
-Signals = dict[str, Array]
+FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
+TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlaps a little
+# Figure -> signal whose greatest value counts.
+MESH_PEAKS = {
+    "peak_mesh_load": "mesh.load",
+    "peak_flash_temperature": "mesh.temperature",
+    "peak_flash_rise": "mesh.flash_rise",
+    "peak_mesh_temperature": "mesh.surface_temperature",
+    "peak_mesh_stress": "mesh.contact_stress",
+    "peak_mesh_thermal_stress": "mesh.thermal_stress",
+}
+STEELS = ("aisi1020", "aisi4340")
 
 
 def key_figures(
@@ -79,3 +84,213 @@ def _slip(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Fo
     if scene.alone and lock is not None and greatest > 0.0:
         found["stopped_inertia"] = (2.0 * heat / greatest**2, None)
     return found
+
+
+def energy_balance(signals: Signals) -> dict[str, float]:
+    """Return every entry of the energy balance [J] and its errors with their shares.
+
+    ``residual`` is the energy that no entry accounts for; its share is of the engine's work or, in
+    a run without engine, of the kinetic energy that changed hands. ``coupling_difference`` is the
+    clutch's heat on the mechanical side minus the heat its thermal side has booked: the error of
+    exchanging signals once per step; its share is of that heat. Likewise for the brake.
+    """
+
+    def last(name: str) -> float:
+        return float(signals[name][-1]) if name in signals else 0.0
+
+    balance = {
+        "engine_work": last("transmission.engine_work"),
+        "kinetic": last("transmission.kinetic_change"),
+        "load_work": last("transmission.load_work"),
+        "clutch": last("transmission.clutch_heat"),
+        "brake": last("transmission.brake_heat"),
+        "washers": last("transmission.washer_heat"),
+        "meshes": last("transmission.mesh_heat"),
+        "shaft": last("transmission.shaft_heat"),
+        "spring": last("transmission.shaft_energy"),
+        "residual": last("transmission.energy_residual"),
+    }
+    whole = abs(balance["engine_work"]) or abs(balance["kinetic"])
+    balance["residual_share"] = abs(balance["residual"]) / whole if whole else 0.0
+    for pack, prefix in (("clutch", ""), ("brake", "brake_")):
+        difference = balance[pack] - last(f"{pack}.energy")
+        share = abs(difference) / balance[pack] if balance[pack] else 0.0
+        balance[f"{prefix}coupling_difference"] = difference
+        balance[f"{prefix}coupling_difference_share"] = share
+    return balance
+
+
+def area_of(params: Any) -> float:
+    """Return the area of all friction faces of a pack [m2]."""
+    return lining_area(params.inner_radius, params.outer_radius, params.faces)
+
+
+def radius_of(params: Any) -> float:
+    """Return the radius friction acts at [m]: the one that was set, or that of even pressure."""
+    return float(params.effective_radius) or mean_radius(params.inner_radius, params.outer_radius)
+
+
+def peak(values: Array, time: Array) -> tuple[float, float]:
+    """Return the largest value and its time."""
+    i = int(np.argmax(values))
+    return float(values[i]), float(time[i])
+
+
+def least(values: Array, time: Array) -> tuple[float | None, float | None]:
+    """Return the least value and its time."""
+    i = int(np.argmin(values))
+    return (float(values[i]), float(time[i])) if np.isfinite(values[i]) else (None, None)
+
+
+def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Found:
+    """Return the heat, flux, torque, temperature and film of one pack; of one in use only.
+
+    Peaks are those of the pack itself: the driveline's torque overshoots for a step where the
+    extrapolated capacity has a corner.
+    """
+    if not np.any(signals[f"{pack}.load"] > 0.0):
+        return {}
+    area = area_of(scene.parts[pack].params)
+    found: Found = {
+        f"{pack}_heat_per_area": (float(signals[f"transmission.{pack}_heat"][-1]) / area, None),
+        f"peak_{pack}_heat_flux": peak(np.abs(signals[f"{pack}.friction_power"]) / area, time),
+        f"peak_{pack}_temperature": peak(signals[f"{pack}.temperature"], time),
+        f"peak_{pack}_torque": peak(np.abs(signals[f"{pack}.friction_torque"]), time),
+        f"least_{pack}_film_ratio": least(signals[f"{pack}.film_ratio"], time),
+    }
+    if f"{pack}.viscous_torque" in signals:
+        slip = signals[f"{pack}.speed"]
+        oil, whole = (
+            float(np.trapezoid(np.abs(signals[f"{pack}.{name}"] * slip), time))
+            for name in ("viscous_torque", "friction_torque")
+        )
+        found[f"{pack}_viscous_share"] = (oil / whole if whole > 0.0 else None, None)
+    return found
+
+
+def friction_figures(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Found:
+    """Return the coefficient of the pack that engages, along its slip.
+
+    The mean is the torque integrated over time by load, effective radius and faces integrated over
+    time: with constant load the harmonic mean of the coefficient over speed, which is what a
+    braking time measures. A coefficient belongs to the slip that the pack itself was given.
+    """
+    pack, start = scene.engaging, scene.shift_start
+    coefficient = signals[f"{pack}.friction_coefficient"]
+    slip = np.abs(signals[f"{pack}.speed"])
+    stop = time[-1] if lock is None else lock
+    during = np.flatnonzero((time >= start) & (time < stop) & (slip > 0.0))
+    names = ("friction_start", "friction_middle", "friction_lock", "friction_mean")
+    if len(during) < 2:
+        return dict.fromkeys(names, (None, None))
+    first, last = during[0], during[-1]
+    middle = during[int(np.argmin(np.abs(slip[during] - 0.5 * slip[first])))]
+    found: Found = {
+        "friction_start": (float(coefficient[first]), float(time[first])),
+        "friction_middle": (float(coefficient[middle]), float(time[middle])),
+        "friction_lock": (None, None),
+        "friction_mean": (_mean_friction(scene, time[during], signals, during), None),
+    }
+    if lock is not None:
+        found["friction_lock"] = (float(coefficient[last]), float(time[last]))
+        less = during[coefficient[during] < FULL * coefficient[last]]
+        if len(less) and less[-1] < last:
+            pair = slice(less[-1], less[-1] + 2)
+            full = FULL * coefficient[last]
+            speed, when = (np.interp(full, coefficient[pair], v[pair]) for v in (slip, time))
+            found["full_friction_speed"] = (float(speed), float(when))
+    return found
+
+
+def _mean_friction(
+    scene: Scene, time: Array, signals: Signals, during: NDArray[np.intp]
+) -> float | None:
+    """Return the mean coefficient behind the torque of the slipping pack."""
+    pack, params = scene.engaging, scene.parts[scene.engaging].params
+    torque = np.abs(signals[f"transmission.{pack}_reaction"][during])
+    load = signals[f"transmission.{pack}_load"][during]
+    pressed = float(np.trapezoid(load, time)) * radius_of(params) * params.faces
+    return float(np.trapezoid(torque, time)) / pressed if pressed > 0.0 else None
+
+
+def tie_up_figures(scene: Scene, time: Array, signals: Signals) -> Found:
+    """Return duration, torque and heat of a tie-up; nothing where the packs hand over cleanly.
+
+    It begins when the torque of the pack that lets go changes its sign, and ends when that pack is
+    no longer pressed. The heat is what it takes up meanwhile.
+    """
+    other, start = scene.releasing, scene.shift_start
+    torque = signals[f"transmission.{other}_reaction"]
+    held = float(np.interp(start, time, torque))
+    against = -np.sign(held) * torque
+    pressed = signals[f"transmission.{other}_load"] > 0.0
+    during = np.flatnonzero((time > start) & pressed & (against > 0.0))
+    if not len(during) or np.max(against[during]) <= TIE_UP_SHARE * abs(held):
+        return {}
+    first = int(during[0])
+    begin = float(np.interp(0.0, against[first - 1 : first + 1], time[first - 1 : first + 1]))
+    free = np.flatnonzero((time > time[first]) & ~(pressed & (against > 0.0)))
+    last = int(free[0]) if len(free) else len(time) - 1
+    most = first + int(np.argmax(against[first : last + 1]))
+    heat = signals[f"transmission.{other}_heat"]
+    return {
+        "tie_up_duration": (float(time[last]) - begin, begin),
+        "tie_up_torque": (float(torque[most]), float(time[most])),
+        "tie_up_heat": (float(heat[last] - heat[first - 1]), None),
+    }
+
+
+def washer_figures(time: Array, signals: Signals) -> Found:
+    """Return load, temperatures and film of the washer; nothing without one."""
+    if "washer.friction_torque" not in signals:
+        return {}
+    moving = turning(signals)
+    distress = (signals["washer.distress"] > 0.5) & moving
+    lost = float(np.sum(np.diff(time)[distress[1:]]))
+    return {
+        "peak_washer_load": peak(signals["transmission.washer_load"], time),
+        "peak_washer_temperature": peak(signals["washer.temperature"], time),
+        "peak_washer_temperature_max": peak(signals["washer.temperature_max"], time),
+        "least_washer_film_ratio": least_film("washer", time, signals),
+        "washer_distress_time": (lost, None),
+    }
+
+
+def mesh_figures(time: Array, signals: Signals) -> Found:
+    """Return heat, temperatures, film and margins of the mesh; nothing without one.
+
+    A stress margin is 1 - utilisation: at 0 the endurance limit is reached.
+    """
+    if "mesh.friction_torque" not in signals:
+        return {}
+    found: Found = {
+        name: peak(signals[signal], time)
+        for name, signal in MESH_PEAKS.items() if signal in signals
+    }  # fmt: skip
+    if "mesh.film_ratio" in signals:
+        found["least_mesh_film_ratio"] = least_film("mesh", time, signals)
+    if "mesh.allowable_ratio" in signals:
+        found["least_allowable_ratio"] = least(signals["mesh.allowable_ratio"], time)
+    for steel in STEELS:
+        used = signals.get(f"mesh.stress_utilization_{steel}")
+        if used is not None:
+            found[f"stress_margin_{steel}"] = least(1.0 - used, time)
+    found["mesh_loss"] = (float(signals["transmission.mesh_heat"][-1]), None)
+    return found
+
+
+def least_film(part: str, time: Array, signals: Signals) -> tuple[float | None, float | None]:
+    """Return the least film ratio of a part above FILM_SPEED, and its time.
+
+    Where the speed passes FILM_SPEED between two samples the ratio is interpolated to that speed:
+    the figure must not depend on where the samples happen to lie. A film ratio belongs to the speed
+    that the part itself was given.
+    """
+    ratio, speed = signals[f"{part}.film_ratio"], np.abs(signals[f"{part}.speed"])
+    fast = speed >= FILM_SPEED
+    i = np.flatnonzero(fast[1:] != fast[:-1])
+    done = (FILM_SPEED - speed[i]) / (speed[i + 1] - speed[i])
+    ratios, times = (
+        np.concatenate((v[fast], v[i] + done * (v[i + 1] - v[i]))) for v in (ratio, time)
+    )
+    return least(ratios, times) if len(ratios) else (None, None)

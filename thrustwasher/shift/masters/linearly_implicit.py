@@ -16,11 +16,11 @@ its second term, 1 + x + x^2 with x = H |c|/J.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError
+from ...numerics.jit import Array
 from ..cosim.instances import capable, gives_derivatives, saves_state
-from ..cosim.schedule import Correct, Pull, Schedule, Step
+from ..cosim.schedule import Correct, Schedule, gauss_seidel
 from ..cosim.system import ConnectedPart, System, with_state
 from ..scene.connections import SPEED
 
@@ -30,16 +30,13 @@ QUIET = 1e-4  # of H c/J: less does not matter
 PROBE = 1e-3  # of a torque: how far it is moved to find S
 WIDTH = 1e-6  # of an input's nominal value: half the distance of a difference
 LONG = 0.5  # of H |c|/J where friction falls: more is worth a word
-Array = NDArray[np.float64]
 
 
 def schedule(system: System) -> Schedule:
     """Return the schedule of one communication step."""
-    friction: Schedule = [
-        action for part in system.friction_parts for action in (Pull(part), Step(part))
-    ]  # fmt: skip
-    hub = system.transmission
-    return [*friction, Pull(hub), Correct(hub, Correction(system)), Step(hub)]
+    actions = gauss_seidel(system)
+    actions.insert(-1, Correct(system.transmission, Correction(system)))
+    return actions
 
 
 class Wire(NamedTuple):
@@ -204,11 +201,6 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
             "state that can be saved, allowed: with parts that have one of them, such as the "
             "native FMUs"
         )
-    return _difference(part, output, given)
-
-
-def _difference(part: ConnectedPart, output: str, given: str) -> float:
-    """Return the central difference at the part's present inputs."""
     instance, k = part.instance, part.input_names.index(given)
     place, signal = part.output_names.index(output), part.spec.inputs[k]
     width = WIDTH * (signal.nominal or 1.0)

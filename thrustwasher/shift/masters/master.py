@@ -19,24 +19,17 @@ class Master(NamedTuple):
     schedule: Callable[[System], Schedule]
     torque_age: int
     """How many steps the torques that the transmission receives are old."""
-    help: str
     adaptive: bool = False
     """It chooses its steps itself; communication points then lie anywhere."""
 
 
 MASTERS: dict[str, Master] = {
-    "gauss-seidel": Master(
-        schedule.gauss_seidel, 0, "friction parts first, the transmission with fresh torques"
-    ),
-    "jacobi": Master(
-        schedule.jacobi, 1, "all parts step at once with the inputs of the last point"
-    ),
-    linearly_implicit.NAME: Master(
-        linearly_implicit.schedule, 0,
-        "as gauss-seidel, torques corrected to the end of the step by their derivatives",
-    ),
-    step_doubling.NAME: Master(
-        schedule.gauss_seidel, 0,
-        "as gauss-seidel, steps as long as master_tolerance allows, with rollback", adaptive=True,
-    ),
-}  # fmt: skip
+    # Friction parts first, the transmission with fresh torques.
+    "gauss-seidel": Master(schedule.gauss_seidel, 0),
+    # All parts step at once with the inputs of the last point.
+    "jacobi": Master(schedule.jacobi, 1),
+    # As gauss-seidel, torques corrected to the end of the step by their derivatives.
+    linearly_implicit.NAME: Master(linearly_implicit.schedule, 0),
+    # As gauss-seidel, steps as long as master_tolerance allows, with rollback.
+    step_doubling.NAME: Master(schedule.gauss_seidel, 0, adaptive=True),
+}

@@ -93,11 +93,10 @@ class Rollback:
             instance.set_state(state)
             part.inputs, part.outputs = list(inputs), list(outputs)
 
-    def drop(self, *points: Held) -> None:
-        """Let go of points."""
-        for held in points:
-            for instance, state in zip(self._instances, held.states, strict=True):
-                instance.free_state(state)
+    def drop(self, held: Held) -> None:
+        """Let go of a point."""
+        for instance, state in zip(self._instances, held.states, strict=True):
+            instance.free_state(state)
 
 
 class Seen(NamedTuple):
@@ -163,15 +162,10 @@ class Events:
 
 
 class Doubling:
-    """Steps a system from start to stop and records every point.
+    """Steps an initialized system from start to stop and records every point.
 
-    Parameters
-    ----------
-    system : initialized at the start
-    tolerance : relative error of one step
-    command : the shift command at a time
-    stops : times that become communication points; the last one ends the run
-    first : length of the first step [s]
+    ``tolerance`` is the relative error of one step, ``first`` the length of the first one [s].
+    ``stops`` are times that become communication points; the last one ends the run.
     """
 
     def __init__(
@@ -191,10 +185,6 @@ class Doubling:
             if s.kind == "real" and not s.depends and s.name not in PAST
         ]  # fmt: skip
         self._rejected = self._located = self._forced = 0
-
-    def begin(self, time: float) -> None:
-        """Record the start."""
-        self._keep(time)
 
     def advance(self) -> float:
         """Take one step, in halves, and return the time reached."""
@@ -266,7 +256,7 @@ class Doubling:
                 if self._control.shortest < event < (1.0 - NEAR) * h:
                     return t + event
                 self._step(t, goal)
-            self._keep(goal)
+            self.keep(goal)
             return None
         finally:
             self._back.drop(start)
@@ -290,12 +280,12 @@ class Doubling:
         self.system.set_command(self._command(goal))
         carry_out(self._schedule, t, goal - t)
 
-    def _keep(self, time: float) -> None:
+    def keep(self, time: float) -> None:
+        """Record the present point."""
         if len(self.time) >= MOST:
             raise SolveError(
                 f"t = {time:g} s is reached after {MOST} communication points; take a larger "
                 "master_tolerance, or coupling 'capacity'"
             )
-        self.recorder.make_room(len(self.time))
         self.recorder.keep(len(self.time))
         self.time.append(time)

@@ -8,13 +8,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from ...transmission.closed_forms.torsional_stability import planetary
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 
-Array = NDArray[np.float64]
 Signals = dict[str, Array]
 MANY = 10  # changes of sign
 LIMITS = {"gauss-seidel": 2.0, "jacobi": 1.0}  # kappa, with torques fresh or a step old

@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...numerics.jit import Array
+
 TURNS = 30
 ENOUGH = 1e-10  # of the frequency: smaller changes end the iteration
 LEAST_SHARE = 0.5  # of what the trend leaves that an oscillation has to explain

@@ -13,19 +13,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...numerics.jit import Array
 from ..key_figures.figure_list import Found
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 from .damped_oscillation import Oscillation, fit_oscillation
-from .torsion import (
-    capacity_slopes,
-    damping_limit_of,
-    handed_over,
-    matrix,
-    torsional_mode,
-)  # fmt: skip
+from .torsion import capacity_slopes, damping_limit_of, handed_over, matrix, torsional_mode
 
-Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 Signals = dict[str, Array]
 PERIODS = 2.0  # of the mode in one window

@@ -16,19 +16,10 @@ from numpy.typing import NDArray
 
 from ...clutch.kernels.pack_friction import coefficient_slopes, viscous_slopes
 from ...clutch.solve import prepare
+from ...numerics.jit import Array
 
-Array = NDArray[np.float64]
 Matrix = NDArray[np.complex128]
 HALVINGS = 40
-
-
-def slip_rows(params: Any) -> dict[str, Array]:
-    """Return, per pack, its slip as a row over (sun, carrier)."""
-    r = params.ring_teeth / params.sun_teeth
-    return {
-        "clutch": np.array([(1.0 + r) / r, -(1.0 + r) / r]),
-        "brake": np.array([-1.0 / r, (1.0 + r) / r]),
-    }
 
 
 def matrix(
@@ -43,7 +34,11 @@ def matrix(
     held : packs that stick
     vehicle : speed of the vehicle [rad/s], for the slope of the load; 0: it has none
     """
-    rows = slip_rows(params)
+    r = params.ring_teeth / params.sun_teeth
+    rows = {  # of each pack its slip, as a row over (sun, carrier)
+        "clutch": np.array([(1.0 + r) / r, -(1.0 + r) / r]),
+        "brake": np.array([-1.0 / r, (1.0 + r) / r]),
+    }
     ring = params.ring_inertia * np.outer(rows["brake"], rows["brake"])
     mass = np.diag([params.sun_inertia, params.carrier_inertia]) + ring
     basis = _free(rows, held)

@@ -56,7 +56,7 @@ PACK_OUTPUT = {"capacity": "torque_capacity", "torque": "friction_torque"}
 DIRECT = ("washer",)  # parts whose own torque is judged, beside what it does to the shift
 # Models whose outputs follow from the inputs of the moment; a pack has a past: film, temperature.
 WITHOUT_PAST = ("washer", "gearmesh")
-# What a part is judged by: quantity of its cards, output that the guard compares.
+# What a part is judged by: quantity of its cards, output that the check compares.
 QUANTITIES: Mapping[str, tuple[tuple[str, str], ...]] = {
     "washer": (("friction_torque", "friction_torque"),),
     "clutch": (("friction_torque", "torque_capacity"), ("temperature", "temperature")),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from ...errors import ParameterError
+from ...ladder.choose import rung_and_tolerance
 from ...model.prepare import check_together
 from ...model.spec import ModelSpec
 from ..masters.master import MASTERS
@@ -102,15 +104,11 @@ class Scene:
         master_tolerance: float | None = None,
     ) -> Scene:
         """Return the scene with another step, master or end; what hangs on them is adapted."""
-        tolerance = self.master_tolerance if master_tolerance is None else master_tolerance
-        scene = replace(
-            self,
-            step=self.step if step is None else step,
-            master=self.master if master is None else master,
-            stop_time=self.stop_time if stop_time is None else stop_time,
-            master_tolerance=tolerance,
-        )
-        return scene.checked()
+        given: dict[str, Any] = {
+            "step": step, "master": master, "stop_time": stop_time,
+            "master_tolerance": master_tolerance,
+        }  # fmt: skip
+        return replace(self, **{k: x for k, x in given.items() if x is not None}).checked()
 
     def checked(self) -> Scene:
         """Check what concerns several values; hand oil and master on to the parts."""
@@ -118,8 +116,8 @@ class Scene:
         if self.master not in MASTERS:
             options = " or ".join(repr(n) for n in MASTERS)
             raise ParameterError(f"{where}: master = {self.master!r}, allowed: {options}")
-        if not STEP_RANGE[0] <= self.step <= STEP_RANGE[1]:
-            low, high = STEP_RANGE
+        low, high = STEP_RANGE
+        if not low <= self.step <= high:
             raise ParameterError(f"{where}: step = {self.step!r} s, allowed: {low:g} .. {high:g} s")
         low, high = TOLERANCE_RANGE
         if not low <= self.master_tolerance <= high:
@@ -152,3 +150,25 @@ class Scene:
                 linear = replace(part.params, input_course="linear")
                 parts[name] = replace(part, params=linear)
         return replace(self, parts=parts)
+
+
+def with_fidelities(scene: Scene, wishes: Sequence[str]) -> Scene:
+    """Return the scene with other rungs: "field" for all parts, "washer=map" for one.
+
+    Later wishes overrule earlier ones; parts with one rung keep it.
+    """
+    parts = dict(scene.parts)
+    for wish in wishes:
+        name, given, text = wish.partition("=")
+        if not given:
+            text, names = name, [n for n, p in parts.items() if len(p.spec.fidelities) > 1]
+        elif name in parts:
+            names = [name]
+        else:
+            raise ParameterError(
+                f"fidelity = {wish!r}: there is no part {name!r} here, allowed: {', '.join(parts)}"
+            )
+        for n in names:
+            rung, tolerance = rung_and_tolerance(f"part {n!r}", parts[n].spec, text)
+            parts[n] = replace(parts[n], fidelity=rung, tolerance=tolerance)
+    return replace(scene, parts=parts).checked()

@@ -36,7 +36,6 @@ SHIFT = {
     "from": ("1", 0.0, 1.0),
     "to": ("1", 0.0, 1.0),
 }
-SHIFT_DEFAULTS = {"start": 0.0, "duration": 0.0, "from": 0.0, "to": 1.0}
 TABLES = ("shift", "published", *PARTS)
 
 
@@ -175,10 +174,8 @@ def _shift(where: str, table: dict[str, Any]) -> dict[str, float]:
     for key in table:
         if key not in SHIFT:
             raise _unknown(where, key, list(SHIFT))
-    return {
-        f"shift_{key}": _number(where, key, table.get(key, SHIFT_DEFAULTS[key]), rule)
-        for key, rule in SHIFT.items()
-    }
+    given = {f"shift_{key}": _number(where, key, x, SHIFT[key]) for key, x in table.items()}
+    return {"shift_start": 0.0, "shift_duration": 0.0, **given}
 
 
 def _published(where: str, table: dict[str, Any] | None) -> Published | None:

@@ -2,7 +2,6 @@
 
 ====================  =============================================================================
 ``system_structure``  components, connections and outputs of the system
-``structure_xml``     SystemStructure.ssd
-``package``           the files of the package but the FMUs, and their page of documentation
+``package``           the files of the package but the FMUs: SystemStructure.ssd and a page
 ====================  =============================================================================
 """

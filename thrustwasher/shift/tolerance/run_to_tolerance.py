@@ -10,7 +10,7 @@ from ..scene.scene import Scene
 from ..shift_result import ShiftResult
 from .rung_check import check_part
 from .selection import select
-from .selection_record import Check, GuardRecord, Selected, Selection
+from .selection_record import Check, CheckRecord, Selected, Selection
 from .trial_run import Make, Pool, step_share, trial_runs, with_rungs
 
 
@@ -106,4 +106,4 @@ def _checked(
         result, earlier = better, earlier + result.wall_time
     if not checks:
         return result
-    return replace(result, guard=GuardRecord(checks, again, earlier, stopped))
+    return replace(result, guard=CheckRecord(checks, again, earlier, stopped))

@@ -1,4 +1,4 @@
-"""The guard: after a run it checks the rungs that were chosen for it.
+"""After a run: check of the rungs that were chosen for it.
 
 The choice rests on cards and on the inputs that trial runs have seen. The inputs that the run
 itself has recorded are compared with those, and the rung above is solved at some thirty recorded
@@ -8,7 +8,6 @@ at these points only; one with a past of its own, such as a pack's film and temp
 whole record, since it would have another past in strides.
 """
 
-import math
 from collections.abc import Callable, Sequence
 from time import perf_counter
 
@@ -16,15 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError, Status
+from ...numerics.jit import Array
 from ..cosim.instances import Stepping
 from ..scene.connections import SPEED, WITHOUT_PAST
 from ..scene.scene import Part
 from ..shift_result import ShiftResult
 from .selection import above, still_verified
-from .selection_record import Check, Difference, Scale, Selected
+from .selection_record import Check, Difference, Selected
 from .trial_run import Pool
 
-Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 POINTS = 30
 CHANGES = 8  # of those at most are points after a change of regime
@@ -150,13 +149,7 @@ def _farthest(
         for scale in chosen.scales:
             served = float(result.signals[f"{chosen.part}.{scale.output}"][i])
             other = outputs[names.index(scale.output)]
-            share = _share(scale, served, other)
+            share = scale.between(served, other)
             if share > worst.share:
                 worst = Difference(share, scale.output, float(result.time[i]), served, other)
     return worst
-
-
-def _share(scale: Scale, served: float, above: float) -> float:
-    """Return a difference; infinite if it is no number."""
-    share = scale.between(served, above)
-    return math.inf if math.isnan(share) else share

@@ -17,27 +17,20 @@ from .trial_run import TrialRuns, farthest, finest_of
 # Of the tolerance asked for the rungs have this share; the step has 0.3, the rest is spare. A
 # torque that is judged by itself has all of it: it follows from the inputs of the moment.
 MODEL_SHARE = 0.6
-SAFETY = 1.5  # on the cards' errors where no guard checks what lies between their points
+SAFETY = 1.5  # on the cards' errors where nothing checks what lies between their points
 FLOOR = 0.1  # of the scene's range: below it differences count as if the value were this large
 LEAST_RISE = 1.0  # K; a temperature that hardly moves is not compared more closely
 
 
-def select(scene: Scene, trials: TrialRuns, steps: int, guarded: bool = True) -> list[Selected]:
-    """Return the rung of every part that asks for a tolerance.
+def select(scene: Scene, trials: TrialRuns, steps: int, is_checked: bool = True) -> list[Selected]:
+    """Return the rung of every part that asks for a tolerance; SolveError if none holds it.
 
-    Parameters
-    ----------
-    steps : of the run to come
-    guarded : the guard will check what lies between the cards' points; else their errors count
-        times the chooser's factor of safety
-
-    Raises
-    ------
-    SolveError : no rung of a part holds its tolerance; the best one is named
+    ``steps`` are those of the run to come. Unless the run ``is_checked`` afterwards, which covers
+    what lies between the cards' points, their errors count times a factor of safety.
     """
     open_ = {name: part for name, part in scene.parts.items() if part.tolerance}
     return [
-        _by_trial(name, part, trials) or _by_cards(name, part, trials, steps, guarded)
+        _by_trial(name, part, trials) or _by_cards(name, part, trials, steps, is_checked)
         for name, part in open_.items()
     ]
 
@@ -93,7 +86,7 @@ def _moved(trials: TrialRuns) -> str:
     )
 
 
-def _by_cards(name: str, part: Part, trials: TrialRuns, steps: int, guarded: bool) -> Selected:
+def _by_cards(name: str, part: Part, trials: TrialRuns, steps: int, is_checked: bool) -> Selected:
     spec, box = part.spec, trials.box(name, part.spec)
     direct = name in DIRECT
     share = (part.tolerance or 0.0) * (1.0 if direct else MODEL_SHARE)
@@ -103,7 +96,7 @@ def _by_cards(name: str, part: Part, trials: TrialRuns, steps: int, guarded: boo
         rung = spec.default_fidelity
         words = f"{name}: {rung}, its default: no card speaks for these parameters; not checked"
         return Selected(name, spec.key, rung, None, share, False, (words,), box, scales)
-    safety = 1.0 if guarded and spec.key in WITHOUT_PAST else SAFETY
+    safety = 1.0 if is_checked and spec.key in WITHOUT_PAST else SAFETY
     choices = [
         _choose(name, part, box, quantity, share, scale, steps, safety)
         for (quantity, _), scale in zip(quantities, scales, strict=True)

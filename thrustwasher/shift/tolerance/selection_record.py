@@ -1,5 +1,6 @@
-"""What was chosen for a run at a tolerance and why, and what the guard found: plain data."""
+"""What was chosen for a run at a tolerance and why, and what its check found: plain data."""
 
+from math import inf, isnan
 from typing import Any, NamedTuple
 
 from ...units import format_quantity as say
@@ -20,8 +21,9 @@ class Scale(NamedTuple):
     relative: bool = True
 
     def between(self, served: float, above: float) -> float:
-        """Return the difference as a share."""
-        return abs(served - above) / max(self.floor, abs(above) if self.relative else 0.0)
+        """Return the difference as a share; infinite if it is no number."""
+        share = abs(served - above) / max(self.floor, abs(above) if self.relative else 0.0)
+        return inf if isnan(share) else share
 
 
 class Selected(NamedTuple):
@@ -31,7 +33,7 @@ class Selected(NamedTuple):
     model: str
     rung: str
     above: str | None
-    """The rung that the guard compares with; None: there is none, or no card chose."""
+    """The rung that the check compares with; None: there is none, or no card chose."""
     tolerance: float
     """The rung's share of the tolerance asked for."""
     verified: bool
@@ -99,7 +101,7 @@ class Difference(NamedTuple):
 
 
 class Check(NamedTuple):
-    """What the guard found of one part after a run."""
+    """What the check of one part after a run found."""
 
     run: int
     """Which run: 1 is the first."""
@@ -135,8 +137,8 @@ class Check(NamedTuple):
         return f"{text}; {self.outside}" if self.outside else text
 
 
-class GuardRecord(NamedTuple):
-    """What the guard checked after a run, and what was run again."""
+class CheckRecord(NamedTuple):
+    """What was checked after a run, and what was run again."""
 
     checks: list[Check]
     """In the order they were made: those of every run."""

@@ -85,7 +85,10 @@ def trial_runs(scene: Scene, pool: Pool, compiled: bool | None = None) -> TrialR
     """Run a scene with cheap rungs and long steps."""
     begin = perf_counter()
     open_ = {name: part.spec for name, part in scene.parts.items() if part.tolerance}
-    rungs = {n: _cheap(s) if n in DIRECT else s.default_fidelity for n, s in open_.items()}
+    rungs = {
+        n: next((r for r in CHEAP if n in DIRECT and r in s.fidelities), s.default_fidelity)
+        for n, s in open_.items()
+    }
     span = scene.stop_time - scene.start_time
     step = min(STRIDE * scene.step, max(scene.step, span / LEAST_STEPS))
 
@@ -102,10 +105,6 @@ def trial_runs(scene: Scene, pool: Pool, compiled: bool | None = None) -> TrialR
 def finest_of(spec: ModelSpec) -> str:
     """Return a model's last rung."""
     return list(spec.fidelities)[-1]
-
-
-def _cheap(spec: ModelSpec) -> str:
-    return next((rung for rung in CHEAP if rung in spec.fidelities), spec.default_fidelity)
 
 
 def with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:

@@ -1,7 +1,6 @@
 from dataclasses import dataclass
 
-from thrustwasher.model.parameters import check_ranges, choice, count, flag, quantity
-from thrustwasher.model.prepare import check_rules
+from thrustwasher.model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from thrustwasher.model.spec import ModelSpec, Rule, Signal
 
 RULES = (

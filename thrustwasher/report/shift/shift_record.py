@@ -96,11 +96,11 @@ class Record:
     wall_time: float
     messages: Sequence[str] = ()
     judder: Any = None
-    """How the output shaft swings (``drivetrain.oscillation.judder.Judder``); None: not at all."""
+    """How the output shaft swings (``shift.oscillation.judder.Judder``); None: not at all."""
     chatter: Sequence[Any] = ()
-    """Packs whose slip flips from step to step (``drivetrain.oscillation.chatter.Chatter``)."""
+    """Packs whose slip flips from step to step (``shift.oscillation.chatter.Chatter``)."""
     selection: Any = None
-    """Why the rungs are what they are (``drivetrain.tolerance``); None: they were named."""
+    """Why the rungs are what they are (``shift.tolerance``); None: they were named."""
     guard: Any = None
     """How they were checked after the run, and what was run again; None: they were not."""
     steps: Any = None

@@ -24,7 +24,9 @@ class Extreme(NamedTuple):
 def highest(record: Record, name: str) -> Extreme | None:
     """Return the largest value of a signal; None if the run has no such signal."""
     values = record.series(name)
-    return None if values is None else _extreme(record, values, int(np.nanargmax(values)))
+    if values is None:
+        return None
+    return Extreme(float(np.nanmax(values)), float(record.time[np.nanargmax(values)]))
 
 
 def worst_film(record: Record) -> Extreme | None:
@@ -35,7 +37,8 @@ def worst_film(record: Record) -> Extreme | None:
     turning = np.abs(speed) >= FILM_SPEED
     if not np.any(turning):
         return None
-    return _extreme(record, values, int(np.argmin(np.where(turning, values, np.inf))))
+    index = np.argmin(np.where(turning, values, np.inf))
+    return Extreme(float(values[index]), float(record.time[index]))
 
 
 def distressed(record: Record) -> Array:
@@ -44,11 +47,6 @@ def distressed(record: Record) -> Array:
     if lost is None or speed is None:
         return np.zeros(len(record.time), dtype=bool)
     return np.asarray((lost > 0.5) & (np.abs(speed) > TURNING))
-
-
-def _extreme(record: Record, values: Array, index: int) -> Extreme:
-    """Return one value with its time."""
-    return Extreme(float(values[index]), float(record.time[index]))
 
 
 class Moment(NamedTuple):

@@ -117,12 +117,12 @@ def starts() -> None:
             print(f"| {name}, new process | {t[0]:.3g} ({t[1]:.3g}) s |", flush=True)
     point = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
     start = solve_washer(PARAMS, **point)
-    bench, state = solve._bench(PARAMS, "field", start.grid), start._state.copy()
-    bench.inp[:] = (*point.values(), 297.15, 0.0)
+    ready, state = solve._prepared(PARAMS, "field", start.grid), start._state.copy()
+    ready.inp[:] = (*point.values(), 297.15, 0.0)
     calls: dict[str, Callable[[], object]] = {
         "solve_washer, fidelity map": lambda: solve_washer(PARAMS, fidelity="map", **point),
         "solve_washer, field, warm": lambda: solve_washer(PARAMS, start=start, **point),
-        "of it the compiled step": lambda: bench.step(state, 0.0, 1.0),
+        "of it the compiled step": lambda: ready.step(state, 0.0, 1.0),
     }
     found = [timed(call, 10_000) for call in calls.values()]
     added = tuple(a - b for a, b in zip(found[1], found[2], strict=True))

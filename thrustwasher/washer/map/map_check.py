@@ -21,10 +21,8 @@ TWINS = ("film", "contact")
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """A held-out point: what the mesh says, and how the map differs."""
+    """How the map differs from the mesh at a held-out point."""
 
-    branch: str
-    point: tuple[float, float, float, float]
     torque: float  # relative difference
     ratio: float  # difference of film ratios
     rise: float  # K, of the mean temperature
@@ -121,7 +119,7 @@ def _compare(
     if there is None or not there_is:
         return None, differences, int((there is not None or there_is) and not near)
     row = Held(
-        branch=twin, point=point, near_fold=near,
+        near_fold=near,
         torque=float(here["friction_torque"]) / there.friction_torque - 1.0,
         ratio=float(here["film_ratio"]) - there.film_ratio,
         rise=float(here["temperature"]) - there.temperature,

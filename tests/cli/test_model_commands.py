@@ -17,8 +17,7 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.cli import engage, main
-from thrustwasher.cli._models import MODELS
+from thrustwasher.cli import MODELS, engage, main
 from thrustwasher.gearmesh.parameters import PRESETS
 
 WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}

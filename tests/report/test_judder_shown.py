@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from shift_stand_in import record
-from thrustwasher.report.panels.motion_panels.shift_plots import judder_figure
 
+from thrustwasher.report.panels.shift_plots import judder_figure
 from thrustwasher.report.shift import summary
 from thrustwasher.report.shift.shift_report import shift_page
 from thrustwasher.report.shift.warnings_in_words import judder_text, judder_words

@@ -15,7 +15,7 @@ import washer_stand_in
 from thrustwasher.report.html import render, save_plots
 from thrustwasher.report.model_plots.clutch_plot import clutch_figure
 from thrustwasher.report.model_plots.washer_plots import curve_figure, field_figure
-from thrustwasher.report.panels.motion_panels import contact_panels, shift_plots
+from thrustwasher.report.panels import contact_panels, shift_plots
 from thrustwasher.report.shift import shift_report, shift_tables, summary
 from thrustwasher.report.shift.shift_record import KeyFigure, Published
 from thrustwasher.report.shift.trust import trust_texts

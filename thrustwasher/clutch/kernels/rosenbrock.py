@@ -43,7 +43,7 @@ NUDGE = 1e-3  # share of a substep after which the drift of the rates is read
 TOLERANCE_FILM = 1e-6  # error of a substep, of film ratio + 1
 TOLERANCE_HEAT = 1e-4  # K
 TOLERANCE_RISE = 1e-3  # K, of a lumped pack's interface when conduction modes are on top
-SHARE_IN_RINGS = 0.5  # of the tolerance that a pack in rings may use
+SHARE_IN_RINGS = 0.1  # of the tolerance that a pack in rings may use
 
 
 @kernel

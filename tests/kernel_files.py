@@ -10,5 +10,4 @@ FOLDERS = ("numerics", "tribology", "*/kernels", "*/kernels/map")
 def kernel_files():
     """Return the modules of kernels, without what makes kernels of functions."""
     found = [path for folder in FOLDERS for path in PACKAGE.glob(f"{folder}/*.py")]
-    found.append(PACKAGE / "shift" / "cosim" / "compiled_loop.py")
     return sorted(p for p in found if p.name not in ("jit.py", "__init__.py"))

@@ -188,7 +188,9 @@ def test_an_engagement_is_written_whole(tmp_path):
 
 
 def test_a_record_alone_makes_a_command(capsys, monkeypatch):
-    ring = replace(MODELS["washer"], name="ring", help="solve a ring", title="ring", options=())
+    washer = MODELS["washer"]
+    command = replace(washer.command, help="solve a ring", title="ring", options=())
+    ring = replace(washer, key="ring", command=command)
     monkeypatch.setitem(MODELS, "ring", ring)
     monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, "ring"))
     assert "  ring      solve a ring\n" in shown([], capsys)

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from synthetic import BOX, ENVELOPE, RUNGS, card, files_of
+from synthetic import BOX, ENVELOPE, RUNGS, card
 
 import thrustwasher
 from thrustwasher import ParameterError, SolveError
@@ -26,7 +26,6 @@ def ladder(monkeypatch):
     """Return a function that puts cards in place of the shipped ones."""
     washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
     monkeypatch.setattr("thrustwasher.washer.parameters.SPEC", washer)
-    monkeypatch.setattr(store, "files_of", files_of)
 
     def put(*cards, refused=None):
         monkeypatch.setattr(home, "load_cards", lambda model: list(cards))

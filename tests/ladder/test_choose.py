@@ -9,7 +9,6 @@ from synthetic import BOX, ENVELOPE, RUNGS, card
 import thrustwasher
 from thrustwasher import ParameterError, SolveError
 from thrustwasher.ladder import candidates as home
-from thrustwasher.ladder import card as store
 from thrustwasher.ladder.card_parts import Axis, Fold
 from thrustwasher.ladder.choose import choose
 from thrustwasher.washer.parameters import SPEC

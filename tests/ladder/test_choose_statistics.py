@@ -9,7 +9,6 @@ from synthetic import ENVELOPE, RUNGS, card
 
 from thrustwasher import SolveError
 from thrustwasher.ladder import candidates as home
-from thrustwasher.ladder import card as store
 from thrustwasher.ladder.card_parts import worst_near
 from thrustwasher.ladder.choose import choose
 from thrustwasher.washer.parameters import SPEC

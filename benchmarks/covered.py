@@ -26,17 +26,22 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 KERNELS = [
-    "thrustwasher/kernels/*",
-    "thrustwasher/rivals/plain2006*",
+    "thrustwasher/numerics/*",
+    "thrustwasher/tribology/*.py",
+    "thrustwasher/*/kernels/*",
+    "thrustwasher/shift/cosim/compiled_loop.py",
+    "thrustwasher/study/rivals/plain2006*",
     "thrustwasher/study/rivals/compiled.py",
 ]
 # Minutes as plain Python, each; the tests on small meshes and of rungs in short walk the same ways.
 SLOW = {
-    "test_failed_steps", "test_kernel_rules", "test_transmission_shaft", "test_washer_film",
-    "test_washer_heat", "test_washer_newton", "test_washer_directional_derivative",
-    "test_washer_step", "test_washer_transient",
+    "test_transmission_shaft", "test_washer_film", "test_washer_heat", "test_washer_newton",
+    "test_washer_directional_derivative", "test_washer_step", "test_washer_transient",
 }  # fmt: skip
-MORE = ("tests/models/test_rules.py", "tests/rivals/test_plain2006.py")
+MORE = (
+    "tests/model/test_rules.py", "tests/model/test_rungs_in_short.py",
+    "tests/model/test_status_numbers.py", "tests/study/test_plain2006.py",
+)  # fmt: skip
 LIMIT = 60  # s
 SETTINGS = """[run]
 branch = True
@@ -53,7 +58,8 @@ source = {root}
 
 def plain_files() -> list[Path]:
     """Return the tests that are run as plain Python."""
-    mine = sorted((ROOT / "tests" / "kernels").glob("test_*.py"))
+    folders = ("numerics", "tribology", "*/kernels")
+    mine = sorted(p for f in folders for p in (ROOT / "tests").glob(f"{f}/test_*.py"))
     return [*(p for p in mine if p.stem not in SLOW), *(ROOT / p for p in MORE)]
 
 
@@ -132,7 +138,7 @@ def main() -> int:
     if given.part in ("kernels", "all"):
         for file in plain_files():
             words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
-            words += ["-m", ""] if "rivals" in file.parts else []  # all of them are slow
+            words += ["-m", ""] if file.stem == "test_plain2006" else []  # all of them are slow
             cut = given.folder / "rc-cut-off"
             good = run_tests(cut, words, LIMIT, NUMBA_DISABLE_JIT="1") and good
     if given.part == "all":

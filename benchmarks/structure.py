@@ -91,13 +91,11 @@ def circles(graph: Mapping[str, set[str]]) -> list[list[str]]:
     return found
 
 
-def folder_widths(suffixes: tuple[str, ...] = ()) -> Counter[str]:
-    """Return the number of files in each folder of the package."""
+def folder_widths(top: Path = PACKAGE) -> Counter[str]:
+    """Return the number of files in each folder of the package, or of another one."""
     found: Counter[str] = Counter()
-    for path in PACKAGE.rglob("*"):
-        if path.is_file() and "__pycache__" not in path.parts and (
-            not suffixes or path.suffix in suffixes
-        ):  # fmt: skip
+    for path in top.rglob("*"):
+        if path.is_file() and "__pycache__" not in path.parts:
             found[path.parent.relative_to(ROOT).as_posix()] += 1
     return found
 

@@ -38,7 +38,7 @@ def test_compiled_here_the_kernels_give_the_shipped_numbers(tmp_path):
             env=surroundings, timeout=1200,
         )  # fmt: skip
         assert done.returncode == 0, done.stderr
-        assert ("compiled washer_step in" in done.stderr) == (where == "here")
+        assert ("compiled washer in" in done.stderr) == (where == "here")
         shown.append([float.fromhex(word) for word in done.stdout.split()])
     assert len(shown[0]) > 30
     assert shown[1] == pytest.approx(shown[0], rel=1e-11)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 LEFT_OUT = {f"pytest.mark.{name}" for name in ("slow", "abuse", "platforms", "fmi3")}
-FILES = sorted(Path(__file__).parent.glob("test_*.py"))
+FILES = sorted(Path(__file__).parent.rglob("test_*.py"))
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

@@ -28,7 +28,8 @@ from thrustwasher.transmission.parameters import TransmissionParams
 from gearbox import Gearbox  # isort: skip
 
 PACKAGE = Path(thrustwasher.__file__).parent
-MEASURING = {"fidelity", "rivals", "cli"}  # who may call a rival, to be measured against it
+SCENES = list((PACKAGE / "shift" / "scenes").glob("*.toml"))
+MEASURING = {"study"}  # who may call a rival, to be measured against it
 
 
 def load(way, height, direction=1.0, n=23):
@@ -63,8 +64,9 @@ def test_only_what_measures_imports_rivals():
 
 
 def test_no_shipped_scene_hands_over_torques_and_no_default_does():
+    assert SCENES
     assert TransmissionParams().coupling == "capacity"
-    for path in (PACKAGE / "drivetrain" / "scenes").glob("*.toml"):
+    for path in SCENES:
         scene = load_scene(path.stem)
         assert scene.parts["transmission"].params.coupling == "capacity", path.stem
         assert scene.master == "gauss-seidel", path.stem

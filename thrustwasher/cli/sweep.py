@@ -148,7 +148,7 @@ def _inputs() -> dict[str, str]:
 def _progress(spec: ModelSpec) -> Callable[[int, int], None]:
     """Return what shows the progress; on a new machine it explains the wait first."""
     show = time_left(f"sweep {spec.key}:")
-    told = spec.key == "clutch"  # compiled in seconds
+    told = False
 
     def progress(done: int, total: int) -> None:
         nonlocal told

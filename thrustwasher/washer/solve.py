@@ -31,7 +31,7 @@ GRIDS = {
     "field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID,
 }  # fmt: skip
 # largest error of friction_torque against the grid-converged value over the verified range
-# (tests/models/test_washer_accuracy.py measures it again)
+# (tests/washer/test_washer_accuracy.py measures it again)
 ERRORS = {
     "closed": 3.0, "stribeck": 1.0, "map": 6e-3, "coarse": 2e-2, "field": 6e-3, "fine": 1e-3,
 }  # fmt: skip

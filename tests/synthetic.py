@@ -5,8 +5,7 @@ import dataclasses
 from thrustwasher.clutch.parameters import ClutchParams
 from thrustwasher.gearmesh.parameters import GearMeshParams
 from thrustwasher.ladder import card_parts as part
-from thrustwasher.ladder.card import Card
-from thrustwasher.ladder.card import files_of as real_files
+from thrustwasher.ladder.card import Card, files_of
 from thrustwasher.storage.digests import kernel_digest, params_digest
 from thrustwasher.washer.parameters import WasherParams
 
@@ -23,14 +22,6 @@ BOX = {"load": (30.0, 1000.0), "speed": (100.0, 1000.0), "tilt": (2e-3, 2e-3),
 
 
 RUNGS = ("closed", "stribeck", "map", "coarse", "field", "fine")
-
-
-def files_of(model, fidelity):
-    """Return a rung's kernel files, some others for a rung that this version has not got."""
-    try:
-        return real_files(model, fidelity)
-    except FileNotFoundError:
-        return ("washer_model.py",)
 
 
 def table(value, shape=(2, 2)):

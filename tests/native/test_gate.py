@@ -18,7 +18,7 @@ from thrustwasher.native.targets import PLATFORMS
 def judgements(tmp_path_factory):
     """What the gate says of each kernel in gate_rows, from one process with numba's settings."""
     surroundings = emit.environment(str(tmp_path_factory.mktemp("numba")))
-    surroundings["PYTHONPATH"] = str(Path(__file__).parents[3])
+    surroundings["PYTHONPATH"] = str(Path(__file__).parents[2])
     command = [sys.executable, gate_rows.__file__]
     run = subprocess.run(command, capture_output=True, text=True, env=surroundings, timeout=500)
     assert run.returncode == 0, run.stderr

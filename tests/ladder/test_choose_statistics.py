@@ -5,11 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthetic import ENVELOPE, RUNGS, card, files_of
+from synthetic import ENVELOPE, RUNGS, card
 
 from thrustwasher import SolveError
 from thrustwasher.ladder import candidates as home
-from thrustwasher.ladder import card as store
 from thrustwasher.ladder.card_parts import worst_near
 from thrustwasher.ladder.choose import choose
 from thrustwasher.washer.parameters import SPEC
@@ -78,7 +77,6 @@ def record():
     with pytest.MonkeyPatch.context() as patch:
         washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
         patch.setattr("thrustwasher.washer.parameters.SPEC", washer)
-        patch.setattr(store, "files_of", files_of)
         for k in range(REQUESTS):
             if k % 50 == 0:
                 phase = {r: rng.random(4) for r in LADDER}

@@ -4,12 +4,11 @@ import math
 from dataclasses import replace
 
 import pytest
-from synthetic import BOX, ENVELOPE, RUNGS, card, files_of
+from synthetic import BOX, ENVELOPE, RUNGS, card
 
 import thrustwasher
 from thrustwasher import ParameterError, SolveError
 from thrustwasher.ladder import candidates as home
-from thrustwasher.ladder import card as store
 from thrustwasher.ladder.card_parts import Axis, Fold
 from thrustwasher.ladder.choose import choose
 from thrustwasher.washer.parameters import SPEC
@@ -26,7 +25,6 @@ def ladder(monkeypatch):
     """Return a function that puts cards in place of the shipped ones."""
     washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
     monkeypatch.setattr("thrustwasher.washer.parameters.SPEC", washer)
-    monkeypatch.setattr(store, "files_of", files_of)
 
     def put(*cards, refused=None):
         monkeypatch.setattr(home, "load_cards", lambda model: list(cards))

@@ -170,7 +170,7 @@ REFUSED = {
 
 def judged(function):
     """Return what the gate says of a kernel, "" if nothing."""
-    rows = SimpleNamespace(derive=function, NPAR=8, __name__="rows")
+    rows = SimpleNamespace(derive=function, NPAR=8, __name__="gate.rows")
     platform = PLATFORMS["linux64"]
     try:
         bitcode = emit.module(rows, lambda done, total: None).as_bitcode()

@@ -1,21 +1,18 @@
 """What keeps the kernels fit for compilation ahead of time: read from their sources."""
 
 import ast
-import inspect
+import importlib.util
 import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-import thrustwasher.kernels
+from kernel_files import ROOT, kernel_files
 
-from thrustwasher.errors import Status
-from thrustwasher.numerics import status
+from thrustwasher.model.registry import compiled_packages
 
-FOLDER = Path(inspect.getfile(thrustwasher.kernels)).parent
-FILES = sorted(f for f in FOLDER.glob("*.py") if f.name not in ("_jit.py", "__init__.py"))
+FILES = kernel_files()
 ARRAY_METHODS = {
     "append", "astype", "copy", "dot", "fill", "max", "mean", "min", "ravel", "reshape", "sum", "T",
 }  # fmt: skip
@@ -67,17 +64,27 @@ def refused(function):
             yield where, f"method {node.func.attr}"
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda f: f.stem)
+def name_of(path):
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts)
+
+
+@pytest.mark.parametrize("path", FILES, ids=name_of)
 def test_imports_are_numbers_only(path):
+    """Numpy, numba and math, kernels of the same model, and those that all models share."""
+    package = name_of(path).rpartition(".")[0]
+    own = [home for home in compiled_packages() if package.startswith(home)]
+    shared = ("thrustwasher.numerics", *(["thrustwasher.tribology"] if own else []))
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
             assert {a.name for a in node.names} <= {"math", "numpy", "numba"}
+        elif isinstance(node, ast.ImportFrom) and node.level:
+            found = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+            assert found.startswith((package, *own, *shared)), found
         elif isinstance(node, ast.ImportFrom):
-            own = node.level == 1
-            assert own or node.module in ("typing", "numpy.typing", "numba", "__future__")
+            assert node.module in ("typing", "numpy.typing", "numba", "__future__")
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda f: f.stem)
+@pytest.mark.parametrize("path", FILES, ids=name_of)
 def test_kernels_allocate_nothing_and_never_raise(path):
     found = [(f.name, *hit) for f in kernels_of(path) for hit in refused(f)]
     assert found == []
@@ -100,11 +107,6 @@ def k(a: NDArray[np.float64]) -> None:
         "np.zeros", "assignment to a slice", "method reshape", "loop without an end", "print",
         "List", "Raise",
     }  # fmt: skip
-
-
-def test_status_numbers_are_those_of_the_enumeration():
-    found = {name: number for name, number in vars(status).items() if name.isupper()}
-    assert found == {name: int(member) for name, member in Status.__members__.items()}
 
 
 PLAIN = """
@@ -130,7 +132,7 @@ def test_kernels_run_as_plain_python():
         environment = {**os.environ, "NUMBA_DISABLE_JIT": disable}
         run = subprocess.run(
             [sys.executable, "-c", PLAIN], capture_output=True, text=True, env=environment,
-            timeout=300, cwd=FOLDER.parents[1], check=True,
+            timeout=300, cwd=ROOT, check=True,
         )  # fmt: skip
         answers.append(json.loads(run.stdout))
     for plain, compiled in zip(*answers, strict=True):

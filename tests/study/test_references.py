@@ -74,5 +74,5 @@ def test_the_gears_quadrature_confirms_the_rung_fine(changes):
     lambda f: solve_gearmesh(GearMeshParams(), power=1.0, speed=1.0, fidelity=f),
 ])  # fmt: skip
 def test_a_reference_asked_for_as_a_rung_says_where_it_is(solve):
-    with pytest.raises(ParameterError, match=r"call thrustwasher\.fidelity\.reference_\w+\.ref"):
+    with pytest.raises(ParameterError, match=r"call thrustwasher\.study\.reference_\w+\.ref"):
         solve("reference")

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import fields
-from importlib import import_module
 from string import Formatter
 
 import numpy as np
@@ -12,6 +11,7 @@ from thrustwasher.clutch import parameters
 from thrustwasher.errors import ParameterError
 from thrustwasher.gearmesh import parameters as gearmesh_params
 from thrustwasher.model.parameters import as_numbers
+from thrustwasher.model.registry import kernel_of
 from thrustwasher.transmission import parameters as transmission_params
 from thrustwasher.washer import parameters as washer_params
 
@@ -53,13 +53,9 @@ CASES = [(spec, n, change) for spec in SPECS for n, change in enumerate(BROKEN[s
 IN_PYTHON = [case for case in CASES if "thermal_mode" not in case[2]]  # knows of no fidelity yet
 
 
-def kernel(spec):
-    return import_module(f"thrustwasher.kernels.{spec.kernel}")
-
-
 def numbers(spec, change):
     """Return the parameters as the kernel takes them, whether they go together or not."""
-    par = np.zeros(kernel(spec).NPAR)
+    par = np.zeros(kernel_of(spec).NPAR)
     good = as_numbers(spec.params())
     par[: len(good)] = good
     for place, f in enumerate(fields(spec.params)):
@@ -73,13 +69,13 @@ def numbers(spec, change):
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)
 def test_default_parameters_keep_all_rules(spec):
-    assert kernel(spec).broken_rule(numbers(spec, {})) == 0
+    assert kernel_of(spec).broken_rule(numbers(spec, {})) == 0
     assert len(spec.rules) == len(BROKEN[spec.key])
 
 
 @pytest.mark.parametrize(("spec", "number", "change"), CASES)
 def test_the_kernel_gives_the_number_of_the_broken_rule(spec, number, change):
-    assert kernel(spec).broken_rule(numbers(spec, change)) == number
+    assert kernel_of(spec).broken_rule(numbers(spec, change)) == number
 
 
 @pytest.mark.parametrize(("spec", "number", "change"), IN_PYTHON)
@@ -98,8 +94,8 @@ def test_bodies_store_heat_in_rungs_that_have_bodies():
     spec = washer_params.SPEC
     par = numbers(spec, {"thermal_mode": "transient"})
     for number, rung in enumerate(spec.fidelities, 1):
-        par[kernel(spec).N_PARAM - 1] = number
-        assert (kernel(spec).broken_rule(par) == 0) == (rung in ("coarse", "field", "fine"))
+        par[kernel_of(spec).N_PARAM - 1] = number
+        assert (kernel_of(spec).broken_rule(par) == 0) == (rung in ("coarse", "field", "fine"))
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)
@@ -115,8 +111,8 @@ def test_texts_hold_plain_names_of_parameters_only(spec):
 def test_rules_and_constants_do_not_read_each_other(spec):
     """Rules hold before the constants are there, and may be asked again afterwards."""
     par = numbers(spec, {})
-    par[kernel(spec).N_PARAM :] = math.nan
-    assert kernel(spec).broken_rule(par) == 0
+    par[kernel_of(spec).N_PARAM :] = math.nan
+    assert kernel_of(spec).broken_rule(par) == 0
 
 
 def test_limits_in_texts_are_those_of_the_kernels():

@@ -1,0 +1,185 @@
+"""The house stays in order: narrow folders, no circles, sizes that only fall, models by themselves.
+
+The counts are those of ``benchmarks/structure.py``; ``lint-imports`` checks the directions.
+"""
+
+import ast
+import re
+import sys
+
+import pytest
+from kernel_files import PACKAGE, ROOT, kernel_files
+
+from thrustwasher import cli
+from thrustwasher.errors import Status
+from thrustwasher.model.registry import HELPERS, MODELS, find_model
+
+sys.path.insert(0, str(ROOT / "benchmarks"))
+import structure
+
+FILE_LINES, FUNCTION_LINES, KERNEL_LINES = 400, 50, 120
+
+# Counts that may only fall: one that has fallen by more than the slack is to be lowered here.
+RATCHETS = {
+    "Python files of the package": (lambda: len(structure.modules()), 340, 30),
+    "lines of Python": (lambda: structure.lines_of(structure.modules().values()), 41_500, 1_000),
+    "lines of C": (lambda: structure.lines_of(structure.shell_sources()), 2_400, 300),
+    "module names that occur twice": (lambda: len(structure.repeated_stems()), 8, 3),
+    "words of the README": (
+        lambda: len((structure.ROOT / "README.md").read_text("utf-8").split()), 900, 200,
+    ),
+}  # fmt: skip
+
+# Who names a model, beside its own modules and the list of models: reason -> module -> models.
+PLACES = {
+    "public names": {"thrustwasher": {"washer", "clutch", "gearmesh"}},
+    "a shift is a system of these models: what its scene connects, and what it makes of them": {
+        "shift.scene.connections": {"washer", "clutch", "gearmesh", "transmission"},
+        "shift.key_figures.events_and_phases": {"clutch"},
+        "shift.key_figures.part_figures": {"clutch"},
+        "shift.oscillation.chatter": {"transmission"},
+        "shift.oscillation.torsion": {"clutch"},
+        "shift.ssp.system_structure": {"command"},
+        "shift.thermal_need": {"washer"},
+    },
+    "the report shows a shift and its parts": {
+        "report.panels.contact_panels": {"clutch"},
+        "report.shift.shift_tables": {"washer", "clutch", "gearmesh", "transmission"},
+        "report.shift.trust": {"washer"},
+        "report.shift.worst_moments": {"washer"},
+    },
+    "maps of a washer are files, which go into its FMU and beside its cards": {
+        "cli._fmu_cache": {"washer"},
+        "fmu.shell.platform_libraries": {"washer"},
+        "study.card_writer": {"washer"},
+        "study.verify": {"washer"},
+    },
+    "other people's methods are measured on a model's own equations": {
+        "study.charts.methods": {"washer", "clutch", "command"},
+        "study.charts.work_precision": {"washer"},
+        "study.costs": {"washer", "command"},
+        "study.rivals.plain2006": {"washer"},
+        "study.rivals.plain2006_heat": {"washer"},
+        "study.rivals.plain2006_kernel": {"washer"},
+    },
+    "the map of failures looks at single terms of a balance": {
+        "study.failures.failure_balance": {"washer"},
+        "study.failures.failure_map": {"washer", "gearmesh"},
+    },
+}
+
+
+@pytest.mark.parametrize("what", RATCHETS)
+def test_what_has_become_less_stays_less(what):
+    count, most, slack = RATCHETS[what]
+    now = count()
+    assert now <= most, f"{what}: {now}, at most {most}"
+    assert now > most - slack, f"{what}: {now}; set the limit in this file to it"
+
+
+def test_no_folder_holds_more_than_twenty_files():
+    widths = structure.folder_widths() | structure.folder_widths(ROOT / "tests")
+    assert {folder: n for folder, n in widths.items() if n > 20} == {}
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    assert structure.circles(structure.imports()) == []
+
+
+def test_a_circle_is_found():
+    assert structure.circles({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}}) == [["a", "b", "c"]]
+
+
+def test_no_file_is_long():
+    lengths = {name: structure.lines_of([path]) for name, path in structure.modules().items()}
+    assert {name: n for name, n in lengths.items() if n > FILE_LINES} == {}
+
+
+def test_no_function_is_long():
+    kernels, found = set(kernel_files()), {}
+    for name, path in structure.modules().items():
+        limit = KERNEL_LINES if path in kernels else FUNCTION_LINES
+        for node in ast.walk(tree_of(path)):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and lines_of(node) > limit:
+                found[f"{name}:{node.name}"] = lines_of(node)
+    assert found == {}
+
+
+def tree_of(path):
+    return ast.parse(path.read_text("utf-8"))
+
+
+def lines_of(function):
+    """Return the length without the docstring: words are not counted."""
+    words = ast.get_docstring(function, clean=False)
+    first = function.body[0]
+    said = first.end_lineno - first.lineno + 1 if words is not None else 0
+    return function.end_lineno - function.lineno + 1 - said
+
+
+def test_every_status_is_used_somewhere():
+    text = "\n".join(p.read_text("utf-8") for p in PACKAGE.rglob("*.py") if p.stem != "errors")
+    assert [s.name for s in Status if not re.search(rf"\b{s.name}\b", text)] == []
+
+
+def test_every_status_gives_advice():
+    assert [s.name for s in Status if not s.advice] == []
+
+
+def test_a_command_is_one_file_or_the_record_of_a_model():
+    files = {p.stem for p in (PACKAGE / "cli").glob("[a-z]*.py")}
+    assert files.isdisjoint(cli.MODELS)
+    assert files | set(cli.MODELS) == set(cli.COMMANDS)
+
+
+# Models by themselves
+
+HOMES = MODELS | HELPERS
+KEYS = {name: key for key in HOMES for name in (key, find_model(key).name)}
+LOOKS_UP = ("find_model", "find_spec", "spec_of", "ladder_of")  # by name
+
+
+def belongs_to(key):
+    """Return the modules that are a model's own.
+
+    That is its folder, its commands, its reference values, and what these name as "module:NAME".
+    """
+    command, home = find_model(key).command, HOMES[key]
+    own = {f"thrustwasher.cli.{name}" for name in (command.more if command else ())}
+    own |= {m for m in structure.modules() if m == home or m.startswith(f"{home}.")}
+    texts = (structure.modules()[m].read_text("utf-8") for m in own)
+    named = {module for text in texts for module in re.findall(r'"([\w.]+):\w+"', text)}
+    return own | named | {f"thrustwasher.study.reference_{key}"}
+
+
+def named_models(module, path):
+    """Return the models that a module imports, or tells from others by a constant."""
+    imported = structure.imports()[module]
+    found = {key for key, home in HOMES.items()
+             if any(m == home or m.startswith(f"{home}.") for m in imported)}  # fmt: skip
+    for node in ast.walk(tree_of(path)):
+        words = []
+        if isinstance(node, ast.Compare):
+            sides = [node.left, *node.comparators]
+            if any(is_key(side) for side in sides):
+                words = [c for side in sides for c in ast.walk(side)]
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            words = node.args if node.func.id in LOOKS_UP else []
+        found |= {KEYS[w.value] for w in words if isinstance(w, ast.Constant) and w.value in KEYS}
+    return found
+
+
+def is_key(node):
+    """Tell if an expression is the key or the name of a model."""
+    if isinstance(node, ast.Attribute):
+        return node.attr in ("key", "name") and getattr(node.value, "id", "") in ("spec", "model")
+    return isinstance(node, ast.Name) and node.id in ("model", "key")
+
+
+def test_who_names_a_model_is_listed_with_a_reason():
+    own, found = {key: belongs_to(key) for key in HOMES}, {}
+    for module, path in structure.modules().items():
+        named = {key for key in named_models(module, path) if module not in own[key]}
+        if named and module != "thrustwasher.model.registry":
+            found[module.removeprefix("thrustwasher.")] = named
+    assert found == {m: named for modules in PLACES.values() for m, named in modules.items()}

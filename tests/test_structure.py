@@ -21,12 +21,12 @@ FILE_LINES, FUNCTION_LINES, KERNEL_LINES = 400, 50, 120
 
 # Counts that may only fall: one that has fallen by more than the slack is to be lowered here.
 RATCHETS = {
-    "Python files of the package": (lambda: len(structure.modules()), 340, 30),
-    "lines of Python": (lambda: structure.lines_of(structure.modules().values()), 41_500, 1_000),
-    "lines of C": (lambda: structure.lines_of(structure.shell_sources()), 2_400, 300),
+    "Python files of the package": (lambda: len(structure.modules()), 315, 20),
+    "lines of Python": (lambda: structure.lines_of(structure.modules().values()), 39_900, 600),
+    "lines of C": (lambda: structure.lines_of(structure.shell_sources()), 2_200, 200),
     "module names that occur twice": (lambda: len(structure.repeated_stems()), 8, 3),
     "words of the README": (
-        lambda: len((structure.ROOT / "README.md").read_text("utf-8").split()), 900, 200,
+        lambda: len((structure.ROOT / "README.md").read_text("utf-8").split()), 900, 150,
     ),
 }  # fmt: skip
 
@@ -36,7 +36,7 @@ PLACES = {
     "a shift is a system of these models: what its scene connects, and what it makes of them": {
         "shift.scene.connections": {"washer", "clutch", "gearmesh", "transmission"},
         "shift.key_figures.events_and_phases": {"clutch"},
-        "shift.key_figures.part_figures": {"clutch"},
+        "shift.key_figures.key_figures": {"clutch"},
         "shift.oscillation.chatter": {"transmission"},
         "shift.oscillation.torsion": {"clutch"},
         "shift.ssp.system_structure": {"command"},
@@ -45,7 +45,7 @@ PLACES = {
     "the report shows a shift and its parts": {
         "report.panels.contact_panels": {"clutch"},
         "report.shift.shift_tables": {"washer", "clutch", "gearmesh", "transmission"},
-        "report.shift.trust": {"washer"},
+        "report.shift.summary": {"washer"},
         "report.shift.worst_moments": {"washer"},
     },
     "maps of a washer are files, which go into its FMU and beside its cards": {
@@ -56,11 +56,9 @@ PLACES = {
     },
     "other people's methods are measured on a model's own equations": {
         "study.charts.methods": {"washer", "clutch", "command"},
-        "study.charts.work_precision": {"washer"},
-        "study.costs": {"washer", "command"},
+        "study.costs": {"command"},
         "study.rivals.plain2006": {"washer"},
-        "study.rivals.plain2006_heat": {"washer"},
-        "study.rivals.plain2006_kernel": {"washer"},
+        "study.rivals.plain2006_fields": {"washer"},
     },
     "the map of failures looks at single terms of a balance": {
         "study.failures.failure_balance": {"washer"},

@@ -190,7 +190,8 @@ class States:
         self.outputs = self._shown()
 
     def _shown(self):
-        return {n: x for n, x in self.instance.outputs().items() if n not in self.telling}
+        named = zip(self.instance.output_names, self.instance.outputs(), strict=True)
+        return {name: value for name, value in named if name not in self.telling}
 
     def __call__(self, rng):
         foreign = self.others and rng.random() < 0.1

@@ -122,7 +122,7 @@ def repeated_stems() -> list[str]:
 def room(module: str) -> str:
     """Return the folder below the package that a module belongs to; "" for those on top."""
     parts = module.split(".")
-    return parts[1] if len(parts) > 1 and (PACKAGE / parts[1]).is_dir() else ""
+    return parts[1] if len(parts) > 1 and (PACKAGE / parts[1] / "__init__.py").is_file() else ""
 
 
 def arrows() -> dict[tuple[str, str], int]:

@@ -8,10 +8,10 @@ from . import shift
 
 def __getattr__(name: str) -> Any:
     """Return what ``shift`` has under this name."""
+    if name.startswith("__"):
+        raise AttributeError(name)
     found = getattr(shift, name)
-    if not name.startswith("__"):
-        warnings.warn(
-            f"thrustwasher.drivetrain.{name} is now thrustwasher.shift.{name}",
-            DeprecationWarning, stacklevel=2,
-        )  # fmt: skip
+    warnings.warn(
+        f"thrustwasher.drivetrain.{name} is now thrustwasher.shift.{name}", DeprecationWarning, 2
+    )
     return found

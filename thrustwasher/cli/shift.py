@@ -111,11 +111,11 @@ def _say(result: Any, folder: Path | None) -> None:
     for text in [*summary.sentences(record), *summary.warnings(record)]:
         print(text)
     missing = f"{record.energy['residual_share']:.1e} of {record.whole_name}"
-    print(f"Energy book: {missing} is missing.")
+    print(f"Energy balance: {missing} is missing.")
     if folder:
         print(f"Report: {folder / REPORT}")
     if result.guard:
-        print(f"Guard: {result.guard.closing()}.")
+        print(f"Check: {result.guard.closing()}.")
 
 
 @contextmanager

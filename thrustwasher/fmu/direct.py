@@ -8,10 +8,9 @@ from .running import direct_instance
 
 def __getattr__(name: str) -> Any:
     """Return what ``running.direct_instance`` has under this name."""
+    if name.startswith("__"):
+        raise AttributeError(name)
     found = getattr(direct_instance, name)
-    if not name.startswith("__"):
-        warnings.warn(
-            f"thrustwasher.fmu.direct.{name} is now in thrustwasher.fmu.running.direct_instance",
-            DeprecationWarning, stacklevel=2,
-        )  # fmt: skip
+    now = "thrustwasher.fmu.running.direct_instance"
+    warnings.warn(f"thrustwasher.fmu.direct.{name} is now in {now}", DeprecationWarning, 2)
     return found

@@ -8,9 +8,11 @@ from . import shift
 
 def __getattr__(name: str) -> Any:
     """Return what ``shift`` has under this name."""
-    if name.startswith("__"):
+    if name.startswith("__") and name != "__all__":
         raise AttributeError(name)
     found = getattr(shift, name)
+    if name == "__all__":
+        return found
     warnings.warn(
         f"thrustwasher.drivetrain.{name} is now thrustwasher.shift.{name}", DeprecationWarning, 2
     )

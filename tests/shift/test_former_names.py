@@ -25,3 +25,8 @@ def test_a_former_name_is_the_new_one_and_says_so(module, name, now):
 def test_a_name_that_never_was_is_none():
     with pytest.raises(AttributeError, match="nothing_like_it"):
         importlib.import_module("thrustwasher.drivetrain").nothing_like_it  # noqa: B018
+
+
+def test_a_former_submodule_is_no_second_copy():
+    with pytest.raises(ModuleNotFoundError):
+        importlib.import_module("thrustwasher.drivetrain.scene")

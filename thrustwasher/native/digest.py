@@ -87,8 +87,8 @@ def file_of(name: str) -> Path | None:
 
 
 def _is_compiled(name: str) -> bool:
-    own = name.removeprefix(f"{PACKAGE}.")
-    return not any(own == other or own.startswith(f"{other}.") for other in _NOT_COMPILED)
+    others = (f"{PACKAGE}.{other}" for other in _NOT_COMPILED)
+    return not any(name == other or name.startswith(f"{other}.") for other in others)
 
 
 def _imported(source: bytes, package: str) -> Iterable[str]:

@@ -52,9 +52,12 @@ def above(spec: ModelSpec, rung: str) -> str | None:
 def still_verified(chosen: Selected, part: Part, box: Box) -> bool:
     """Tell if the cards of the chosen rung hold its tolerance over another box as well."""
     quantities = [q for q, out in QUANTITIES[chosen.model] if out in _names(part.spec)]
+    safety = 1.0 if chosen.model in WITHOUT_PAST else SAFETY
     try:
         for quantity, scale in zip(quantities, chosen.scales, strict=True):
-            _choose(chosen.part, part, box, quantity, chosen.tolerance, scale, 1, 1.0, chosen.rung)
+            _choose(
+                chosen.part, part, box, quantity, chosen.tolerance, scale, 1, safety, chosen.rung
+            )
     except (ParameterError, SolveError):
         return False
     return True

@@ -18,7 +18,7 @@ from ...model.spec import ModelSpec
 from ..cosim.instances import Stepping
 from ..run import run_shift
 from ..scene.connections import DIRECT
-from ..scene.scene import Part, Scene
+from ..scene.scene import STEP_RANGE, Part, Scene
 from ..shift_result import ShiftResult
 from .selection_record import Box, StepShare
 
@@ -90,7 +90,7 @@ def trial_runs(scene: Scene, pool: Pool, compiled: bool | None = None) -> TrialR
         for n, s in open_.items()
     }
     span = scene.stop_time - scene.start_time
-    step = min(STRIDE * scene.step, max(scene.step, span / LEAST_STEPS))
+    step = min(STRIDE * scene.step, max(scene.step, span / LEAST_STEPS), STEP_RANGE[1] / 2.0)
 
     def run(h: float, taken: Mapping[str, str]) -> ShiftResult:
         now = with_rungs(scene, taken).with_options(step=min(h, span))

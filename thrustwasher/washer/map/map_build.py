@@ -68,7 +68,7 @@ def make_map(
     data = build_lines(plan, fidelity=fidelity, workers=count, progress=show("lines"),
                        journal=journal)  # fmt: skip
     took = time.perf_counter() - began
-    draft = out.with_name(f".{out.name}.draft{SUFFIX}")
+    draft = out.with_name(f".{out.name}.{os.getpid()}.draft{SUFFIX}")
     card = _card(plan, fidelity, took, count)
     try:
         _write(draft, data, card)

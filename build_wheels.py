@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 from thrustwasher.native import link, ship, shipped
-from thrustwasher.native.entries import CALLED, dotted
+from thrustwasher.native.entries import libraries
 from thrustwasher.native.targets import PLATFORMS
 
 HERE = Path(__file__).parent
@@ -62,7 +62,7 @@ def main() -> None:
     parser.add_argument("platforms", nargs="*", metavar="PLATFORM", help=f"{', '.join(TAGS)}, any")
     given = parser.parse_args()
     assert TAGS.keys() == PLATFORMS.keys()
-    stale = [name for name in CALLED if not shipped.has_objects(dotted(name))]
+    stale = [name for name in libraries() if not shipped.has_objects(name)]
     if stale:
         sys.exit(f"stale: {', '.join(stale)}; first: python -m thrustwasher.native.ship")
     if not link.find_linker().is_cross:

@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import iv, ivp, kv, kvp
 
 
 def annulus_rise(
@@ -17,6 +16,8 @@ def annulus_rise(
     ``heat`` = q_0 [W/m2] on one face, the other face held at zero. Since lap(r^n cos n theta) = 0,
     T = c r^n + a I_n(r/t) + b K_n(r/t), c = q_0 t/(K r_o^n).
     """
+    from scipy.special import iv, ivp, kv, kvp  # late: a shift takes another form from here
+
     n, t = harmonic, thickness
     c = heat * t / (conductivity * outer_radius**n)
     rims = np.array([inner_radius, outer_radius])

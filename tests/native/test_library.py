@@ -211,3 +211,13 @@ def test_each_part_of_a_macos_file_lies_at_a_whole_page_as_the_table_says():
         assert offset % (1 << align) == 0 and offset % 0x4000 == 0
         assert data[offset : offset + size] == part
     assert len(data) == entries[-1][2] + entries[-1][3]
+
+
+@pytest.mark.parametrize("name", ["model", "bearing"])
+def test_kernels_of_other_packages_count_whatever_they_are_called(tmp_path, monkeypatch, name):
+    home = tmp_path / name
+    home.mkdir()
+    (home / "__init__.py").write_text("")
+    (home / "step.py").write_text("ONE = 1\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    assert list(digest.closure(f"{name}.step")) == [f"{name}.step"]

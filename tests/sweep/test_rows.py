@@ -155,3 +155,9 @@ def test_wrong_arguments_are_named(arguments, says):
     with pytest.raises(ParameterError) as caught:
         run_sweep(**arguments)
     assert says in str(caught.value)
+
+
+def test_auto_without_an_allowed_point_is_named():
+    over = {"power": [1e3, 2e3]}
+    with pytest.raises(ParameterError, match="no point has allowed inputs"):
+        run_sweep("gearmesh", over, at={"speed": 0.0}, fidelity="auto:0.05")

@@ -84,7 +84,10 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
     if len(plan.params) != 1:
         raise ParameterError("fidelity = 'auto': allowed: without varied parameters")
     if np.isnan(plan.inputs).all(axis=0).any():
-        raise ParameterError("fidelity = 'auto': none of the points is allowed, there is no box")
+        raise ParameterError(
+            "fidelity = 'auto': no point has allowed inputs to choose for; change them or name "
+            "a rung"
+        )
     low, high = np.nanmin(plan.inputs, axis=0).tolist(), np.nanmax(plan.inputs, axis=0).tolist()
     box = {s.name: (a, b) for s, a, b in zip(plan.spec.inputs, low, high, strict=True)}
     choice = chooser.choose(

@@ -229,3 +229,9 @@ def test_a_tolerance_asked_for_leaves_nothing_open_in_the_result(monkeypatch):
     told = r.as_dict()
     assert told["selection"]["parts"][0]["part"] == "clutch"
     assert replace(r, selection=None).as_dict()["selection"] is None
+
+
+def test_trial_runs_keep_within_the_steps_a_scene_may_have():
+    scene = auto("auto:0.01", stop=60.0).with_options(step=0.2)
+    found = trial_runs(scene, Pool(made([])))
+    assert (found.coarse.step, found.fine.step) == (1.0, 0.5)

@@ -11,15 +11,19 @@ import pytest
 from thrustwasher.cli import Stopped, Watch, main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals of POSIX")
-SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x150", "--over", "speed=50:500:x100"]
+SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x300", "--over", "speed=50:500:x150"]
 MAP = ["map", "build", "--load", "100:900", "--speed", "400:700", "--tilt", "0.0018:0.0022",
        "--oil-temperature", "297.15", "--fidelity", "field", "--workers", "2"]  # fmt: skip
 
 
 def started(words, folder):
-    """Start a command as a program of its own, which hears Ctrl-C whatever runs the tests."""
+    """Start a command as a program of its own, which hears Ctrl-C whatever runs the tests.
+
+    Its lines are not measured: coverage holds a lock that an exception out of a signal never frees.
+    """
+    unmeasured = {k: v for k, v in os.environ.items() if not k.startswith("COVERAGE_PROCESS")}
     return subprocess.Popen(
-        [sys.executable, "-m", "thrustwasher", *words], cwd=folder, text=True,
+        [sys.executable, "-m", "thrustwasher", *words], cwd=folder, text=True, env=unmeasured,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip

@@ -34,19 +34,9 @@ RATCHETS = {
 PLACES = {
     "public names": {"thrustwasher": {"washer", "clutch", "gearmesh"}},
     "a shift is a system of these models: what its scene connects, and what it makes of them": {
-        "shift.scene.connections": {"washer", "clutch", "gearmesh", "transmission"},
-        "shift.key_figures.events_and_phases": {"clutch"},
-        "shift.key_figures.key_figures": {"clutch"},
+        "shift.scene.connections": {"washer", "clutch", "gearmesh", "transmission", "command"},
         "shift.oscillation.chatter": {"transmission"},
         "shift.oscillation.torsion": {"clutch"},
-        "shift.ssp.system_structure": {"command"},
-        "shift.thermal_need": {"washer"},
-    },
-    "the report shows a shift and its parts": {
-        "report.panels.contact_panels": {"clutch"},
-        "report.shift.shift_tables": {"washer", "clutch", "gearmesh", "transmission"},
-        "report.shift.summary": {"washer"},
-        "report.shift.worst_moments": {"washer"},
     },
     "maps of a washer are files, which go into its FMU and beside its cards": {
         "cli._fmu_cache": {"washer"},

@@ -106,6 +106,9 @@ class Model:
     ladder: Ladder | None = None
     sweep: Sweep = Sweep()
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
+    remark: str = ""
+    """Dotted name of what says a sentence on each finished shift with a part of this model, called
+    with the part's parameters, time and outputs."""
 
     @property
     def spec(self) -> ModelSpec:

@@ -23,6 +23,7 @@ class Signal:
     e.g. "Regime", "SolverStatus"). ``start`` is for inputs only. ``depends`` lists the inputs that
     enter an output at once, at the same time point; an output that is an integral of the past
     has none. ``events``, of a Boolean output, says what happens when it becomes true, then false.
+    ``limit`` names the temperature that an output should stay below, as "module:NAME".
     """
 
     name: str
@@ -37,6 +38,7 @@ class Signal:
     depends: tuple[str, ...] = ()
     relative: bool = False  # a temperature difference, no absolute temperature
     events: tuple[str, str] | None = None
+    limit: str = ""
 
 
 def output(

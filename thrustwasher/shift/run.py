@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
+from ..model.record import resolve
+from ..model.registry import find_model
 from .cosim.instances import Stepping, capable
 from .cosim.loop import PythonLoop, Recorder, Run, Steps
 from .cosim.schedule import Correct
@@ -21,7 +23,6 @@ from .oscillation.judder import find_judder
 from .scene.connections import PACK_INPUTS, links
 from .scene.scene import Part, Scene
 from .shift_result import Cost, ShiftResult
-from .thermal_need import thermal_need
 
 Progress = Callable[[int, int], None]
 STRETCH = 0.02  # s between two looks at the progress, at least
@@ -135,7 +136,6 @@ def _result(
     time, signals = run.time, run.recorder.signals()
     events = find_events(scene, time, signals)
     judder = find_judder(scene, time, signals)
-    need = thermal_need(scene, time, signals)
     corrections = [action.change for action in run.schedule if isinstance(action, Correct)]
     return ShiftResult(
         scene=scene,
@@ -157,7 +157,7 @@ def _result(
             *(line for change in corrections for line in change.words()),
             *steps.words(),
             *_advice(time, signals),
-            *([] if need is None else [need]),
+            *model_remarks(scene, time, signals),
         ],
         judder=judder,
         chatter=find_chatter(scene, time, signals, run.h),
@@ -250,6 +250,19 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
         remarks.append("there is no gear mesh model in this scene: the meshes run without loss")
     if "washer" not in scene.parts and gearbox.washers:
         remarks.append("there is no washer model in this scene: the washers run without drag")
+    return remarks
+
+
+def model_remarks(
+    scene: Scene, time: NDArray[np.float64], signals: Mapping[str, NDArray[np.float64]]
+) -> list[str]:
+    """Return what the models of the parts have to say about a finished run."""
+    remarks = []
+    for name, part in scene.parts.items():
+        remark = find_model(part.spec.key).remark
+        if remark:
+            own = {s.name: signals[f"{name}.{s.name}"] for s in part.spec.outputs}
+            remarks.append(resolve(remark)(part.params, time, own))
     return remarks
 
 

@@ -57,6 +57,7 @@ MODEL = Model(
         references="thrustwasher.study.reference_washer:SOURCE",
         chart="thrustwasher.study.charts.chart_series:WASHER",
     ),
+    remark="thrustwasher.shift.thermal_need:thermal_need",
     wiring=(
         "The model is quasi-steady: the step only decides how finely the inputs are followed.",
         "Near the load at which the film is lost the torque jumps: a master that iterates "

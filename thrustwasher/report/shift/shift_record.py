@@ -1,10 +1,13 @@
 """What the report needs from a finished shift, as plain data."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple, Self
 
 import numpy as np
+
+from ...model.registry import find_model
+from ...model.spec import ModelSpec
 
 Array = np.ndarray[Any, Any]
 PACKS = ("clutch", "brake")
@@ -31,6 +34,16 @@ class Part(NamedTuple):
     name: str
     model: str
     parameters: Mapping[str, Any]
+
+    @property
+    def spec(self) -> ModelSpec:
+        """The interface of its model."""
+        return find_model(self.model).spec
+
+    def params(self) -> Any:
+        """Return its parameters as its model takes them."""
+        known = {f.name for f in fields(self.spec.params)}
+        return self.spec.params(**{k: v for k, v in self.parameters.items() if k in known})
 
 
 class Cost(NamedTuple):

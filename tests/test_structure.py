@@ -38,12 +38,6 @@ PLACES = {
         "shift.oscillation.chatter": {"transmission"},
         "shift.oscillation.torsion": {"clutch"},
     },
-    "maps of a washer are files, which go into its FMU and beside its cards": {
-        "cli._fmu_cache": {"washer"},
-        "fmu.shell.platform_libraries": {"washer"},
-        "study.card_writer": {"washer"},
-        "study.verify": {"washer"},
-    },
     "other people's methods are measured on a model's own equations": {
         "study.charts.methods": {"washer", "clutch", "command"},
         "study.costs": {"command"},

@@ -70,9 +70,8 @@ def solve_moment(record: Record, time: float) -> Moment | None:
         return None
     command, params = find_model(part.model).command, part.params()
     assert command is not None
-    fidelity = str(part.parameters.get("fidelity"))
-    if fidelity not in WITH_FIELDS:
-        fidelity = part.spec.default_fidelity
+    rung = part.parameters.get("fidelity")
+    fidelity = rung if rung in WITH_FIELDS else part.spec.default_fidelity
     solve = resolve(command.solve)
     point = {s.name: record.at(f"washer.{s.name}", time) or 0.0 for s in part.spec.inputs}
     point["load"] = max(point["load"], LEAST_LOAD)

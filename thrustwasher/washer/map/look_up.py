@@ -228,8 +228,4 @@ def washer_map(params: WasherParams) -> WasherMap:
     return WasherMap(params)
 
 
-def _box(params: WasherParams) -> dict[str, tuple[float, float]]:
-    return WasherMap(params).box
-
-
-TABLES = Tables("map", map_paths, all_maps, map_for, _box, plain)
+TABLES = Tables("map", map_paths, all_maps, map_for, lambda p: WasherMap(p).box, plain)

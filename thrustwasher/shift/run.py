@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
 from ..model.record import resolve
-from ..model.registry import find_model
+from ..model.registry import all_models
 from .cosim.instances import Stepping, capable
 from .cosim.loop import PythonLoop, Recorder, Run, Steps
 from .cosim.schedule import Correct
@@ -257,13 +257,13 @@ def model_remarks(
     scene: Scene, time: NDArray[np.float64], signals: Mapping[str, NDArray[np.float64]]
 ) -> list[str]:
     """Return what the models of the parts have to say about a finished run."""
-    remarks = []
+    remarks = {model.key: model.remark for model in all_models() if model.remark}
+    found = []
     for name, part in scene.parts.items():
-        remark = find_model(part.spec.key).remark
-        if remark:
+        if part.spec.key in remarks:
             own = {s.name: signals[f"{name}.{s.name}"] for s in part.spec.outputs}
-            remarks.append(resolve(remark)(part.params, time, own))
-    return remarks
+            found.append(resolve(remarks[part.spec.key])(part.params, time, own))
+    return found
 
 
 def _advice(time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]) -> list[str]:

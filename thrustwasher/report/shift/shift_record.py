@@ -6,7 +6,6 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from ...model.registry import find_model
 from ...model.spec import ModelSpec
 
 Array = np.ndarray[Any, Any]
@@ -32,13 +31,8 @@ class Part(NamedTuple):
     """One FMU of the run: its name in the scene, its model, its parameters and fidelity."""
 
     name: str
-    model: str
+    spec: ModelSpec
     parameters: Mapping[str, Any]
-
-    @property
-    def spec(self) -> ModelSpec:
-        """The interface of its model."""
-        return find_model(self.model).spec
 
     def params(self) -> Any:
         """Return its parameters as its model takes them."""
@@ -194,7 +188,7 @@ def record_of(result: Any) -> Record:
         key_figures=[KeyFigure(*figure) for figure in result.key_figures],
         published=[Published(**entry) for entry in result.comparison()],
         source=scene.published.source if scene.published else "",
-        parts=[Part(n, part.spec.name, part.parameters()) for n, part in scene.parts.items()],
+        parts=[Part(n, part.spec, part.parameters()) for n, part in scene.parts.items()],
         costs=[
             Cost(c.part, c.fidelity, c.instantiate, c.initialize, c.steps, c.wall_time)
             for c in result.cost

@@ -137,13 +137,13 @@ def _parameters(part: Part) -> Table:
             origin = "default" if value == spec.default_fidelity else "scene"
             rows.append((name, _plain(value), "", "", origin))
     heads = ("parameter", "value", "unit", "meaning", "from")
-    title = f"{part.name} ({part.model})"
+    title = f"{part.name} ({spec.name})"
     return Table(heads, rows, numbers=(1,), title=title, folded=True)
 
 
 def source_texts(record: Record) -> list[str]:
     """Return where the defaults of the models in this run come from."""
-    docs = {p.model: (p.spec.params.__doc__ or "").replace("``", "") for p in record.parts}
+    docs = {p.spec.name: (p.spec.params.__doc__ or "").replace("``", "") for p in record.parts}
     return [f"{model}. {' '.join(words.split())}" for model, words in docs.items()]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...errors import ParameterError, SolveError
 from ...model.record import resolve
-from ...model.registry import find_model
+from ...model.registry import models_with_points
 from .shift_record import Array, Record
 
 TURNING = 1.0  # [rad/s] a washer slower than this needs no film
@@ -66,13 +66,12 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     """
     part = record.part("washer")
     recorded = record.at("washer.film_ratio", time)
-    if part is None or recorded is None:
+    model = models_with_points().get(part.spec.key) if part else None
+    if part is None or recorded is None or model is None or model.command is None:
         return None
-    command, params = find_model(part.model).command, part.params()
-    assert command is not None
     rung = part.parameters.get("fidelity")
     fidelity = rung if rung in WITH_FIELDS else part.spec.default_fidelity
-    solve = resolve(command.solve)
+    solve, params = resolve(model.command.solve), part.params()
     point = {s.name: record.at(f"washer.{s.name}", time) or 0.0 for s in part.spec.inputs}
     point["load"] = max(point["load"], LEAST_LOAD)
     found = []

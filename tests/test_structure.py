@@ -34,35 +34,12 @@ RATCHETS = {
 PLACES = {
     "public names": {"thrustwasher": {"washer", "clutch", "gearmesh"}},
     "a shift is a system of these models: what its scene connects, and what it makes of them": {
-        "shift.scene.connections": {"washer", "clutch", "gearmesh", "transmission"},
-        "shift.key_figures.events_and_phases": {"clutch"},
-        "shift.key_figures.key_figures": {"clutch"},
+        "shift.scene.connections": {"washer", "clutch", "gearmesh", "transmission", "command"},
         "shift.oscillation.chatter": {"transmission"},
         "shift.oscillation.torsion": {"clutch"},
-        "shift.ssp.system_structure": {"command"},
-        "shift.thermal_need": {"washer"},
     },
-    "the report shows a shift and its parts": {
-        "report.panels.contact_panels": {"clutch"},
-        "report.shift.shift_tables": {"washer", "clutch", "gearmesh", "transmission"},
-        "report.shift.summary": {"washer"},
-        "report.shift.worst_moments": {"washer"},
-    },
-    "maps of a washer are files, which go into its FMU and beside its cards": {
-        "cli._fmu_cache": {"washer"},
-        "fmu.shell.platform_libraries": {"washer"},
-        "study.card_writer": {"washer"},
-        "study.verify": {"washer"},
-    },
-    "other people's methods are measured on a model's own equations": {
-        "study.charts.methods": {"washer", "clutch", "command"},
-        "study.costs": {"command"},
-        "study.rivals.plain2006": {"washer"},
+    "what the method of 2006 leaves to a second file solves the washer's own equations": {
         "study.rivals.plain2006_fields": {"washer"},
-    },
-    "the map of failures looks at single terms of a balance": {
-        "study.failures.failure_balance": {"washer"},
-        "study.failures.failure_map": {"washer", "gearmesh"},
     },
 }
 
@@ -140,14 +117,14 @@ LOOKS_UP = ("find_model", "find_spec", "spec_of", "ladder_of")  # by name
 def belongs_to(key):
     """Return the modules that are a model's own.
 
-    That is its folder, its commands, its reference values, and what these name as "module:NAME".
+    That is its folder, its commands, and what these name as "module:NAME".
     """
     command, home = find_model(key).command, HOMES[key]
     own = {f"thrustwasher.cli.{name}" for name in (command.more if command else ())}
     own |= {m for m in structure.modules() if m == home or m.startswith(f"{home}.")}
     texts = (structure.modules()[m].read_text("utf-8") for m in own)
     named = {module for text in texts for module in re.findall(r'"([\w.]+):\w+"', text)}
-    return own | named | {f"thrustwasher.study.reference_{key}"}
+    return own | named
 
 
 def named_models(module, path):

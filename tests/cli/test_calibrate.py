@@ -9,14 +9,13 @@ from thrustwasher.cli import main
 from thrustwasher.clutch.calibration.calibration import calibrate
 from thrustwasher.clutch.calibration.friction_law import (
     friction_over,
-    friction_radius,
     law_values,
 )
 from thrustwasher.clutch.parameters import ClutchParams
 
 TRUTH = ClutchParams(plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0)
 SLIP = np.linspace(2.0, 160.0, 30)
-FRICTION = friction_over(law_values(TRUTH), SLIP * friction_radius(TRUTH))
+FRICTION = friction_over(law_values(TRUTH), SLIP * TRUTH.friction_radius)
 FRICTION = FRICTION + 1e-3 * np.random.default_rng(1).standard_normal(30)
 
 

@@ -11,7 +11,6 @@ from thrustwasher.clutch.calibration.calibration import calibrate
 from thrustwasher.clutch.calibration.friction_law import (
     WANG_CONSTANTS,
     friction_over,
-    friction_radius,
     friction_slopes,
     law_values,
 )
@@ -21,7 +20,7 @@ from thrustwasher.errors import ParameterError
 
 TRUTH = {"plough_weight": 0.2, "shear_floor": 0.4, "stick_speed": 1.5, "decay_speed": 2.0}
 PACK, TRUE_PACK = ClutchParams(), ClutchParams(**TRUTH)
-RADIUS = friction_radius(PACK)
+RADIUS = PACK.friction_radius
 SLIP = np.linspace(1.0, 160.0, 40)  # rad/s: 0.07 .. 12 m/s
 LOAD = np.where(np.arange(40) % 2, 1e3, 3e3)
 EXACT = friction_over(law_values(TRUE_PACK), SLIP * RADIUS)

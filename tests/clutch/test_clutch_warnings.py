@@ -9,7 +9,6 @@ from thrustwasher.clutch.calibration.calibration import calibrate
 from thrustwasher.clutch.calibration.calibration_result import spanned
 from thrustwasher.clutch.calibration.friction_law import (
     friction_over,
-    friction_radius,
     law_values,
 )
 from thrustwasher.clutch.parameters import ClutchParams
@@ -18,7 +17,7 @@ PACK = ClutchParams()
 SLIP = np.linspace(1.0, 250.0, 60)
 FALL = 0.05 * np.exp(-SLIP / 50.0)
 TRUE = ClutchParams(plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0)
-EXACT = friction_over(law_values(TRUE), SLIP * friction_radius(TRUE))
+EXACT = friction_over(law_values(TRUE), SLIP * TRUE.friction_radius)
 
 
 def fitted(friction, pack=PACK, **more):
@@ -106,8 +105,8 @@ def test_points_of_the_law_itself_give_no_warning_whatever_their_scatter(size):
 
 @pytest.mark.parametrize("piece", [(2.0, 12.0), (8.0, 40.0), (40.0, 60.0), (0.05, 1.2)])
 def test_a_piece_of_the_curve_is_no_reason_to_warn(piece):
-    slip = np.linspace(*piece, 60) / friction_radius(TRUE)
-    exact = friction_over(law_values(TRUE), slip * friction_radius(TRUE))
+    slip = np.linspace(*piece, 60) / TRUE.friction_radius
+    exact = friction_over(law_values(TRUE), slip * TRUE.friction_radius)
     for seed in range(4):
         found = calibrate(
             PACK, speed=slip, load=5e3, friction=scattered(exact, seed), profile=False
@@ -117,7 +116,7 @@ def test_a_piece_of_the_curve_is_no_reason_to_warn(piece):
 
 def test_scatter_beyond_the_edge_of_the_reach_is_no_warning():
     edge = ClutchParams(plough_weight=1.0)
-    exact = friction_over(law_values(edge), SLIP * friction_radius(edge))
+    exact = friction_over(law_values(edge), SLIP * edge.friction_radius)
     assert all(fitted(scattered(exact, seed)).warnings == () for seed in range(8))
 
 

@@ -15,7 +15,6 @@ from thrustwasher import ClutchParams, boundary_friction, engage_clutch, solve_c
 from thrustwasher.clutch.calibration.friction_law import (
     end_frictions,
     friction_over,
-    friction_radius,
     law_values,
 )
 from thrustwasher.clutch.closed_forms.heated_plate import braking_average
@@ -23,7 +22,7 @@ from thrustwasher.clutch.closed_forms.heated_plate import braking_average
 INNER, OUTER = 0.0325, 0.0425  # m, Fig. 12
 SAMPLE = ClutchParams(inner_radius=INNER, outer_radius=OUTER)
 AREA = math.pi * (OUTER**2 - INNER**2)
-RADIUS = friction_radius(SAMPLE)
+RADIUS = SAMPLE.friction_radius
 RPM = math.pi / 30.0
 FASTEST = 3000.0 * RPM * RADIUS  # m/s
 AVERAGE, LOCK_UP, TIME, INERTIA, PRESSURE = 0.053, 0.11, 1.2, 30.0, 1e6  # Tables 1 and 2

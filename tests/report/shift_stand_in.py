@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from thrustwasher.model.registry import find_spec
 from thrustwasher.report.shift.shift_record import Cost, Event, KeyFigure, Part, Phase, Record
 
 UNITS = {"time": "s", "speed": "rad/s", "energy": "J", "area": "J/m2", "power": "W", "thrust": "N",
@@ -102,12 +103,12 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
     }
     small = {"inner_radius": 0.00555, "gear_inner_radius": 0.0078, "outer_radius": 0.01135}
     parts = [
-        Part("transmission", "ShiftTransmission", {}),
-        Part("clutch", "WetClutch", {}),
-        Part("brake", "WetClutch", {}),
+        Part("transmission", find_spec("transmission"), {}),
+        Part("clutch", find_spec("clutch"), {}),
+        Part("brake", find_spec("clutch"), {}),
     ]
-    parts += [Part("washer", "ThrustWasher", small)] if washer else []
-    parts += [Part("mesh", "GearMesh", {})] if mesh else []
+    parts += [Part("washer", find_spec("washer"), small)] if washer else []
+    parts += [Part("mesh", find_spec("gearmesh"), {})] if mesh else []
     heat = float(s["transmission.clutch_heat"][-1])
     figures: dict[str, float | None] = {
         "lock_time": 1.75, "lock_speed": 99.0, "release_time": 0.25, "slip_energy": heat,

@@ -177,7 +177,9 @@ def test_the_share_of_oil_shear_is_told_with_what_it_rests_on(record):
 
 def replace_fidelity(part):
     """Return a pack with a moving film; other parts as they are."""
-    return part._replace(parameters={"fidelity": "field"}) if part.model == "WetClutch" else part
+    return (
+        part._replace(parameters={"fidelity": "field"}) if part.spec.name == "WetClutch" else part
+    )
 
 
 def test_every_plot_becomes_a_file(record, tmp_path):

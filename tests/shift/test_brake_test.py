@@ -8,7 +8,6 @@ from scene_runs import shift
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.shift import load_scene
-from thrustwasher.shift.key_figures.key_figures import area_of, radius_of
 
 SCENES = {"brake-test": 30.0, "brake-test-sample": 0.036}
 START = 3000.0 * math.pi / 30.0
@@ -56,10 +55,10 @@ def test_the_momentum_of_sun_and_carrier_is_kept(name):
 def test_force_is_1_mpa_and_the_speed_law_keeps_friction_over_rpm(name):
     scene = load_scene(name)
     brake, default = scene.parts["brake"].params, load_scene("planetary").parts["brake"].params
-    force = 1e6 * area_of(brake) / brake.faces
+    force = 1e6 * brake.lining_area / brake.faces
     assert scene.parts["transmission"].params.brake_force == pytest.approx(force, rel=1e-6)
     sample = load_scene("brake-test-sample").parts["brake"].params
-    scale = radius_of(brake) / radius_of(sample)
+    scale = brake.friction_radius / sample.friction_radius
     assert brake.stick_speed == pytest.approx(default.stick_speed * scale, rel=1e-4)
     assert brake.decay_speed == pytest.approx(default.decay_speed * scale, rel=1e-4)
 
@@ -67,7 +66,7 @@ def test_force_is_1_mpa_and_the_speed_law_keeps_friction_over_rpm(name):
 def test_faces_are_the_nearest_whole_number():
     brake = load_scene("brake-test").parts["brake"].params
     torque = 30.0 * START / 1.2
-    per_face = 0.053 * 1e6 * area_of(brake) / brake.faces * radius_of(brake)
+    per_face = 0.053 * 1e6 * brake.lining_area / brake.faces * brake.friction_radius
     assert torque / per_face == pytest.approx(15.3, abs=0.01)
     assert brake.faces == round(torque / per_face)
 

@@ -7,7 +7,6 @@ import pytest
 from scene_runs import NO_DRAG, instances
 
 from thrustwasher.shift import load_scene, run_shift
-from thrustwasher.shift.key_figures.key_figures import radius_of
 
 
 @pytest.fixture(scope="module")
@@ -41,5 +40,5 @@ def test_the_brake_is_what_the_figures_are_about(downshift):
 
 def test_mean_friction_is_torque_over_what_presses(downshift):
     params = downshift.scene.parts["brake"].params
-    assert radius_of(params) == pytest.approx(74.9933e-3, rel=1e-6)
+    assert params.friction_radius == pytest.approx(74.9933e-3, rel=1e-6)
     assert 0.03 < downshift.figures["friction_mean"] < 0.12

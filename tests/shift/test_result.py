@@ -12,6 +12,7 @@ from scene_runs import default_shift, instances, shift
 from thrustwasher.clutch.parameters import ClutchParams
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.shift import load_scene, run_shift
+from thrustwasher.shift.key_figures.events_and_phases import find_events
 
 
 def test_every_signal_of_every_part_is_kept():
@@ -113,3 +114,11 @@ def test_jacobi_hands_over_old_values_and_gauss_seidel_fresh_ones():
         used = r.signals["transmission.clutch_torque"][2:]
         sent = r.signals["clutch.torque_capacity"][2 - lag : len(r.time) - lag]
         assert (used == sent).all()
+
+
+def test_a_part_above_the_limit_of_its_temperature_is_an_event():
+    scene, time = load_scene("planetary"), np.array([0.0, 0.5, 1.0])
+    signals = {f"{pack}.temperature": np.full(3, 300.0) for pack in ("clutch", "brake")}
+    signals["clutch.temperature"] = np.array([300.0, 523.5, 530.0])
+    hot = [e for e in find_events(scene, time, signals) if e.kind.endswith("hot")]
+    assert hot == [(0.5, "clutch_hot", "clutch is hotter than 523 K")]

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
+from thrustwasher.shift.run import model_remarks
 from thrustwasher.shift.scene.scene import with_fidelities
 from thrustwasher.shift.scene.scene_file import load_scene
 from thrustwasher.shift.thermal_need import body_times, change_time, thermal_need
@@ -14,15 +15,11 @@ from thrustwasher.shift.tolerance.run_to_tolerance import _without_choice
 
 
 def said(duration, mode="quasi_steady", scene="planetary"):
-    scene = load_scene(scene)
-    part = scene.parts["washer"]
-    params = replace(part.params, thermal_mode=mode)
-    scene = replace(scene, parts={**scene.parts, "washer": replace(part, params=params)})
+    params = replace(load_scene(scene).parts["washer"].params, thermal_mode=mode)
     time = np.linspace(0.0, 10.0 * duration, 1001)
     power = 10.0 + 90.0 * np.clip(time / (duration / 0.8), 0.0, 1.0)
     film = np.full_like(time, 2e-6)
-    signals = {"washer.friction_power": power, "washer.film_thickness": film}
-    return thermal_need(scene, time, signals)
+    return thermal_need(params, time, {"friction_power": power, "film_thickness": film})
 
 
 def test_bodies_settle_within_their_own_times():
@@ -49,7 +46,9 @@ def test_quick_courses_need_stored_heat_and_slow_ones_do_not():
 
 
 def test_a_scene_without_a_washer_needs_neither():
-    assert thermal_need(load_scene("msl"), np.array([0.0, 1.0]), {}) is None
+    scene, time = load_scene("msl"), np.array([0.0, 1.0])
+    signals = {f"{n}.{s.name}": time for n, p in scene.parts.items() for s in p.spec.outputs}
+    assert model_remarks(scene, time, signals) == []
 
 
 def test_the_transient_scene_asks_for_bodies_as_cold_as_the_oil():

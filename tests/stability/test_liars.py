@@ -16,13 +16,14 @@ import thrustwasher
 from thrustwasher import WasherParams, solve_washer
 from thrustwasher.errors import Status
 from thrustwasher.shift import load_scene
-from thrustwasher.study.failures.failure_balance import Found, balance, judged
 from thrustwasher.study.failures.failure_cells import LIES, OK, SAYS, table
-from thrustwasher.study.failures.failure_map import closed_forms, coupling, heat_loop
+from thrustwasher.study.failures.failure_map import coupling
+from thrustwasher.study.failures.failure_washer import Found, balance, closed_forms, judged
 from thrustwasher.study.rivals import cavitation as c
 from thrustwasher.study.rivals import lockup as k
 from thrustwasher.study.rivals import lockup_methods as methods
 from thrustwasher.study.rivals import shaft as s
+from thrustwasher.study.rivals.heat_loop import heat_loop
 from thrustwasher.transmission.parameters import TransmissionParams
 
 from gearbox import Gearbox  # isort: skip

@@ -19,7 +19,7 @@ CONVERGED = {FULL_FILM: 0.2320718, (1361.0, 136.0, 0.002, 297.15): 3.50150}
 def torque(grid, point, **settings):
     washer = Plain2006(grid=grid, **settings)
     assert washer.solve(*point) is Status.OK
-    return washer.friction_torque
+    return washer.found.friction_torque
 
 
 @pytest.mark.parametrize("point", CONVERGED)
@@ -37,7 +37,7 @@ def test_its_film_is_lost_fifteen_per_cent_too_early():
     washer, loads = Plain2006(tolerance=1e-5), [500.0, 600.0, 640.0, 660.0, 680.0]
     for load in loads:
         assert washer.solve(load, 545.0, 0.002, 297.15) is Status.OK
-        if washer.film_ratio < 2.0:
+        if washer.found.film_ratio < 2.0:
             break
     fold = traced().folds[0].load
     assert 0.83 * fold < load < 0.9 * fold
@@ -49,7 +49,7 @@ def test_temperatures_substituted_whole_find_distress_where_there_is_none():
     careful, whole = Plain2006(share=0.3), Plain2006(share=1.0)
     careful.solve(*point)
     whole.solve(*point)
-    assert careful.film_ratio > 4.0
-    assert whole.film_ratio < 2.0
+    assert careful.found.film_ratio > 4.0
+    assert whole.found.film_ratio < 2.0
     ours = solve_washer(WasherParams(), load=600.0, speed=545.0, tilt=0.002)
     assert ours.branch == "film"

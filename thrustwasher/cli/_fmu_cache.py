@@ -46,8 +46,8 @@ def source_digest(target: str) -> str:
     from ..fmu.model_kernels import package_version
     from ..fmu.package.model_sources import source_folder
     from ..fmu.shell.platform_libraries import made_of
+    from ..model.prepare import tables_of
     from ..model.registry import all_specs
-    from ..washer.map.map_file import SUFFIX, map_folders
 
     native = target == "native"
     made_for = " ".join(made_of(spec, local=True) for spec in all_specs()) if native else "python"
@@ -55,6 +55,7 @@ def source_digest(target: str) -> str:
     for root in (Path(__file__).parents[1], source_folder()):
         for path in sorted(p for p in root.rglob("*") if p.suffix in TEXTS):
             hashed.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
-    for path in (path for folder in map_folders() for path in sorted(folder.glob(f"*{SUFFIX}"))):
-        hashed.update(path.read_bytes())  # every map goes into the washer's FMU
+    for tables in filter(None, map(tables_of, all_specs())):
+        for path in tables.paths():
+            hashed.update(path.read_bytes())  # every map goes into the washer's FMU
     return hashed.hexdigest()[:16]

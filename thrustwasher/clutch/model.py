@@ -40,7 +40,7 @@ MODEL = Model(
         part="clutch",
         changed={"input_course": "linear"},
         references="thrustwasher.study.reference_clutch:SOURCE",
-        chart="thrustwasher.study.charts.chart_series:CLUTCH",
+        chart="thrustwasher.study.charts.clutch_chart:CLUTCH",
     ),
     sweep=Sweep(
         walk="thrustwasher.clutch.solve:walk_steady",

@@ -147,6 +147,18 @@ class ClutchParams:
 
         check_rules(self, RULES, broken_rule)
 
+    @property
+    def lining_area(self) -> float:
+        """Area of all friction faces [m2]."""
+        return self.faces * math.pi * (self.outer_radius**2 - self.inner_radius**2)
+
+    @property
+    def friction_radius(self) -> float:
+        """Radius [m] friction acts at: the one that was set, or that of even pressure."""
+        outer, inner = self.outer_radius, self.inner_radius
+        even = 2.0 * (outer**3 - inner**3) / (3.0 * (outer**2 - inner**2))
+        return float(self.effective_radius) or even
+
     @classmethod
     def with_table(
         cls, speed: Sequence[float], friction: Sequence[float], **others: Any
@@ -209,7 +221,8 @@ SPEC = ModelSpec(
         _out("friction_torque", "N.m", 100.0,
              "friction torque of the pack, sign of the slip, smooth through zero"),
         _out("temperature", "K", 300.0, "interface temperature of the steel plates",
-             depends=("oil_temperature",)),
+             depends=("oil_temperature",),
+             limit="thrustwasher.clutch.kernels.layout:HOT_LIMIT"),
         _out("film_thickness", "m", 1e-5, "separation of the mean surfaces of lining and steel"),
         _out("torque_capacity", "N.m", 100.0,
              "largest torque the pack can hold at this load and slip", low=0.0),
@@ -247,14 +260,3 @@ SPEC = ModelSpec(
     course=((0.0, 0.0, 120.0, 320.0), (0.2, 5000.0, 120.0, 320.0), (0.7, 5000.0, 0.0, 320.0),
             (1.0, 4000.0, 0.0, 320.0)),
 )  # fmt: skip
-
-
-def lining_area(inner_radius: float, outer_radius: float, faces: int) -> float:
-    """Return the area of all friction faces of a pack [m2]."""
-    return faces * math.pi * (outer_radius**2 - inner_radius**2)
-
-
-def mean_radius(inner_radius: float, outer_radius: float) -> float:
-    """Return the radius friction acts at under even pressure [m]."""
-    outer, inner = outer_radius, inner_radius
-    return 2.0 * (outer**3 - inner**3) / (3.0 * (outer**2 - inner**2))

@@ -9,6 +9,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..model.record import resolve
 from ..model.spec import ModelSpec
 from ..native.library import is_ready
 from ..numerics.jit import kernel_digest, way
@@ -62,10 +63,7 @@ def is_compiled(spec: ModelSpec) -> bool:
 
 def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
     """Return (text, place in ``work``) of everything the model's solver counts."""
-    found = [(text, *where.split(":")) for text, where in spec.counts]
-    return tuple(
-        (text, int(getattr(importlib.import_module(module), name))) for text, module, name in found
-    )
+    return tuple((text, int(resolve(where))) for text, where in spec.counts)
 
 
 @cache

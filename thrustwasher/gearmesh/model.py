@@ -55,7 +55,8 @@ MODEL = Model(
         boxes={"default": _BOX, "planetary": _BOX},
         part="mesh",
         references="thrustwasher.study.reference_gearmesh:SOURCE",
-        chart="thrustwasher.study.charts.chart_series:GEARMESH",
+        chart="thrustwasher.study.charts.gearmesh_chart:GEARMESH",
+        hazards={"a flank that its oil heats": "thrustwasher.study.rivals.heat_loop:heat_loop"},
     ),
     # A power in place of the torque is turned into one, row by row.
     sweep=Sweep(more_inputs=({

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import ParameterError, Status
 from .parameters import as_numbers, check_rules
 from .record import resolve
-from .spec import ModelSpec
+from .spec import ModelSpec, Tables
 
 Array = NDArray[np.float64]
 OFFLINE = (
@@ -76,14 +76,21 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
     """
     if not wants_table(spec, par):
         return
-    known = _known(spec)
-    table = resolve(spec.table)(params)
+    known, tables = _known(spec), tables_of(spec)
+    assert tables is not None
+    table = tables.find(params).data
     room = work[int(known["AT"]) :]
     if len(table) > len(room):
         raise ParameterError(
             f"the table has {len(table)} numbers, allowed: {len(room)}; make it smaller"
         )
     room[: len(table)] = table
+
+
+def tables_of(spec: ModelSpec, rung: str | None = None) -> Tables | None:
+    """Return where a model, or one rung of it, looks its answers up; None if it solves."""
+    tables: Tables | None = resolve(spec.table) if spec.table else None
+    return tables if tables and rung in (None, tables.rung) else None
 
 
 def _known(spec: ModelSpec) -> dict[str, float]:

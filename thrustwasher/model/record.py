@@ -84,6 +84,9 @@ class Ladder:
     changed: Mapping[str, Any] = field(default_factory=dict)  # otherwise in held-out points
     references: str  # dotted name: where reference values come from
     chart: str  # dotted name: what the chart shows, at which operating points
+    rivals: tuple[str, ...] = ()  # dotted names: series of methods of others for the chart
+    hazards: Mapping[str, str] = field(default_factory=dict)
+    """Where methods may fail on the model's own equations: words -> dotted name of the judge."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,6 +109,9 @@ class Model:
     ladder: Ladder | None = None
     sweep: Sweep = Sweep()
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
+    remark: str = ""
+    """Dotted name of what says a sentence on each finished shift with a part of this model, called
+    with the part's parameters, time and outputs."""
 
     @property
     def spec(self) -> ModelSpec:

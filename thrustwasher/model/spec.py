@@ -3,9 +3,10 @@
 The FMU variables, the command line's columns and the documentation come from these lists.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, make_dataclass, replace
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 REGIMES = {
     "film": "film ratio above 3: the oil film carries",
@@ -23,6 +24,7 @@ class Signal:
     e.g. "Regime", "SolverStatus"). ``start`` is for inputs only. ``depends`` lists the inputs that
     enter an output at once, at the same time point; an output that is an integral of the past
     has none. ``events``, of a Boolean output, says what happens when it becomes true, then false.
+    ``limit`` names the temperature that an output should stay below, as "module:NAME".
     """
 
     name: str
@@ -37,6 +39,7 @@ class Signal:
     depends: tuple[str, ...] = ()
     relative: bool = False  # a temperature difference, no absolute temperature
     events: tuple[str, str] | None = None
+    limit: str = ""
 
 
 def output(
@@ -81,6 +84,20 @@ OIL_PORT = Terminal(
 )  # fmt: skip
 
 
+class Tables(NamedTuple):
+    """Files of solutions made beforehand, in which one of a model's rungs looks its answers up.
+
+    A file has a ``path``, its ``data`` as the kernel takes them, and a ``card``.
+    """
+
+    rung: str
+    paths: Callable[[], list[Path]]  # of all files there are
+    readable: Callable[[], Sequence[Any]]  # the files that are sound
+    find: Callable[[Any], Any]  # the file for parameters; ParameterError if there is none
+    box: Callable[[Any], Mapping[str, tuple[float, float]]]  # that it covers, by input
+    resource: Callable[[Any], bytes]  # a file as it lies in an FMU
+
+
 @dataclass(frozen=True, kw_only=True)
 class ModelSpec:
     """A model as an FMU importer sees it."""
@@ -98,8 +115,7 @@ class ModelSpec:
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0
     step_size: float = 1e-3
-    # "module:function" that returns the kernel's table for parameters.
-    table: str = ""
+    table: str = ""  # "module:NAME" of the ``Tables`` that a rung looks up in
     # The reference run: rows of time and all inputs, linear between; none: inputs at their start.
     course: tuple[tuple[float, ...], ...] = ()
     # What the solver counts: (text, "module:NAME" of the place in work).

@@ -9,7 +9,7 @@
 ``scene``         what is simulated
 ``shift_result``  what a run leaves: time series, events, key figures, cost
 ``ssp``           a shift as an SSP 1.0 package, for any SSP master
-``thermal_need``  which thermal mode the washer of a scene needs
+``thermal_need``  which thermal mode a washer needs
 ``tolerance``     a shift with the cheapest rungs that hold a tolerance
 ================  =========================================================================
 """

@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
+from ..model.record import resolve
+from ..model.registry import all_models
 from .cosim.instances import Stepping, capable
 from .cosim.loop import PythonLoop, Recorder, Run, Steps
 from .cosim.schedule import Correct
@@ -21,7 +23,6 @@ from .oscillation.judder import find_judder
 from .scene.connections import PACK_INPUTS, links
 from .scene.scene import Part, Scene
 from .shift_result import Cost, ShiftResult
-from .thermal_need import thermal_need
 
 Progress = Callable[[int, int], None]
 STRETCH = 0.02  # s between two looks at the progress, at least
@@ -135,7 +136,6 @@ def _result(
     time, signals = run.time, run.recorder.signals()
     events = find_events(scene, time, signals)
     judder = find_judder(scene, time, signals)
-    need = thermal_need(scene, time, signals)
     corrections = [action.change for action in run.schedule if isinstance(action, Correct)]
     return ShiftResult(
         scene=scene,
@@ -157,7 +157,7 @@ def _result(
             *(line for change in corrections for line in change.words()),
             *steps.words(),
             *_advice(time, signals),
-            *([] if need is None else [need]),
+            *model_remarks(scene, time, signals),
         ],
         judder=judder,
         chatter=find_chatter(scene, time, signals, run.h),
@@ -251,6 +251,19 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     if "washer" not in scene.parts and gearbox.washers:
         remarks.append("there is no washer model in this scene: the washers run without drag")
     return remarks
+
+
+def model_remarks(
+    scene: Scene, time: NDArray[np.float64], signals: Mapping[str, NDArray[np.float64]]
+) -> list[str]:
+    """Return what the models of the parts have to say about a finished run."""
+    remarks = {model.key: model.remark for model in all_models() if model.remark}
+    found = []
+    for name, part in scene.parts.items():
+        if part.spec.key in remarks:
+            own = {s.name: signals[f"{name}.{s.name}"] for s in part.spec.outputs}
+            found.append(resolve(remarks[part.spec.key])(part.params, time, own))
+    return found
 
 
 def _advice(time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]) -> list[str]:

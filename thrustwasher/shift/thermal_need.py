@@ -1,11 +1,12 @@
-"""Which thermal mode the washer of a scene needs: its time constants beside the scene's."""
+"""Which thermal mode a washer needs in a shift: its time constants beside the shift's."""
+
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..washer.closed_forms.heated_ring import stack_times
 from ..washer.parameters import WasherParams
-from .scene.scene import Scene
 
 SLOW = 5.0  # a change that takes so many of the slowest time constants is followed by steady states
 MIDDLE = (0.1, 0.9)  # share of all change of power that counts
@@ -31,15 +32,12 @@ def change_time(time: NDArray[np.float64], power: NDArray[np.float64]) -> float:
 
 
 def thermal_need(
-    scene: Scene, time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]
-) -> str | None:
-    """Say which thermal mode the scene needs and which one ran; None without a washer."""
-    if "washer" not in scene.parts:
-        return None
-    params = scene.parts["washer"].params
-    gap = max(float(np.median(signals["washer.film_thickness"])), params.roughness)
+    params: WasherParams, time: NDArray[np.float64], signals: Mapping[str, NDArray[np.float64]]
+) -> str:
+    """Say which thermal mode the washer needs and which one ran."""
+    gap = max(float(np.median(signals["film_thickness"])), params.roughness)
     quickest, _, slowest = body_times(params, gap)
-    change = change_time(time, signals["washer.friction_power"])
+    change = change_time(time, signals["friction_power"])
     transient = params.thermal_mode == "transient"
     span = f"the washer's bodies settle within {quickest:.2g} .. {slowest:.2g} s"
     if not np.isfinite(change):

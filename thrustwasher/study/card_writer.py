@@ -5,14 +5,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from ..errors import ParameterError
 from ..ladder.card import SCHEMA, Card, files_of
 from ..ladder.card_parts import Cost, HeldOut, ParameterSet, Reference, Sources
-from ..model.parameters import as_numbers
-from ..storage.digests import changed_fields, kernel_digest, params_digest
+from ..model.prepare import tables_of
+from ..storage.digests import DATA, changed_fields, kernel_digest, params_digest
 from ..storage.whole_files import whole_file
-from ..washer.map.map_file import SHIPPED, MapFile, find_map
 from .card_cases import SAMPLING, Case
 from .costs import Timing
 from .error_tables import by_film_ratio, error_tables, fold_part, uncertainties
@@ -35,7 +35,7 @@ def make_card(
     source = source_of(case.spec.key)
     built = _built(case, rung)
     files = list(files_of(case.spec.key, rung))
-    files += [f"{SHIPPED.name}/{built.path.name}"] if built else []
+    files += [built.path.relative_to(DATA.resolve()).as_posix()] if built else []
     return Card(
         schema=SCHEMA, model=case.spec.key, fidelity=rung, chart=chart,
         branch=known[0].branch if known else None, fold=fold_part(pairs),
@@ -52,22 +52,19 @@ def make_card(
     )  # fmt: skip
 
 
-def _built(case: Case, rung: str) -> MapFile | None:
+def _built(case: Case, rung: str) -> Any:
     """Return the shipped file that a rung's answers come from; None for rungs that need none."""
-    if rung != "map":
-        return None
-    found = find_map(as_numbers(case.params))
-    if found is None or found.path.parent != SHIPPED.resolve():
+    tables = tables_of(case.spec, rung)
+    found = tables and tables.find(case.params)
+    if found and not found.path.is_relative_to(DATA.resolve()):
         raise ParameterError(
-            f"map for the {case.name} parameters = {found and found.path}, allowed: one that is "
+            f"{rung} for the {case.name} parameters = {found.path}, allowed: one that is "
             "shipped; a card speaks for a file below thrustwasher/data"
         )
     return found
 
 
-def _cost(
-    rung: str, timing: Timing, first: float, answers: Sequence[Answer], built: MapFile | None
-) -> Cost:
+def _cost(rung: str, timing: Timing, first: float, answers: Sequence[Answer], built: Any) -> Cost:
     """Return a card's cost part; times have three digits."""
     done = [a.work for a in answers if a.verdict == OK]
     count = float(f"{sum(done) / max(len(done), 1):.4g}") or None  # None: nothing is iterated

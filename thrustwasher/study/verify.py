@@ -16,10 +16,10 @@ from typing import Any
 
 from ..errors import ParameterError, SolveError
 from ..ladder.card import VERIFY, Card, forget, fresh_cards
-from ..model.parameters import as_numbers
+from ..model.prepare import tables_of
 from ..model.registry import models_with_cards, spec_of
+from ..model.spec import ModelSpec
 from ..storage.digests import DATA
-from ..washer.map.map_file import find_map
 from .card_cases import POINTS_IN_PART, Case, cases
 from .card_writer import make_card, timed_card, write_card
 from .costs import call_cost, first_call
@@ -98,22 +98,23 @@ def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
     return 0
 
 
-def holds(rung: str, params: Any) -> bool:
+def holds(spec: ModelSpec, rung: str, params: Any) -> bool:
     """Tell if a rung can be used with a parameter set at all; a map may not be there."""
-    return rung != "map" or find_map(as_numbers(params)) is not None
+    try:
+        tables = tables_of(spec, rung)
+        return tables is None or tables.find(params) is not None
+    except ParameterError:
+        return False
 
 
 def _lacks_cards(case: Case, rung: str) -> bool:
-    return holds(rung, case.params) and not fresh_cards(case.spec.key, rung, case.params)
+    return holds(case.spec, rung, case.params) and not fresh_cards(case.spec.key, rung, case.params)
 
 
 def case_of(case: Case, rung: str) -> Case:
     """Return the case for a rung: a map is verified where it lies."""
-    if rung != "map":
-        return case
-    from ..washer.map.look_up import WasherMap
-
-    return case.within(WasherMap(case.params).box)
+    tables = tables_of(case.spec, rung)
+    return case.within(tables.box(case.params)) if tables else case
 
 
 def rung_cards(case: Case, rung: str, known: list[ReferencePoint]) -> Iterator[Card]:

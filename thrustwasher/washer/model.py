@@ -55,8 +55,14 @@ MODEL = Model(
         },
         part="washer",
         references="thrustwasher.study.reference_washer:SOURCE",
-        chart="thrustwasher.study.charts.chart_series:WASHER",
+        chart="thrustwasher.study.charts.washer_chart:WASHER",
+        rivals=("thrustwasher.study.rivals.plain2006:charted",),
+        hazards={
+            "the washer's balance": "thrustwasher.study.failures.failure_washer:balance",
+            "closed forms": "thrustwasher.study.failures.failure_washer:closed_forms",
+        },
     ),
+    remark="thrustwasher.shift.thermal_need:thermal_need",
     wiring=(
         "The model is quasi-steady: the step only decides how finely the inputs are followed.",
         "Near the load at which the film is lost the torque jumps: a master that iterates "

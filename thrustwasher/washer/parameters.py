@@ -170,7 +170,7 @@ SPEC = ModelSpec(
                           ("load", "load", "signal"), ("tilt", "tilt", "signal"))),
         OIL_PORT,
     ),
-    table="thrustwasher.washer.map.look_up:map_data",
+    table="thrustwasher.washer.map.look_up:TABLES",
     step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed
     course=((0.0, 100.0, 545.0, 2e-3, 297.15), (0.6, 400.0, 545.0, 2e-3, 310.0),
             (1.0, 200.0, 300.0, 1.5e-3, 310.0)),

@@ -55,7 +55,7 @@ def test_substituted_whole_the_film_is_lost_where_ours_and_the_relaxed_one_keep_
     for share in (0.3, 1.0):
         washer = Plain2006(grid=(17, 67), tolerance=1e-4, share=share)
         assert washer.solve(690.0, 545.0, 0.002, 297.15) is Status.OK
-        ratios[share] = washer.film_ratio
+        ratios[share] = washer.found.film_ratio
     ours = solve(load=690.0)
     assert ratios[0.3] == pytest.approx(ours.film_ratio, abs=0.5)
     assert ratios[1.0] < 2.0 < ours.film_ratio

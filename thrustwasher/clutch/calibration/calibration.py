@@ -17,7 +17,6 @@ from .friction_law import (
     CONSTANT_LAW,
     constants_of,
     end_frictions,
-    friction_radius,
     friction_slopes,
     law_values,
 )
@@ -235,7 +234,7 @@ def checked_problem(
         raise ParameterError(
             f"friction is {mu.mean():.3g} on average, allowed: above 0 (for either sign of speed)"
         )
-    force, slip_speed = _above_zero("load", force, "N"), np.abs(slip) * friction_radius(params)
+    force, slip_speed = _above_zero("load", force, "N"), np.abs(slip) * params.friction_radius
     scale = np.where(np.isin(names, SPEEDS), float(slip_speed.max()) or 1.0, 1.0)
     if names == CONSTANT_LAW:
         scale[0] = float(mu.mean())

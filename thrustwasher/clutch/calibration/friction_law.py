@@ -8,7 +8,7 @@ import numpy as np
 
 from ...numerics.jit import Array
 from ..kernels.pack_friction import ploughing
-from ..parameters import ClutchParams, mean_radius
+from ..parameters import ClutchParams
 
 WANG_CONSTANTS = (
     "plough_weight", "shear_floor", "stick_speed", "decay_speed", "hardness_ratio", "indentation",
@@ -27,13 +27,6 @@ def law_values(params: ClutchParams) -> dict[str, float]:
     """Return every number the law depends on, by the name of its parameter."""
     names = (*WANG_CONSTANTS, *CONSTANT_LAW, "kink_width", "adhesion_factor")
     return {name: float(getattr(params, name)) for name in names}
-
-
-def friction_radius(params: ClutchParams) -> float:
-    """Return the radius [m] at which slip becomes slip speed and force becomes torque."""
-    if params.effective_radius > 0.0:
-        return params.effective_radius
-    return mean_radius(params.inner_radius, params.outer_radius)
 
 
 def shares(values: Mapping[str, float]) -> tuple[float, float]:

@@ -7,6 +7,7 @@ from importlib import metadata
 from pathlib import Path
 
 from ...errors import ParameterError
+from ...model.prepare import tables_of
 from ...model.spec import ModelSpec
 from ...native import binaries, digest, shipped
 from ...native.files import Note, to_stderr
@@ -20,7 +21,6 @@ from ...native.link import (
 )  # fmt: skip
 from ...native.objects import objects, prepare
 from ...native.targets import GLIBC, PLATFORMS, Platform
-from ...washer.map.map_file import all_maps, plain
 from ..model_kernels import load_kernel
 from ..package.model_sources import source_folder
 from . import c_tables, call_table
@@ -100,9 +100,10 @@ def native_contents(
         target = PLATFORMS[name]
         folder = target.fmi2 if fmi == 2 else target.fmi3
         found.setdefault(f"binaries/{folder}/{spec.name}.{target.extension}", []).append(made)
-    maps = enumerate(all_maps() if spec.table else ())
-    tables_read = {f"resources/map-{k}.bin": plain(file) for k, file in maps}
-    return tables_read | {
+    tables = tables_of(spec)
+    files = map(tables.resource, tables.readable()) if tables else ()
+    resources = {f"resources/map-{k}.bin": file for k, file in enumerate(files)}
+    return resources | {
         path: parts[0] if len(parts) == 1 else universal(parts) for path, parts in found.items()
     }
 

@@ -6,7 +6,6 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...clutch.calibration.friction_law import friction_radius
 from ...clutch.parameters import SPEED, ClutchParams
 from ...clutch.solve import boundary_friction, solve_clutch
 from ...units import format_quantity
@@ -31,7 +30,7 @@ def slip_figure(result: Any, point: Mapping[str, Any], params: ClutchParams) -> 
     """Return friction over slip, solved here, at the load and oil temperature of ``point``."""
     p = params
     has_shares = p.friction_law == "wang" and result.fidelity != "closed"
-    fall = (p.stick_speed + 2.0 * p.decay_speed) / friction_radius(p) if has_shares else 1.0
+    fall = (p.stick_speed + 2.0 * p.decay_speed) / p.friction_radius if has_shares else 1.0
     fastest = min(max(2.0 * abs(point["speed"]), fall), SPEED.high or fall)
     speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(SAMPLES)]
     sweep = [

@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ...clutch.calibration.friction_law import friction_radius
 from ...clutch.calibration.identifiability import counted
 from ...units import format_quantity
 from ..palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
@@ -31,7 +30,7 @@ def calibration_figure(found: Any, columns: Mapping[str, Sequence[float]]) -> Fi
     found : a calibration
     columns : speed [rad/s], load [N], friction, and friction_error if known
     """
-    radius = friction_radius(found.params)
+    radius = found.params.friction_radius
     speed = np.abs(np.asarray(columns["speed"])) * radius
     load, error = np.asarray(columns["load"], float), columns.get("friction_error")
     figure, (top, middle, right) = _panels()
@@ -103,7 +102,7 @@ def _draw_curve(axis: Axes, found: Any, fastest: float, lowest: float, highest: 
         )  # fmt: skip
     axis.set_ylim(min(0.0, lowest), 1.18 * max(highest, float(curve.max())))
     axis.set_xlim(0.0, fastest)
-    second_scale(axis, 30.0 / (np.pi * friction_radius(found.params)), "slip [rpm]")
+    second_scale(axis, 30.0 / (np.pi * found.params.friction_radius), "slip [rpm]")
 
 
 def _heading(found: Any) -> str:

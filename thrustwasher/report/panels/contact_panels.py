@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ...clutch.parameters import mean_radius
 from ..palette import BLACK, BLUE, COLOURS, GREEN, GREY, ORANGE, RED, RPM, SIGMA, SKY
 from ..shift.shift_record import PACKS, Array, Record
 from ..shift.worst_moments import distressed
@@ -120,9 +119,8 @@ def _with_oil(record: Record, where: Array) -> Array | None:
     oil, load = record.series(f"{pack}.viscous_torque"), record.series(f"{pack}.load")
     if part is None or torque is None or oil is None or load is None or not np.any(oil[where]):
         return None
-    p = part.parameters
-    radius = p["effective_radius"] or mean_radius(p["inner_radius"], p["outer_radius"])
-    able = np.maximum(load[where], LEAST_LOAD) * radius * p["faces"]
+    params = part.params()
+    able = np.maximum(load[where], LEAST_LOAD) * params.friction_radius * params.faces
     return np.asarray(np.abs(torque[where]) / able)
 
 

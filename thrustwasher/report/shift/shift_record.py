@@ -1,10 +1,12 @@
 """What the report needs from a finished shift, as plain data."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple, Self
 
 import numpy as np
+
+from ...model.spec import ModelSpec
 
 Array = np.ndarray[Any, Any]
 PACKS = ("clutch", "brake")
@@ -29,8 +31,13 @@ class Part(NamedTuple):
     """One FMU of the run: its name in the scene, its model, its parameters and fidelity."""
 
     name: str
-    model: str
+    spec: ModelSpec
     parameters: Mapping[str, Any]
+
+    def params(self) -> Any:
+        """Return its parameters as its model takes them."""
+        known = {f.name for f in fields(self.spec.params)}
+        return self.spec.params(**{k: v for k, v in self.parameters.items() if k in known})
 
 
 class Cost(NamedTuple):
@@ -181,7 +188,7 @@ def record_of(result: Any) -> Record:
         key_figures=[KeyFigure(*figure) for figure in result.key_figures],
         published=[Published(**entry) for entry in result.comparison()],
         source=scene.published.source if scene.published else "",
-        parts=[Part(n, part.spec.name, part.parameters()) for n, part in scene.parts.items()],
+        parts=[Part(n, part.spec, part.parameters()) for n, part in scene.parts.items()],
         costs=[
             Cost(c.part, c.fidelity, c.instantiate, c.initialize, c.steps, c.wall_time)
             for c in result.cost

@@ -5,15 +5,9 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any
 
-from ...clutch.parameters import SPEC as CLUTCH
-from ...gearmesh.parameters import SPEC as MESH
-from ...transmission.parameters import SPEC as TRANSMISSION
 from ...units import format_quantity as say
-from ...washer.parameters import SPEC as WASHER
 from ..html import Table
 from .shift_record import Part, Record
-
-SPECS = {spec.name: spec for spec in (TRANSMISSION, CLUTCH, WASHER, MESH)}
 
 SAID_TWICE = ("slip_energy_per_area",)  # the pack's own heat per area is the same
 
@@ -125,12 +119,12 @@ def check_table(record: Record) -> Table:
 
 def parameter_tables(record: Record) -> list[Table]:
     """Return one folded table per FMU: every parameter with unit, meaning and origin."""
-    return [_parameters(part) for part in record.parts if part.model in SPECS]
+    return [_parameters(part) for part in record.parts]
 
 
 def _parameters(part: Part) -> Table:
     """Return the parameters of one FMU; what the scene sets is told from the defaults."""
-    spec = SPECS[part.model]
+    spec = part.spec
     rows: list[Sequence[str]] = []
     for f in fields(spec.params):
         value = part.parameters.get(f.name, f.default)
@@ -143,14 +137,13 @@ def _parameters(part: Part) -> Table:
             origin = "default" if value == spec.default_fidelity else "scene"
             rows.append((name, _plain(value), "", "", origin))
     heads = ("parameter", "value", "unit", "meaning", "from")
-    title = f"{part.name} ({part.model})"
+    title = f"{part.name} ({spec.name})"
     return Table(heads, rows, numbers=(1,), title=title, folded=True)
 
 
 def source_texts(record: Record) -> list[str]:
     """Return where the defaults of the models in this run come from."""
-    models = dict.fromkeys(part.model for part in record.parts if part.model in SPECS)
-    docs = {model: (SPECS[model].params.__doc__ or "").replace("``", "") for model in models}
+    docs = {p.spec.name: (p.spec.params.__doc__ or "").replace("``", "") for p in record.parts}
     return [f"{model}. {' '.join(words.split())}" for model, words in docs.items()]
 
 

@@ -9,7 +9,6 @@ from typing import Any
 from jinja2 import Environment, StrictUndefined
 
 from ...units import format_quantity
-from ...washer.parameters import SPEC as WASHER
 from .shift_record import PACKS, Record
 from .shift_tables import source_texts
 from .worst_moments import highest
@@ -23,7 +22,7 @@ def _words() -> Any:
     environment.filters["say"] = lambda value, unit, digits=3: format_quantity(
         value, unit, digits=digits
     )
-    environment.globals.update(highest=highest, pi=math.pi, WASHER=WASHER)
+    environment.globals.update(highest=highest, pi=math.pi)
     text = Path(__file__).with_name("words.jinja").read_text("utf-8")
     return environment.from_string(text).module
 

@@ -1,11 +1,12 @@
 """The worst values of a shift, when they were reached, and the washer solved again there."""
 
-from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...errors import ParameterError, SolveError
+from ...model.record import resolve
+from ...model.registry import models_with_points
 from .shift_record import Array, Record
 
 TURNING = 1.0  # [rad/s] a washer slower than this needs no film
@@ -65,25 +66,18 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     """
     part = record.part("washer")
     recorded = record.at("washer.film_ratio", time)
-    if part is None or recorded is None:
+    model = models_with_points().get(part.spec.key) if part else None
+    if part is None or recorded is None or model is None or model.command is None:
         return None
-    from ...washer.parameters import SPEC, WasherParams
-    from ...washer.solve import solve_washer
-
-    known = {f.name for f in fields(WasherParams)}
-    params = WasherParams(**{k: v for k, v in part.parameters.items() if k in known})
-    fidelity = str(part.parameters.get("fidelity", SPEC.default_fidelity))
-    if fidelity not in WITH_FIELDS:
-        fidelity = SPEC.default_fidelity
-    point: dict[str, Any] = {
-        name: record.at(f"washer.{name}", time) or 0.0
-        for name in ("load", "speed", "tilt", "oil_temperature")
-    }
+    rung = part.parameters.get("fidelity")
+    fidelity = rung if rung in WITH_FIELDS else part.spec.default_fidelity
+    solve, params = resolve(model.command.solve), part.params()
+    point = {s.name: record.at(f"washer.{s.name}", time) or 0.0 for s in part.spec.inputs}
     point["load"] = max(point["load"], LEAST_LOAD)
     found = []
     for branch in (None, "film", "contact"):
         try:
-            found.append(solve_washer(params, **point, fidelity=fidelity, branch=branch))
+            found.append(solve(params, **point, fidelity=fidelity, branch=branch))
         except (ParameterError, SolveError):
             continue
     if not found:

@@ -5,10 +5,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...clutch.kernels.layout import HOT_LIMIT
+from ...model.record import resolve
 from ...numerics.jit import Array
 from ..oscillation.judder import FEW
-from ..scene.connections import PACKS
 from ..scene.scene import Scene
 
 Signals = dict[str, Array]
@@ -69,11 +68,13 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
             if kind == "brake_locked":
                 when = _standstill(time, signals, int(i))
             found.append(Event(when, kind, text))
-    for pack in PACKS:
-        hot = np.flatnonzero(signals[f"{pack}.temperature"] > HOT_LIMIT)
+    limited = ((n, s) for n, p in scene.parts.items() for s in p.spec.outputs if s.limit)
+    for part, signal in limited:
+        limit = resolve(signal.limit)
+        hot = np.flatnonzero(signals[f"{part}.{signal.name}"] > limit)
         if len(hot):
             when = float(time[hot[0]])
-            found.append(Event(when, f"{pack}_hot", f"{pack} is hotter than {HOT_LIMIT:g} K"))
+            found.append(Event(when, f"{part}_hot", f"{part} is hotter than {limit:g} K"))
     return sorted(found, key=lambda e: e.time)
 
 

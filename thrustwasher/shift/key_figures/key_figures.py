@@ -1,11 +1,8 @@
 """The key figures of a shift and its energy balance, read from its signals."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ...clutch.parameters import lining_area, mean_radius
 from ...numerics.jit import Array
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.scene import Scene
@@ -74,7 +71,7 @@ def _slip(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Fo
     slip = signals[f"transmission.{pack}_speed"]
     heat = float(signals[f"transmission.{pack}_heat"][-1])
     greatest = float(np.max(np.abs(slip)))
-    area = area_of(scene.parts[pack].params)
+    area = scene.parts[pack].params.lining_area
     found: Found = {
         "greatest_slip": peak(np.abs(slip), time),
         "slip_energy": (heat, None),
@@ -120,16 +117,6 @@ def energy_balance(signals: Signals) -> dict[str, float]:
     return balance
 
 
-def area_of(params: Any) -> float:
-    """Return the area of all friction faces of a pack [m2]."""
-    return lining_area(params.inner_radius, params.outer_radius, params.faces)
-
-
-def radius_of(params: Any) -> float:
-    """Return the radius friction acts at [m]: the one that was set, or that of even pressure."""
-    return float(params.effective_radius) or mean_radius(params.inner_radius, params.outer_radius)
-
-
 def peak(values: Array, time: Array) -> tuple[float, float]:
     """Return the largest value and its time."""
     i = int(np.argmax(values))
@@ -150,7 +137,7 @@ def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Foun
     """
     if not np.any(signals[f"{pack}.load"] > 0.0):
         return {}
-    area = area_of(scene.parts[pack].params)
+    area = scene.parts[pack].params.lining_area
     found: Found = {
         f"{pack}_heat_per_area": (float(signals[f"transmission.{pack}_heat"][-1]) / area, None),
         f"peak_{pack}_heat_flux": peak(np.abs(signals[f"{pack}.friction_power"]) / area, time),
@@ -209,7 +196,7 @@ def _mean_friction(
     pack, params = scene.engaging, scene.parts[scene.engaging].params
     torque = np.abs(signals[f"transmission.{pack}_reaction"][during])
     load = signals[f"transmission.{pack}_load"][during]
-    pressed = float(np.trapezoid(load, time)) * radius_of(params) * params.faces
+    pressed = float(np.trapezoid(load, time)) * params.friction_radius * params.faces
     return float(np.trapezoid(torque, time)) / pressed if pressed > 0.0 else None
 
 

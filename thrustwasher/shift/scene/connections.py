@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from ...clutch import parameters
+from ...command import parameters as command_params
 from ...gearmesh import parameters as gearmesh_params
 from ...model.spec import ModelSpec
 from ...transmission import parameters as transmission_params
@@ -65,6 +66,7 @@ QUANTITIES: Mapping[str, tuple[tuple[str, str], ...]] = {
 
 # In a package for other tools.
 SOURCE = "command"  # the part that sends the shift command
+SOURCE_SPEC = command_params.SPEC  # its model
 # What the system shows at its border: part, outputs.
 SHOWN = (
     ("command", ("command",)),

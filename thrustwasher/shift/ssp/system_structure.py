@@ -12,11 +12,10 @@ do with the values in a package, and some do nothing.
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from ...command import parameters as command_params
 from ...model.spec import ModelSpec, Signal, tailored
 from ..cosim.instances import Stepping
 from ..run import connected
-from ..scene.connections import COMMAND, SHOWN, SOURCE, Link, links
+from ..scene.connections import COMMAND, SHOWN, SOURCE, SOURCE_SPEC, Link, links
 from ..scene.scene import Part, Scene
 
 MASTER = "jacobi"
@@ -89,12 +88,11 @@ def plan(scene: Scene, starts: Starts) -> Structure:
 
 def _source(scene: Scene) -> Part:
     """Return the source of the scene's shift command, one step ahead: it arrives a step late."""
-    params = command_params.CommandParams(
+    params = SOURCE_SPEC.params(
         start=scene.shift_start, duration=scene.shift_duration, before=scene.shift_from,
         after=scene.shift_to, lead=scene.step,
     )  # fmt: skip
-    spec = command_params.SPEC
-    return Part(spec=spec, fidelity=spec.default_fidelity, params=params)
+    return Part(spec=SOURCE_SPEC, fidelity=SOURCE_SPEC.default_fidelity, params=params)
 
 
 def _component(

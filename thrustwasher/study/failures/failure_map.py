@@ -1,38 +1,28 @@
 """The failure map: each method meets each hazard, and what comes out is judged.
 
-Here are a cavitating film, a surface that its oil heats, closed forms at the ends of their ranges,
-lock-up in co-simulation and a shaft that swings; ``failure_balance`` has the washer's balance.
+Here are a cavitating film, lock-up in co-simulation and a shaft that swings. Hazards of one model's
+own equations are named in its record.
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import asdict
-from fractions import Fraction
 from functools import partial
+from itertools import chain, zip_longest
 from typing import Any
 
-from ...errors import Status
-from ...gearmesh.kernels.flank_temperature import surface_temperature
-from ...tribology.lumped_body import exponential_weights
-from ...washer.closed_forms.thin_film import narrow_ring_load
-from ...washer.kernels.wedge import lift
+from ...model.record import resolve
+from ...model.registry import models_with_cards
 from ..rivals import cavitation as films
-from ..rivals import heat_loop as loops
 from ..rivals import lockup
 from ..rivals import lockup_methods as steppers
 from ..rivals import shaft as shafts
-from .failure_balance import balance
 from .failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
 
 Measure = tuple[str, Callable[[], Group]]
 MANY_SWEEPS, MANY_SOLVES = 100, 10
 WRONG_LOAD = 0.02
 NO_LOAD = 1e-12  # of a film that has a load: nothing lifts
-WRONG_KELVIN = 0.1
-MANY_TURNS = 20
-WRONG_DIGITS = 1e-6
-RADIUS, WIDTH, GAP = 0.02, 2.0**-30, 1e-5  # m, of a narrow ring
-RIM = RADIUS + 0.5 * WIDTH
 WRONG_ENERGY = 0.01
 MOST_TURNS = 2
 MANY_TORQUES = 10  # per step, and
@@ -83,105 +73,6 @@ def cavitation(*, quick: bool = False) -> Group:
 
     judged = f"load off by more than {100 * WRONG_LOAD:g} %"
     return table("a cavitating film", judged, methods, hazards, judge)
-
-
-def heat_loop() -> Group:
-    """Judge methods to find the temperature of a flank heated by its own oil."""
-    hazards = {
-        "little heat": loops.Loop(40.0, 5.0, 1.0),
-        "film thins with the oil": loops.Loop(40.0, 100.0, 0.3),
-        "film keeps its height": loops.Loop(40.0, 100.0, 1.0),
-        "much heat": loops.Loop(40.0, 1000.0, 1.0),
-        "cold oil, -40 degC": loops.Loop(-40.0, 100.0, 1.0),
-        "no heat": loops.Loop(40.0, 0.0, 1.0),
-    }
-
-    def ours(loop: Any) -> tuple[float, Status, int]:
-        # a stress of 1 at the bulk's viscosity, so that the factor is the rise
-        t, _, status, turns = surface_temperature(
-            loop.bulk + 273.15, loop.rise, 1.0, 1e300, loop.power, loops.B, loops.C
-        )
-        return t - 273.15, Status(status), turns
-
-    methods = {
-        "substituted 50 times": loops.substitute_often,
-        "substituted until it stays": loops.substitute,
-        "half of each step": loops.relaxed,
-        "Newton, undamped": loops.newton,
-        "Newton in a bracket, the package's": ours,
-    }
-
-    def judge(method: Any, loop: Any) -> Cell:
-        t, status, turns = method(loop)
-        if status.is_failure:
-            return Cell(SAYS, "", status.name)
-        error = t - loop.root()
-        if not abs(error) <= WRONG_KELVIN:
-            return Cell(LIES, f"{error:+.0f} K", f"slope there {loop.slope(loop.root()):.2f}")
-        words = f"off by {abs(error):.1g} K, slope there {loop.slope(loop.root()):.2f}"
-        return Cell(SLOW if turns > MANY_TURNS else OK, f"{turns} turn" + "s" * (turns != 1), words)
-
-    judged = f"off by more than {WRONG_KELVIN:g} K"
-    return table("a flank that its oil heats", judged, methods, hazards, judge)
-
-
-def closed_forms() -> Group:
-    """Judge closed forms at the ends of their ranges, as printed and as the package has them."""
-
-    def printed(tilt: float) -> float:
-        largest = GAP + tilt * (RIM + RADIUS - 0.5 * WIDTH)
-        least = GAP + 0.5 * tilt * WIDTH
-        return narrow_ring_load(1.0, 1.0, RADIUS - 0.5 * WIDTH, RIM, least, largest)
-
-    def ours(tilt: float) -> float:
-        # a roughness so small that it does not count
-        return lift(GAP, 0.0, tilt, 0.0, 1.0, 0.0, RADIUS - 0.5 * WIDTH, RIM, 1e-12)[0]
-
-    def weight(z: float) -> float:
-        return (1.0 - (1.0 - math.exp(-z)) / z) / z
-
-    Form = tuple[Callable[[float], float], Callable[[float], float], dict[str, float]]
-    tilts = {"usual": 1e-4, "far": 1e-12, "end": 1e-17, "zero": 0.0}
-    times = {"usual": 1.0, "far": 1e-6, "end": 1e-9, "zero": 0.0}
-    forms: dict[str, Form] = {
-        "load of a narrow ring, 1/h_1^2 - 1/h_2^2": (printed, _ring, tilts),
-        "the same, as the package has it": (ours, _ring, tilts),
-        "mean of a heated body, (1 - (1 - exp(-z))/z)/z": (weight, _weight, times),
-        "the same, the package's": (lambda z: exponential_weights(z)[2], _weight, times),
-    }
-    hazards = {
-        "middle of its range": "usual", "differences of near numbers": "far",
-        "the end of its range": "end", "zero itself": "zero",
-    }  # fmt: skip
-
-    def judge(form: Form, place: str) -> Cell:
-        formula, true, places = form
-        x = places[place]
-        found, exact = formula(x), true(x)
-        error = found / exact - 1.0 if exact else found
-        if not abs(error) <= WRONG_DIGITS:
-            return Cell(LIES, off(error), f"at {x:g}")
-        return Cell(OK, f"{abs(error):.0e}" if error else "", f"at {x:g}")
-
-    judged = f"off by more than {WRONG_DIGITS:g}, relative"
-    return table("closed forms at the ends of their ranges", judged, forms, hazards, judge)
-
-
-def _ring(tilt: float) -> float:
-    """Return the load of a tilted narrow ring, in fractions."""
-    radius, width, rim, gap, g = (Fraction(x) for x in (RADIUS, WIDTH, RIM, GAP, tilt))
-    least = gap + g * width / 2
-    largest = gap + g * (rim + radius - width / 2)
-    return float(radius * width**3 / 4 * (1 / least**2 - 1 / largest**2))
-
-
-def _weight(z: float) -> float:
-    """Return the sum of (-z)^k/(k + 2)!, of which nothing is lost for z up to some ten."""
-    total, term = 0.0, 0.5
-    for k in range(60):
-        total += term
-        term *= -z / (k + 3.0)
-    return total
 
 
 def coupling(*, quick: bool = False) -> Group:
@@ -271,12 +162,15 @@ def drift(*, quick: bool = False) -> Group:
 def stability(
     *, quick: bool = False, progress: Callable[[str], None] = print, more: tuple[Measure, ...] = ()
 ) -> list[dict[str, Any]]:
-    """Return all groups, as JSON types; ``more`` are measured after the package's own."""
+    """Return all groups, as JSON types; ``more`` are measured after the package's own.
+
+    Of the hazards of the models each one's first comes first.
+    """
+    named = (model.ladder.hazards.items() for model in models_with_cards().values() if model.ladder)
+    hazards = filter(None, chain.from_iterable(zip_longest(*named)))
     own: tuple[Measure, ...] = (
         ("a cavitating film", partial(cavitation, quick=quick)),
-        ("the washer's balance", balance),
-        ("a flank that its oil heats", heat_loop),
-        ("closed forms", closed_forms),
+        *((name, resolve(hazard)) for name, hazard in hazards),
         ("lock-up in co-simulation", coupling),
         ("a shaft that swings", partial(drift, quick=quick)),
     )

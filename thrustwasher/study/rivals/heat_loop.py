@@ -3,15 +3,20 @@
 T = T_B + dT_0 (mu(T)/mu(T_B))^n: n = 1 if the film keeps its height, 0.3 if it thins with the oil.
 The right side falls with T, so there is one root, always between T_B and T_B + dT_0. Substitution
 converges only while the slope there is above -1; beyond, it swings between two temperatures.
-Viscosity law and numbers: Atan (2005), Eq 13.
+Viscosity law and numbers: Atan (2005), Eq 13. ``heat_loop`` judges the methods.
 """
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from ...errors import Status
+from ...gearmesh.kernels.flank_temperature import surface_temperature
+from ..failures.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, table
 
 B, C = 755.0, 70.0  # degC
+WRONG_KELVIN = 0.1
+MANY_TURNS = 20
 
 
 @dataclass(frozen=True)
@@ -76,3 +81,43 @@ def newton(loop: Loop, most: int = 50) -> Answer:
         if abs(step) <= 1e-9:
             return t, Status.OK, turn + 1
     return t, Status.MAX_ITERATIONS, most
+
+
+def heat_loop() -> Group:
+    """Judge methods to find the temperature of a flank heated by its own oil."""
+    hazards = {
+        "little heat": Loop(40.0, 5.0, 1.0),
+        "film thins with the oil": Loop(40.0, 100.0, 0.3),
+        "film keeps its height": Loop(40.0, 100.0, 1.0),
+        "much heat": Loop(40.0, 1000.0, 1.0),
+        "cold oil, -40 degC": Loop(-40.0, 100.0, 1.0),
+        "no heat": Loop(40.0, 0.0, 1.0),
+    }
+
+    def ours(loop: Any) -> tuple[float, Status, int]:
+        # a stress of 1 at the bulk's viscosity, so that the factor is the rise
+        t, _, status, turns = surface_temperature(
+            loop.bulk + 273.15, loop.rise, 1.0, 1e300, loop.power, B, C
+        )
+        return t - 273.15, Status(status), turns
+
+    methods = {
+        "substituted 50 times": substitute_often,
+        "substituted until it stays": substitute,
+        "half of each step": relaxed,
+        "Newton, undamped": newton,
+        "Newton in a bracket, the package's": ours,
+    }
+
+    def judge(method: Any, loop: Any) -> Cell:
+        t, status, turns = method(loop)
+        if status.is_failure:
+            return Cell(SAYS, "", status.name)
+        error = t - loop.root()
+        if not abs(error) <= WRONG_KELVIN:
+            return Cell(LIES, f"{error:+.0f} K", f"slope there {loop.slope(loop.root()):.2f}")
+        words = f"off by {abs(error):.1g} K, slope there {loop.slope(loop.root()):.2f}"
+        return Cell(SLOW if turns > MANY_TURNS else OK, f"{turns} turn" + "s" * (turns != 1), words)
+
+    judged = f"off by more than {WRONG_KELVIN:g} K"
+    return table("a flank that its oil heats", judged, methods, hazards, judge)

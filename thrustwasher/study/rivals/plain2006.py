@@ -12,13 +12,18 @@ Set as favourably as can be: over-relaxation 1.65 (best of 1.0 .. 1.9) also for 
 nowhere), temperatures relaxed where that keeps the branch, and all of it compiled.
 """
 
+import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Status
+from ...numerics.dense import dense_solve
 from ...tribology.asperities import contact_pressure
 from ...tribology.flow_factors import mean_gap
 from ...washer.kernel_arguments import constants
@@ -26,6 +31,8 @@ from ...washer.kernels.constants import WasherModel, washer_model
 from ...washer.kernels.gap import dry_friction, oil_viscosity
 from ...washer.kernels.layout import D_SIGMA1
 from ...washer.parameters import WasherParams
+from ..charts.chart_series import Configuration, series
+from ..charts.methods import ChartCase, MethodAnswer, neighbours, path_to
 from .compiled import rival
 from .plain2006_fields import (
     Mesh,
@@ -45,6 +52,8 @@ SHARE = 0.3  # 1 lands on the contact branch up to 28 % below the fold
 MOST_ROUNDS = 400
 OK, MAX_ITERATIONS, NOT_FINITE = 0, 10, 14  # errors.Status
 MOST_SWEEPS = 3000  # of pressure, per residual
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)  # of the chart
+GRIDS = ((13, 67), (17, 67), (17, 134))
 N_Q = 4  # positions in `memory`, before pressures and temperature rises
 TORQUE, TEMPERATURE, FILM, SWEEPS, RATIO, N_OUT = 0, 1, 2, 3, 4, 5  # what `solve_point` reports
 
@@ -77,32 +86,6 @@ def forces(
                 force[2] += f * x
                 force[3] += f
     return contact, force[3]
-
-
-@rival
-def solve_four(a: Array, b: Array) -> bool:
-    """Gauss elimination with pivoting, in place; the solution is in ``b``."""
-    n = b.size
-    for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(a[i, k]) > abs(a[best, k]):
-                best = i
-        if not abs(a[best, k]) > 0.0:
-            return False
-        for j in range(n):
-            a[k, j], a[best, j] = a[best, j], a[k, j]
-        b[k], b[best] = b[best], b[k]
-        for i in range(k + 1, n):
-            factor = a[i, k] / a[k, k]
-            for j in range(k, n):
-                a[i, j] -= factor * a[k, j]
-            b[i] -= factor * b[k]
-    for k in range(n - 1, -1, -1):
-        for j in range(k + 1, n):
-            b[k] -= a[k, j] * b[j]
-        b[k] /= a[k, k]
-    return True
 
 
 @rival
@@ -152,7 +135,7 @@ def balance(
                 )
             for row in range(4):
                 jacobian[row, k] = (plus[row] - minus[row]) / (2.0 * s.difference)
-        if not solve_four(jacobian, force):
+        if not dense_solve(jacobian.ravel(), force, 4, 1):
             return MAX_ITERATIONS
         # the largest change of either gap stays near a third of the film, or one sigma
         tilted = math.sqrt(force[2] ** 2 + force[3] ** 2)
@@ -241,6 +224,16 @@ def solve_point(
     return status
 
 
+class Found2006(NamedTuple):
+    """What ``solve_point`` reports, in the order of ``out``."""
+
+    friction_torque: float  # N m
+    temperature: float  # K, mean of the film
+    film_thickness: float  # m, least separation
+    sweeps: float  # over a field, of pressure and of temperature
+    film_ratio: float  # least separation over sigma
+
+
 @dataclass
 class Plain2006:
     """A washer with the memory of its last solution, as the original keeps it between loads."""
@@ -260,7 +253,7 @@ class Plain2006:
         self.out = np.zeros(N_OUT)
 
     def solve(self, load: float, speed: float, tilt: float, oil_temperature: float) -> Status:
-        """Solve one point, warm if there was one before; the results are the properties below."""
+        """Solve one point, warm if there was one before; ``found`` is the result."""
         settings = Settings(
             self.relaxation, HEAT_RELAXATION, self.tolerance, DIFFERENCE, self.share, MOST_ROUNDS,
             1.0 if self.limited else 1e300,
@@ -275,31 +268,52 @@ class Plain2006:
         )  # fmt: skip
         return Status(status)
 
-    def forget(self) -> None:
-        """Start the next solve from nothing."""
-        self.memory[:] = 0.0
-
     @property
-    def friction_torque(self) -> float:
-        """[N m] of the last solve."""
-        return float(self.out[TORQUE])
+    def found(self) -> Found2006:
+        """The last solution."""
+        return Found2006(*self.out.tolist())
 
-    @property
-    def temperature(self) -> float:
-        """[K] mean of the film."""
-        return float(self.out[TEMPERATURE])
 
-    @property
-    def film_thickness(self) -> float:
-        """[m] least separation."""
-        return float(self.out[FILM])
+class Method2006:
+    """The method as one to be charted."""
 
-    @property
-    def film_ratio(self) -> float:
-        """[-] least separation over sigma."""
-        return float(self.out[RATIO])
+    def __init__(self, **settings: Any) -> None:
+        self._make = partial(Plain2006, **settings)
 
-    @property
-    def sweeps(self) -> int:
-        """Sweeps over a field, of pressure and of temperature."""
-        return int(self.out[SWEEPS])
+    def solve(self, case: ChartCase) -> MethodAnswer:
+        """Solve a case, warm at the last."""
+        washer, status = self._at(case)
+        found = washer.found
+        return MethodAnswer(found._asdict(), status, found.sweeps * math.prod(washer.grid))
+
+    def _at(self, case: ChartCase) -> tuple[Plain2006, Status]:
+        washer, status = self._make(), Status.OK
+        for point in path_to(case):
+            status = washer.solve(*point)
+        return washer, status
+
+    def warm(self, case: ChartCase) -> Callable[[], object]:
+        """Return a call that goes back and forth over one per cent of the load."""
+        washer, _ = self._at(case)
+        points = itertools.cycle(neighbours(case))
+        return lambda: washer.solve(*next(points))
+
+    def idle(self, case: ChartCase) -> None:
+        """Return nothing: a call from Python is nothing beside a solve."""
+
+
+def charted(*, quick: bool = False) -> list[Configuration]:
+    """Return the method over its tolerance, and over its mesh at the best tolerance."""
+    tolerances = (
+        (f"2006, 9 x 67, {t:g}", f"{t:g}", partial(Method2006, tolerance=t))
+        for t in (TOLERANCES[1:2] if quick else TOLERANCES)
+    )
+    meshes = (
+        (f"2006, mesh {r} x {t}", f"{r}x{t}", partial(Method2006, tolerance=1e-5, grid=(r, t)))
+        for r, t in (() if quick else GRIDS)
+    )
+    swept = "sweeps x nodes"
+    return [
+        *series("2006, 9 x 67, tolerance", "tolerance", tolerances, swept, is_rival=True),
+        *series("2006, 1e-5, mesh", "grid", meshes, swept, is_rival=True),
+    ]

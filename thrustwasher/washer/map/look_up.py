@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
+from ...model.spec import Tables
 from ...native.load import bound
 from ...numerics.jit import Array
 from ..kernel_arguments import NO_MESH, Recent
@@ -22,7 +23,7 @@ from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import WasherParams
 from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
-from .map_file import MapFile, find_map, read_map
+from .map_file import MapFile, all_maps, find_map, map_paths, plain, read_map
 
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
 OUTPUTS = (
@@ -227,6 +228,4 @@ def washer_map(params: WasherParams) -> WasherMap:
     return WasherMap(params)
 
 
-def map_data(params: WasherParams) -> Array:
-    """Return the map of a washer as the kernels take it; ParameterError if there is none."""
-    return map_for(params).data
+TABLES = Tables("map", map_paths, all_maps, map_for, lambda p: WasherMap(p).box, plain)

@@ -131,15 +131,19 @@ def map_folders() -> list[Path]:
     return [Path(p) for p in named.split(os.pathsep) if p] + [SHIPPED]
 
 
+def map_paths() -> list[Path]:
+    """Return all files that have the name of a map."""
+    return [path for folder in map_folders() for path in sorted(folder.glob(f"*{SUFFIX}"))]
+
+
 def all_maps() -> list[MapFile]:
     """Return every readable map; files that are none are passed over."""
     found = []
-    for folder in map_folders():
-        for path in sorted(folder.glob(f"*{SUFFIX}")):
-            try:
-                found.append(read_map(path))
-            except ParameterError:
-                continue  # `thrustwasher doctor` names it
+    for path in map_paths():
+        try:
+            found.append(read_map(path))
+        except ParameterError:
+            continue  # `thrustwasher doctor` names it
     return found
 
 

@@ -1,19 +1,30 @@
-"""Where methods to find the washer's balance fail: by the branch they end on."""
+"""Where methods fail on the washer's equations.
+
+On its balance by the branch they end on, in closed forms at the ends of their ranges.
+"""
 
 import math
+from collections.abc import Callable
+from fractions import Fraction
 from functools import cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
+from ...tribology.lumped_body import exponential_weights
+from ...washer.closed_forms.thin_film import narrow_ring_load
+from ...washer.kernels.wedge import lift
 from ...washer.load_curve import load_curve
 from ...washer.parameters import WasherParams
 from ...washer.solve import solve_washer
 from ..rivals.plain2006 import Plain2006
-from .failure_cells import LIES, NONE, OK, SAYS, Cell, Group, table
+from .failure_cells import LIES, NONE, OK, SAYS, Cell, Group, off, table
 
 WRONG_RATIO = 1.0  # of the film: another branch, not another mesh
 MESH = (17, 67)
 OIL = 297.15
+WRONG_DIGITS = 1e-6
+RADIUS, WIDTH, GAP = 0.02, 2.0**-30, 1e-5  # m, of a narrow ring
+RIM = RADIUS + 0.5 * WIDTH
 
 
 class Hazard(NamedTuple):
@@ -84,12 +95,12 @@ def judged(true: Found, found: Found) -> Cell:
         return Cell(SAYS, "", found.failure)
     if not (math.isfinite(found.ratio) and math.isfinite(found.torque)):
         return Cell(LIES, "NaN", "not finite, status OK")
-    off = f"film ratio {found.ratio:.3g}, true {true.ratio:.3g}"
+    words = f"film ratio {found.ratio:.3g}, true {true.ratio:.3g}"
     if abs(found.ratio - true.ratio) <= max(WRONG_RATIO, 0.05 * true.ratio):
-        return Cell(OK, "", off)
+        return Cell(OK, "", words)
     if abs(found.torque - true.torque) <= found.estimate * abs(true.torque):
-        return Cell(SAYS, f"within {100 * found.estimate:.0f} %", f"{off}; so it estimates")
-    return Cell(LIES, f"{found.ratio:.1f} for {true.ratio:.1f}", off)
+        return Cell(SAYS, f"within {100 * found.estimate:.0f} %", f"{words}; so it estimates")
+    return Cell(LIES, f"{found.ratio:.1f} for {true.ratio:.1f}", words)
 
 
 def _rival(make: Any, *, warm: bool = False) -> Any:
@@ -100,10 +111,10 @@ def _rival(make: Any, *, warm: bool = False) -> Any:
         if warm and point.before is None:
             return None
         if warm and point.before and washer.solve(*point.before, point.oil).is_failure:
-            washer.forget()
+            washer = make()
         status = washer.solve(point.load, point.speed, point.tilt, point.oil)
         failure = status.name if status.is_failure else ""
-        return Found(failure, washer.film_ratio, washer.friction_torque)
+        return Found(failure, washer.found.film_ratio, washer.found.friction_torque)
 
     return solve
 
@@ -139,3 +150,62 @@ def _curve(point: Hazard) -> Found:
             ratio = a.film_ratio + x * (b.film_ratio - a.film_ratio)
             return Found("", ratio, a.friction_torque + x * (b.friction_torque - a.friction_torque))
     return Found("NO_BRANCH", math.nan, math.nan)
+
+
+def closed_forms() -> Group:
+    """Judge closed forms at the ends of their ranges, as printed and as the package has them."""
+
+    def printed(tilt: float) -> float:
+        largest = GAP + tilt * (RIM + RADIUS - 0.5 * WIDTH)
+        least = GAP + 0.5 * tilt * WIDTH
+        return narrow_ring_load(1.0, 1.0, RADIUS - 0.5 * WIDTH, RIM, least, largest)
+
+    def ours(tilt: float) -> float:
+        # a roughness so small that it does not count
+        return lift(GAP, 0.0, tilt, 0.0, 1.0, 0.0, RADIUS - 0.5 * WIDTH, RIM, 1e-12)[0]
+
+    def weight(z: float) -> float:
+        return (1.0 - (1.0 - math.exp(-z)) / z) / z
+
+    Form = tuple[Callable[[float], float], Callable[[float], float], dict[str, float]]
+    tilts = {"usual": 1e-4, "far": 1e-12, "end": 1e-17, "zero": 0.0}
+    times = {"usual": 1.0, "far": 1e-6, "end": 1e-9, "zero": 0.0}
+    forms: dict[str, Form] = {
+        "load of a narrow ring, 1/h_1^2 - 1/h_2^2": (printed, _ring, tilts),
+        "the same, as the package has it": (ours, _ring, tilts),
+        "mean of a heated body, (1 - (1 - exp(-z))/z)/z": (weight, _weight, times),
+        "the same, the package's": (lambda z: exponential_weights(z)[2], _weight, times),
+    }
+    hazards = {
+        "middle of its range": "usual", "differences of near numbers": "far",
+        "the end of its range": "end", "zero itself": "zero",
+    }  # fmt: skip
+
+    def judge(form: Form, place: str) -> Cell:
+        formula, true, places = form
+        x = places[place]
+        found, exact = formula(x), true(x)
+        error = found / exact - 1.0 if exact else found
+        if not abs(error) <= WRONG_DIGITS:
+            return Cell(LIES, off(error), f"at {x:g}")
+        return Cell(OK, f"{abs(error):.0e}" if error else "", f"at {x:g}")
+
+    judged = f"off by more than {WRONG_DIGITS:g}, relative"
+    return table("closed forms at the ends of their ranges", judged, forms, hazards, judge)
+
+
+def _ring(tilt: float) -> float:
+    """Return the load of a tilted narrow ring, in fractions."""
+    radius, width, rim, gap, g = (Fraction(x) for x in (RADIUS, WIDTH, RIM, GAP, tilt))
+    least = gap + g * width / 2
+    largest = gap + g * (rim + radius - width / 2)
+    return float(radius * width**3 / 4 * (1 / least**2 - 1 / largest**2))
+
+
+def _weight(z: float) -> float:
+    """Return the sum of (-z)^k/(k + 2)!, of which nothing is lost for z up to some ten."""
+    total, term = 0.0, 0.5
+    for k in range(60):
+        total += term
+        term *= -z / (k + 3.0)
+    return total

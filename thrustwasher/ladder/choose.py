@@ -1,13 +1,12 @@
 """Choose the cheapest rung that holds a tolerance over a box of inputs; nothing is solved here."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError, SolveError
+from ..model.parameters import params_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
 from .boxes import Part, Request, checked_box
@@ -60,7 +59,7 @@ class Choice:
     error: float
     seconds: float
     reasons: tuple[str, ...]
-    outside: Choice | None = None
+    outside: "Choice | None" = None
     share: float = 1.0
     where: str = ""
 
@@ -129,7 +128,7 @@ def choose(
     wanted = [name for name in rungs if among is None or name in among]
     if not wanted:
         raise ParameterError(f"among: no rung, allowed: some of {', '.join(map(repr, rungs))}")
-    found, refused = candidates(spec, spec.params() if params is None else params, wanted)
+    found, refused = candidates(spec, params_of(spec, params), wanted)
     return decide(request, found, refused)
 
 
@@ -146,17 +145,9 @@ def _above(name: str, value: float, low: float, belongs: bool = True) -> float:
 
 
 def decide(request: Request, found: list[Candidate], refused: dict[str, str]) -> Choice:
-    """Return the choice among the candidates; a pure function of cards and request.
+    """Return the choice among the candidates, in the ladder's order; SolveError if nothing fits.
 
-    Parameters
-    ----------
-    request : box, quantity, tolerance
-    found : rungs with fresh cards, in the ladder's order
-    refused : rung -> why its card does not count
-
-    Raises
-    ------
-    SolveError : nothing fits
+    A pure function of cards and request. ``refused``: rung -> why its card does not count.
     """
     options = plans(request, found)
     if not options:

@@ -5,8 +5,6 @@ package ``kernels``, whose head says what of it Python calls (``CALLED``). Nothi
 before it is asked for.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -65,27 +63,38 @@ def find_model(name: str) -> Model:
     homes = MODELS | HELPERS
     if name in homes:
         return _model_in(homes[name])
-    models = [_model_in(home) for home in homes.values()]
-    for model in models:
-        if model.name == name:
-            return model
-    raise ParameterError(f"model = {name!r}, allowed: {', '.join(m.name for m in models)}")
+    for home in homes.values():
+        if _model_in(home).name == name:
+            return _model_in(home)
+    raise _unknown(name)
 
 
-def find_spec(name: str) -> ModelSpec:
+def _unknown(name: str, why: str = "") -> ParameterError:
+    known = ", ".join(_model_in(home).name for home in (MODELS | HELPERS).values())
+    return ParameterError(f"model = {name!r}{why}, allowed: {known}")
+
+
+def find_spec(name: str) -> "ModelSpec":
     """Return the interface of a model by key, by the name of its FMU or by "module:NAME"."""
-    if ":" in name:
-        found: ModelSpec = resolve(name)
-        return found
-    return find_model(name).spec
+    if ":" not in name:
+        return find_model(name).spec
+    from .spec import ModelSpec
+
+    try:
+        found = resolve(name)
+    except (ImportError, AttributeError, TypeError, ValueError) as problem:
+        raise _unknown(name, f" ({problem})") from problem
+    if not isinstance(found, ModelSpec):
+        raise _unknown(name, " (no ModelSpec)")
+    return found
 
 
-def all_specs() -> list[ModelSpec]:
+def all_specs() -> "list[ModelSpec]":
     """Return the interfaces of all models, in the order they are built."""
     return [model.spec for model in all_models()]
 
 
-def spec_of(name: str) -> ModelSpec:
+def spec_of(name: str) -> "ModelSpec":
     """Return the interface of a model that is solved at points; ParameterError names those.
 
     Examples
@@ -110,6 +119,6 @@ def ladder_of(name: str) -> Ladder:
     return found
 
 
-def kernel_of(spec: ModelSpec) -> Any:
+def kernel_of(spec: "ModelSpec") -> Any:
     """Return the module with a model's compiled step."""
     return import_module(spec.kernel)

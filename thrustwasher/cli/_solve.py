@@ -76,12 +76,7 @@ def _inputs(model: Command, spec: ModelSpec) -> list[Signal]:
 def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:
     """Return the rung asked for by name, or the one that the cards choose at ``point``.
 
-    Why it was chosen is written to standard error.
-
-    Raises
-    ------
-    ParameterError : the tolerance is none
-    SolveError : no rung is verified to it here
+    Why it was chosen is written to standard error; SolveError if none is verified here.
     """
     if asked in spec.fidelities:
         return asked

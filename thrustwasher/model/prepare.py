@@ -29,11 +29,8 @@ def filled(
 ) -> Any:
     """Return the ``size`` numbers of a kernel's ``par``: parameters, rung, derived constants.
 
-    It is for solutions without a past: a washer's bodies are taken as steady.
-
-    Raises
-    ------
-    ParameterError : the rung is not one of the model's, or the parameters cannot be used together
+    It is for solutions without a past: a washer's bodies are taken as steady. ParameterError if the
+    rung is not one of the model's, or the parameters cannot be used together.
     """
     if fidelity == "reference":
         raise ParameterError(OFFLINE.format(spec.key))
@@ -70,9 +67,7 @@ def wants_table(spec: ModelSpec, par: Any) -> bool:
 def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
     """Put the table for ``params`` into ``work`` if the rung in ``par`` reads one.
 
-    Raises
-    ------
-    ParameterError : there is none for these parameters, or it is too large
+    ParameterError if there is none for these parameters, or it is too large.
     """
     if not wants_table(spec, par):
         return

@@ -41,12 +41,7 @@ CAUSES = (
 
 
 def check_module(module: Any, kernel: str) -> None:
-    """Stop if an optimised module needs more than is allowed (llvmlite module).
-
-    Raises
-    ------
-    EnvironmentProblem : names the kernel, the symbols, the likely cause and the cure
-    """
+    """Stop if an optimised module of llvmlite needs more than is allowed; name cause and cure."""
     found = [v.name for v in module.global_variables if v.is_declaration]
     if re.search(r"inttoptr \(i64 \d", str(module)):  # of an object of the compiling process
         found.append("inttoptr")
@@ -57,12 +52,7 @@ def check_module(module: Any, kernel: str) -> None:
 
 
 def check_object(code: bytes, kernel: str) -> None:
-    """Stop if an object file refers to more than is allowed: intrinsics become calls late.
-
-    Raises
-    ------
-    EnvironmentProblem : as ``check_module``
-    """
+    """Stop if an object file refers to more than is allowed: intrinsics become calls late."""
     _stop(kernel, [name for name in undefined(code) if name not in ALLOWED])
 
 

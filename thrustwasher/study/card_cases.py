@@ -1,7 +1,5 @@
 """What cards are made for: parameter sets, the boxes of inputs, how many held-out points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -53,7 +51,7 @@ class Case:
                 break
         return found
 
-    def within(self, box: Mapping[str, tuple[float, float]]) -> Case:
+    def within(self, box: Mapping[str, tuple[float, float]]) -> "Case":
         """Return the case for the part of its box that lies in another one."""
         part = {}
         for name, a in self.envelope.items():

@@ -145,10 +145,7 @@ def study(
 ) -> dict[str, Any]:
     """Return truth and samples of all ways and steps, as JSON types.
 
-    Parameters
-    ----------
-    make : gives an instance for each part of a scene
-    quick : few steps, one repeat
+    ``make`` gives an instance for each part of a scene; ``quick``: few steps, one repeat.
     """
     progress("shift: reference")
     truth, uncertainty = small_step_limit(make, quick=quick)

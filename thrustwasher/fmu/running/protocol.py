@@ -137,24 +137,20 @@ class MachineGroup(NamedTuple):
     """A call that sets or gets values of one type."""
 
     function: int
-    references: int
-    """Address of the value references."""
-    places: list[int]
-    """Where the values stand among all inputs or outputs."""
+    references: int  # address of the value references
+    places: list[int]  # where the values stand among all inputs or outputs
     kind: str
 
 
 class Machine(NamedTuple):
     """What a compiled master needs to step an instance: addresses, valid as long as it lives."""
 
-    third: bool
-    """FMI 3: lengths go along with values; a step hands four more places over."""
+    third: bool  # FMI 3: lengths go along with values; a step hands four more places over
     component: int
     step: int
     setters: list[MachineGroup]
     getters: list[MachineGroup]
-    said: int
-    """Address of a number that is not 0 once the FMU has logged something."""
+    said: int  # address of a number that is not 0 once the FMU has logged something
 
 
 def machine_of(protocol: Protocol, inputs: Table, outputs: Table, said: Any) -> Machine:

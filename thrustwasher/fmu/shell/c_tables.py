@@ -1,6 +1,6 @@
 """The tables of a model as C source: everything the shell knows about it."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
@@ -139,9 +139,5 @@ def _text(value: str | None) -> str:
     """Return a C literal; whatever C might read as something else is written as octal digits."""
     if value is None:
         return "0"
-    return '"' + "".join(_escaped(value.encode())) + '"'
-
-
-def _escaped(data: bytes) -> Iterable[str]:
     plain = set(range(0x20, 0x7F)) - set(b'"\\?')
-    return (chr(byte) if byte in plain else f"\\{byte:03o}" for byte in data)
+    return '"' + "".join(chr(b) if b in plain else f"\\{b:03o}" for b in value.encode()) + '"'

@@ -1,7 +1,5 @@
 """Connected instances: a part's inputs, its last outputs and where its inputs come from."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
@@ -33,7 +31,7 @@ class ConnectedPart:
         self.outputs = [0.0] * len(self.output_names)
         self.sources: list[tuple[int, ConnectedPart, int]] = []
 
-    def connect(self, link: Link, source: ConnectedPart) -> None:
+    def connect(self, link: Link, source: "ConnectedPart") -> None:
         """Take an input from an output of another part."""
         self.sources.append(
             (self.input_names.index(link.input), source, source.output_names.index(link.output))
@@ -94,12 +92,8 @@ def _named(part: str, time: float) -> Iterator[None]:
 class System:
     """All parts of a shift, connected; the shift command comes from outside.
 
-    Parameters
-    ----------
-    parts : by name
-    links : who passes what to whom
-    hub : the part that moves, ``transmission`` here; all others answer its speeds with torques
-    carries_on : inputs that the hub itself carries on over a step as they changed in the last one
+    ``hub`` is the part that moves, ``transmission`` here; all others answer its speeds with
+    torques. ``carries_on``: its inputs that it carries on over a step as they changed in the last.
     """
 
     def __init__(

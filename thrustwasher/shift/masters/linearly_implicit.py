@@ -42,14 +42,11 @@ def schedule(system: System) -> Schedule:
 class Wire(NamedTuple):
     """A torque on its way from a friction part to the transmission."""
 
-    slot: int
-    """Which input of the transmission."""
+    slot: int  # which input of the transmission
     part: ConnectedPart
     output: int
-    places: list[tuple[int, int]]
-    """(input of the part, output of the transmission it comes from)."""
-    speed: int | None
-    """Which of ``places`` is the slip, if the torque has its sign."""
+    places: list[tuple[int, int]]  # (input of the part, output of the transmission it comes from)
+    speed: int | None  # which of ``places`` is the slip, if the torque has its sign
 
 
 class Correction:

@@ -106,7 +106,10 @@ def _by_cards(name: str, part: Part, trials: TrialRuns, steps: int, is_checked: 
     ]
     rungs = list(spec.fidelities)
     best = max(choices, key=lambda c: rungs.index(c.fidelity))
-    reasons = [_renamed(line, spec.key, name) for c in choices for line in c.reasons]
+    reasons = [  # the first line of a choice names the part, not the model
+        name + line.removeprefix(spec.key) if line.startswith(f"{spec.key}:") else f"  {line}"
+        for c in choices for line in c.reasons
+    ]  # fmt: skip
     if not direct and trials.finest is not None:
         reasons.append(f"  asked, because {_moved(trials)}")
     higher = above(spec, best.fidelity)
@@ -143,8 +146,3 @@ def _scale(part: str, output: str, quantity: str, trials: TrialRuns) -> Scale:
 
 def _names(spec: ModelSpec) -> list[str]:
     return [signal.name for signal in spec.outputs]
-
-
-def _renamed(line: str, model: str, part: str) -> str:
-    """Let the first line of a choice name the part, not the model."""
-    return part + line.removeprefix(model) if line.startswith(f"{model}:") else f"  {line}"

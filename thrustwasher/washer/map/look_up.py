@@ -173,10 +173,7 @@ def solve_by_map(
     """Return the state at a point by look-up, None where the map says nothing.
 
     ``wanted`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
-
-    Raises
-    ------
-    ParameterError : there is no map for these parameters
+    ParameterError: there is no map for these parameters.
     """
     if point[2] <= LEAST_TILT:
         washer_map(params)  # there has to be one

@@ -6,10 +6,10 @@ from importlib import metadata
 from pathlib import Path
 
 from ..errors import ParameterError
+from ..model.registry import all_specs, find_spec
 from ..model.spec import ModelSpec
 from ..native.files import Note, write, zipped
 from ..native.link import this_platform
-from .description.interface import all_specs, find_spec
 from .description.model_description import description, terminals_and_icons
 from .description.xml_parts import text
 from .documentation.html_page import accuracy, page

@@ -172,9 +172,7 @@ def load_cards(model: str, params: Any = None) -> list[Card]:
     """
     found = {c.name: c for folder in card_folders() for c in _folder(folder)[0]}
     digest = None if params is None else params_digest(params)
-    return [
-        c for c in found.values() if c.model == model and digest in (None, c.params.sha256)
-    ]  # fmt: skip
+    return [c for c in found.values() if c.model == model and digest in (None, c.params.sha256)]
 
 
 def refused_files() -> dict[str, str]:

@@ -18,6 +18,8 @@ from .formats import plain, shown_error, shown_seconds, shown_share
 AUTO = "auto"
 TOLERANCE = 0.01  # of "auto" alone
 TOLERANCES = (1e-6, 0.5)
+REJECTED = ("cheaper but too coarse", "dearer and too coarse", "would hold too",
+            "not verified in this box")  # fmt: skip
 
 
 def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
@@ -191,7 +193,8 @@ def _outside_lines(request: Request, plan: Plan) -> list[str]:
 
 def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
     """Say of every rung that was not taken why: too coarse, dearer, or not verified here."""
-    coarse, dear, away = [], [], []
+    groups: dict[str, list[str]] = {words: [] for words in REJECTED}
+    cheaper, coarser, holds, away = groups.values()
     for rung in found:
         if rung is best.rung:
             continue
@@ -201,15 +204,10 @@ def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
             continue
         text = f"{rung.fidelity} {seen.promise}"
         if seen.error > request.tol:
-            coarse.append((rung.call <= best.rung.call, text))
+            (cheaper if rung.call <= best.rung.call else coarser).append(text)
         else:
-            dear.append(f"{text} in {shown_seconds(rung.call)}")
-    lines = []
-    for cheaper, words in ((True, "cheaper but too coarse"), (False, "dearer and too coarse")):
-        texts = [t for c, t in coarse if c is cheaper]
-        lines += [f"{words}: {', '.join(texts)}"] if texts else []
-    lines += [f"would hold too: {', '.join(dear)}"] if dear else []
-    return lines + ([f"not verified in this box: {', '.join(away)}"] if away else [])
+            holds.append(f"{text} in {shown_seconds(rung.call)}")
+    return [f"{words}: {', '.join(texts)}" for words, texts in groups.items() if texts]
 
 
 def _refusal(request: Request, found: list[Candidate], refused: dict[str, str]) -> str:

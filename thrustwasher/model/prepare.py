@@ -50,12 +50,10 @@ def filled(
 
 def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
     """Raise ParameterError for the first rule that parameters and fidelity break together."""
-    if not spec.rules:  # a model from elsewhere may have its kernel elsewhere too
-        return
-    rule = getattr(import_module(spec.kernel), "broken_rule", None)
-    if rule is None:
-        return
-    check_rules(params, spec.rules, rule, list(spec.fidelities).index(fidelity) + 1)
+    if spec.rules:  # a model from elsewhere may have its kernel elsewhere too
+        rule = getattr(import_module(spec.kernel), "broken_rule", None)
+        if rule is not None:
+            check_rules(params, spec.rules, rule, list(spec.fidelities).index(fidelity) + 1)
 
 
 def wants_table(spec: ModelSpec, par: Any) -> bool:

@@ -54,12 +54,7 @@ def models_with_cards() -> dict[str, Model]:
 
 
 def find_model(name: str) -> Model:
-    """Return a model by its key ("washer") or by the name of its FMU ("ThrustWasher").
-
-    Raises
-    ------
-    ParameterError : there is no such model; the message lists them
-    """
+    """Return a model by its key ("washer") or the name of its FMU, or say which there are."""
     homes = MODELS | HELPERS
     if name in homes:
         return _model_in(homes[name])
@@ -95,13 +90,7 @@ def all_specs() -> "list[ModelSpec]":
 
 
 def spec_of(name: str) -> "ModelSpec":
-    """Return the interface of a model that is solved at points; ParameterError names those.
-
-    Examples
-    --------
-    >>> spec_of("washer").default_fidelity
-    'field'
-    """
+    """Return the interface of a model that is solved at points; ParameterError names those."""
     return _among(models_with_points(), name).spec
 
 

@@ -89,19 +89,15 @@ def _code_folder(home: Path, name: str) -> Path:
     why = _made_private(folder)
     if not why:
         return folder
-    _say_once(f"compiled code is not kept: {folder} {why}; it lies in {private_folder()} meanwhile")
+    if not _said:  # other kinds of code find the same
+        _said.append(why)
+        meanwhile = f"it lies in {private_folder()} meanwhile"
+        to_stderr(f"compiled code is not kept: {folder} {why}; {meanwhile}")
     (private_folder() / name).mkdir(exist_ok=True, mode=0o700)
     return private_folder() / name
 
 
-_said: list[str] = []
-
-
-def _say_once(text: str) -> None:
-    """Say why code is not kept; other kinds of code find the same."""
-    if not _said:
-        to_stderr(text)
-        _said.append(text)
+_said: list[str] = []  # why code is not kept
 
 
 def _made_private(folder: Path) -> str:

@@ -33,17 +33,9 @@ DISK = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
 class Journal:
     """What some work has finished, kept beside its output while it runs.
 
-    Parameters
-    ----------
-    path : the file
-    identity : what makes this work differ from another of its kind, in words
-    work : its kind, "sweep" or "map"
-
-    Raises
-    ------
-    ParameterError : the file is none of a journal, spoiled or that of other work, or another run
-        writes it now
-    OSError : full disk, no permission
+    ``identity`` is what makes this work differ from another of its kind, in words; ``work`` is the
+    kind, "sweep" or "map". ParameterError: the file is no journal, is spoiled or that of other
+    work, or another run writes it now.
     """
 
     def __init__(self, path: Path, identity: dict[str, str], work: str = "sweep") -> None:

@@ -10,8 +10,8 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.description.interface import all_specs
 from thrustwasher.fmu.package.model_sources import identifier, source_folder
+from thrustwasher.model.registry import all_specs
 from thrustwasher.native.files import write
 
 

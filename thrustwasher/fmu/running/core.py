@@ -49,9 +49,7 @@ class Core:
         )  # fmt: skip
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.n_out)
-        self._arrays: dict[str, Any] = {
-            "par": self.par, "inp": self.inp, "out": self.out, "iout": self.iout,
-        }  # fmt: skip
+        self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
         self.status_slot = next((v.slot for v in self.variables if v.type_name == "SolverStatus"
                                  and v.store == "iout"), None)  # fmt: skip
         self.time, self.mode = 0.0, Mode.INSTANTIATED

@@ -88,13 +88,9 @@ class Table:
 
     def __init__(self, protocol: Protocol, found: Sequence[Any]) -> None:
         self.n = len(found)
-        kinds = dict.fromkeys(protocol.types[v.type][0] for v in found)
-        self.groups = [
-            Group(
-                protocol, found, [i for i, v in enumerate(found) if protocol.types[v.type][0] == k]
-            )
-            for k in kinds
-        ]
+        kinds = [protocol.types[v.type][0] for v in found]
+        places = ([i for i, k in enumerate(kinds) if k == kind] for kind in dict.fromkeys(kinds))
+        self.groups = [Group(protocol, found, own) for own in places]
         travelling = [place for group in self.groups for place in group.places]
         back = [travelling.index(i) for i in range(self.n)]
         in_order = back == list(range(self.n)) or self.n < 2

@@ -36,14 +36,7 @@ def select(scene: Scene, trials: TrialRuns, steps: int, is_checked: bool = True)
 
 
 def above(spec: ModelSpec, rung: str) -> str | None:
-    """Return the rung to compare with: the next one, not below the default; None for the last.
-
-    Examples
-    --------
-    >>> from thrustwasher.gearmesh.parameters import SPEC
-    >>> above(SPEC, "closed")
-    'field'
-    """
+    """Return the rung to compare with: the next one, not below the default; None for the last."""
     rungs = list(spec.fidelities)
     place = max(rungs.index(rung) + 1, rungs.index(spec.default_fidelity))
     return rungs[place] if place < len(rungs) else None
@@ -116,9 +109,7 @@ def _by_cards(name: str, part: Part, trials: TrialRuns, steps: int, is_checked: 
     beyond = best.outside.fidelity if best.outside else best.fidelity
     if rungs.index(beyond) > rungs.index(best.fidelity):
         higher = beyond
-    return Selected(
-        name, spec.key, best.fidelity, higher, share, True, tuple(reasons), box, scales
-    )  # fmt: skip
+    return Selected(name, spec.key, best.fidelity, higher, share, True, tuple(reasons), box, scales)
 
 
 def _choose(

@@ -141,8 +141,7 @@ class WasherMap:
                 f"{oil_temperature:g} K, allowed: inside the map's box {self.box}"
             )
         found = np.zeros((4, L.N_ALL + 2))
-        count = int(map_folds(self.data, speed, tilt, oil_temperature, self._own.work,
-                              found))  # fmt: skip
+        count = int(map_folds(self.data, speed, tilt, oil_temperature, self._own.work, found))
         kinds = ("film_lost", "film_regained")
         return [
             Fold(kinds[k % 2], row[L.N_ALL], row[L.O_RATIO], row[L.O_MEAN], row[L.O_TORQUE])

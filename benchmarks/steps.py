@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thrustwasher.clutch.kernels import layout
-from thrustwasher.fmu.description.interface import find_spec
 from thrustwasher.fmu.model_kernels import load_kernel
 from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.model.registry import find_spec
 
 Array = NDArray[np.float64]
 H = 1e-3

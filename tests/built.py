@@ -11,6 +11,7 @@ from thrustwasher.fmu.build import build
 from thrustwasher.fmu.running.loading import prune
 from thrustwasher.fmu.shell.platform_libraries import tools
 from thrustwasher.model.registry import find_spec
+from thrustwasher.native import link
 from thrustwasher.native.link import find_linker
 
 HOME = Path(__file__).parents[1] / ".cache" / "test-fmus"
@@ -44,3 +45,8 @@ def _digest(target, sources, options):
         for path in sorted(p for p in sources.parent.rglob("*") if p.suffix in (".py", ".md")):
             hashed.update(path.relative_to(sources.parent).as_posix().encode() + path.read_bytes())
     return hashed.hexdigest()[:16]
+
+
+def look_for_linkers_again():
+    for found in (link.find_linker, link.local_linker, link._of_this_machine):
+        found.cache_clear()

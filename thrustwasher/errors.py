@@ -1,6 +1,6 @@
 """What can go wrong, and how it is said."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from enum import IntEnum
 from os import PathLike, fspath
@@ -20,6 +20,14 @@ class BranchError(ParameterError, SolveError):
 
 class EnvironmentProblem(RuntimeError):
     """Something this machine lacks (a package, a writable folder); the message says what to do."""
+
+
+def suggestion(name: str, known: Iterable[str], words: str, otherwise: str = "") -> str:
+    """Return words with the known name in them that was probably meant, else the other ones."""
+    from difflib import get_close_matches  # late: it is for mistakes alone
+
+    near = get_close_matches(name, list(known), 1)
+    return words.format(near[0]) if near else otherwise
 
 
 @contextmanager
@@ -42,22 +50,18 @@ class Status(IntEnum):
     advice: str
     OK = 0, "solved"
     OUTSIDE_VERIFIED = (
-        1,
-        "an input is outside the range the accuracy was verified for; use with care",
-    )
+        1, "an input is outside the range the accuracy was verified for; use with care"
+    )  # fmt: skip
     HOT = (
-        2,
-        "the interface is hotter than 523 K, where oil and lining fail; lower load, slip or time",
-    )
+        2, "the interface is hotter than 523 K, where oil and lining fail; lower load, slip or time"
+    )  # fmt: skip
     DISTRESS = 3, "the oil film is lost (thermo-viscous distress); lower the load to regain it"
     STALLED = (
-        4,
-        "both packs hold: the driveline stands still or the engine stalls; release one pack",
-    )
+        4, "both packs hold: the driveline stands still or the engine stalls; release one pack"
+    )  # fmt: skip
     MAX_ITERATIONS = (
-        10,
-        "not converged; start from a neighbouring result or refine in smaller steps",
-    )
+        10, "not converged; start from a neighbouring result or refine in smaller steps"
+    )  # fmt: skip
     SINGULAR = 11, "the equations are singular here, as at a fold; move the load a little"
     NO_BRANCH = 12, "the wanted branch has no solution at this load; ask for the other branch"
     NO_EVENT = 13, "a lock-up or break-away could not be located; use a smaller communication step"

@@ -48,12 +48,7 @@ def local_processes(n: int) -> Iterator[Executor]:
 def mapped(
     n: int, job: Callable[[Any], Any], tasks: Sequence[Any], chunksize: int
 ) -> Iterator[Iterator[Any]]:
-    """Give what a job makes of each task, in order: by ``n`` fresh processes; for one, here.
-
-    Raises
-    ------
-    EnvironmentProblem : a worker process has ended before its work was done
-    """
+    """Give what a job makes of each task, in order: by ``n`` fresh processes; for one, here."""
     if n <= 1:
         yield map(job, tasks)
         return

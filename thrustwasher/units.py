@@ -61,7 +61,7 @@ _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", r
 
 
 def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool = False) -> float:
-    """Return ``value`` as a finite number in the SI unit ``unit``.
+    """Return ``value`` as a finite number in the SI unit ``unit``, or say which are allowed.
 
     Parameters
     ----------
@@ -69,10 +69,6 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
     unit : SI unit of the argument, e.g. "rad/s"; that in ``value`` must measure the same thing
     name : of the argument, for the message
     difference : True for a difference of temperatures: 10 degC is then 10 K
-
-    Raises
-    ------
-    ParameterError : one line with the argument, the text and the units allowed
 
     Examples
     --------

@@ -10,7 +10,7 @@ from disk import full_disk
 from files import chart_record, command
 
 from thrustwasher.cli import main
-from thrustwasher.fmu.package import archive
+from thrustwasher.native.files import write
 from thrustwasher.storage import journal
 from thrustwasher.sweep import run_sweep as runs
 from thrustwasher.sweep.solve_rows import solve_task
@@ -122,7 +122,7 @@ def test_an_fmu_that_does_not_fit_is_not_half_written(out):
     made = out / "A.fmu"
     made.write_bytes(b"of an earlier build")
     with full_disk(60_000), pytest.raises(OSError, match="too large") as full:
-        archive.write(made, b"x" * 70_000)
+        write(made, b"x" * 70_000)
     assert full.value.filename == str(made) and [p.name for p in out.iterdir()] == ["A.fmu"]
     assert made.read_bytes() == b"of an earlier build"
 

@@ -10,8 +10,8 @@ from toy.places import HERE, TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.fmu.description.interface import all_specs
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.model.registry import all_specs
 from thrustwasher.native.link import find_linker
 
 

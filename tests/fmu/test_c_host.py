@@ -8,8 +8,9 @@ from sampling import sizes
 from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import all_specs, variables
+from thrustwasher.fmu.description.interface import variables
 from thrustwasher.fmu.stepper import DirectInstance, unpack
+from thrustwasher.model.registry import all_specs
 
 pytestmark = needs_host
 DISCARD = 2

@@ -10,7 +10,7 @@ from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from thrustwasher.fmu.description.interface import all_specs
+from thrustwasher.model.registry import all_specs
 
 NAMES = [spec.name for spec in all_specs()]
 each_model = pytest.mark.parametrize("name", NAMES)

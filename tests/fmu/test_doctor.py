@@ -2,12 +2,18 @@
 
 import subprocess
 import sys
+import tomllib
+from types import SimpleNamespace
 
 import pytest
+from built import look_for_linkers_again
+from kernel_files import ROOT
 from toy.places import HERE
 
+from thrustwasher import __version__
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import diagnosis
+from thrustwasher.fmu.model_kernels import package_version
 from thrustwasher.native import link
 
 
@@ -22,10 +28,24 @@ def test_every_finding_has_a_name_and_a_sentence():
 
 def test_what_the_tests_run_on_works():
     checks = found()
-    for name in ("thrustwasher", "Python", "numpy", "numba", "fmpy", "pythonfmu", "slave files"):
+    for name in ("Python", "numpy", "numba", "fmpy", "pythonfmu", "slave files"):
         assert checks[name].ok, checks[name].text
     assert "nothing has to be compiled" in checks["compiled kernels"].text
     assert "builds for linux64" in checks["native FMUs, compiler"].text
+
+
+@pytest.mark.parametrize("installed", ["0.0.9", None, __version__])
+def test_an_installed_copy_of_another_version_is_a_finding(monkeypatch, installed):
+    copies = [SimpleNamespace(version=installed)] if installed else []
+    monkeypatch.setattr(diagnosis.metadata, "distributions", lambda name: copies)
+    check = diagnosis._look("x", diagnosis._version)
+    assert check.ok == (installed in (None, __version__)) and __version__ in check.text
+    assert check.ok or ("0.0.9 is installed" in check.text and "pip install" in check.text)
+
+
+def test_the_version_of_the_code_is_that_of_the_project():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    assert package_version() == __version__ == project["project"]["version"]
 
 
 def test_a_missing_package_is_a_finding_with_the_command_that_helps():
@@ -47,10 +67,10 @@ def test_a_platform_without_library_is_a_finding(monkeypatch):
 def test_no_compiler_is_a_finding_with_what_to_install(monkeypatch):
     monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
     monkeypatch.setattr(link.shutil, "which", lambda name: None)
-    link.forget()
+    look_for_linkers_again()
     check = diagnosis._look("x", diagnosis._compiler)
     monkeypatch.undo()
-    link.forget()
+    look_for_linkers_again()
     assert (
         not check.ok and "pip install 'thrustwasher[build]'" in check.text and "gcc" in check.text
     )

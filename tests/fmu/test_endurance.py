@@ -5,7 +5,7 @@ import json
 import pytest
 from sampling import sizes
 
-from thrustwasher.fmu.description.interface import all_specs
+from thrustwasher.model.registry import all_specs
 
 CYCLES = """
 import json, sys

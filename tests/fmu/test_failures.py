@@ -9,10 +9,10 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError, Status
 from thrustwasher.fmu.model_kernels import package_version
-from thrustwasher.fmu.package import archive
 from thrustwasher.fmu.python.slave import Slave
 from thrustwasher.fmu.running.core import Core
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.native.files import zipped
 
 H = 1e-3
 GOOD = list(TOY_START.values())
@@ -122,8 +122,8 @@ def test_advice_is_a_warning_given_once(toy_fmu):
 
 
 def test_an_fmu_of_another_version_is_refused_with_both_named(toy_fmu, tmp_path):
-    with zipfile.ZipFile(toy_fmu) as zipped:
-        files = {n: zipped.read(n) for n in zipped.namelist()}
+    with zipfile.ZipFile(toy_fmu) as made:
+        files = {n: made.read(n) for n in made.namelist()}
     module = files["resources/slavemodule.txt"].decode()
     slave = files.pop(f"resources/{module}.py").decode()
     digest = slave.split('"')[-4]
@@ -132,7 +132,7 @@ def test_an_fmu_of_another_version_is_refused_with_both_named(toy_fmu, tmp_path)
         slave.replace(digest, "0" * 16).replace(f'"{package_version()}"', '"0.0.9"').encode()
     )
     old = tmp_path / "ToyClutch.fmu"
-    old.write_bytes(archive.pack(files))
+    old.write_bytes(zipped(files))
     with pytest.raises(EnvironmentProblem, match=r"pip install thrustwasher==0\.0\.9") as refused:
         Instance(old)
     assert "0.0.9" in str(refused.value) and "EnvironmentProblem(" not in str(refused.value)

@@ -6,9 +6,9 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from thrustwasher.errors import Status
-from thrustwasher.fmu.description.interface import all_specs
 from thrustwasher.fmu.description.xml_parts import log_categories
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
+from thrustwasher.model.registry import all_specs
 
 OK, WARNING, ERROR = 0, 1, 3
 H = 1e-3

@@ -5,9 +5,10 @@ import random
 import numpy as np
 import pytest
 
-from thrustwasher.fmu.description.interface import all_specs, find_spec, variables
+from thrustwasher.fmu.description.interface import variables
 from thrustwasher.fmu.model_kernels import load_kernel
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.model.registry import all_specs, find_spec
 
 H = 1e-3
 NAMES = [spec.name for spec in all_specs()]

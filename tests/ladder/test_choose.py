@@ -256,6 +256,7 @@ def test_the_same_cards_give_the_same_answer_in_any_order(ladder):
         ({"box": {**BOX, "colour": (0, 1)}}, "'colour' is no input"),
         ({"box": {"load": (1, 2)}}, "speed .rad/s. is missing"),
         ({"model": "wheel"}, "model = 'wheel', allowed: 'washer'"),
+        ({"params": object()}, "params: object, allowed: .*Params"),
     ],
 )
 def test_wrong_requests_are_named(ladder, changed, said):

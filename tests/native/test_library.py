@@ -9,6 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
+from built import look_for_linkers_again
 from kernel_files import ROOT, kernel_files
 from kernel_runs import MODELS
 
@@ -84,10 +85,10 @@ def test_another_platform_is_refused_by_name():
 def without_zig(monkeypatch):
     """A machine without the package ziglang."""
     monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
-    link.forget()
+    look_for_linkers_again()
     yield monkeypatch
     monkeypatch.undo()
-    link.forget()
+    look_for_linkers_again()
 
 
 def test_without_ziglang_the_local_compiler_builds_for_this_platform_only(without_zig):

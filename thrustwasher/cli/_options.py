@@ -1,15 +1,12 @@
 """Options made from a model's list of inputs and parameters, so that nothing is typed twice."""
 
-from __future__ import annotations
-
 import argparse
-import difflib
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, suggestion
 from ..model.parameters import allowed
 from ..model.record import Option, resolve
 from ..units import parse_quantity
@@ -20,7 +17,7 @@ if TYPE_CHECKING:  # they need numpy, which not every command does
 _TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 
 
-def add_inputs(parser: argparse.ArgumentParser, inputs: Iterable[Signal]) -> None:
+def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> None:
     """Add one option per input, with unit, range and default in its help."""
     group = parser.add_argument_group("operating point")
     for signal in inputs:
@@ -32,7 +29,7 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: Iterable[Signal]) -> Non
         )  # fmt: skip
 
 
-def read_inputs(arguments: argparse.Namespace, inputs: Iterable[Signal]) -> dict[str, Any]:
+def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> dict[str, Any]:
     """Return the inputs in SI units."""
     given = vars(arguments)
     return {
@@ -40,7 +37,7 @@ def read_inputs(arguments: argparse.Namespace, inputs: Iterable[Signal]) -> dict
     }
 
 
-def add_parameters(parser: argparse.ArgumentParser, spec: ModelSpec) -> None:
+def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
     """Add ``--set`` and ``--parameters``."""
     group = parser.add_argument_group("parameters")
     names = {f.name: _default(f) for f in fields(spec.params)}
@@ -64,12 +61,12 @@ class _ListParameters(argparse.Action):
         parser.exit()
 
 
-def read_parameters(arguments: argparse.Namespace, spec: ModelSpec) -> Any:
+def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
     """Return the parameter object with every ``--set`` applied; its own checks included."""
     return spec.params(**read_settings(arguments, spec))
 
 
-def read_settings(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, Any]:
+def read_settings(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, Any]:
     """Return the value of every ``--set`` by name of the parameter."""
     metadata = {f.name: f.metadata for f in fields(spec.params)}
     values: dict[str, Any] = {}
@@ -78,8 +75,7 @@ def read_settings(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, A
         if not equals or not text:
             raise ParameterError(f"--set {setting}: allowed: NAME=VALUE, e.g. roughness=4e-7")
         if name not in metadata:
-            near = difflib.get_close_matches(name, metadata, n=1)
-            hint = f"did you mean {near[0]}? " if near else ""
+            hint = suggestion(name, metadata, "did you mean {}? ")
             raise ParameterError(
                 f"--set {setting}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
@@ -88,7 +84,7 @@ def read_settings(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, A
     return values
 
 
-def parameter_table(spec: ModelSpec) -> str:
+def parameter_table(spec: "ModelSpec") -> str:
     """Return the parameters as lines of text: name, default, unit, range, meaning."""
     rows = [("name", "default", "unit", "allowed", "meaning")]
     for f in fields(spec.params):
@@ -110,7 +106,7 @@ def _default(field: Any) -> str:
     return f"{field.default:.10g}" if number else str(field.default)
 
 
-def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec, *, auto: bool = False) -> None:
+def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bool = False) -> None:
     """Add ``--fidelity`` with one sentence per rung, and ``auto`` where the cards may choose."""
     words = [f"{name}: {text}" for name, text in spec.fidelities.items()]
     allowed: dict[str, Any] = {"choices": list(spec.fidelities)}
@@ -122,7 +118,7 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: ModelSpec, *, auto: bool
     parser.add_argument("--fidelity", default=usual, help=help, **allowed)
 
 
-def _rung_or_auto(spec: ModelSpec) -> Callable[[str], str]:
+def _rung_or_auto(spec: "ModelSpec") -> Callable[[str], str]:
     """Return the check of the option's text."""
 
     def check(text: str) -> str:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from ..errors import ParameterError
 from ..model.record import resolve
-from ..storage.whole_files import folder_for_trial
+from ..storage.whole_files import new_folder
 from ..storage.whole_files import whole_file as whole_file
 from ..storage.whole_files import whole_folder as whole_folder
 from ..units import format_quantity
@@ -140,7 +140,9 @@ def check_file(path: str, option: str, suffixes: tuple[str, ...] = ()) -> Path:
     """Return the path if a file can be written there, before any work is done."""
     target = Path(path)
     if suffixes and target.suffix.lower() not in suffixes:
-        raise ParameterError(f"{option} {path}: allowed: a file name ending in {_or(suffixes)}")
+        *others, last = suffixes
+        words = f"{', '.join(others)} or {last}" if others else last
+        raise ParameterError(f"{option} {path}: allowed: a file name ending in {words}")
     if target.is_dir():
         raise ParameterError(f"{option} {path}: is a folder, the name of a file is wanted")
     check_folder(str(target.parent), option)
@@ -153,14 +155,9 @@ def check_folder(path: str, option: str) -> Path:
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"{option} {path}: is a file, a folder is wanted")
     try:
-        with folder_for_trial(folder), tempfile.TemporaryFile(dir=folder):
+        with new_folder(folder, stays=False), tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
         reason = error.strerror or str(error)
         raise ParameterError(f"{option} {path}: cannot be written ({reason})") from None
     return Path(path)
-
-
-def _or(suffixes: tuple[str, ...]) -> str:
-    """Return the suffixes in words."""
-    return f"{', '.join(suffixes[:-1])} or {suffixes[-1]}" if suffixes[1:] else suffixes[0]

@@ -27,9 +27,13 @@ class PointCommand:
         _options.add_parameters(parser, spec)
         if model.presets:
             presets = resolve(model.presets)
+            changes = "; ".join(
+                f"{name}: {', '.join(f'{k} = {v}' for k, v in changed.items()) or 'the defaults'}"
+                for name, changed in presets.items()
+            )
             parser.add_argument(
                 "--preset", choices=list(presets), default=next(iter(presets)),
-                help=f"what --set starts from; {_changes(presets)}; default {next(iter(presets))}",
+                help=f"what --set starts from; {changes}; default {next(iter(presets))}",
             )  # fmt: skip
         _options.add_fidelity(parser, spec, auto=self._model.ladder is not None)
         _options.add_options(parser, model.options)
@@ -76,12 +80,7 @@ def _inputs(model: Command, spec: ModelSpec) -> list[Signal]:
 def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:
     """Return the rung asked for by name, or the one that the cards choose at ``point``.
 
-    Why it was chosen is written to standard error.
-
-    Raises
-    ------
-    ParameterError : the tolerance is none
-    SolveError : no rung is verified to it here
+    Why it was chosen is written to standard error; SolveError if none is verified here.
     """
     if asked in spec.fidelities:
         return asked
@@ -91,15 +90,6 @@ def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) 
     choice = choose(spec.key, dict(point), tol=float(tolerance or 0.0), params=params)
     _output.note(str(choice))
     return choice.fidelity
-
-
-def _changes(presets: Mapping[str, Mapping[str, Any]]) -> str:
-    """Say what each preset changes."""
-    words = []
-    for name, changes in presets.items():
-        settings = ", ".join(f"{key} = {value}" for key, value in changes.items())
-        words.append(f"{name}: {settings or 'the defaults'}")
-    return "; ".join(words)
 
 
 def _rows(

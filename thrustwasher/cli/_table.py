@@ -9,6 +9,7 @@ from ..errors import ParameterError
 from ..units import parse_quantity
 
 LONGEST = 1_000_000  # lines; a larger file is not a table of measured points
+COMMAS = "; if these are decimal commas they shift the columns: the decimal sign is a point"
 
 
 def read_columns(
@@ -18,18 +19,8 @@ def read_columns(
 
     The head names the columns, with the unit of the numbers in brackets: ``speed [rpm]``; without
     it they are SI. Other columns, empty lines and lines that begin with # are passed over. Comma,
-    semicolon or tab separate; the decimal sign is a point.
-
-    Parameters
-    ----------
-    path : the file
-    units : SI unit of every column by its name
-    optional : names that may be missing
-
-    Raises
-    ------
-    ParameterError
-        With the line and the column, where something is missing or is no number.
+    semicolon or tab separate; the decimal sign is a point. ``units`` holds the SI unit of every
+    column by its name, ``optional`` the names that may be missing. Errors name line and column.
     """
     lines = _lines(path)
     if not lines:
@@ -42,7 +33,8 @@ def read_columns(
     for number, line in lines[1:]:
         cells = _cells(line, separator)
         if len(cells) > len(names):
-            raise ParameterError(_too_long(f"{path}, line {number}", cells, names, separator))
+            text = f"{path}, line {number}: has {len(cells)} cells, the head names {len(names)}"
+            raise ParameterError(text + (COMMAS if separator == "," else ""))
         for name, (index, written) in where.items():
             place = f"{path}, line {number}: {name}"
             if index >= len(cells) or not cells[index].strip():
@@ -79,14 +71,6 @@ def _cells(line: str, separator: str) -> list[str]:
     while cells and not cells[-1]:
         cells.pop()
     return cells
-
-
-def _too_long(place: str, cells: list[str], names: list[str], separator: str) -> str:
-    """Say that a line has more cells than the head has names, and the likely cause."""
-    text = f"{place}: has {len(cells)} cells, the head names {len(names)}"
-    if separator == ",":
-        text += "; if these are decimal commas they shift the columns: the decimal sign is a point"
-    return text
 
 
 def _find(

@@ -24,11 +24,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     wanted = [arguments.model] if arguments.model else list(models_with_cards())
     found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
-    refused = {
-        name: why
-        for name, why in refused_files().items()
-        if arguments.model is None or name.startswith(f"{arguments.model}-")
-    }
+    begin = f"{arguments.model}-" if arguments.model else ""
+    refused = {name: why for name, why in refused_files().items() if name.startswith(begin)}
     if arguments.json:
         records = [_record(card) for cards in found.values() for card in cards]
         _output.print_json({"cards": records, "refused": refused})
@@ -42,13 +39,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _order(model: str) -> Any:
     """Return the key that sorts cards by parameter set, then by rung as in the ladder."""
-    rungs = list(spec_of(model).fidelities)
-
-    def key(card: Any) -> tuple[Any, ...]:
-        known = card.fidelity in rungs
-        return (card.params.name, rungs.index(card.fidelity) if known else 99, card.chart or "")
-
-    return key
+    place = {rung: k for k, rung in enumerate(spec_of(model).fidelities)}
+    return lambda card: (card.params.name, place.get(card.fidelity, 99), card.chart or "")
 
 
 def worst(card: Any, quantity: str) -> float | None:

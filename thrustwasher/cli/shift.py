@@ -163,6 +163,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
         )
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
+    from ..native.files import zipped
     from ..native.link import find_linker
 
     find_linker()
@@ -170,10 +171,8 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     began = time.perf_counter()
     parts = _package(scene, platforms)
 
-    from ..fmu.package import archive
-
     with _output.whole_file(target) as draft:
-        draft.write_bytes(archive.pack(parts))
+        draft.write_bytes(zipped(parts))
     if arguments.json:
         total = time.perf_counter() - began
         _output.print_json({"ssp": str(target), "files": sorted(parts), "total_time": total})

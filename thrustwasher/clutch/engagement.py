@@ -17,8 +17,6 @@ from .kernels import pack_friction, pack_outputs, rates
 from .parameters import LOAD, OIL, SPEC, SPEED, ClutchParams
 from .solve import prepare
 
-__all__ = ["Engagement", "engage_clutch"]
-
 Course = tuple[float, float, float, float, float, float]
 
 

@@ -1,7 +1,5 @@
 """Parameters, inputs and outputs of the wet clutch: the one list all interfaces come from."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -162,7 +160,7 @@ class ClutchParams:
     @classmethod
     def with_table(
         cls, speed: Sequence[float], friction: Sequence[float], **others: Any
-    ) -> ClutchParams:
+    ) -> "ClutchParams":
         """Return parameters whose friction follows a measured curve.
 
         Parameters

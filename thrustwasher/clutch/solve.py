@@ -141,8 +141,7 @@ def steady_pack(par: Any, load: float, slip: float, oil: float, ratio: float) ->
         ring = rates.ring_of(par, n)
         shares.append(float(ring[k.D_AREA] / par[k.D_AREA]))
         parts.append(_part(ring, load * shares[-1], slip, oil, ratio))
-    levers = [s * float(rates.ring_of(par, n)[k.D_RADIUS])
-              for n, s in enumerate(shares)]  # fmt: skip
+    levers = [s * float(rates.ring_of(par, n)[k.D_RADIUS]) for n, s in enumerate(shares)]
 
     def mean(name: str, weights: list[float]) -> float:
         pairs = zip(weights, parts, strict=True)

@@ -6,21 +6,21 @@ from importlib import metadata
 from pathlib import Path
 
 from ..errors import ParameterError
+from ..model.registry import all_specs, find_spec
 from ..model.spec import ModelSpec
-from ..native.files import Note
+from ..native.files import Note, write, zipped
 from ..native.link import this_platform
-from .description.interface import all_specs, find_spec
 from .description.model_description import description, terminals_and_icons
 from .description.xml_parts import text
 from .documentation.html_page import accuracy, page
 from .documentation.reference_results import reference_files
 from .model_kernels import content_digest, has_derivatives, package_version
-from .package import archive
 from .package.licences import licences
 from .package.model_sources import identifier, model_folder, source_folder
 from .shell.platform_libraries import chosen, made_of, native_contents
 
 TARGETS = ("native", "python")
+DESCRIPTION = "modelDescription.xml"  # lies in front
 NEEDS = """This FMU calls Python and the package thrustwasher {version}.
 Install both on the machine that runs it: pip install thrustwasher=={version}
 The libraries in binaries/ and the modules in resources/pythonfmu are of pythonfmu {pythonfmu}, MIT.
@@ -81,7 +81,7 @@ def build(
         if not maps:
             files = {n: data for n, data in files.items() if not n.startswith("resources/map-")}
         path = Path(out) / f"{target}-fmi{fmi}" / f"{spec.name}.fmu"
-        archive.write(path, archive.pack(files))
+        write(path, zipped(files, first=DESCRIPTION))
         paths.append(path)
     return paths
 
@@ -100,7 +100,7 @@ def pack_native(
     files = contents(
         spec, folder, target="native", fmi=2, platforms=places, note=say, reference=False
     )
-    return archive.pack(files)
+    return zipped(files, first=DESCRIPTION)
 
 
 def _check(target: str, fmi: int, platforms: Sequence[str] | None, maps: bool) -> None:
@@ -135,7 +135,7 @@ def contents(
     told = page(spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms,
                 runs=reference)  # fmt: skip
     return {
-        "modelDescription.xml": text(described),
+        DESCRIPTION: text(described),
         "documentation/index.html": told.encode(),
         **_icons(spec, folder, fmi),
         **licences(target, platforms),

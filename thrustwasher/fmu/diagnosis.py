@@ -29,9 +29,10 @@ class Check:
 
 def diagnose() -> list[Check]:
     """Look at everything this package uses; nothing is changed and no kernel is compiled."""
+    version = platform.python_version()
     looks: list[tuple[str, Callable[[], str]]] = [
-        ("thrustwasher", package_version),
-        ("Python", _python),
+        ("thrustwasher", _version),
+        ("Python", lambda: f"{version} in {sys.executable}, {platform.platform()}"),
         *((name, _importable(name)) for name in ("numpy", "numba", "fmpy", "pythonfmu")),
         ("models", _models),
         ("compiled kernels", _kernels),
@@ -51,8 +52,15 @@ def _look(name: str, look: Callable[[], str]) -> Check:
         return Check(name, False, str(problem) or type(problem).__name__)
 
 
-def _python() -> str:
-    return f"{platform.python_version()} in {sys.executable}, {platform.platform()}"
+def _version() -> str:
+    version = package_version()
+    installed = [found.version for found in metadata.distributions(name="thrustwasher")]
+    if installed and version not in installed:
+        raise ParameterError(
+            f"this code is {version}, but {installed[0]} is installed, which Python FMUs may find; "
+            "install this one: pip install ."
+        )
+    return version
 
 
 def _importable(name: str) -> Callable[[], str]:

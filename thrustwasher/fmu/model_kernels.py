@@ -3,9 +3,9 @@
 import hashlib
 import importlib
 import importlib.util
+import sys
 from collections.abc import Callable
 from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -66,16 +66,9 @@ def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
     return tuple((text, int(resolve(where))) for text, where in spec.counts)
 
 
-@cache
 def package_version() -> str:
-    """Return the version of thrustwasher, also in a source tree that is not installed."""
-    try:
-        return metadata.version("thrustwasher")
-    except metadata.PackageNotFoundError:
-        project = Path(__file__).parents[2] / "pyproject.toml"
-        lines = project.read_text("utf-8").splitlines() if project.is_file() else []
-        numbers = [line.split('"')[1] for line in lines if line.startswith("version = ")]
-        return numbers[0] if numbers else "0"
+    """Return the version of the code that runs, whatever is installed beside it."""
+    return str(sys.modules[__name__.partition(".")[0]].__version__)
 
 
 def content_digest(spec: ModelSpec) -> str:

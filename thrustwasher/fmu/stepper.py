@@ -13,16 +13,9 @@ from time import perf_counter
 from typing import Any, Self
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
+from .running import loading
 from .running.direct_instance import DirectInstance, number, unknown
-from .running.loading import (
-    WARNING,
-    Message,
-    Messages,
-    capabilities,
-    description,
-    instantiate,
-    unpack,
-)
+from .running.loading import WARNING, Message, Messages, unpack
 from .running.protocol import Direction, Machine, Protocol, Table, machine_of
 
 __all__ = ["DirectInstance", "Instance", "unpack"]
@@ -65,8 +58,8 @@ class Instance:
         self._call_failure = FMICallException
         self.path = Path(path)
         folder = unpack(path)
-        self.description = description(folder)
-        self.saves_state, self.gives_derivatives = capabilities(folder)
+        self.description = loading.description(folder)
+        self.saves_state, self.gives_derivatives = loading.capabilities(folder)
         self._by_name = {v.name: v for v in self.description.modelVariables}
         listed = self.description.modelVariables
         inputs, outputs = ([v for v in listed if v.causality == c] for c in ("input", "output"))
@@ -77,8 +70,9 @@ class Instance:
         self.warnings: list[str] = []
         self.notes: list[Message] = []
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
-        self._fmu: Any = instantiate(folder, self.description, name or self.path.stem,
-                                     self._messages)  # fmt: skip
+        self._fmu: Any = loading.instantiate(
+            folder, self.description, name or self.path.stem, self._messages
+        )
         self._protocol = Protocol(self._fmu, int(self.description.fmiVersion[0]))
         self._inputs, self._outputs = (Table(self._protocol, vs) for vs in (inputs, outputs))
         self._directions: dict[tuple[tuple[str, ...], tuple[str, ...]], Direction] = {}

@@ -1,7 +1,5 @@
 """Parameters of the gear mesh: one spur pair, its surfaces, oil, steel and the laws to apply."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import partial
@@ -222,7 +220,7 @@ class GearMeshParams:
         check_rules(self, RULES, broken_rule)
 
     @classmethod
-    def preset(cls, name: str, **changes: Any) -> GearMeshParams:
+    def preset(cls, name: str, **changes: Any) -> "GearMeshParams":
         """Return a named set of parameters ("bounded", "literal", "iso") with further changes.
 
         >>> GearMeshParams.preset("literal", pinion_teeth=30).face_width

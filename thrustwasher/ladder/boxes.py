@@ -34,12 +34,7 @@ class Request:
 
 
 def checked_box(spec: ModelSpec, box: Mapping[str, float | tuple[float, float]]) -> Box:
-    """Return a box with an interval for every input of the model; a number is an interval too.
-
-    Raises
-    ------
-    ParameterError : an input is missing, unknown, not finite, upside down or beyond its range
-    """
+    """Return a box with an interval for every input, also of numbers, or say what is wrong."""
     names = [s.name for s in spec.inputs]
     for name in box:
         if name not in names:

@@ -3,8 +3,6 @@
 A plan is a rung for the part of a box that it is verified in, and the next one for the rest.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Any
@@ -87,12 +85,13 @@ class Candidate:
         if not told:
             return None
         errors = self.cards[0].errors[quantity]
+        charts = sorted({chart for _, _, chart in told if chart})
         return Seen(
             error=request.safety * max(worst for worst, _, _ in told),
             kind=errors.kind,
             unit=errors.unit,
             rest=rest,
-            charts=_charts({chart for _, _, chart in told if chart}),
+            charts=f" ({' and '.join(charts)} chart{'s' * (len(charts) > 1)})" if charts else "",
             beside_folds=self._beside_folds(quantity, request.safety),
         )
 
@@ -106,11 +105,6 @@ class Candidate:
         margin = shown_share(max(f.margin for f in folds))
         promise = shown_error(safety * worst, errors.kind, errors.unit)
         return f"within {margin} of a fold's load: {promise}, if the branch is the same"
-
-
-def _charts(names: set[str]) -> str:
-    known = " and ".join(sorted(names))
-    return f" ({known} chart{'s' * (len(names) > 1)})" if names else ""
 
 
 def _read(card: Card, quantity: str, box: Box) -> tuple[float, float, str | None] | None:
@@ -173,7 +167,7 @@ class Plan:
     spread: float
     share: float  # of the box that the plan is for
     where: str  # that part in words; empty for the whole box
-    outside: Plan | None
+    outside: "Plan | None"
 
     @property
     def total(self) -> float:

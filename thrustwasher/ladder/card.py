@@ -17,29 +17,8 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.registry import find_model
-from ..storage.digests import (
-    CHECK,
-    DATA,
-    closure,
-    is_broken,
-    kernel_digest,
-    params_digest,
-    sealed,
-)
-from .card_parts import (
-    Axis,
-    ByFilmRatio,
-    Cells,
-    Cost,
-    Errors,
-    Fold,
-    HeldOut,
-    ParameterSet,
-    Reference,
-    Sources,
-    from_json,
-    worst_near,
-)  # fmt: skip
+from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
+from . import card_parts as part
 
 SCHEMA = 1
 SAFETY = 1.5  # between a cell's worst held-out point and what is promised
@@ -56,18 +35,18 @@ class Card:
     fidelity: str
     chart: str | None
     branch: str | None
-    fold: Fold | None
-    params: ParameterSet
-    kernels: Sources
+    fold: part.Fold | None
+    params: part.ParameterSet
+    kernels: part.Sources
     package: dict[str, Any]  # version, commit
     made: str
-    envelope: dict[str, Axis]
-    errors: dict[str, Errors]
-    cells: Cells
-    by_film_ratio: ByFilmRatio | None
-    held_out: HeldOut
-    reference: Reference
-    cost: Cost
+    envelope: dict[str, part.Axis]
+    errors: dict[str, part.Errors]
+    cells: part.Cells
+    by_film_ratio: part.ByFilmRatio | None
+    held_out: part.HeldOut
+    reference: part.Reference
+    cost: part.Cost
     machine: dict[str, Any]  # that the seconds were measured on
 
     @property
@@ -96,7 +75,7 @@ class Card:
             self.cells.index(k, _size(self.envelope[name], point[name]))
             for k, name in enumerate(self.cells.axes)
         )
-        found = None if i is None or j is None else worst_near(self.errors[quantity], i, j)
+        found = None if i is None or j is None else part.worst_near(self.errors[quantity], i, j)
         if found is None or film_ratio is None or self.by_film_ratio is None:
             return found
         alike = self.by_film_ratio.error_of(quantity, film_ratio)
@@ -132,18 +111,13 @@ class Card:
         return innermost.sub(lambda m: f"[{' '.join(m[1].split())}]", text) + "\n"
 
 
-def _size(axis: Axis, value: float) -> float:
+def _size(axis: part.Axis, value: float) -> float:
     """Return the size of an input where the card knows sizes only: parts are odd or even in it."""
     return abs(value) if axis.min >= 0.0 else value
 
 
 def read_card(path: Path) -> Card:
-    """Return the card in a file.
-
-    Raises
-    ------
-    ParameterError : no JSON, changed since it was written, or of another version; the file is named
-    """
+    """Return the card in a file, or raise ParameterError: none, changed, or of another version."""
     try:
         raw = json.loads(path.read_text("utf-8"))
         changed = not isinstance(raw, dict) or CHECK not in raw or is_broken(raw)
@@ -157,7 +131,7 @@ def read_card(path: Path) -> Card:
     del raw[CHECK]
     try:
         if raw["schema"] == SCHEMA:
-            card: Card = from_json(Card, raw)
+            card: Card = part.from_json(Card, raw)
             return card
     except (KeyError, TypeError, AttributeError) as error:
         raise ParameterError(f"{path.name}: is no card of this version ({error})") from None
@@ -198,9 +172,7 @@ def load_cards(model: str, params: Any = None) -> list[Card]:
     """
     found = {c.name: c for folder in card_folders() for c in _folder(folder)[0]}
     digest = None if params is None else params_digest(params)
-    return [
-        c for c in found.values() if c.model == model and digest in (None, c.params.sha256)
-    ]  # fmt: skip
+    return [c for c in found.values() if c.model == model and digest in (None, c.params.sha256)]
 
 
 def refused_files() -> dict[str, str]:
@@ -242,12 +214,8 @@ def files_of(model: str, fidelity: str) -> tuple[str, ...]:
     """Return the kernel modules of a rung, sorted: all it computes with, and the model's step.
 
     The step's module sends each rung to its kernels; what else it imports does not count, or every
-    rung would hang on every other one.
-
-    Raises
-    ------
-    KeyError : no such rung
-    FileNotFoundError : a module is not there in this version
+    rung would hang on every other one. KeyError: no such rung; FileNotFoundError: a module is not
+    there in this version.
     """
     found = find_model(model)
     if found.ladder is None:

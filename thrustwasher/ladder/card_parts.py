@@ -172,9 +172,7 @@ def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
 def from_json(kind: Any, raw: Any) -> Any:
     """Return what ``json.loads`` gave as the annotation ``kind`` says, lists as tuples.
 
-    Raises
-    ------
-    KeyError, TypeError, AttributeError : it has other keys or another shape than ``kind``
+    KeyError, TypeError or AttributeError if it has other keys or another shape.
     """
     origin, inner, fields = _anatomy(kind)
     if fields:

@@ -1,13 +1,12 @@
 """Choose the cheapest rung that holds a tolerance over a box of inputs; nothing is solved here."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError, SolveError
+from ..model.parameters import params_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
 from .boxes import Part, Request, checked_box
@@ -19,6 +18,8 @@ from .formats import plain, shown_error, shown_seconds, shown_share
 AUTO = "auto"
 TOLERANCE = 0.01  # of "auto" alone
 TOLERANCES = (1e-6, 0.5)
+REJECTED = ("cheaper but too coarse", "dearer and too coarse", "would hold too",
+            "not verified in this box")  # fmt: skip
 
 
 def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
@@ -60,7 +61,7 @@ class Choice:
     error: float
     seconds: float
     reasons: tuple[str, ...]
-    outside: Choice | None = None
+    outside: "Choice | None" = None
     share: float = 1.0
     where: str = ""
 
@@ -129,7 +130,7 @@ def choose(
     wanted = [name for name in rungs if among is None or name in among]
     if not wanted:
         raise ParameterError(f"among: no rung, allowed: some of {', '.join(map(repr, rungs))}")
-    found, refused = candidates(spec, spec.params() if params is None else params, wanted)
+    found, refused = candidates(spec, params_of(spec, params), wanted)
     return decide(request, found, refused)
 
 
@@ -146,17 +147,9 @@ def _above(name: str, value: float, low: float, belongs: bool = True) -> float:
 
 
 def decide(request: Request, found: list[Candidate], refused: dict[str, str]) -> Choice:
-    """Return the choice among the candidates; a pure function of cards and request.
+    """Return the choice among the candidates, in the ladder's order; SolveError if nothing fits.
 
-    Parameters
-    ----------
-    request : box, quantity, tolerance
-    found : rungs with fresh cards, in the ladder's order
-    refused : rung -> why its card does not count
-
-    Raises
-    ------
-    SolveError : nothing fits
+    A pure function of cards and request. ``refused``: rung -> why its card does not count.
     """
     options = plans(request, found)
     if not options:
@@ -200,7 +193,8 @@ def _outside_lines(request: Request, plan: Plan) -> list[str]:
 
 def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
     """Say of every rung that was not taken why: too coarse, dearer, or not verified here."""
-    coarse, dear, away = [], [], []
+    groups: dict[str, list[str]] = {words: [] for words in REJECTED}
+    cheaper, coarser, holds, away = groups.values()
     for rung in found:
         if rung is best.rung:
             continue
@@ -210,15 +204,10 @@ def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
             continue
         text = f"{rung.fidelity} {seen.promise}"
         if seen.error > request.tol:
-            coarse.append((rung.call <= best.rung.call, text))
+            (cheaper if rung.call <= best.rung.call else coarser).append(text)
         else:
-            dear.append(f"{text} in {shown_seconds(rung.call)}")
-    lines = []
-    for cheaper, words in ((True, "cheaper but too coarse"), (False, "dearer and too coarse")):
-        texts = [t for c, t in coarse if c is cheaper]
-        lines += [f"{words}: {', '.join(texts)}"] if texts else []
-    lines += [f"would hold too: {', '.join(dear)}"] if dear else []
-    return lines + ([f"not verified in this box: {', '.join(away)}"] if away else [])
+            holds.append(f"{text} in {shown_seconds(rung.call)}")
+    return [f"{words}: {', '.join(texts)}" for words, texts in groups.items() if texts]
 
 
 def _refusal(request: Request, found: list[Candidate], refused: dict[str, str]) -> str:

@@ -9,7 +9,7 @@ from dataclasses import field, fields
 from typing import Any
 
 from ..errors import ParameterError
-from .spec import Rule
+from .spec import ModelSpec, Rule
 
 
 def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: Any) -> Any:
@@ -48,6 +48,14 @@ def allowed(meta: Any) -> str:
     unit = "" if meta["unit"] == "1" else f" {meta['unit']}"
     whole = ", a whole number" if meta["kind"] == "integer" else ""
     return f"{meta['min']:g} .. {meta['max']:g}{unit}{whole}"
+
+
+def params_of(spec: ModelSpec, given: Any) -> Any:
+    """Return the parameters given, for None the model's defaults; refuse another model's."""
+    params = spec.params() if given is None else given
+    if not isinstance(params, spec.params):
+        raise ParameterError(f"params: {type(params).__name__}, allowed: {spec.params.__name__}")
+    return params
 
 
 def check_ranges(params: Any) -> None:

@@ -29,11 +29,8 @@ def filled(
 ) -> Any:
     """Return the ``size`` numbers of a kernel's ``par``: parameters, rung, derived constants.
 
-    It is for solutions without a past: a washer's bodies are taken as steady.
-
-    Raises
-    ------
-    ParameterError : the rung is not one of the model's, or the parameters cannot be used together
+    It is for solutions without a past: a washer's bodies are taken as steady. ParameterError if the
+    rung is not one of the model's, or the parameters cannot be used together.
     """
     if fidelity == "reference":
         raise ParameterError(OFFLINE.format(spec.key))
@@ -53,12 +50,10 @@ def filled(
 
 def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
     """Raise ParameterError for the first rule that parameters and fidelity break together."""
-    if not spec.rules:  # a model from elsewhere may have its kernel elsewhere too
-        return
-    rule = getattr(import_module(spec.kernel), "broken_rule", None)
-    if rule is None:
-        return
-    check_rules(params, spec.rules, rule, list(spec.fidelities).index(fidelity) + 1)
+    if spec.rules:  # a model from elsewhere may have its kernel elsewhere too
+        rule = getattr(import_module(spec.kernel), "broken_rule", None)
+        if rule is not None:
+            check_rules(params, spec.rules, rule, list(spec.fidelities).index(fidelity) + 1)
 
 
 def wants_table(spec: ModelSpec, par: Any) -> bool:
@@ -70,9 +65,7 @@ def wants_table(spec: ModelSpec, par: Any) -> bool:
 def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
     """Put the table for ``params`` into ``work`` if the rung in ``par`` reads one.
 
-    Raises
-    ------
-    ParameterError : there is none for these parameters, or it is too large
+    ParameterError if there is none for these parameters, or it is too large.
     """
     if not wants_table(spec, par):
         return

@@ -5,8 +5,6 @@ package ``kernels``, whose head says what of it Python calls (``CALLED``). Nothi
 before it is asked for.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -56,43 +54,43 @@ def models_with_cards() -> dict[str, Model]:
 
 
 def find_model(name: str) -> Model:
-    """Return a model by its key ("washer") or by the name of its FMU ("ThrustWasher").
-
-    Raises
-    ------
-    ParameterError : there is no such model; the message lists them
-    """
+    """Return a model by its key ("washer") or the name of its FMU, or say which there are."""
     homes = MODELS | HELPERS
     if name in homes:
         return _model_in(homes[name])
-    models = [_model_in(home) for home in homes.values()]
-    for model in models:
-        if model.name == name:
-            return model
-    raise ParameterError(f"model = {name!r}, allowed: {', '.join(m.name for m in models)}")
+    for home in homes.values():
+        if _model_in(home).name == name:
+            return _model_in(home)
+    raise _unknown(name)
 
 
-def find_spec(name: str) -> ModelSpec:
+def _unknown(name: str, why: str = "") -> ParameterError:
+    known = ", ".join(_model_in(home).name for home in (MODELS | HELPERS).values())
+    return ParameterError(f"model = {name!r}{why}, allowed: {known}")
+
+
+def find_spec(name: str) -> "ModelSpec":
     """Return the interface of a model by key, by the name of its FMU or by "module:NAME"."""
-    if ":" in name:
-        found: ModelSpec = resolve(name)
-        return found
-    return find_model(name).spec
+    if ":" not in name:
+        return find_model(name).spec
+    from .spec import ModelSpec
+
+    try:
+        found = resolve(name)
+    except (ImportError, AttributeError, TypeError, ValueError) as problem:
+        raise _unknown(name, f" ({problem})") from problem
+    if not isinstance(found, ModelSpec):
+        raise _unknown(name, " (no ModelSpec)")
+    return found
 
 
-def all_specs() -> list[ModelSpec]:
+def all_specs() -> "list[ModelSpec]":
     """Return the interfaces of all models, in the order they are built."""
     return [model.spec for model in all_models()]
 
 
-def spec_of(name: str) -> ModelSpec:
-    """Return the interface of a model that is solved at points; ParameterError names those.
-
-    Examples
-    --------
-    >>> spec_of("washer").default_fidelity
-    'field'
-    """
+def spec_of(name: str) -> "ModelSpec":
+    """Return the interface of a model that is solved at points; ParameterError names those."""
     return _among(models_with_points(), name).spec
 
 
@@ -110,6 +108,6 @@ def ladder_of(name: str) -> Ladder:
     return found
 
 
-def kernel_of(spec: ModelSpec) -> Any:
+def kernel_of(spec: "ModelSpec") -> Any:
     """Return the module with a model's compiled step."""
     return import_module(spec.kernel)

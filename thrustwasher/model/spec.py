@@ -133,12 +133,8 @@ def tailored(
 ) -> ModelSpec:  # fmt: skip
     """Return the model with these values of parameters and inputs as its defaults: same kernels.
 
-    Parameters
-    ----------
-    spec : the model
-    parameters : values by name, ``fidelity`` among them; those not named stay as they are
-    starts : start values of inputs by name
-    stop_time, step_size : of its default experiment [s]
+    ``fidelity`` is among the parameters; what is not named stays as it is. ``stop_time`` and
+    ``step_size`` are those of its default experiment [s].
     """
     kept = [
         (f.name, f.type, field(default=parameters.get(f.name, f.default), metadata=f.metadata))

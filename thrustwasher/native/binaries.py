@@ -40,10 +40,6 @@ def check(data: bytes, *, exports: Iterable[str], glibc: tuple[int, int] | None)
     """Stop if a library needs more than libc and libm, or does not export just the given names.
 
     ``glibc`` is the newest version that may be asked for; None: whatever this machine has.
-
-    Raises
-    ------
-    EnvironmentProblem : names what is too much or missing
     """
     found, wanted = read(data), set(exports)
     allowed = re.compile(ALLOWED[found.format], re.I if found.format == "PE" else 0)
@@ -56,12 +52,7 @@ def check(data: bytes, *, exports: Iterable[str], glibc: tuple[int, int] | None)
 
 
 def undefined(code: bytes) -> set[str]:
-    """Return the symbols that an object file refers to and does not define.
-
-    Raises
-    ------
-    EnvironmentProblem : the file is of another kind
-    """
+    """Return the symbols that an object file refers to and does not define."""
     if code[:4] == b"\x7fELF":
         return _elf_undefined(code)
     number = _word(code, 0)

@@ -65,10 +65,11 @@ def closure(*modules: str) -> dict[str, Path]:
     The heads of packages hold no code and are left out.
     """
     found: dict[str, Path] = {}
+    others = tuple(f"{PACKAGE}.{other}." for other in _NOT_COMPILED)
     roots, todo = {PACKAGE, *(name.partition(".")[0] for name in modules)}, list(modules)
     while todo:
         name = todo.pop()
-        if name in found or not _is_compiled(name) or name.partition(".")[0] not in roots:
+        if name in found or f"{name}.".startswith(others) or name.partition(".")[0] not in roots:
             continue
         path = file_of(name)
         if path and path.name != "__init__.py":
@@ -84,11 +85,6 @@ def file_of(name: str) -> Path | None:
     except ModuleNotFoundError:
         return None
     return Path(spec.origin) if spec and spec.origin else None
-
-
-def _is_compiled(name: str) -> bool:
-    others = (f"{PACKAGE}.{other}" for other in _NOT_COMPILED)
-    return not any(name == other or name.startswith(f"{other}.") for other in others)
 
 
 def _imported(source: bytes, package: str) -> Iterable[str]:

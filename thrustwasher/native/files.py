@@ -7,12 +7,14 @@ one of this process, and that is said.
 
 import atexit
 import hashlib
+import io
 import os
 import shutil
 import stat
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+import zipfile
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
@@ -21,6 +23,8 @@ from ..errors import naming
 
 Note = Callable[[str], None]
 READABLE = "can be read by others"
+EPOCH = (1980, 1, 1, 0, 0, 0)
+UNIX, FILE_MODE = 3, 0o100644
 SUM = ".sha256"  # ends the name of the file that holds another one's checksum
 
 
@@ -42,6 +46,19 @@ def write(path: Path, data: bytes, mode: int = 0o644) -> None:
         with suppress(OSError):
             os.unlink(part)
         raise
+
+
+def zipped(files: Mapping[str, bytes], first: str = "") -> bytes:
+    """Return a zip, path -> content, the same bytes for the same content; ``first`` is in front."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name in sorted(files, key=lambda n: (n != first, n)):
+            name.encode("ascii")  # FMI 2 says nothing about other characters
+            info = zipfile.ZipInfo(name, EPOCH)
+            info.create_system, info.external_attr = UNIX, FILE_MODE << 16
+            info.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(info, files[name], compresslevel=9)
+    return buffer.getvalue()
 
 
 def checksum(data: bytes) -> str:
@@ -72,19 +89,15 @@ def _code_folder(home: Path, name: str) -> Path:
     why = _made_private(folder)
     if not why:
         return folder
-    _say_once(f"compiled code is not kept: {folder} {why}; it lies in {private_folder()} meanwhile")
+    if not _said:  # other kinds of code find the same
+        _said.append(why)
+        meanwhile = f"it lies in {private_folder()} meanwhile"
+        to_stderr(f"compiled code is not kept: {folder} {why}; {meanwhile}")
     (private_folder() / name).mkdir(exist_ok=True, mode=0o700)
     return private_folder() / name
 
 
-_said: list[str] = []
-
-
-def _say_once(text: str) -> None:
-    """Say why code is not kept; other kinds of code find the same."""
-    if not _said:
-        to_stderr(text)
-        _said.append(text)
+_said: list[str] = []  # why code is not kept
 
 
 def _made_private(folder: Path) -> str:

@@ -19,6 +19,7 @@ ALLOWED = frozenset(
     memset_pattern8 memset_pattern16
     """.split()
 )
+MACHINES = re.compile(r"llvm\.(x86|aarch64|arm)\.")
 # Beginnings of a symbol -> what is behind it and what to write instead.
 CAUSES = (
     ("NRT_Allocate NRT_Free", "memory is allocated: pass it as work; copy slices in a loop"),
@@ -41,36 +42,21 @@ CAUSES = (
 
 
 def check_module(module: Any, kernel: str) -> None:
-    """Stop if an optimised module needs more than is allowed (llvmlite module).
-
-    Raises
-    ------
-    EnvironmentProblem : names the kernel, the symbols, the likely cause and the cure
-    """
+    """Stop if an optimised module of llvmlite needs more than is allowed; name cause and cure."""
     found = [v.name for v in module.global_variables if v.is_declaration]
     if re.search(r"inttoptr \(i64 \d", str(module)):  # of an object of the compiling process
         found.append("inttoptr")
     for function in module.functions:
-        if function.is_declaration and not _is_allowed(function.name):
-            found.append(function.name)
+        name = function.name  # intrinsics of any machine pass: those left over become calls
+        allowed = not MACHINES.match(name) if name.startswith("llvm.") else name in ALLOWED
+        if function.is_declaration and not allowed:
+            found.append(name)
     _stop(kernel, found)
 
 
 def check_object(code: bytes, kernel: str) -> None:
-    """Stop if an object file refers to more than is allowed: intrinsics become calls late.
-
-    Raises
-    ------
-    EnvironmentProblem : as ``check_module``
-    """
+    """Stop if an object file refers to more than is allowed: intrinsics become calls late."""
     _stop(kernel, [name for name in undefined(code) if name not in ALLOWED])
-
-
-def _is_allowed(name: str) -> bool:
-    """Intrinsics pass unless they belong to one kind of machine; those left over become calls."""
-    if name.startswith("llvm."):
-        return not re.match(r"llvm\.(x86|aarch64|arm)\.", name)
-    return name in ALLOWED
 
 
 def cause(symbol: str) -> str:

@@ -25,11 +25,7 @@ def addresses(kernel: str) -> Addresses:
     """Return where the functions of a kernel module are, after loading its library.
 
     It is the one shipped with the package, else one kept from an earlier run, else it is linked;
-    where nothing can link, the object is loaded by llvmlite.
-
-    Raises
-    ------
-    EnvironmentProblem : it can neither be found nor made; the message says what to do
+    where nothing can link, the object is loaded by llvmlite. EnvironmentProblem: none of it works.
     """
     if kernel in _failed:
         raise _failed[kernel]
@@ -80,12 +76,7 @@ def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
 def linked_library(
     kernel: str, platform: Platform, code: Objects, linker: link.Linker | None = None
 ) -> bytes:
-    """Return the objects of a kernel module linked to a library for Python, checked.
-
-    Raises
-    ------
-    EnvironmentProblem : there is no compiler, or it refuses; the message says which
-    """
+    """Return the objects of a kernel module linked to a library for Python, checked."""
     linker = linker or link.find_linker()
     names = " ".join(f"X({name})" for name in symbols(kernel))
     parts: dict[str, str | bytes] = {

@@ -45,12 +45,7 @@ class Linker:
 
 @cache
 def find_linker() -> Linker:
-    """Return zig of the package ziglang, else this machine's gcc or cc.
-
-    Raises
-    ------
-    EnvironmentProblem : there is neither; the message says what to install
-    """
+    """Return zig of the package ziglang, else this machine's gcc or cc, or say what to install."""
     if importlib.util.find_spec("ziglang"):
         command = (sys.executable, "-m", "ziglang", "cc")
         return Linker("ziglang", command, metadata.version("ziglang"), tuple(PLATFORMS))
@@ -76,12 +71,6 @@ def _of_this_machine() -> Linker | None:
     return Linker(Path(found).name, (found,), shown.stdout.strip(), own)
 
 
-def forget() -> None:
-    """Look for compilers anew the next time."""
-    for found in (find_linker, local_linker, _of_this_machine):
-        found.cache_clear()
-
-
 def local_machine() -> tuple[str, str]:
     """Return the system and machine of this computer as ``Platform.machine`` names them."""
     machine = this.machine()
@@ -89,12 +78,7 @@ def local_machine() -> tuple[str, str]:
 
 
 def this_platform() -> Platform:
-    """Return the platform of this machine.
-
-    Raises
-    ------
-    EnvironmentProblem : native FMUs are not made for it
-    """
+    """Return the platform of this machine; EnvironmentProblem if native code is not made for it."""
     for platform in PLATFORMS.values():
         if platform.machine == local_machine():
             return platform
@@ -116,7 +100,7 @@ def shared_library(
     files: Mapping[str, str | bytes], *, platform: Platform, name: str,
     defines: Sequence[str] = (), linker: Linker | None = None, note: Note = to_stderr,
 ) -> bytes:  # fmt: skip
-    """Compile and link C files and objects to a shared library.
+    """Compile and link C files and objects to a shared library; EnvironmentProblem if that fails.
 
     Parameters
     ----------
@@ -126,10 +110,6 @@ def shared_library(
     defines : macros, "NAME" or "NAME=VALUE"
     linker : None: that of ``find_linker``
     note : called with a line of progress before anything that takes long
-
-    Raises
-    ------
-    EnvironmentProblem : no compiler for this platform, or it refuses a file
     """
     output = f"{name}.{platform.extension}"
     flags = ["-shared", *platform.flags]

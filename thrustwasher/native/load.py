@@ -34,11 +34,8 @@ def native_function(
 
     Arguments that it does not take, such as an array that is not contiguous, go to the kernel as
     plain Python. Arrays are handed over by their address, read only ones too. Where no libraries
-    are made for this machine, ``elsewhere`` compiles the kernel.
-
-    Raises
-    ------
-    EnvironmentProblem : the library has to be made and cannot be; the message says what to do
+    are made for this machine, ``elsewhere`` compiles the kernel. EnvironmentProblem: the library
+    has to be made and cannot be.
     """
     if library_of(function.__module__, function.__name__) is None:
         return None
@@ -63,12 +60,7 @@ def _has_platform() -> bool:
 
 
 def address(array: Any, item: Any, ndim: int) -> int:
-    """Return where an array's numbers lie.
-
-    Raises
-    ------
-    Unfit : it is no contiguous array of this type and number of dimensions
-    """
+    """Return where an array's numbers lie; Unfit if it is not contiguous, or of another kind."""
     if type(array) is not np.ndarray or array.ndim != ndim or array.dtype != item:
         raise Unfit(item, ndim)
     try:

@@ -17,12 +17,7 @@ from .targets import PLATFORMS, Level, Platform
 
 
 def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -> bytes:
-    """Return an object file with the entries as ``tw_<entry>_<level>``.
-
-    Raises
-    ------
-    EnvironmentProblem : the kernel needs what an FMU does not have; the message names the symbol
-    """
+    """Return an object file with the entries as ``tw_<entry>_<level>``, passed by the gate."""
     import llvmlite.binding as llvm
 
     llvm.initialize_all_targets()

@@ -33,15 +33,9 @@ _at_once = threading.Semaphore(os.cpu_count() or 1)
 def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) -> Objects:
     """Return (platform, level) -> object file with the entries of a kernel module.
 
-    Parameters
-    ----------
-    kernel : dotted name of a module with the step ABI
-    platforms : for which; what several of them need is made once
-    note : called with a line of progress before and while something takes long
-
-    Raises
-    ------
-    EnvironmentProblem : the kernel needs what an FMU does not have, or numba is not as expected
+    What several platforms need is made once; ``note`` is called with a line of progress before and
+    while something takes long. EnvironmentProblem: the kernel needs what an FMU does not have, or
+    numba is not as expected.
     """
     wanted, found = wanted_for(platforms), shipped.objects_of(kernel)
     if wanted.keys() <= found.keys():

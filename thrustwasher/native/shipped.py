@@ -14,11 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from .digest import HERE, PACKAGE, digest, digest_of, read
-from .files import checksum
+from .files import checksum, zipped
 
 FOLDER = HERE.parent / "data" / "native"
 INDEX = "index.json"
-EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 @cache
@@ -87,15 +86,8 @@ def objects_of(kernel: str) -> Mapping[tuple[str, str], bytes]:
 
 
 def pack(objects: Mapping[tuple[str, str], bytes]) -> bytes:
-    """Return a zip of objects: the same bytes for the same content."""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w") as archive:
-        for platform, level in sorted(objects):
-            info = zipfile.ZipInfo(f"{platform}-{level}.o", EPOCH)
-            info.create_system, info.external_attr = 3, 0o100644 << 16
-            info.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(info, objects[platform, level], compresslevel=9)
-    return buffer.getvalue()
+    """Return a zip of objects."""
+    return zipped({f"{platform}-{level}.o": data for (platform, level), data in objects.items()})
 
 
 def unpack(data: bytes) -> dict[tuple[str, str], bytes]:

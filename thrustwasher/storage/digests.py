@@ -41,12 +41,7 @@ def changed_fields(params: Any) -> dict[str, Any]:
 
 @cache
 def closure(*modules: str) -> tuple[str, ...]:
-    """Return the names of kernel modules and of all kernel modules that they import.
-
-    Raises
-    ------
-    FileNotFoundError : there is no such module
-    """
+    """Return the names of kernel modules and of all that they import; FileNotFoundError: none."""
     found = digest.closure(*modules)
     for name in modules:
         if name not in found:
@@ -57,11 +52,8 @@ def closure(*modules: str) -> tuple[str, ...]:
 def kernel_digest(files: Iterable[str]) -> str:
     """Return the SHA-256 over kernel modules or, with a slash in the name, files of ``data/``.
 
-    Line ends count as one character: a checkout on Windows has the same digest.
-
-    Raises
-    ------
-    FileNotFoundError : a file is not there any more
+    Line ends count as one character: a checkout on Windows has the same digest. FileNotFoundError:
+    a file is not there any more.
     """
     whole = hashlib.sha256()
     for name in sorted(files):

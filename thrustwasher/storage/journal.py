@@ -33,22 +33,15 @@ DISK = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
 class Journal:
     """What some work has finished, kept beside its output while it runs.
 
-    Parameters
-    ----------
-    path : the file
-    identity : what makes this work differ from another of its kind, in words
-    work : its kind, "sweep" or "map"
-
-    Raises
-    ------
-    ParameterError : the file is none of a journal, spoiled or that of other work, or another run
-        writes it now
-    OSError : full disk, no permission
+    ``identity`` is what makes this work differ from another of its kind, in words; ``work`` is the
+    kind, "sweep" or "map". ParameterError: the file is no journal, is spoiled or that of other
+    work, or another run writes it now.
     """
 
     def __init__(self, path: Path, identity: dict[str, str], work: str = "sweep") -> None:
         self.path, self.work = path, work
         self._waiting: list[tuple[int, bytes, int]] = []
+        self._is_blank = False
         self._committed = -INTERVAL  # the first entry is written at once
         path.parent.mkdir(parents=True, exist_ok=True)
         with naming(path):
@@ -67,6 +60,7 @@ class Journal:
     def _begin(self, identity: dict[str, str]) -> None:
         """Say whose journal an empty file is; refuse one that is another's."""
         if self.path.stat().st_size == 0:
+            self._is_blank = True
             for table in TABLES.strip().splitlines():
                 self._db.execute(table)
             self._db.executemany("INSERT INTO work VALUES (?, ?)", identity.items())
@@ -108,6 +102,7 @@ class Journal:
 
     def put(self, entry: int, value: bytes) -> None:
         """Keep an entry; it is on disk a second later, or when the journal is closed."""
+        self._is_blank = False
         self._waiting.append((entry, value, _checksum(entry, value)))
         if time.monotonic() - self._committed >= INTERVAL:
             self.flush()
@@ -150,14 +145,14 @@ class Journal:
         self.put(first, numbers.tobytes() + flags.tobytes())
 
     def close(self, *, finished: bool = False) -> None:
-        """Close the file; finished work needs it no longer."""
+        """Close the file; finished work needs it no longer, nor does work that has nothing yet."""
         try:
             if self._waiting and not finished:
                 self.flush()
         finally:
             with self._named():
                 self._db.close()
-        if finished:
+        if finished or self._is_blank:
             with naming(self.path):
                 self.path.unlink(missing_ok=True)
 

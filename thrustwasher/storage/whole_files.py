@@ -13,7 +13,7 @@ from ..errors import naming
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
     """Give a temporary path beside ``path`` that takes its place only if all went well."""
-    with naming(path), _folder_unless_failed(path.parent):
+    with naming(path), new_folder(path.parent):
         handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
         os.close(handle)
         try:
@@ -27,7 +27,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 @contextmanager
 def whole_folder(path: Path) -> Iterator[Path]:
     """Give a temporary folder whose files move to ``path`` only if all went well."""
-    with naming(path), _folder_unless_failed(path):
+    with naming(path), new_folder(path):
         draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=path))
         try:
             yield draft
@@ -38,33 +38,20 @@ def whole_folder(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def _folder_unless_failed(folder: Path) -> Iterator[None]:
-    """Make a folder with its parents; after a failure those that are new and empty go again."""
-    missing = [p for p in (folder, *folder.parents) if not p.exists()]
-    folder.mkdir(parents=True, exist_ok=True)
-    try:
-        yield
-    except BaseException:
-        _remove(missing)
-        raise
+def new_folder(folder: Path, *, stays: bool = True) -> Iterator[None]:
+    """Make a folder with its parents; those that are new and empty go again unless all went well.
 
-
-@contextmanager
-def folder_for_trial(folder: Path) -> Iterator[None]:
-    """Make a folder with its parents; those that are new go again in any case."""
+    For a trial nothing ``stays`` in any case.
+    """
     missing = [p for p in (folder, *folder.parents) if not p.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
         yield
+        missing = [] if stays else missing
     finally:
-        _remove(missing)
-
-
-def _remove(folders: list[Path]) -> None:
-    """Remove the folders that exist and are empty, innermost first."""
-    for folder in folders:
-        with suppress(OSError):
-            folder.rmdir()
+        for made in missing:  # the innermost first
+            with suppress(OSError):
+                made.rmdir()
 
 
 def _umask() -> int:

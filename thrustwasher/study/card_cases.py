@@ -1,7 +1,5 @@
 """What cards are made for: parameter sets, the boxes of inputs, how many held-out points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -53,7 +51,7 @@ class Case:
                 break
         return found
 
-    def within(self, box: Mapping[str, tuple[float, float]]) -> Case:
+    def within(self, box: Mapping[str, tuple[float, float]]) -> "Case":
         """Return the case for the part of its box that lies in another one."""
         part = {}
         for name, a in self.envelope.items():
@@ -83,18 +81,12 @@ def _at(axis: Axis, share: float) -> float:
 
 def cases(model: str) -> list[Case]:
     """Return the cases of a model, or raise ParameterError with the models there are."""
-    spec = spec_of(model)
+    spec, ladder, found = spec_of(model), ladder_of(model), []
     units = {s.name: s.unit for s in spec.inputs}
-    return [
-        Case(
-            spec, name, spec.params() if name == "default" else _scene_params(spec, name),
-            {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}, POINTS,
-        )
-        for name, box in ladder_of(model).boxes.items()
-    ]  # fmt: skip
-
-
-def _scene_params(spec: ModelSpec, scene: str) -> Any:
-    """Return the parameters that a shipped scene gives to its part of a model."""
-    ladder = ladder_of(spec.key)
-    return replace(load_scene(scene).parts[ladder.part].params, **ladder.changed)
+    for name, box in ladder.boxes.items():
+        params = spec.params()
+        if name != "default":  # what a shipped scene gives to its part
+            params = replace(load_scene(name).parts[ladder.part].params, **ladder.changed)
+        axes = {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}
+        found.append(Case(spec, name, params, axes, POINTS))
+    return found

@@ -112,9 +112,8 @@ def _worst(errors: list[float]) -> float | None:
 
 
 def _rms(errors: list[float]) -> float | None:
-    if not errors:
-        return None
-    return float(f"{math.sqrt(sum(e * e for e in errors) / len(errors)):.3g}")
+    squares = sum(e * e for e in errors)
+    return float(f"{math.sqrt(squares / len(errors)):.3g}") if errors else None
 
 
 def _up(value: float) -> float:

@@ -145,29 +145,20 @@ def study(
 ) -> dict[str, Any]:
     """Return truth and samples of all ways and steps, as JSON types.
 
-    Parameters
-    ----------
-    make : gives an instance for each part of a scene
-    quick : few steps, one repeat
+    ``make`` gives an instance for each part of a scene; ``quick``: few steps, one repeat.
     """
     progress("shift: reference")
     truth, uncertainty = small_step_limit(make, quick=quick)
     samples = []
     for way in WAYS:
         progress(f"shift: {way.name}")
-        for knob in knobs(way, quick):
+        steps, tolerances = (QUICK_STEPS, QUICK_TOLERANCES) if quick else (STEPS, TOLERANCES)
+        for knob in tolerances if way.adaptive else steps:
             samples.append(sample(way, knob, make, truth, uncertainty, 1 if quick else 3))
     return {
         "scene": "planetary without washers and gear mesh", "truth": truth, "samples": samples,
         "quantities": [q.as_dict() for q in QUANTITIES],
     }  # fmt: skip
-
-
-def knobs(way: Way, quick: bool) -> tuple[float, ...]:
-    """Return the steps [s] or tolerances to be tried."""
-    if way.adaptive:
-        return QUICK_TOLERANCES if quick else TOLERANCES
-    return QUICK_STEPS if quick else STEPS
 
 
 def small_step_limit(
@@ -201,7 +192,6 @@ def sample(
 ) -> dict[str, Any]:  # fmt: skip
     """Return one sample in the layout of all charts; the cost is per simulated second."""
     wall: list[float] = []
-    failures: dict[str, str] = {}
     found: dict[str, float] = {}
     count = 0
     try:
@@ -214,12 +204,11 @@ def sample(
         why = complaint(result, found)
     except (ParameterError, SolveError) as error:
         why = f"{type(error).__name__}: {error}"
-    if why:
-        failures["shift"] = why
-    errors: dict[str, dict[str, Any]] = {}
-    for q in QUANTITIES:
-        apart = q.error(found.get(q.name, math.nan), truth[q.name])
-        errors[q.name] = {"worst": apart, "rms": apart, "case": "shift"}
+    failures = {"shift": why} if why else {}
+    apart = {q.name: q.error(found.get(q.name, math.nan), truth[q.name]) for q in QUANTITIES}
+    errors: dict[str, dict[str, Any]] = {
+        name: {"worst": error, "rms": error, "case": "shift"} for name, error in apart.items()
+    }
     value = f"{knob:g}" if way.adaptive else f"{1e3 * knob:g} ms"
     quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
     return Sample(

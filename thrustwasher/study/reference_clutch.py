@@ -19,16 +19,8 @@ from ..clutch.parameters import ClutchParams
 from ..clutch.solve import prepare, solve_clutch, steady_pack
 from ..errors import ParameterError, SolveError, Status
 from ..ladder.card_parts import QUANTITIES
-from .reference_values import (
-    OK,
-    Answer,
-    Point,
-    ReferencePoint,
-    ReferenceValues,
-    Source,
-    Values,
-    extrapolated,
-)
+from . import reference_values as ref
+from .reference_values import Answer, Point, ReferencePoint, ReferenceValues, Source, Values
 
 Array = NDArray[np.float64]
 RINGS = (2, 4, 8)
@@ -69,7 +61,7 @@ def reference_clutch(
             "friction_coefficient": s.coefficient, "film_ratio": whole.film_ratio,
             "film_thickness": whole.film_thickness,
         })  # fmt: skip
-    values, uncertainty = extrapolated(rows, (2.0, 2.0), 2.0)
+    values, uncertainty = ref.extrapolated(rows, (2.0, 2.0), 2.0)
     return ReferenceValues(values, uncertainty, ("2, 4, 8 rings, order 2",))
 
 
@@ -99,7 +91,7 @@ def reference_engagement(
         )
     t, force, slip = (np.asarray(x, float) for x in np.broadcast_arrays(time, load, speed))
     rows = [_by_radau(params, n, t, force, slip, oil_temperature) for n in RINGS]
-    values, uncertainty = extrapolated(rows, (2.0, 2.0), 2.0)
+    values, uncertainty = ref.extrapolated(rows, (2.0, 2.0), 2.0)
     return ReferenceValues(values, uncertainty, ("Radau at 1e-9", "2, 4, 8 rings, order 2"))
 
 
@@ -232,9 +224,9 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
             params, time=time, load=load, speed=speed, oil_temperature=point["oil_temperature"],
             fidelity=fidelity,
         )  # fmt: skip
-        return Answer({name: getattr(e, name).tolist() for name in QUANTITIES}, OK)
+        return Answer({name: getattr(e, name).tolist() for name in QUANTITIES}, ref.OK)
     c = solve_clutch(params, **point, fidelity=fidelity)
-    return Answer({name: getattr(c, name) for name in QUANTITIES}, OK, float(c.iterations))
+    return Answer({name: getattr(c, name) for name in QUANTITIES}, ref.OK, float(c.iterations))
 
 
 SOURCE = Source(

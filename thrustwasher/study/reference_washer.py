@@ -21,20 +21,8 @@ from ..washer.parameters import WasherParams
 from ..washer.solve import GRIDS as MESHES
 from ..washer.solve import WasherResult, _solve, solve_washer
 from ..washer.washer_result import BRANCHES
-from .reference_values import (
-    FAILED,
-    MARGIN,
-    OK,
-    OTHER_SIDE,
-    OUTSIDE,
-    Answer,
-    Point,
-    ReferencePoint,
-    ReferenceValues,
-    Source,
-    Values,
-    extrapolated,
-)
+from . import reference_values as ref
+from .reference_values import Answer, Point, ReferencePoint, ReferenceValues, Source, Values
 
 Array = NDArray[np.float64]
 GRIDS = ((19, 64), (28, 96), (37, 128))  # all intervals refined alike, 3 : 2 then 4 : 3
@@ -89,7 +77,7 @@ def _converged(
             )
         rows.append({name: float(getattr(result, name)) for name in NAMES})
     i, j, k = (n_r - 1 for n_r, _ in grids)  # intervals along the radius
-    values, uncertainty = extrapolated(rows, (j / i, k / j), 2.0)
+    values, uncertainty = ref.extrapolated(rows, (j / i, k / j), 2.0)
     meshes = ", ".join(f"{a} x {b}" for a, b in grids)
     return ReferenceValues(values, uncertainty, (f"{meshes} nodes, order 2",)), rows[0]
 
@@ -164,7 +152,7 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
             known, first = _converged(base, GRIDS)
         except SolveError:
             continue
-        beside = any(abs(point["load"] / load - 1.0) < MARGIN for load in folds.values())
+        beside = any(abs(point["load"] / load - 1.0) < ref.MARGIN for load in folds.values())
         by_mesh: dict[str, Values] = {_mesh_name(GRIDS[0]): {q: first[q] for q in QUANTITIES}}
         found.append(
             ReferencePoint(point, base.branch, base.branch, *known.of(QUANTITIES), beside, by_mesh)
@@ -204,17 +192,17 @@ def _at_case(
 def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
     on_mesh = known.by_mesh.get(_mesh_name(MESHES[fidelity]))
     if on_mesh is not None:
-        return Answer(on_mesh, OK)
+        return Answer(on_mesh, ref.OK)
     point: Any = known.point
     r = solve_washer(params, **point, fidelity=fidelity, branch=known.branch, throw=False)
     values: Values = {name: getattr(r, name) for name in QUANTITIES}
     work = float(r.iterations * max(r.grid[0] * r.grid[1], 1))
     if fidelity == "map" and (r.fidelity != "map" or r.status is Status.OUTSIDE_VERIFIED):
-        return Answer(values, OUTSIDE, work)
+        return Answer(values, ref.OUTSIDE, work)
     if r.status is Status.NO_BRANCH and known.beside_fold:
-        return Answer(values, OTHER_SIDE, work)
+        return Answer(values, ref.OTHER_SIDE, work)
     failed = r.status.is_failure and r.status is not Status.NO_BRANCH
-    return Answer(values, FAILED if failed else OK, work)
+    return Answer(values, ref.FAILED if failed else ref.OK, work)
 
 
 SOURCE = Source(

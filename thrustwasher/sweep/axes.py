@@ -1,13 +1,12 @@
 """What a sweep varies: ``load=50:1850:50`` becomes a name, a unit and values."""
 
-import difflib
 import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, suggestion
 from ..model.parameters import allowed
 from ..model.registry import find_model
 from ..model.spec import ModelSpec, Signal
@@ -74,8 +73,7 @@ def places(spec: ModelSpec) -> dict[str, Place]:
 def find_place(name: str, known: dict[str, Place], spec: ModelSpec) -> Place:
     """Return the place of that name, or raise ParameterError with the nearest names."""
     if name not in known:
-        near = difflib.get_close_matches(name, known, n=1)
-        hint = f"did you mean {near[0]}? " if near else ""
+        hint = suggestion(name, known, "did you mean {}? ")
         inputs = ", ".join(p.name for p in known.values() if p.is_input)
         raise ParameterError(
             f"{spec.name} has neither an input nor a parameter {name!r}; {hint}inputs: {inputs}; "
@@ -97,16 +95,9 @@ def split_setting(text: str, option: str) -> tuple[str, str]:
 def read_axis(
     name: str, values: str | Iterable[Any], known: dict[str, Place], spec: ModelSpec
 ) -> Axis:
-    """Return the axis that a name (a unit for bare numbers in brackets behind it) and values make.
+    """Return the axis that a name ("load", or "load [kN]" for bare numbers) and values make.
 
-    Parameters
-    ----------
-    name : "load", or "load [kN]"
-    values : a text as in ``parse_values``, or numbers (texts for enumerations)
-
-    Raises
-    ------
-    ParameterError : unknown name, wrong unit, value out of range, no value, too many values
+    The values are a text as in ``parse_values``, or numbers (texts for enumerations).
     """
     match = re.fullmatch(r"([^\[\]]*?)\s*(?:\[([^\[\]]*)\])?", name)
     if match is None:

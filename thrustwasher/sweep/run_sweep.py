@@ -133,7 +133,7 @@ class Run:
             if self.done.all():
                 return
             try:
-                with local_processes(min(n, self.plan.n_lines)) as executor:
+                with local_processes(min(n, len(self.plan.params_of))) as executor:
                     self._hand_out(executor, n, helps=True)
             except BrokenProcessPool:
                 continue
@@ -233,9 +233,7 @@ class Run:
 def dask_cluster(address: str) -> Iterator[tuple[Executor, int]]:
     """Give the workers of a running Dask cluster and their number; the cluster stays.
 
-    Raises
-    ------
-    EnvironmentProblem : no package ``distributed``, no answer, no workers, or another version there
+    EnvironmentProblem: no package ``distributed``, no answer, no workers, or another version there.
     """
     try:
         import distributed

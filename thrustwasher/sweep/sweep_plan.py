@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..ladder import choose as chooser
+from ..model.parameters import params_of
 from ..model.registry import spec_of
 from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
@@ -40,11 +41,6 @@ class Plan:
         """Number of points."""
         return len(self.inputs)
 
-    @property
-    def n_lines(self) -> int:
-        """Number of lines."""
-        return len(self.params_of)
-
 
 def make_plan(
     model: str, over: Mapping[str, Any], at: Mapping[str, Any], points: Mapping[str, Any] | None,
@@ -55,9 +51,7 @@ def make_plan(
     known = places(spec)
     asked = spec.default_fidelity if fidelity is None else fidelity
     rung, tolerance = chooser.rung_and_tolerance(spec.key, spec, asked)
-    base = spec.params() if params is None else params
-    if not isinstance(base, spec.params):
-        raise ParameterError(f"params: {type(base).__name__}, allowed: {spec.params.__name__}")
+    base = params_of(spec, params)
     held = {a.place.name: a.values[0] for a in _held(at, known, spec)}
     axes = [read_axis(name, values, known, spec) for name, values in over.items()]
     if points is None:
@@ -75,12 +69,7 @@ def make_plan(
 
 
 def _chosen(plan: Plan, tolerance: float) -> Plan:
-    """Return the plan with the rung that the cards choose for all of its points.
-
-    Raises
-    ------
-    SolveError : no rung is verified to the tolerance
-    """
+    """Return the plan with the rung that the cards choose for all of its points."""
     if len(plan.params) != 1:
         raise ParameterError("fidelity = 'auto': allowed: without varied parameters")
     if np.isnan(plan.inputs).all(axis=0).any():

@@ -51,8 +51,7 @@ class SweepTable:
 def make_table(plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> SweepTable:
     """Return the table of a plan's outputs, as ``solve_task`` gives them."""
     real, whole = output_signals(plan.spec)
-    columns = dict(plan.shown)
-    units = dict(plan.units)
+    columns, units = dict(plan.shown), dict(plan.units)
     for i, signal in enumerate(real):
         columns[signal.name], units[signal.name] = numbers[:, i], signal.unit
     failed = flags[:, -1] >= FIRST_FAILURE

@@ -1,7 +1,5 @@
 """Parameters, inputs and outputs of the shift transmission: the one list of all interfaces."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
@@ -13,7 +11,7 @@ COUPLING = {
 }
 
 
-def _planet_teeth(p: TransmissionParams) -> str:
+def _planet_teeth(p: "TransmissionParams") -> str:
     return (
         f"planet_teeth = {p.planet_teeth!r}, allowed: half of ring_teeth - sun_teeth, within one "
         f"tooth (here {0.5 * (p.ring_teeth - p.sun_teeth):g}), or 0"

@@ -9,9 +9,10 @@ from lxml import etree
 from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description import xml_parts
-from thrustwasher.fmu.description.interface import all_specs, enumerations, variables
+from thrustwasher.fmu.description.interface import enumerations, variables
 from thrustwasher.fmu.description.model_description import description, terminals_and_icons
 from thrustwasher.fmu.description.xml_parts import declared_type, text
+from thrustwasher.model.registry import all_specs
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
 SPECS = [TOY, *all_specs()]

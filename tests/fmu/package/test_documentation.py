@@ -8,13 +8,14 @@ import pytest
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, Status
-from thrustwasher.fmu.description.interface import all_specs, find_spec, variables
+from thrustwasher.fmu.description.interface import variables
 from thrustwasher.fmu.documentation.html_page import accuracy, page, slope
 from thrustwasher.fmu.documentation.markup import markup
 from thrustwasher.fmu.package import licences as module
 from thrustwasher.fmu.package.licences import PLACE, licences, listed_licences
 from thrustwasher.fmu.package.model_sources import model_folder, source_folder
 from thrustwasher.ladder.card import load_cards
+from thrustwasher.model.registry import all_specs, find_spec
 
 QUICK = [TOY, find_spec("WetClutch"), find_spec("GearMesh"), find_spec("ShiftTransmission")]
 each_spec = pytest.mark.parametrize("spec", QUICK, ids=lambda s: s.name)

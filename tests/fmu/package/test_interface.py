@@ -6,8 +6,9 @@ import pytest
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, Status
-from thrustwasher.fmu.description.interface import all_specs, enumerations, find_spec, variables
+from thrustwasher.fmu.description.interface import enumerations, variables
 from thrustwasher.model.parameters import as_numbers
+from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.units import exponents
 
 SPECS = [TOY, *all_specs()]

@@ -15,10 +15,10 @@ from lxml import etree
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.build import build, validate
-from thrustwasher.fmu.description.interface import all_specs, find_spec
 from thrustwasher.fmu.documentation.reference_results import FOLDER
 from thrustwasher.fmu.model_kernels import has_derivatives
 from thrustwasher.fmu.shell import platform_libraries
+from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.native.link import find_linker
 from thrustwasher.native.targets import PLATFORMS
 

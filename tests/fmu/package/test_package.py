@@ -10,9 +10,9 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.description.interface import all_specs
-from thrustwasher.fmu.package import archive
 from thrustwasher.fmu.package.model_sources import identifier, source_folder
+from thrustwasher.model.registry import all_specs
+from thrustwasher.native.files import write
 
 
 def test_building_in_another_process_gives_the_same_bytes(tmp_path, toy_fmu, run_child):
@@ -119,9 +119,9 @@ def test_it_is_known_whether_a_model_is_compiled(run_child, tmp_path, monkeypatc
 
 def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "a.fmu"
-    archive.write(path, b"old")
+    write(path, b"old")
     monkeypatch.setattr("os.replace", lambda *_: (_ for _ in ()).throw(OSError("disk full")))
     with pytest.raises(OSError, match="disk full"):
-        archive.write(path, b"new")
+        write(path, b"new")
     assert path.read_bytes() == b"old"
     assert [p.name for p in Path(tmp_path).iterdir()] == ["a.fmu"]

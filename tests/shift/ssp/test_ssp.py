@@ -8,8 +8,8 @@ from scene_runs import instances as direct_instances
 from scene_runs import slow_without_jit
 from ssp_master import NS, components, connections, description, run, values
 
-from thrustwasher.fmu.package import archive
 from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.native.files import zipped
 from thrustwasher.shift import builtin_scenes, load_scene, run_shift
 from thrustwasher.shift.ssp.package import files
 from thrustwasher.shift.ssp.system_structure import plan, prepared, start_values
@@ -23,7 +23,7 @@ def planned(name, starts=None):
 
 
 def packed(system):
-    return archive.pack(files(system, tool="thrustwasher", date="2026-01-01T00:00:00Z"))
+    return zipped(files(system, tool="thrustwasher", date="2026-01-01T00:00:00Z"))
 
 
 def schema(name):

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from thrustwasher.fmu.description.interface import find_spec
 from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.model.registry import find_spec
 from thrustwasher.shift.cosim.loop import PythonLoop, Recorder, Run
 from thrustwasher.shift.cosim.system import ConnectedPart, System
 from thrustwasher.shift.masters.master import MASTERS

@@ -2,13 +2,14 @@
 
 import zipfile
 import zlib
+from contextlib import closing
 
 import numpy as np
 import pytest
 
-from thrustwasher.errors import ParameterError
+from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.washer.kernels.map import map_layout as L
-from thrustwasher.washer.map.map_build import build_lines, make_map
+from thrustwasher.washer.map.map_build import build_lines, journal_for, make_map
 from thrustwasher.washer.map.map_file import (
     CARD,
     NUMBERS,
@@ -101,6 +102,11 @@ def test_what_is_no_archive_is_refused(tmp_path):
             read_map(path)
 
 
+def with_journal(plan, path, **options):
+    with closing(journal_for(path, plan, "field")) as journal:
+        return build_lines(plan, fidelity="field", journal=journal, **options)
+
+
 def test_a_build_that_was_stopped_goes_on_with_what_it_had(tmp_path, monkeypatch):
     from thrustwasher.washer.map import map_build
 
@@ -117,22 +123,48 @@ def test_a_build_that_was_stopped_goes_on_with_what_it_had(tmp_path, monkeypatch
     real = map_build.solve_line
     monkeypatch.setattr(map_build, "solve_line", solve)
     with pytest.raises(KeyboardInterrupt):
-        build_lines(plan, fidelity="field", journal=journal)
+        with_journal(plan, journal)
     monkeypatch.setattr(map_build, "solve_line", real)
     done = []
-    again = build_lines(plan, fidelity="field", journal=journal,
-                        progress=lambda k, _n: done.append(k))  # fmt: skip
+    again = with_journal(plan, journal, progress=lambda k, _n: done.append(k))
     assert np.array_equal(again, whole) and done == [3, 4]
 
 
 def test_lines_of_another_map_are_neither_taken_nor_harmed(tmp_path):
     plan, journal = plan_map(WasherParams(), TINY), tmp_path / "lines"
-    build_lines(plan, fidelity="field", journal=journal)
+    with_journal(plan, journal)
     before = journal.read_bytes()
     other = plan_map(WasherParams(), {**TINY, "load": (300.0, 500.0)})
     with pytest.raises(ParameterError, match=r"another map \(other box\)"):
-        build_lines(other, fidelity="field", journal=journal)
+        with_journal(other, journal)
     assert journal.read_bytes() == before
+
+
+def test_two_runs_do_not_make_one_file_the_second_stops_at_once(tmp_path, monkeypatch):
+    from thrustwasher.washer.map import map_build
+
+    def check(params, *rest, **options):
+        """Begin a second run while the first one checks, when all its lines are solved."""
+        monkeypatch.setattr(map_build, "find_reach", lambda _: pytest.fail("it went to work"))
+        with pytest.raises(ParameterError, match=r"x\.twm\.journal: another run is writing"):
+            make_map(params, out, box=TINY, fidelity="field", workers=1)
+        monkeypatch.undo()
+        return real(params, *rest, **options)
+
+    out, real = tmp_path / "x.twm", map_build.check_map
+    monkeypatch.setattr(map_build, "check_map", check)
+    make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1, points=4)
+    assert [p.name for p in tmp_path.iterdir()] == ["x.twm"]
+
+
+def test_a_build_that_solves_nothing_leaves_nothing(tmp_path, monkeypatch):
+    def fail(*_):
+        raise SolveError("no film is thick enough")
+
+    monkeypatch.setattr("thrustwasher.washer.map.map_build.find_reach", fail)
+    with pytest.raises(SolveError):
+        make_map(WasherParams(), tmp_path / "x.twm", box=TINY, fidelity="field", workers=1)
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_map_that_cannot_be_written_loses_no_line(tmp_path, monkeypatch):

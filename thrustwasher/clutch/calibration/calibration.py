@@ -1,6 +1,5 @@
 """Fit the clutch's friction law to measured friction, and say what the points can tell."""
 
-import difflib
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import Any
@@ -8,18 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ParameterError
+from ...errors import ParameterError, suggestion
 from ...numerics.jit import Array
 from ..parameters import LOAD, SPEED, ClutchParams
+from . import friction_law as law
 from .calibration_result import Calibration, Estimate
 from .data_warnings import warnings
-from .friction_law import (
-    CONSTANT_LAW,
-    constants_of,
-    end_frictions,
-    friction_slopes,
-    law_values,
-)
 from .identifiability import Information, Verdict, combination, information, load_test, verdicts
 from .least_squares import Problem, best_fit, bounds_of, profile_end, settled
 
@@ -104,7 +97,7 @@ def calibrate(
             _estimate(problem, best, told, i, verdict, profile)
             for i, verdict in enumerate(judged)
         ),
-        end_frictions=() if names == CONSTANT_LAW else _end_estimates(problem, best, told),
+        end_frictions=() if names == law.CONSTANT_LAW else _end_estimates(problem, best, told),
         correlation=_correlation(problem, told),
         confounded=tuple(combination(problem, direction) for direction in told.blurred()),
         residuals=residuals,
@@ -164,12 +157,12 @@ def _estimate(
 def _end_estimates(problem: Problem, best: Array, told: Information) -> tuple[Estimate, ...]:
     """Return the coefficients at rest and at very high slip."""
     values = problem.values(best)
-    rows = friction_slopes(
+    rows = law.friction_slopes(
         {**values, "stick_speed": 0.0, "kink_width": 0.0}, np.array([0.0, 1e9]), problem.names
     )
     found = []
     for name, value, row in zip(
-        ("friction_at_rest", "friction_at_speed"), end_frictions(values), rows, strict=True
+        ("friction_at_rest", "friction_at_speed"), law.end_frictions(values), rows, strict=True
     ):
         error = told.error_of(row) if np.any(row) else 0.0
         half = error * told.quantile if np.isfinite(told.quantile) else np.inf
@@ -194,7 +187,7 @@ def _correlation(problem: Problem, told: Information) -> Array:
 def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
     """Return the names to fit, or say which one cannot be."""
     names = (fit,) if isinstance(fit, str) else tuple(fit)
-    acting = constants_of(params)
+    acting = law.constants_of(params)
     if not acting:
         raise ParameterError(
             f"friction_law = {params.friction_law!r}: its points are the measurement itself, there "
@@ -209,8 +202,7 @@ def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
                 f"fit = 'load': the friction law does not depend on load; {allowed}"
             )
         if name not in acting:
-            near = difflib.get_close_matches(str(name), acting, n=1)
-            hint = f"did you mean {near[0]}? " if near else ""
+            hint = suggestion(str(name), acting, "did you mean {}? ")
             raise ParameterError(f"fit = {name!r}, {hint}{allowed}")
         if names.count(name) > 1:
             raise ParameterError(f"fit names {name} twice")
@@ -236,11 +228,11 @@ def checked_problem(
         )
     force, slip_speed = _above_zero("load", force, "N"), np.abs(slip) * params.friction_radius
     scale = np.where(np.isin(names, SPEEDS), float(slip_speed.max()) or 1.0, 1.0)
-    if names == CONSTANT_LAW:
+    if names == law.CONSTANT_LAW:
         scale[0] = float(mu.mean())
     return Problem(
-        law_values(params), names, slip_speed, mu, force, weight, *bounds_of(names), scale,
-        names == CONSTANT_LAW, friction_error is not None,
+        law.law_values(params), names, slip_speed, mu, force, weight, *bounds_of(names), scale,
+        names == law.CONSTANT_LAW, friction_error is not None,
     )  # fmt: skip
 
 

@@ -1,7 +1,5 @@
 """Least squares for the clutch's friction law: several starts, bounds, profiles of one constant."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from itertools import product
@@ -66,7 +64,7 @@ class Problem:
         misfit = self.misfit(guess)
         return float(misfit @ misfit)
 
-    def holding(self, name: str, value: float) -> Problem:
+    def holding(self, name: str, value: float) -> "Problem":
         """Return the same problem with one constant fixed."""
         keep = np.array([n != name for n in self.names])
         return replace(
@@ -86,11 +84,8 @@ def bounds_of(names: tuple[str, ...]) -> tuple[Array, Array]:
 def best_fit(problem: Problem, first: Array) -> Array:
     """Return the constants with the least sum of squares that any start leads to.
 
-    Where several fit equally well, the nearest to ``first``, the values before the fit, is taken.
-
-    Raises
-    ------
-    SolveError : no start converged
+    Where several fit equally well, the nearest to ``first``, the values before the fit, is taken;
+    SolveError if no start converged.
     """
     starts = [first, *_coarse(problem, first)]
     noise = (1e-13 * np.abs(problem.friction * problem.weight).max()) ** 2 * len(problem.speed)

@@ -11,10 +11,7 @@ from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any
 
 from ...errors import Status
-from ...model.registry import all_specs, find_spec
 from ...model.spec import REGIMES, ModelSpec, Signal
-
-__all__ = ["Item", "Variable", "all_specs", "enumerations", "find_spec", "variables"]
 
 LARGEST = sys.float_info.max  # bound of a variable without bounds: NaN and infinity still fail
 

@@ -36,7 +36,7 @@ DERIVATIVES = {
     2: ("providesDirectionalDerivative",),
     3: ("providesDirectionalDerivatives", "providesAdjointDerivatives"),
 }
-# FMI 3: enumerations are read and written as 64-bit integers, whole numbers as 32-bit ones.
+# In FMI 3 enumerations are 64-bit integers, whole numbers 32-bit ones; order as in tables.h.
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 LISTS = {"outputs": "Outputs", "initial": "InitialUnknowns"}  # of FMI 2
 ELEMENTS = {"outputs": "Output", "initial": "InitialUnknown"}  # of FMI 3

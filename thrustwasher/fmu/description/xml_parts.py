@@ -14,7 +14,7 @@ from ..model_kernels import package_version
 from ..package.model_sources import PACKAGE
 from .interface import Variable
 
-LOG_CATEGORIES = {
+LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
     "logStatusWarning": "Results that need care, such as distress or too hot",
     "logStatusError": "Refused values and failed steps, with the reason",
     "logNonlinearSystems": "What the solver took in each step",

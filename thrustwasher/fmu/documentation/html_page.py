@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...errors import Status
 from ...ladder.card import Card, load_cards
+from ...ladder.card_parts import QUANTITIES
 from ...ladder.formats import shown_error
 from ...model.registry import MODELS, find_model
 from ...model.spec import ModelSpec
@@ -19,7 +20,6 @@ from .markup import data_uri, list_of, markup, table
 from .reference_results import FOLDER
 
 Rows = list[tuple[str, ...]]
-QUANTITIES = ("friction_torque", "temperature", "film_thickness", "film_ratio")  # of the cards
 WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
 GENERAL = (
     "All values are SI: kelvin, radian, newton. An input that is not connected reads 0; 0 K is "

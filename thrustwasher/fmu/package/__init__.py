@@ -1,7 +1,6 @@
 """The files inside an FMU and their sources.
 
 =================  ======================================================================
-``archive``        a zip with the same bytes for the same content
 ``licences``       our licence, and a notice for each part that comes from others
 ``model_sources``  where the FMUs' own sources lie, and the GUID made of all that goes in
 =================  ======================================================================

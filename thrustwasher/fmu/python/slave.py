@@ -101,8 +101,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         self.core = Core(spec)
         self.warned = 0
 
-    # Life
-
     @_safe
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
@@ -148,16 +146,12 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         """Values can still be read."""
         self.core.mode = Mode.TERMINATED
 
-    # Values
-
     set_real, set_boolean = _setter("Real"), _setter("Boolean")
     set_integer = _setter("Integer")  # enumerations are integers here
     set_string = _setter("String")  # refuses: there are no texts
 
     get_real, get_integer = _getter("Real", float), _getter("Integer", int)
     get_boolean, get_string = _getter("Boolean", bool), _getter("String", lambda _: "")
-
-    # State
 
     def _get_fmu_state(self) -> Snapshot | None:
         try:
@@ -183,8 +177,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             return from_bytes(state)
         except BaseException as problem:
             return str(problem)
-
-    # Messages
 
     def tell(self, text: str, status: Any, category: str | None = None) -> None:
         """Queue a message; FMI gives # and % in texts a meaning, so they are not used."""

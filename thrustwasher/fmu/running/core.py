@@ -49,9 +49,7 @@ class Core:
         )  # fmt: skip
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.n_out)
-        self._arrays: dict[str, Any] = {
-            "par": self.par, "inp": self.inp, "out": self.out, "iout": self.iout,
-        }  # fmt: skip
+        self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
         self.status_slot = next((v.slot for v in self.variables if v.type_name == "SolverStatus"
                                  and v.store == "iout"), None)  # fmt: skip
         self.time, self.mode = 0.0, Mode.INSTANTIATED
@@ -67,8 +65,6 @@ class Core:
         for v in self.variables:
             if v.start is not None:
                 self._arrays[v.store][v.slot] = v.start
-
-    # Values
 
     def set(self, references: Sequence[int], values: Sequence[float], kind: str) -> None:
         """Take over all values or, if one is not allowed, none (ParameterError)."""
@@ -147,8 +143,6 @@ class Core:
             text += " An input that is not connected reads 0."
         return text
 
-    # Life
-
     def prepare(self) -> None:
         """Check the rules between parameters and compute the derived constants."""
         if self.prepared:
@@ -161,13 +155,8 @@ class Core:
         rc = self._derive(self.par)
         if rc >= FIRST_FAILURE:
             raise ParameterError(f"the parameters cannot be used: {Status(rc).advice}")
-        self._load_table()
+        fill_table(self.spec, params, self.par, self.work)
         self.prepared, self.latch = True, failed
-
-    def _load_table(self) -> None:
-        """Put the model's table into ``work`` if the fidelity reads one."""
-        if wants_table(self.spec, self.par):
-            fill_table(self.spec, self._parameters(), self.par, self.work)
 
     def _parameters(self) -> Any:
         """Return the parameters as the model's dataclass, which checks the rules between them."""
@@ -266,8 +255,6 @@ class Core:
         solved = 0 if self.status_slot is None else self.iout.item(self.status_slot)
         return Status(self.latch or solved)
 
-    # State
-
     def snapshot(self) -> Snapshot:
         """Copy all that decides what comes next."""
         return Snapshot(
@@ -301,5 +288,5 @@ class Core:
         self.latch, self._unsolved = snapshot.latch, ""
         self._seen, self.events = snapshot.seen.tolist(), []
         self.refused = refused
-        if self.prepared:
-            self._load_table()  # it is no part of a snapshot
+        if self.prepared and wants_table(self.spec, self.par):  # it is no part of a snapshot
+            fill_table(self.spec, self._parameters(), self.par, self.work)

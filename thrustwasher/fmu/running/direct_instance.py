@@ -1,13 +1,12 @@
 """The kernels of a model stepped in this process: the same face as an FMU instance, without FMU."""
 
-import difflib
 from collections.abc import Mapping, Sequence
 from time import perf_counter
 from typing import Any, Self
 
 import numpy as np
 
-from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
+from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, suggestion
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
 from ..model_kernels import load_kernel
@@ -145,8 +144,7 @@ class DirectInstance:
 
 def unknown(name: str, known: list[str]) -> Any:
     """Raise ParameterError for a name that is not among the known ones."""
-    near = difflib.get_close_matches(name, known, 1)
-    hint = f"; did you mean {near[0]}?" if near else f", allowed: {', '.join(known)}"
+    hint = suggestion(name, known, "; did you mean {}?", f", allowed: {', '.join(known)}")
     raise ParameterError(f"there is no variable {name!r} here{hint}")
 
 

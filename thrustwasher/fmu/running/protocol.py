@@ -88,13 +88,9 @@ class Table:
 
     def __init__(self, protocol: Protocol, found: Sequence[Any]) -> None:
         self.n = len(found)
-        kinds = dict.fromkeys(protocol.types[v.type][0] for v in found)
-        self.groups = [
-            Group(
-                protocol, found, [i for i, v in enumerate(found) if protocol.types[v.type][0] == k]
-            )
-            for k in kinds
-        ]
+        kinds = [protocol.types[v.type][0] for v in found]
+        places = ([i for i, k in enumerate(kinds) if k == kind] for kind in dict.fromkeys(kinds))
+        self.groups = [Group(protocol, found, own) for own in places]
         travelling = [place for group in self.groups for place in group.places]
         back = [travelling.index(i) for i in range(self.n)]
         in_order = back == list(range(self.n)) or self.n < 2
@@ -137,24 +133,20 @@ class MachineGroup(NamedTuple):
     """A call that sets or gets values of one type."""
 
     function: int
-    references: int
-    """Address of the value references."""
-    places: list[int]
-    """Where the values stand among all inputs or outputs."""
+    references: int  # address of the value references
+    places: list[int]  # where the values stand among all inputs or outputs
     kind: str
 
 
 class Machine(NamedTuple):
     """What a compiled master needs to step an instance: addresses, valid as long as it lives."""
 
-    third: bool
-    """FMI 3: lengths go along with values; a step hands four more places over."""
+    third: bool  # FMI 3: lengths go along with values; a step hands four more places over
     component: int
     step: int
     setters: list[MachineGroup]
     getters: list[MachineGroup]
-    said: int
-    """Address of a number that is not 0 once the FMU has logged something."""
+    said: int  # address of a number that is not 0 once the FMU has logged something
 
 
 def machine_of(protocol: Protocol, inputs: Table, outputs: Table, said: Any) -> Machine:

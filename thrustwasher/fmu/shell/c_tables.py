@@ -1,11 +1,12 @@
 """The tables of a model as C source: everything the shell knows about it."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
+from ..description.model_description import TYPES
 from ..description.xml_parts import LOG_CATEGORIES, log_categories
 from ..model_kernels import count_places, load_kernel
 from . import call_table
@@ -18,13 +19,6 @@ PROTOCOL = {
     2: ("fmi2.c", "fmi2_values.c"),
     3: ("fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c"),
 }
-# The order is that of the enum in tables.h.
-_CATEGORIES = ("logStatusWarning", "logStatusError", "logNonlinearSystems", "logEvents", "logAll")
-_TYPES = {
-    2: ("Real", "Integer", "Boolean", "Enumeration"),
-    3: ("Float64", "Int32", "Boolean", "Enumeration"),
-}
-_CAUSES = ("independent", "input", "parameter", "output")
 
 
 def shell_files(fmi: int) -> tuple[str, ...]:
@@ -42,14 +36,16 @@ def sources(spec: ModelSpec, *, fmi: int, guid: str) -> dict[str, str]:
 
 
 def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
-    """Return name of the table -> (C type, rows)."""
+    """Return name of the table -> (C type, rows).
+
+    Categories, types and causalities are in the order of the enums in tables.h.
+    """
     names = list(enumerations(spec))
     inputs = [signal.name for signal in spec.inputs]
     assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
     found = variables(spec)
     events = {s.name: s.events for s in spec.outputs if s.events}
-    declared = log_categories(spec)
-    assert set(_CATEGORIES) == set(LOG_CATEGORIES), "the shell knows every category"
+    declared, types = log_categories(spec), TYPES if fmi == 2 else TYPES.values()
     return {
         "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in found]),
         "ENUMERATIONS": ("Enumeration", [
@@ -63,9 +59,9 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
             _row(_text(text), place) for text, place in count_places(spec)]),
         "RULES": ("Rule", [_row(_text(rule.text)) for rule in spec.rules]),
         "CATEGORIES": ("Category", [
-            _row(_text(name), int(name in declared)) for name in _CATEGORIES]),
-        "TYPES": ("TypeText", [_row(_text(name)) for name in _TYPES[fmi]]),
-        "ACCESS": ("Access", [_row(*call_table.ACCESS[cause]) for cause in _CAUSES]),
+            _row(_text(name), int(name in declared)) for name in LOG_CATEGORIES]),
+        "TYPES": ("TypeText", [_row(_text(name)) for name in types]),
+        "ACCESS": ("Access", [_row(*modes) for modes in call_table.ACCESS.values()]),
         "MODES": ("ModeText", [
             _row(mode, _text(name), _text(f"fmi{fmi}{leave}"))
             for mode, (name, leave) in call_table.MODES.items()]),
@@ -139,9 +135,5 @@ def _text(value: str | None) -> str:
     """Return a C literal; whatever C might read as something else is written as octal digits."""
     if value is None:
         return "0"
-    return '"' + "".join(_escaped(value.encode())) + '"'
-
-
-def _escaped(data: bytes) -> Iterable[str]:
     plain = set(range(0x20, 0x7F)) - set(b'"\\?')
-    return (chr(byte) if byte in plain else f"\\{byte:03o}" for byte in data)
+    return '"' + "".join(chr(b) if b in plain else f"\\{b:03o}" for b in value.encode()) + '"'

@@ -17,7 +17,7 @@ MODES = {
     TERMINATED: ("terminated", "Reset"),
 }
 
-# Causality -> modes in which a value may be set, modes in which it may be read.
+# Causality, in the order of tables.h -> modes in which a value may be set, and may be read.
 ACCESS = {
     "independent": (NEVER, ALWAYS),
     "input": (INSTANTIATED | SOLVABLE, ALWAYS),

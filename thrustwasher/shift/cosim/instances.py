@@ -60,14 +60,9 @@ class Capable(Stepping, Protocol):
         """Raise what a call with this status means; ``stage``: "set", "step" or "get"."""
 
 
-def saves_state(instance: Stepping) -> bool:
-    """Tell if an instance can go back."""
-    return bool(getattr(instance, "saves_state", False))
-
-
-def gives_derivatives(instance: Stepping) -> bool:
-    """Tell if an instance has directional derivatives."""
-    return bool(getattr(instance, "gives_derivatives", False))
+def can(instance: Stepping, ability: str) -> bool:
+    """Tell if an instance has an ability: "saves_state" or "gives_derivatives"."""
+    return bool(getattr(instance, ability, False))
 
 
 def capable(instance: Stepping) -> Capable:

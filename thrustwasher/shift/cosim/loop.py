@@ -63,10 +63,8 @@ class Steps(NamedTuple):
     rejected: int
     shortest: float
     longest: float
-    located: int
-    """Events that became communication points."""
-    forced: int
-    """Steps of the least length that were taken although they err more than the tolerance."""
+    located: int  # events that became communication points
+    forced: int  # steps of the least length, taken although they err more than the tolerance
 
     def words(self) -> list[str]:
         """Say what a reader has to know."""
@@ -85,8 +83,7 @@ class Run(NamedTuple):
     schedule: Schedule
     time: NDArray[np.float64]
     h: float
-    commands: NDArray[np.float64]
-    """The shift command at each time."""
+    commands: NDArray[np.float64]  # the shift command at each time
     recorder: Recorder
 
 

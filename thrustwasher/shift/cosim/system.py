@@ -1,14 +1,12 @@
 """Connected instances: a part's inputs, its last outputs and where its inputs come from."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 from ...errors import ParameterError, SolveError
 from ...model.spec import ModelSpec
 from ..scene.connections import COMMAND, Link
-from .instances import Capable, Stepping, capable, saves_state
+from .instances import Capable, Stepping, can, capable
 
 INITIAL_SWEEPS = 4
 
@@ -20,20 +18,18 @@ class ConnectedPart:
         self.name, self.spec, self.instance = name, spec, instance
         self.input_names = [s.name for s in spec.inputs]
         self.output_names = [s.name for s in spec.outputs]
-        for found, wanted, kind in (
-            (instance.input_names, self.input_names, "inputs"),
-            (instance.output_names, self.output_names, "outputs"),
-        ):
+        for kind in ("input", "output"):
+            found, wanted = (getattr(one, f"{kind}_names") for one in (instance, self))
             if list(found) != wanted:
                 raise ParameterError(
-                    f"{name}: the instance has the {kind} {', '.join(found)}, "
+                    f"{name}: the instance has the {kind}s {', '.join(found)}, "
                     f"{spec.name} of this version has {', '.join(wanted)}; build it again"
                 )
         self.inputs = [float(s.start or 0.0) for s in spec.inputs]
         self.outputs = [0.0] * len(self.output_names)
         self.sources: list[tuple[int, ConnectedPart, int]] = []
 
-    def connect(self, link: Link, source: ConnectedPart) -> None:
+    def connect(self, link: Link, source: "ConnectedPart") -> None:
         """Take an input from an output of another part."""
         self.sources.append(
             (self.input_names.index(link.input), source, source.output_names.index(link.output))
@@ -74,7 +70,7 @@ def renamed(problem: Exception, part: str, time: float) -> SolveError:
 
 def with_state(part: ConnectedPart, master: str) -> Capable:
     """Return a part's instance as one that saves its state; ParameterError if it cannot."""
-    if not saves_state(part.instance):
+    if not can(part.instance, "saves_state"):
         raise ParameterError(
             f"master = {master!r}: {part.name} cannot save its state, allowed: with parts that can "
             "(canGetAndSetFMUstate); 'gauss-seidel' and 'jacobi' need no state"
@@ -94,12 +90,8 @@ def _named(part: str, time: float) -> Iterator[None]:
 class System:
     """All parts of a shift, connected; the shift command comes from outside.
 
-    Parameters
-    ----------
-    parts : by name
-    links : who passes what to whom
-    hub : the part that moves, ``transmission`` here; all others answer its speeds with torques
-    carries_on : inputs that the hub itself carries on over a step as they changed in the last one
+    ``hub`` is the part that moves, ``transmission`` here; all others answer its speeds with
+    torques. ``carries_on``: its inputs that it carries on over a step as they changed in the last.
     """
 
     def __init__(

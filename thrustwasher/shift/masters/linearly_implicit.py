@@ -19,7 +19,7 @@ import numpy as np
 
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import Array
-from ..cosim.instances import capable, gives_derivatives, saves_state
+from ..cosim.instances import can, capable
 from ..cosim.schedule import Correct, Schedule, gauss_seidel
 from ..cosim.system import ConnectedPart, System, with_state
 from ..scene.connections import SPEED
@@ -42,14 +42,11 @@ def schedule(system: System) -> Schedule:
 class Wire(NamedTuple):
     """A torque on its way from a friction part to the transmission."""
 
-    slot: int
-    """Which input of the transmission."""
+    slot: int  # which input of the transmission
     part: ConnectedPart
     output: int
-    places: list[tuple[int, int]]
-    """(input of the part, output of the transmission it comes from)."""
-    speed: int | None
-    """Which of ``places`` is the slip, if the torque has its sign."""
+    places: list[tuple[int, int]]  # (input of the part, output of the transmission it comes from)
+    speed: int | None  # which of ``places`` is the slip, if the torque has its sign
 
 
 class Correction:
@@ -165,7 +162,7 @@ class Correction:
         except SolveError:
             self.without[part.name] = self.without.get(part.name, 0) + 1
             return np.zeros(len(now))
-        if not gives_derivatives(part.instance):
+        if not can(part.instance, "gives_derivatives"):
             self.by_differences.add(part.name)
         slip, torque = wire.speed, part.outputs[wire.output]
         if slip is not None and _turns(wire, now, then) and torque * now[slip] > 0.0:
@@ -193,9 +190,9 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
     a central difference after which it is where it was. SolveError if there is no derivative here,
     ParameterError if the instance can do neither.
     """
-    if gives_derivatives(part.instance):
+    if can(part.instance, "gives_derivatives"):
         return capable(part.instance).directional_derivative([output], [given], [1.0])[0]
-    if not saves_state(part.instance):
+    if not can(part.instance, "saves_state"):
         raise ParameterError(
             f"master = 'linearly-implicit': {part.name} has neither directional derivatives nor a "
             "state that can be saved, allowed: with parts that have one of them, such as the "

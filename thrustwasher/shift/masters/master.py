@@ -17,10 +17,8 @@ class Master(NamedTuple):
     """One way to step a system."""
 
     schedule: Callable[[System], Schedule]
-    torque_age: int
-    """How many steps the torques that the transmission receives are old."""
-    adaptive: bool = False
-    """It chooses its steps itself; communication points then lie anywhere."""
+    torque_age: int  # how many steps the torques that the transmission receives are old
+    adaptive: bool = False  # it chooses its steps itself; communication points then lie anywhere
 
 
 MASTERS: dict[str, Master] = {

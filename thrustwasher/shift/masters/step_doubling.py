@@ -102,10 +102,8 @@ class Rollback:
 class Seen(NamedTuple):
     """What an event changes."""
 
-    whole: list[float]
-    """Counts and flags of the moving part, such as its number of lock-ups."""
-    slips: list[float]
-    """Speeds it sends to parts that rub."""
+    whole: list[float]  # counts and flags of the moving part, such as its number of lock-ups
+    slips: list[float]  # speeds it sends to parts that rub
 
 
 class Events:

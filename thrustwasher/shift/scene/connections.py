@@ -33,21 +33,18 @@ class Link(NamedTuple):
     input: str
 
 
+def _fed(part: str, *names: str) -> list[Link]:
+    """Return what the transmission sends to a part: its own outputs for it, and the oil."""
+    found = [Link("transmission", f"{part}_{name}", part, name) for name in names]
+    return [*found, Link("transmission", "oil_supply_temperature", part, "oil_temperature")]
+
+
 LINKS = (
-    Link("transmission", "clutch_load", "clutch", "load"),
-    Link("transmission", "clutch_speed", "clutch", "speed"),
-    Link("transmission", "oil_supply_temperature", "clutch", "oil_temperature"),
-    Link("transmission", "brake_load", "brake", "load"),
-    Link("transmission", "brake_speed", "brake", "speed"),
-    Link("transmission", "oil_supply_temperature", "brake", "oil_temperature"),
-    Link("transmission", "washer_load", "washer", "load"),
-    Link("transmission", "washer_speed", "washer", "speed"),
-    Link("transmission", "washer_tilt", "washer", "tilt"),
-    Link("transmission", "oil_supply_temperature", "washer", "oil_temperature"),
+    *_fed("clutch", "load", "speed"),
+    *_fed("brake", "load", "speed"),
+    *_fed("washer", "load", "speed", "tilt"),
     Link("washer", "friction_torque", "transmission", "washer_torque"),
-    Link("transmission", "mesh_load", "mesh", "load"),
-    Link("transmission", "mesh_speed", "mesh", "speed"),
-    Link("transmission", "oil_supply_temperature", "mesh", "oil_temperature"),
+    *_fed("mesh", "load", "speed"),
     Link("mesh", "friction_torque", "transmission", "mesh_torque"),
 )
 PACK_INPUTS = ("clutch_torque", "brake_torque")  # of the transmission

@@ -1,7 +1,5 @@
 """What is simulated: the parts of a shift with their parameters, times, oil and master."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -32,7 +30,7 @@ class Part:
         values = {f.name: getattr(self.params, f.name) for f in fields(self.params)}
         return {**values, "fidelity": self.fidelity}
 
-    def at(self, rung: str) -> Part:
+    def at(self, rung: str) -> "Part":
         """Return the part with a rung that stands."""
         return replace(self, fidelity=rung, tolerance=None)
 
@@ -102,7 +100,7 @@ class Scene:
         master: str | None = None,
         stop_time: float | None = None,
         master_tolerance: float | None = None,
-    ) -> Scene:
+    ) -> "Scene":
         """Return the scene with another step, master or end; what hangs on them is adapted."""
         given: dict[str, Any] = {
             "step": step, "master": master, "stop_time": stop_time,
@@ -110,7 +108,7 @@ class Scene:
         }  # fmt: skip
         return replace(self, **{k: x for k, x in given.items() if x is not None}).checked()
 
-    def checked(self) -> Scene:
+    def checked(self) -> "Scene":
         """Check what concerns several values; hand oil and master on to the parts."""
         where = f"scene {self.name!r}"
         if self.master not in MASTERS:

@@ -4,7 +4,6 @@ A number may carry its unit, "24 degC" or "3000 rpm"; a bare number is SI. A sce
 takes everything from that scene and changes what it names.
 """
 
-import difflib
 import tomllib
 from dataclasses import fields
 from importlib import resources
@@ -12,7 +11,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-from ...errors import ParameterError
+from ...errors import ParameterError, suggestion
 from ...ladder.choose import rung_and_tolerance
 from ...model.parameters import allowed
 from ...model.spec import ModelSpec
@@ -88,8 +87,7 @@ def _parse(name: str) -> dict[str, Any]:
         text = (_folder() / f"{name}.toml").read_text(encoding="utf-8")
     else:
         known = builtin_scenes()
-        near = difflib.get_close_matches(name, known, 1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
+        hint = suggestion(name, known, "; did you mean {!r}?")
         raise ParameterError(
             f"scene = {name!r}, allowed: {', '.join(known)} or the path of a .toml file{hint}"
         )
@@ -109,8 +107,7 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
 
 
 def _unknown(where: str, key: str, known: list[str]) -> ParameterError:
-    near = difflib.get_close_matches(key, known, 1)
-    hint = f"; did you mean {near[0]!r}?" if near else f", allowed: {', '.join(known)}"
+    hint = suggestion(key, known, "; did you mean {!r}?", f", allowed: {', '.join(known)}")
     return ParameterError(f"{where}: there is no {key!r} here{hint}")
 
 

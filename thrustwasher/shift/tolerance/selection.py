@@ -36,14 +36,7 @@ def select(scene: Scene, trials: TrialRuns, steps: int, is_checked: bool = True)
 
 
 def above(spec: ModelSpec, rung: str) -> str | None:
-    """Return the rung to compare with: the next one, not below the default; None for the last.
-
-    Examples
-    --------
-    >>> from thrustwasher.gearmesh.parameters import SPEC
-    >>> above(SPEC, "closed")
-    'field'
-    """
+    """Return the rung to compare with: the next one, not below the default; None for the last."""
     rungs = list(spec.fidelities)
     place = max(rungs.index(rung) + 1, rungs.index(spec.default_fidelity))
     return rungs[place] if place < len(rungs) else None
@@ -106,16 +99,17 @@ def _by_cards(name: str, part: Part, trials: TrialRuns, steps: int, is_checked: 
     ]
     rungs = list(spec.fidelities)
     best = max(choices, key=lambda c: rungs.index(c.fidelity))
-    reasons = [_renamed(line, spec.key, name) for c in choices for line in c.reasons]
+    reasons = [  # the first line of a choice names the part, not the model
+        name + line.removeprefix(spec.key) if line.startswith(f"{spec.key}:") else f"  {line}"
+        for c in choices for line in c.reasons
+    ]  # fmt: skip
     if not direct and trials.finest is not None:
         reasons.append(f"  asked, because {_moved(trials)}")
     higher = above(spec, best.fidelity)
     beyond = best.outside.fidelity if best.outside else best.fidelity
     if rungs.index(beyond) > rungs.index(best.fidelity):
         higher = beyond
-    return Selected(
-        name, spec.key, best.fidelity, higher, share, True, tuple(reasons), box, scales
-    )  # fmt: skip
+    return Selected(name, spec.key, best.fidelity, higher, share, True, tuple(reasons), box, scales)
 
 
 def _choose(
@@ -143,8 +137,3 @@ def _scale(part: str, output: str, quantity: str, trials: TrialRuns) -> Scale:
 
 def _names(spec: ModelSpec) -> list[str]:
     return [signal.name for signal in spec.outputs]
-
-
-def _renamed(line: str, model: str, part: str) -> str:
-    """Let the first line of a choice name the part, not the model."""
-    return part + line.removeprefix(model) if line.startswith(f"{model}:") else f"  {line}"

@@ -34,10 +34,8 @@ class Selected(NamedTuple):
     rung: str
     above: str | None
     """The rung that the check compares with; None: there is none, or no card chose."""
-    tolerance: float
-    """The rung's share of the tolerance asked for."""
-    verified: bool
-    """False: no card speaks for these parameters, and the model's default serves."""
+    tolerance: float  # the rung's share of the tolerance asked for
+    verified: bool  # False: no card speaks for these parameters, and the model's default serves
     words: tuple[str, ...]
     box: Box
     scales: tuple[Scale, ...]
@@ -103,21 +101,15 @@ class Difference(NamedTuple):
 class Check(NamedTuple):
     """What the check of one part after a run found."""
 
-    run: int
-    """Which run: 1 is the first."""
+    run: int  # which run: 1 is the first
     part: str
-    rung: str
-    """The rung that served."""
-    above: str
-    """The rung that it was compared with."""
+    rung: str  # the rung that served
+    above: str  # the rung that it was compared with
     tolerance: float
-    points: int
-    """Recorded points at which the two were compared."""
-    failed: tuple[str, ...]
-    """Points at which the rung above gave no solution, with its message."""
+    points: int  # recorded points at which the two were compared
+    failed: tuple[str, ...]  # points at which the rung above gave no solution, with its message
     worst: Difference
-    outside: str
-    """How the run left what the rung is verified for; empty if it did not."""
+    outside: str  # how the run left what the rung is verified for; empty if it did not
     seconds: float
 
     @property
@@ -140,14 +132,10 @@ class Check(NamedTuple):
 class CheckRecord(NamedTuple):
     """What was checked after a run, and what was run again."""
 
-    checks: list[Check]
-    """In the order they were made: those of every run."""
-    again: list[str]
-    """What every further run changed, in words."""
-    earlier_seconds: float
-    """Wall time of the runs that did not count in the end [s]."""
-    stopped: str = ""
-    """Why a run a rung higher came to nothing; then the one before it counts."""
+    checks: list[Check]  # in the order they were made: those of every run
+    again: list[str]  # what every further run changed, in words
+    earlier_seconds: float  # wall time of the runs that did not count in the end [s]
+    stopped: str = ""  # why a run a rung higher came to nothing; then the one before it counts
 
     @property
     def seconds(self) -> float:

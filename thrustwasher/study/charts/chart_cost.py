@@ -29,10 +29,7 @@ def cost_figure(
 ) -> Figure:
     """Return error over seconds per call, a panel per quantity.
 
-    Parameters
-    ----------
-    survey : of the model, as in the JSON file
-    fronts : indices of the samples that nothing beats, by quantity
+    ``survey`` is as in the JSON file, ``fronts`` the indices of the samples that nothing beats.
     """
     figure, panels = _panels(survey, fronts, 5.0, f"{model}: ", survey["cost_of"])
     legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
@@ -66,7 +63,7 @@ def draw_samples(
     """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
     name = quantity["name"]
     axes.set(xscale="log", yscale="log")
-    known = [s for s in samples if _drawable(s, name, cost)]
+    known = [s for s in samples if s[cost] and s["errors"].get(name, {}).get("worst") is not None]
     floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
     low = _draw_floor(axes, known, name, floor)
     _set_span(axes, [s[cost] for s in samples if s[cost]])
@@ -104,11 +101,6 @@ def _set_span(axes: Axes, costs: Sequence[float]) -> None:
     wide = max(0.5, math.log10(high / low))
     more = 0.5 * (wide - math.log10(high / low))
     axes.set_xlim(low / 10.0 ** (more + 0.06 * wide), high * 10.0 ** (more + 0.12 * wide))
-
-
-def _drawable(sample: Sampled, name: str, cost: str) -> bool:
-    error = sample["errors"].get(name, {}).get("worst")
-    return error is not None and bool(sample[cost])
 
 
 def _draw_family(

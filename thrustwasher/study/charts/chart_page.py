@@ -105,9 +105,8 @@ def _model_section(
 
 def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
     """Return the whole page."""
-    busy = (record["machine"]["load"] or 0.0) > 0.5 * record["machine"]["cores"]
     warnings = []
-    if busy:
+    if (record["machine"]["load"] or 0.0) > 0.5 * record["machine"]["cores"]:
         warnings.append("The machine was busy when this was measured: compare ratios, no seconds.")
     if record["quick"]:
         warnings.append("A quick look: few cases and repeats, coarser reference values.")

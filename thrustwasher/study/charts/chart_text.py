@@ -39,11 +39,7 @@ def _error(sample: Sampled, quantity: str) -> float:
 
 
 def seconds(value: float | None) -> str:
-    """Return a duration as a person reads it.
-
-    >>> seconds(2.34e-4), seconds(65.0), seconds(None)
-    ('234 us', '65 s', '-')
-    """
+    """Return a duration as a person reads it: 234 us, 65 s; "-" for None."""
     if value is None:
         return "-"
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
@@ -75,10 +71,12 @@ def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
     rows = []
     for s in survey["samples"]:
         spread = (s["call_iqr"] or 0.0) / s["call_median"] if s["call_median"] else None
+        slowest = seconds(s["slowest_call_s"])
+        slowest += f" ({s['slowest_case']})" if s["slowest_call_s"] is not None else ""
         row = [
             s["label"], seconds(s["call_median"]),
             "-" if spread is None else f"{100 * spread:.0f} %" + (" !" if spread > 0.1 else ""),
-            seconds(s["call_min"]), _slowest(s), seconds(s["setup_s"]),
+            seconds(s["call_min"]), slowest, seconds(s["setup_s"]),
         ]  # fmt: skip
         for q in quantities:
             errors = s["errors"][q["name"]]
@@ -86,12 +84,6 @@ def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
                     error_text(errors["rms"], q)]  # fmt: skip
         rows.append([*row, f"{s['n_failed']} of {s['n_cases']}"])
     return [*heads, "failed"], rows
-
-
-def _slowest(s: Sampled) -> str:
-    if s["slowest_call_s"] is None:
-        return "-"
-    return f"{seconds(s['slowest_call_s'])} ({s['slowest_case']})"
 
 
 def break_even_rows(survey: Mapping[str, Any], basis: str) -> tuple[Row, list[Row]]:

@@ -142,8 +142,7 @@ class WasherMap:
                 f"{oil_temperature:g} K, allowed: inside the map's box {self.box}"
             )
         found = np.zeros((4, L.N_ALL + 2))
-        count = int(map_folds(self.data, speed, tilt, oil_temperature, self._own.work,
-                              found))  # fmt: skip
+        count = int(map_folds(self.data, speed, tilt, oil_temperature, self._own.work, found))
         kinds = ("film_lost", "film_regained")
         return [
             Fold(kinds[k % 2], row[L.N_ALL], row[L.O_RATIO], row[L.O_MEAN], row[L.O_TORQUE])
@@ -174,10 +173,7 @@ def solve_by_map(
     """Return the state at a point by look-up, None where the map says nothing.
 
     ``wanted`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
-
-    Raises
-    ------
-    ParameterError : there is no map for these parameters
+    ParameterError: there is no map for these parameters.
     """
     if point[2] <= LEAST_TILT:
         washer_map(params)  # there has to be one

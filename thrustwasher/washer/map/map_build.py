@@ -49,7 +49,8 @@ def make_map(
 
     Raises
     ------
-    ParameterError : a wrong box or fidelity, or more numbers than a map may have
+    ParameterError : a wrong box or fidelity, more numbers than a map may have, or another run
+        makes this file
     SolveError : a node has no solution
     """
     if fidelity not in FIDELITIES:
@@ -63,45 +64,36 @@ def make_map(
         )
     count = workers or os.cpu_count() or 1
     show = progress or (lambda _label: lambda _done, _total: None)
-    began = time.perf_counter()
-    journal = out.with_name(f"{out.name}.journal")
-    data = build_lines(plan, fidelity=fidelity, workers=count, progress=show("lines"),
-                       journal=journal)  # fmt: skip
-    took = time.perf_counter() - began
     draft = out.with_name(f".{out.name}.{os.getpid()}.draft{SUFFIX}")
-    card = _card(plan, fidelity, took, count)
+    # Held to the end: another run that writes this map is refused before it has worked for nothing.
+    journal = journal_for(out.with_name(f"{out.name}.journal"), plan, fidelity)
+    finished = False
     try:
+        began = time.perf_counter()
+        data = build_lines(plan, fidelity=fidelity, workers=count, progress=show("lines"),
+                           journal=journal)  # fmt: skip
+        card = _card(plan, fidelity, time.perf_counter() - began, count)
         _write(draft, data, card)
         verdict = check_map(params, str(draft), points=points, fidelity=fidelity, workers=count,
                             progress=show("held-out points"))  # fmt: skip
         card["held_out"] = asdict(verdict)
         _write(draft, data, card)
         draft.replace(out)
-        journal.unlink(missing_ok=True)
+        finished = True
     finally:
         draft.unlink(missing_ok=True)
+        journal.close(finished=finished)
     return card
 
 
 def build_lines(
     plan: MapPlan, *, fidelity: str = "fine", workers: int = 1,
-    progress: Progress | None = None, journal: Path | None = None,
+    progress: Progress | None = None, journal: Journal | None = None,
 ) -> Array:  # fmt: skip
-    """Solve all lines of a plan; return the map as one array (see washer_map_layout).
+    """Solve all lines of a plan; return the map as one array (see map_layout).
 
-    Parameters
-    ----------
-    plan : what to cover
-    fidelity : mesh of the solutions, "field" or "fine"
-    workers : processes
-    progress : called as ``progress(done, total)``
-    journal : file that keeps the lines; a build that was stopped goes on with them. It stays:
-        remove it once the map is safe
-
-    Raises
-    ------
-    ParameterError : the journal is that of another map, or another run writes it
-    SolveError : a node has no solution; a map with a hole is not made
+    ``journal`` keeps the lines: a build that was stopped goes on with them. SolveError if a node
+    has no solution: a map with a hole is not made.
     """
     speeds, tilts, oils = plan.nodes()
     reach = find_reach(plan)
@@ -113,29 +105,25 @@ def build_lines(
     data[: L.DATA] = plan.header(reach)
     lines = data[L.DATA :].reshape(len(tasks), L.LINE)
     flags = np.zeros((len(tasks), 1), np.int32)
-    kept = Journal(journal, _identity(plan, fidelity), "map") if journal else None
-    try:
-        done = kept.load(lines, flags) if kept else np.zeros(len(tasks), bool)
-        rest = np.flatnonzero(~done).tolist()
-        with mapped(workers, solve_line, [tasks[i] for i in rest], BATCH) as found:
-            for count, (i, line) in enumerate(zip(rest, found, strict=True), int(done.sum()) + 1):
-                lines[i] = line
-                if kept:
-                    kept.append(i, lines[i : i + 1], flags[i : i + 1])
-                if progress is not None:
-                    progress(count, len(tasks))
-    finally:
-        if kept:
-            kept.close(finished=False)
+    done = journal.load(lines, flags) if journal else np.zeros(len(tasks), bool)
+    rest = np.flatnonzero(~done).tolist()
+    with mapped(workers, solve_line, [tasks[i] for i in rest], BATCH) as found:
+        for count, (i, line) in enumerate(zip(rest, found, strict=True), int(done.sum()) + 1):
+            lines[i] = line
+            if journal:
+                journal.append(i, lines[i : i + 1], flags[i : i + 1])
+            if progress is not None:
+                progress(count, len(tasks))
     return data
 
 
-def _identity(plan: MapPlan, fidelity: str) -> dict[str, str]:
-    """Return what makes this map another one than the next."""
-    return {
+def journal_for(path: Path, plan: MapPlan, fidelity: str) -> Journal:
+    """Return the journal of a map; ParameterError if it is another one's, or another run has it."""
+    identity = {
         "parameters": params_digest(plan.params)[:16], "box": str(plan.box), "fidelity": fidelity,
         "kernels": kernel_digest(),
     }  # fmt: skip
+    return Journal(path, identity, "map")
 
 
 def find_reach(plan: MapPlan) -> float:

@@ -110,8 +110,7 @@ def _compare(
     if len(mine) == 2 and mine[1] < 0.97 * mine[0]:
         box = washer.box["load"]
         top = min(1e4, max(box[1], 1.3 * mine[0]))
-        curve = load_curve(params, **place, fidelity=fidelity, load_min=box[0],
-                           load_max=top)  # fmt: skip
+        curve = load_curve(params, **place, fidelity=fidelity, load_min=box[0], load_max=top)
         theirs = [f.load for f in curve.folds]
         if len(theirs) == 2:
             differences = [a / b - 1.0 for a, b in zip(mine, theirs, strict=True)]

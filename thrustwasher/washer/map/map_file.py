@@ -66,12 +66,7 @@ def _bytes(data: Array) -> bytes:
 
 
 def unpack(numbers: bytes) -> Array:
-    """Return the map in the numbers of a file.
-
-    Raises
-    ------
-    ValueError : these are no numbers of a map, or of another version
-    """
+    """Return the map in the numbers of a file; ValueError if they are none of this version."""
     head = np.frombuffer(numbers[: 8 * L.DATA], "<f8")
     if len(head) != L.DATA or head[L.KIND] != L.MAGIC:
         raise ValueError("no map of this version")
@@ -112,12 +107,7 @@ def _read(path: str, _changed: int, _size: int) -> MapFile:
 
 
 def read_map(path: str | os.PathLike[str]) -> MapFile:
-    """Return a map file, read once per content.
-
-    Raises
-    ------
-    ParameterError : there is no such file, or it is no map of this version
-    """
+    """Return a map file, read once per content; ParameterError if it is none of this version."""
     file = Path(path)
     if not file.is_file():
         raise ParameterError(f"map = {str(file)!r}, allowed: an existing file")

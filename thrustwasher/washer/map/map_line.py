@@ -108,10 +108,8 @@ class Line:
 def solve_line(task: LineTask) -> Array:
     """Return one line of the map, (LINE,).
 
-    Raises
-    ------
-    SolveError : a node could not be solved, or the load of a thick film does not fall with its
-        thickness
+    SolveError: a node could not be solved, or the load of a thick film does not fall with its
+    thickness.
     """
     line = Line(task, COARSE)
     guesses = [line.to_contact(load) for load in task.marks]

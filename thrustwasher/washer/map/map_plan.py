@@ -71,17 +71,10 @@ class MapPlan:
 
 
 def plan_map(params: WasherParams, box: dict[str, tuple[float, float]] | None = None) -> MapPlan:
-    """Return how a box is cut up.
+    """Return how a box is cut up, or say what is wrong with it.
 
-    Parameters
-    ----------
-    params : the washer
-    box : (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]; inputs not named
-        as in ``DEFAULT_BOX``; equal ends fix an input (not the load)
-
-    Raises
-    ------
-    ParameterError : an unknown input, an end outside the input's range, low above high
+    ``box`` holds (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]; inputs
+    not named are as in ``DEFAULT_BOX``; equal ends fix an input (not the load).
     """
     ends = dict(DEFAULT_BOX)
     for name, pair in (box or {}).items():

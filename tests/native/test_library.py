@@ -5,6 +5,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import threading
 from dataclasses import asdict
 from pathlib import Path
 
@@ -121,7 +122,32 @@ def test_the_first_build_of_a_platform_does_not_pass_in_silence(monkeypatch, tmp
     for _ in range(2):
         link.shared_library({"a.c": "int a;"}, platform=PLATFORMS["linux64"], name="a",
                             note=said.append)  # fmt: skip
+    said = [line for line in said if "another first build" not in line]
     assert len(said) == 1 and "linux64" in said[0] and "minutes" in said[0]
+
+
+def test_first_builds_with_zig_go_one_by_one(monkeypatch, tmp_path):
+    """Two that fill zig's cache at once can wait for each other for ever."""
+    monkeypatch.setattr(link, "user_cache", lambda: tmp_path / "home")
+    monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path))
+    log, said = tmp_path / "log", []
+    work = (
+        f"import time; log = open({str(log)!r}, 'a', buffering=1); log.write('begin '); "
+        "time.sleep(0.3); log.write('end '); raise SystemExit(1)"
+    )
+    fake = link.Linker("ziglang", (sys.executable, "-c", work), "0", tuple(PLATFORMS))
+
+    def build():
+        with pytest.raises(EnvironmentProblem):
+            link.build({}, "a", [], PLATFORMS["linux64"], fake, said.append)
+
+    threads = [threading.Thread(target=build) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert log.read_text() == 3 * "begin end "
+    assert said == 2 * ["waiting for another first build with ziglang"]
 
 
 @pytest.mark.parametrize("model", MODELS)

@@ -1,20 +1,21 @@
 """From C files and objects to a shared library, for this platform or another; which one this is."""
 
 import importlib.util
+import os
 import platform as this
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
 
 from ..errors import EnvironmentProblem
-from .files import Note, to_stderr, user_cache
+from .files import Note, locked, to_stderr, user_cache
 from .targets import PLATFORMS, Level, Platform
 
 # -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
@@ -147,11 +148,26 @@ def build(
 def _run(
     command: Sequence[str], folder: str, platform: Platform, linker: Linker, note: Note
 ) -> tuple[int, str]:
-    """Return the exit status and what was said; do not let minutes pass in silence."""
+    """Return the exit status and what was said; do not let minutes pass in silence.
+
+    Two first builds with zig at once can wait for each other for ever: they go one by one.
+    """
     known = user_cache() / f"{linker.name}-{linker.version}-{platform.name}"
-    with subprocess.Popen(
-        command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    ) as process:
+    alone: AbstractContextManager[None] = nullcontext()
+    if linker.is_cross and not known.exists():
+        kept = Path(os.environ.get("ZIG_GLOBAL_CACHE_DIR") or user_cache())
+        with suppress(OSError):  # where nothing can be written there is nothing to wait for
+            kept.mkdir(parents=True, exist_ok=True)
+            alone = locked(
+                kept / "first-build.lock",
+                lambda: note(f"waiting for another first build with {linker.name}"),
+            )
+    with (
+        alone,
+        subprocess.Popen(
+            command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        ) as process,
+    ):
         try:
             said, _ = process.communicate(timeout=LONG if known.exists() else SHORT)
         except subprocess.TimeoutExpired:

@@ -5,7 +5,7 @@ import numpy as np
 from thrustwasher import WasherParams, follow_washer, load_curve
 
 AT = {"speed": 545.0, "tilt": 0.002}
-TIME = np.linspace(0.0, 20.0, 201)
+TIME = np.linspace(0.0, 10.0, 401)
 
 
 def main() -> list[float]:
@@ -17,7 +17,7 @@ def main() -> list[float]:
         course = follow_washer(washer, time=TIME, load=load, **AT)
         lost.append(float(course.time[np.argmax(course.distress)]))
         print(
-            f"{share * fold:5.0f} N: lost after {lost[-1]:4.1f} s, "
+            f"{share * fold:5.0f} N: lost after {lost[-1]:5.2f} s, "
             f"{course.temperature[-1] - 273.15:.0f} degC after {TIME[-1]:.0f} s"
         )
     return lost

@@ -21,7 +21,7 @@ BOX = {"load": (30.0, 1000.0), "speed": (100.0, 1000.0), "tilt": (2e-3, 2e-3),
        "oil_temperature": (300.0, 300.0)}  # fmt: skip
 
 
-RUNGS = ("closed", "stribeck", "map", "coarse", "field", "fine")
+RUNGS = ("map", "coarse", "field", "fine")
 
 
 def table(value, shape=(2, 2)):

@@ -3,12 +3,12 @@
 >>> from thrustwasher import WasherParams, solve_washer
 >>> result = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
 >>> round(result.friction_torque, 3)
-0.232
+0.258
 """
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.7.0"
+__version__ = "0.8.0"
 
 if TYPE_CHECKING:
     from .clutch.calibration.calibration import Calibration, calibrate

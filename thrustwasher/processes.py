@@ -12,6 +12,8 @@ from typing import Any
 
 from .errors import EnvironmentProblem
 
+Run = Callable[[Callable[[Any], Any], Sequence[Any], int], Iterator[Any]]
+
 
 def usable_cores() -> int:
     """Return how many cores this process may use."""
@@ -44,17 +46,29 @@ def local_processes(n: int) -> Iterator[Executor]:
         raise
 
 
+def run_here(job: Callable[[Any], Any], tasks: Sequence[Any], _chunksize: int) -> Iterator[Any]:
+    """Give what a job makes of each task, in order, by this process."""
+    return map(job, tasks)
+
+
 @contextmanager
 def mapped(
     n: int, job: Callable[[Any], Any], tasks: Sequence[Any], chunksize: int
 ) -> Iterator[Iterator[Any]]:
     """Give what a job makes of each task, in order: by ``n`` fresh processes; for one, here."""
+    with runner(n) as run:
+        yield run(job, tasks, chunksize)
+
+
+@contextmanager
+def runner(n: int) -> Iterator[Run]:
+    """Give what runs jobs as `run_here` does: ``n`` fresh processes; for one, this one."""
     if n <= 1:
-        yield map(job, tasks)
+        yield run_here
         return
     try:
         with local_processes(n) as pool:
-            yield pool.map(job, tasks, chunksize=chunksize)
+            yield lambda job, tasks, chunksize: pool.map(job, tasks, chunksize=chunksize)
     except BrokenProcessPool:
         raise EnvironmentProblem(
             "a worker process has ended before its work was done (too little memory?); what is "

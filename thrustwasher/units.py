@@ -55,6 +55,7 @@ _DISPLAY: dict[str, tuple[str, ...]] = {
     "J": ("kJ", "J"),
     "J/m2": ("MJ/m2", "kJ/m2", "J/m2"),
     "W/m2": ("MW/m2", "kW/m2", "W/m2"),
+    "m3/s": ("l/min",),
 }
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)

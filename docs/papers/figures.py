@@ -1,10 +1,10 @@
-"""Draw Figures 6-15 of Jackson & Green (2006) from this package's washer model.
+"""Draw Figures 6-15 of Jackson & Green (2006) from its own equations, converged.
 
     python docs/papers/figures.py [FOLDER]
 
 Writes jg2006-fig06.png ... jg2006-fig15.png, by default to docs/images; takes about half a minute.
-Lines are all solutions that exist; markers are the load steps of a washer that is loaded up from
-light load, as in the paper.
+The preset "paper" has these equations and nothing more. Lines are all solutions that exist;
+markers are the load steps of a washer that is loaded up from light load, as in the paper.
 """
 
 from __future__ import annotations
@@ -117,9 +117,9 @@ class Traced:
 @cache
 def trace(speed: float, friction: float = 0.0) -> Traced:
     """Solve for a curve and its load steps; ``friction`` > 0 is a constant dry friction."""
-    params = WasherParams()
+    params = WasherParams.preset("paper")
     if friction > 0.0:
-        params = WasherParams(friction_law="constant", dry_friction=friction)
+        params = WasherParams.preset("paper", friction_law="constant", dry_friction=friction)
     curve = load_curve(
         params, speed=speed, tilt=TILT, grid=GRID, load_min=25.0, load_max=LARGEST_LOAD
     )

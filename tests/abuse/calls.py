@@ -21,7 +21,7 @@ from thrustwasher.model.spec import Signal
 
 RIGHT, REFUSED, UNSOLVED = "right", "refused by name", "no solution, by name"
 RUNGS = {
-    "washer": ("closed", "stribeck", "coarse", "field"),
+    "washer": ("coarse", "field"),
     "gearmesh": ("closed", "stribeck", "field"),
     "clutch": ("closed", "boundary", "stribeck", "field", "fine"),
 }  # fmt: skip

@@ -5,6 +5,7 @@ import sys
 from contextlib import closing, suppress
 from pathlib import Path
 
+import numpy as np
 import pytest
 from disk import full_disk
 from files import chart_record, command
@@ -98,18 +99,24 @@ def test_a_sweep_whose_table_does_not_fit_is_not_solved_again(out, monkeypatch):
     assert table.read_bytes() == whole
 
 
-def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, monkeypatch):
+def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, tmp_path, monkeypatch):
     from thrustwasher.washer.kernels.map import map_layout as L
-    from thrustwasher.washer.map import map_build
+    from thrustwasher.washer.map.map_file import read_map
 
-    file, solved, real = out / "x.twm", [], map_build.solve_line
-    monkeypatch.setattr(map_build, "solve_line", lambda t: (solved.append(t), real(t))[1])
+    file, kept, append = out / "x.twm", [], journal.Journal.append
+    assert command(*MAP, tmp_path / "whole.twm")[0] == 0
+    whole = read_map(tmp_path / "whole.twm")
+    lines, numbers = whole.card["lines"], whole.data.size - L.DATA
+    monkeypatch.setattr(
+        journal.Journal, "append", lambda *given: (append(*given), kept.append(given[1]))
+    )
     monkeypatch.setattr(journal, "INTERVAL", 0.0)
-    with full_disk(12_288 + int(2.9 * 8 * L.LINE)):
+    with full_disk(12_288 + int(2.9 * 8 * numbers / lines)):
         refused(out, *MAP, file, left=["x.twm.journal"])
-    assert 1 < len(solved) < 4
+    assert 0 < len(kept) < lines
     assert command(*MAP, file)[0] == 0
-    assert len(solved) == 4 + 1 and [p.name for p in out.iterdir()] == ["x.twm"]
+    assert sorted(kept) == list(range(lines)) and [p.name for p in out.iterdir()] == ["x.twm"]
+    assert np.allclose(read_map(file).data[L.DATA :], whole.data[L.DATA :], atol=1e-4)
 
 
 def test_a_chart_that_does_not_fit_is_not_half_written(out, tmp_path):

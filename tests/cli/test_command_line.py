@@ -46,6 +46,9 @@ def one_line(capsys):
         (["washer", "--fidelity", "best"], ["fidelity", "best", "field"]),
         (["engage", "--fidelity", "map"], ["fidelity", "map", "field"]),
         (["gearmesh", "--preset", "rosy"], ["preset", "rosy", "literal"]),
+        (["washer", "--preset", "rosy"], ["preset", "rosy", "paper"]),
+        (["sweep", "washer", "--preset", "rosy"], ["preset", "rosy", "paper"]),
+        (["sweep", "clutch", "--preset", "rosy"], ["preset", "rosy", "none"]),
         (["gearmesh", "--speed", "0"], ["speed", "0", "rad/s"]),
         (["gearmesh", "--power", "1e12"], ["power", "W"]),
         (["washer", "--set", "roughnes=1e-7"], ["roughnes", "roughness?"]),
@@ -124,6 +127,9 @@ def test_help_of_a_mesh_says_what_each_preset_changes(capsys):
     text = " ".join(capsys.readouterr().out.split())
     assert "[W]; -1e+09 .. 1e+09 W, default 7500" in text
     assert "bounded: the defaults; literal: face_width = 1.0, viscosity_at = inlet" in text
+    main(["curve", "--help"])
+    text = " ".join(capsys.readouterr().out.split())
+    assert "paper: conduction = all, oil_cooling = False" in text
 
 
 @pytest.mark.parametrize(("command", "spec"), [("washer", WASHER), ("clutch", CLUTCH)])

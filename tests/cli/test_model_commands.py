@@ -105,6 +105,16 @@ def test_settings_change_a_preset(preset, capsys):
     assert (record["preset"], record["fidelity"]) == (preset, "closed")
 
 
+def test_settings_change_the_papers_washer(capsys):
+    words = [*words_of("washer", WASHER), "--preset", "paper", "--fidelity", "coarse"]
+    record = told([*words, "--set", "pressure_flow_shear=true"], capsys)
+    params = WasherParams.preset("paper", pressure_flow_shear=True)
+    expected = solve_washer(params, **WASHER, fidelity="coarse")
+    assert record["friction_torque"] == expected.friction_torque
+    assert (record["preset"], record["parameters"]["oil_cooling"]) == ("paper", False)
+    assert record["throughflow_heat"] == 0.0
+
+
 def test_the_table_of_a_mesh_sets_both_steels_side_by_side(capsys):
     out = shown(words_of("gearmesh", MESH), capsys)
     lines = {line.split()[0]: line for line in out.splitlines()}

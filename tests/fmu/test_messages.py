@@ -58,8 +58,8 @@ def listen(natives):
 
 def test_the_washer_tells_once_when_the_film_is_lost_and_once_when_it_is_back(listen):
     washer = listen("ThrustWasher")
-    washer.begin(load=600.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
-    for i, load in enumerate([600, 700, 800, 900, 900, 900, 700, 500, 300, 300, 300]):
+    washer.begin(load=800.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
+    for i, load in enumerate([800, 900, 1000, 1100, 1100, 1100, 900, 700, 500, 500, 500]):
         washer.set(load=float(load))
         washer.fmu.doStep(i * H, H)
     lost, regained = washer.heard("logEvents")

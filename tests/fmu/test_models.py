@@ -156,12 +156,12 @@ def test_exactly_the_listed_inputs_move_an_output_at_once(name):
 
 
 def test_a_washer_repeats_to_the_bit_across_both_of_its_folds(natives):
-    """The film is lost on the way up to 900 N and regained on the way down to 300 N."""
-    loads = [600 + 30 * i for i in range(11)] + [900 - 60 * i for i in range(1, 11)]
+    """The film is lost on the way up to 1100 N and regained on the way down to 500 N."""
+    loads = [800 + 30 * i for i in range(11)] + [1100 - 60 * i for i in range(1, 11)]
     point = {"speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
     runs = []
     with Instance(natives["ThrustWasher"]) as washer:
-        washer.initialize(inputs={"load": 600.0, **point})
+        washer.initialize(inputs={"load": 800.0, **point})
         washer.step(0.0, H)
         state = washer.get_state()
         data = washer.serialize(state)

@@ -64,9 +64,9 @@ def test_a_card_that_was_changed_since_it_was_written_is_refused(tmp_path):
 def test_broken_files_are_refused_with_a_reason_and_the_others_are_read(folder):
     (folder / "washer-field.json").write_text(card().as_json())
     (folder / "washer-fine.json").write_text("{ not JSON")
-    (folder / "washer-closed.json").write_bytes(b"\xff\xfe\x00")
+    (folder / "washer-coarse.json").write_bytes(b"\xff\xfe\x00")
     assert [c.fidelity for c in cards.load_cards("washer")] == ["field"]
-    assert set(cards.refused_files()) == {"washer-fine.json", "washer-closed.json"}
+    assert set(cards.refused_files()) == {"washer-fine.json", "washer-coarse.json"}
     assert cards.error_estimate("washer", "field", WasherParams(), POINT) == 1.5 * 5e-3
     assert cards.error_estimate("washer", "fine", WasherParams(), POINT) is None
 
@@ -191,7 +191,7 @@ def estimate(**changed):
 
 def test_the_card_of_the_branch_speaks_whatever_the_sign_of_the_speed(branches):
     assert estimate() == estimate(speed=-953.0) == pytest.approx(1.5e-3)
-    assert estimate(load=700.0, branch="contact") == pytest.approx(6e-2)
+    assert estimate(load=800.0, branch="contact") == pytest.approx(6e-2)
 
 
 def test_where_no_card_speaks_the_general_bound_holds(branches):

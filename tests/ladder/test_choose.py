@@ -14,7 +14,7 @@ from thrustwasher.ladder.choose import choose
 from thrustwasher.washer.parameters import SPEC
 
 LADDER = (
-    card("closed", 1.0, 1e-6, first=0.0),
+    card("coarse", 1.0, 1e-6, first=0.0),
     card("fine", 4e-4, 2e-3, first=0.0),
     card("field", 5e-3, 2e-4, first=0.0),
 )
@@ -35,7 +35,7 @@ def ladder(monkeypatch):
 
 
 def test_the_cheapest_that_holds_is_taken(ladder):
-    assert choose("washer", BOX, tol=2.0).fidelity == "closed"
+    assert choose("washer", BOX, tol=2.0).fidelity == "coarse"
     assert choose("washer", BOX, tol=0.02).fidelity == "field"
     assert choose("washer", BOX, tol=0.005).fidelity == "fine"
 
@@ -147,7 +147,7 @@ def test_points_that_a_rung_refuses_go_to_the_next_one(ladder):
 def test_the_second_rung_holds_the_tolerance_too(ladder):
     ladder(card("map", 1e-4, 2e-6, first=0.0, outside=25), *LADDER)
     assert choose("washer", BOX, tol=1e-3).outside.fidelity == "fine"
-    assert choose("washer", BOX, tol=2.0).fidelity == "closed"
+    assert choose("washer", BOX, tol=2.0).fidelity == "coarse"
 
 
 def test_where_no_card_speaks_there_is_no_promise(ladder):
@@ -160,7 +160,7 @@ def test_where_no_card_speaks_there_is_no_promise(ladder):
 
 def test_where_no_card_speaks_the_default_serves_or_a_finer_rung(ladder):
     box = {**BOX, "load": (10.0, 1000.0)}
-    for tol, inside, outside in ((2.0, "closed", "field"), (0.02, "field", "field"),
+    for tol, inside, outside in ((2.0, "coarse", "field"), (0.02, "field", "field"),
                                  (1e-3, "fine", "fine")):  # fmt: skip
         choice = choose("washer", box, tol=tol)
         assert (choice.fidelity, choice.outside.fidelity) == (inside, outside)
@@ -222,7 +222,7 @@ def test_errors_beside_folds_are_said(ladder):
 def test_reasons_name_every_rung(ladder):
     lines = str(choose("washer", BOX, tol=0.02)).splitlines()
     assert lines[0] == "washer: field, friction_torque within 0.75 % (asked 2 %), 0.2 ms per call"
-    assert "  cheaper but too coarse: closed 150 %" in lines
+    assert "  cheaper but too coarse: coarse 150 %" in lines
     assert "  would hold too: fine 0.06 % in 2 ms" in lines
 
 

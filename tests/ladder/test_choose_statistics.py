@@ -14,8 +14,7 @@ from thrustwasher.ladder.choose import choose
 from thrustwasher.washer.parameters import SPEC
 
 # typical error and seconds per call
-LADDER = {"closed": (0.5, 1e-6), "stribeck": (0.08, 3e-6), "coarse": (0.02, 6e-5),
-          "field": (3e-3, 2e-4), "fine": (4e-4, 2e-3)}  # fmt: skip
+LADDER = {"map": (0.2, 3e-6), "coarse": (0.02, 6e-5), "field": (3e-3, 2e-4), "fine": (4e-4, 2e-3)}
 NAMES = list(ENVELOPE)
 LOW = np.array([math.log(ENVELOPE[n].min) for n in NAMES])
 HIGH = np.array([math.log(ENVELOPE[n].max) for n in NAMES])

@@ -8,7 +8,7 @@ import pytest
 from thrustwasher import ParameterError, WasherParams
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.washer.kernels import layout
-from thrustwasher.washer.parameters import SPEC
+from thrustwasher.washer.parameters import BODIES, MATERIAL, SPEC
 
 FIELDS = fields(WasherParams)
 REALS = [f for f in FIELDS if f.metadata["kind"] == "real"]
@@ -20,6 +20,8 @@ def test_every_field_says_what_it_is(f):
     assert f.metadata["help"] and f.metadata["unit"]
     if f.metadata["kind"] == "real":
         assert f.metadata["min"] <= f.default <= f.metadata["max"]
+    elif f.metadata["kind"] == "boolean":
+        assert isinstance(f.default, bool)
     else:
         assert f.default in f.metadata["options"]
 
@@ -73,12 +75,17 @@ def test_an_unknown_parameter_is_refused():
 
 
 def test_fields_fill_the_kernels_parameters_in_order():
-    names = [f"P_{f.name.upper()}" for f in FIELDS] + ["P_FIDELITY"]
-    assert [n for n in vars(layout) if n.startswith("P_")] == names
-    assert [getattr(layout, n) for n in names] == list(range(layout.N_PARAM))
-    assert len(as_numbers(WasherParams())) == len(names) - 1
+    names = [*(f.name for f in FIELDS), "fidelity"]
+    places = {n: place for n, place in vars(layout).items() if n.startswith("P_")}
+    own = [f"{name}_{body}" for name in MATERIAL for body in BODIES]
+    assert [n for n in names if n not in own] == [names[place] for place in places.values()]
+    for n, place in places.items():
+        assert names[place].upper().endswith(n.removeprefix("P_"))
+    for name in MATERIAL:
+        place = names.index(name)
+        assert names[place + 1 : place + 4] == [f"{name}_{body}" for body in BODIES]
+    assert len(as_numbers(WasherParams())) == layout.N_PARAM - 1 == layout.P_FIDELITY
     numbers = as_numbers(WasherParams(friction_law="constant", conduction="rotating"))
-    names = [f.name for f in FIELDS]
     assert numbers[names.index("friction_law")] == 2.0
     assert numbers[names.index("conduction")] == 3.0
     assert numbers[names.index("outer_radius")] == 0.0227

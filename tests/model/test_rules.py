@@ -25,6 +25,22 @@ BROKEN = {
         {"roughness_gear": 1.4e-7},
         {"friction_load_min": 2000.0},
         {"asperity_height_law": "summit", "asperity_density": 1e9},
+        *(
+            {f"{name}_{body}": value}
+            for name, value in (
+                ("youngs_modulus", 1e8),
+                ("yield_strength", 1e6),
+                ("conductivity", 0.01),
+                ("density", 100.0),
+                ("specific_heat", 10.0),
+            )
+            for body in washer_params.BODIES
+        ),
+        {"yield_strength": 5e10, "youngs_modulus": 1e9},
+        {"yield_strength": 5e9, "youngs_modulus_gear": 1e9},
+        {"oil_supply_temperature": 100.0},
+        {"film_heat_fraction": 0.5},
+        {"oil_cooling": False, "cavity_shear": "liquid"},
         {"thermal_mode": "transient"},  # without a rung that has bodies
     ),
     "clutch": (

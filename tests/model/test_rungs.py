@@ -8,10 +8,8 @@ import pytest
 from thrustwasher import (
     ClutchParams,
     GearMeshParams,
-    ParameterError,
     WasherParams,
     engage_clutch,
-    load_curve,
     solve_clutch,
     solve_gearmesh,
     solve_washer,
@@ -38,7 +36,7 @@ SPECS = {
     "gearmesh": (gearmesh_params.SPEC, gear_step),
 }
 LADDER = {
-    "washer": ["closed", "stribeck", "map", "coarse", "field", "fine"],
+    "washer": ["map", "coarse", "field", "fine"],
     "clutch": ["closed", "boundary", "stribeck", "field", "fine"],
     "gearmesh": ["closed", "stribeck", "field", "fine"],
 }
@@ -170,82 +168,9 @@ def test_rungs_agree_on_the_torque_of_an_ordinary_point_within_their_class(model
     assert low < ratio < 1.0 / low
 
 
-def central(part, point, place, size):
-    """Return central differences over one input, once extrapolated."""
-    found = []
-    for h in (size, 0.5 * size):
-        ends = []
-        for side in (1.0, -1.0):
-            inputs = np.array(point)
-            inputs[place] += side * h
-            assert part.step(inputs) == Status.OK
-            ends.append(part.out.copy())
-        found.append((ends[0] - ends[1]) / (2.0 * h))
-    return (4.0 * found[1] - found[0]) / 3.0
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck"])
-def test_a_washer_without_a_mesh_has_the_derivatives_of_differences(rung):
-    part = settled("washer", rung)
-    for point in POINTS["washer"]:
-        for place in range(part.k.NINP):
-            scale = 30.0 if place == part.k.NINP - 1 else point[place]
-            wanted = central(part, point, place, 1e-4 * scale) * scale
-            part.step(point)
-            found = part.sens(np.eye(part.k.NINP)[place]) * scale
-            np.testing.assert_allclose(found, wanted, rtol=1e-6, atol=1e-7 * np.abs(part.out).max())
-
-
-# --- the washer's rungs without a mesh
-
-
 def washer(rung, params=None, **changes):
     at = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15, **changes}
     return solve_washer(params or WasherParams(), **at, fidelity=rung)
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck"])
-def test_a_washer_without_a_mesh_has_one_solution_for_each_load(rung):
-    """The film gets thinner with every load, through the range where the field has three."""
-    films = [washer(rung, load=load).film_thickness for load in np.geomspace(20.0, 3000.0, 60)]
-    assert np.all(np.diff(films) < 0.0)
-    assert washer(rung, load=600.0).branch == washer(rung, load=600.0).branch
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck"])
-def test_film_and_contact_carry_the_load(rung):
-    for load in (1.0, 30.0, 700.0, 3000.0):
-        r = washer(rung, load=load)
-        assert r.fluid_load + r.contact_load == pytest.approx(load, rel=1e-12)
-        assert r.temperature_max >= r.temperature >= r.oil_temperature
-
-
-def test_without_heat_the_stribeck_rung_is_the_closed_one():
-    cold = WasherParams(film_heat_fraction=0.0, dry_friction=0.0, friction_law="constant")
-    for load in (50.0, 800.0):
-        one, other = washer("closed", cold, load=load), washer("stribeck", cold, load=load)
-        assert other.friction_torque == pytest.approx(one.friction_torque, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("load", "speed", "tilt"),
-    [(100.0, 300.0, 1e-3), (300.0, 953.0, 2e-3), (150.0, 1367.0, 3e-3), (500.0, 545.0, 1.2e-3)],
-)
-def test_in_full_film_the_stribeck_rung_is_within_seven_percent(load, speed, tilt):
-    at = {"load": load, "speed": speed, "tilt": tilt}
-    field, found = washer("field", **at), washer("stribeck", **at)
-    assert found.friction_torque == pytest.approx(field.friction_torque, rel=0.07)
-    assert found.film_ratio == pytest.approx(field.film_ratio, rel=0.12)
-    rise = field.temperature - field.oil_temperature
-    assert found.temperature - found.oil_temperature == pytest.approx(rise, rel=0.15)
-
-
-def test_a_cold_washer_is_met_by_the_closed_rung():
-    """Nothing heats the oil: what is left is the wedge, fitted to 2 % of its force."""
-    cold = WasherParams(film_heat_fraction=0.0)
-    field, found = washer("field", cold, load=100.0), washer("closed", cold, load=100.0)
-    assert found.friction_torque == pytest.approx(field.friction_torque, rel=0.02)
-    assert found.film_ratio == pytest.approx(field.film_ratio, rel=0.03)
 
 
 def test_a_level_washer_lies_on_its_asperities_at_every_rung():
@@ -257,19 +182,6 @@ def test_a_level_washer_lies_on_its_asperities_at_every_rung():
         mean = 2.0 / 3.0 * (0.0227**3 - 0.0111**3) / (0.0227**2 - 0.0111**2)
         dry = (0.48 - 0.05 * math.log(300.0)) * 300.0 * mean
         assert r.friction_torque == pytest.approx(dry, rel=0.005)
-
-
-def test_what_a_rung_without_a_mesh_lacks_is_named():
-    with pytest.raises(ParameterError, match="no mesh"):
-        solve_washer(WasherParams(), load=1.0, speed=1.0, tilt=0.0, fidelity="closed", grid=(9, 32))
-    with pytest.raises(ParameterError, match="one solution for each load"):
-        load_curve(WasherParams(), speed=1.0, tilt=1e-3, fidelity="stribeck")
-    with pytest.raises(ParameterError, match="has no fields"):
-        washer("closed").fields()
-    with pytest.raises(ParameterError, match="has no solution at load"):
-        solve_washer(
-            WasherParams(), load=50.0, speed=545.0, tilt=2e-3, fidelity="closed", branch="contact"
-        )
 
 
 # --- the gear mesh, resolved along the line of action

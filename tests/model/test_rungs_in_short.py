@@ -12,37 +12,13 @@ from thrustwasher.model.registry import find_spec
 from thrustwasher.washer.follow import follow_washer
 from thrustwasher.washer.kernel_arguments import constants
 from thrustwasher.washer.kernels import step as kernel
-from thrustwasher.washer.kernels.layout import N_ALL, N_HEAD
+from thrustwasher.washer.kernels.layout import N_ALL, N_HEAD, NOUT
 from thrustwasher.washer.kernels.map.map_step import N_MAP_WORK, look_up, map_sens
 from thrustwasher.washer.kernels.workspace import Point, size_of_state, size_of_work
 from thrustwasher.washer.map.look_up import WasherMap
 from thrustwasher.washer.map.map_file import SHIPPED
 
 GRID = (5, 8)
-POINTS = [(20.0, 900.0, 2e-3), (300.0, 545.0, 2e-3), (1500.0, 545.0, 2e-3), (300.0, 545.0, 0.0),
-          (300.0, 0.0, 2e-3), (5.0, -1500.0, 1e-4), (9000.0, 20.0, 8e-3)]  # fmt: skip
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck"])
-@pytest.mark.parametrize("point", POINTS)
-def test_a_washer_without_mesh_carries_its_load_and_takes_power(rung, point):
-    load, speed, tilt = point
-    r = solve_washer(WasherParams(), load=load, speed=speed, tilt=tilt, fidelity=rung)
-    assert r.fluid_load + r.contact_load == pytest.approx(load, rel=1e-6)
-    assert r.friction_torque * speed >= 0.0 and r.temperature >= r.oil_temperature - 1e-9
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck"])
-def test_a_washer_without_mesh_has_the_derivatives_of_its_steps(rung):
-    def make(load):
-        one = DirectInstance(find_spec("washer"), parameters={"fidelity": rung})
-        one.initialize(0.0, {"load": load, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0})
-        return one
-
-    here, below, above = make(200.0), make(199.8), make(200.2)
-    slope = here.directional_derivative(["friction_torque"], ["load"], [1.0])[0]
-    change = (above.outputs()[0] - below.outputs()[0]) / 0.4
-    assert slope == pytest.approx(change, rel=1e-4)
 
 
 @pytest.fixture(scope="module")
@@ -59,18 +35,18 @@ def test_the_map_is_odd_in_speed_carries_its_load_and_knows_its_folds(chart):
     assert chart.look_up(load=300.0, **{**place, "speed": 1999.0})["branch"] == -1.0
 
 
-@pytest.mark.parametrize(("load", "branch"), [(300.0, 1.0), (600.0, 3.0), (1500.0, 3.0)])
+@pytest.mark.parametrize(("load", "branch"), [(300.0, 1.0), (800.0, 3.0), (1500.0, 3.0)])
 def test_the_map_has_the_derivatives_of_its_values(chart, load, branch):
     at, along = np.array([load, 545.0, 2e-3, 297.15]), np.array([1.0, 0.3, 0.0, 0.0])
     w, numbers, found = np.zeros(N_MAP_WORK), np.zeros(N_ALL), np.zeros(2)
 
     def outputs(x):
         assert look_up(chart.data, Point(*x), branch, np.zeros(40), w, numbers, found) == 0
-        return numbers[:8].copy()
+        return numbers[:NOUT].copy()
 
     change = (outputs(at + 1e-3 * along) - outputs(at - 1e-3 * along)) / 2e-3
     outputs(at)
-    slope = np.zeros(8)
+    slope = np.zeros(NOUT)
     assert map_sens(at, along, numbers, w, chart.data, slope) == 0
     assert slope == pytest.approx(change, rel=1e-5, abs=1e-12)
 
@@ -79,7 +55,7 @@ def test_a_map_goes_from_branch_to_branch_step_by_step():
     one = DirectInstance(find_spec("washer"), parameters={"fidelity": "map"})
     one.initialize(0.0, {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15})
     lost = []
-    for i, load in enumerate([400.0, 900.0, 500.0, 200.0]):
+    for i, load in enumerate([400.0, 1100.0, 800.0, 200.0]):
         one.set_inputs([load, 545.0, 2e-3, 297.15])
         one.step(i * 1e-3, 1e-3)
         lost.append(one.get(["distress"])[0])
@@ -89,7 +65,7 @@ def test_a_map_goes_from_branch_to_branch_step_by_step():
 
 @pytest.mark.parametrize("load", [300.0, 1500.0])
 def test_a_mesh_has_the_derivatives_of_its_steps(load):
-    par = constants(WasherParams(), GRID, "field")
+    par = constants(WasherParams(), GRID)
     state, work = np.zeros(size_of_state(*GRID)), np.zeros(N_HEAD + size_of_work(*GRID))
     out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
 

@@ -15,8 +15,8 @@ if "here" in sys.argv:
     shipped.index = lambda: {"kernels": {}}
 from thrustwasher import *
 washer = WasherParams()
-for load, speed, rung in ((300, 953, "field"), (900, 545, "field"), (100, 136, "coarse"),
-                          (300, 545, "map"), (300, 953, "stribeck"), (300, 953, "closed")):
+for load, speed, rung in ((300, 953, "field"), (1100, 545, "field"), (100, 136, "coarse"),
+                          (300, 545, "map"), (300, 953, "fine")):
     r = solve_washer(washer, load=load, speed=speed, tilt=0.002, fidelity=rung)
     print(r.friction_torque.hex(), r.temperature.hex(), r.film_ratio.hex())
 for fold in load_curve(washer, speed=545.0, tilt=0.002, grid=(9, 20)).folds:

@@ -117,9 +117,11 @@ from thrustwasher.tribology.viscosity import viscosity
 r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, grid=(5, 8), throw=False)
 b = solve_washer(WasherParams(heat_split=0.3), load=900.0, speed=136.0, tilt=0.002, grid=(5, 8),
                  start=None, throw=False)
+m = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, fidelity="map")
 print(json.dumps([
     r.friction_torque, r.temperature, r.film_ratio, int(r.status), r.iterations, r.branch,
     b.friction_torque, b.temperature, b.film_ratio, int(b.status), b.iterations, b.branch,
+    m.friction_torque, m.temperature, m.film_ratio, m.fidelity, m.branch,
     *mean_gap(1e-6, 7e-7), *flow_conductance(1e-6, 7e-7), *viscosity(297.15, 6.31e-5, 3.545, 1.053),
 ]))
 """

@@ -5,13 +5,15 @@ import pytest
 
 from thrustwasher.numerics.banded import (
     N_SIDES,
+    band_solve,
     cholesky,
-    cholesky_solve,
     cholesky_solve_many,
+    factor_solve,
+    factor_solve_many,
+    halve,
     lu,
-    lu_solve,
     mirror,
-)  # fmt: skip
+)
 from thrustwasher.numerics.dense import dense_solve
 
 SHAPES = [(1, 1), (2, 1), (5, 1), (6, 2), (7, 3), (12, 5), (13, 6), (40, 17), (4, 6), (9, 8)]
@@ -46,19 +48,29 @@ def rows(a, band):
     return store
 
 
-@pytest.mark.parametrize(("n", "band"), SHAPES)
-def test_cholesky_solves_as_lapack_does(n, band):
-    a, b = random_band(n, band, symmetric=True)
-    store = np.append(lower(a, band), np.zeros(n * (band + 1)))
-    assert cholesky(store, n, band)
-    mirror(store, n, band)
-    one = b[:, 0].copy()
-    cholesky_solve(store, one, n, band)
-    many = b.ravel().copy()
-    cholesky_solve_many(store, many, n, band)
+def solves(a, b, one, many):
+    """Check solutions for one and for many right sides against LAPACK's."""
     expected = np.linalg.solve(a, b)
     np.testing.assert_allclose(one, expected[:, 0], rtol=1e-12, atol=1e-14)
-    np.testing.assert_allclose(many.reshape(n, N_SIDES), expected, rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(many.reshape(b.shape), expected, rtol=1e-12, atol=1e-14)
+
+
+@pytest.mark.parametrize(("n", "band"), SHAPES)
+def test_cholesky_solves_as_lapack_does(n, band):
+    """With the factor alone, and with the factor mirrored for the way back."""
+    a, b = random_band(n, band, symmetric=True)
+    store = lower(a, band)
+    assert cholesky(store, n, band)
+    one, many = b[:, 0].copy(), b.ravel().copy()
+    band_solve(store, one, n, band)
+    cholesky_solve_many(store, many, n, band)
+    solves(a, b, one, many)
+    mirrored = np.zeros(store.size)
+    mirror(store, mirrored, n, band)
+    one, many = b[:, 0].copy(), b.ravel().copy()
+    factor_solve(store, mirrored, one, n, band)
+    factor_solve_many(store, mirrored, many, n, band)
+    solves(a, b, one, many)
 
 
 @pytest.mark.parametrize(("n", "band"), SHAPES)
@@ -74,9 +86,12 @@ def test_lu_solves_as_lapack_does(n, band):
     a, b = random_band(n, band, symmetric=False)
     store = rows(a, band)
     assert lu(store, n, band)
-    x = b[:, 0].copy()
-    lu_solve(store, x, n, band)
-    np.testing.assert_allclose(x, np.linalg.solve(a, b[:, 0]), rtol=1e-12, atol=1e-14)
+    halves = np.zeros((2, n * (band + 1)))
+    halve(store, *halves, n, band)
+    one, many = b[:, 0].copy(), b.ravel().copy()
+    factor_solve(*halves, one, n, band)
+    factor_solve_many(*halves, many, n, band)
+    solves(a, b, one, many)
 
 
 @pytest.mark.parametrize("row", range(6))

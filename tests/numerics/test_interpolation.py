@@ -5,16 +5,19 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from thrustwasher.numerics.chebyshev import (
-    N_AXIS,
+    CHANGES,
     N_CELL,
-    N_TERMS,
+    SHARES,
     SLOPE,
     WEIGHT,
     contract,
     enter_cell,
+    lines_of,
     nodes_of,
     polynomial,
     polynomial_slope,
+    share_out,
+    share_out_change,
 )  # fmt: skip
 
 AXES = ((0.0, 3.0, 2), (-1.0, 1.0, 1), (2.0, 8.0, 3))
@@ -28,32 +31,39 @@ def places(low, high, patches):
 
 
 def filled(function, axes=AXES):
-    """Return lines of a function at all nodes, and the steps between nodes."""
-    grids = [places(*axis) if axis[2] else [axis[0]] for axis in axes]
-    lines = np.array([[[function(x, y, z) for z in grids[2]] for y in grids[1]] for x in grids[0]])
-    shape = lines.shape
-    assert shape[:3] == tuple(nodes_of(axis[2]) for axis in axes)
-    steps = (shape[1] * shape[2] * WIDTH, shape[2] * WIDTH, WIDTH)
-    return lines.ravel(), [s if axis[2] else 0 for s, axis in zip(steps, axes, strict=True)]
+    """Return lines of a function at all nodes."""
+    xs, ys, zs = (places(*axis) if axis[2] else [axis[0]] for axis in axes)
+    assert [len(nodes) for nodes in (xs, ys, zs)] == [nodes_of(axis[2]) for axis in axes]
+    lines = [function(x, y, z) for x in xs for z in zs for y in ys[::3]]
+    inner = [y for k, y in enumerate(ys) if k % 3]
+    lines += [function(x, y, z) for y in inner for x in xs[::3] for z in zs[::3]]
+    assert len(lines) == lines_of(*(axis[2] for axis in axes))
+    return np.array(lines).ravel()
 
 
-def read(data, steps, at, axes=AXES, slope_of=-1):
+def read(data, at, axes=AXES, along=None):
+    """Return the interpolated numbers, or their change along a direction."""
     cell, out = np.full(N_CELL, np.nan), np.full(WIDTH, np.nan)
     for k, (x, axis) in enumerate(zip(at, axes, strict=True)):
         enter_cell(cell, k, x, float(axis[0]), float(axis[1]), axis[2])
-    contract(data, 0, *steps, cell, slope_of, WIDTH, out, 0)
+    share_out(cell)
+    if along is not None:
+        share_out_change(cell, *along)
+    shares = SHARES if along is None else CHANGES
+    contract(data, 0, WIDTH, *(axis[2] for axis in axes), cell, shares, WIDTH, out, 0)
     return out
 
 
 def cubic(x, y, z):
-    return [1.0, x**3 - y, x * y**2 * z, z**3 - x * z, x**2 + y**3 * z**2]
+    """Return what comes out exactly: cubic in y only where x and z come linearly."""
+    return [1.0, x**3 - y, x * y**3 * z, x**3 * z**2 * y - x * z, x**2 + y**2 * z]
 
 
 def slope_of_cubic(axis, x, y, z):
     table = (
-        [0.0, 3 * x**2, y**2 * z, -z, 2 * x],
-        [0.0, -1.0, 2 * x * y * z, 0.0, 3 * y**2 * z**2],
-        [0.0, 0.0, x * y**2, 3 * z**2 - x, 2 * y**3 * z],
+        [0.0, 3 * x**2, y**3 * z, 3 * x**2 * z**2 * y - z, 2 * x],
+        [0.0, -1.0, 3 * x * y**2 * z, x**3 * z**2, 2 * y * z],
+        [0.0, 0.0, x * y**3, 2 * x**3 * z * y - x, y**2],
     )
     return table[axis]
 
@@ -63,32 +73,39 @@ INSIDE = [(0.3, 0.2, 2.5), (1.5, -1.0, 4.0), (2.999, 0.99, 7.9), (0.0, 1.0, 8.0)
 
 @pytest.mark.parametrize("at", INSIDE)
 def test_cubics_come_out_exactly(at):
-    data, steps = filled(cubic)
-    assert read(data, steps, at) == pytest.approx(cubic(*at), rel=1e-12, abs=1e-11)
+    assert read(filled(cubic), at) == pytest.approx(cubic(*at), rel=1e-12, abs=1e-11)
 
 
 @pytest.mark.parametrize("axis", range(3))
 @pytest.mark.parametrize("at", INSIDE)
 def test_slopes_of_cubics_come_out_exactly(at, axis):
-    data, steps = filled(cubic)
-    found = read(data, steps, at, slope_of=axis)
+    found = read(filled(cubic), at, along=np.eye(3)[axis])
     assert found == pytest.approx(slope_of_cubic(axis, *at), rel=1e-11, abs=1e-9)
 
 
+def test_the_change_along_a_direction_is_the_sum_of_those_along_the_axes():
+    data, at = filled(lambda x, y, z: [np.exp(x * y - z / 4.0)] * WIDTH), (0.3, 0.2, 2.5)
+    parts = [read(data, at, along=row) for row in np.diag([0.3, -2.0, 0.7])]
+    assert read(data, at, along=(0.3, -2.0, 0.7)) == pytest.approx(sum(parts), rel=1e-12)
+
+
 def test_neighbouring_patches_meet():
-    data, steps = filled(lambda x, y, z: [np.exp(x - z / 4.0) * np.cos(y)] * WIDTH)
-    for border in (4.0, 6.0):
-        left, right = (read(data, steps, (1.1, 0.3, border + d)) for d in (-1e-12, 1e-12))
-        assert left == pytest.approx(right, rel=1e-10)
+    axes = ((0.0, 3.0, 2), (-1.0, 1.0, 2), (2.0, 8.0, 3))
+    data = filled(lambda x, y, z: [np.exp(x - z / 4.0) * np.cos(y)] * WIDTH, axes)
+    for axis, border in ((0, 1.5), (1, 0.0), (2, 4.0), (2, 6.0)):
+        at = np.array([1.1, 0.3, 4.5])
+        at[axis] = border
+        step = 1e-12 * np.eye(3)[axis]
+        assert read(data, at - step, axes) == pytest.approx(read(data, at + step, axes), rel=1e-10)
 
 
 def test_the_error_falls_with_the_fourth_power_of_the_patch():
     errors = []
     for patches in (1, 2, 4, 8):
         axes = ((0.0, 2.0, patches), (0.0, 0.0, 0), (0.0, 0.0, 0))
-        data, steps = filled(lambda x, _y, _z: [x**4] * WIDTH, axes)
+        data = filled(lambda x, _y, _z: [x**4] * WIDTH, axes)
         xs = np.linspace(0.0, 2.0, 401)
-        errors.append(max(abs(read(data, steps, (x, 0.0, 0.0), axes)[0] - x**4)
+        errors.append(max(abs(read(data, (x, 0.0, 0.0), axes)[0] - x**4)
                           for x in xs))  # fmt: skip
     orders = np.log2(np.array(errors[1:-1]) / errors[2:])
     assert orders == pytest.approx([4.0, 4.0], abs=0.02)
@@ -96,10 +113,10 @@ def test_the_error_falls_with_the_fourth_power_of_the_patch():
 
 def test_a_fixed_axis_has_one_node():
     axes = ((0.0, 3.0, 2), (0.7, 0.7, 0), (2.0, 8.0, 1))
-    data, steps = filled(cubic, axes)
-    found = read(data, steps, (1.2, 0.7, 5.0), axes)
+    data = filled(cubic, axes)
+    found = read(data, (1.2, 0.7, 5.0), axes)
     assert found == pytest.approx(cubic(1.2, 0.7, 5.0), rel=1e-12)
-    assert np.all(read(data, steps, (1.2, 0.7, 5.0), axes, slope_of=1) == 0.0)
+    assert np.all(read(data, (1.2, 0.7, 5.0), axes, along=(0.0, 1.0, 0.0)) == 0.0)
 
 
 def test_weights_add_up_to_one_and_their_slopes_to_none():
@@ -107,13 +124,16 @@ def test_weights_add_up_to_one_and_their_slopes_to_none():
     for x in np.linspace(0.0, 3.0, 31):
         enter_cell(cell, 0, x, 0.0, 3.0, 2)
         assert np.sum(cell[WEIGHT : WEIGHT + 4]) == pytest.approx(1.0, abs=1e-14)
-        assert np.sum(cell[SLOPE:N_AXIS]) == pytest.approx(0.0, abs=1e-12)
+        assert np.sum(cell[SLOPE : SLOPE + 4]) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_chebyshev_sums_are_those_of_numpy():
-    c = np.random.default_rng(4).normal(size=N_TERMS)
+@pytest.mark.parametrize("n", [2, 5, 12])
+def test_chebyshev_sums_are_those_of_numpy(n):
+    c = np.random.default_rng(4).normal(size=n)
     for u in (-1.0, -0.3, 0.0, 0.71, 1.0):
-        value, slope = polynomial_slope(c, 0, u)
-        assert polynomial(c, 0, u) == pytest.approx(chebyshev.chebval(u, c), rel=1e-13, abs=1e-13)
+        value, slope = polynomial_slope(c, 0, n, u)
+        assert polynomial(c, 0, n, u) == pytest.approx(
+            chebyshev.chebval(u, c), rel=1e-13, abs=1e-13
+        )
         assert value == pytest.approx(chebyshev.chebval(u, c), rel=1e-13, abs=1e-13)
         assert slope == pytest.approx(chebyshev.chebval(u, chebyshev.chebder(c)), rel=1e-12)

@@ -74,6 +74,10 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
             "washer.film_ratio": 6.6 * (1.0 - done) + 0.3 * done,
             "washer.fluid_load_share": 1.0 - 0.9 * done**8,
             "washer.friction_power": 12.0 * (1.0 - done),
+            "washer.oil_heat": 12.0 * (1.0 - done),
+            "washer.oil_flow": 6e-7 * (1.0 - done),
+            "washer.oil_outlet_temperature": 297.15 + 8.0 * (1.0 - done),
+            "washer.stick_margin": 3.0 + 9.0 * done,
             "washer.distress": ((t > 0.3) & (t < 0.34)).astype(float),
         }
         s["transmission.washer_heat"] = np.cumsum(8 * s["washer.friction_power"] * dt)

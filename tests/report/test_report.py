@@ -84,6 +84,17 @@ def test_page_carries_every_chapter_and_the_numbers(record):
         assert words in text
 
 
+def test_a_washer_that_gap_2_cannot_hold_is_a_warning(record):
+    held = shift_report.shift_page(record)
+    assert "Gap 2" not in " ".join(held.warnings)
+    table = next(s for s in held.sections if s.anchor == "washer").tables[0]
+    rows = {row[0]: row[1:] for row in table.rows}
+    assert rows["oil that leaves film 1 at its rims"][2] == "0.036 l/min"
+    loose = {**record.signals, "washer.stick_margin": record.signals["washer.film_ratio"] / 9.0}
+    said = shift_report.shift_page(replace(record, signals=loose)).warnings
+    assert any(w.startswith("Gap 2 cannot hold the washers: at ") for w in said)
+
+
 def test_same_record_gives_the_same_page(record):
     assert render(shift_report.shift_page(record)) == render(shift_report.shift_page(record))
 

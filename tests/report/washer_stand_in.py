@@ -21,6 +21,9 @@ class Fields:
     carrier_temperature: np.ndarray
     washer_temperature: np.ndarray
     film_temperature: np.ndarray
+    liquid_fraction: np.ndarray
+    flow_outward: np.ndarray
+    flow_around: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,13 @@ class Washer:
     fluid_load: float = 300.0
     contact_load: float = 0.0
     friction_coefficient: float = 0.0440443
+    friction_power: float = 221.2
+    oil_flow: float = 6.4e-6
+    throughflow_heat: float = 99.5
+    oil_heat: float = 221.2
+    oil_outlet_temperature: float = 306.3
+    film_temperature: float = 312.0
+    stick_margin: float = 3.9
     washer_tilt_x: float = -1.9e-5
     washer_tilt_y: float = 1.98e-3
     branch: str = "film"
@@ -50,7 +60,10 @@ class Washer:
         h = self.film_thickness + 2e-4 * (r[-1] - r[:, None] * np.cos(a))
         p = 2e6 * np.sin(np.pi * (r - r[0]) / (r[-1] - r[0]))[:, None] * np.maximum(np.sin(a), 0.0)
         t = self.temperature + 10.0 * np.cos(a) * (r / r[-1])[:, None] ** 2
-        return Fields(r, a, h, p, np.where(h < 3 * SIGMA, 1e6, 0.0), t, t, t)
+        liquid = np.ones((9, 1)) * np.where(np.sin(a) < 0.0, 0.6, 1.0)
+        around = 0.5 * 953.0 * r[:, None] * h * liquid
+        contact = np.where(h < 3 * SIGMA, 1e6, 0.0)
+        return Fields(r, a, h, p, contact, t, t, t, liquid, 0.2 * around, around)
 
 
 @dataclass(frozen=True)

@@ -50,6 +50,13 @@ def test_units_and_a_base_are_understood(tmp_path):
     assert scene.parts["transmission"].params.helix_angle == math.radians(20.0)
 
 
+def test_a_part_may_start_from_a_preset(tmp_path):
+    inside = 'preset = "paper"\nconduction = "carrier"'
+    params = load_scene(written(tmp_path, "", "washer", inside)).parts["washer"].params
+    assert (params.oil_cooling, params.conduction) == (False, "carrier")
+    assert params.outer_radius == load_scene("planetary").parts["washer"].params.outer_radius
+
+
 def test_a_base_beside_the_file_is_found(tmp_path):
     written(tmp_path, "step = 2e-3")
     (tmp_path / "top.toml").write_text('base = "mine.toml"\nstop_time = 1.0\n', encoding="utf-8")
@@ -99,6 +106,8 @@ def test_the_choice_of_master_reaches_the_transmission():
             'friction_law = "dry"',
             r"\[clutch\]: friction_law = 'dry', allowed: 'wang'",
         ),
+        ("", "clutch", 'preset = "paper"', r"\[clutch\]: there is no 'preset' here"),
+        ("", "washer", 'preset = "peper"', r"\[washer\]: preset = 'peper', allowed: 'paper'"),
         ("", "transmission", "oil_temperature = 300", r"oil_temperature cannot be set here"),
         ("", "transmission", "torque_age = 1", r"torque_age cannot be set here"),
         ("", "shift", "begin = 1", r"\[shift\]: there is no 'begin' here"),

@@ -217,8 +217,8 @@ def test_counted_substitution_lies_and_the_package_finds_the_root():
 
 def test_printed_forms_lose_their_digits_at_the_end_and_the_package_s_do_not():
     found = verdicts(closed_forms())
-    ours = [row for name, row in found.items() if name.startswith("the same")]
-    assert len(ours) == 2 and all(set(row.values()) == {OK} for row in ours)
+    ours = found["the same, the package's"]
+    assert set(ours.values()) == {OK}
     assert all(LIES in row.values() for name, row in found.items() if not name.startswith("the"))
 
 
@@ -246,9 +246,8 @@ def test_an_error_estimate_that_covers_the_error_is_one_too():
 def test_the_default_solver_is_no_liar_where_others_are():
     """Compiles the rival's loops for a minute."""
     found = verdicts(balance())
-    for default in ("field, the default, cold", "field, the default, warm", "map",
+    for default in ("field, the default, cold", "field, the default, warm",
                     "steps in film thickness"):  # fmt: skip
         assert set(found[default].values()) == {OK}
-    assert LIES not in found["closed form, oil at its own temperature"].values()
     assert found["Newton, limited, cold; temperatures substituted"]["near a fold"] == LIES
     assert found["Newton, limited, cold; temperatures relaxed"]["near a fold"] == OK

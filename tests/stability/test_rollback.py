@@ -22,7 +22,7 @@ COLD = 297.15
 
 
 def washer(rnd):
-    return [rnd.choice((1.0, 300.0, 700.0, 900.0, 3000.0)), rnd.uniform(-900.0, 900.0),
+    return [rnd.choice((1.0, 300.0, 800.0, 1100.0, 3000.0)), rnd.uniform(-900.0, 900.0),
             rnd.choice((0.0, 1e-3, 2e-3)), rnd.uniform(260.0, 400.0)]  # fmt: skip
 
 
@@ -43,7 +43,6 @@ MODELS = {
     "washer": (washer_params.SPEC, washer, {}),
     "washer, map": (washer_params.SPEC, washer, {"fidelity": "map"}),
     "washer, storing heat": (washer_params.SPEC, washer, {"thermal_mode": "transient"}),
-    "washer, stribeck": (washer_params.SPEC, washer, {"fidelity": "stribeck"}),
     "pack": (clutch_params.SPEC, pack, {}),
     "pack, looking ahead": (clutch_params.SPEC, pack, {"input_course": "linear"}),
     "pack, rings": (clutch_params.SPEC, pack, {"fidelity": "fine"}),

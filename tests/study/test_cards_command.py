@@ -33,11 +33,11 @@ def test_cards_names_stale_and_broken_files(folder, capsys):
     raw = json.loads((folder / "washer-fine.json").read_text())
     raw["kernels"]["sha256"] = "0" * 64
     (folder / "washer-fine.json").write_text(json.dumps(sealed(raw)))
-    (folder / "washer-closed.json").write_text("{")
+    (folder / "washer-coarse.json").write_text("{")
     assert main(["cards"]) == 0
     out = capsys.readouterr().out
     assert "python -m thrustwasher.study.verify washer fine" in out
-    assert "washer-closed.json: refused" in out
+    assert "washer-coarse.json: refused" in out
     assert "clutch: no cards; make them" in out
 
 

@@ -184,8 +184,8 @@ def test_a_quick_run_measures_everything_and_draws_it(tmp_path):
     assert record["machine"]["threads"]["OMP_NUM_THREADS"] == "1"
     washer = {s["label"]: s for s in record["models"]["washer"]["samples"]}
     rival = washer["2006, 9 x 67, 0.0001"]
-    for name in ("friction_torque", "temperature"):
-        assert washer["field"]["errors"][name]["worst"] < 0.05 * rival["errors"][name]["worst"]
+    for name, share in (("friction_torque", 0.05), ("temperature", 0.3)):
+        assert washer["field"]["errors"][name]["worst"] < share * rival["errors"][name]["worst"]
     assert washer["field"]["n_failed"] == 0
     lies = [c["verdict"] for g in record["stability"] for row in g["cells"] for c in row]
     assert {"ok", "LIES"} <= set(lies)

@@ -19,8 +19,9 @@ from thrustwasher.tribology.asperities import (
 from thrustwasher.tribology.closed_forms.greenwood import elastic_pressure
 
 E, NU, SY, RADIUS, DENSITY = 201e9, 0.296, 0.993e9, 1e-5, 6.865114e9
+BOTH = E / (2.0 * (1.0 - NU**2))  # E' of two such bodies
 SIGMA = math.sqrt(2.0) * 5.15e-7
-BASE = asperity_args(E, NU, SY, False, RADIUS)
+BASE = asperity_args(BOTH, E, NU, SY, False, RADIUS)
 SUMMIT = 0.045944 / (DENSITY * RADIUS * SIGMA)
 
 
@@ -70,8 +71,15 @@ def test_asperity_constants_have_their_known_values():
     assert BASE.critical_force == pytest.approx(1.741083e-4, rel=3e-7)
     assert BASE.c == pytest.approx(1.610213, abs=5e-7)
     assert BASE.b == pytest.approx(0.156847, abs=5e-7)
-    contact_modulus = E / (2 * (1 - NU**2))
-    assert asperity_args(E, NU, SY, True, RADIUS).yield_strain == SY / contact_modulus
+    assert asperity_args(BOTH, E, NU, SY, True, RADIUS).yield_strain == SY / BOTH
+
+
+def test_a_softer_pair_is_pressed_in_further_before_it_yields():
+    """w_c goes as 1/E'^2, P_c as 1/E'^2; the constants of the softer body stay its own."""
+    half = asperity_args(0.5 * BOTH, E, NU, SY, False, RADIUS)
+    assert half.critical_interference == pytest.approx(4.0 * BASE.critical_interference, rel=1e-14)
+    assert half.critical_force == pytest.approx(4.0 * BASE.critical_force, rel=1e-14)
+    assert (half.c, half.b, half.yield_strain) == (BASE.c, BASE.b, BASE.yield_strain)
 
 
 @pytest.mark.parametrize(
@@ -105,8 +113,8 @@ def test_table_agrees_with_quadrature(d):
 
 @pytest.mark.parametrize("t", [0.0, 1.0, 3.0, -2.0, 5.5])
 def test_without_yield_it_is_greenwood_and_williamson(t):
-    table = table_of(asperity_args(E, NU, 1e13, False, RADIUS))
-    expected = elastic_pressure(t, E / (2 * (1 - NU**2)), RADIUS, DENSITY, SIGMA)
+    table = table_of(asperity_args(BOTH, E, NU, 1e13, False, RADIUS))
+    expected = elastic_pressure(t, BOTH, RADIUS, DENSITY, SIGMA)
     assert contact_pressure(t, table)[0] == pytest.approx(expected, rel=1e-10)
 
 
@@ -138,7 +146,7 @@ def test_pressure_falls_with_separation():
 
 
 def test_contact_that_cannot_be_tabulated_is_said():
-    bad = asperity_args(E, NU, math.nan, False, RADIUS)
+    bad = asperity_args(BOTH, E, NU, math.nan, False, RADIUS)
     assert not contact_table(bad, DENSITY, SIGMA, np.empty(N_TABLE), np.empty(N_CONTACT_WORK))
 
 

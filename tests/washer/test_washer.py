@@ -15,22 +15,26 @@ from thrustwasher import BranchError, ParameterError, Status, WasherParams, solv
 from thrustwasher.tribology.asperities import contact_pressure
 from thrustwasher.tribology.viscosity import viscosity
 from thrustwasher.washer.kernels.constants import washer_model
-from thrustwasher.washer.parameters import CONDUCTION
+from thrustwasher.washer.parameters import CONDUCTION, PRESETS
 from thrustwasher.washer.solve import constants
+from thrustwasher.washer.washer_result import hold_warning
 
 POINTS = {
     "film": ({"load": 300.0, "speed": 953.0}, {}),
     "turning back": ({"load": 300.0, "speed": -953.0}, {}),
     "mixed": ({"load": 600.0, "speed": 136.0}, {}),
     "boundary": ({"load": 1361.0, "speed": 136.0}, {}),
-    "past the fold": ({"load": 900.0, "speed": 545.0}, {}),
+    "past the fold": ({"load": 1100.0, "speed": 545.0}, {}),
     "uneven split": ({"load": 900.0, "speed": 545.0}, {"heat_split": 0.3}),
     "constant friction": ({"load": 900.0, "speed": 300.0}, {"friction_law": "constant"}),
     "unequal surfaces": (
         {"load": 500.0, "speed": 300.0},
         {"roughness_carrier": 9e-7, "roughness_gear": 3e-7},
     ),
-    "axisymmetric carrier": ({"load": 300.0, "speed": 545.0}, {"conduction": "rotating"}),
+    "carrier turns": ({"load": 300.0, "speed": 545.0}, {"conduction": "rotating"}),
+    "hot supply": ({"load": 300.0, "speed": 953.0}, {"oil_supply_temperature": 340.0}),
+    "liquid alone shears": ({"load": 300.0, "speed": 953.0}, {"cavity_shear": "liquid"}),
+    "the paper's": ({"load": 900.0, "speed": 545.0}, PRESETS["paper"]),
 }
 
 
@@ -89,24 +93,67 @@ def test_film_and_contact_carry_the_load_without_a_moment_left(name):
 
 @pytest.mark.parametrize("name", POINTS)
 def test_torque_times_speed_is_the_heat_that_leaves(name):
-    """Through the far faces of carrier and gear; the gear's part from the washer's balance."""
+    """Through the far faces of carrier and gear, and with the oil that leaves."""
     point, changes = POINTS[name]
     r = solve(point, **changes)
-    m = model_of(r)
-    n_r, n_t, i_g = m.n_r, m.n_t, m.i_g
-    column = r._state[32 : 32 + (3 * n_r - i_g) * n_t].reshape(n_t, 3 * n_r - i_g).T
+    i_g = model_of(r).i_g
     total = Integral(r)
     out = total(total.f.carrier_temperature - r.oil_temperature) * 60.5 / 0.01
-    out += total(column[2 * n_r :], i_g) * 60.5 / 0.01
-    assert out == pytest.approx(r.friction_torque * r.speed, rel=2e-5)
+    out += total(total.f.gear_temperature[i_g:] - r.oil_temperature, i_g) * 60.5 / 0.01
+    assert out + r.throughflow_heat == pytest.approx(r.friction_power, rel=2e-5)
+    assert r.oil_heat == pytest.approx(r.friction_power, rel=2e-5)
+    assert r.friction_power == pytest.approx(r.friction_torque * r.speed, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", POINTS)
+def test_oil_leaves_with_the_heat_it_carries(name):
+    point, changes = POINTS[name]
+    r = solve(point, **changes)
+    supply = r.params.oil_supply_temperature or r.oil_temperature
+    carried = 850.0 * 2000.0 * r.oil_flow * (r.oil_outlet_temperature - supply)
+    assert carried == pytest.approx(r.throughflow_heat, rel=1e-9, abs=1e-9)
+    assert r.oil_flow > 0.0 and bool(r.throughflow_heat) == r.params.oil_cooling
+
+
+def test_a_body_that_turns_has_one_temperature_on_each_circle():
+    f = solve({"load": 300.0, "speed": 545.0}).fields()
+    assert np.ptp(f.washer_temperature, axis=1).max() == 0.0 < np.ptp(f.carrier_temperature)
+    has_gear = f.radius >= WasherParams().gear_inner_radius * (1.0 - 1e-12)
+    np.testing.assert_array_equal(np.isfinite(f.gear_temperature).all(axis=1), has_gear)
+    assert 0.0 < f.liquid_fraction.min() < 0.9
+    assert f.liquid_fraction.max() == pytest.approx(1.0, abs=1e-14)
+    turned = solve({"load": 300.0, "speed": 545.0}, conduction="rotating").fields()
+    assert np.ptp(turned.carrier_temperature, axis=1).max() == 0.0
+
+
+def test_the_flow_of_the_fields_is_what_leaves():
+    """Liquid that leaves over a rim comes from the last cells before it; a mesh's error is left."""
+    r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, fidelity="fine")
+    f = r.fields()
+    assert (f.flow_around > 0.0).mean() > 0.9
+    angle = np.append(f.angle, f.angle[0] + 2.0 * np.pi)
+    middle = np.unwrap(angle)
+    width = 0.5 * (np.roll(np.diff(middle), 1) + np.diff(middle))
+    out = f.radius[-1] * np.maximum(f.flow_outward[-1], 0.0) @ width
+    out -= f.radius[0] * np.minimum(f.flow_outward[0], 0.0) @ width
+    assert out == pytest.approx(r.oil_flow, rel=0.3)
+
+
+def test_a_gap_that_cannot_hold_the_washer_is_said():
+    held = solve({"load": 300.0, "speed": 953.0})
+    loose = solve({"load": 1.0, "speed": 953.0})
+    assert held.stick_margin > 1.0 > loose.stick_margin > 0.0
+    assert hold_warning(held) == ""
+    assert "gap 2 cannot hold the washer" in hold_warning(loose)
 
 
 @pytest.mark.parametrize("name", POINTS)
 def test_torque_and_mean_temperature_come_out_of_the_fields(name):
     point, changes = POINTS[name]
-    r = solve(point, **changes)
+    r = solve(point, **changes | {"pressure_flow_shear": False})
     total, p = Integral(r), r.params
     f = total.f
+    liquid = f.liquid_fraction if p.cavity_shear == "liquid" else 1.0
     sigma = math.hypot(p.roughness_carrier or 5.15e-7, p.roughness_washer or 5.15e-7)
     u = f.film_thickness / sigma
     cdf = np.vectorize(lambda v: 0.5 * math.erfc(-v / math.sqrt(2.0)))(u)
@@ -116,10 +163,13 @@ def test_torque_and_mean_temperature_come_out_of_the_fields(name):
     if p.friction_law == "constant":
         dry = p.dry_friction
     radius = f.radius[:, None]
-    shear = mu * r.speed * radius / mean_gap + math.copysign(dry, r.speed) * f.contact_pressure
+    shear = liquid * mu * r.speed * radius / mean_gap
+    shear = shear + math.copysign(dry, r.speed) * f.contact_pressure
     assert total(shear * radius) == pytest.approx(r.friction_torque, rel=2e-4)
     area = total(np.ones_like(u))
-    assert total(f.film_temperature) / area == pytest.approx(r.temperature, abs=1e-3)
+    assert total(f.film_temperature) / area == pytest.approx(r.film_temperature, abs=1e-3)
+    walls = 0.5 * (f.carrier_temperature + f.washer_temperature)
+    assert total(walls) / area == pytest.approx(r.temperature, abs=1e-3)
     assert r.film_ratio == pytest.approx(r.film_thickness / sigma, rel=1e-12)
     assert r.temperature_max == max(f.carrier_temperature.max(), f.washer_temperature.max())
     assert r.film_thickness <= f.film_thickness.min() + 1e-15
@@ -193,16 +243,16 @@ def test_more_load_makes_the_film_thinner_on_the_film_branch():
 
 
 def test_both_branches_are_answered_between_the_folds():
-    film = solve({"load": 600.0, "speed": 545.0, "branch": "film"})
-    contact = solve({"load": 600.0, "speed": 545.0, "branch": "contact"})
+    film = solve({"load": 800.0, "speed": 545.0, "branch": "film"})
+    contact = solve({"load": 800.0, "speed": 545.0, "branch": "contact"})
     assert (film.branch, contact.branch) == ("film", "contact")
     assert (film.distress, contact.distress) == (False, True)
-    assert film.film_ratio > 2.65 and contact.film_ratio < 1.22
+    assert film.film_ratio > 2.33 and contact.film_ratio < 1.10
     assert contact.friction_torque > 3.0 * film.friction_torque
     # without a wish: loaded up from light load
-    assert solve({"load": 600.0, "speed": 545.0}).film_ratio == pytest.approx(film.film_ratio)
+    assert solve({"load": 800.0, "speed": 545.0}).film_ratio == pytest.approx(film.film_ratio)
     # from a start: its branch
-    followed = solve({"load": 610.0, "speed": 545.0, "start": contact})
+    followed = solve({"load": 810.0, "speed": 545.0, "start": contact})
     assert followed.branch == "contact"
 
 
@@ -221,7 +271,7 @@ def test_heat_split_moves_heat_to_the_body_named(split):
 
 
 def test_a_film_that_heats_nothing_is_isothermal():
-    r = solve({"load": 300.0, "speed": 953.0}, film_heat_fraction=0.0)
+    r = solve({"load": 300.0, "speed": 953.0}, film_heat_fraction=0.0, oil_cooling=False)
     assert r.temperature == pytest.approx(297.15, abs=1e-6)
     assert r.friction_torque > 1.4 * solve({"load": 300.0, "speed": 953.0}).friction_torque
 
@@ -248,7 +298,8 @@ def test_every_conduction_option_keeps_the_energy(option):
     r = solve(point, conduction=option)
     assert r.status is Status.OK
     total = Integral(r)
-    mean = total(total.f.film_temperature) / total(np.ones_like(total.f.film_temperature))
+    walls = 0.5 * (total.f.carrier_temperature + total.f.washer_temperature)
+    mean = total(walls) / total(np.ones_like(walls))
     assert mean == pytest.approx(r.temperature, abs=0.05)
 
 
@@ -307,16 +358,16 @@ def test_bad_input_is_named_with_its_value_and_what_is_allowed(change, words):
 
 def test_a_film_that_cannot_exist_is_said_not_hidden():
     with pytest.raises(BranchError) as caught:
-        solve({"load": 900.0, "speed": 545.0, "branch": "film"})
+        solve({"load": 1100.0, "speed": 545.0, "branch": "film"})
     message = str(caught.value)
-    assert all(w in message for w in ("branch", "'film'", "900", "N", "'contact'", "545", "0.002"))
+    assert all(w in message for w in ("branch", "'film'", "1100", "N", "'contact'", "545", "0.002"))
     with pytest.raises(BranchError, match="'contact'"):
         solve({"load": 300.0, "speed": 545.0, "branch": "contact"})
 
 
 def test_without_throw_the_other_branch_comes_with_its_status():
-    r = solve({"load": 900.0, "speed": 545.0, "branch": "film", "throw": False})
+    r = solve({"load": 1100.0, "speed": 545.0, "branch": "film", "throw": False})
     assert r.status is Status.NO_BRANCH and r.branch == "contact"
     assert r.friction_torque == pytest.approx(
-        solve({"load": 900.0, "speed": 545.0}).friction_torque, rel=1e-6
+        solve({"load": 1100.0, "speed": 545.0}).friction_torque, rel=1e-6
     )

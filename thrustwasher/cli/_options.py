@@ -7,7 +7,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
-from ..model.parameters import allowed
+from ..model.parameters import allowed, made_of
 from ..model.record import Option, resolve
 from ..units import parse_quantity
 
@@ -38,8 +38,18 @@ def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> di
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
-    """Add ``--set`` and ``--parameters``."""
+    """Add ``--set`` and ``--parameters``, and ``--preset`` if the model has presets."""
     group = parser.add_argument_group("parameters")
+    if spec.presets:
+        changes = "; ".join(
+            f"{name}: {', '.join(f'{k} = {v}' for k, v in changed.items()) or 'the defaults'}"
+            for name, changed in spec.presets.items()
+        )
+        usual = next((name for name, changed in spec.presets.items() if not changed), None)
+        group.add_argument(
+            "--preset", choices=list(spec.presets), default=usual,
+            help=f"what --set starts from; {changes}; default {usual or 'none of them'}",
+        )  # fmt: skip
     names = {f.name: _default(f) for f in fields(spec.params)}
     first = next(iter(names))
     example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]}"
@@ -62,8 +72,10 @@ class _ListParameters(argparse.Action):
 
 
 def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
-    """Return the parameter object with every ``--set`` applied; its own checks included."""
-    return spec.params(**read_settings(arguments, spec))
+    """Return the preset or the defaults with every ``--set`` applied; their own checks included."""
+    settings = read_settings(arguments, spec)
+    preset = getattr(arguments, "preset", None)
+    return made_of(spec, preset, settings)
 
 
 def read_settings(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, Any]:

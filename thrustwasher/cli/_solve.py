@@ -25,16 +25,6 @@ class PointCommand:
         inputs = sorted(_inputs(model, spec), key=lambda signal: signal not in spec.inputs)
         _options.add_inputs(parser, inputs)
         _options.add_parameters(parser, spec)
-        if model.presets:
-            presets = resolve(model.presets)
-            changes = "; ".join(
-                f"{name}: {', '.join(f'{k} = {v}' for k, v in changed.items()) or 'the defaults'}"
-                for name, changed in presets.items()
-            )
-            parser.add_argument(
-                "--preset", choices=list(presets), default=next(iter(presets)),
-                help=f"what --set starts from; {changes}; default {next(iter(presets))}",
-            )  # fmt: skip
         _options.add_fidelity(parser, spec, auto=self._model.ladder is not None)
         _options.add_options(parser, model.options)
         _output.add_targets(parser, plot=model.figure_help if model.figure else "")
@@ -44,10 +34,8 @@ class PointCommand:
         model, spec = self._command, self._model.spec
         inputs = _inputs(model, spec)
         point = _options.read_inputs(arguments, inputs)
-        settings = _options.read_settings(arguments, spec)
-        given = {"preset": arguments.preset} if model.presets else {}
-        params = (spec.params.preset(arguments.preset, **settings) if model.presets
-                  else spec.params(**settings))  # fmt: skip
+        params = _options.read_parameters(arguments, spec)
+        given = {"preset": arguments.preset} if spec.presets else {}
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
 
@@ -68,6 +56,8 @@ class PointCommand:
         _output.print_rows(list(_rows(model, spec, result, point)))
         if model.variants:
             _print_variants(model.variants, result, parameters)
+        if warning := resolve(model.warning)(result) if model.warning else "":
+            print(f"  {warning}")
         print(f"  {result.status.advice}; {model.closing.format(**found)}, {wall_time:.3g} s")
         return 0
 

@@ -14,7 +14,9 @@ INPUTS = [signal for signal in SPEC.inputs if signal.name != "load"]
 COLUMNS = {
     "load": "N", "film_ratio": "1", "film_thickness": "m", "friction_torque": "N.m",
     "friction_coefficient": "1", "temperature": "K", "temperature_max": "K", "fluid_load": "N",
-    "contact_load": "N", "branch": "",
+    "contact_load": "N", "friction_power": "W", "oil_flow": "m3/s", "throughflow_heat": "W",
+    "oil_heat": "W", "oil_outlet_temperature": "K", "film_temperature": "K", "stick_margin": "1",
+    "branch": "",
 }  # fmt: skip
 TABLE = ("load", "film_ratio", "friction_torque", "friction_coefficient", "temperature", "branch")
 WIDTH = 22

@@ -26,7 +26,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             help=f"{signal.help} [{signal.unit}]",
         )  # fmt: skip
     _options.add_parameters(parser, SPEC)
-    parser.add_argument("--fidelity", default="fine", help="mesh to chart: fine (default), field")
+    parser.add_argument("--tolerance", metavar="X",
+                        help="relative error of the torque allowed, default 0.005")  # fmt: skip
+    parser.add_argument("--fidelity", help="mesh to chart: fine, field; default: as the tolerance "
+                        "needs")  # fmt: skip
     parser.add_argument("--out", default="washer.twm", metavar="FILE", help="default washer.twm")
     parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     parser.add_argument("--points", type=int, default=200, metavar="N",
@@ -52,8 +55,12 @@ def _build(arguments: argparse.Namespace) -> int:
            for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
 
     from ..washer.map.map_build import make_map
+    from ..washer.map.map_plan import TOLERANCE
 
-    card = make_map(params, Path(out), box=box, fidelity=arguments.fidelity,
+    tolerance = TOLERANCE
+    if arguments.tolerance is not None:
+        tolerance = parse_quantity(arguments.tolerance, "1", "tolerance")
+    card = make_map(params, Path(out), box=box, tolerance=tolerance, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
                     progress=time_left)  # fmt: skip
     _show(card, str(out), arguments.json)
@@ -87,6 +94,7 @@ def _list(arguments: argparse.Namespace) -> int:
 def _check(arguments: argparse.Namespace) -> int:
     if not arguments.file:
         raise ParameterError("check: the map file is wanted, `thrustwasher map check FILE`")
+    from ..processes import runner
     from ..washer.map.map_check import check_map
     from ..washer.map.map_file import read_map
     from ..washer.parameters import WasherParams
@@ -96,10 +104,11 @@ def _check(arguments: argparse.Namespace) -> int:
         params = WasherParams(**file.card["params"])
     except (KeyError, TypeError):
         raise ParameterError(f"map = {arguments.file!r}: its card names no parameters") from None
-    verdict = check_map(
-        params, arguments.file, points=arguments.points, fidelity=str(file.card["built_from"]),
-        workers=arguments.workers or 1, progress=time_left("held-out points"),
-    )  # fmt: skip
+    with runner(arguments.workers or 1) as run:
+        verdict = check_map(
+            params, arguments.file, points=arguments.points, fidelity=str(file.card["built_from"]),
+            run=run, progress=time_left("held-out points"),
+        )  # fmt: skip
     card = {**file.card, "held_out": asdict(verdict)}
     _show(card, arguments.file, arguments.json)
     return 0
@@ -115,14 +124,13 @@ def _show(card: dict[str, Any], path: str, as_json: bool) -> None:
         f"{name} {ends[0]:g} .. {ends[1]:g} {units[name]}" for name, ends in card["box"].items()
     )
     print(f"{path}: {box}")
-    nodes = " x ".join(str(n) for n in card["nodes"])
-    print(f"  {nodes} curves on the {card['built_from']} mesh, {card['build_s']:g} s with "
-          f"{card['workers']} processes")  # fmt: skip
+    print(f"  tolerance {card['tolerance']:g}: {card['lines']} curves on the {card['built_from']} "
+          f"mesh, {card['build_s']:g} s with {card['workers']} processes")  # fmt: skip
     held = card["held_out"]
     if held:
         print(
             f"  held out ({held['points']:g} points): torque within {held['torque']:.2g} (rms "
             f"{held['torque_rms']:.2g}), {held['torque_near_fold']:.2g} within 3 % of a fold; film "
-            f"ratio {held['film_ratio']:.2g}; temperature {held['temperature']:.2g} K; loads of "
-            f"{held['folds']:g} folds {held['fold_load']:.2g}"
+            f"ratio {held['film_ratio']:.2g}; temperature {held['temperature']:.2g} K; oil within "
+            f"{held['oil']:.2g}; loads of {held['folds']:g} folds {held['fold_load']:.2g}"
         )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError, SolveError
+from ..model.parameters import made_of
 from ..model.registry import models_with_points, spec_of
 from ..model.spec import ModelSpec
 from ..sweep.axes import places, split_setting
@@ -34,6 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
         help="hold an input or parameter at a value, e.g. --set roughness=4e-7; may be repeated",
     )  # fmt: skip
+    parser.add_argument(
+        "--preset", metavar="NAME", help="named set of parameters to start from, e.g. paper"
+    )
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
     for name, units in _inputs().items():
         inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
@@ -57,6 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Sweep, then write the table and say how it went."""
     spec = spec_of(arguments.model)
     at = _held(arguments, spec)
+    params = made_of(spec, arguments.preset, {})
     out = None
     if arguments.out:
         out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
@@ -67,8 +72,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     began = time.perf_counter()
     table = run_sweep(
-        spec.key, _axes(arguments.over), at=at, points=points, fidelity=arguments.fidelity, out=out,
-        workers=_workers(arguments.workers), cluster=arguments.cluster,
+        spec.key, _axes(arguments.over), at=at, points=points, params=params,
+        fidelity=arguments.fidelity, out=out, workers=_workers(arguments.workers),
+        cluster=arguments.cluster,
         progress=_progress(spec),
     )  # fmt: skip
     if table.choice:

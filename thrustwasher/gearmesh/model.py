@@ -23,7 +23,6 @@ MODEL = Model(
                      "help": "transmitted power, of which the size counts"},
         },
         place="thrustwasher.gearmesh.solve:under_torque",
-        presets="thrustwasher.gearmesh.parameters:PRESETS",
         extra={
             "asperity_temperature": ("K", "temperature of the asperities of the flank"),
             "contact_ratio": ("1", "mean number of tooth pairs in contact"),

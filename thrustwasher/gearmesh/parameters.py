@@ -5,8 +5,15 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ..errors import ParameterError
-from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, quantity
+from ..model.parameters import (
+    as_numbers,
+    check_ranges,
+    check_rules,
+    choice,
+    count,
+    from_preset,
+    quantity,
+)
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 SURFACES = {
@@ -226,9 +233,7 @@ class GearMeshParams:
         >>> GearMeshParams.preset("literal", pinion_teeth=30).face_width
         1.0
         """
-        if name not in PRESETS:
-            raise ParameterError(f"preset = {name!r}, allowed: {' or '.join(map(repr, PRESETS))}")
-        return cls(**(PRESETS[name] | changes))
+        return from_preset(cls, PRESETS, name, changes)
 
 
 LOAD = Signal(name="load", unit="N.m", help="torque on the pinion, its sign does not matter",
@@ -283,6 +288,7 @@ SPEC = ModelSpec(
     inputs=(LOAD, SPEED, OIL),
     outputs=OUTPUTS,
     kernel="thrustwasher.gearmesh.kernels.step",
+    presets=PRESETS,
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.MeshFlange",

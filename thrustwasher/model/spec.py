@@ -111,6 +111,8 @@ class ModelSpec:
     inputs: tuple[Signal, ...]
     outputs: tuple[Signal, ...]  # real outputs fill `out` in order, all others `iout`
     kernel: str  # dotted name of the module with derive(), step() and so on
+    presets: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    """Named sets of parameters: name -> those that are not at their defaults."""
     rules: tuple[Rule, ...] = ()  # between parameters, in the order of the kernel's broken_rule()
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0

@@ -58,17 +58,16 @@ def cholesky(a: Array, n: int, band: int) -> bool:
 
 
 @kernel
-def mirror(a: Array, n: int, band: int) -> None:
-    """Write the factor in ``a[: n w]``, w = band + 1, once more behind it: by rows, last row first.
+def mirror(a: Array, to: Array, n: int, band: int) -> None:
+    """Write a factor to ``to`` once more, by rows, last row first.
 
     The way back of a solve is then the way forth with everything reversed, along memory.
     """
     w = band + 1
     for j in range(n):
         row = n - 1 - j
-        to = (n + j) * w
         for k in range(min(band, row) + 1):
-            a[np.uintp(to + k)] = a[np.uintp((row - k) * w + k)]
+            to[np.uintp(j * w + k)] = a[np.uintp((row - k) * w + k)]
 
 
 @kernel
@@ -111,12 +110,14 @@ def _reverse(b: Array, n: int) -> None:
 
 
 @kernel
-def cholesky_solve(a: Array, b: Array, n: int, band: int) -> None:
-    """Replace the right side ``b`` (n,) by the solution; ``a`` is of `cholesky` and `mirror`."""
-    size = n * (band + 1)
-    _forth(a, b, n, band)
+def factor_solve(lower: Array, mirrored: Array, b: Array, n: int, band: int) -> None:
+    """Replace the right side ``b`` (n,) by the solution.
+
+    ``lower`` and ``mirrored`` are the factor of `cholesky` and its `mirror`, or those of `halve`.
+    """
+    _forth(lower, b, n, band)
     _reverse(b, n)
-    _forth(a[size:], b, n, band)
+    _forth(mirrored, b, n, band)
     _reverse(b, n)
 
 
@@ -151,39 +152,105 @@ def cholesky_solve_many(a: Array, b: Array, n: int, band: int) -> None:
 
 
 @kernel
+def band_solve(a: Array, b: Array, n: int, band: int) -> None:
+    """Replace ``b[:n]`` by the solution, given the factor of `cholesky` alone."""
+    _forth(a, b, n, band)
+    w = band + 1
+    for j in range(n - 1, -1, -1):
+        c = j * w
+        s = b[j]
+        for k in range(1, min(band, n - 1 - j) + 1):
+            s -= a[np.uintp(c + k)] * b[np.uintp(j + k)]
+        b[j] = s / a[c]
+
+
+@kernel
 def lu(a: Array, n: int, band: int) -> bool:
     """Replace ``a`` by its LU factors, no row exchange; return False at a zero pivot.
 
-    Holds for matrices dominated by their diagonal, as conduction with a falling source is.
+    Holds for matrices dominated by their diagonal, as conduction and transport with a falling
+    source are. Rows go in pairs: each pair updates the rest in one pass.
     """
     w = 2 * band + 1
-    for j in range(n):
-        row = j * w + band
-        if not (a[row] != 0.0 and math.isfinite(a[row])):
+    j = 0
+    while j < n:
+        one = j * w + band
+        if not (a[one] != 0.0 and math.isfinite(a[one])):
             return False
+        per_one = 1.0 / a[one]
         end = min(band, n - 1 - j)
-        for m in range(1, end + 1):
-            target = (j + m) * w + band - m
-            f = a[target] / a[row]
-            a[target] = f
+        if end == 0:
+            return True
+        two = one + w - 1  # row j + 1, column j
+        f = a[two] * per_one
+        a[two] = f
+        for k in range(1, end + 1):
+            a[np.uintp(two + k)] -= f * a[np.uintp(one + k)]
+        pivot = a[two + 1]
+        if not (pivot != 0.0 and math.isfinite(pivot)):
+            return False
+        per_two = 1.0 / pivot
+        last = min(band, n - 2 - j)  # of the second row's columns
+        for m in range(2, end + 1):
+            target = one + m * (w - 1)
+            f0 = a[target] * per_one
+            f1 = (a[target + 1] - f0 * a[one + 1]) * per_two
+            a[target], a[target + 1] = f0, f1
+            for k in range(2, end + 1):
+                a[np.uintp(target + k)] -= f0 * a[np.uintp(one + k)] + f1 * a[np.uintp(two + k)]
+            if last == end:
+                a[target + end + 1] -= f1 * a[two + end + 1]
+        if last == end:
+            target = one + (end + 1) * (w - 1) + 1  # the row that only the second reaches
+            f1 = a[target] * per_two
+            a[target] = f1
             for k in range(1, end + 1):
-                a[np.uintp(target + k)] -= f * a[np.uintp(row + k)]
+                a[np.uintp(target + k)] -= f1 * a[np.uintp(two + 1 + k)]
+        j += 2
     return True
 
 
 @kernel
-def lu_solve(a: Array, b: Array, n: int, band: int) -> None:
-    """Replace the right side ``b`` (n,) by the solution, given the factors of `lu`."""
-    w = 2 * band + 1
-    for i in range(n):
-        row = i * w + band
-        s = b[i]
-        for k in range(max(-band, -i), 0):
-            s -= a[np.uintp(row + k)] * b[np.uintp(i + k)]
-        b[i] = s
-    for i in range(n - 1, -1, -1):
-        row = i * w + band
-        s = b[i]
-        for k in range(1, min(band, n - 1 - i) + 1):
-            s -= a[np.uintp(row + k)] * b[np.uintp(i + k)]
-        b[i] = s / a[row]
+def halve(a: Array, lower: Array, mirrored: Array, n: int, band: int) -> None:
+    """Write the factors of `lu` to two arrays that `factor_solve` takes."""
+    w, wide = band + 1, 2 * band + 1
+    for j in range(n):
+        lower[j * w] = 1.0
+        for k in range(1, min(band, n - 1 - j) + 1):
+            lower[np.uintp(j * w + k)] = a[np.uintp((j + k) * wide + band - k)]
+        row = n - 1 - j
+        for k in range(min(band, row) + 1):
+            mirrored[np.uintp(j * w + k)] = a[np.uintp((row - k) * wide + band + k)]
+
+
+@kernel
+def _forth_many(a: Array, b: Array, n: int, band: int) -> None:
+    """Solve with the lower factor ``a`` (by columns) in place of ``b[row * N_SIDES + side]``."""
+    w = band + 1
+    for j in range(n):
+        c, here = j * w, j * N_SIDES
+        scale = 1.0 / a[c]
+        for s in range(N_SIDES):
+            b[np.uintp(here + s)] *= scale
+        for k in range(1, min(band, n - 1 - j) + 1):
+            f = a[np.uintp(c + k)]
+            there = (j + k) * N_SIDES
+            for s in range(N_SIDES):
+                b[np.uintp(there + s)] -= f * b[np.uintp(here + s)]
+
+
+@kernel
+def _reverse_many(b: Array, n: int) -> None:
+    for k in range(n // 2):
+        for s in range(N_SIDES):
+            one, two = np.uintp(k * N_SIDES + s), np.uintp((n - 1 - k) * N_SIDES + s)
+            b[one], b[two] = b[two], b[one]
+
+
+@kernel
+def factor_solve_many(lower: Array, mirrored: Array, b: Array, n: int, band: int) -> None:
+    """Solve for ``N_SIDES`` right sides at once, in place; see `factor_solve`."""
+    _forth_many(lower, b, n, band)
+    _reverse_many(b, n)
+    _forth_many(mirrored, b, n, band)
+    _reverse_many(b, n)

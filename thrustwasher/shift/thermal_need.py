@@ -6,18 +6,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..washer.closed_forms.heated_ring import stack_times
+from ..washer.kernels.ladder import SHARES, TIMES
 from ..washer.parameters import WasherParams
 
 SLOW = 5.0  # a change that takes so many of the slowest time constants is followed by steady states
 MIDDLE = (0.1, 0.9)  # share of all change of power that counts
 
 
-def body_times(params: WasherParams, gap: float) -> tuple[float, float, float]:
-    """Return the time constants [s] of a washer's bodies; the films are ``gap`` [m] thick."""
+def body_times(params: WasherParams, gap: float) -> tuple[float, float]:
+    """Return the shortest and the longest time [s] in which a washer's bodies settle.
+
+    The films are ``gap`` [m] thick.
+    """
     p = params
-    across = gap / p.oil_conductivity + 0.5 * p.washer_thickness / p.conductivity
-    bodies = (p.carrier_thickness, p.washer_thickness, p.gear_thickness)
-    return stack_times(bodies, p.conductivity, p.density * p.specific_heat, across, across)
+    carrier, washer, gear = (
+        (own[0] or p.conductivity, (own[1] or p.density) * (own[2] or p.specific_heat))
+        for own in (
+            (p.conductivity_carrier, p.density_carrier, p.specific_heat_carrier),
+            (p.conductivity_washer, p.density_washer, p.specific_heat_washer),
+            (p.conductivity_gear, p.density_gear, p.specific_heat_gear),
+        )
+    )
+    across = gap / p.oil_conductivity + 0.5 * p.washer_thickness / washer[0]
+    times = stack_times(
+        (carrier[0] / p.carrier_thickness, gear[0] / p.gear_thickness),
+        (carrier[1] * p.carrier_thickness, washer[1] * p.washer_thickness,
+         gear[1] * p.gear_thickness),
+        across, across,
+        ((1.0, 1.0),) if p.body_storage == "lumped" else tuple(zip(SHARES, TIMES, strict=True)),
+    )  # fmt: skip
+    return times[0], times[-1]
 
 
 def change_time(time: NDArray[np.float64], power: NDArray[np.float64]) -> float:
@@ -36,7 +54,7 @@ def thermal_need(
 ) -> str:
     """Say which thermal mode the washer needs and which one ran."""
     gap = max(float(np.median(signals["film_thickness"])), params.roughness)
-    quickest, _, slowest = body_times(params, gap)
+    quickest, slowest = body_times(params, gap)
     change = change_time(time, signals["friction_power"])
     transient = params.thermal_mode == "transient"
     span = f"the washer's bodies settle within {quickest:.2g} .. {slowest:.2g} s"

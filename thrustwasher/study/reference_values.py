@@ -64,7 +64,7 @@ class Source:
 
     solve: Callable[[Any, Point], list[ReferencePoint]]
     answer: Callable[[Any, str, ReferencePoint], Answer]  # of parameters, rung; on the branch
-    at_case: Callable[..., ReferenceValues]  # of a chart: its point, the points before it
+    at_case: Callable[..., ReferenceValues]  # of a chart: its point, those before it, a preset
     kernels: tuple[str, ...]  # whose change makes kept values worthless
     grid: tuple[int, ...] | None
     routes: tuple[str, ...]

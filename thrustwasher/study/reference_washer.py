@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from ..errors import SolveError, Status
 from ..ladder.card_parts import QUANTITIES
+from ..model.parameters import made_of
 from ..washer.kernel_arguments import constants
 from ..washer.kernels.constants import WasherModel, washer_model
 from ..washer.kernels.layout import S_FACTOR_VALID, S_FIELDS
 from ..washer.kernels.workspace import size_of_state
 from ..washer.load_curve import load_curve
-from ..washer.parameters import WasherParams
+from ..washer.parameters import SPEC, WasherParams
 from ..washer.solve import GRIDS as MESHES
 from ..washer.solve import WasherResult, _solve, solve_washer
 from ..washer.washer_result import BRANCHES
@@ -97,23 +98,27 @@ def interpolate_to_mesh(result: WasherResult, grid: tuple[int, int]) -> WasherRe
     """Return ``result`` as if it had been found on ``grid``: positions kept, fields resampled."""
     old = washer_model(constants(result.params, result.grid))
     new = washer_model(constants(result.params, grid))
-    column = 3 * old.n_r - old.i_g
-    n_temp = column * old.n_t
-    fields = result._state[S_FIELDS : S_FIELDS + n_temp].reshape(old.n_t, column)
-    pressure = result._state[S_FIELDS + n_temp :][: old.n_r * old.n_t].reshape(old.n_t, old.n_r)
-    gear = 2 * old.n_r
-    parts = [
-        _resampled(fields[:, : old.n_r], old, new, 0, 0),
-        _resampled(fields[:, old.n_r : gear], old, new, 0, 0),
-        _resampled(fields[:, gear:], old, new, old.i_g, new.i_g),
-    ]
+    n_old, n_new = old.per_column * old.n_t + old.n_ring, new.per_column * new.n_t + new.n_ring
+    had = result._state[S_FIELDS : S_FIELDS + n_old]
+    temperatures = np.zeros(n_new)
+    for name, inner_old, inner_new in (
+        ("film", 0, 0), ("carrier", 0, 0), ("washer", 0, 0), ("gear", old.i_g, new.i_g),
+    ):  # fmt: skip
+        step, to_step = getattr(old, f"{name}_step"), getattr(new, f"{name}_step")
+        if name == "film" and step == 0:
+            continue
+        at, to = getattr(old, f"{name}_at"), getattr(new, f"{name}_at")
+        columns = at + step * np.arange(old.n_t)[:, None]
+        field = had[columns + np.arange(old.n_r - inner_old)]
+        places = to + to_step * np.arange(new.n_t)[:, None] + np.arange(new.n_r - inner_new)
+        temperatures[places] = _resampled(field, old, new, inner_old, inner_new)
+    pressure = result._state[S_FIELDS + n_old :][: old.n_r * old.n_t].reshape(old.n_t, old.n_r)
     state = np.zeros(size_of_state(*grid))
     state[:S_FIELDS] = result._state[:S_FIELDS]
     state[S_FACTOR_VALID] = 0.0
-    temperatures = np.hstack(parts).ravel()
-    state[S_FIELDS : S_FIELDS + temperatures.size] = temperatures
+    state[S_FIELDS : S_FIELDS + n_new] = temperatures
     moved = np.maximum(_resampled(pressure, old, new, 0, 0), 0.0).ravel()
-    state[S_FIELDS + temperatures.size :][: moved.size] = moved
+    state[S_FIELDS + n_new :][: moved.size] = moved
     return dataclasses.replace(result, grid=grid, _state=state)
 
 
@@ -174,10 +179,10 @@ def _mesh_name(grid: tuple[int, ...]) -> str:
 
 
 def _at_case(
-    point: tuple[float, ...], before: tuple[tuple[float, ...], ...] = ()
+    point: tuple[float, ...], before: tuple[tuple[float, ...], ...] = (), preset: str | None = None
 ) -> ReferenceValues:
     """Return the reference's answer at a case of the charts, on the branch that leads there."""
-    params, result = WasherParams(), None
+    params, result = made_of(SPEC, preset, {}), None
     for load, speed, tilt, oil in (*before, point):
         result = solve_washer(
             params, load=load, speed=speed, tilt=tilt, oil_temperature=oil, start=result

@@ -35,15 +35,16 @@ class AsperityArgs(NamedTuple):
 
 @kernel
 def asperity_args(
-    youngs_modulus: float, poisson_ratio: float, yield_strength: float, by_contact: bool,
-    radius: float,
+    contact_modulus: float, youngs_modulus: float, poisson_ratio: float, yield_strength: float,
+    by_contact: bool, radius: float,
 ) -> AsperityArgs:  # fmt: skip
     """Return the constants of one asperity; ``by_contact``: e_y = S_y/E' instead of S_y/E.
 
+    ``contact_modulus`` is E' of both bodies, the other constants are those of the softer one.
+
     Source: Jackson & Green Eq 11 (with E' in place of the printed E, or P_c = (4/3) E' sqrt(R)
-    w_c^1.5 would not hold), Eq 12; E' = E/(2 (1 - nu^2)): two equal bodies.
+    w_c^1.5 would not hold), Eq 12; 1/E' = sum of (1 - nu^2)/E over both bodies.
     """
-    contact_modulus = youngs_modulus / (2.0 * (1.0 - poisson_ratio**2))
     c = 1.295 * math.exp(0.736 * poisson_ratio)
     w_c = (math.pi * c * yield_strength / (2.0 * contact_modulus)) ** 2 * radius
     p_c = 4.0 / 3.0 * contact_modulus * math.sqrt(radius) * w_c * math.sqrt(w_c)

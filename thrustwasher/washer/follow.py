@@ -11,16 +11,16 @@ from ..errors import ParameterError, SolveError, Status
 from ..model.parameters import as_numbers
 from ..model.prepare import course_of, rising
 from ..numerics.jit import Array
-from .kernel_arguments import NO_MESH, constants
+from .kernel_arguments import constants
 from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.workspace import size_of_state, size_of_work
-from .parameters import SPEC, WasherParams
+from .parameters import BODIES, SPEC, WasherParams, property_of
 from .solve import resolve_grid
 
 __all__ = ["CourseError", "WasherCourse", "follow_washer"]
 
-PIECE = 0.1  # of the thickest body's time: how long inputs are held on their way between points
+PIECE = 0.1  # of the slowest body's time: how long inputs are held on their way between points
 MOST_PIECES = 32
 
 
@@ -41,6 +41,12 @@ class WasherCourse:
     fluid_load_share: Array
     friction_coefficient: Array
     friction_power: Array
+    oil_flow: Array
+    throughflow_heat: Array
+    oil_heat: Array
+    oil_outlet_temperature: Array
+    film_temperature: Array
+    stick_margin: Array
     distress: NDArray[np.bool_]
     status: list[Status]
     """Per point: OK or an advice."""
@@ -96,10 +102,10 @@ def follow_washer(
     --------
     >>> import numpy as np
     >>> hot = WasherParams(thermal_mode="transient")
-    >>> c = follow_washer(hot, time=np.linspace(0.0, 9.0, 10), load=[300.0] + 9 * [900.0],
+    >>> c = follow_washer(hot, time=np.linspace(0.0, 9.0, 10), load=[300.0] + 9 * [1200.0],
     ...                   speed=545.0, tilt=2e-3)
     >>> c.distress.tolist().index(True)
-    8
+    2
     """
     points = rising(time)
     columns = [
@@ -107,7 +113,7 @@ def follow_washer(
                   float(s.high or 0.0), len(points))
         for s, given in zip(SPEC.inputs, (load, speed, tilt, oil_temperature), strict=True)
     ]  # fmt: skip
-    if resolve_grid(fidelity, grid) == NO_MESH or fidelity == "map":
+    if fidelity == "map":
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'coarse', 'field' or 'fine'")
     inputs = np.column_stack(columns)
     run = _Run(params, resolve_grid(fidelity, grid))
@@ -136,20 +142,27 @@ def follow_washer(
     return packed(len(points))
 
 
+def _settling(params: WasherParams, body: str) -> float:
+    """Return density x specific heat x thickness^2 over conductivity of a body [s]."""
+    density, heat, conductivity = (
+        property_of(params, name, body) for name in ("density", "specific_heat", "conductivity")
+    )
+    thickness: float = getattr(params, f"{body}_thickness")
+    return density * heat * thickness**2 / conductivity
+
+
 class _Run:
     """A washer with its memory, stepped by the kernel."""
 
     def __init__(self, params: WasherParams, grid: tuple[int, int]) -> None:
         self.grid, self.in_time = grid, params.thermal_mode == "transient"
         numbers = as_numbers(params)
-        self.par = constants(params, grid, "field", self.in_time).copy()
+        self.par = constants(params, grid, self.in_time).copy()
         self.par[: len(numbers)] = numbers
         self.state = np.zeros(size_of_state(*grid))
         self.work = np.zeros(L.N_HEAD + size_of_work(*grid))
         self.out, self.iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
-        thickest = max(params.carrier_thickness, params.washer_thickness, params.gear_thickness)
-        slowest = params.density * params.specific_heat * thickest**2 / params.conductivity
-        self.piece = PIECE * slowest
+        self.piece = PIECE * max(_settling(params, body) for body in BODIES)
 
     def go(self, before: Array, now: Array, duration: float) -> int:
         """Come to the inputs ``now``; return the status."""

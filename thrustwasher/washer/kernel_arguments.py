@@ -12,21 +12,17 @@ from ..model.parameters import as_numbers
 from ..numerics.jit import Array
 from .kernels import layout as L
 from .kernels.constants import derive_grid, size_of_par
-from .kernels.simple import N_SIMPLE_PAR, derive_simple
 from .parameters import WasherParams
 
-NO_MESH = (0, 0)
-SIMPLE = {"closed": L.CLOSED, "stribeck": L.STRIBECK}  # rungs without a mesh
+NO_MESH = (0, 0)  # of what was looked up
 KEPT = 16  # parameter objects
 T = TypeVar("T")
 _local = threading.local()
 
 
 @lru_cache(maxsize=64)
-def constants(
-    params: WasherParams, grid: tuple[int, int], fidelity: str = "field", in_time: bool = False
-) -> Array:
-    """Return the kernel's ``par`` for parameters and grid, or a rung without one; read only.
+def constants(params: WasherParams, grid: tuple[int, int], in_time: bool = False) -> Array:
+    """Return the kernel's ``par`` for parameters and grid; read only.
 
     Without ``in_time`` it is for steady solutions, whatever ``params.thermal_mode`` says.
 
@@ -34,11 +30,10 @@ def constants(
     ------
     ParameterError : the asperity contact cannot be tabulated
     """
-    simple = fidelity in SIMPLE
-    par = np.zeros(N_SIMPLE_PAR if simple else size_of_par(*grid))
-    par[: L.N_PARAM] = [*as_numbers(params), SIMPLE.get(fidelity, L.FIELD)]
+    par = np.zeros(size_of_par(*grid))
+    par[: L.N_PARAM] = [*as_numbers(params), L.FIELD]
     par[L.P_THERMAL_MODE] = L.TRANSIENT if in_time else L.QUASI_STEADY
-    status = Status(derive_simple(par) if simple else derive_grid(par, *grid))
+    status = Status(derive_grid(par, *grid))
     if status is not Status.OK:
         raise ParameterError(
             "the asperity contact cannot be tabulated for these parameters; check yield_strength, "

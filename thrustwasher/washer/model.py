@@ -3,7 +3,6 @@
 from ..model.record import Command, Ladder, Model, Option
 
 _FIELD = tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants"))
-_SIMPLE = ("thrustwasher.washer.kernels.simple",)
 _BOX = {"tilt": (1e-3, 3e-3, "log"), "oil_temperature": (290.0, 400.0, "linear")}
 MODEL = Model(
     key="washer",
@@ -13,8 +12,9 @@ MODEL = Model(
         help="solve the thrust washer at one load, speed and tilt",
         solve="thrustwasher.washer.solve:solve_washer",
         figure="thrustwasher.report.model_plots.washer_plots:field_figure",
-        figure_help="draw pressure, film and temperature fields",
+        figure_help="draw film, pressures, temperatures and the flow of the oil",
         title="thrust washer",
+        warning="thrustwasher.washer.washer_result:hold_warning",
         more=("curve", "map"),
         closing="{iterations} iterations, {fidelity}, grid {grid[0]}x{grid[1]}",
         options=(
@@ -42,8 +42,6 @@ MODEL = Model(
     ),
     ladder=Ladder(
         kernels={
-            "closed": _SIMPLE,
-            "stribeck": _SIMPLE,
             "map": ("thrustwasher.washer.kernels.map.map_step",),
             "coarse": _FIELD,
             "field": _FIELD,

@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
-from ..model.parameters import check_ranges, check_rules, choice, quantity
+from ..model.parameters import check_ranges, check_rules, choice, flag, from_preset, quantity
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
@@ -22,7 +23,15 @@ YIELD_LAWS = {
 CONDUCTION = {
     "all": "temperature varies around the circumference in all three bodies",
     "carrier": "only in the carrier; washer and gear are axisymmetric (they rotate)",
-    "rotating": "only in washer and gear; the carrier is axisymmetric",
+    "rotating": "only in washer and gear; the carrier is axisymmetric (it rotates)",
+}
+CAVITY_SHEAR = {
+    "full": "as if oil filled the gap everywhere, in shear and heat exchange (the paper's torque)",
+    "liquid": "both count by the share of the gap that liquid fills",
+}
+BODY_STORAGE = {
+    "slab": "heat takes its time through the thickness of carrier and gear",
+    "lumped": "each body has one temperature across its thickness",
 }
 
 THERMAL_MODES = {
@@ -35,26 +44,76 @@ THERMAL_STARTS = {
 }
 
 
-def _smooth(name: str) -> Rule:
-    bounds = f"{LEAST_ROUGHNESS:g} .. 1e-05 m"
-    return Rule(f"{name} = {{{name}}} m, allowed: 0 (as roughness) or {bounds}")
+BODIES = ("carrier", "washer", "gear")
+MATERIAL = {  # property of each body: unit, default, least, largest, what it is
+    "youngs_modulus": ("Pa", 201e9, 1e9, 1e12, "Young's modulus"),
+    "poisson_ratio": ("1", 0.296, 0.0, 0.49, "Poisson's ratio"),
+    "yield_strength": ("Pa", 0.993e9, 1e7, 1e11, "yield strength"),
+    "conductivity": ("W/(m.K)", 60.5, 0.1, 500.0, "conductivity"),
+    "density": ("kg/m3", 7850.0, 500.0, 25e3, "density"),
+    "specific_heat": ("J/(kg.K)", 475.0, 50.0, 5e3, "specific heat"),
+}
+
+
+def _own(name: str, common: str, unit: str, least: float, largest: float) -> Rule:
+    """Return the rule of a body's own value: 0, or in the range of the common one."""
+    unit = "" if unit == "1" else f" {unit}"
+    return Rule(f"{name} = {{{name}}}{unit}, allowed: 0 (as {common}) or "
+                f"{least:g} .. {largest:g}{unit}")  # fmt: skip
+
+
+def _material(name: str) -> Any:
+    """Return the field of a property that all bodies share."""
+    unit, default, least, largest, text = MATERIAL[name]
+    return quantity(default, unit, least, largest, f"{text} of the bodies")
+
+
+def _body(name: str) -> Any:
+    """Return the field of one body's own property, 0 if it has the common one."""
+    common, body = name.rsplit("_", 1)
+    unit, _, _, largest, text = MATERIAL[common]
+    return quantity(0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})")
+
+
+def property_of(params: Any, name: str, body: str) -> float:
+    """Return a property of one body: its own, else the one that all have in common."""
+    value: float = getattr(params, f"{name}_{body}") or getattr(params, name)
+    return value
 
 
 RULES = (
     Rule("gear_inner_radius = {gear_inner_radius} m, allowed: between inner_radius {inner_radius} "
          "and outer_radius {outer_radius} m"),
     Rule("outer_radius = {outer_radius} m, allowed: up to 20 x inner_radius ({inner_radius} m)"),
-    _smooth("roughness_carrier"),
-    _smooth("roughness_washer"),
-    _smooth("roughness_gear"),
+    *(_own(f"roughness_{body}", "roughness", "m", LEAST_ROUGHNESS, 1e-5) for body in BODIES),
     Rule("friction_load_min = {friction_load_min} N, allowed: below friction_load_max "
          "({friction_load_max} N)"),
     Rule("asperity_density x asperity_radius = {asperity_density} 1/m2 x {asperity_radius} m "
          "leaves no scatter of the summits at roughness = {roughness} m; raise either, or use "
          "asperity_height_law = 'surface'"),
-    Rule("thermal_mode = transient, allowed: with fidelity coarse, field or fine; the others have "
+    *(_own(f"{name}_{body}", name, unit, least, largest)
+      for name, (unit, _, least, largest, _) in MATERIAL.items() if least > 0.0 for body in BODIES),
+    *(Rule(f"yield_strength = {{yield_strength}} Pa, allowed: for {pair} up to their contact "
+           "modulus (youngs_modulus = {youngs_modulus} Pa): they could not touch elastically")
+      for pair in ("carrier and washer", "washer and gear")),
+    Rule("oil_supply_temperature = {oil_supply_temperature} K, allowed: 0 (as oil_temperature) or "
+         "233.15 .. 473.15 K"),
+    Rule("film_heat_fraction = {film_heat_fraction}, allowed: 1 with oil_cooling, which carries "
+         "the film's heat away already"),
+    Rule("cavity_shear = liquid, allowed: with oil_cooling, which knows where the liquid is"),
+    Rule("thermal_mode = transient, allowed: with fidelity coarse, field or fine; a map has "
          "no bodies that could store heat"),
 )  # fmt: skip
+
+# 0.5.0's equations: those of Jackson & Green (2006), with all that the paper leaves out left out
+PRESETS: dict[str, dict[str, Any]] = {
+    "paper": {
+        "conduction": "all",
+        "oil_cooling": False,
+        "pressure_flow_shear": False,
+        "body_storage": "lumped",
+    },
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,9 +136,18 @@ class WasherParams:
     roughness_carrier: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the carrier (0: roughness)")
     roughness_washer: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the washer (0: roughness)")
     roughness_gear: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the gear face (0: roughness)")
-    youngs_modulus: float = quantity(201e9, "Pa", 2e10, 1e12, "Young's modulus of both surfaces")
-    poisson_ratio: float = quantity(0.296, "1", 0.0, 0.49, "Poisson's ratio of both surfaces")
-    yield_strength: float = quantity(0.993e9, "Pa", 2e8, 1e11, "yield strength of the softer face")
+    youngs_modulus: float = _material("youngs_modulus")
+    youngs_modulus_carrier: float = _body("youngs_modulus_carrier")
+    youngs_modulus_washer: float = _body("youngs_modulus_washer")
+    youngs_modulus_gear: float = _body("youngs_modulus_gear")
+    poisson_ratio: float = _material("poisson_ratio")
+    poisson_ratio_carrier: float = _body("poisson_ratio_carrier")
+    poisson_ratio_washer: float = _body("poisson_ratio_washer")
+    poisson_ratio_gear: float = _body("poisson_ratio_gear")
+    yield_strength: float = _material("yield_strength")
+    yield_strength_carrier: float = _body("yield_strength_carrier")
+    yield_strength_washer: float = _body("yield_strength_washer")
+    yield_strength_gear: float = _body("yield_strength_gear")
     yield_strain_law: str = choice(
         "young", YIELD_LAWS, "YieldStrainLaw", "modulus that the yield strain refers to"
     )
@@ -88,12 +156,29 @@ class WasherParams:
     asperity_height_law: str = choice(
         "surface", HEIGHT_LAWS, "HeightLaw", "scatter of the asperity heights"
     )
-    conductivity: float = quantity(60.5, "W/(m.K)", 1.0, 500.0, "conductivity of the three bodies")
-    conduction: str = choice("all", CONDUCTION, "Conduction", "bodies with a 2-D temperature field")
+    conductivity: float = _material("conductivity")
+    conductivity_carrier: float = _body("conductivity_carrier")
+    conductivity_washer: float = _body("conductivity_washer")
+    conductivity_gear: float = _body("conductivity_gear")
+    conduction: str = choice(
+        "carrier", CONDUCTION, "Conduction", "bodies with a 2-D temperature field"
+    )
     oil_conductivity: float = quantity(0.145, "W/(m.K)", 0.01, 1.0, "conductivity of the oil")
     viscosity_constant: float = quantity(3.545, "1", 1.0, 6.0, "G_o of the Roelands law")
     viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
     viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 1e-2, "scale of the Roelands law")
+    oil_cooling: bool = flag(True, "whether the oil that flows through film 1 carries heat away")
+    oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
+    oil_heat_capacity: float = quantity(
+        2000.0, "J/(kg.K)", 500.0, 5000.0, "specific heat of the oil"
+    )
+    oil_supply_temperature: float = quantity(
+        0.0, "K", 0.0, 473.15, "temperature of the oil that is drawn in (0: oil_temperature)"
+    )
+    cavity_shear: str = choice(
+        "full", CAVITY_SHEAR, "CavityShear", "what the cavity counts as in shear and heat exchange"
+    )
+    pressure_flow_shear: bool = flag(True, "whether pressure flow counts in torque and heat")
     friction_law: str = choice("load", FRICTION_LAWS, "FrictionLaw", "law of the dry friction")
     dry_friction: float = quantity(0.15, "1", 0.0, 1.0, "dry friction of the constant law")
     friction_constant: float = quantity(0.48, "1", 0.0, 2.0, "constant of the dry friction law")
@@ -105,11 +190,33 @@ class WasherParams:
     thermal_mode: str = choice(
         "quasi_steady", THERMAL_MODES, "ThermalMode", "how temperatures follow the inputs in time"
     )
-    density: float = quantity(7850.0, "kg/m3", 500.0, 25e3, "density of the three bodies")
-    specific_heat: float = quantity(475.0, "J/(kg.K)", 50.0, 5e3, "specific heat of the bodies")
+    density: float = _material("density")
+    density_carrier: float = _body("density_carrier")
+    density_washer: float = _body("density_washer")
+    density_gear: float = _body("density_gear")
+    specific_heat: float = _material("specific_heat")
+    specific_heat_carrier: float = _body("specific_heat_carrier")
+    specific_heat_washer: float = _body("specific_heat_washer")
+    specific_heat_gear: float = _body("specific_heat_gear")
+    body_storage: str = choice(
+        "slab", BODY_STORAGE, "BodyStorage", "how carrier and gear store heat, if transient"
+    )
     thermal_start: str = choice(
         "steady", THERMAL_STARTS, "ThermalStart", "temperatures at the start, if transient"
     )
+
+    @classmethod
+    def preset(cls, name: str, **changes: Any) -> "WasherParams":
+        """Return the parameters of a preset, some of them changed.
+
+        ``"paper"``: the equations of Jackson & Green (2006): temperature fields of two dimensions
+        in all bodies, no heat carried by the oil, no pressure flow in the torque, lumped bodies.
+
+        Raises
+        ------
+        ParameterError : no such preset, or a parameter out of range
+        """
+        return from_preset(cls, PRESETS, name, changes)
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -135,24 +242,28 @@ SPEC = ModelSpec(
     help="Tilted thrust washer in mixed lubrication: friction torque, temperature, film thickness",
     params=WasherParams,
     fidelities={
-        "closed": "wedge in closed form, oil at its own temperature; no branches",
-        "stribeck": "wedge in closed form, one film temperature; one branch, steep at the folds",
         "map": "look-up in charts of fine solutions; the field's answer outside their box",
-        "coarse": "8 x 20 graded nodes: torque within 2 % but near a knee of the curve",
-        "field": "10 x 32 graded nodes: torque within 0.6 % but near a knee of the curve",
-        "fine": "19 x 64 graded nodes: torque within 0.1 % but near a knee of the curve",
+        "coarse": "8 x 20 graded nodes: torque within 3 % but near a knee of the curve",
+        "field": "10 x 32 graded nodes: torque within 1 % but near a knee of the curve",
+        "fine": "19 x 64 graded nodes: torque within 0.2 % but near a knee of the curve",
     },
     default_fidelity="field",
     inputs=(LOAD, SPEED, TILT, OIL),
     outputs=(
         _out("friction_torque", "N.m", 0.1, "friction torque on the washer, sign of the speed"),
-        _out("temperature", "K", 300.0, "area mean of the film temperature over the annulus"),
+        _out("temperature", "K", 300.0, "area mean of carrier and washer over the annulus"),
         _out("film_thickness", "m", 1e-6, "least separation of the mean surfaces of film 1"),
         _out("temperature_max", "K", 300.0, "highest temperature of carrier and washer"),
         _out("film_ratio", "1", 3.0, "film thickness over the combined RMS roughness"),
         _out("fluid_load_share", "1", 1.0, "share of the load that the film carries"),
         _out("friction_coefficient", "1", 0.05, "torque over load and mean friction radius"),
         _out("friction_power", "W", 100.0, "heat made by friction, torque times speed"),
+        _out("oil_flow", "m3/s", 1e-6, "oil that leaves film 1 at its rims"),
+        _out("throughflow_heat", "W", 10.0, "heat that this oil carries away"),
+        _out("oil_heat", "W", 100.0, "heat that reaches the oil, by throughflow and far faces"),
+        _out("oil_outlet_temperature", "K", 300.0, "mean temperature of the oil that leaves"),
+        _out("film_temperature", "K", 300.0, "area mean of the oil's temperature in film 1"),
+        _out("stick_margin", "1", 1.0, "torque that gap 2 can hold over the friction torque"),
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
                help="lubrication regime of the loaded film"),
         Signal(name="distress", unit="1", kind="boolean", depends=_ALL,
@@ -162,13 +273,15 @@ SPEC = ModelSpec(
                depends=_ALL, help="how the last solution was obtained"),
     ),
     kernel="thrustwasher.washer.kernels.step",
+    presets=PRESETS,
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.WasherFlange",
                  help="Slip speed, load and tilt in, friction torque out",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
                           ("load", "load", "signal"), ("tilt", "tilt", "signal"))),
-        OIL_PORT,
+        Terminal(name="oil", kind=OIL_PORT.kind, help="Oil temperature in, heat to the oil out",
+                 members=(OIL_PORT.members[0], ("oil_heat", "Q_flow", "outflow"))),
     ),
     table="thrustwasher.washer.map.look_up:TABLES",
     step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed

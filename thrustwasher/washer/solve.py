@@ -16,10 +16,9 @@ from ..model.parameters import check_number
 from ..model.prepare import OFFLINE
 from ..native.load import bound
 from ..numerics.jit import Array
-from .kernel_arguments import NO_MESH, SIMPLE, Recent, constants, work_array
+from .kernel_arguments import Recent, constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
-from .kernels.simple import N_WORK
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
 from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_of
@@ -27,14 +26,12 @@ from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
 GRIDS = {
-    "closed": NO_MESH, "stribeck": NO_MESH, "map": kernel.FIELD_GRID, "coarse": kernel.COARSE_GRID,
-    "field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID,
+    "map": kernel.FIELD_GRID, "coarse": kernel.COARSE_GRID, "field": kernel.FIELD_GRID,
+    "fine": kernel.FINE_GRID,
 }  # fmt: skip
 # largest error of friction_torque against the grid-converged value over the verified range
 # (tests/washer/test_washer_accuracy.py measures it again)
-ERRORS = {
-    "closed": 3.0, "stribeck": 1.0, "map": 6e-3, "coarse": 2e-2, "field": 6e-3, "fine": 1e-3,
-}  # fmt: skip
+ERRORS = {"map": 6e-3, "coarse": 3e-2, "field": 1e-2, "fine": 2e-3}
 UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
 OK = Status.OK
 LARGEST_GRID = (129, 512)
@@ -49,8 +46,6 @@ def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {known}")
     if grid is None:
         return GRIDS[fidelity]
-    if fidelity in SIMPLE:
-        raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity {fidelity!r} has no mesh")
     try:
         n_r, n_t = (int(n) for n in grid)
         whole = (n_r, n_t) == tuple(grid)
@@ -111,9 +106,8 @@ def solve_washer(
     speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15
-    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64), "coarse" (8 x 20), "map", or without
-        mesh and memory "stribeck" (one film temperature) and "closed" (oil as supplied). A "map"
-        answers outside its box with the field, and the result says so
+    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64), "coarse" (8 x 20) or "map", which
+        answers outside its box with the field; the result says so
     grid : (n_r, n_theta), overrides the nodes of the fidelity
     branch : "film" or "contact", the one wanted where several solutions exist; without it the
         branch of ``start``, else the film branch up to its fold and the contact branch beyond
@@ -132,21 +126,21 @@ def solve_washer(
 
     Notes
     -----
-    Source: Jackson & Green (2006), misprints corrected as listed in docs/theory/washer.md.
+    Source: Jackson & Green (2006), misprints corrected as listed in docs/theory/washer.md; beyond
+    it the heat that the oil carries, which ``WasherParams.preset("paper")`` leaves out.
     Quasi-steady: no heat capacity, no squeeze film.
 
     Examples
     --------
     >>> r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
     >>> f"{r.friction_torque:.3f} N m, film ratio {r.film_ratio:.1f}, {r.branch}"
-    '0.232 N m, film ratio 15.4, film'
+    '0.258 N m, film ratio 20.8, film'
     """
     nodes = resolve_grid(fidelity, grid)
     point = check_point(load, speed, tilt, oil_temperature)
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     wanted = BRANCHES[branch] if branch is not None else 0.0
-    start = None if fidelity in SIMPLE else start
     found = None
     if fidelity == "map":
         if grid is not None:
@@ -182,14 +176,11 @@ def _map_solver() -> Any:
 
 
 class _Prepared:
-    """One rung for one washer, ready to be solved again: constants, memory, the kernel."""
+    """One mesh for one washer, ready to be solved again: constants, memory, the kernel."""
 
-    def __init__(self, params: WasherParams, fidelity: str, nodes: tuple[int, int]) -> None:
-        par = constants(params, nodes, fidelity)
-        self.simple = fidelity in SIMPLE
-        size = N_WORK if self.simple else L.N_HEAD + size_of_work(*nodes)
-        self.size_of_state = 1 if self.simple else size_of_state(*nodes)
-        self.work = work_array(("washer", nodes), size)
+    def __init__(self, params: WasherParams, nodes: tuple[int, int]) -> None:
+        par = constants(params, nodes)
+        self.work = work_array(("washer", nodes), L.N_HEAD + size_of_work(*nodes))
         self.inp, self.iout = np.zeros(5), np.zeros(3, np.int32)
         self.step = bound(
             kernel.step, par=par, inp=self.inp, work=self.work, out=np.zeros(kernel.NOUT),
@@ -204,20 +195,20 @@ def _solve(
     params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
     nodes: tuple[int, int], wanted: float, start: WasherResult | None, card: bool = False,
 ) -> WasherResult:  # fmt: skip
-    """Solve on a mesh or without one; ``card``: the rung is one whose cards know its error."""
-    ready = _prepared(params, fidelity, nodes)
-    if start is not None and not ready.simple and _continues(start, params, nodes):
+    """Solve on a mesh; ``card``: the rung is one whose cards know its error."""
+    ready = _prepared(params, nodes)
+    if start is not None and _continues(start, params, nodes):
         state = start._state.copy()
     else:
-        state = np.zeros(ready.size_of_state)
-        if start is not None and not ready.simple and wanted == 0.0:
+        state = np.zeros(size_of_state(*nodes))
+        if start is not None and wanted == 0.0:
             wanted = BRANCHES.get(start.branch, 0.0)
             return _prefer(params, point, fidelity, nodes, wanted, card)
     ready.inp[:] = (*point, wanted)
     code = ready.step(state, 0.0, 1.0)
     status = OK if code == 0 else Status(code)
     work = ready.work
-    if code >= FIRST_FAILURE and not ready.simple:
+    if code >= FIRST_FAILURE:
         estimate = work[L.AT_POSITIONS : L.N_HEAD]  # so that fields() shows it
         if np.all(np.isfinite(estimate)):
             state[L.S_POSITIONS :][:4] = estimate

@@ -9,10 +9,12 @@ import numpy as np
 from ..errors import ParameterError, Status
 from ..ladder.card import error_estimate
 from ..numerics.jit import Array
-from ..tribology.asperities import contact_pressure
-from .kernel_arguments import NO_MESH, SIMPLE, constants
+from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
 from .kernels.constants import WasherModel, washer_model
+from .kernels.newton import evaluate_here
+from .kernels.outputs import outputs_at
+from .kernels.workspace import Fields, Point, fields_of, size_of_work, workspace_of
 from .parameters import WasherParams
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
@@ -28,9 +30,13 @@ class WasherFields:
     film_thickness: Array  # [m] separation of the mean surfaces of film 1
     pressure: Array  # [Pa] in the film
     contact_pressure: Array  # [Pa] on the asperities, per nominal area
-    carrier_temperature: Array  # [K]
+    carrier_temperature: Array  # [K] towards film 1, as that of the washer
     washer_temperature: Array  # [K]
-    film_temperature: Array  # [K] mean of carrier and washer
+    gear_temperature: Array  # [K] towards gap 2; nan inside the gear's inner radius
+    film_temperature: Array  # [K] of the oil in film 1; without oil cooling that of its walls
+    liquid_fraction: Array  # [-] of the gap that liquid fills
+    flow_outward: Array  # [m2/s] liquid in film 1 per width, along the radius
+    flow_around: Array  # [m2/s] and along the circumference
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,13 +55,20 @@ class WasherResult:
     """Steady state of the washer at one operating point; SI units."""
 
     friction_torque: float  # [N m] sign of speed
-    temperature: float  # [K] area mean of the film temperature
+    temperature: float  # [K] area mean of carrier and washer
     temperature_max: float  # [K] of carrier and washer
     film_thickness: float  # [m] least separation of the mean surfaces of film 1
     film_ratio: float  # [-] film_thickness over sigma
     fluid_load: float  # [N]
     contact_load: float  # [N]
     friction_coefficient: float  # [-]
+    friction_power: float  # [W]
+    oil_flow: float  # [m3/s] liquid that leaves film 1 at its rims
+    throughflow_heat: float  # [W] that it carries; negative if it is supplied hotter
+    oil_heat: float  # [W] that reaches the oil, by throughflow and far faces
+    oil_outlet_temperature: float  # [K] mean of what leaves
+    film_temperature: float  # [K] area mean of the oil in film 1
+    stick_margin: float  # [-] torque that gap 2 can hold over friction_torque, at most 1000
     washer_tilt_x: float  # [rad]
     washer_tilt_y: float  # [rad]
     branch: str  # "film", "unstable" or "contact"
@@ -73,29 +86,49 @@ class WasherResult:
     _state: Array = field(repr=False, compare=False)
 
     def fields(self) -> WasherFields:
-        """Return gap, pressures and temperatures over the washer; it takes a rung with a mesh."""
+        """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""
         if self.grid == NO_MESH:
             raise ParameterError(
                 f"fidelity = {self.fidelity!r} has no fields; allowed: 'coarse', 'field' or 'fine'"
             )
-        m = washer_model(constants(self.params, self.grid))
-        n_r, n_t = self.grid
-        m_t = 3 * n_r - m.i_g
-        kept = self._state[L.S_FIELDS :]
-        column = kept[: m_t * n_t].reshape(n_t, m_t).T
-        pressure = kept[m_t * n_t :][: n_r * n_t].reshape(n_t, n_r).T
-        gap = film_gap(m.r, m.cos, m.sin, self._state[L.S_POSITIONS :])
-        carrier = self.oil_temperature + column[:n_r]
-        washer = self.oil_temperature + column[n_r : 2 * n_r]
+        par = constants(self.params, self.grid)
+        m = washer_model(par)
+        (n_r, n_t), kept = self.grid, self._state
+        w = workspace_of(par, work_array(("fields", self.grid), L.N_HEAD + size_of_work(n_r, n_t)))
+        f = fields_of(w)
+        pressure = L.S_FIELDS + f.temp.size
+        f.temp[:], f.p[:] = kept[L.S_FIELDS : pressure], kept[pressure:][: f.p.size]
+        w.q[:] = kept[L.S_POSITIONS :][:4]
+        point = Point(self.load, self.speed, self.tilt, self.oil_temperature)
+        evaluate_here(w, point)
+        outputs_at(w, point)
+
+        def over(nodal: Array) -> Array:
+            return nodal.reshape(n_t, n_r).T.copy()
+
+        def rise(at: int, step: int, first: int = 0) -> Array:
+            found = np.full((n_r, n_t), np.nan)
+            for i in range(first, n_r):
+                found[i] = f.temp[at + i - first + step * np.arange(n_t)]
+            return found
+
+        carrier = rise(m.carrier_at, m.carrier_step)
+        washer = rise(m.washer_at, m.washer_step)
+        film = rise(m.film_at, m.film_step) if m.film_step else 0.5 * (carrier + washer)
+        outward, around = _liquid_flow(m, f)
         return WasherFields(
             radius=m.r.copy(),
             angle=np.mod(np.arctan2(m.sin, m.cos), 2.0 * np.pi),
-            film_thickness=gap,
-            pressure=pressure.copy(),
-            contact_pressure=contact_field(gap, m),
-            carrier_temperature=carrier,
-            washer_temperature=washer,
-            film_temperature=0.5 * (carrier + washer),
+            film_thickness=film_gap(m.r, m.cos, m.sin, w.q),
+            pressure=over(f.p),
+            contact_pressure=over(f.pc),
+            carrier_temperature=self.oil_temperature + carrier,
+            washer_temperature=self.oil_temperature + washer,
+            gear_temperature=self.oil_temperature + rise(m.gear_at, m.gear_step, m.i_g),
+            film_temperature=self.oil_temperature + film,
+            liquid_fraction=over(f.liquid),
+            flow_outward=outward,
+            flow_around=around,
         )
 
 
@@ -135,17 +168,15 @@ setattr(WasherResult, "error_estimate", ErrorEstimate(_field))  # noqa: B010
 def card_error(result: WasherResult) -> float | None:
     """Return the error that the card of a result's rung gives for its point.
 
-    None without a fresh card for these parameters, and outside its box. Rungs that know one branch
-    only are judged by the worst of all branches.
+    None without a fresh card for these parameters, and outside its box.
     """
     point = {
         "load": result.load, "speed": result.speed, "tilt": result.tilt,
         "oil_temperature": result.oil_temperature,
     }  # fmt: skip
-    branch = None if result.fidelity in SIMPLE else result.branch
     return error_estimate(
-        "washer", result.fidelity, result.params, point, branch=branch,
-        film_ratio=None if branch is None else result.film_ratio,
+        "washer", result.fidelity, result.params, point, branch=result.branch,
+        film_ratio=result.film_ratio,
     )  # fmt: skip
 
 
@@ -157,9 +188,21 @@ def result_of(
     """Return the result with the kernels' outputs ``x`` and the washer's tilts about x and y."""
     return WasherResult(
         x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
-        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], tilts[0], tilts[1], branch, distress, status,
-        iterations, fidelity, grid, error, *point, params, state,
+        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], x[L.O_POWER], x[L.O_OIL_FLOW],
+        x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
+        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, status, iterations, fidelity,
+        grid, error, *point, params, state,
     )  # fmt: skip
+
+
+def hold_warning(result: WasherResult) -> str:
+    """Return a warning if gap 2 cannot hold the washer, else nothing."""
+    if not result.stick_margin < 1.0:
+        return ""
+    return (
+        f"gap 2 cannot hold the washer: its dry friction takes {result.stick_margin:.2g} times the "
+        "friction torque, so the washer would slip on the gear; here both turn together"
+    )
 
 
 def film_gap(radius: Array, cos: Array, sin: Array, q: Array) -> Array:
@@ -168,9 +211,16 @@ def film_gap(radius: Array, cos: Array, sin: Array, q: Array) -> Array:
     return np.asarray(q[L.Z_WASHER] + np.outer(radius, slope))
 
 
-def contact_field(gap: Array, m: WasherModel) -> Array:
-    """Return the asperity pressure [Pa] at the gaps of film 1."""
-    flat = [
-        contact_pressure((h - m.mean_summit1) / m.summit_sigma1, m.table1)[0] for h in gap.ravel()
-    ]
-    return np.array(flat).reshape(gap.shape)
+def _liquid_flow(m: WasherModel, f: Fields) -> tuple[Array, Array]:
+    """Return the liquid's flow per width [m2/s] (n_r, n_theta) outward and around.
+
+    It is the mean of the two faces beside a node; a node at a rim has one.
+    """
+    shape = len(m.cos), len(m.r)
+    liquid = f.liquid.reshape(shape)
+    heights = np.diff(m.r_face, prepend=m.r[0])
+    around = f.flow_t.reshape(shape) / heights
+    around = 0.5 * (around + np.roll(around, 1, axis=0))
+    faces = f.flow_r.reshape(shape)[:, :-1] / (m.r_face[:-1] * m.width_t[:, None])
+    outward = 0.5 * (faces[:, [0, *range(faces.shape[1])]] + faces[:, [*range(faces.shape[1]), -1]])
+    return (liquid * outward).T.copy(), (liquid * around).T.copy()

@@ -16,11 +16,12 @@ from thrustwasher.washer.map.map_build import make_map
 from thrustwasher.washer.map.map_file import VARIABLE
 from thrustwasher.washer.parameters import SPEC, WasherParams
 
-BOX = {"load": (100.0, 900.0), "speed": (500.0, 600.0), "tilt": (0.002, 0.002),
+BOX = {"load": (100.0, 1200.0), "speed": (500.0, 600.0), "tilt": (0.002, 0.002),
        "oil_temperature": (297.15, 297.15)}  # fmt: skip
 POINT = {"load": 300.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
 MAP = {"fidelity": "map"}
 NONE = "no map was made for these parameters"
+DISTRESS = [signal.name for signal in SPEC.outputs].index("distress")
 each_fmi = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 
 
@@ -35,7 +36,7 @@ def washer():
 
 def course():
     """Return inputs up over the fold, back, and out of the box."""
-    loads = [300.0 + 10.0 * k for k in range(55)] + [850.0 - 10.0 * k for k in range(55)]
+    loads = [300.0 + 15.0 * k for k in range(55)] + [1125.0 - 15.0 * k for k in range(55)]
     return [[load, 545.0 + 0.1 * k, 0.002, 297.15] for k, load in enumerate([*loads, 95.0, 300.0])]
 
 
@@ -51,7 +52,7 @@ def test_it_gives_the_bits_of_the_kernels_in_python(washer, fmi):
                 instance.set_inputs(inputs)
                 instance.step(1e-3 * k, 1e-3)
             assert ours.outputs() == theirs.outputs()
-            lost += ours.outputs()[9]
+            lost += ours.outputs()[DISTRESS]
         assert 20 < lost < 80  # the fold was passed and passed back
 
 
@@ -139,9 +140,9 @@ def test_any_folder_name_will_do(washer, tmp_path, name):
     fmu.instantiate()
     fmu.setupExperiment(startTime=0.0)
     fmu.enterInitializationMode()
-    fmu.setInteger([place["fidelity"]], [3])
+    fmu.setInteger([place["fidelity"]], [1])
     fmu.setReal([place[n] for n in POINT], list(POINT.values()))
     fmu.exitInitializationMode()
-    assert fmu.getReal([place["friction_torque"]])[0] == pytest.approx(0.2051, rel=1e-3)
+    assert fmu.getReal([place["friction_torque"]])[0] == pytest.approx(0.2158, rel=2e-3)
     fmu.terminate()
     fmu.freeInstance()

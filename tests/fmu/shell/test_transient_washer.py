@@ -52,9 +52,8 @@ def test_setting_inputs_warms_nothing():
     assert after[TORQUE] > 1.05 * before[TORQUE]  # the film follows at once
 
 
-@pytest.mark.parametrize("rung", ["closed", "stribeck", "map"])
-def test_rungs_without_bodies_refuse_by_name(rung):
-    wrong = {"thermal_mode": "transient", "fidelity": rung}
+def test_a_map_has_no_bodies_and_refuses_by_name():
+    wrong = {"thermal_mode": "transient", "fidelity": "map"}
     for make in (lambda: DirectInstance(SPEC, parameters=wrong),
                  lambda: Instance(washer(2), parameters=wrong)):  # fmt: skip
         with pytest.raises((ParameterError, SolveError), match="thermal_mode = transient, allowed"):

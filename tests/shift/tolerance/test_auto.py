@@ -13,7 +13,7 @@ from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.gearmesh import parameters as gearmesh_params
 from thrustwasher.ladder.choose import Choice
 from thrustwasher.shift import load_scene, run_auto, with_fidelities
-from thrustwasher.shift.tolerance import selection
+from thrustwasher.shift.tolerance import selection, trial_run
 from thrustwasher.shift.tolerance.selection import above
 from thrustwasher.shift.tolerance.trial_run import MARGIN, Pool, farthest, step_share, trial_runs
 from thrustwasher.washer import parameters as washer_params
@@ -35,7 +35,7 @@ def made(log):
     def make(name, part):
         log.append((name, part.fidelity))
         if name == "washer":
-            return Biased(part.spec) if part.fidelity == "closed" else PetroffWasher(part.spec)
+            return Biased(part.spec) if part.fidelity == "coarse" else PetroffWasher(part.spec)
         return DirectInstance(part.spec, parameters=part.parameters())
 
     return make
@@ -95,17 +95,22 @@ def trials(wish="auto:0.01"):
     return trial_runs(scene, Pool(made(log))), log
 
 
-def test_trial_runs_take_a_cheap_rung_for_the_washer_and_leave_the_others_theirs():
+@pytest.mark.parametrize(("cards", "rung"), [(("card",), "map"), ((), "coarse")])
+def test_trial_runs_take_a_cheap_rung_for_the_washer_and_leave_the_others_theirs(
+    monkeypatch, cards, rung
+):
+    monkeypatch.setattr(trial_run, "fresh_cards", lambda *_: cards)
     _, log = trials()
     assert log[:5] == [("transmission", "rigid"), ("clutch", "field"), ("brake", "field"),
-                       ("washer", "stribeck"), ("mesh", "field")]  # fmt: skip
+                       ("washer", rung), ("mesh", "field")]  # fmt: skip
 
 
-def test_one_trial_run_tries_the_finest_rungs_of_all_but_the_washer():
+def test_one_trial_run_tries_the_finest_rungs_of_all_but_the_washer(monkeypatch):
+    monkeypatch.setattr(trial_run, "fresh_cards", lambda *_: ())
     found, _ = trials()
     rungs = {n: p.fidelity for n, p in found.finest.scene.parts.items()}
     assert rungs == {"transmission": "rigid", "clutch": "fine", "brake": "fine",
-                     "washer": "stribeck", "mesh": "fine"}  # fmt: skip
+                     "washer": "coarse", "mesh": "fine"}  # fmt: skip
     assert found.finest.step == found.coarse.step
 
 
@@ -150,7 +155,7 @@ def test_a_step_too_long_for_the_tolerance_is_said_with_one_that_would_do():
     assert "more than its share of 3e-05 %" in words and "would do" in words
 
 
-def run(monkeypatch, fidelity="closed", **options):
+def run(monkeypatch, fidelity="coarse", **options):
     """Run with a choice for the washer that is made up."""
     asked = []
 
@@ -169,7 +174,7 @@ def test_the_chooser_is_asked_once_for_the_box_of_the_trial_runs(monkeypatch):
     assert model == "washer" and set(box) == {"load", "speed", "tilt", "oil_temperature"}
     assert (given["tol"], given["n_calls"]) == (0.01, 200)
     assert given["params"] == r.scene.parts["washer"].params
-    assert r.selection.parts[-2].rung == "closed"
+    assert r.selection.parts[-2].rung == "coarse"
 
 
 def test_a_guard_stands_in_for_the_factor_of_safety(monkeypatch):
@@ -179,7 +184,7 @@ def test_a_guard_stands_in_for_the_factor_of_safety(monkeypatch):
 
 def test_every_part_says_why(monkeypatch):
     words = run(monkeypatch)[0].selection.words()
-    assert "washer: closed, made up" in words and "  why not" in words
+    assert "washer: coarse, made up" in words and "  why not" in words
     for part in ("clutch", "brake", "mesh"):
         assert any(w.startswith(f"{part}: field, its default: the finest") for w in words), part
     assert "communication step 1 ms" in words[-1]

@@ -13,6 +13,7 @@ import pytest
 from thrustwasher import ParameterError
 from thrustwasher.errors import Status
 from thrustwasher.model.parameters import as_numbers
+from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels import step as kernel
 from thrustwasher.washer.parameters import WasherParams
 
@@ -42,7 +43,7 @@ def test_no_load_is_refused_in_words_by_the_library():
 def test_a_washer_in_a_scene_goes_on_when_the_load_is_gone():
     """The step takes a load below 1 N, even a negative one, as 1 N."""
     par = np.zeros(kernel.NPAR)
-    par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), 1.0]
+    par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), L.FIELD]
     assert kernel.derive(par) == Status.OK
     state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
     out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)

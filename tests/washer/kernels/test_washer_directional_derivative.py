@@ -10,10 +10,8 @@ from thrustwasher.washer.kernels import step as k
 from thrustwasher.washer.kernels.newton import LOAD, NO_FLOOR, newton
 from thrustwasher.washer.kernels.outputs import outputs_at
 from thrustwasher.washer.kernels.workspace import Point, fields_of, forget_factor, workspace_of
-from thrustwasher.washer.parameters import SPEC, WasherParams
+from thrustwasher.washer.parameters import PRESETS, SPEC, WasherParams
 
-NAMES = ("friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
-         "fluid_load_share", "friction_coefficient", "friction_power")  # fmt: skip
 STEPS = (1e-3, 1e-3, 2e-3)  # of load, speed, tilt, relative
 
 
@@ -89,19 +87,33 @@ def test_derivatives_agree_with_differences_of_converged_solutions(place, factor
         # a slope counts as nothing where 1 % of the input would not move 1e-5 of the output
         floor = 1e-3 * scale / abs(inp[i])
         error = np.abs(dout - expected) / np.maximum(np.abs(expected), floor)
-        assert error.max() < 1e-6, (NAMES[int(error.argmax())], i)
+        assert error.max() < 3e-5, (SPEC.outputs[int(error.argmax())].name, i)
 
 
-@pytest.mark.parametrize("changes", [{"heat_split": 0.7}, {"friction_law": "constant"}])
-def test_derivatives_hold_for_other_parameters(changes):
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"heat_split": 0.7},
+        {"friction_law": "constant"},
+        {"conduction": "rotating"},
+        {"cavity_shear": "liquid"},
+        {"oil_supply_temperature": 330.0},
+        PRESETS["paper"],
+    ],
+    ids=str,
+)
+def test_derivatives_of_all_outputs_hold_for_other_parameters(changes):
     washer, inp = Washer(**changes), np.array((600.0, 700.0, 0.0012, 320.0))
     assert washer.step(inp) == OK
     washer.polish(inp, keep_factor=True)
+    scale = np.abs(washer.work[L.AT_OUTPUTS :][: k.NOUT])
     for i, seed in enumerate(np.eye(4)):
         status, dout = washer.sens(inp, seed)
         assert status == OK
         expected = washer.differences(inp, i)
-        np.testing.assert_allclose(dout[:3], expected[:3], rtol=1e-6)
+        floor = 1e-3 * scale / abs(inp[i])
+        off = np.abs(dout - expected) / np.maximum(np.maximum(np.abs(expected), floor), 1e-300)
+        assert off.max() < 3e-5, (SPEC.outputs[int(off.argmax())].name, i)
 
 
 def test_the_derivative_is_linear_in_its_seed():
@@ -110,7 +122,7 @@ def test_the_derivative_is_linear_in_its_seed():
     washer.polish(inp)
     weights = np.array([2.0, -0.3, 1e-4, 0.7])
     parts = sum(w * washer.sens(inp, e)[1] for w, e in zip(weights, np.eye(4), strict=True))
-    np.testing.assert_allclose(washer.sens(inp, weights)[1], parts, rtol=1e-9)
+    np.testing.assert_allclose(washer.sens(inp, weights)[1], parts, rtol=1e-7)
 
 
 def test_a_derivative_leaves_the_next_step_as_it_was():
@@ -141,7 +153,7 @@ def test_torque_is_odd_and_the_film_even_in_speed():
 def test_at_a_fold_there_is_no_derivative():
     washer = Washer()
     speed, tilt, oil = 545.0, 0.002, 297.15
-    low, high = 700.0, 900.0  # the film is lost between
+    low, high = 800.0, 1100.0  # the film is lost between
     for _ in range(30):
         load = 0.5 * (low + high)
         trial = Washer()

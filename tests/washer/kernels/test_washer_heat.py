@@ -6,13 +6,28 @@ import pytest
 from thrustwasher.washer.closed_forms.heated_ring import annulus_rise, stack_rise
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.gap import dry_friction, evaluate_gaps, evaluate_viscosity
-from thrustwasher.washer.kernels.heat import factor_heat, heat_residual, heat_slopes, solve_heat
+from thrustwasher.washer.kernels.heat import heat_change, heat_residual, let_film_follow
+from thrustwasher.washer.kernels.heat_factor import factor_heat, solve_heat
 from thrustwasher.washer.kernels.newton import evaluate
 from thrustwasher.washer.kernels.workspace import Point
+from thrustwasher.washer.parameters import CONDUCTION, PRESETS
 
-from washer_setup import BASE, Bench, bench, full_gear, order, settle, tilted  # isort: skip
+from washer_setup import (  # isort: skip
+    BASE, Bench, bench, bodies, full_gear, order, settle, tilted,
+)  # fmt: skip
 
 CONDUCTIVITY, OIL = 60.5, 0.145
+PAPER = PRESETS["paper"]
+DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
+LAWS = {
+    "default": {},
+    "paper": PAPER,
+    "carrier turns": {"conduction": "rotating", "heat_split": 0.3},
+    "everywhere": {"conduction": "all", "friction_law": "constant"},
+    "liquid alone": {"cavity_shear": "liquid", "heat_split": 0.8},
+    "no pressure flow": {"pressure_flow_shear": False, "oil_supply_temperature": 330.0},
+    "rings without flow": {**DRY, "film_heat_fraction": 0.7, "heat_split": 0.3},
+}
 
 
 def heat_given(b, heat, first=1e-5, second=5e-6):
@@ -21,18 +36,12 @@ def heat_given(b, heat, first=1e-5, second=5e-6):
     f.ht[:], f.ht2[:] = first, second
     f.pc[:], f.dmu[:], f.small[L.FRICTION] = 0.0, 0.0, 0.0
     f.mu[:] = (heat * first / (BASE.speed * b.radius) ** 2).T.ravel()
+    f.fluidity[:] = 1.0
     f.temp[:] = 0.0
     heat_residual(m, BASE, f.temp, f)
     assert factor_heat(m, BASE, f)
     f.heat[:] *= -1.0
     solve_heat(m, f.heat, f.temp, f)
-
-
-def bodies(b):
-    """Return the rises of carrier, washer and gear, each (n, n_theta)."""
-    n_r, i_g = b.m.n_r, b.m.i_g
-    column = b.f.temp.reshape(b.m.n_t, 3 * n_r - i_g).T
-    return column[:n_r], column[n_r : 2 * n_r], column[2 * n_r :]
 
 
 def touching(b, first=0.3, second=1.2):
@@ -43,10 +52,12 @@ def touching(b, first=0.3, second=1.2):
     return q
 
 
+@pytest.mark.parametrize("oil", [{}, DRY])
+@pytest.mark.parametrize("conduction", CONDUCTION)
 @pytest.mark.parametrize("split", [0.5, 0.0, 0.3, 1.0])
 @pytest.mark.parametrize("grid", [(5, 8), (10, 32)])
-def test_an_evenly_heated_stack_is_exact_on_every_grid(grid, split):
-    b = full_gear(grid, heat_split=split)
+def test_an_evenly_heated_stack_is_exact_on_every_grid(grid, split, conduction, oil):
+    b = full_gear(grid, heat_split=split, conduction=conduction, **oil)
     heat_given(b, np.full((grid[0], grid[1]), 1e5))
     half = 6.35e-4 / (2.0 * CONDUCTIVITY)
     back = 0.01 / CONDUCTIVITY
@@ -58,11 +69,12 @@ def test_an_evenly_heated_stack_is_exact_on_every_grid(grid, split):
         assert [24.0 + x[0, 0] for x in bodies(b)] == pytest.approx(tabled, abs=1e-8)
 
 
-def test_an_annulus_alone_converges_with_order_two():
-    """Oil that does not conduct leaves the carrier on its own: Bessel functions."""
+@pytest.mark.parametrize("changes", [PAPER, {}])
+def test_an_annulus_alone_converges_with_order_two(changes):
+    """Oil that conducts from wall to wall no more leaves the carrier on its own: Bessel."""
     errors = []
     for grid in ((16, 48), (31, 96)):
-        b = bench(grid, heat_split=1.0)
+        b = bench(grid, **{**changes, "heat_split": 1.0})
         b = Bench(b.m._replace(oil_conductivity=1e-14), b.f)
         angle = np.arctan2(b.m.sin, b.m.cos)
         heat_given(b, 1e5 * (b.radius / b.m.outer_radius) ** 2 * np.cos(2.0 * angle))
@@ -75,33 +87,51 @@ def test_an_annulus_alone_converges_with_order_two():
     assert errors[-1] < 1.5e-3
 
 
-@pytest.mark.parametrize("split", [0.5, 0.3])
-def test_heat_made_is_heat_out_at_any_temperature(split):
-    """What the residual adds up to is far-face heat less heat made: nothing is lost in between."""
-    b = bench((10, 32), heat_split=split)
-    m, f = b.m, b.f
+def at_random(b, seed=1):
+    """Evaluate everything where film 1 touches, at temperatures drawn at random."""
     q = touching(b)
-    f.temp[:] = np.random.default_rng(1).uniform(0.0, 80.0, f.temp.size)
-    evaluate_viscosity(m, BASE, f)
-    made = heat_residual(m, BASE, f.temp, f)
+    b.f.temp[:] = np.random.default_rng(seed).uniform(0.0, 80.0, b.f.temp.size)
+    return q, evaluate(b.m, BASE, q, b.f)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_heat_made_is_heat_out_at_any_temperature(name):
+    """What the residual adds up to is heat out less heat made: nothing is lost in between."""
+    b = bench((10, 32), **LAWS[name])
+    m, f = b.m, b.f
+    q, made = at_random(b)
     carrier, _, gear = bodies(b)
     out = (np.outer(m.weight1, m.weight_t) * carrier).sum() * CONDUCTIVITY / m.carrier_thickness
     out += (np.outer(m.weight2[m.i_g :], m.weight_t) * gear).sum() * CONDUCTIVITY / m.gear_thickness
+    out += m.oil_storage * (f.rim * f.liquid) @ f.edge
     assert f.heat.sum() == pytest.approx(out - made, rel=1e-10)
-    shear = np.outer(m.weight1, m.weight_t) * (BASE.speed * b.radius) ** 2 * b.node("mu")
-    rub = np.outer(m.weight1, m.weight_t) * BASE.speed * b.radius * b.node("pc")
-    friction = dry_friction(m.par, f.small[L.CONTACT])[0]
-    assert made == pytest.approx((shear / b.node("ht")).sum() + friction * rub.sum(), rel=1e-12)
     settle(m, BASE, q, f)
     assert np.abs(f.heat).sum() < 1e-9 * made
 
 
+@pytest.mark.parametrize("name", LAWS)
+def test_torque_times_speed_is_the_heat_made(name):
+    """Pressure flow included: what it makes in all faces is its share of the torque."""
+    b = bench((10, 32), **LAWS[name])
+    m, f = b.m, b.f
+    _, made = at_random(b)
+    area = np.outer(m.weight1, m.weight_t)
+    liquid = b.node("liquid") if m.only_liquid else 1.0
+    torque = (area * liquid * BASE.speed * b.radius**2 * b.node("mu") / b.node("ht")).sum()
+    p = b.node("p")
+    if m.pressure_shear:
+        torque += (b.node("wedge") * (np.roll(p, -1, axis=1) - p)).sum() / BASE.speed
+    friction = dry_friction(m.par, f.small[L.CONTACT])[0]
+    rub = friction * (area * b.radius * b.node("pc")).sum()
+    assert made == pytest.approx((m.film_heat_fraction * torque + rub) * BASE.speed, rel=1e-9)
+    assert p.max() > 1e5
+
+
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_only_the_wanted_share_of_film_heat_enters(share):
-    b = bench((10, 32), film_heat_fraction=share)
+    b = bench((10, 32), film_heat_fraction=share, **DRY)
     q = tilted(b.m, 20.0)  # no contact at all
-    evaluate(b.m, BASE, q, b.f)
-    made = heat_residual(b.m, BASE, b.f.temp, b.f)
+    made = evaluate(b.m, BASE, q, b.f)
     whole = (
         np.outer(b.m.weight1, b.m.weight_t) * (BASE.speed * b.radius) ** 2 * b.node("mu")
         / b.node("ht")
@@ -109,10 +139,11 @@ def test_only_the_wanted_share_of_film_heat_enters(share):
     assert made == pytest.approx(share * whole, rel=1e-12)
 
 
+@pytest.mark.parametrize("conduction", CONDUCTION)
 @pytest.mark.parametrize("split", [0.5, 0.3, 0.0])
-def test_matrix_is_the_difference_of_the_residual(split):
+def test_matrix_is_the_difference_of_the_residual(split, conduction):
     """solve(rhs) = x means: the residual changes by rhs along x, viscosity following."""
-    b = bench((10, 32), heat_split=split, film_heat_fraction=0.7)
+    b = bench((10, 32), heat_split=split, film_heat_fraction=0.7, conduction=conduction, **DRY)
     m, f = b.m, b.f
     touching(b)
     rng = np.random.default_rng(2)
@@ -131,29 +162,34 @@ def test_matrix_is_the_difference_of_the_residual(split):
     np.testing.assert_allclose((found[0] - found[1]) / 2e-3, rhs, rtol=0, atol=1e-6)
 
 
-@pytest.mark.parametrize("law", ["load", "constant"])
-@pytest.mark.parametrize("split", [0.5, 0.3])
-def test_slopes_over_the_positions_are_the_differences(split, law):
-    """Also through the friction coefficient, which knows the total contact force."""
-    b = bench((10, 32), heat_split=split, film_heat_fraction=0.7, friction_law=law)
+@pytest.mark.parametrize("speed", [545.0, -545.0])
+@pytest.mark.parametrize("name", LAWS)
+def test_change_of_the_residual_is_the_difference(name, speed):
+    """Over positions, temperatures and the operating point, pressure, flows and liquid follow."""
+    b = bench((10, 32), **LAWS[name])
     m, f = b.m, b.f
-    q = touching(b)
-    f.temp[:] = np.random.default_rng(4).uniform(0.0, 60.0, f.temp.size)
-    evaluate_viscosity(m, BASE, f)
-    heat_slopes(m, BASE, f.temp, f)
-    told = -f.following.copy()
-    for c in range(4):
-        unit = m.sigma1 * (1.0 if c < 2 else 1.0 / m.outer_radius) * 1e-5
-        found = []
-        for sign in (1.0, -1.0):
-            moved = q.copy()
-            moved[c] += sign * unit
-            evaluate_gaps(m, BASE, moved, f)
-            heat_residual(m, BASE, f.temp, f)
-            found.append(f.heat.copy())
-        differences = (found[0] - found[1]) / (2.0 * unit)
-        scale = np.abs(told[c]).max()
-        np.testing.assert_allclose(told[c], differences, rtol=0, atol=1e-6 * scale)
+    base = BASE._replace(speed=speed)
+    q, _ = at_random(b, seed=4)
+    temp, start = f.temp.copy(), q.copy()
+    rng = np.random.default_rng(5)
+    dq = rng.normal(size=4) * m.sigma1 * np.array([1.0, 1.0, 0.3 / m.outer_radius, 10.0])
+    dtemp = rng.normal(size=temp.size)
+    change = Point(0.0, 50.0, 1e-4, 3.0)
+    evaluate(m, base, q, f)
+    let_film_follow(m, base, change, q, dq, dtemp, f)
+    told = np.empty(temp.size)
+    gone = heat_change(m, base, change, q, dq, dtemp, f, told)
+    found, carried = [], []
+    for e in (1e-5, -1e-5):
+        f.temp[:] = temp + e * dtemp
+        at = Point(*(np.array(base) + e * np.array(change)))
+        evaluate(m, at, start + e * dq, f)
+        found.append(f.heat.copy())
+        carried.append(m.oil_storage * (f.rim * f.liquid) @ f.edge)
+    differences = (found[0] - found[1]) / 2e-5
+    scale = np.abs(told).max()
+    np.testing.assert_allclose(told, differences, rtol=0, atol=2e-6 * scale)
+    assert gone == pytest.approx((carried[0] - carried[1]) / 2e-5, rel=1e-5, abs=1e-9)
 
 
 def test_dry_friction_has_its_published_ends_and_its_slope():
@@ -170,13 +206,27 @@ def test_dry_friction_has_its_published_ends_and_its_slope():
 
 
 @pytest.mark.parametrize("option", ["carrier", "rotating"])
-def test_axisymmetric_bodies_have_even_rings(option):
-    """Only the named bodies vary around the circumference; the others to 0.1 %."""
-    b = bench((10, 32), conduction=option)
-    settle(b.m, BASE, tilted(b.m, 3.0), b.f)
-    spread = [np.ptp(body, axis=1).max() / body.mean() for body in bodies(b)]
+def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
+    """At temperatures that a body of rings can have, the 2-D body's nodes add up to its rings."""
+    rings, whole = bench((10, 32), conduction=option), bench((10, 32), conduction="all")
+    q, _ = at_random(rings)
+    column = whole.m.film_step
+    whole.f.temp[:] = 0.0
+    for j in range(rings.m.n_t):
+        whole.f.temp[j * column : j * column + 10] = rings.f.temp[j * rings.m.film_step :][:10]
+    for part, values in zip(
+        bodies(whole, np.arange(whole.f.temp.size)), bodies(rings), strict=True
+    ):
+        whole.f.temp[part] = values
+    evaluate(whole.m, BASE, q, whole.f)
     even = (1, 2) if option == "carrier" else (0,)
-    assert all((spread[k] < 1e-3) == (k in even) for k in range(3)), spread
+    for k, (mine, nodes) in enumerate(
+        zip(bodies(rings, rings.f.heat), bodies(whole, whole.f.heat), strict=True)
+    ):
+        if k in even:
+            assert np.ptp(mine, axis=1).max() == 0.0
+            mine, nodes = mine[:, 0], nodes.sum(axis=1)
+        np.testing.assert_allclose(mine, nodes, rtol=0, atol=1e-10 * np.abs(nodes).max())
 
 
 def test_a_washer_at_rest_stays_at_oil_temperature():

@@ -6,26 +6,34 @@ import pytest
 from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.continuation import cold_start
-from thrustwasher.washer.kernels.film import film_residual, film_solve
+from thrustwasher.washer.kernels.film import film_solve, settle_film
 from thrustwasher.washer.kernels.gap import evaluate_gaps
-from thrustwasher.washer.kernels.heat import solve_heat
+from thrustwasher.washer.kernels.heat_factor import solve_heat
 from thrustwasher.washer.kernels.newton import (
+    EXACT,
     FILM,
     LOAD,
     NO_FLOOR,
     _balance,
-    _linearise,
+    linearise,
     make_factor,
     newton,
     smooth_film,
 )
 from thrustwasher.washer.kernels.workspace import Point, forget_factor, square, vector
+from thrustwasher.washer.parameters import PRESETS
 
 from washer_setup import BASE, bench, full_gear, settle, tilted  # isort: skip
 
-GRID = (10, 32)
+GRID = (6, 16)  # what is tested holds on any mesh; these kernels run as plain Python
+DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
 STATES = {
     "film": ({"ratio": 9.0}, {}),
+    "film, the paper's": ({"ratio": 9.0}, PRESETS["paper"]),
+    "mixed, carrier turns": (
+        {"ratio": 2.3, "gy": 0.0019, "second": 2.6},
+        {"conduction": "rotating"},
+    ),
     "mixed": ({"ratio": 2.3, "gy": 0.0019, "second": 2.6}, {}),
     "boundary": ({"ratio": 0.35, "gy": 0.00168, "second": 1.0}, {}),
     "boundary, uneven split": ({"ratio": 0.35, "gy": 0.00168, "second": 1.0}, {"heat_split": 0.3}),
@@ -42,7 +50,7 @@ def unit(m, c):
 
 def balances(b, pt, q):
     settle(b.m, pt, q, b.f)
-    _balance(b.m, b.f.p, b.f)
+    _balance(b.m, b.f)
     return vector(b.f.small, L.BALANCE).copy()
 
 
@@ -75,20 +83,23 @@ def test_contact_stiffness_is_the_difference_of_the_contact_forces(name):
         np.testing.assert_allclose(told[:, c], differences, rtol=1e-6, atol=1e-7 * scale)
 
 
+@pytest.mark.parametrize(("oil", "close"), [(DRY, 2e-5), ({}, 2e-2)])
 @pytest.mark.parametrize("name", STATES)
-def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(name):
-    """Everything counts: dmu/dT, df/dF, dR/dh, the faces' slopes, the active set at rest."""
+def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(name, oil, close):
+    """Everything counts: dmu/dT, df/dF, dR/dh, the faces' slopes, the active set at rest.
+
+    Where oil carries heat, the slopes of the temperatures are left approximate.
+    """
     place, surfaces = STATES[name]
-    b = bench(GRID, **surfaces)
+    b = bench(GRID, **{**surfaces, **oil})
     m, f = b.m, b.f
     q = tilted(m, **place)
     settle(m, BASE, q, f)
-    assert make_factor(m, BASE, q, f.temp, f)
+    assert make_factor(m, BASE, q, f.temp, f, EXACT)
     f.heat[:] *= -1.0
     solve_heat(m, f.heat, f.dtemp, f)
-    film_residual(m, f.p, f)
-    assert film_solve(m, f.p, f)
-    _linearise(m, f)
+    film_solve(m, f)
+    linearise(m, f)
     told = square(f.small, L.SLOPES).copy()
     scaled = np.array([1.0, 1.0, 1.0 / m.outer_radius, 1.0 / m.outer_radius])
     for c in range(4):
@@ -100,12 +111,16 @@ def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(
             found.append(balances(b, BASE, moved))
         differences = (found[0] - found[1]) / (2.0 * e) * scaled
         column = told[:, c] * scaled
-        np.testing.assert_allclose(column, differences, rtol=0, atol=2e-5 * np.abs(column).max())
+        np.testing.assert_allclose(column, differences, rtol=0, atol=close * np.abs(column).max())
 
 
-def test_load_slope_is_the_slope_of_the_curve():
-    """dload/ds told at a converged film thickness against two neighbouring ones."""
-    b = bench(GRID)
+@pytest.mark.parametrize(("changes", "close"), [(PRESETS["paper"], 1e-4), ({}, 2e-3)])
+def test_load_slope_is_the_slope_of_the_curve(changes, close):
+    """dload/ds told at a converged film thickness against two neighbouring ones.
+
+    Where oil carries heat, the slopes of the temperatures are left approximate.
+    """
+    b = bench(GRID, **changes)
     loads, told = [], 0.0
     for step in (0.0, 1e-3, -1e-3):
         target = (5.0 + step) * b.m.sigma1
@@ -117,24 +132,33 @@ def test_load_slope_is_the_slope_of_the_curve():
             newton(b.w, BASE, FILM, target, NO_FLOOR, 1e-9, 10.0)
             told = info[L.LOAD_SLOPE]
         loads.append(info[L.REACHED_LOAD])
-    assert told == pytest.approx((loads[1] - loads[2]) / (2e-3 * b.m.sigma1), rel=1e-4)
+    assert told == pytest.approx((loads[1] - loads[2]) / (2e-3 * b.m.sigma1), rel=close)
 
 
-def test_convergence_is_quadratic_with_a_fresh_factor():
-    """Residuals after 1, 2, ... full steps from a start near by: digits double."""
-    b = bench(GRID)
+def residuals_from_near_by(**changes):
+    """Return the residuals after 1, 2, ... full steps, each with a factor made there."""
+    b = bench(GRID, **changes)
     pt = Point(300.0, 953.0, 0.002, 297.15)
     q, info, status = converged(LOAD, 300.0, b, pt, ratio=15.0)
     assert status == OK
-    start = (q * np.array([1.03, 1.03, 1.0, 1.0]), b.f.temp.copy(), b.f.p.copy())
-    b.w.q[:], residuals = start[0], []
+    b.w.q[:], residuals = q * np.array([1.03, 1.03, 1.0, 1.0]), []
     for _ in range(5):
         forget_factor(b.w)
         newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-16, 1.0)
         residuals.append(info[L.RESIDUAL])
+    return np.array(residuals)
+
+
+def test_convergence_is_quadratic_with_a_fresh_factor():
+    residuals = residuals_from_near_by(**PRESETS["paper"])
     logs = np.log(residuals[:4])
     assert residuals[3] < 1e-9
     assert (logs[2] - logs[1]) / (logs[1] - logs[0]) > 1.5
+
+
+def test_each_iteration_gains_a_digit_where_oil_carries_heat():
+    residuals = residuals_from_near_by()
+    assert np.all(residuals[1:] < 0.1 * residuals[:-1]), residuals
 
 
 def test_solution_is_the_same_from_thin_and_thick_starts():
@@ -159,7 +183,7 @@ def test_isothermal_film_scales_with_viscosity_times_speed():
     """At given gaps, all heat left out: pressure forces go with mu omega."""
     loads = []
     for speed, scale in ((200.0, 6.31e-5), (800.0, 6.31e-5), (200.0, 2 * 6.31e-5)):
-        b = bench(GRID, film_heat_fraction=0.0, viscosity_scale=scale)
+        b = bench(GRID, film_heat_fraction=0.0, oil_cooling=False, viscosity_scale=scale)
         pt = BASE._replace(speed=speed)
         q = tilted(b.m, 12.0, second=9.0)
         loads.append(balances(b, pt, q)[0] - b.f.small[L.FORCES])
@@ -168,13 +192,21 @@ def test_isothermal_film_scales_with_viscosity_times_speed():
     assert loads[2] == pytest.approx(2.0 * loads[0], rel=1e-9)
 
 
-@pytest.mark.parametrize("name", ["q", "temp", "p"])
+@pytest.mark.parametrize("name", ["q", "temp"])
 def test_a_start_that_is_no_number_is_a_failure(name):
     b = bench(GRID)
     converged(LOAD, 300.0, b, BASE)
-    {"q": b.w.q, "temp": b.f.temp, "p": b.f.p}[name][1] = np.nan
+    {"q": b.w.q, "temp": b.f.temp}[name][1] = np.nan
     status = newton(b.w, BASE, LOAD, 300.0, NO_FLOOR, 1e-9, 10.0)
     assert status in (NOT_FINITE, SINGULAR, MAX_ITERATIONS)
+
+
+def test_a_pressure_that_is_no_number_is_solved_for_again():
+    b = bench(GRID)
+    q, _, _ = converged(LOAD, 300.0, b, BASE)
+    b.f.p[1:-1] = np.nan
+    assert newton(b.w, BASE, LOAD, 300.0, NO_FLOOR, 1e-9, 10.0) == OK
+    np.testing.assert_allclose(b.w.q, q, rtol=1e-8, atol=1e-11)
 
 
 def test_iterations_end_at_their_limit():
@@ -192,12 +224,11 @@ def test_newton_starts_from_a_thick_film():
 
 
 def test_pressure_told_is_the_pressure_kept():
-    """At the solution the linear system returns the pressure that is already there."""
+    """At the solution the film, solved again, has the pressure that is already there."""
     b = bench(GRID)
     q, _, status = converged(LOAD, 300.0, b, BASE)
     assert status == OK
     settle(b.m, BASE, q, b.f)
-    make_factor(b.m, BASE, q, b.f.temp, b.f)
-    b.f.dtemp[:] = 0.0
-    assert film_solve(b.m, b.f.p, b.f)
-    np.testing.assert_allclose(b.f.film_rhs[:, L.AT_FIXED], b.f.p, rtol=1e-9, atol=1e-6)
+    before = b.f.p.copy()
+    assert settle_film(b.m, b.f) < 1e-12
+    np.testing.assert_allclose(b.f.p, before, rtol=1e-9, atol=1e-6)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thrustwasher.errors import BranchError, ParameterError, Status
-from thrustwasher.washer.kernels.layout import N_ALL
+from thrustwasher.washer.kernels.layout import N_ALL, NOUT
 from thrustwasher.washer.kernels.map.map_step import N_MAP_WORK, look_up, map_sens
 from thrustwasher.washer.kernels.workspace import Point
 from thrustwasher.washer.load_curve import load_curve
@@ -14,10 +14,11 @@ from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
 
 PARAMS = WasherParams()
+TORQUE = 1.7e-3  # a third of the tolerance that the map is built to
 PLACE = {"speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
 OFF_NODES = [
     (150.0, 431.0, 0.00183, "film"), (420.0, 655.0, 0.00217, "film"),
-    (700.0, 512.0, 0.00194, "film"), (500.0, 587.0, 0.00209, "contact"),
+    (700.0, 512.0, 0.00194, "film"), (800.0, 587.0, 0.00209, "contact"),
     (880.0, 418.0, 0.00201, "contact"),
 ]  # fmt: skip
 
@@ -28,14 +29,19 @@ def test_between_its_nodes_the_map_agrees_with_the_mesh(found_first, load, speed
     here = solve_washer(PARAMS, **point, fidelity="map")
     there = solve_washer(PARAMS, **point)
     assert (here.fidelity, here.branch, here.distress) == ("map", there.branch, there.distress)
-    assert here.friction_torque == pytest.approx(there.friction_torque, rel=2e-4)
-    assert here.film_ratio == pytest.approx(there.film_ratio, abs=2e-3)
+    assert here.friction_torque == pytest.approx(there.friction_torque, rel=TORQUE)
+    assert here.film_ratio == pytest.approx(there.film_ratio, abs=1e-2)
     assert here.temperature == pytest.approx(there.temperature, abs=0.02)
     assert here.fluid_load + here.contact_load == pytest.approx(load, rel=1e-9)
-    assert here.contact_load == pytest.approx(there.contact_load, rel=2e-3, abs=0.02)
-    assert here.washer_tilt_y == pytest.approx(there.washer_tilt_y, rel=1e-4)
-    assert here.washer_tilt_x == pytest.approx(there.washer_tilt_x, abs=1e-5 * tilt)
-    assert here.friction_coefficient == pytest.approx(there.friction_coefficient, rel=2e-4)
+    assert here.contact_load == pytest.approx(there.contact_load, rel=5e-3, abs=0.1)
+    assert here.washer_tilt_y == pytest.approx(there.washer_tilt_y, rel=1e-3)
+    assert here.washer_tilt_x == pytest.approx(there.washer_tilt_x, abs=1e-3 * tilt)
+    assert here.friction_coefficient == pytest.approx(there.friction_coefficient, rel=TORQUE)
+    for name in ("oil_flow", "throughflow_heat", "oil_heat", "stick_margin"):
+        assert getattr(here, name) == pytest.approx(getattr(there, name), rel=2e-3), name
+    for name in ("oil_outlet_temperature", "film_temperature"):
+        rise = getattr(there, name) - 297.15
+        assert getattr(here, name) - 297.15 == pytest.approx(rise, rel=3e-3), name
 
 
 def test_the_folds_are_those_of_the_load_curve(small):
@@ -44,7 +50,7 @@ def test_the_folds_are_those_of_the_load_curve(small):
         mine, theirs = small.folds(**place), load_curve(PARAMS, **place).folds
         assert [f.kind for f in mine] == [f.kind for f in theirs] == ["film_lost", "film_regained"]
         for a, b in zip(mine, theirs, strict=True):
-            assert a.load == pytest.approx(b.load, rel=5e-4)
+            assert a.load == pytest.approx(b.load, rel=TORQUE)
             assert a.film_ratio == pytest.approx(b.film_ratio, abs=0.02)
 
 
@@ -83,7 +89,7 @@ def test_rows_and_single_look_ups_are_the_same(small):
 
 
 def test_outside_its_box_a_map_says_nothing_and_the_field_answers(found_first, small):
-    for change in ({"load": 99.0}, {"load": 901.0}, {"speed": 399.0}, {"tilt": 0.0023},
+    for change in ({"load": 99.0}, {"load": 1101.0}, {"speed": 399.0}, {"tilt": 0.0023},
                    {"oil_temperature": 298.0}):  # fmt: skip
         point = {"load": 300.0, **PLACE, **change}
         assert not small.covers(**point)
@@ -112,11 +118,11 @@ def test_derivatives_are_those_of_the_map(small, load, speed, tilt, branch):
 
     def outputs(x):
         assert look_up(small.data, Point(*x), wanted, np.zeros(40), w, numbers, found) == 0
-        return numbers[:8].copy()
+        return numbers[:NOUT].copy()
 
     step = 1e-3
     ahead, back = outputs(at + step * direction), outputs(at - step * direction)
     outputs(at)
-    slope = np.zeros(8)
+    slope = np.zeros(NOUT)
     assert map_sens(at, direction, numbers, w, small.data, slope) == 0
     assert slope == pytest.approx((ahead - back) / (2.0 * step), rel=2e-6, abs=1e-12)

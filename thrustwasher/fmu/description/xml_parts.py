@@ -34,6 +34,7 @@ DISPLAY: dict[str, tuple[tuple[str, float, float], ...]] = {
     "J": (("kJ", 1e-3, 0.0),),
     "Pa": (("MPa", 1e-6, 0.0), ("GPa", 1e-9, 0.0)),
     "Pa.s": (("mPa.s", 1e3, 0.0),),
+    "m3/s": (("l/min", 6e4, 0.0),),
 }
 
 
@@ -60,6 +61,7 @@ TYPES = (
     RealType("Pressure", "Pressure", "Pa", "MPa", nominal=1e6),
     RealType("Power", "Power", "W", nominal=100.0),
     RealType("Energy", "Energy", "J", "kJ", nominal=1e3),
+    RealType("VolumeFlow", "VolumeFlowRate", "m3/s", "l/min", nominal=1e-6),
     RealType("Viscosity", "DynamicViscosity", "Pa.s", "mPa.s", nominal=0.01),
     RealType("Fraction", "Dimensionless", "1"),
 )

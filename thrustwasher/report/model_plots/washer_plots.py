@@ -13,6 +13,8 @@ from ..palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, RED, SIGMA
 from ..style import decade_ticks, heading, label, legend_below, new_figure, note_at_right, styled
 
 Array = np.ndarray[Any, Any]
+LEAST_PRESSURE = 1.0  # [Pa] of asperities that touch
+ARROWS = 5, 24  # of the oil's flow, along the radius and around
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 129)  # finer around than any grid but the finest
 LOWEST_RATIO = 0.1  # film ratios below, even negative ones, leave the logarithmic axis
 BRANCHES = {
@@ -27,7 +29,7 @@ FOLDS = {"film_lost": ("v", "film lost"), "film_regained": ("^", "film regained"
 def field_figure(
     result: Any, point: Mapping[str, float], params: Any = None, *, words: str = ""
 ) -> Figure:
-    """Return four maps of a solved washer.
+    """Return six maps of a solved washer.
 
     Parameters
     ----------
@@ -37,17 +39,21 @@ def field_figure(
     words : put before the operating point in the title
     """
     fields = result.fields()
-    figure, axes = new_figure(9.6, 8.6, 2, 2, head=2, right=0.5)
+    figure, axes = new_figure(9.6, 12.6, 3, 2, head=2, right=0.5)
+    touching = np.where(fields.contact_pressure < LEAST_PRESSURE, 0.0, fields.contact_pressure)
     maps = (
         ("Film thickness", "µm", fields.film_thickness * 1e6, "cividis"),
         ("Film pressure", "MPa", fields.pressure / 1e6, "viridis"),
-        ("Asperity pressure", "MPa", fields.contact_pressure / 1e6, "viridis"),
+        ("Asperity pressure", "MPa", touching / 1e6, "viridis"),
+        ("Liquid in the film", "%", fields.liquid_fraction * 100.0, "Blues"),
         ("Film temperature", "°C", fields.film_temperature - CELSIUS, "inferno"),
+        ("Carrier temperature", "°C", fields.carrier_temperature - CELSIUS, "inferno"),
     )
     for axis, (title, unit, values, colours) in zip(axes, maps, strict=True):
         _draw_map(axis, fields, values, title, unit, colours)
+    _draw_flow(axes[3], fields)
     _mark_film(axes[0], fields, result)
-    if not np.any(fields.contact_pressure > 0.0):
+    if not np.any(touching):
         axes[2].text(0.5, 0.5, "no contact", transform=axes[2].transAxes, ha="center", va="center")
     _draw_rotation(axes[0], fields, point["speed"])
     heading(figure, _field_heading(result, point, words), fontsize=10.5)
@@ -88,6 +94,25 @@ def _mark_film(axis: Axes, fields: Any, result: Any) -> None:
         axis.clabel(lines, fmt=lambda v: f"h/{SIGMA} = {v:g}", fontsize=8)
 
 
+def _draw_flow(axis: Axes, fields: Any) -> None:
+    """Draw where the liquid flows; the longest arrow is named."""
+    rows = np.unique(np.linspace(0, len(fields.radius) - 1, ARROWS[0]).round().astype(int))
+    turn = np.linspace(0.0, 2.0 * np.pi, ARROWS[1], endpoint=False)
+    outward, around = (
+        np.array([np.interp(turn, fields.angle, row, period=2.0 * np.pi) for row in values[rows]])
+        for values in (fields.flow_outward, fields.flow_around)
+    )
+    radius, cos, sin = 1e3 * fields.radius[rows, None], np.cos(turn), np.sin(turn)
+    longest = float(np.max(np.hypot(outward, around)))
+    if not longest > 0.0:
+        return
+    axis.quiver(
+        radius * cos, radius * sin, outward * cos - around * sin, outward * sin + around * cos,
+        color=RED, angles="xy", scale_units="xy", scale=longest / (0.2 * radius.max()), width=0.004,
+    )  # fmt: skip
+    axis.set_xlabel(f"x [mm]    (longest arrow: {1e6 * longest:.4g} mm²/s)")
+
+
 def _draw_rotation(axis: Axes, fields: Any, speed: float) -> None:
     """Show which way the washer turns."""
     if speed == 0.0:
@@ -113,7 +138,7 @@ def _field_heading(result: Any, point: Mapping[str, float], words: str) -> str:
     answer = (
         f"torque {format_quantity(result.friction_torque, 'N.m')}, "
         f"film ratio {result.film_ratio:.3g}, mean film temperature "
-        f"{format_quantity(result.temperature, 'K', digits=3)}, {result.branch} branch"
+        f"{format_quantity(result.film_temperature, 'K', digits=3)}, {result.branch} branch"
         + (", FILM LOST (distress)" if result.distress else "")
     )
     return f"{where}\n{answer}"
@@ -144,7 +169,7 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
     panels = (
         ("film_ratio", "Film ratio: how much film is left", f"film ratio h/{SIGMA} [1]"),
         ("friction_torque", "Friction torque", "friction torque [N·m]"),
-        ("temperature", "Mean film temperature", "temperature [°C]"),
+        ("temperature", "Mean temperature of carrier and washer", "temperature [°C]"),
         ("friction_coefficient", "Friction coefficient (Stribeck)", "friction coefficient [1]"),
     )
     for axis, (name, title, up) in zip(axes, panels, strict=True):

@@ -112,7 +112,7 @@ def draw_temperatures(axis: Axes, record: Record) -> None:
     ]  # fmt: skip
     lines += [
         ("washer.temperature_max", "washer, hottest spot", ORANGE, ":"),
-        ("washer.temperature", "washer, mean film", ORANGE, "-"),
+        ("washer.temperature", "washer, mean of the walls", ORANGE, "-"),
         ("mesh.temperature", "mesh, asperities", GREEN, ":"),
         ("mesh.surface_temperature", "mesh, tooth surface", GREEN, "-"),
         ("transmission.oil_supply_temperature", "oil", BLACK, "--"),

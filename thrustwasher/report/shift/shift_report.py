@@ -176,7 +176,8 @@ def _washer_sections(record: Record) -> list[Section]:
         moment = None if extreme is None else solve_moment(record, extreme.time)
         if moment is not None:
             plots.append(_moment_plot(stem, words, moment))
-    return [Section("washer", "The thrust washer", plots=plots)]
+    table = shift_tables.washer_table(record)
+    return [Section("washer", "The thrust washer", plots=plots, tables=[table] if table else [])]
 
 
 def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:

@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any
 
+import numpy as np
+
 from ...units import format_quantity as say
 from ..html import Table
 from .shift_record import Part, Record
@@ -53,6 +55,29 @@ def key_table(record: Record) -> Table:
         for f in record.key_figures if f.value and f.name not in SAID_TWICE
     ]  # fmt: skip
     return Table(("", "value", "at time [s]"), rows, numbers=(1, 2))
+
+
+OF_A_WASHER = (
+    "friction_power", "oil_heat", "throughflow_heat", "oil_flow", "oil_outlet_temperature",
+    "film_temperature", "temperature_max", "stick_margin",
+)  # fmt: skip
+
+
+def washer_table(record: Record) -> Table | None:
+    """Return the range of a washer's heat, oil and hold over the run; None without a washer."""
+    part = record.part("washer")
+    if part is None:
+        return None
+    rows = []
+    for s in part.spec.outputs:
+        values = record.series(f"washer.{s.name}") if s.name in OF_A_WASHER else None
+        if values is not None:
+            row: list[str] = [s.help]
+            for index in (int(np.nanargmin(values)), int(np.nanargmax(values))):
+                row += [say(float(values[index]), s.unit), f"{record.time[index]:.4g}"]
+            rows.append(tuple(row))
+    heads = ("of one washer", "least", "at [s]", "greatest", "at [s]")
+    return Table(heads, rows, numbers=(1, 2, 3, 4)) if rows else None
 
 
 def judder_table(record: Record) -> Table:

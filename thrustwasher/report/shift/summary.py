@@ -11,7 +11,7 @@ from jinja2 import Environment, StrictUndefined
 from ...units import format_quantity
 from .shift_record import PACKS, Record
 from .shift_tables import source_texts
-from .worst_moments import highest
+from .worst_moments import highest, least_margin
 
 
 @cache
@@ -22,7 +22,7 @@ def _words() -> Any:
     environment.filters["say"] = lambda value, unit, digits=3: format_quantity(
         value, unit, digits=digits
     )
-    environment.globals.update(highest=highest, pi=math.pi)
+    environment.globals.update(highest=highest, least_margin=least_margin, pi=math.pi)
     text = Path(__file__).with_name("words.jinja").read_text("utf-8")
     return environment.from_string(text).module
 

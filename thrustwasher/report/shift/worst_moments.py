@@ -50,6 +50,19 @@ def distressed(record: Record) -> Array:
     return np.asarray((lost > 0.5) & (np.abs(speed) > TURNING))
 
 
+def least_margin(record: Record) -> Extreme | None:
+    """Return the least `stick_margin` of a washer that turns under load; None without any."""
+    values, load = record.series("washer.stick_margin"), record.series("washer.load")
+    speed = record.series("washer.speed")
+    if values is None or load is None or speed is None:
+        return None
+    where = np.flatnonzero((np.abs(speed) > TURNING) & (load > LEAST_LOAD))
+    if not where.size:
+        return None
+    index = where[np.argmin(values[where])]
+    return Extreme(float(values[index]), float(record.time[index]))
+
+
 class Moment(NamedTuple):
     """One moment [s], the inputs recorded there, and the washer solved again."""
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from ...errors import ParameterError, suggestion
 from ...ladder.choose import rung_and_tolerance
-from ...model.parameters import allowed
+from ...model.parameters import allowed, made_of
 from ...model.spec import ModelSpec
 from ...units import parse_quantity
 from ..key_figures.figure_list import FIGURES
@@ -200,10 +200,13 @@ RESERVED = {
 def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
     known = {f.name: f.metadata for f in fields(spec.params)}
     values: dict[str, Any] = {}
+    preset = None
     fidelity, tolerance = spec.default_fidelity, None
     for key, value in table.items():
         if key == "fidelity":
             fidelity, tolerance = rung_and_tolerance(where, spec, value)
+        elif key == "preset" and spec.presets:
+            preset = str(value)
         elif key not in known:
             raise _unknown(where, key, ["fidelity", *known])
         elif key in RESERVED:
@@ -211,7 +214,7 @@ def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
         else:
             values[key] = _value(where, key, value, known[key])
     try:
-        params = spec.params(**values)
+        params = made_of(spec, preset, values)
         return Part(spec=spec, fidelity=fidelity, params=params, tolerance=tolerance)
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None

@@ -1,9 +1,9 @@
 """Trial runs: which inputs a part will see, found with cheap rungs and long steps.
 
-A part whose own torque is judged (the washer) takes its cheapest rung that knows speed; the others
-keep theirs, which cost microseconds: with settled films in the packs another shift would be seen.
-Two runs, one with steps twice as long as the other, tell what the communication step is worth; a
-third one with the finest rungs of all other parts tells what theirs are worth.
+A part whose own torque is judged (the washer) takes its map if it has one, else its first mesh; the
+others keep theirs, which cost microseconds: with settled films in the packs another shift would be
+seen. Two runs, one with steps twice as long as the other, tell what the communication step is
+worth; a third one with the finest rungs of all other parts tells what theirs are worth.
 """
 
 import math
@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...ladder.card import fresh_cards
 from ...model.spec import ModelSpec
 from ..cosim.instances import Stepping
 from ..run import run_shift
@@ -22,7 +23,6 @@ from ..scene.scene import STEP_RANGE, Part, Scene
 from ..shift_result import ShiftResult
 from .selection_record import Box, StepShare
 
-CHEAP = ("stribeck", "closed")  # what a trial run takes, the first that a part has
 MARGIN = 0.2  # of the width of the box, added on each side
 STRIDE, LEAST_STEPS = 4, 100  # a trial's steps are as many times as long; at least so many steps
 ORDER = 1.0  # taken for all figures: steps of packs couple with 2, of parts that drag with 1
@@ -85,10 +85,7 @@ def trial_runs(scene: Scene, pool: Pool, compiled: bool | None = None) -> TrialR
     """Run a scene with cheap rungs and long steps."""
     begin = perf_counter()
     open_ = {name: part.spec for name, part in scene.parts.items() if part.tolerance}
-    rungs = {
-        n: next((r for r in CHEAP if n in DIRECT and r in s.fidelities), s.default_fidelity)
-        for n, s in open_.items()
-    }
+    rungs = {n: cheap_rung(n, scene.parts[n]) for n in open_}
     span = scene.stop_time - scene.start_time
     step = min(STRIDE * scene.step, max(scene.step, span / LEAST_STEPS), STEP_RANGE[1] / 2.0)
 
@@ -100,6 +97,13 @@ def trial_runs(scene: Scene, pool: Pool, compiled: bool | None = None) -> TrialR
     finest = rungs | {n: finest_of(s) for n, s in open_.items() if n not in DIRECT}
     found = run(2.0 * step, finest) if finest != rungs else None
     return TrialRuns(coarse, fine, found, perf_counter() - begin)
+
+
+def cheap_rung(name: str, part: Part) -> str:
+    """Return the rung for trial runs: of a washer its map, if a card knows one, or `coarse`."""
+    if name not in DIRECT:
+        return part.spec.default_fidelity
+    return "map" if fresh_cards(part.spec.key, "map", part.params) else "coarse"
 
 
 def finest_of(spec: ModelSpec) -> str:

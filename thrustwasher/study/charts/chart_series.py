@@ -28,6 +28,7 @@ class Configuration:
     make: Callable[[], Method]
     count_of: str = ""
     is_rival: bool = False
+    preset: str = ""  # of the parameters whose equations it solves, if not the default ones
 
 
 @dataclass(frozen=True)
@@ -57,11 +58,12 @@ Settings = Iterable[tuple[str, str, Callable[[], Method]]]  # label, value of th
 
 
 def series(
-    family: str, knob: str, settings: Settings, count_of: str, *, is_rival: bool = False
-) -> list[Configuration]:
+    family: str, knob: str, settings: Settings, count_of: str, *, is_rival: bool = False,
+    preset: str = "",
+) -> list[Configuration]:  # fmt: skip
     """Return a method at each of its settings."""
     return [
-        Configuration(family, label, knob, value, make, count_of, is_rival)
+        Configuration(family, label, knob, value, make, count_of, is_rival, preset)
         for label, value, make in settings
     ]
 

@@ -82,10 +82,10 @@ CASES = (
     _case("large tilt", 200.0, 545.0, tilt=4e-3),
     _case("hot oil", 200.0, 545.0, oil=353.15),
     _case("transition", 320.0, 136.0),
-    _case("just below the fold", 700.0, 545.0),
+    _case("below the fold", 700.0, 545.0),
     _case("mixed", 450.0, 136.0),
     _case("boundary", 1361.0, 136.0),
-    _case("contact branch below the fold", 500.0, 545.0, down_from=1200.0),
+    _case("contact branch below the fold", 700.0, 545.0, down_from=1200.0),
     _case("film lost", 1200.0, 545.0),
 )
 WASHER = Chart(

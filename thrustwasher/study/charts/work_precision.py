@@ -165,19 +165,24 @@ def work_precision(
     cases = cases_of(model, quick=quick)
     progress(f"{model}: reference values of {len(cases)} cases")
     source = source_of(model)
-    known = [source.at_case(case.point, case.before) for case in cases]
+    settings = series_of(model, quick=quick)
+    known = {
+        preset: [source.at_case(case.point, case.before, *words) for case in cases]
+        for preset, words in {s.preset: [s.preset] if s.preset else [] for s in settings}.items()
+    }
     chart = chart_of(model)
     quantities = chart.quantities
     samples = []
-    for setting in series_of(model, quick=quick):
+    for setting in settings:
         progress(f"{model}: {setting.label}")
         repeats = 3 if quick else REPEATS
-        samples.append(measure(setting, cases, known, quantities, repeats=repeats).as_dict())
+        true = known[setting.preset]
+        samples.append(measure(setting, cases, true, quantities, repeats=repeats).as_dict())
     found: dict[str, Any] = {
         "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
         "cases_digest": digest(cases), "cost_of": chart.cost_of,
         "quantities": [q.as_dict() for q in quantities],
-        "truths": [{q.name: t.values[q.name] for q in quantities} for t in known],
+        "truths": [{q.name: t.values[q.name] for q in quantities} for t in known[""]],
         "samples": samples,
     }  # fmt: skip
     for name, measured in chart.more.items():

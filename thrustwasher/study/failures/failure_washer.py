@@ -10,11 +10,11 @@ from functools import cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
+from ...model.parameters import made_of
 from ...tribology.lumped_body import exponential_weights
 from ...washer.closed_forms.thin_film import narrow_ring_load
-from ...washer.kernels.wedge import lift
 from ...washer.load_curve import load_curve
-from ...washer.parameters import WasherParams
+from ...washer.parameters import SPEC, WasherParams
 from ...washer.solve import solve_washer
 from ..rivals.plain2006 import Plain2006
 from .failure_cells import LIES, NONE, OK, SAYS, Cell, Group, off, table
@@ -61,32 +61,34 @@ class Found(NamedTuple):
 
 
 @cache
-def true_balance(point: Hazard) -> Found:
-    """Return the answer of the ``fine`` mesh from nothing."""
-    return _ours(point, "fine", warm=False)
+def true_balance(point: Hazard, preset: str | None = None) -> Found:
+    """Return the answer of the ``fine`` mesh from nothing, to the equations of a preset."""
+    return _ours(point, "fine", warm=False, preset=preset)
 
 
 def balance() -> Group:
     """Judge methods to find the washer's balance; those that start warm start where they were."""
     base = partial(Plain2006, grid=MESH, tolerance=1e-4)
-    methods: dict[str, Any] = {
+    rivals: dict[str, Any] = {
         "Newton, undamped, level start": _rival(partial(base, limited=False, level=True)),
         "Newton, limited, cold; temperatures substituted": _rival(partial(base, share=1.0)),
         "Newton, limited, cold; temperatures relaxed": _rival(base),
         "Newton, limited, warm; temperatures relaxed": _rival(base, warm=True),
+    }
+    ours: dict[str, Any] = {
         "steps in film thickness": _curve,
-        "closed form, oil at its own temperature": partial(_ours, fidelity="closed", warm=False),
         "map": partial(_ours, fidelity="map", warm=True),
         "field, the default, cold": partial(_ours, fidelity="field", warm=False),
         "field, the default, warm": partial(_ours, fidelity="field", warm=True),
     }
 
     def judge(method: Any, hazard: Hazard) -> Cell:
-        true, found = true_balance(hazard), method(hazard)
+        preset = "paper" if method in rivals.values() else None  # whose equations it solves
+        true, found = true_balance(hazard, preset), method(hazard)
         return Cell(NONE) if found is None else judged(true, found)
 
     words = f"film ratio off by more than {WRONG_RATIO:g}: another branch"
-    return table("the washer's balance", words, methods, HAZARDS, judge)
+    return table("the washer's balance", words, rivals | ours, HAZARDS, judge)
 
 
 def judged(true: Found, found: Found) -> Cell:
@@ -119,12 +121,13 @@ def _rival(make: Any, *, warm: bool = False) -> Any:
     return solve
 
 
-def _ours(point: Hazard, fidelity: str, warm: bool) -> Found:
+def _ours(point: Hazard, fidelity: str, warm: bool, preset: str | None = None) -> Found:
     """Solve with a rung of the package."""
+    params = made_of(SPEC, preset, {})
 
     def solve(load: float, speed: float, tilt: float, start: Any = None) -> Any:
         return solve_washer(
-            WasherParams(), load=load, speed=speed, tilt=tilt, oil_temperature=point.oil,
+            params, load=load, speed=speed, tilt=tilt, oil_temperature=point.oil,
             fidelity=fidelity, start=start, throw=False,
         )  # fmt: skip
 
@@ -160,10 +163,6 @@ def closed_forms() -> Group:
         least = GAP + 0.5 * tilt * WIDTH
         return narrow_ring_load(1.0, 1.0, RADIUS - 0.5 * WIDTH, RIM, least, largest)
 
-    def ours(tilt: float) -> float:
-        # a roughness so small that it does not count
-        return lift(GAP, 0.0, tilt, 0.0, 1.0, 0.0, RADIUS - 0.5 * WIDTH, RIM, 1e-12)[0]
-
     def weight(z: float) -> float:
         return (1.0 - (1.0 - math.exp(-z)) / z) / z
 
@@ -172,7 +171,6 @@ def closed_forms() -> Group:
     times = {"usual": 1.0, "far": 1e-6, "end": 1e-9, "zero": 0.0}
     forms: dict[str, Form] = {
         "load of a narrow ring, 1/h_1^2 - 1/h_2^2": (printed, _ring, tilts),
-        "the same, as the package has it": (ours, _ring, tilts),
         "mean of a heated body, (1 - (1 - exp(-z))/z)/z": (weight, _weight, times),
         "the same, the package's": (lambda z: exponential_weights(z)[2], _weight, times),
     }

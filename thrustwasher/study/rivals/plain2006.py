@@ -312,8 +312,8 @@ def charted(*, quick: bool = False) -> list[Configuration]:
         (f"2006, mesh {r} x {t}", f"{r}x{t}", partial(Method2006, tolerance=1e-5, grid=(r, t)))
         for r, t in (() if quick else GRIDS)
     )
-    swept = "sweeps x nodes"
+    made = partial(series, count_of="sweeps x nodes", is_rival=True, preset="paper")
     return [
-        *series("2006, 9 x 67, tolerance", "tolerance", tolerances, swept, is_rival=True),
-        *series("2006, 1e-5, mesh", "grid", meshes, swept, is_rival=True),
+        *made("2006, 9 x 67, tolerance", "tolerance", tolerances),
+        *made("2006, 1e-5, mesh", "grid", meshes),
     ]

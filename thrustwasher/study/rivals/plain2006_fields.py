@@ -146,7 +146,7 @@ def _across(
     """Fill heat made in the film [W] and the conductances across both gaps (2, n_t, n_r) [W/K]."""
     n_t, n_r = mu.shape
     friction, _ = dry_friction(m.par, contact)
-    half = m.washer_thickness / (2.0 * m.conductivity)
+    half = m.washer_thickness / (2.0 * m.washer_conductivity)
     for j in range(n_t):
         for i in range(n_r):
             h = gap_at(g, q, j, i)
@@ -170,13 +170,14 @@ def _plate(
     """Fill the conductances of a body in its plane and to the far side; return its first node."""
     n_r = g.r.size
     first = g.i_g if body == 2 else 0
-    plate = m.conductivity * thick
+    conductivity = (m.carrier_conductivity, m.washer_conductivity, m.gear_conductivity)[body]
+    plate = conductivity * thick
     for i in range(first, n_r):
         a = g.r[i] if i == first else 0.5 * (g.r[i] + g.r[i - 1])
         b = g.r[i] if i == n_r - 1 else 0.5 * (g.r[i] + g.r[i + 1])
         along[i] = plate * (b - a) / (g.r[i] * g.d_theta)
         outwards[i] = 0.0 if i == n_r - 1 else plate * b * g.d_theta / (g.r[i + 1] - g.r[i])
-        far[i] = 0.0 if body == 1 else m.conductivity / thick * 0.5 * (b * b - a * a) * g.d_theta
+        far[i] = 0.0 if body == 1 else conductivity / thick * 0.5 * (b * b - a * a) * g.d_theta
     return first
 
 

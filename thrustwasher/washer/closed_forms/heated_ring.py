@@ -1,5 +1,6 @@
 """Thin annuli that are heated: unevenly around the circumference, or in a stack of three."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -51,24 +52,27 @@ def stack_rise(
 
 
 def stack_times(
-    thicknesses: tuple[float, float, float], conductivity: float, volume_heat: float,
+    conductances: tuple[float, float], storages: tuple[float, float, float],
     between_carrier_washer: float, between_washer_gear: float,
-) -> tuple[float, float, float]:  # fmt: skip
-    """Return the three times [s], shortest first, in which the stack's temperatures settle.
+    terms: Sequence[tuple[float, float]] = ((1.0, 1.0),),
+) -> list[float]:  # fmt: skip
+    """Return the times [s], shortest first, in which the stack's temperatures settle.
 
-    Each body of thickness t [m] has one temperature and stores ``volume_heat`` [J/(m3 K)] times t;
-    carrier and gear lose heat through t/``conductivity`` [W/(m K)], the bodies exchange it through
-    the two resistances [m2 K/W]. Along the faces nothing flows, as when all is even.
+    Carrier, washer and gear store ``storages`` [J/(m2 K)]; carrier and gear lose heat through
+    ``conductances`` [W/(m2 K)], the bodies exchange it through the two resistances. The face of
+    carrier and gear follows a flux as the sum of ``terms``: shares of the resistance, and times in
+    storage over conductance. Along the faces nothing flows, as when all is even.
     """
-    carrier, _, gear = thicknesses
-    out_c, out_g = conductivity / carrier, conductivity / gear
-    one, two = 1.0 / between_carrier_washer, 1.0 / between_washer_gear
-    flows = np.array([
-        [out_c + one, -one, 0.0],
-        [-one, one + two, -two],
-        [0.0, -two, out_g + two],
-    ])  # fmt: skip
-    root = np.sqrt(volume_heat * np.array(thicknesses))
-    rates = np.linalg.eigvalsh(flows / np.outer(root, root))
-    times = sorted(float(1.0 / rate) for rate in rates)
-    return times[0], times[1], times[2]
+    n = len(terms)
+    washer = 2 * n
+    rates = np.zeros((2 * n + 1, 2 * n + 1))
+    across = between_carrier_washer, between_washer_gear
+    for body, out, stored in zip(range(2), conductances, storages[::2], strict=True):
+        faces = slice(body * n, body * n + n)
+        flux = np.zeros(2 * n + 1)  # into the body
+        flux[washer], flux[faces] = 1.0 / across[body], -1.0 / across[body]
+        for k, (share, time) in enumerate(terms, faces.start):
+            rates[k] = share / (time * stored) * flux
+            rates[k, k] -= out / (time * stored)
+        rates[washer] -= flux / storages[1]
+    return sorted(float(-1.0 / rate.real) for rate in np.linalg.eigvals(rates))

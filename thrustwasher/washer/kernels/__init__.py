@@ -17,10 +17,10 @@
                             over the positions
 ``jacobian``                Jacobian at a solution: of the heat balance and of the forces, over
                             everything they depend on
+``ladder``                  Heat into and through the thickness of a body: a ladder of first-order
+                            terms per node
 ``layout``                  Where the washer keeps its numbers: places in parameters, memory, work
                             and outputs
-``lumped``                  The washer as a wedge with one film temperature: what `closed` and
-                            `stribeck` have in common
 ``map``                     Compiled look-up in a washer's map
 ``newton``                  One Newton iteration for everything: positions, pressure, temperature;
                             by block elimination
@@ -28,15 +28,11 @@
                             with it
 ``regime_and_status``       What every rung of the washer makes of parameters and inputs, and what
                             it says of its result
-``simple``                  The rungs of the washer without a mesh, see washer_lumped: a step, and
-                            its derivatives
 ``solve``                   One washer solve with memory: warm where it can be, on the branch that
                             the history asks for
 ``step``                    The washer behind the step ABI (see the package's docstring)
 ``transient``               Heat in time: what does not leave a body warms it, so that a lost film
                             takes its time
-``wedge``                   The washer's film as a plain wedge: lift, shear and contact at one
-                            least gap and one tilt
 ``workspace``               All that a washer is solved with, by name: the arrays of one washer,
                             and its work
 ==========================  ======================================================================
@@ -47,13 +43,17 @@ CALLED = {
     "thrustwasher.washer.kernels.step": (
         "thrustwasher.numerics.banded._forth",
         "thrustwasher.numerics.banded._reverse",
+        "thrustwasher.numerics.banded.band_solve",
         "thrustwasher.numerics.banded.cholesky",
-        "thrustwasher.numerics.banded.cholesky_solve",
         "thrustwasher.numerics.banded.cholesky_solve_many",
+        "thrustwasher.numerics.banded.factor_solve",
+        "thrustwasher.numerics.banded.factor_solve_many",
+        "thrustwasher.numerics.banded.halve",
         "thrustwasher.numerics.banded.lu",
-        "thrustwasher.numerics.banded.lu_solve",
         "thrustwasher.numerics.banded.mirror",
+        "thrustwasher.numerics.dense.dense_factor",
         "thrustwasher.numerics.dense.dense_solve",
+        "thrustwasher.numerics.dense.dense_substitute",
         "thrustwasher.tribology.asperities.contact_pressure",
         "thrustwasher.tribology.flow_factors.flow_conductance",
         "thrustwasher.tribology.flow_factors.mean_gap",
@@ -73,14 +73,13 @@ CALLED = {
         "thrustwasher.washer.kernels.map.map_search.map_covers",
         "thrustwasher.washer.kernels.map.map_step.look_up",
         "thrustwasher.washer.kernels.map.map_step.map_sens",
+        "thrustwasher.washer.kernels.newton.evaluate_here",
         "thrustwasher.washer.kernels.newton.newton",
         "thrustwasher.washer.kernels.outputs.outputs_at",
         "thrustwasher.washer.kernels.regime_and_status.broken_rule",
-        "thrustwasher.washer.kernels.simple.derive_simple",
         "thrustwasher.washer.kernels.solve.remember_state",
         "thrustwasher.washer.kernels.step.derive",
         "thrustwasher.washer.kernels.step.sens",
         "thrustwasher.washer.kernels.step.step",
-        "thrustwasher.washer.kernels.wedge.lift",
     ),
 }

@@ -46,7 +46,8 @@ def first_guess(w: Workspace, pt: Point) -> float:
     strength = 0.25 * mu * v * width**3
     if strength <= 0.0 or pt.tilt <= 0.0:
         return ENTRY_RATIO
-    resistance = 1.0 / (m.conductivity * (1.0 / m.carrier_thickness + 1.0 / m.gear_thickness))
+    conductance = m.carrier_conductivity / m.carrier_thickness
+    resistance = 1.0 / (conductance + m.gear_conductivity / m.gear_thickness)
     thinned = 1.0  # viscosity over that at oil temperature
     gap = math.sqrt(strength / pt.load)
     for _ in range(6):  # W = strength (1/gap^2 - 1/(gap + 2 mean tilt)^2)

@@ -9,6 +9,8 @@ film: theta = s - c sin(s), s uniform, which keeps the trapezoid rule spectrally
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from ...numerics.jit import Array, kernel, matrix
 from ...numerics.spline import spline_weights
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
@@ -18,7 +20,6 @@ from . import layout as L
 COARSE_GRADING, FINE_GRADING = 1.6, 2.0  # best below and from FINE_FROM radial nodes
 FINE_FROM = 16
 ANGULAR_GRADING = 0.3
-EVEN = 1e6  # spread that evens a ring out to a thousandth without spoiling the matrix
 
 
 class WasherModel(NamedTuple):
@@ -30,16 +31,29 @@ class WasherModel(NamedTuple):
     carrier_thickness: float
     washer_thickness: float
     gear_thickness: float
-    conductivity: float
+    carrier_conductivity: float
+    washer_conductivity: float
+    gear_conductivity: float
     oil_conductivity: float
     heat_split: float
     film_heat_fraction: float
-    volume_heat: float  # [J/(m^3 K)] density times specific heat
-    carrier_spread: float  # factor on conduction around the circumference
-    rotating_spread: float
+    oil_storage: float  # [J/(m^3 K)] oil's density times specific heat; 0: it carries no heat
+    film_exchange: float  # 12 oil_conductivity [W/(m K)]; 0 where the film is as warm as the walls
+    pressure_shear: float  # 1 if pressure flow counts in torque and heat, else 0
+    only_liquid: bool  # the cavity counts by its liquid in shear and heat exchange
     n_r: int
     n_t: int
     i_g: int  # radial node at the gear's inner radius
+    per_column: int  # temperatures of a column
+    n_ring: int  # temperatures of rings
+    film_at: int  # where the fields of temperature begin and their steps, see the layout
+    film_step: int
+    carrier_at: int
+    carrier_step: int
+    washer_at: int
+    washer_step: int
+    gear_at: int  # of the node on the gear's inner radius
+    gear_step: int
     sigma1: float  # [m] film 1
     sigma2: float  # [m] gap 2
     shear: float  # (sigma_carrier^2 - sigma_washer^2)/sigma^2
@@ -180,6 +194,14 @@ def derive_grid(par: Array, n_r: int, n_t: int) -> int:
     good = _mesh(par, n_r, n_t, i_g)
     status = derive_surfaces(par, par[_end_of_mesh(n_r, n_t) :])
     par[L.D_RADIAL], par[L.D_AROUND], par[L.D_GEAR_NODE] = n_r, n_t, i_g
+    own = n_r if par[L.P_OIL_COOLING] != 0.0 else 0  # temperatures of the film
+    rotating = 2 * n_r - i_g
+    if par[L.P_CONDUCTION] == L.ONLY_CARRIER:
+        par[L.D_PER_COLUMN], par[L.D_RINGS] = own + n_r, rotating
+    elif par[L.P_CONDUCTION] == L.ONLY_ROTATING:
+        par[L.D_PER_COLUMN], par[L.D_RINGS] = own + rotating, n_r
+    else:
+        par[L.D_PER_COLUMN], par[L.D_RINGS] = own + n_r + rotating, 0
     return status if status != OK or good else NOT_FINITE
 
 
@@ -193,24 +215,67 @@ def combined_roughness(par: Array) -> tuple[float, float, float]:
     return sigma1, sigma2, (carrier * carrier - washer * washer) / (sigma1 * sigma1)
 
 
+class ContactPair(NamedTuple):
+    """Two bodies in contact: E' of both, the rest of the softer one (SI)."""
+
+    contact_modulus: float
+    youngs_modulus: float
+    poisson_ratio: float
+    yield_strength: float
+
+
+@kernel
+def of_body(par: Array, common: int, body: int) -> float:
+    """Return a property of a body (OF_CARRIER, OF_WASHER, OF_GEAR): its own, else the common."""
+    own = par[np.uintp(common + body)]
+    if own > 0.0:
+        return float(own)
+    return float(par[np.uintp(common)])
+
+
+@kernel
+def contact_pair(par: Array, body: int) -> ContactPair:
+    """Return what the contact of the washer with another body needs."""
+    e1, e2 = of_body(par, L.P_YOUNGS_MODULUS, body), of_body(par, L.P_YOUNGS_MODULUS, L.OF_WASHER)
+    nu1, nu2 = of_body(par, L.P_POISSON_RATIO, body), of_body(par, L.P_POISSON_RATIO, L.OF_WASHER)
+    s1, s2 = of_body(par, L.P_YIELD_STRENGTH, body), of_body(par, L.P_YIELD_STRENGTH, L.OF_WASHER)
+    modulus = 1.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2)
+    if s1 < s2:
+        return ContactPair(modulus, e1, nu1, s1)
+    return ContactPair(modulus, e2, nu2, s2)
+
+
+@kernel
+def _tabulate(par: Array, pair: ContactPair, scatter: float, table: Array, scratch: Array) -> bool:
+    """Fill the contact table of a pair of bodies; return True if it could be filled."""
+    a = asperity_args(
+        pair.contact_modulus, pair.youngs_modulus, pair.poisson_ratio, pair.yield_strength,
+        par[L.P_YIELD_STRAIN_LAW] == L.CONTACT_YIELD, par[L.P_ASPERITY_RADIUS],
+    )  # fmt: skip
+    return contact_table(a, par[L.P_ASPERITY_DENSITY], scatter, table, scratch)
+
+
 @kernel
 def derive_surfaces(par: Array, scratch: Array) -> int:
     """Fill the scalars and the contact tables of ``par``; ``scratch`` (N_CONTACT_WORK,) or more."""
     sigma1, sigma2, shear = combined_roughness(par)
     height1, scatter1, good1 = summits(par, sigma1)
     height2, scatter2, good2 = summits(par, sigma2)
-    a = asperity_args(
-        par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO], par[L.P_YIELD_STRENGTH],
-        par[L.P_YIELD_STRAIN_LAW] == L.CONTACT_YIELD, par[L.P_ASPERITY_RADIUS],
-    )  # fmt: skip
-    density = par[L.P_ASPERITY_DENSITY]
     first, second = par[L.D_TABLE1 : L.D_TABLE2], par[L.D_TABLE2 : L.D_MESH]
-    good = contact_table(a, density, scatter1, first, scratch)
-    if scatter2 == scatter1:
+    pair1, pair2 = contact_pair(par, L.OF_CARRIER), contact_pair(par, L.OF_GEAR)
+    good = _tabulate(par, pair1, scatter1, first, scratch)
+    same = (
+        scatter2 == scatter1
+        and pair1.contact_modulus == pair2.contact_modulus
+        and pair1.youngs_modulus == pair2.youngs_modulus
+        and pair1.poisson_ratio == pair2.poisson_ratio
+        and pair1.yield_strength == pair2.yield_strength
+    )
+    if same:
         for k in range(N_TABLE):
             second[k] = first[k]
     else:
-        good = contact_table(a, density, scatter2, second, scratch) and good
+        good = _tabulate(par, pair2, scatter2, second, scratch) and good
     par[L.D_RADIAL], par[L.D_AROUND], par[L.D_GEAR_NODE] = 0.0, 0.0, 0.0
     par[L.D_SIGMA1], par[L.D_SIGMA2], par[L.D_SHEAR] = sigma1, sigma2, shear
     par[L.D_MEAN_SUMMIT1], par[L.D_MEAN_SUMMIT2] = height1, height2
@@ -225,8 +290,24 @@ def washer_model(par: Array) -> WasherModel:
     """Return ``par`` by name; the arrays are views."""
     n_r, n_t = int(par[L.D_RADIAL]), int(par[L.D_AROUND])
     radial, around = mesh_arrays(par, n_r, n_t)
-    carrier_spread = EVEN if par[L.P_CONDUCTION] == L.ONLY_ROTATING else 1.0
-    rotating_spread = EVEN if par[L.P_CONDUCTION] == L.ONLY_CARRIER else 1.0
+    i_g = int(par[L.D_GEAR_NODE])
+    cooled = par[L.P_OIL_COOLING] != 0.0
+    column, rings = int(par[L.D_PER_COLUMN]), int(par[L.D_RINGS])
+    storage = par[L.P_OIL_DENSITY] * par[L.P_OIL_HEAT_CAPACITY] if cooled else 0.0
+    exchange = 12.0 * par[L.P_OIL_CONDUCTIVITY] if cooled else 0.0
+    shears = 1.0 if par[L.P_PRESSURE_FLOW_SHEAR] != 0.0 else 0.0
+    carrier_at, film_step = 0, 0
+    if cooled:
+        carrier_at, film_step = n_r, column
+    end = column * n_t
+    carrier_step, rotating_step = column, column
+    washer_at = carrier_at + n_r
+    gear_at = washer_at + n_r
+    if par[L.P_CONDUCTION] == L.ONLY_CARRIER:
+        washer_at, gear_at, rotating_step = end, end + n_r, 0
+    elif par[L.P_CONDUCTION] == L.ONLY_ROTATING:
+        washer_at, gear_at = carrier_at, carrier_at + n_r
+        carrier_at, carrier_step = end, 0
     return WasherModel(
         par=par,
         inner_radius=par[L.P_INNER_RADIUS],
@@ -234,16 +315,29 @@ def washer_model(par: Array) -> WasherModel:
         carrier_thickness=par[L.P_CARRIER_THICKNESS],
         washer_thickness=par[L.P_WASHER_THICKNESS],
         gear_thickness=par[L.P_GEAR_THICKNESS],
-        conductivity=par[L.P_CONDUCTIVITY],
+        carrier_conductivity=of_body(par, L.P_CONDUCTIVITY, L.OF_CARRIER),
+        washer_conductivity=of_body(par, L.P_CONDUCTIVITY, L.OF_WASHER),
+        gear_conductivity=of_body(par, L.P_CONDUCTIVITY, L.OF_GEAR),
         oil_conductivity=par[L.P_OIL_CONDUCTIVITY],
         heat_split=par[L.P_HEAT_SPLIT],
         film_heat_fraction=par[L.P_FILM_HEAT_FRACTION],
-        volume_heat=par[L.P_DENSITY] * par[L.P_SPECIFIC_HEAT],
-        carrier_spread=carrier_spread,
-        rotating_spread=rotating_spread,
+        oil_storage=storage,
+        film_exchange=exchange,
+        pressure_shear=shears,
+        only_liquid=par[L.P_CAVITY_SHEAR] == L.ONLY_LIQUID,
         n_r=n_r,
         n_t=n_t,
-        i_g=int(par[L.D_GEAR_NODE]),
+        i_g=i_g,
+        per_column=column,
+        n_ring=rings,
+        film_at=0,
+        film_step=film_step,
+        carrier_at=carrier_at,
+        carrier_step=carrier_step,
+        washer_at=washer_at,
+        washer_step=rotating_step,
+        gear_at=gear_at,
+        gear_step=rotating_step,
         sigma1=par[L.D_SIGMA1],
         sigma2=par[L.D_SIGMA2],
         shear=par[L.D_SHEAR],

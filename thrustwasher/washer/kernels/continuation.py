@@ -13,7 +13,6 @@ from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import MAX_ITERATIONS, OK
 from . import layout as L
 from .constants import WasherModel
-from .film import film_residual, film_solve
 from .gap import evaluate_gaps
 from .newton import FILM, NO_FLOOR, evaluate, newton, smooth_film
 from .workspace import (
@@ -28,6 +27,8 @@ from .workspace import (
     square,
     vector,
 )
+
+LARGEST_RISE = 50.0  # [K] of a temperature by a step along the tangent
 
 
 @kernel
@@ -85,8 +86,7 @@ def _press_gear(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
 def cold_start(w: Workspace, pt: Point, ratio: float) -> None:
     """Place washer and gear for a film of ``ratio`` sigma, everything at oil temperature.
 
-    The pressure is that of these gaps: from no pressure at all a film without contact would show
-    Newton's method no stiffness.
+    The bodies' temperatures are those of the oil, the film is settled.
     """
     m, f, q = model_of(w), fields_of(w), w.q
     q[L.TILT_Y] = (0.99 if ratio > 3.0 else 0.95) * pt.tilt
@@ -98,12 +98,6 @@ def cold_start(w: Workspace, pt: Point, ratio: float) -> None:
     clear(f.p)
     forget_factor(w)
     evaluate(m, pt, q, f)
-    for _ in range(6):
-        error, p_max, _size = film_residual(m, f.p, f)
-        if not error > 1e-2 * p_max or not film_solve(m, f.p, f):
-            break
-        for k in range(f.p.size):
-            f.p[np.uintp(k)] = max(f.film_rhs[np.uintp(k), L.AT_FIXED], 0.0)
     _press_gear(m, pt, q, f)
 
 
@@ -138,11 +132,23 @@ def enter_curve(w: Workspace, pt: Point, ratio: float) -> int:
 
 
 @kernel
-def _along(w: Workspace, step: float) -> None:
-    """Move the positions along the tangent of the curve by ``step`` [m] of film thickness."""
-    tangent = vector(fields_of(w).small, L.TANGENT)
-    for k in range(4):
-        w.q[k] += tangent[k] * step
+def go_along(w: Workspace, step: float) -> None:
+    """Move positions and temperatures along the tangent of the curve by ``step`` [m] of film."""
+    f = fields_of(w)
+    tangent = vector(f.small, L.TANGENT)
+    jump = 0.0
+    dt0, dt1, dt2, dt3 = f.following[0], f.following[1], f.following[2], f.following[3]
+    for node in range(f.temp.size):
+        k = np.uintp(node)
+        slope = dt0[k] * tangent[0] + dt1[k] * tangent[1] + dt2[k] * tangent[2]
+        f.dtemp[k] = step * (slope + dt3[k] * tangent[3])
+        jump = max(jump, abs(f.dtemp[k]))
+    share = 1.0 if jump <= LARGEST_RISE else LARGEST_RISE / jump
+    for node in range(f.temp.size):
+        k = np.uintp(node)
+        f.temp[k] += share * f.dtemp[k]
+    for c in range(4):
+        w.q[c] += tangent[c] * step
 
 
 @kernel
@@ -156,7 +162,7 @@ def walk_to(w: Workspace, pt: Point, target: float) -> int:
         for _half in range(12):
             remember(w, 0.0)
             wanted = target if step == target - here else here + step
-            _along(w, step)
+            go_along(w, step)
             status = newton(w, pt, FILM, wanted, NO_FLOOR, w.curve[L.ACCURACY], 12.0)
             if status == OK and w.info[L.REACHED_LOAD] > 0.0:
                 break

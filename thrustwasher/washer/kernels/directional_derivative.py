@@ -13,10 +13,11 @@ from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import MAX_ITERATIONS, OK, SINGULAR
 from . import layout as L
 from .constants import WasherModel
-from .heat import solve_heat
-from .jacobian import force_jacobian, forces_by_heat, heat_change
-from .layout import ON_GEAR, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
-from .newton import make_factor
+from .film import film_solve, hold_pressure, let_flows_follow
+from .heat import heat_change, let_film_follow
+from .heat_factor import solve_heat
+from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
+from .newton import EXACT, add_pressure, linearise, make_factor
 from .outputs import change_of_outputs
 from .workspace import (
     Fields,
@@ -32,7 +33,7 @@ from .workspace import (
     vector,
 )
 
-CLOSE = 2e-7  # of the heat that the change moves
+CLOSE = 1e-8  # of the heat that the change moves
 ROUNDS = 12  # then a new factor is made
 NEAR_FOLD = 1e-8  # dload/dfilm in load per sigma below which there is no derivative
 
@@ -41,7 +42,7 @@ NEAR_FOLD = 1e-8  # dload/dfilm in load per sigma below which there is no deriva
 def _follow(m: WasherModel, f: Fields, dq: Array) -> bool:
     """Fill ``dq`` so that the forces change by ``dq`` (on entry) [N, N, N m, N m]."""
     ro = m.outer_radius
-    slopes = square(f.small, L.FORCE_SLOPES)
+    slopes = square(f.small, L.SLOPES)
     system, right = square(f.small, L.SYSTEM), vector(f.small, L.RIGHT)
     for a in range(4):
         row = 1.0 if a <= ON_GEAR else 1.0 / ro
@@ -54,6 +55,27 @@ def _follow(m: WasherModel, f: Fields, dq: Array) -> bool:
     for c in range(4):
         dq[c] = right[c] * (m.sigma1 if c <= Z_GEAR else m.sigma1 / ro)
     return True
+
+
+@kernel
+def _forces_change(m: WasherModel, change: Point, dq: Array, f: Fields, out: Array) -> None:
+    """Fill ``out`` (4,), the changes of the forces; `let_film_follow` has filled ``f.dp``."""
+    stiffness = square(f.small, L.STIFFNESS)
+    for a in range(4):
+        out[a] = 0.0
+        for c in range(4):
+            out[a] += stiffness[a, c] * dq[c]
+    if change.tilt != 0.0:
+        for j in range(m.n_t):
+            for i in range(m.i_g, m.n_r):
+                k = np.uintp(j * m.n_r + i)
+                x, y = m.r[i] * m.cos[j], m.r[i] * m.sin[j]
+                push = -m.weight2[i] * m.weight_t[j] * f.dpc2[k] * x * change.tilt
+                out[ON_WASHER] -= push
+                out[ON_GEAR] += push
+                out[MOMENT_X] -= push * y
+                out[MOMENT_Y] += push * x
+    add_pressure(m, f.dp, out)
 
 
 @kernel
@@ -86,55 +108,58 @@ def _dot(a: Array, b: Array) -> float:
 
 
 @kernel
-def _start(m: WasherModel, pt: Point, change: Point, f: Fields, dtemp: Array, heat: Array) -> int:
+def _start(
+    m: WasherModel, pt: Point, change: Point, q: Array, f: Fields, dtemp: Array, heat: Array
+) -> int:
     """Fill a first change of positions and ``dtemp``, with ``heat`` the residual it leaves."""
-    s = f.small
-    dq = vector(s, L.CHANGE)
-    over_speed, over_tilt = vector(s, L.OVER_SPEED), vector(s, L.OVER_TILT)
-    over_oil = vector(s, L.OVER_OIL)
+    dq, step = vector(f.small, L.CHANGE), vector(f.small, L.STEP)
     clear(dq)
     clear(dtemp)
     moved = abs(change.speed) + abs(change.tilt) + abs(change.oil_temperature)
     if moved > 0.0:
-        heat_change(m, pt, change, dq, dtemp, f, heat)
+        let_film_follow(m, pt, change, q, dq, dtemp, f)
+        heat_change(m, pt, change, q, dq, dtemp, f, heat)
         negate(heat)
         solve_heat(m, heat, dtemp, f)
-    forces_by_heat(m, dtemp, f, dq)
-    for a in range(4):
-        dq[a] = -dq[a] - (
-            over_speed[a] * change.speed
-            + over_tilt[a] * change.tilt
-            + over_oil[a] * change.oil_temperature
-        )
-    dq[ON_GEAR] += change.load
-    if not _follow(m, f, dq):
+    let_film_follow(m, pt, change, q, dq, dtemp, f)
+    _forces_change(m, change, dq, f, step)
+    negate(step)
+    step[ON_GEAR] += change.load
+    if not _follow(m, f, step):
         return SINGULAR
+    copy(step, dq)
     _add_slopes(f, dq, dtemp)
-    heat_change(m, pt, change, dq, dtemp, f, heat)
+    let_film_follow(m, pt, change, q, dq, dtemp, f)
+    heat_change(m, pt, change, q, dq, dtemp, f, heat)
     negate(heat)
     return OK
 
 
 @kernel
-def _refine(m: WasherModel, pt: Point, f: Fields, dtemp: Array, heat: Array, enough: float) -> int:
+def _refine(
+    m: WasherModel, pt: Point, q: Array, f: Fields, dtemp: Array, heat: Array, enough: float
+) -> int:
     """Improve CHANGE and ``dtemp`` until the residual ``heat`` is below ``enough`` [W]."""
     n = dtemp.size
     none = Point(0.0, 0.0, 0.0, 0.0)
     dq, step = vector(f.small, L.CHANGE), vector(f.small, L.STEP)
-    before = vector(f.small, L.STEP_BEFORE)
-    gain, old, old_gain = f.keep[n : 2 * n], f.keep[2 * n : 3 * n], f.keep[3 * n : 4 * n]
+    before, still = vector(f.small, L.STEP_BEFORE), vector(f.small, L.LOOSE)
+    gain, old, old_gain = f.keep[n : 2 * n], f.keep[2 * n : 3 * n], f.trial
     old_square = 0.0
     for _ in range(ROUNDS):
         if size_of(heat) <= enough:
             return OK
         f.small[L.ROUNDS] += 1.0
         solve_heat(m, heat, f.dtemp, f)
-        forces_by_heat(m, f.dtemp, f, step)
+        clear(still)
+        let_film_follow(m, pt, none, q, still, f.dtemp, f)
+        _forces_change(m, none, still, f, step)
         negate(step)
         if not _follow(m, f, step):
             return SINGULAR
         _add_slopes(f, step, f.dtemp)
-        heat_change(m, pt, none, step, f.dtemp, f, gain)
+        let_film_follow(m, pt, none, q, step, f.dtemp, f)
+        heat_change(m, pt, none, q, step, f.dtemp, f, gain)
         if old_square > 0.0:
             share = _dot(gain, old_gain) / old_square
             _add(f.dtemp, -share, old)
@@ -170,22 +195,32 @@ def _change_of_state(m: WasherModel, pt: Point, change: Point, q: Array, f: Fiel
     """Fill CHANGE and the temperatures' change, ``f.keep[: n_temp]``; return a status."""
     n = f.temp.size
     dtemp, heat = f.keep[:n], f.heat
+    status = OK
     for attempt in range(2):
         if attempt == 1 or f.tag[L.TAG_VALID] != 1.0:
-            if not make_factor(m, pt, q, f.temp, f):
+            if not make_factor(m, pt, q, f.temp, f, EXACT):
                 return SINGULAR
-            f.small[L.JACOBIAN_READY] = 0.0
-        if not force_jacobian(m, pt, f) or _at_fold(m, pt, f):
+        clear(f.dtemp)
+        film_solve(m, f)
+        linearise(m, f)
+        if _at_fold(m, pt, f):
             return SINGULAR
-        status = _start(m, pt, change, f, dtemp, heat)
+        status = _start(m, pt, change, q, f, dtemp, heat)
         if status != OK:
             return status
         # what the change moves: a heat balance is as good as its largest terms
         moved = size_of(dtemp)
-        spread = m.conductivity * m.outer_radius * m.outer_radius / m.carrier_thickness
-        status = _refine(m, pt, f, dtemp, heat, CLOSE * moved / n * spread)
+        spread = m.carrier_conductivity * m.outer_radius * m.outer_radius / m.carrier_thickness
+        status = _refine(m, pt, q, f, dtemp, heat, CLOSE * moved / n * spread)
         if status == OK:
-            return OK
+            break
+    if status == OK:
+        dq = vector(f.small, L.CHANGE)
+        let_film_follow(m, pt, change, q, dq, dtemp, f)
+        f.small[L.RIM_CHANGE] = heat_change(m, pt, change, q, dq, dtemp, f, heat)
+        # the flows' changes have served as room for heat: those of the film are made again
+        hold_pressure(m, pt, change, dq, dtemp, f)
+        let_flows_follow(m, f)
     return status
 
 

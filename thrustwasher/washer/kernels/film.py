@@ -7,15 +7,20 @@ faces, fluidity 1/mu averaged from the two nodes.
 Source: Patir & Cheng 1978/79; Jackson & Green Eq 1-5 in polar form.
 """
 
+import math
+
 import numpy as np
 
-from ...numerics.banded import N_SIDES, cholesky, cholesky_solve_many
+from ...numerics.banded import N_SIDES, band_solve, cholesky, cholesky_solve_many
 from ...numerics.jit import Array, kernel, matrix
 from ...tribology.flow_factors import flow_conductance, mean_gap, shear_flow
 from . import layout as L
 from .constants import WasherModel
+from .gap import film_change
 from .layout import AT_FIXED, OVER_POSITIONS, TILT_X, TILT_Y, Z_WASHER
 from .workspace import Fields, Point, clear
+
+MOST_MARKS = 30  # rounds that settle which nodes are full
 
 
 @kernel
@@ -26,18 +31,20 @@ def evaluate_film(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
     sheared = m.shear != 0.0
     for j in range(m.n_t):
         slope = m.sin_face[j] * gx - m.cos_face[j] * gy
-        for i in range(1, n_r - 1):
+        for i in range(n_r):
             k = np.uintp(j * n_r + i)
             h = z_w + m.r[i] * slope
-            c, dc = flow_conductance(h, m.sigma1)
-            g = m.log_width[i] / (24.0 * m.step_t[j])
-            f.ct[k], f.dct[k] = g * c, g * dc
+            f.ct[k], f.dct[k] = 0.0, 0.0
+            if 0 < i < n_r - 1:  # there is no pressure at the rims
+                c, dc = flow_conductance(h, m.sigma1)
+                g = m.log_width[i] / (24.0 * m.step_t[j])
+                f.ct[k], f.dct[k] = g * c, g * dc
             gap, dgap = mean_gap(h, m.sigma1)
             if sheared:
                 s, ds = shear_flow(h, m.sigma1)
                 gap -= m.sigma1 * m.shear * s
                 dgap -= m.sigma1 * m.shear * ds
-            inner = m.r_face[i - 1]
+            inner = m.inner_radius if i == 0 else m.r_face[i - 1]
             pull = 0.25 * pt.speed * (m.r_face[i] * m.r_face[i] - inner * inner)
             f.wedge[k], f.dwedge[k] = pull * gap, pull * dgap
         slope = m.sin[j] * gx - m.cos[j] * gy
@@ -49,16 +56,18 @@ def evaluate_film(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
 
 
 @kernel
-def film_residual(m: WasherModel, p: Array, f: Fields) -> tuple[float, float, int]:
-    """Mark full and cavitated nodes; return (complementarity residual [Pa], p_max [Pa], n).
+def mark_film(m: WasherModel, f: Fields) -> tuple[float, float, int]:
+    """Mark full and cavitated nodes; return the residual [Pa], p_max [Pa], moves.
 
-    ``n`` counts the unknowns of the linear system. A node cavitates if p - residual/diagonal <= 0,
-    the semismooth Newton choice. Columns without a full node are left out; one such column cuts
-    the ring, and the system is a band of one column, else the ring is folded (two columns).
+    ``moves`` counts the nodes whose mark has changed. A node cavitates if
+    p - residual/diagonal <= 0, the semismooth Newton choice. Columns without a full node are left
+    out; one such column cuts the ring, and the system is a band of one column, else the ring is
+    folded (two columns).
     """
     n_r, n_t = m.n_r, m.n_t
-    worst, p_max = 0.0, 0.0
+    worst, p_max, moves = 0.0, 0.0, 0
     first_dry = -1
+    p = f.p
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         jb = j - 1 if j > 0 else n_t - 1
@@ -77,6 +86,7 @@ def film_residual(m: WasherModel, p: Array, f: Fields) -> tuple[float, float, in
                 diagonal * p[k] - c_n * p[kn] - c_b * p[kb] - c_u * p[up] - c_d * p[down]
                 + f.wedge[k] - f.wedge[kb]
             ) / diagonal  # fmt: skip
+            before = f.wet[k]
             if p[k] > flow:
                 f.wet[k] = 1.0
                 any_wet = True
@@ -84,6 +94,8 @@ def film_residual(m: WasherModel, p: Array, f: Fields) -> tuple[float, float, in
             else:
                 f.wet[k] = 0.0
                 worst = max(worst, abs(p[k]))
+            if f.wet[k] != before:
+                moves += 1
             p_max = max(p_max, p[k])
         f.place[j] = 0.0 if any_wet else -1.0
         if not any_wet and first_dry < 0:
@@ -98,7 +110,7 @@ def film_residual(m: WasherModel, p: Array, f: Fields) -> tuple[float, float, in
             f.place[j] = count
             count += 1
     f.small[L.RING] = 0.0 if first_dry >= 0 else 1.0
-    return worst, p_max, count * (n_r - 2)
+    return worst, p_max, moves
 
 
 @kernel
@@ -126,17 +138,18 @@ def _face(
 def _lags(m: WasherModel, f: Fields) -> None:
     """Fill the fluidity change of each node that follows from the temperature step and slopes."""
     n_r, n_t = m.n_r, m.n_t
-    m_t = 3 * n_r - m.i_g
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         jb = j - 1 if j > 0 else n_t - 1
         if f.place[j] < 0.0 and f.place[jn] < 0.0 and f.place[jb] < 0.0:
             continue  # no full film on either side
+        one, two = m.film_at + j * m.film_step, m.film_at + j * m.film_step
+        if m.film_step == 0:  # the mean of carrier and washer
+            one, two = m.carrier_at + j * m.carrier_step, m.washer_at + j * m.washer_step
         for i in range(n_r):
             k = np.uintp(j * n_r + i)
-            t = np.uintp(j * m_t + i)
-            below = np.uintp(j * m_t + i + n_r)
-            scale = -0.5 * f.dmu[k] * f.fluidity[k] * f.fluidity[k]  # mean of carrier, washer
+            t, below = np.uintp(one + i), np.uintp(two + i)
+            scale = -0.5 * f.dmu[k] * f.fluidity[k] * f.fluidity[k]
             f.lag[k, AT_FIXED] = scale * (f.dtemp[t] + f.dtemp[below])
             for c in range(4):
                 following = f.following[np.uintp(c), t] + f.following[np.uintp(c), below]
@@ -146,12 +159,12 @@ def _lags(m: WasherModel, f: Fields) -> None:
 
 
 @kernel
-def _right_sides(m: WasherModel, p: Array, f: Fields) -> None:
+def _right_sides(m: WasherModel, f: Fields) -> None:
     """Fill the film's right sides, node by node."""
     n_r, n_t = m.n_r, m.n_t
+    p = f.p
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
-        jb = j - 1 if j > 0 else n_t - 1
         used = f.place[j] >= 0.0
         if not (used or f.place[jn] >= 0.0):
             continue
@@ -169,9 +182,6 @@ def _right_sides(m: WasherModel, p: Array, f: Fields) -> None:
             fluid = f.fluidity[k] + f.fluidity[k + 1]
             _face(f, k, k + 1, f.cr[k], drop, f.dcr[k] * fluid * drop,
                   m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j])  # fmt: skip
-        for i in range(1, n_r - 1):
-            k = j * n_r + i
-            f.film_rhs[k, AT_FIXED] -= f.wet[k] * (f.wedge[k] - f.wedge[jb * n_r + i])
 
 
 @kernel
@@ -227,47 +237,161 @@ def size_of_film(m: WasherModel, f: Fields) -> int:
 
 
 @kernel
-def film_solve(m: WasherModel, p: Array, f: Fields) -> bool:
-    """Solve the linearised film for five right sides; return False if a pivot fails.
-
-    Out, in ``f.film_rhs[node]``: the new pressure at fixed positions (after the temperature step
-    ``f.dtemp``), then its slopes over the positions (temperatures following by ``f.following``).
-    Zero at cavitated nodes and rims. The residual is linear in p, so the new pressure itself is
-    solved for, and the neighbours of nodes that just cavitated need no care.
-    """
+def _solve_sides(m: WasherModel, f: Fields) -> None:
+    """Solve the factored film for all right sides ``f.film_rhs``, in place; 0 where it is dry."""
     n_r, n_t = m.n_r, m.n_t
-    rows = n_r - 2
-    for node in range(n_r * n_t):
-        for s in range(N_SIDES):
-            f.film_rhs[np.uintp(node), np.uintp(s)] = 0.0
-    _lags(m, f)
-    _right_sides(m, p, f)
     sides = matrix(f.sides, n_r * n_t, N_SIDES)
     for j in range(n_t):
         if f.place[j] >= 0.0:
-            row = int(f.place[j]) * rows - 1
+            row = int(f.place[j]) * (n_r - 2) - 1
             for i in range(1, n_r - 1):
                 k = np.uintp(j * n_r + i)
                 for s in range(N_SIDES):
                     rhs = f.film_rhs[k, np.uintp(s)]
                     sides[np.uintp(row + i), np.uintp(s)] = rhs * f.wet[k]
-    if not film_factor(m, f):
-        return False
-    film_back_substitution(m, f, f.film_rhs, N_SIDES)
-    return True
-
-
-@kernel
-def film_back_substitution(m: WasherModel, f: Fields, to: Array, count: int) -> None:
-    """Solve the factored film for ``f.sides``; the first ``count`` of each node go to ``to``."""
-    n_r, n_t = m.n_r, m.n_t
     cholesky_solve_many(f.film, f.sides, size_of_film(m, f), band_of_film(m, f))
-    sides = matrix(f.sides, n_r * n_t, N_SIDES)
     for j in range(n_t):
         row = int(f.place[j]) * (n_r - 2) - 1
         for i in range(n_r):
             k = np.uintp(j * n_r + i)
             inside = f.place[j] >= 0.0 and 0 < i < n_r - 1
-            for s in range(count):
+            for s in range(N_SIDES):
                 solved = sides[np.uintp(row + i), np.uintp(s)] * f.wet[k] if inside else 0.0
-                to[k, np.uintp(s)] = solved
+                f.film_rhs[k, np.uintp(s)] = solved
+
+
+@kernel
+def _solve_one(m: WasherModel, f: Fields, to: Array) -> None:
+    """Solve the factored film for the right side in ``to`` (n,), in place; 0 where it is dry."""
+    n_r, n_t = m.n_r, m.n_t
+    for j in range(n_t):
+        if f.place[j] >= 0.0:
+            row = int(f.place[j]) * (n_r - 2) - 1
+            for i in range(1, n_r - 1):
+                k = np.uintp(j * n_r + i)
+                f.sides[np.uintp(row + i)] = to[k] * f.wet[k]
+    band_solve(f.film, f.sides, size_of_film(m, f), band_of_film(m, f))
+    for j in range(n_t):
+        row = int(f.place[j]) * (n_r - 2) - 1
+        for i in range(n_r):
+            k = np.uintp(j * n_r + i)
+            inside = f.place[j] >= 0.0 and 0 < i < n_r - 1
+            to[k] = f.sides[np.uintp(row + i)] * f.wet[k] if inside else 0.0
+
+
+@kernel
+def settle_film(m: WasherModel, f: Fields) -> float:
+    """Solve Reynolds' equation for ``f.p`` at the gaps and viscosities in ``f``.
+
+    Return the residual of the complementarity problem over the largest pressure, inf if the matrix
+    cannot be factored. The factor stays in ``f.film``. ``f.p`` is the start: semismooth Newton
+    steps until no node changes between full and cavitated.
+    """
+    mark_film(m, f)
+    return settle_marked(m, f)
+
+
+@kernel
+def settle_marked(m: WasherModel, f: Fields) -> float:
+    """Do as `settle_film`, from the marks that the last film has left in ``f``."""
+    n_r, n_t = m.n_r, m.n_t
+    error, p_max = 0.0, 0.0
+    for _ in range(MOST_MARKS):
+        if not film_factor(m, f):
+            return math.inf
+        clear(f.p)
+        for j in range(n_t):
+            jb = j - 1 if j > 0 else n_t - 1
+            for i in range(1, n_r - 1):
+                k = j * n_r + i
+                f.p[k] = f.wedge[jb * n_r + i] - f.wedge[k]
+        _solve_one(m, f, f.p)
+        error, p_max, moves = mark_film(m, f)
+        if moves == 0:
+            break
+    for k in range(f.p.size):  # cavitated by the last marks
+        if f.p[np.uintp(k)] < 0.0:
+            f.p[np.uintp(k)] = 0.0
+    return error / p_max if p_max > 0.0 else 0.0
+
+
+@kernel
+def film_solve(m: WasherModel, f: Fields) -> None:
+    """Solve the linearised film for five right sides; the film is settled.
+
+    Out, in ``f.film_rhs[node]``: the change of pressure that the temperature step ``f.dtemp``
+    brings, then the slopes over the positions (temperatures following by ``f.following``). Zero at
+    cavitated nodes and rims.
+    """
+    for node in range(f.p.size):
+        for s in range(N_SIDES):
+            f.film_rhs[np.uintp(node), np.uintp(s)] = 0.0
+    _lags(m, f)
+    _right_sides(m, f)
+    _solve_sides(m, f)
+
+
+@kernel
+def hold_pressure(
+    m: WasherModel, pt: Point, change: Point, dq: Array, dtemp: Array, f: Fields
+) -> None:
+    """Fill ``f.dflow_t`` and ``f.dflow_r``, the changes of the flows at the pressures as they are.
+
+    ``change`` is that of the operating point, ``dq`` (4,) of the positions, ``dtemp`` (n_temp,).
+    """
+    n_r, n_t = m.n_r, m.n_t
+    per_speed = change.speed / pt.speed if pt.speed != 0.0 else 0.0
+    for j in range(n_t):  # changes of the fluidity
+        for i in range(n_r):
+            k = np.uintp(j * n_r + i)
+            rise = film_change(m, dtemp, j, i) + change.oil_temperature
+            f.lag[k, 0] = -f.dmu[k] * rise * f.fluidity[k] * f.fluidity[k]
+    for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        for i in range(n_r):
+            k, o = np.uintp(j * n_r + i), np.uintp(jn * n_r + i)
+            x, y = m.r[i] * m.cos_face[j], m.r[i] * m.sin_face[j]
+            dh = dq[Z_WASHER] + y * dq[TILT_X] - x * dq[TILT_Y]
+            fluid, dfluid = f.fluidity[k] + f.fluidity[o], f.lag[k, 0] + f.lag[o, 0]
+            drop = f.p[k] - f.p[o]
+            f.dflow_t[k] = (
+                f.dwedge[k] * dh
+                + f.wedge[k] * per_speed
+                + (f.dct[k] * dh * fluid + f.ct[k] * dfluid) * drop
+            )
+            f.dflow_r[k] = 0.0
+            if i + 1 < n_r:
+                x, y = m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j]
+                dh = dq[Z_WASHER] + y * dq[TILT_X] - x * dq[TILT_Y]
+                o = k + np.uintp(1)
+                fluid, dfluid = f.fluidity[k] + f.fluidity[o], f.lag[k, 0] + f.lag[o, 0]
+                drop = f.p[k] - f.p[o]
+                f.dflow_r[k] = (f.dcr[k] * dh * fluid + f.cr[k] * dfluid) * drop
+
+
+@kernel
+def let_pressure_follow(m: WasherModel, f: Fields) -> None:
+    """Fill ``f.dp``, the change of the pressure that the changes of the flows bring."""
+    n_r, n_t = m.n_r, m.n_t
+    for j in range(n_t):
+        jb = j - 1 if j > 0 else n_t - 1
+        for i in range(n_r):
+            k = j * n_r + i
+            f.dp[k] = 0.0
+            if 0 < i < n_r - 1:
+                f.dp[k] = f.dflow_t[jb * n_r + i] - f.dflow_t[k] + f.dflow_r[k - 1] - f.dflow_r[k]
+    _solve_one(m, f, f.dp)
+
+
+@kernel
+def let_flows_follow(m: WasherModel, f: Fields) -> None:
+    """Add to the changes of the flows what the change of the pressure brings."""
+    n_r, n_t = m.n_r, m.n_t
+    for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        for i in range(n_r):
+            k, o = np.uintp(j * n_r + i), np.uintp(jn * n_r + i)
+            f.dflow_t[k] += f.ct[k] * (f.fluidity[k] + f.fluidity[o]) * (f.dp[k] - f.dp[o])
+            if i + 1 < n_r:
+                o = k + np.uintp(1)
+                f.dflow_r[k] += f.cr[k] * (f.fluidity[k] + f.fluidity[o]) * (f.dp[k] - f.dp[o])

@@ -52,7 +52,7 @@ def oil_viscosity(par: Array, temperature: float) -> tuple[float, float]:
 def evaluate_gaps(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
     """Fill gaps, contact pressures and their sums in ``f`` at the positions ``q``."""
     s = f.small
-    clear(s[: L.JACOBIAN_READY + 1])
+    clear(s[: L.FRICTION2 + 1])
     forces, slopes = vector(s, L.FORCES), square(s, L.STIFFNESS)
     z_w, z_g, gx, gy = q[Z_WASHER], q[Z_GEAR], q[TILT_X], q[TILT_Y]
     for j in range(m.n_t):
@@ -111,6 +111,7 @@ def evaluate_gaps(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
                 slopes[MOMENT_X, TILT_X] += wd * y * y
                 slopes[MOMENT_X, TILT_Y] -= wd * x * y
                 slopes[MOMENT_Y, TILT_Y] += wd * x * x
+    s[L.FRICTION2], _ = dry_friction(m.par, forces[ON_GEAR])
     for a in range(4):
         for b in range(a):
             slopes[a, b] = slopes[b, a]
@@ -118,12 +119,27 @@ def evaluate_gaps(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
 
 @kernel
 def evaluate_viscosity(m: WasherModel, pt: Point, f: Fields) -> None:
-    """Fill viscosity and slope at the film temperature, the mean of carrier and washer."""
-    m_t = 3 * m.n_r - m.i_g
+    """Fill viscosity and slope at the film's own temperature, else the mean of both walls."""
+    own = m.film_step > 0
     for j in range(m.n_t):
+        film = m.film_at + j * m.film_step
+        carrier = m.carrier_at + j * m.carrier_step
+        washer = m.washer_at + j * m.washer_step
         for i in range(m.n_r):
             k = np.uintp(j * m.n_r + i)
-            a = j * m_t + i
-            rise = 0.5 * (f.temp[np.uintp(a)] + f.temp[np.uintp(a + m.n_r)])
+            if own:
+                rise = f.temp[np.uintp(film + i)]
+            else:
+                rise = 0.5 * (f.temp[np.uintp(carrier + i)] + f.temp[np.uintp(washer + i)])
             f.mu[k], f.dmu[k] = oil_viscosity(m.par, pt.oil_temperature + rise)
             f.fluidity[k] = 1.0 / f.mu[k]
+
+
+@kernel
+def film_change(m: WasherModel, dtemp: Array, j: int, i: int) -> float:
+    """Return how the film's temperature changes at a node when the temperatures change."""
+    if m.film_step > 0:
+        return float(dtemp[np.uintp(m.film_at + j * m.film_step + i)])
+    carrier = dtemp[np.uintp(m.carrier_at + j * m.carrier_step + i)]
+    washer = dtemp[np.uintp(m.washer_at + j * m.washer_step + i)]
+    return float(0.5 * (carrier + washer))

@@ -1,7 +1,11 @@
 """Where the washer keeps its numbers: places in parameters, memory, work and outputs.
 
-Nodal arrays are indexed ``j * n_r + i`` (angle j, radius i). Temperatures are rises above the oil,
-column by column: carrier, washer (n_r each), then gear (n_r - i_g nodes), ``m_t`` in all.
+Nodal arrays are indexed ``j * n_r + i`` (angle j, radius i). Temperatures are rises above the oil:
+first, column by column, those that vary around the circumference, in the order film, carrier,
+washer (n_r each), gear (n_r - i_g nodes), ``per_column`` in all; then, one number per radius,
+those of the bodies that turn under the load, their rings. Field x has node (i, j) at
+x_at + j x_step + i; the step of a ring is 0. Without oil cooling the film has no temperature of
+its own.
 """
 
 from ...tribology.asperities import N_TABLE
@@ -11,38 +15,45 @@ from ...tribology.asperities import N_TABLE
 Z_WASHER, Z_GEAR, TILT_X, TILT_Y = range(4)
 ON_WASHER, ON_GEAR, MOMENT_X, MOMENT_Y = range(4)
 
-# `par`: parameters in the order of WasherParams, then the fidelity.
+# `par`: parameters in the order of WasherParams, then the fidelity. Behind a property of all
+# bodies come those of carrier, washer and gear, 0 where a body has the common one.
 (
     P_INNER_RADIUS, P_OUTER_RADIUS, P_GEAR_INNER_RADIUS, P_CARRIER_THICKNESS, P_WASHER_THICKNESS,
     P_GEAR_THICKNESS, P_ROUGHNESS, P_ROUGHNESS_CARRIER, P_ROUGHNESS_WASHER, P_ROUGHNESS_GEAR,
-    P_YOUNGS_MODULUS, P_POISSON_RATIO, P_YIELD_STRENGTH, P_YIELD_STRAIN_LAW, P_ASPERITY_RADIUS,
-    P_ASPERITY_DENSITY, P_ASPERITY_HEIGHT_LAW, P_CONDUCTIVITY, P_CONDUCTION, P_OIL_CONDUCTIVITY,
-    P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE, P_FRICTION_LAW, P_DRY_FRICTION,
-    P_FRICTION_CONSTANT, P_FRICTION_SLOPE, P_FRICTION_LOAD_MIN, P_FRICTION_LOAD_MAX, P_HEAT_SPLIT,
-    P_FILM_HEAT_FRACTION, P_THERMAL_MODE, P_DENSITY, P_SPECIFIC_HEAT, P_THERMAL_START, P_FIDELITY,
-) = range(36)  # fmt: skip
-N_PARAM = 36
+) = range(10)  # fmt: skip
+P_YOUNGS_MODULUS, P_POISSON_RATIO, P_YIELD_STRENGTH = 10, 14, 18
+P_YIELD_STRAIN_LAW, P_ASPERITY_RADIUS, P_ASPERITY_DENSITY, P_ASPERITY_HEIGHT_LAW = range(22, 26)
+P_CONDUCTIVITY = 26
+(
+    P_CONDUCTION, P_OIL_CONDUCTIVITY, P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT,
+    P_VISCOSITY_SCALE, P_OIL_COOLING, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_SUPPLY_TEMPERATURE,
+    P_CAVITY_SHEAR, P_PRESSURE_FLOW_SHEAR, P_FRICTION_LAW, P_DRY_FRICTION, P_FRICTION_CONSTANT,
+    P_FRICTION_SLOPE, P_FRICTION_LOAD_MIN, P_FRICTION_LOAD_MAX, P_HEAT_SPLIT,
+    P_FILM_HEAT_FRACTION, P_THERMAL_MODE,
+) = range(30, 50)  # fmt: skip
+P_DENSITY, P_SPECIFIC_HEAT = 50, 54
+P_BODY_STORAGE, P_THERMAL_START, P_FIDELITY = range(58, 61)
+N_PARAM = 61
 N_STEADY = P_THERMAL_MODE  # a steady solution depends on those before; what follows is of time
+OF_CARRIER, OF_WASHER, OF_GEAR = 1, 2, 3  # places of a body's own property behind the common one
 CONTACT_YIELD, SUMMIT_HEIGHTS, CONSTANT_FRICTION = 2.0, 2.0, 2.0  # values of the laws
-ONLY_CARRIER, ONLY_ROTATING = 2.0, 3.0  # of conduction
+IN_ALL, ONLY_CARRIER, ONLY_ROTATING = 1.0, 2.0, 3.0  # of conduction
+ONLY_LIQUID, LUMPED = 2.0, 2.0  # of cavity_shear and body_storage
 QUASI_STEADY, TRANSIENT, FROM_OIL = 1.0, 2.0, 2.0
-CLOSED, STRIBECK, MAP, COARSE, FIELD, FINE = range(1, 7)
+MAP, COARSE, FIELD, FINE = range(1, 5)
 # Behind them: nodes, and the radial one at the gear's inner radius; RMS roughness of film 1 and
 # gap 2 [m]; (carrier^2 - washer^2)/film 1^2; means and scatters of the summits [m].
 (
     D_RADIAL, D_AROUND, D_GEAR_NODE, D_SIGMA1, D_SIGMA2, D_SHEAR, D_MEAN_SUMMIT1, D_MEAN_SUMMIT2,
-    D_SUMMIT_SIGMA1, D_SUMMIT_SIGMA2,
-) = range(N_PARAM, N_PARAM + 10)  # fmt: skip
+    D_SUMMIT_SIGMA1, D_SUMMIT_SIGMA2, D_PER_COLUMN, D_RINGS,
+) = range(N_PARAM, N_PARAM + 12)  # fmt: skip
 D_TABLE1 = N_PARAM + 16  # contact tables of film 1 and gap 2
 D_TABLE2 = D_TABLE1 + N_TABLE
-D_MESH = D_TABLE2 + N_TABLE  # arrays over the radial nodes, then over the angles; or the wedge's
+D_MESH = D_TABLE2 + N_TABLE  # arrays over the radial nodes, then over the angles
 RADIUS, FACE, LOG_WIDTH, WEIGHT1, WEIGHT2, ALONG, GEAR_WIDTH = range(7)
 N_RADIAL = 7
 COS, SIN, COS_FACE, SIN_FACE, WEIGHT_T, WIDTH_T, STEP_T, PER_STEP = range(8)
 N_AROUND = 8
-N_PANEL = 12  # Gauss nodes of a panel; the wedge has two: distances, areas, moments
-N_WEDGE = 2 * N_PANEL
-DISTANCE, AREA, MOMENT = range(3)
 
 # `inp`; of the branch there is no input to an FMU.
 I_LOAD, I_SPEED, I_TILT, I_OIL, I_BRANCH = range(5)
@@ -50,10 +61,11 @@ NINP = 4
 
 # `out`, in the order of the model's list; behind them what only Python shows.
 (
-    O_TORQUE, O_MEAN, O_FILM, O_PEAK, O_RATIO, O_FLUID_SHARE, O_COEFFICIENT, O_POWER,
-    O_FLUID_LOAD, O_CONTACT_LOAD,
-) = range(10)  # fmt: skip
-NOUT, N_ALL = 8, 10
+    O_TORQUE, O_MEAN, O_FILM, O_PEAK, O_RATIO, O_FLUID_SHARE, O_COEFFICIENT, O_POWER, O_OIL_FLOW,
+    O_THROUGHFLOW_HEAT, O_OIL_HEAT, O_OUTLET, O_FILM_TEMPERATURE, O_STICK_MARGIN, O_FLUID_LOAD,
+    O_CONTACT_LOAD,
+) = range(16)  # fmt: skip
+NOUT, N_ALL = 14, 16
 IO_REGIME, IO_DISTRESS, IO_STATUS = range(3)
 NIOUT = 3
 
@@ -77,30 +89,34 @@ ANY, FILM_BRANCH, UNSTABLE, CONTACT_BRANCH = 0.0, 1.0, 2.0, 3.0
 UNKNOWN, SINGLE, MULTIPLE = 0.0, 1.0, 2.0  # is the curve single-valued in load?
 
 # The rest of `work`, ``Fields``. Its tag says what the heat factor was made for: inputs, positions,
-# parameters with the grid, rate of storage; then temperatures.
+# parameters with the grid, conductances outwards; then temperatures.
 TAG_VALID, TAG_SPEED, TAG_TILT, TAG_POSITIONS, TAG_OIL, TAG_PARAMETERS = 0, 1, 2, 3, 7, 8
-TAG_RATE, N_TAG = 47, 48
+TAG_OUT, N_TAG = TAG_PARAMETERS + D_SIGMA1, TAG_PARAMETERS + D_SIGMA1 + 3
 # ``Fields.small``, numbers (16: a matrix): contact forces and their slopes; contact force of film 1
-# [N] and its slopes; dry friction and its slope over that force [1/N]; 1 once the Jacobian of the
-# forces is that of the last evaluation.
+# [N] and its slopes; dry friction and its slope over that force [1/N], and the
+# coefficient of gap 2.
 FORCES, STIFFNESS, CONTACT, CONTACT_SLOPES = 0, 4, 20, 21
-FRICTION, FRICTION_SLOPE, JACOBIAN_READY = 25, 26, 27
+FRICTION, FRICTION_SLOPE, FRICTION2 = 25, 26, 27
 # Newton's method: forces with the film's, load not subtracted, and slopes; the scaled system and
 # its right side; dq/ds along the curve of solutions.
 BALANCE, SLOPES, SYSTEM, RIGHT, TANGENT = 32, 36, 52, 68, 76
-# Slopes of the forces over the positions, temperatures following by ``Fields.following``; over
-# speed, tilt and oil temperature (4 each).
-FORCE_SLOPES, OVER_SPEED, OVER_TILT, OVER_OIL = 80, 96, 100, 104
 # Directional derivative: change of the positions, a step of it, the step before, a test; passes.
 CHANGE, STEP, STEP_BEFORE, LOOSE, ROUNDS = 108, 112, 116, 120, 124
-RATE = 125  # [1/s] that storage weighs heat with; 0: steady
-STORED = 126  # [W] size of the heat that goes into storage
-RING = 127  # 1 if no column of the film is dry, so that the ring is closed
-N_SMALL = 128
+# Conductances per area from film 1 outwards through carrier, washer and gear [W/(m^2 K)]; 0 for the
+# washer in steady state, where it only passes heat on; size of the heat they take [W].
+OUT_CARRIER, OUT_WASHER, OUT_GEAR, OUT_SIZE = 125, 126, 127, 128
+RING = 129  # 1 if no column of the film is dry, so that the ring is closed
+FILM_ERROR = 130  # residual of the film over its largest pressure
+RIM_CHANGE = 131  # change of the heat that oil carries over the rims [W], of a derivative
+# In time: by what the rises outside of the three bodies fall per kelvin of the oil. Slopes of the
+# heat through the far faces of carrier and gear per area, over rise and oil [W/(m^2 K)].
+OUT_OIL, FAR_CARRIER, FAR_GEAR = 132, 135, 137
+N_SMALL = 144
 # Right sides and solutions of the film, node by node: the step at fixed positions, its slopes.
 AT_FIXED, OVER_POSITIONS = 0, 1
 N_PRESSED = 3  # of the forces: the film presses on all but the gear
 N_KEPT = 3  # solutions that ``remember`` has room for
+N_TERMS = 3  # of the ladder through the thickness of a body
 
 # `state`: last solution, inputs of the last descent (tilt < 0: none), where the factor was made.
 S_VALID, S_BRANCH, S_MULTIPLICITY, S_LOAD, S_SPEED, S_TILT, S_OIL = range(7)
@@ -108,5 +124,6 @@ S_SCAN_SPEED, S_SCAN_TILT, S_SCAN_OIL, S_POSITIONS = range(7, 11)
 S_RATIO, S_FACTOR_VALID, S_FACTOR_SPEED, S_FACTOR_TILT, S_FACTOR_OIL = 14, 16, 17, 18, 19
 S_FACTOR_POSITIONS = 20
 S_MAP_BRANCH, S_MAP_RATIO = 24, 25  # of the last look-up, 0 if there is none
-S_FACTOR_RATE, S_SUBSTEP = 26, 27  # the next substep to try [s]
-S_FIELDS = 32  # temperatures, pressures, temperatures of the factor
+S_FACTOR_OUT, S_SUBSTEP = 26, 29  # (3) as OUT_CARRIER; the next substep to try [s]
+S_TANGENT, S_LOAD_SLOPE = 30, 34  # dq/ds (4) and dload/ds [N/m] at the last solution, 0: unknown
+S_FIELDS = 36  # temperatures, pressures, temperatures of the factor, terms of the ladders

@@ -1,8 +1,9 @@
-"""One Newton iteration for everything: positions, pressure, temperature; by block elimination.
+"""Newton's method for positions and temperatures by block elimination, the film settled.
 
-Temperatures depend on the positions only, T = T(q); the pressure on both, p = p(q, T). So the heat
-block is solved first (for the residual and four slopes), then the film block, and what remains
-is a system of four: two forces, two moments.
+The pressure is that of Reynolds' equation at the gaps and viscosities, p = p(q, T), at each
+iterate. Temperatures follow the positions, T = T(q): the heat block is solved first (for the
+residual and four slopes), then the film block, and what remains is a system of four: two forces,
+two moments.
 
 Wanted is either a load (mode LOAD) or a film thickness (mode FILM, the load is a result), the
 latter single-valued through both folds. The film thickness that is wanted is smoothed where
@@ -18,9 +19,10 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
 from . import layout as L
 from .constants import WasherModel
-from .film import evaluate_film, film_residual, film_solve
+from .film import evaluate_film, film_solve, settle_film, settle_marked
 from .gap import evaluate_gaps, evaluate_viscosity
-from .heat import factor_heat, heat_residual, heat_slopes, solve_heat
+from .heat import heat_change, heat_residual, let_film_follow
+from .heat_factor import factor_heat, solve_heat
 from .layout import (
     AT_FIXED,
     MOMENT_X,
@@ -33,6 +35,7 @@ from .layout import (
     Z_GEAR,
     Z_WASHER,
 )
+from .throughflow import find_flows
 from .workspace import (
     Fields,
     Point,
@@ -50,6 +53,10 @@ from .workspace import (
 # modes and counts are floats: numba would compile anew for each integer constant
 LOAD, FILM = 0.0, 1.0
 NO_FLOOR = -100.0
+CHORD = 0.4  # what an iteration with an old factor must bring the error down to
+ROUGH, EXACT = 1.0, 2.0  # rounds of the slopes of the temperatures where oil carries heat
+ROUGH_FROM = 1e-5  # tolerance from which rough slopes do
+LARGEST_JUMP = 1000.0  # [K] of a temperature in one iteration
 
 
 @kernel
@@ -79,15 +86,21 @@ def film_ratio(w: Workspace) -> float:
 
 
 @kernel
-def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields) -> bool:
-    """Factor the heat equations and solve for the slopes dT/dq; gaps are already evaluated."""
+def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields, rounds: float) -> bool:
+    """Factor the heat equations and solve for the slopes dT/dq; all is evaluated at (q, temp).
+
+    ``rounds`` is ROUGH or EXACT.
+    """
     f.tag[L.TAG_VALID] = 0.0
     if not factor_heat(m, pt, f):
         return False
-    heat_slopes(m, pt, temp, f)
     for c in range(4):
-        solve_heat(m, f.following[c], f.following[c], f)
-    f.tag[L.TAG_VALID], f.tag[L.TAG_RATE] = 1.0, f.small[L.RATE]
+        clear(f.following[c])
+    for _ in range(int(rounds) if m.film_step > 0 else 1):
+        refine_slopes(m, pt, q, f)
+    f.tag[L.TAG_VALID] = 1.0
+    f.tag[L.TAG_OUT], f.tag[L.TAG_OUT + 1] = f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER]
+    f.tag[L.TAG_OUT + 2] = f.small[L.OUT_GEAR]
     f.tag[L.TAG_SPEED], f.tag[L.TAG_TILT] = pt.speed, pt.tilt
     f.tag[L.TAG_OIL] = pt.oil_temperature
     copy(q, vector(f.tag, L.TAG_POSITIONS))
@@ -96,17 +109,39 @@ def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields) -> 
 
 
 @kernel
-def factor_here(w: Workspace, pt: Point) -> bool:
-    """Make the heat factor at the present solution; gaps are already evaluated."""
-    f = fields_of(w)
-    return make_factor(model_of(w), pt, w.q, f.temp, f)
+def refine_slopes(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
+    """Improve the slopes dT/dq by one step with the factor, film and flows following."""
+    none = Point(0.0, 0.0, 0.0, 0.0)
+    dq, heat = vector(f.small, L.STEP), f.trial
+    for c in range(4):
+        clear(dq)
+        dq[c] = 1.0
+        let_film_follow(m, pt, none, q, dq, f.following[c], f)
+        heat_change(m, pt, none, q, dq, f.following[c], f, heat)
+        solve_heat(m, heat, heat, f)
+        for node in range(heat.size):
+            k = np.uintp(node)
+            f.following[np.uintp(c), k] -= heat[k]
 
 
 @kernel
-def _balance(m: WasherModel, p: Array, f: Fields) -> None:
+def factor_here(w: Workspace, pt: Point) -> bool:
+    """Make the heat factor at the present solution; gaps are already evaluated."""
+    f = fields_of(w)
+    return make_factor(model_of(w), pt, w.q, f.temp, f, EXACT)
+
+
+@kernel
+def _balance(m: WasherModel, f: Fields) -> None:
     """Fill the forces conjugate to q: film pressure and contacts."""
     forces = vector(f.small, L.BALANCE)
     copy(vector(f.small, L.FORCES), forces)
+    add_pressure(m, f.p, forces)
+
+
+@kernel
+def add_pressure(m: WasherModel, p: Array, forces: Array) -> None:
+    """Add to ``forces`` (4,) what pressures ``p`` (n,) on the washer make."""
     for j in range(m.n_t):
         for i in range(1, m.n_r - 1):
             push = m.weight1[i] * m.weight_t[j] * p[np.uintp(j * m.n_r + i)]
@@ -116,10 +151,9 @@ def _balance(m: WasherModel, p: Array, f: Fields) -> None:
 
 
 @kernel
-def _linearise(m: WasherModel, f: Fields) -> None:
-    """Fill the forces after the step at fixed q and their slopes, film pressure following."""
+def linearise(m: WasherModel, f: Fields) -> None:
+    """Fill the forces after the step at fixed q and their slopes, film and heat following."""
     forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
-    copy(vector(f.small, L.FORCES), forces)
     copy(f.small[L.STIFFNESS : L.STIFFNESS + 16], f.small[L.SLOPES : L.SLOPES + 16])
     for j in range(m.n_t):
         for i in range(1, m.n_r - 1):
@@ -197,25 +231,34 @@ def _limit(ro: float, sigma: float, pt: Point, q: Array, step: Array) -> float:
 
 @kernel
 def evaluate(m: WasherModel, pt: Point, q: Array, f: Fields) -> float:
-    """Evaluate everything at (q, f.temp, f.p); return the heat made [W]."""
+    """Evaluate everything at (q, f.temp), the film settled; return the heat made [W].
+
+    The residual of the film stays in ``f.small[FILM_ERROR]``.
+    """
+    return _evaluate(m, pt, q, f, False)
+
+
+@kernel
+def _evaluate(m: WasherModel, pt: Point, q: Array, f: Fields, marked: bool) -> float:
+    """Evaluate everything; ``marked``: the last film in ``f`` was of this washer and point."""
     evaluate_gaps(m, pt, q, f)
     evaluate_viscosity(m, pt, f)
-    made = heat_residual(m, pt, f.temp, f)
     evaluate_film(m, pt, q, f)
-    return made
+    f.small[L.FILM_ERROR] = settle_marked(m, f) if marked else settle_film(m, f)
+    if m.film_step > 0:
+        find_flows(m, pt, q, f)
+    return heat_residual(m, pt, f.temp, f)
 
 
 @kernel
 def evaluate_here(w: Workspace, pt: Point) -> None:
     """Evaluate everything at a solution that was taken back."""
-    m, f = model_of(w), fields_of(w)
-    evaluate(m, pt, w.q, f)
-    film_residual(m, f.p, f)
+    evaluate(model_of(w), pt, w.q, fields_of(w))
 
 
 @kernel
 def _take(f: Fields, share: float, q: Array) -> None:
-    """Go ``share`` of the step: positions, the temperatures and pressures that follow them."""
+    """Go ``share`` of the step: positions, and the temperatures that follow them."""
     step = vector(f.small, L.RIGHT)
     d0, d1 = share * step[Z_WASHER], share * step[Z_GEAR]
     d2, d3 = share * step[TILT_X], share * step[TILT_Y]
@@ -227,19 +270,10 @@ def _take(f: Fields, share: float, q: Array) -> None:
         change = f.dtemp[k] + dt0[k] * d0 + dt1[k] * d1 + dt2[k] * d2 + dt3[k] * d3
         f.dtemp[k] = change
         jump = max(jump, abs(change))
-    damp = 1.0 if jump <= 1000.0 else 1000.0 / jump
+    damp = 1.0 if jump <= LARGEST_JUMP else LARGEST_JUMP / jump
     for node in range(n_temp):
         k = np.uintp(node)
         f.temp[k] += damp * f.dtemp[k]
-    for node in range(f.p.size):
-        k = np.uintp(node)
-        f.p[k] = (
-            f.film_rhs[k, AT_FIXED]
-            + f.film_rhs[k, OVER_POSITIONS + Z_WASHER] * d0
-            + f.film_rhs[k, OVER_POSITIONS + Z_GEAR] * d1
-            + f.film_rhs[k, OVER_POSITIONS + TILT_X] * d2
-            + f.film_rhs[k, OVER_POSITIONS + TILT_Y] * d3
-        )
     q[Z_WASHER] += d0
     q[Z_GEAR] += d1
     q[TILT_X] += d2
@@ -251,12 +285,13 @@ def newton(
     w: Workspace, pt: Point, mode: float, target: float, floor: float, tolerance: float,
     max_iterations: float,
 ) -> int:  # fmt: skip
-    """Solve for positions ``w.q``, temperatures ``f.temp`` and pressures ``f.p``; return a status.
+    """Solve for positions ``w.q`` and temperatures ``f.temp``; return a status.
 
-    The heat factor and its slopes serve as long as each iteration gains a digit (chord), unless
-    ``forget_factor`` was called. Film, contacts and the system of four are always exact. What is in
-    ``w.q``, ``f.temp`` and ``f.p`` is the start, then the best estimate. ``w.info``: iterations and
-    factorings are added to; out: residual, load reached [N], dload/ds [N/m], heat made [W].
+    The pressure ``f.p`` is solved for at each of them. The heat factor and its slopes serve as
+    long as an iteration gains half a digit (chord), unless ``forget_factor`` was called. Film,
+    contacts and the system of four are always exact. What is in ``w.q``, ``f.temp`` and ``f.p`` is
+    the start, then the best estimate. ``w.info``: iterations and factorings are added to; out:
+    residual, load reached [N], dload/ds [N/m], heat made [W].
 
     Parameters
     ----------
@@ -269,10 +304,10 @@ def newton(
     forces, slopes = vector(f.small, L.BALANCE), square(f.small, L.SLOPES)
     tangent = vector(f.small, L.TANGENT)
     before = math.inf
+    rounds = ROUGH if tolerance > ROUGH_FROM else EXACT
     for iteration in range(int(max_iterations) + 1):
-        made = evaluate(m, pt, w.q, f)
-        pressure_error, p_max, _ = film_residual(m, f.p, f)
-        _balance(m, f.p, f)
+        made = _evaluate(m, pt, w.q, f, iteration > 0)
+        _balance(m, f)
         reached = forces[ON_GEAR]
         load = target if mode == LOAD else max(reached, 1e-3)
         moment = max(abs(forces[MOMENT_X]), abs(forces[MOMENT_Y])) / m.outer_radius
@@ -281,10 +316,9 @@ def newton(
             error = max(error, abs(reached - target) / load)
         else:
             error = max(error, abs(smooth_film(w) - target) / m.sigma1)
-        scale = max(p_max, 1e-6 * load / (m.outer_radius * m.outer_radius))
-        error = max(error, pressure_error / scale)
+        error = max(error, f.small[L.FILM_ERROR])
         lost = size_of(f.heat)
-        flow = made + (f.small[L.STORED] if f.small[L.RATE] != 0.0 else 0.0)
+        flow = made + f.small[L.OUT_SIZE]
         error = max(error, lost / max(flow, 1e-2))
         w.info[L.RESIDUAL], w.info[L.REACHED_LOAD], w.info[L.HEAT] = error, reached, made
         if not math.isfinite(error):
@@ -293,8 +327,8 @@ def newton(
             return OK
         if iteration == int(max_iterations) or film_ratio(w) < floor:
             break
-        if error > 0.1 * before or f.tag[L.TAG_VALID] != 1.0:
-            if not make_factor(m, pt, w.q, f.temp, f):
+        if error > CHORD * before or f.tag[L.TAG_VALID] != 1.0:
+            if not make_factor(m, pt, w.q, f.temp, f, rounds):
                 return SINGULAR
             w.info[L.FACTORED] += 1.0
         before = error
@@ -304,9 +338,8 @@ def newton(
         clear(f.dtemp)
         if not balanced:
             solve_heat(m, f.heat, f.dtemp, f)
-        if not film_solve(m, f.p, f):
-            return SINGULAR
-        _linearise(m, f)
+        film_solve(m, f)
+        linearise(m, f)
         if not _steps(m, mode, target, w.q, f):
             return SINGULAR
         slope = 0.0

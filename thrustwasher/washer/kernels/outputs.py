@@ -8,10 +8,15 @@ from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .constants import WasherModel
-from .jacobian import contact_change, film_thickness_change
-from .layout import TILT_X, TILT_Y, Z_WASHER
+from .gap import dry_friction, film_change
+from .heat import contact_change
+from .ladder import far_heat
+from .layout import TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .newton import tilt_of
+from .throughflow import find_flows, flows_change, supply_rise
 from .workspace import Fields, Point, Workspace, fields_of, model_of, vector
+
+MOST_MARGIN = 1000.0  # of `stick_margin`: nothing is to be held
 
 
 @kernel
@@ -36,26 +41,79 @@ def side_of(speed: float) -> float:
 
 
 @kernel
+def stick_margin(m: WasherModel, f: Fields, torque: float) -> float:
+    """Return the torque that gap 2 can hold by dry friction over the friction torque."""
+    hold = 0.0
+    for j in range(m.n_t):
+        for i in range(m.i_g, m.n_r):
+            k = np.uintp(j * m.n_r + i)
+            hold += m.weight2[i] * m.weight_t[j] * f.pc2[k] * m.r[i]
+    hold *= f.small[L.FRICTION2]
+    if not abs(torque) * MOST_MARGIN > hold:
+        return MOST_MARGIN
+    return float(hold / abs(torque))
+
+
+@kernel
+def _through_faces(m: WasherModel, f: Fields) -> float:
+    """Return the heat that leaves through the far faces in steady state [W]."""
+    out_c = m.carrier_conductivity / m.carrier_thickness
+    out_g = m.gear_conductivity / m.gear_thickness
+    total = 0.0
+    for j in range(m.n_t):
+        carrier = m.carrier_at + j * m.carrier_step
+        gear = m.gear_at + j * m.gear_step - m.i_g
+        for i in range(m.n_r):
+            total += m.weight1[i] * m.weight_t[j] * out_c * f.temp[np.uintp(carrier + i)]
+            if i >= m.i_g:
+                total += m.weight2[i] * m.weight_t[j] * out_g * f.temp[np.uintp(gear + i)]
+    return total
+
+
+@kernel
 def washer_outputs(m: WasherModel, pt: Point, q: Array, f: Fields, out: Array) -> bool:
     """Fill ``out`` (N_ALL,) from the fields evaluated at the solution; return True if finite.
 
     Source: Jackson & Green Eq 39-43 for film 1, with the weights of the balances.
     """
-    n_r = m.n_r
-    m_t = 3 * n_r - m.i_g
-    torque, mean, area, hottest, fluid = 0.0, 0.0, 0.0, -1e300, 0.0
+    n_r, n_t = m.n_r, m.n_t
+    if m.film_step == 0:
+        find_flows(m, pt, q, f)
+    viscous, rubbing, mean, area, hottest = 0.0, 0.0, 0.0, 0.0, -1e300
+    fluid, film, flow, gone = 0.0, 0.0, 0.0, 0.0
     dry = side_of(pt.speed) * f.small[L.FRICTION]
-    for j in range(m.n_t):
+    per_speed = m.pressure_shear / pt.speed if pt.speed != 0.0 else 0.0
+    warmer = supply_rise(m, pt)
+    for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        own = m.film_at + j * m.film_step
+        at = m.carrier_at + j * m.carrier_step
+        below = m.washer_at + j * m.washer_step
         for i in range(n_r):
-            k = j * n_r + i
+            k = np.uintp(j * n_r + i)
             w = m.weight1[i] * m.weight_t[j]
             r = m.r[i]
-            torque += w * r * (f.mu[k] * pt.speed * r / f.ht[k] + dry * f.pc[k])
-            carrier, washer = f.temp[j * m_t + i], f.temp[j * m_t + n_r + i]
+            part = 1.0
+            if m.only_liquid:
+                part = f.liquid[k]
+            viscous += w * r * part * f.mu[k] * pt.speed * r / f.ht[k]
+            viscous += per_speed * f.wedge[k] * (f.p[np.uintp(jn * n_r + i)] - f.p[k])
+            rubbing += w * r * dry * f.pc[k]
+            carrier, washer = f.temp[np.uintp(at + i)], f.temp[np.uintp(below + i)]
             mean += 0.5 * w * (carrier + washer)
             hottest = max(hottest, max(carrier, washer))
             fluid += w * f.p[k]
             area += w
+            flow += f.rim[k] * f.liquid[k]
+            if m.film_step > 0:
+                film += w * f.temp[np.uintp(own + i)]
+                gone += m.oil_storage * f.rim[k] * f.liquid[k] * f.edge[k]
+    if m.film_step == 0:
+        film = mean
+    torque = viscous + rubbing
+    power = torque * pt.speed
+    kept_out = (1.0 - m.film_heat_fraction) * viscous * pt.speed
+    storage = m.par[L.P_OIL_DENSITY] * m.par[L.P_OIL_HEAT_CAPACITY]
     out[L.O_TORQUE] = torque
     out[L.O_MEAN] = pt.oil_temperature + mean / area
     out[L.O_PEAK] = pt.oil_temperature + max(hottest, mean / area)
@@ -63,9 +121,21 @@ def washer_outputs(m: WasherModel, pt: Point, q: Array, f: Fields, out: Array) -
     out[L.O_FILM] = out[L.O_RATIO] * m.sigma1
     out[L.O_FLUID_LOAD], out[L.O_CONTACT_LOAD] = fluid, f.small[L.CONTACT]
     out[L.O_FLUID_SHARE] = fluid / (fluid + f.small[L.CONTACT])
-    ro, ri = m.outer_radius, m.inner_radius
-    out[L.O_COEFFICIENT] = 1.5 * abs(torque) * (ro**2 - ri**2) / (pt.load * (ro**3 - ri**3))
-    out[L.O_POWER] = torque * pt.speed
+    per_torque = coefficient_per_torque(m.inner_radius, m.outer_radius, pt.load)
+    out[L.O_COEFFICIENT] = per_torque * abs(torque)
+    out[L.O_POWER] = power
+    out[L.O_OIL_FLOW] = flow
+    out[L.O_THROUGHFLOW_HEAT] = gone + kept_out
+    if m.par[L.P_THERMAL_MODE] == L.TRANSIENT:
+        faces = far_heat(m, f)
+    else:
+        faces = _through_faces(m, f)
+    out[L.O_OIL_HEAT] = out[L.O_THROUGHFLOW_HEAT] + faces
+    out[L.O_OUTLET] = pt.oil_temperature + warmer
+    if flow > 0.0:
+        out[L.O_OUTLET] += gone / (storage * flow)
+    out[L.O_FILM_TEMPERATURE] = pt.oil_temperature + film / area
+    out[L.O_STICK_MARGIN] = stick_margin(m, f, torque)
     return are_finite(out)
 
 
@@ -75,34 +145,91 @@ def outputs_at(w: Workspace, pt: Point) -> bool:
     return washer_outputs(model_of(w), pt, w.q, fields_of(w), w.outputs)
 
 
+@kernel
+def _hold_change(m: WasherModel, change: Point, dq: Array, f: Fields) -> tuple[float, float]:
+    """Return the torque of `stick_margin` over its friction coefficient [N m] and its change."""
+    hold, dhold = 0.0, 0.0
+    for j in range(m.n_t):
+        for i in range(m.i_g, m.n_r):
+            k = np.uintp(j * m.n_r + i)
+            x, y = m.r[i] * m.cos[j], m.r[i] * m.sin[j]
+            dh2 = dq[Z_GEAR] - dq[Z_WASHER] - y * dq[TILT_X] + x * (dq[TILT_Y] - change.tilt)
+            arm = m.weight2[i] * m.weight_t[j] * m.r[i]
+            hold += arm * f.pc2[k]
+            dhold += arm * f.dpc2[k] * dh2
+    return hold, dhold
+
+
+@kernel
+def film_thickness_change(ro: float, q: Array, dq: Array) -> float:
+    """Return the change of the least film thickness [m]; a level washer's tilt has no slope."""
+    tilt = tilt_of(q)
+    if tilt == 0.0:
+        return float(dq[Z_WASHER])
+    dip = ro * (q[TILT_X] * dq[TILT_X] + q[TILT_Y] * dq[TILT_Y]) / tilt
+    return float(dq[Z_WASHER] - dip)
+
+
 @inlined
 def change_of_outputs(
     m: WasherModel, pt: Point, change: Point, w: Workspace, f: Fields, dout: Array
 ) -> int:
     """Fill ``dout`` from the change of the state, CHANGE and ``f.keep[: n_temp]``; see `sens`."""
-    n_r, m_t = m.n_r, 3 * m.n_r - m.i_g
+    n_r, n_t = m.n_r, m.n_t
     out, dq, dtemp = w.outputs, vector(f.small, L.CHANGE), f.keep[: f.temp.size]
+    if m.film_step == 0:
+        flows_change(m, pt, w.q, dq, f)
     side, dcontact = side_of(pt.speed), contact_change(f.small, dq)
     friction = side * f.small[L.FRICTION]
     dfriction = side * f.small[L.FRICTION_SLOPE] * dcontact
     torque, mean, area, hottest, dhottest = 0.0, 0.0, 0.0, -1e300, 0.0
-    for j in range(m.n_t):
+    film, flow, faces, kept_out = 0.0, 0.0, 0.0, 0.0
+    per_speed = m.pressure_shear / pt.speed if pt.speed != 0.0 else 0.0
+    fraction = 1.0 - m.film_heat_fraction
+    far_c, far_g = vector(f.small, L.FAR_CARRIER), vector(f.small, L.FAR_GEAR)
+    by_oil_c = far_c[1] * change.oil_temperature
+    by_oil_g = far_g[1] * change.oil_temperature
+    for j in range(n_t):
+        jn = j + 1 if j + 1 < n_t else 0
+        at = m.carrier_at + j * m.carrier_step
+        below = m.washer_at + j * m.washer_step
+        gear = m.gear_at + j * m.gear_step - m.i_g
         for i in range(n_r):
-            k = j * n_r + i
+            k = np.uintp(j * n_r + i)
             r = m.r[i]
             weight = m.weight1[i] * m.weight_t[j]
             dh = dq[Z_WASHER] + r * m.sin[j] * dq[TILT_X] - r * m.cos[j] * dq[TILT_Y]
-            carrier, washer = f.temp[j * m_t + i], f.temp[j * m_t + n_r + i]
-            dcarrier, dwasher = dtemp[j * m_t + i], dtemp[j * m_t + n_r + i]
-            dmu = f.dmu[k] * (0.5 * (dcarrier + dwasher) + change.oil_temperature)
+            carrier, washer = f.temp[np.uintp(at + i)], f.temp[np.uintp(below + i)]
+            dcarrier, dwasher = dtemp[np.uintp(at + i)], dtemp[np.uintp(below + i)]
+            dfilm = film_change(m, dtemp, j, i)
+            film += weight * dfilm
+            dmu = f.dmu[k] * (dfilm + change.oil_temperature)
             shear = pt.speed * r / f.ht[k]
-            torque += weight * r * (
-                shear * (dmu - f.mu[k] * f.dht[k] * dh / f.ht[k])
-                + f.mu[k] * change.speed * r / f.ht[k]
-                + friction * f.dpc[k] * dh + dfriction * f.pc[k]
-            )  # fmt: skip
+            part, dpart = 1.0, 0.0
+            if m.only_liquid:
+                part, dpart = f.liquid[k], f.dliquid[k]
+            viscous = (
+                part * shear * (dmu - f.mu[k] * f.dht[k] * dh / f.ht[k])
+                + part * f.mu[k] * change.speed * r / f.ht[k]
+                + dpart * f.mu[k] * shear
+            )
+            viscous *= weight * r
+            torque += weight * r * (friction * f.dpc[k] * dh + dfriction * f.pc[k])
+            # pressure flow through the face j..j+1
+            o = np.uintp(jn * n_r + i)
+            dh = dq[Z_WASHER] + r * m.sin_face[j] * dq[TILT_X] - r * m.cos_face[j] * dq[TILT_Y]
+            viscous += per_speed * (
+                f.dwedge[k] * dh * (f.p[o] - f.p[k]) + f.wedge[k] * (f.dp[o] - f.dp[k])
+            )
+            torque += viscous
+            kept_out += fraction * viscous * pt.speed
             mean += 0.5 * weight * (dcarrier + dwasher)
             area += weight
+            flow += f.drim[k] * f.liquid[k] + f.rim[k] * f.dliquid[k]
+            faces += weight * (far_c[0] * dcarrier + by_oil_c)
+            if i >= m.i_g:
+                passed = far_g[0] * dtemp[np.uintp(gear + i)] + by_oil_g
+                faces += m.weight2[i] * m.weight_t[j] * passed
             if max(carrier, washer) > hottest:
                 hottest = max(carrier, washer)
                 dhottest = dcarrier if carrier >= washer else dwasher
@@ -122,4 +249,27 @@ def change_of_outputs(
         - out[L.O_COEFFICIENT] * change.load / pt.load
     )
     dout[L.O_POWER] = torque * pt.speed + out[L.O_TORQUE] * change.speed
+    dout[L.O_OIL_FLOW] = flow
+    gone = 0.0
+    if m.film_step > 0:
+        gone = f.small[L.RIM_CHANGE]
+    elif pt.speed != 0.0:
+        gone = kept_out + out[L.O_THROUGHFLOW_HEAT] * change.speed / pt.speed
+    dout[L.O_THROUGHFLOW_HEAT] = gone
+    dout[L.O_OIL_HEAT] = gone + faces
+    dout[L.O_OUTLET] = change.oil_temperature
+    if m.par[L.P_SUPPLY_TEMPERATURE] > 0.0:
+        dout[L.O_OUTLET] = 0.0
+    if m.film_step > 0 and out[L.O_OIL_FLOW] > 0.0:
+        warmth = out[L.O_THROUGHFLOW_HEAT] * flow / out[L.O_OIL_FLOW]
+        dout[L.O_OUTLET] += (gone - warmth) / (m.oil_storage * out[L.O_OIL_FLOW])
+    dout[L.O_FILM_TEMPERATURE] = change.oil_temperature + film / area
+    dout[L.O_STICK_MARGIN] = 0.0
+    hold, dhold = _hold_change(m, change, dq, f)
+    if out[L.O_STICK_MARGIN] < MOST_MARGIN and hold > 0.0:
+        _, slope = dry_friction(m.par, f.small[L.FORCES + L.ON_GEAR])
+        relative = dhold / hold - torque / out[L.O_TORQUE]
+        if f.small[L.FRICTION2] > 0.0:
+            relative += slope * change.load / f.small[L.FRICTION2]
+        dout[L.O_STICK_MARGIN] = out[L.O_STICK_MARGIN] * relative
     return OK if are_finite(dout) else NOT_FINITE

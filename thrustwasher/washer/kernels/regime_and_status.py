@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...numerics.jit import Array, kernel
 from ...numerics.status import DISTRESS, OK, OUTSIDE_VERIFIED
 from . import layout as L
-from .constants import combined_roughness, summits
+from .constants import combined_roughness, contact_pair, summits
 from .workspace import Point
 
 FILM, MIXED, BOUNDARY = 1, 2, 3  # regimes
@@ -17,13 +17,16 @@ LEAST_TILT = 1e-9  # [rad]; less counts as none: a wedge of 0.02 nm has lift of 
 LEAST_LOAD = 1.0  # [N]; an unloaded washer counts as loaded so much
 LARGEST_SPREAD = 20.0  # outer over inner radius
 LEAST_ROUGHNESS = 1.5e-7  # [m]
+LEAST_MODULUS, LEAST_STRENGTH = 1e9, 1e7  # [Pa] of a body, as in its parameters
+LEAST_CONDUCTIVITY, LEAST_DENSITY, LEAST_SPECIFIC_HEAT = 0.1, 500.0, 50.0
+LEAST_TEMPERATURE = 233.15  # [K] of the oil that is supplied
 LARGEST_RISE = 200.0  # [K] mean rise that counts as distress
 
 
 @kernel
-def _too_smooth(roughness: float) -> bool:
-    """Tell if a surface's own roughness is given (not 0) and out of reach."""
-    return 0.0 < roughness < LEAST_ROUGHNESS
+def _too_small(par: Array, place: int, least: float) -> bool:
+    """Tell if a value that may be 0, for the common one, is given and below its range."""
+    return bool(0.0 < par[np.uintp(place)] < least)
 
 
 @kernel
@@ -37,7 +40,7 @@ def broken_rule(par: Array) -> int:
     if not par[L.P_OUTER_RADIUS] <= LARGEST_SPREAD * par[L.P_INNER_RADIUS]:
         return 2
     for k in range(3):
-        if _too_smooth(par[np.uintp(L.P_ROUGHNESS_CARRIER + k)]):
+        if _too_small(par, L.P_ROUGHNESS + 1 + k, LEAST_ROUGHNESS):
             return 3 + k
     if not par[L.P_FRICTION_LOAD_MIN] < par[L.P_FRICTION_LOAD_MAX]:
         return 6
@@ -46,9 +49,31 @@ def broken_rule(par: Array) -> int:
     _, _, second = summits(par, sigma2)
     if not (first and second):
         return 7
+    for k in range(3):
+        if _too_small(par, L.P_YOUNGS_MODULUS + 1 + k, LEAST_MODULUS):
+            return 8 + k
+        if _too_small(par, L.P_YIELD_STRENGTH + 1 + k, LEAST_STRENGTH):
+            return 11 + k
+        if _too_small(par, L.P_CONDUCTIVITY + 1 + k, LEAST_CONDUCTIVITY):
+            return 14 + k
+        if _too_small(par, L.P_DENSITY + 1 + k, LEAST_DENSITY):
+            return 17 + k
+        if _too_small(par, L.P_SPECIFIC_HEAT + 1 + k, LEAST_SPECIFIC_HEAT):
+            return 20 + k
+    for k in range(2):
+        pair = contact_pair(par, L.OF_CARRIER + 2 * k)
+        if not pair.yield_strength <= pair.contact_modulus:
+            return 23 + k
+    if _too_small(par, L.P_SUPPLY_TEMPERATURE, LEAST_TEMPERATURE):
+        return 25
+    cooled = par[L.P_OIL_COOLING] != 0.0
+    if cooled and par[L.P_FILM_HEAT_FRACTION] != 1.0:
+        return 26
+    if not cooled and par[L.P_CAVITY_SHEAR] == L.ONLY_LIQUID:
+        return 27
     # the fidelity may be unknown yet
     if par.size >= L.N_PARAM and par[L.P_THERMAL_MODE] == L.TRANSIENT:
-        return 0 if par[L.P_FIDELITY] >= L.COARSE else 8
+        return 0 if par[L.P_FIDELITY] >= L.COARSE else 28
     return 0
 
 

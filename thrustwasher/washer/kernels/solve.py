@@ -12,8 +12,8 @@ from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import NO_BRANCH, OK
 from . import layout as L
 from .branch import FILM_RATIO, descend, is_clear_film, solve_cold
-from .gap import evaluate_gaps, evaluate_viscosity
-from .newton import LOAD, NO_FLOOR, factor_here, film_ratio, make_factor, newton
+from .continuation import go_along
+from .newton import EXACT, LOAD, NO_FLOOR, evaluate, factor_here, film_ratio, make_factor, newton
 from .workspace import Point, Workspace, copy, fields_of, forget_factor, model_of, vector
 
 WARM_TOLERANCE = 5e-6
@@ -21,12 +21,16 @@ CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
 
 
 @kernel
-def _remembered(state: Array, n_temp: int, n: int) -> tuple[Array, Array, Array]:
-    """Return temperatures and pressures in ``state``, and the temperatures of the factor."""
+def _remembered(state: Array, n_temp: int, n: int) -> tuple[Array, Array, Array, Array]:
+    """Return temperatures, pressures, the factor's temperatures, ladders (flat) in ``state``."""
     pressure = L.S_FIELDS + n_temp
     factor = pressure + n
-    end = factor + n_temp
-    return state[L.S_FIELDS : pressure], state[pressure:factor], state[factor:end]
+    ladder = factor + n_temp
+    end = ladder + L.N_TERMS * n_temp
+    return (
+        state[L.S_FIELDS : pressure], state[pressure:factor], state[factor:ladder],
+        state[ladder:end],
+    )  # fmt: skip
 
 
 @kernel
@@ -37,7 +41,7 @@ def _belongs(par: Array, state: Array, tag: Array, temp: Array) -> bool:
         and tag[L.TAG_SPEED] == state[L.S_FACTOR_SPEED]
         and tag[L.TAG_TILT] == state[L.S_FACTOR_TILT]
         and tag[L.TAG_OIL] == state[L.S_FACTOR_OIL]
-        and tag[L.TAG_RATE] == state[L.S_FACTOR_RATE]
+        and _are_equal(tag[L.TAG_OUT : L.N_TAG], state[L.S_FACTOR_OUT : L.S_SUBSTEP])
         and _are_equal(vector(tag, L.TAG_POSITIONS), vector(state, L.S_FACTOR_POSITIONS))
         and _are_equal(_owner(tag), par[: L.D_SIGMA1])
         and _are_equal(tag[L.N_TAG : L.N_TAG + temp.size], temp)
@@ -62,42 +66,52 @@ def _owner(tag: Array) -> Array:
 def recall_state(w: Workspace, state: Array) -> None:
     """Take the remembered solution and its heat factor into ``w.q`` and the work."""
     m, f = model_of(w), fields_of(w)
-    temp, pressure, of_factor = _remembered(state, f.temp.size, f.p.size)
+    temp, pressure, of_factor, ladder = _remembered(state, f.temp.size, f.p.size)
+    copy(pressure, f.p)
     if state[L.S_FACTOR_VALID] != 1.0:
         forget_factor(w)
     elif not _belongs(w.par, state, f.tag, of_factor):
         pt = Point(1.0, state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT], state[L.S_FACTOR_OIL])
+        out = f.small[L.OUT_CARRIER : L.OUT_SIZE]
+        now0, now1, now2 = out[0], out[1], out[2]
         copy(vector(state, L.S_FACTOR_POSITIONS), w.q)
         copy(of_factor, f.temp)
-        evaluate_gaps(m, pt, w.q, f)
-        evaluate_viscosity(m, pt, f)
-        rate = f.small[L.RATE]
-        f.small[L.RATE] = state[L.S_FACTOR_RATE]
-        make_factor(m, pt, w.q, f.temp, f)
-        f.small[L.RATE] = rate
+        copy(state[L.S_FACTOR_OUT : L.S_SUBSTEP], out)
+        evaluate(m, pt, w.q, f)
+        make_factor(m, pt, w.q, f.temp, f, EXACT)
+        out[0], out[1], out[2] = now0, now1, now2
         copy(w.par[: L.D_SIGMA1], _owner(f.tag))
     copy(vector(state, L.S_POSITIONS), w.q)
     copy(temp, f.temp)
     copy(pressure, f.p)
+    if w.par[L.P_THERMAL_MODE] == L.TRANSIENT:
+        for k in range(ladder.size):
+            f.ladder[k // f.temp.size, k % f.temp.size] = ladder[k]
 
 
 @kernel
 def remember_state(w: Workspace, pt: Point, state: Array) -> None:
     """Write the present solution and where its heat factor was made into ``state``."""
     f = fields_of(w)
-    temp, pressure, of_factor = _remembered(state, f.temp.size, f.p.size)
+    temp, pressure, of_factor, ladder = _remembered(state, f.temp.size, f.p.size)
     state[L.S_VALID] = 1.0
     state[L.S_LOAD], state[L.S_SPEED] = pt.load, pt.speed
     state[L.S_TILT], state[L.S_OIL] = pt.tilt, pt.oil_temperature
     copy(w.q, vector(state, L.S_POSITIONS))
+    copy(vector(f.small, L.TANGENT), vector(state, L.S_TANGENT))
+    state[L.S_LOAD_SLOPE] = w.info[L.LOAD_SLOPE]
     copy(f.temp, temp)
     copy(f.p, pressure)
     copy(w.par[: L.D_SIGMA1], _owner(f.tag))
     state[L.S_FACTOR_VALID] = f.tag[L.TAG_VALID]
     state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT] = f.tag[L.TAG_SPEED], f.tag[L.TAG_TILT]
-    state[L.S_FACTOR_OIL], state[L.S_FACTOR_RATE] = f.tag[L.TAG_OIL], f.tag[L.TAG_RATE]
+    state[L.S_FACTOR_OIL] = f.tag[L.TAG_OIL]
+    copy(f.tag[L.TAG_OUT : L.N_TAG], state[L.S_FACTOR_OUT : L.S_SUBSTEP])
     copy(vector(f.tag, L.TAG_POSITIONS), vector(state, L.S_FACTOR_POSITIONS))
     copy(f.tag[L.N_TAG : L.N_TAG + temp.size], of_factor)
+    if w.par[L.P_THERMAL_MODE] == L.TRANSIENT:
+        for k in range(ladder.size):
+            ladder[k] = f.ladder[k // temp.size, k % temp.size]
 
 
 @kernel
@@ -112,11 +126,28 @@ def scan_holds(pt: Point, state: Array) -> bool:
 
 
 @inlined
+def _predict(w: Workspace, pt: Point, state: Array) -> None:
+    """Move the remembered solution along the curve of solutions if the load alone has changed."""
+    slope, change = state[L.S_LOAD_SLOPE], pt.load - state[L.S_LOAD]
+    same = (
+        pt.speed == state[L.S_SPEED]
+        and pt.tilt == state[L.S_TILT]
+        and pt.oil_temperature == state[L.S_OIL]
+    )
+    if same and slope < 0.0 and state[L.S_FACTOR_VALID] == 1.0 and abs(change) < 0.2 * pt.load:
+        step = change / slope
+        if abs(step) < 0.1 * abs(state[L.S_RATIO]) * w.par[L.D_SIGMA1]:
+            copy(vector(state, L.S_TANGENT), vector(fields_of(w).small, L.TANGENT))
+            go_along(w, step)
+
+
+@inlined
 def _warm(w: Workspace, pt: Point, wanted: float, state: Array) -> bool:
     """Solve from the remembered solution; return True if it arrived on the remembered branch."""
     branch = state[L.S_BRANCH]
     if branch == 0.0 or (wanted != L.ANY and wanted != branch):
         return False
+    _predict(w, pt, state)
     if newton(w, pt, LOAD, pt.load, NO_FLOOR, WARM_TOLERANCE, 12.0) != OK:
         return False
     w.found[L.BRANCH], w.found[L.MULTIPLICITY] = branch, state[L.S_MULTIPLICITY]

@@ -1,6 +1,6 @@
 """The washer behind the step ABI (see the package's docstring).
 
-Rungs: `closed` and `stribeck` have no mesh and no memory, the others are one kernel on meshes.
+The map is a look-up; the other rungs are one kernel on meshes.
 """
 
 import numpy as np
@@ -11,15 +11,32 @@ from ...numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
 from . import layout as L
 from .constants import derive_grid, size_of_par
 from .directional_derivative import differentiate
+from .heat import set_steady
 from .layout import N_PARAM, NINP, NIOUT, NOUT
 from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
 from .outputs import outputs_at
 from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, point_of
-from .simple import derive_simple, simple_sens, simple_step
 from .solve import is_distressed, keep_solution, solve
-from .transient import advance_heat, look_for_folds, name_branch, set_rate, start_cold, take_up
-from .workspace import Point, Workspace, copy, size_of_state, size_of_work, workspace_of
+from .transient import (
+    advance_heat,
+    look_for_folds,
+    name_branch,
+    set_step_derivative,
+    start_cold,
+    start_ladders,
+    take_up,
+)
+from .workspace import (
+    Point,
+    Workspace,
+    copy,
+    fields_of,
+    model_of,
+    size_of_state,
+    size_of_work,
+    workspace_of,
+)
 
 COARSE_GRID = (8, 20)  # radial and circumferential nodes of fidelity "coarse"
 FIELD_GRID = (10, 32)  # of "field"
@@ -45,8 +62,6 @@ __all__ = [
 def derive(par: NDArray[np.float64]) -> int:
     """Fill ``par`` behind its ``N_PARAM`` parameters: contact tables, scalars, mesh if any."""
     fidelity = par[L.P_FIDELITY]
-    if fidelity == L.CLOSED or fidelity == L.STRIBECK:
-        return derive_simple(par)
     if fidelity == L.COARSE:
         return derive_grid(par, COARSE_GRID[0], COARSE_GRID[1])
     if fidelity == L.FINE:
@@ -57,7 +72,9 @@ def derive(par: NDArray[np.float64]) -> int:
 @inlined
 def _in_time(w: Workspace, pt: Point, dt: float, fresh: bool, state: Array) -> tuple[int, float]:
     """Go on from the remembered temperatures through ``dt``; return status and next substep."""
-    if not fresh:
+    if fresh:
+        start_ladders(w)
+    else:
         w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
         take_up(w, pt, state)
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
@@ -80,8 +97,6 @@ def step(
     layout: for Python's results.
     """
     fidelity = par[L.P_FIDELITY]
-    if fidelity == L.CLOSED or fidelity == L.STRIBECK:
-        return simple_step(fidelity == L.STRIBECK, par, inp, work, out, iout)
     iout[L.IO_REGIME], iout[L.IO_DISTRESS], iout[L.IO_STATUS] = BOUNDARY, 0, BAD_INPUT
     if is_bad(inp):
         return BAD_INPUT
@@ -102,7 +117,7 @@ def step(
             wanted = state[L.S_MAP_BRANCH]
     in_time = par[L.P_THERMAL_MODE] == L.TRANSIENT
     fresh = state[L.S_VALID] != 1.0
-    set_rate(w, 0.0)
+    set_steady(model_of(w), fields_of(w))
     if in_time and fresh and par[L.P_THERMAL_START] == L.FROM_OIL:
         start_cold(w)
     status = OK
@@ -125,8 +140,8 @@ def step(
         state[L.S_SUBSTEP] = substep
         if lost:
             look_for_folds(w, pt, state)
-    if in_time and dt > 0.0:
-        set_rate(w, 1.0 / dt)  # derivatives: of what the whole step brings
+    if in_time and (dt > 0.0 or not fresh or par[L.P_THERMAL_START] == L.FROM_OIL):
+        set_step_derivative(w, dt)
     copy(w.outputs, out)
     judge(pt, out[L.O_RATIO], is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
     return status
@@ -141,8 +156,6 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     rest with contact, where the torque jumps.
     """
     fidelity = par[L.P_FIDELITY]
-    if fidelity == L.CLOSED or fidelity == L.STRIBECK:
-        return simple_sens(fidelity == L.STRIBECK, par, inp, work, seed, dout)
     pt, change, w = point_of(inp), change_of(inp, seed), workspace_of(par, work)
     if fidelity == L.MAP and work[BY_MAP] == 1.0:
         return map_sens(inp, seed, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)

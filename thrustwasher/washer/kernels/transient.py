@@ -1,9 +1,9 @@
 """Heat in time: what does not leave a body warms it, so that a lost film takes its time.
 
-Carrier, washer and gear store density x specific heat x thickness x area x change of temperature;
-film, contacts and positions follow at once. Each substep is implicit, of second order and damps
-stiff parts out (two stages with the same coefficient, Alexander 1977, gamma = 1 - 1/sqrt(2)). In a
-stage everything is solved for together, as in the steady state, which is the limit of long steps.
+Through the thickness of carrier and gear heat takes its way along a ladder (see ``ladder``); film,
+contacts and positions follow at once. Each substep is implicit, of second order and damps stiff
+parts out: two stages, exact for the ladder where the flux into a body is linear in time. In a stage
+everything is solved for together, as in the steady state, which is the limit of long steps.
 """
 
 import math
@@ -13,30 +13,79 @@ from ...numerics.status import MAX_ITERATIONS, NO_BRANCH, OK
 from . import layout as L
 from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, settle
 from .continuation import enter_curve, note, recall, remember, walk_down, walk_to
+from .heat import set_steady
+from .ladder import (
+    advance_terms,
+    error_of_flux,
+    hold_bodies,
+    set_end,
+    set_held,
+    set_stage,
+    shift_terms,
+    start_terms,
+)
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, newton, smooth_film
-from .solve import WARM_TOLERANCE, recall_state, scan_holds
-from .workspace import Point, Workspace, clear, copy, fields_of, forget_factor
+from .solve import recall_state, scan_holds
+from .workspace import Point, Workspace, clear, copy, fields_of, forget_factor, model_of
 
-GAMMA = 1.0 - math.sqrt(0.5)
-AHEAD = (1.0 - GAMMA) / GAMMA  # share of the first stage's gain that the second starts with
 ATOL, RTOL = 0.02, 2e-3  # [K], and of the largest rise: what a substep may be off
-HELD = 1e6  # [1/s] storage that lets no temperature move
 LOST_SHARE = 0.7  # the film carries more above every fold where it is lost, less where regained
+ARRIVED = 1e-8  # tolerance of each instant: what is stored counts beside small powers
 MAX_SUBSTEPS = 20_000
+LEAST_STEP = 1e-6  # [s] in which no temperature moves
 
 
 @kernel
 def start_cold(w: Workspace) -> None:
     """Set all temperatures to the oil's and hold them there."""
-    f = fields_of(w)
-    f.small[L.RATE] = HELD
-    clear(f.past)
+    m, f = model_of(w), fields_of(w)
+    clear(f.temp)
+    hold_bodies(m, f)
 
 
 @kernel
-def set_rate(w: Workspace, rate: float) -> None:
-    """Weigh what is stored by ``rate`` [1/s]; 0: nothing is."""
-    fields_of(w).small[L.RATE] = rate
+def start_ladders(w: Workspace) -> None:
+    """Fill the ladders at a solution from which time begins."""
+    start_terms(model_of(w), fields_of(w))
+
+
+@kernel
+def _hold(w: Workspace) -> None:
+    """Let no temperature of a body move."""
+    hold_bodies(model_of(w), fields_of(w))
+
+
+@kernel
+def _set_stage(w: Workspace, stage: int, h: float) -> None:
+    """Set what the bodies take up in a stage, and a guess of where it ends."""
+    if stage == 0:
+        set_stage(model_of(w), h, fields_of(w))
+    else:
+        set_end(model_of(w), h, fields_of(w))
+
+
+@kernel
+def _end_substep(w: Workspace, h: float) -> None:
+    f = fields_of(w)
+    advance_terms(model_of(w), h, f)
+    copy(f.temp, f.begin)
+
+
+@kernel
+def _error(w: Workspace) -> float:
+    """Return what a method of first order would be off over what a substep may be off."""
+    error, largest = error_of_flux(model_of(w), fields_of(w))
+    return error / (ATOL + RTOL * largest)
+
+
+@kernel
+def set_step_derivative(w: Workspace, dt: float) -> None:
+    """Have derivatives be those of a change that lasts for a whole step, from its beginning on.
+
+    The flux into a body counts as changed by the same amount all the while: right to first order
+    in a short step, and in a long one.
+    """
+    set_held(model_of(w), max(dt, LEAST_STEP), fields_of(w))
 
 
 @inlined
@@ -70,16 +119,17 @@ def _along_the_film(w: Workspace, pt: Point) -> int:
 
 @inlined
 def _arrive(w: Workspace, pt: Point) -> int:
-    """Solve for the load with the storage as it is set, from the present state.
+    """Solve for the load with the conductances outwards as they are set, from the present state.
 
     A failure leaves the state as it was.
     """
     f = fields_of(w)
-    rate = f.small[L.RATE]
-    if not abs(f.tag[L.TAG_RATE] - rate) <= 0.3 * rate:
-        forget_factor(w)
+    for k in range(3):
+        out = f.small[L.OUT_CARRIER + k]
+        if not abs(f.tag[L.TAG_OUT + k] - out) <= 0.3 * out:
+            forget_factor(w)
     remember(w, 2.0)
-    status = newton(w, pt, LOAD, pt.load, NO_FLOOR, WARM_TOLERANCE, 12.0)
+    status = newton(w, pt, LOAD, pt.load, NO_FLOOR, ARRIVED, 14.0)
     if status != OK:
         recall(w, 2.0)
         status = _along_the_film(w, pt)
@@ -89,36 +139,9 @@ def _arrive(w: Workspace, pt: Point) -> int:
     return status
 
 
-@kernel
-def _set_stage(w: Workspace, stage: int) -> None:
-    """Set what the stage's storage counts from, and a guess of where it ends."""
-    f = fields_of(w)
-    copy(f.begin, f.past)
-    if stage == 1:
-        for k in range(f.temp.size):
-            gain = f.temp[k] - f.begin[k]
-            f.past[k] += AHEAD * gain
-            f.temp[k] = f.past[k] + gain
-
-
-@kernel
-def _error(w: Workspace) -> float:
-    """Return the error of both stages over what a substep may be off.
-
-    The stages' rates of temperature differ by what a method of first order would be off.
-    """
-    f = fields_of(w)
-    error, largest = 0.0, 0.0
-    for k in range(f.temp.size):
-        first = (f.past[k] - f.begin[k]) / AHEAD
-        error = max(error, abs(f.temp[k] - f.past[k] - first))
-        largest = max(largest, abs(f.temp[k]))
-    return float(error / (ATOL + RTOL * largest))
-
-
 @inlined
 def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int, float]:
-    """Bring positions and temperatures through ``dt`` at these inputs; 0: temperatures are held.
+    """Bring positions and temperatures through ``dt`` at these inputs; 0: bodies stay as they are.
 
     Returns a status and the substep to try next [s]; substeps, ``first`` the first of them, are
     chosen for temperatures within ``ATOL`` and ``RTOL``.
@@ -131,9 +154,11 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
     for _ in range(MAX_SUBSTEPS):
         parts = 1.0 if held else max(1.0, float(math.ceil(rest / h - 1e-9)))
         h = rest / parts
-        f.small[L.RATE] = HELD if held else 1.0 / (GAMMA * h)
         for stage in range(1 if held else 2):
-            _set_stage(w, stage)
+            if held:
+                _hold(w)
+            else:
+                _set_stage(w, stage, h)
             status = _arrive(w, pt)
             if status != OK:
                 break
@@ -148,7 +173,7 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
             copy(f.begin, f.temp)
             status = MAX_ITERATIONS
             continue
-        copy(f.temp, f.begin)
+        _end_substep(w, h)
         growth = min(3.0, 0.9 / math.sqrt(max(error, 1e-3)))
         rest -= h
         if growth < 1.0 or growth > 1.5:  # else the heat factor goes on to serve
@@ -163,11 +188,9 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
 def take_up(w: Workspace, pt: Point, state: Array) -> None:
     """Take the remembered state; the bodies stay as warm as they are when the oil changes."""
     recall_state(w, state)
-    f = fields_of(w)
     warmer = pt.oil_temperature - state[L.S_OIL]
     if warmer != 0.0:
-        for k in range(f.temp.size):
-            f.temp[k] -= warmer
+        shift_terms(model_of(w), warmer, fields_of(w))
 
 
 @kernel
@@ -187,9 +210,11 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     if state[L.S_MULTIPLICITY] != 0.0 and scan_holds(pt, state):
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
         return
-    f = fields_of(w)
-    rate, branch = f.small[L.RATE], w.found[L.BRANCH]
-    f.small[L.RATE] = 0.0
+    m, f = model_of(w), fields_of(w)
+    carrier, washer = f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER]
+    gear, branch = f.small[L.OUT_GEAR], w.found[L.BRANCH]
+    copy(f.outward, f.begin)
+    set_steady(m, f)
     status = descend(w, pt, L.CONTACT_BRANCH)
     w.found[L.BRANCH] = branch
     if status != OK and status != NO_BRANCH:
@@ -199,6 +224,8 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     state[L.S_BRANCH], state[L.S_MULTIPLICITY] = branch, w.found[L.MULTIPLICITY]
     state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
     state[L.S_SCAN_OIL] = pt.oil_temperature
-    f.small[L.RATE] = rate
+    f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER] = carrier, washer
+    f.small[L.OUT_GEAR] = gear
+    copy(f.begin, f.outward)
     recall_state(w, state)
     evaluate_here(w, pt)

@@ -9,7 +9,8 @@ from ...numerics.jit import Array, kernel, matrix
 from . import layout as L
 from .constants import WasherModel, washer_model
 
-N_NODAL = 18  # arrays of one number per node
+N_NODAL = 36  # arrays of one number per node
+N_THERMAL = 7  # arrays of one number per temperature
 
 
 class Point(NamedTuple):
@@ -41,7 +42,7 @@ class Fields(NamedTuple):
     """All work of a solve; contents mean nothing between calls but for the tagged heat factor."""
 
     tag: Array  # (N_TAG + n_temp + 1,) what the factor belongs to
-    factor: Array  # band of the heat equations
+    factor: Array  # factors of the heat equations, see ``heat_factor``
     following: Array  # (4, n_temp) dT/dq with the factor
     small: Array  # (N_SMALL,) balances and 4 x 4 systems
     ht: Array  # (n,) mean gap of film 1 and its slope
@@ -62,39 +63,76 @@ class Fields(NamedTuple):
     wedge: Array  # (n,) what drives the film at the face j..j+1, slope over h
     dwedge: Array
     wet: Array  # (n,) 1 where the film is full, 0 where it cavitates
+    flow_t: Array  # (n,) oil flow through the face j..j+1 [m^3/s], and its change
+    dflow_t: Array
+    flow_r: Array  # (n,) through the face i..i+1, and its change
+    dflow_r: Array
+    leaving: Array  # (n,) what leaves a node, at rims over the rim too [m^3/s], and its change
+    dleaving: Array
+    rim: Array  # (n,) what leaves over the rim [m^3/s], and its change
+    drim: Array
+    liquid: Array  # (n,) share of the gap that liquid fills, and its change
+    dliquid: Array
+    outlet: Array  # (n,) rise of the oil that leaves a node above the supply [K], and its change
+    doutlet: Array
+    edge: Array  # (n,) the same of oil that leaves across the circumference
+    dedge: Array
+    across: Array  # (n,) share of the outlet's rise over the node that counts there, its change
+    dacross: Array
+    made: Array  # (n,) heat made in the film [W]
+    exchange: Array  # (n,) its conductance to the walls [W/K]
     place: Array  # (n_t,) position of a column in the film's system, -1 dry
     film: Array  # band of the film equations
     film_rhs: Array  # (n, N_SIDES) right sides, then solutions
     lag: Array  # (n, N_SIDES) fluidity changes that follow the temperatures
     sides: Array  # (n N_SIDES,) right sides in the order of the film's system
     temp: Array  # (n_temp,) rises above the oil [K], the iterate
-    p: Array  # (n,) pressure [Pa], the iterate
+    p: Array  # (n,) pressure [Pa] at the positions and temperatures last evaluated
+    dp: Array  # (n,) its change
     heat: Array  # (n_temp,) residual of the heat equations [W]
     dtemp: Array  # (n_temp,) T step at fixed positions
     spare: Array  # (n_temp,) permuted right side
-    past: Array  # (n_temp,) rises that the storage of heat counts from [K]
+    outward: Array  # (n_temp,) rises that heat flows out to through the bodies [K]
     begin: Array  # (n_temp,) rises at the start of a substep
+    trial: Array  # (n_temp,) scratch
+    flux: Array  # (n_temp,) heat that enters a body at the start of a substep [W/m^2]
+    ladder: Array  # (N_TERMS, n_temp) rises of the terms of the ladders [K], see ``ladder``
+    rings: Array  # (padded n_ring,) a right side of the rings
     keep: Array  # (N_KEPT (4 + n_temp + n),) remembered solutions; scratch of derivatives too
 
 
 def temperatures_of(n_r: int, n_t: int) -> int:
-    """Return the largest number of temperatures, that with the gear as wide as can be."""
-    return (3 * n_r - 1) * n_t
+    """Return the largest number of temperatures: oil and bodies, the gear as wide as can be."""
+    return (4 * n_r - 1) * n_t
 
 
 def size_of_state(n_r: int, n_t: int) -> int:
     """Return the length of ``state`` for a grid."""
-    return L.S_FIELDS + 2 * temperatures_of(n_r, n_t) + n_r * n_t
+    return L.S_FIELDS + (2 + L.N_TERMS) * temperatures_of(n_r, n_t) + n_r * n_t
 
 
 def size_of_work(n_r: int, n_t: int) -> int:
     """Return the length of ``work`` behind its head for a grid; the heat factor needs most."""
     n, n_temp = n_r * n_t, temperatures_of(n_r, n_t)
-    width = 4 * n_temp // n_t + 2
     film = (2 * n_r + 1) * n
     kept = L.N_KEPT * (4 + n_temp + n)
-    per_node = N_NODAL + 3 * N_SIDES + 1
-    return L.N_TAG + 1 + n_temp * (width + 11) + L.N_SMALL + n_t + per_node * n + film + kept
+    per_node = N_NODAL + 3 * N_SIDES + 2
+    per_temperature = 1 + 4 + 1 + N_THERMAL + L.N_TERMS
+    rings = 3 * n_r + N_SIDES  # of the bodies that turn, or of the carrier, at most
+    head = L.N_TAG + L.N_SMALL + n_t + rings
+    return head + size_of_factor(n_r, n_t) + per_temperature * n_temp + per_node * n + film + kept
+
+
+def size_of_factor(n_r: int, n_t: int) -> int:
+    """Return the length of the largest factor: band four times, borders twice, rings."""
+    width, n_temp, rings = 2 * (4 * n_r - 1) + 1, temperatures_of(n_r, n_t), 3 * n_r + N_SIDES
+    return n_temp * (4 * width + 2 * rings) + rings * (rings + 1)
+
+
+@kernel
+def padded(n_ring: int) -> int:
+    """Return the number of rings rounded up to whole vector registers."""
+    return (n_ring + N_SIDES - 1) // N_SIDES * N_SIDES
 
 
 @kernel
@@ -158,23 +196,27 @@ def fields_of(w: Workspace) -> Fields:
     """Return the work by name; the arrays are views."""
     par, work = w.par, w.work
     n_r, n_t = int(par[L.D_RADIAL]), int(par[L.D_AROUND])
-    n, m_t = n_r * n_t, 3 * n_r - int(par[L.D_GEAR_NODE])
-    n_temp = m_t * n_t
+    n, n_ring = n_r * n_t, int(par[L.D_RINGS])
+    n_band = int(par[L.D_PER_COLUMN]) * n_t
+    n_temp = n_band + n_ring
+    width, sides = 2 * int(par[L.D_PER_COLUMN]) + 1, padded(n_ring)
     factor = L.N_TAG + 1 + n_temp
-    following = factor + n_temp * (4 * m_t + 2)  # Cholesky's factor twice, or one of LU
+    following = factor + n_band * (4 * width + 2 * sides) + sides * (sides + 1)
     small = following + 4 * n_temp
     first = small + L.N_SMALL
     place = first + N_NODAL * n
     film = place + n_t
     rhs = film + (2 * n_r + 1) * n
     lag = rhs + N_SIDES * n
-    sides = lag + N_SIDES * n
-    temp = sides + N_SIDES * n
+    right = lag + N_SIDES * n
+    temp = right + N_SIDES * n
     pressure = temp + n_temp
-    heat = pressure + n
-    keep = heat + 5 * n_temp
+    heat = pressure + 2 * n
+    ladder = heat + N_THERMAL * n_temp
+    rings = ladder + L.N_TERMS * n_temp
+    keep = rings + sides
     nodal = matrix(work[first:place], N_NODAL, n)
-    thermal = matrix(work[heat:keep], 5, n_temp)
+    thermal = matrix(work[heat:ladder], N_THERMAL, n_temp)
     return Fields(
         tag=work[:factor],
         factor=work[factor:following],
@@ -198,18 +240,41 @@ def fields_of(w: Workspace) -> Fields:
         wedge=nodal[15],
         dwedge=nodal[16],
         wet=nodal[17],
+        flow_t=nodal[18],
+        dflow_t=nodal[19],
+        flow_r=nodal[20],
+        dflow_r=nodal[21],
+        leaving=nodal[22],
+        dleaving=nodal[23],
+        rim=nodal[24],
+        drim=nodal[25],
+        liquid=nodal[26],
+        dliquid=nodal[27],
+        outlet=nodal[28],
+        doutlet=nodal[29],
+        edge=nodal[30],
+        dedge=nodal[31],
+        across=nodal[32],
+        dacross=nodal[33],
+        made=nodal[34],
+        exchange=nodal[35],
         place=work[place:film],
         film=work[film:rhs],
         film_rhs=matrix(work[rhs:lag], n, N_SIDES),
-        lag=matrix(work[lag:sides], n, N_SIDES),
-        sides=work[sides:temp],
+        lag=matrix(work[lag:right], n, N_SIDES),
+        sides=work[right:temp],
         temp=work[temp:pressure],
-        p=work[pressure:heat],
+        p=work[pressure : pressure + n],
+        dp=work[pressure + n : heat],
         heat=thermal[0],
         dtemp=thermal[1],
         spare=thermal[2],
-        past=thermal[3],
+        outward=thermal[3],
         begin=thermal[4],
+        trial=thermal[5],
+        flux=thermal[6],
+        ladder=matrix(work[ladder:rings], L.N_TERMS, n_temp),
+        rings=work[rings:keep],
         keep=work[keep : keep + L.N_KEPT * (4 + n_temp + n)],
     )
 

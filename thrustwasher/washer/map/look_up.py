@@ -24,11 +24,14 @@ from ..kernels.workspace import Point
 from ..parameters import WasherParams
 from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
 from .map_file import MapFile, all_maps, find_map, map_paths, plain, read_map
+from .map_plan import INPUTS
 
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
 OUTPUTS = (
     "friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
-    "fluid_load_share", "friction_coefficient", "friction_power", "fluid_load", "contact_load",
+    "fluid_load_share", "friction_coefficient", "friction_power", "oil_flow", "throughflow_heat",
+    "oil_heat", "oil_outlet_temperature", "film_temperature", "stick_margin", "fluid_load",
+    "contact_load",
 )  # fmt: skip
 NOTHING = (math.nan,) * len(OUTPUTS)
 
@@ -62,7 +65,7 @@ class WasherMap:
     >>> washer = WasherMap(WasherParams())
     >>> torque = washer.torque(load=300.0, speed=545.0, tilt=0.002, oil_temperature=297.15)
     >>> f"{torque:.4f} N m"
-    '0.2052 N m'
+    '0.2158 N m'
     """
 
     def __init__(self, params: WasherParams, path: str | os.PathLike[str] | None = None) -> None:
@@ -73,14 +76,8 @@ class WasherMap:
     @property
     def box(self) -> dict[str, tuple[float, float]]:
         """Ends of load [N], speed [rad/s], tilt [rad] and oil temperature [K]."""
-        d, a = self.data, M.AXES
-        low = d[M.BEND] * np.sinh(d[a])
-        return {
-            "load": (float(d[M.LOAD_MIN]), float(d[M.LOAD_MAX])),
-            "speed": (0.0 if low <= M.FLOOR_SPEED else float(low), float(d[M.SPEED_MAX])),
-            "tilt": (float(np.exp(d[a + 3])), float(np.exp(d[a + 4]))),
-            "oil_temperature": (float(d[a + 6]), float(d[a + 7])),
-        }
+        ends = self.data[M.BOX : M.BOX + 2 * len(INPUTS)].tolist()
+        return {name: (ends[2 * k], ends[2 * k + 1]) for k, name in enumerate(INPUTS)}
 
     def covers(self, *, load: float, speed: float, tilt: float, oil_temperature: float) -> bool:
         """Tell if a point lies in the box."""
@@ -184,7 +181,7 @@ def solve_by_map(
         if start.params is params or start.params == params:
             before, ratio = BRANCHES[start.branch], start.film_ratio
     solver.state[L.S_MAP_BRANCH], solver.state[L.S_MAP_RATIO] = before, ratio
-    status = solver.look_up(point, wanted)
+    status = solver.look_up(Point(*point), wanted)
     if status == NOT_HERE:
         return None
     if status != Status.OK:

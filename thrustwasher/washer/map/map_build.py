@@ -1,10 +1,10 @@
-"""From parameters to a map file: plan, lines solved side by side, check, card."""
+"""From parameters to a map file: survey, lines solved side by side, check, card."""
 
 import math
 import os
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError, SolveError, naming
+from ...numerics.chebyshev import lines_of
 from ...numerics.jit import Array, kernel_digest
-from ...processes import mapped
+from ...processes import Run, run_here, runner
 from ...storage.digests import params_digest
 from ...storage.journal import Journal
 from ..kernels.layout import O_FLUID_LOAD
@@ -21,19 +22,21 @@ from ..kernels.map import map_layout as L
 from ..parameters import WasherParams
 from ..solve import GRIDS
 from .map_check import check_map
-from .map_file import SUFFIX, pack
-from .map_line import Line, LineTask, solve_line
-from .map_plan import COARSE, SPARE, MapPlan, plan_map
+from .map_file import SUFFIX, identity_of, pack
+from .map_line import Curve, Line, LineTask, packed, solve_lines
+from .map_plan import COARSE, FIELD_FROM, SPARE, TOLERANCE, MapPlan, Place, plan_map
+from .map_survey import surveyed
 
 Progress = Callable[[int, int], None]
 FIDELITIES = ("field", "fine")  # meshes to build from
-BATCH = 4  # lines that a worker takes at a time
+DIGIT = 2.0**-20  # of the logarithms; what is finer only makes the file large
+BATCH = 19  # lines that a worker takes at a time, each from where the one before was
 
 
 def make_map(
     params: WasherParams, out: Path, *, box: dict[str, tuple[float, float]] | None = None,
-    fidelity: str = "fine", workers: int | None = None, points: int = 200,
-    progress: Callable[[str], Progress] | None = None,
+    tolerance: float = TOLERANCE, fidelity: str | None = None, workers: int | None = None,
+    points: int = 200, progress: Callable[[str], Progress] | None = None,
 ) -> dict[str, Any]:  # fmt: skip
     """Build a map, check it and write it; return its card.
 
@@ -42,26 +45,23 @@ def make_map(
     params : the washer
     out : file to write, ``*.twm``; what is solved is kept beside it until the map is done
     box : (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]
-    fidelity : "fine" or "field", the mesh that is mapped
+    tolerance : of the torque, relative: of mesh and map together, a third of it for the map
+    fidelity : "fine" or "field", the mesh that is mapped; None: as the tolerance needs
     workers : processes; None: one per core
     points : held-out points of the check
     progress : called with a label, returns ``show(done, total)``
 
     Raises
     ------
-    ParameterError : a wrong box or fidelity, more numbers than a map may have, or another run
-        makes this file
+    ParameterError : a wrong box, tolerance or fidelity, an oil supply of its own temperature, or
+        another run makes this file
     SolveError : a node has no solution
     """
+    if fidelity is None:
+        fidelity = "field" if tolerance >= FIELD_FROM else "fine"
     if fidelity not in FIDELITIES:
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
-    plan = plan_map(params, box)
-    size = L.DATA + int(np.prod(plan.shape)) * L.LINE
-    if size > L.ROOM:
-        raise ParameterError(
-            f"box: {size} numbers for {plan.shape[0]} x {plan.shape[1]} x {plan.shape[2]} nodes, "
-            f"allowed: {L.ROOM}; make the box smaller"
-        )
+    plan = plan_map(params, box, tolerance)
     count = workers or os.cpu_count() or 1
     show = progress or (lambda _label: lambda _done, _total: None)
     draft = out.with_name(f".{out.name}.{os.getpid()}.draft{SUFFIX}")
@@ -70,12 +70,15 @@ def make_map(
     finished = False
     try:
         began = time.perf_counter()
-        data = build_lines(plan, fidelity=fidelity, workers=count, progress=show("lines"),
-                           journal=journal)  # fmt: skip
-        card = _card(plan, fidelity, time.perf_counter() - began, count)
-        _write(draft, data, card)
-        verdict = check_map(params, str(draft), points=points, fidelity=fidelity, workers=count,
-                            progress=show("held-out points"))  # fmt: skip
+        with runner(count) as run:
+            reach = find_reach(plan)
+            plan = survey(plan, reach, run=run, progress=show("survey"))
+            data = build_lines(plan, reach, fidelity=fidelity, run=run, progress=show("lines"),
+                               journal=journal)  # fmt: skip
+            card = _card(plan, fidelity, time.perf_counter() - began, count)
+            _write(draft, data, card)
+            verdict = check_map(params, str(draft), points=points, fidelity=fidelity, run=run,
+                                progress=show("held-out points"))  # fmt: skip
         card["held_out"] = asdict(verdict)
         _write(draft, data, card)
         draft.replace(out)
@@ -86,8 +89,25 @@ def make_map(
     return card
 
 
+def survey(
+    plan: MapPlan, reach: float, *, run: Run = run_here, progress: Progress | None = None
+) -> MapPlan:
+    """Return the plan with what its tolerance needs, measured on the coarse mesh."""
+
+    def solve(rows: Sequence[Sequence[Place]], terms: tuple[int, ...]) -> list[list[Curve]]:
+        tasks = [[_task(plan, reach, COARSE, terms, *place) for place in row] for row in rows]
+        curves: list[list[Curve]] = []
+        for row in run(solve_lines, tasks, 1):
+            curves.append(row)
+            if progress is not None:
+                progress(len(curves), len(tasks))
+        return curves
+
+    return surveyed(plan, solve)
+
+
 def build_lines(
-    plan: MapPlan, *, fidelity: str = "fine", workers: int = 1,
+    plan: MapPlan, reach: float, *, fidelity: str = "fine", run: Run = run_here,
     progress: Progress | None = None, journal: Journal | None = None,
 ) -> Array:  # fmt: skip
     """Solve all lines of a plan; return the map as one array (see map_layout).
@@ -95,33 +115,46 @@ def build_lines(
     ``journal`` keeps the lines: a build that was stopped goes on with them. SolveError if a node
     has no solution: a map with a hole is not made.
     """
-    speeds, tilts, oils = plan.nodes()
-    reach = find_reach(plan)
-    tasks = [
-        _task(plan, reach, GRIDS[fidelity], speed, tilt, oil)
-        for speed in speeds for tilt in tilts for oil in oils
-    ]  # fmt: skip
-    data = np.empty(L.DATA + len(tasks) * L.LINE)
+    places = plan.places()
+    data = np.empty(plan.size)
     data[: L.DATA] = plan.header(reach)
-    lines = data[L.DATA :].reshape(len(tasks), L.LINE)
-    flags = np.zeros((len(tasks), 1), np.int32)
-    done = journal.load(lines, flags) if journal else np.zeros(len(tasks), bool)
-    rest = np.flatnonzero(~done).tolist()
-    with mapped(workers, solve_line, [tasks[i] for i in rest], BATCH) as found:
-        for count, (i, line) in enumerate(zip(rest, found, strict=True), int(done.sum()) + 1):
-            lines[i] = line
+    lines = data[L.DATA :].reshape(len(places), plan.line)
+    flags = np.zeros((len(places), 1), np.int32)
+    done = journal.load(lines, flags) if journal else np.zeros(len(places), bool)
+    rest = _neighbours(places, np.flatnonzero(~done).tolist())
+    tasks = [_task(plan, reach, GRIDS[fidelity], plan.terms, *places[i]) for i in rest]
+    count = len(places) - len(rest)
+    numbers = iter(rest)
+    for part in run(solve_lines, _batches(tasks), 1):
+        for curve in part:
+            i = next(numbers)
+            lines[i] = np.round(packed(curve, plan.more_terms) / DIGIT) * DIGIT
             if journal:
                 journal.append(i, lines[i : i + 1], flags[i : i + 1])
-            if progress is not None:
-                progress(count, len(tasks))
+        count += len(part)
+        if progress is not None:
+            progress(count, len(places))
+    data[L.IDENTITY] = identity_of(data)
     return data
+
+
+def _neighbours(places: Sequence[Place], wanted: Sequence[int]) -> list[int]:
+    """Return numbers of places so that one is near the next: speeds up and down by turns."""
+    rows: dict[tuple[float, float], list[int]] = {}
+    for i in sorted(wanted, key=lambda i: (places[i][1:], places[i][0])):
+        rows.setdefault(places[i][1:], []).append(i)
+    return [i for k, row in enumerate(rows.values()) for i in (row[::-1] if k % 2 else row)]
+
+
+def _batches(tasks: Sequence[LineTask]) -> list[Sequence[LineTask]]:
+    return [tasks[k : k + BATCH] for k in range(0, len(tasks), BATCH)]
 
 
 def journal_for(path: Path, plan: MapPlan, fidelity: str) -> Journal:
     """Return the journal of a map; ParameterError if it is another one's, or another run has it."""
     identity = {
         "parameters": params_digest(plan.params)[:16], "box": str(plan.box), "fidelity": fidelity,
-        "kernels": kernel_digest(),
+        "tolerance": f"{plan.tolerance:g}", "kernels": kernel_digest(),
     }  # fmt: skip
     return Journal(path, identity, "map")
 
@@ -132,13 +165,13 @@ def find_reach(plan: MapPlan) -> float:
     Thick films carry in proportion to viscosity x speed and, nearly, to the inverse square of
     their thickness. The corner lines say where the lightest load lies.
     """
-    speeds, tilts, oils = plan.nodes()
+    (slow, fast), tilts, oils = plan.axes
     light = plan.box["load"][0] / SPARE
     largest = 0.0
-    for speed in {speeds[0], speeds[len(speeds) // 2], speeds[-1]}:
-        for tilt in {tilts[0], tilts[-1]}:
-            for oil in {oils[0], oils[-1]}:
-                task = _task(plan, 1.0, COARSE, speed, tilt, oil)
+    for speed in {slow, 0.5 * (slow + fast), fast}:
+        for tilt in set(tilts):
+            for oil in set(oils):
+                task = _task(plan, 1.0, COARSE, (), *plan.at(speed, tilt, oil))
                 line = Line(task, COARSE)
                 load = line.at.outputs()[O_FLUID_LOAD]
                 if load <= light:
@@ -156,12 +189,14 @@ def find_reach(plan: MapPlan) -> float:
 
 
 def _task(
-    plan: MapPlan, reach: float, grid: tuple[int, int], speed: float, tilt: float, oil: float
-) -> LineTask:
+    plan: MapPlan, reach: float, grid: tuple[int, int], terms: tuple[int, ...], speed: float,
+    tilt: float, oil: float,
+) -> LineTask:  # fmt: skip
     scale = plan.viscosity(oil) * speed
     return LineTask(
         params=plan.params, speed=speed, tilt=tilt, oil_temperature=oil, scale=scale,
-        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale), marks=plan.marks, grid=grid,
+        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale), marks=plan.marks, terms=terms,
+        grid=grid, accuracy=max(1e-7, 5e-3 * plan.tolerance),
     )  # fmt: skip
 
 
@@ -173,7 +208,9 @@ def _write(path: Path, data: Any, card: dict[str, Any]) -> None:
 def _card(plan: MapPlan, fidelity: str, took: float, workers: int) -> dict[str, Any]:
     return {
         "kind": "washer map", "params": asdict(plan.params), "box": plan.box,
-        "nodes": plan.shape, "marks": plan.marks, "built_from": fidelity,
+        "tolerance": plan.tolerance, "patches": plan.patches, "lines": lines_of(*plan.patches),
+        "terms": plan.terms, "more_terms": plan.more_terms, "marks": plan.marks,
+        "built_from": fidelity,
         "kernels": kernel_digest(), "build_s": round(took, 1), "workers": workers,
         "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
         "held_out": None,

@@ -8,14 +8,17 @@ from typing import Any
 import numpy as np
 
 from ...errors import BranchError, SolveError
-from ...processes import mapped
-from ..load_curve import load_curve
+from ...processes import Run, run_here
+from ..kernels.workspace import Point
+from ..load_curve import Continuation
 from ..parameters import WasherParams
-from ..solve import solve_washer
+from ..solve import GRIDS, solve_washer
+from ..washer_result import WasherResult
 from .look_up import WasherMap
 from .map_plan import BEND, INPUTS
 
 NEAR = 0.03  # within this share of a fold's load the slope of the curve runs away
+FOLD_WITHIN = 0.3  # [sigma] of the map's fold lies the mesh's
 TWINS = ("film", "contact")
 
 
@@ -26,6 +29,7 @@ class Held:
     torque: float  # relative difference
     ratio: float  # difference of film ratios
     rise: float  # K, of the mean temperature
+    oil: float  # relative, largest of oil flow, its heat and the film's rise
     near_fold: bool
 
 
@@ -39,6 +43,7 @@ class Verdict:
     torque_near_fold: float
     film_ratio: float
     temperature: float  # K
+    oil: float  # relative, of oil flow, its heat and the film's rise
     fold_load: float  # relative
     folds: int
     unanswered: int  # points at which one of the two had no answer
@@ -46,7 +51,7 @@ class Verdict:
 
 def check_map(
     params: WasherParams, path: str, *, points: int = 200, fidelity: str = "fine",
-    workers: int = 1, progress: Callable[[int, int], None] | None = None,
+    run: Run = run_here, progress: Callable[[int, int], None] | None = None,
 ) -> Verdict:  # fmt: skip
     """Compare a map file with solutions on a mesh at random points of its box, on both branches.
 
@@ -59,13 +64,12 @@ def check_map(
     held: list[Held] = []
     folds: list[float] = []
     unanswered = 0
-    with mapped(workers, compare, tasks, 4) as found:
-        for k, (row, differences, odd) in enumerate(found):
-            held += [row] if row else []
-            folds += differences
-            unanswered += odd
-            if progress is not None:
-                progress(k + 1, len(tasks))
+    for k, (row, differences, odd) in enumerate(run(compare, tasks, 4)):
+        held += [row] if row else []
+        folds += differences
+        unanswered += odd
+        if progress is not None:
+            progress(k + 1, len(tasks))
     return _verdict(held, folds, unanswered)
 
 
@@ -108,12 +112,7 @@ def _compare(
     differences: list[float] = []
     near = any(abs(load / f - 1.0) < NEAR for f in mine)
     if len(mine) == 2 and mine[1] < 0.97 * mine[0]:
-        box = washer.box["load"]
-        top = min(1e4, max(box[1], 1.3 * mine[0]))
-        curve = load_curve(params, **place, fidelity=fidelity, load_min=box[0], load_max=top)
-        theirs = [f.load for f in curve.folds]
-        if len(theirs) == 2:
-            differences = [a / b - 1.0 for a, b in zip(mine, theirs, strict=True)]
+        differences = _off_folds(params, washer, place, GRIDS[fidelity])
     there_is = float(here["branch"]) > 0.0
     if there is None or not there_is:
         return None, differences, int((there is not None or there_is) and not near)
@@ -122,8 +121,39 @@ def _compare(
         torque=float(here["friction_torque"]) / there.friction_torque - 1.0,
         ratio=float(here["film_ratio"]) - there.film_ratio,
         rise=float(here["temperature"]) - there.temperature,
+        oil=_largest(_off_oil(here, there)),
     )  # fmt: skip
     return row, differences, 0
+
+
+def _off_oil(here: dict[str, Any], there: WasherResult) -> list[float]:
+    """Return relative differences of what the oil does."""
+    oil = there.oil_temperature
+    pairs = [
+        (float(here["oil_flow"]), there.oil_flow),
+        (float(here["throughflow_heat"]), there.throughflow_heat),
+        (float(here["film_temperature"]) - oil, there.film_temperature - oil),
+    ]
+    return [a / b - 1.0 for a, b in pairs if b > 0.0]
+
+
+def _off_folds(
+    params: WasherParams, washer: WasherMap, place: dict[str, float], grid: tuple[int, int]
+) -> list[float]:
+    """Return the relative differences of the loads of two folds; none if the mesh has them not."""
+    curve = Continuation(params, Point(1.0, **place), grid)
+    differences = []
+    try:
+        curve.start(6.0)
+        for fold in washer.folds(**place):
+            upper, lower = (
+                (fold.film_ratio + d) * curve.m.sigma1 for d in (FOLD_WITHIN, -FOLD_WITHIN)
+            )
+            found = curve.fold(fold.kind, upper, lower)
+            differences.append(fold.load / found.load - 1.0)
+    except SolveError:
+        return []
+    return differences
 
 
 def _verdict(held: list[Held], folds: list[float], unanswered: int) -> Verdict:
@@ -134,7 +164,8 @@ def _verdict(held: list[Held], folds: list[float], unanswered: int) -> Verdict:
         torque_rms=float(np.sqrt(np.mean(torques**2))),
         torque_near_fold=_largest(h.torque for h in held if h.near_fold),
         film_ratio=_largest(h.ratio for h in away), temperature=_largest(h.rise for h in away),
-        fold_load=_largest(folds), folds=len(folds), unanswered=unanswered,
+        oil=_largest(h.oil for h in away), fold_load=_largest(folds), folds=len(folds),
+        unanswered=unanswered,
     )  # fmt: skip
 
 

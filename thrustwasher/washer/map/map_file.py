@@ -19,10 +19,12 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
+from ...numerics.chebyshev import MOST_TERMS, lines_of
 from ...numerics.jit import Array
 from ...storage.digests import DATA
 from ..kernels.layout import N_STEADY
 from ..kernels.map import map_layout as L
+from .map_plan import pieces_at
 
 SHIPPED = DATA / "maps"
 SUFFIX = ".twm"
@@ -80,12 +82,24 @@ def unpack(numbers: bytes) -> Array:
     return data
 
 
+def identity_of(data: Array) -> float:
+    """Return a checksum of a map's numbers and box, never 0."""
+    head = data[: L.IDENTITY].astype("<f8").tobytes()
+    return 1.0 + zlib.crc32(head + data[L.DATA :].astype("<f4").tobytes())
+
+
 def expected_size(head: Array) -> float:
     """Return how many numbers a map with this header has; nan if the header is none."""
-    patches = head[L.AXES + 2 : L.AXES + 9 : 3]
+    patches, terms = head[L.AXES + 2 : L.AXES + 9 : 3], head[L.TERMS : L.PIECE_AT]
     if not (np.all(patches == np.floor(patches)) and np.all((patches >= 0) & (patches < 200))):
         return float("nan")
-    return float(L.DATA + np.prod(3.0 * patches + 1.0) * L.LINE)
+    if not (np.all(terms == np.floor(terms)) and np.all((terms >= 2) & (terms <= MOST_TERMS))):
+        return float("nan")
+    lines = lines_of(*(int(n) for n in patches))
+    at = pieces_at(*terms.reshape(2, L.N_PIECES).tolist())
+    if not np.all(at == head[L.PIECE_AT : L.IDENTITY]):
+        return float("nan")
+    return float(L.DATA + lines * at[-1])
 
 
 @lru_cache(maxsize=16)

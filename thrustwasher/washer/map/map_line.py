@@ -1,12 +1,12 @@
 """One line of a map: the curve of solutions at one speed, tilt and oil temperature."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...errors import SolveError
-from ...numerics.chebyshev import N_TERMS
 from ...numerics.jit import Array
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
@@ -18,9 +18,8 @@ from .map_plan import COARSE, ONSET
 TINY = 1e-290
 ENTRY = 6.0  # film ratio at which a walk begins
 LARGEST_STEP = 0.35  # [sigma] near contact
-MARK = 1e-5  # relative, of the contact load where a piece ends
-NODES = np.cos(np.pi * np.arange(N_TERMS) / (N_TERMS - 1))  # from the thick end
-_FIT = np.linalg.inv(np.polynomial.chebyshev.chebvander(NODES, N_TERMS - 1))
+NUDGE = 2e-3  # film ratio: how far a solution is moved to be solved at another point
+MARK = 1e-4  # relative, of the contact load where a piece ends
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,18 +33,35 @@ class LineTask:
     scale: float  # viscosity x speed [Pa]
     thickest: float  # film ratio
     marks: tuple[float, float, float]  # N
+    terms: tuple[int, ...]  # nodes of each piece
     grid: tuple[int, int]
+    accuracy: float = 1e-7  # of Newton's method
+
+    @property
+    def point(self) -> Point:
+        """Return the operating point, of no load."""
+        return Point(1.0, self.speed, self.tilt, self.oil_temperature)
 
 
 class Line:
-    """A place on the curve of solutions, read off as the six logarithms of the map."""
+    """A place on the curve of solutions, read off as the logarithms of the map."""
 
     def __init__(self, task: LineTask, grid: tuple[int, int]) -> None:
-        point = Point(1.0, task.speed, task.tilt, task.oil_temperature)
-        self.at, self.task = Continuation(task.params, point, grid), task
-        self.sigma = self.at.m.sigma1
-        self.at.w.curve[L.ACCURACY] = 1e-7
+        self.task = task
+        self.at = Continuation(task.params, task.point, grid)
+        m = self.at.m
+        self.sigma = m.sigma1
+        self.weight2, self.moment1, self.moment2 = (
+            np.outer(m.weight_t, w).ravel() for w in (m.weight2, m.weight1 * m.r, m.weight2 * m.r)
+        )
+        self.at.w.curve[L.ACCURACY] = task.accuracy
         self.at.start(ENTRY)
+
+    def take_over(self, task: LineTask, kept: list[Array]) -> None:
+        """Go to another line, where a solution of this one was."""
+        self.task, self.at.pt = task, task.point
+        self.at.come_back(kept)
+        self.to(self.ratio + NUDGE)
 
     @property
     def ratio(self) -> float:
@@ -62,7 +78,8 @@ class Line:
         while self.ratio != ratio:
             here = self.ratio
             down = max(LARGEST_STEP, 0.25 * (here - 2.5))
-            stop = max(ratio, here - down) if ratio < here else min(ratio, 1.4 * here + 0.3)
+            up = 0.3 + 0.6 * max(here, 0.0)
+            stop = max(ratio, here - down) if ratio < here else min(ratio, here + up)
             close = abs(stop - ratio) < 1e-7
             self.at.to((ratio if close else stop) * self.sigma)
             if close:
@@ -76,6 +93,8 @@ class Line:
         else:
             self.to(guess)
         x, y = self.ratio, math.log(self.contact / load)
+        if abs(y) < MARK:
+            return x
         following = x + (0.05 if guess is None else 0.4 * y)
         for _ in range(20):
             self.to(following)
@@ -83,96 +102,171 @@ class Line:
             x, y = self.ratio, value
             if abs(y) < MARK or y == before[1]:
                 return x
-            following = x - y * (x - before[0]) / (y - before[1])
+            step = -y * (x - before[0]) / (y - before[1])
+            following = x + min(max(step, -LARGEST_STEP), LARGEST_STEP)
         raise SolveError(f"map: no film ratio with a contact load of {load:g} N was found")
 
     def values(self) -> list[float]:
-        """Return the layout's six logarithms and two tilts here."""
-        out, m, f = self.at.outputs(), self.at.m, self.at.f
-        pressure = f.pc[: m.n_r * m.n_t].reshape(m.n_t, m.n_r)
-        dry = float(f.small[L.FRICTION] * (np.outer(m.weight_t, m.weight1 * m.r) * pressure).sum())
+        """Return the layout's logarithms and two tilts here."""
+        out, f = self.at.outputs(), self.at.f
+        dry = float(f.small[L.FRICTION] * f.pc.dot(self.moment1))
+        grip = float(f.pc2.dot(self.moment2) / f.pc2.dot(self.weight2))
         viscous, contact = out[L.O_TORQUE] - dry, out[L.O_CONTACT_LOAD]
-        power = out[L.O_TORQUE] * self.task.speed
-        oil = self.task.oil_temperature
+        power, speed, oil = out[L.O_POWER], self.task.speed, self.task.oil_temperature
+        carried = 0.0
+        if self.task.params.oil_cooling:
+            carried = math.log(max(out[L.O_THROUGHFLOW_HEAT], TINY) / (power * speed))
         return [
             math.log(out[L.O_FLUID_LOAD] / self.task.scale), math.log(max(contact, TINY)),
-            math.log(max(viscous, TINY) / self.task.scale),
             math.log(max(dry, TINY) / max(contact, TINY)),
-            math.log((out[L.O_MEAN] - oil) / power),
-            math.log((out[L.O_PEAK] - oil) / power),
+            math.log(max(viscous, TINY) / self.task.scale),
+            *(math.log(max(out[k] - oil, TINY) / power)
+              for k in (L.O_MEAN, L.O_PEAK, L.O_FILM_TEMPERATURE)),
+            math.log(max(out[L.O_OIL_FLOW], TINY) / speed), carried, math.log(grip),
             float(self.at.w.q[L.TILT_X]) / self.task.tilt,
             float(self.at.w.q[L.TILT_Y]) / self.task.tilt,
         ]  # fmt: skip
 
 
-def solve_line(task: LineTask) -> Array:
-    """Return one line of the map, (LINE,).
+@dataclass(frozen=True)
+class Curve:
+    """A line as solved: film ratios of the edges, values at the nodes of the pieces."""
+
+    task: LineTask
+    edges: list[float]  # (N_PIECES + 1) from the thick end
+    pieces: list[Array]  # (terms, N_CURVES + 2) each, from the thick ends
+
+
+def solve_lines(tasks: Sequence[LineTask]) -> list[Curve]:
+    """Solve lines one after the other, each from where the one before was.
 
     SolveError: a node could not be solved, or the load of a thick film does not fall with its
     thickness.
     """
-    line = Line(task, COARSE)
-    guesses = [line.to_contact(load) for load in task.marks]
-    line = Line(task, task.grid)
-    kept = line.at.copy()
-    pieces = np.empty((M.N_PIECES, N_TERMS, M.N_CURVES + 2))
+    line, curves = None, []
+    for task in tasks:
+        try:
+            if line is None:
+                line, guesses = _entered(task)
+                curve, kept = _solved(line, guesses)
+            else:
+                curve, kept = _solved(line, guesses, kept, task)
+        except SolveError:
+            line, guesses = _entered(task)
+            curve, kept = _solved(line, guesses)
+        curves.append(curve)
+        guesses = curve.edges[3:]
+    return curves
+
+
+def _entered(task: LineTask) -> tuple[Line, list[float]]:
+    """Return a line at its entry, and where its marks are about."""
+    coarse = Line(task, COARSE)  # its arrays are those of all lines on this grid
+    guesses = [coarse.to_contact(load) for load in task.marks]
+    return Line(task, task.grid), guesses
+
+
+def _solved(
+    line: Line, guesses: list[float], kept: Sequence[list[Array]] = (),
+    task: LineTask | None = None,
+) -> tuple[Curve, list[list[Array]]]:  # fmt: skip
+    """Return a curve, and the solutions at onset and marks; ``kept`` are those of another task."""
+    if task is not None:
+        line.take_over(task, kept[0])
+    task = line.task
+    pieces = [np.empty((n, M.N_CURVES + 2)) for n in task.terms]
     edges = [task.thickest, ONSET]
-    for k in range(N_TERMS - 1, -1, -1):  # thick films from thin to thick
-        line.to(_ratios(edges, M.THICK)[k])
-        pieces[M.THICK, k] = line.values()
-    line.at.come_back(kept)
-    marks = [line.to_contact(w, g) for w, g in zip(task.marks, guesses, strict=True)]
+    line.to(ONSET)
+    pieces[M.THICK][-1] = pieces[1][0] = line.values()
+    found = [line.at.copy()]
+    thick = _ratios(edges, M.THICK, task.terms[M.THICK])
+    for k in range(len(thick) - 2, -1, -1):  # thick films from thin to thick
+        line.to(thick[k])
+        pieces[M.THICK][k] = line.values()
+    line.at.come_back(found[0])
+    marks: list[float] = []
+    for k, (load, guess) in enumerate(zip(task.marks, guesses, strict=True)):
+        if kept:
+            line.take_over(task, kept[k + 1])
+            marks.append(line.to_contact(load, line.ratio))
+        else:
+            marks.append(line.to_contact(load, guess))
+        found.append(line.at.copy())
+        pieces[k + 2][-1] = line.values()
+        if k < 2:
+            pieces[k + 3][0] = pieces[k + 2][-1]
     edges += [marks[0] + M.MIDDLE * (ONSET - marks[0]), *marks]
     for piece in range(M.N_PIECES - 1, M.THICK, -1):  # back up, from where the marks ended
-        for k in range(N_TERMS - 1, -1, -1):
-            line.to(_ratios(edges, piece)[k])
-            pieces[piece, k] = line.values()
+        ratios = _ratios(edges, piece, task.terms[piece])
+        for k in range(len(ratios) - 2, -1 if piece == 2 else 0, -1):
+            line.to(ratios[k])
+            pieces[piece][k] = line.values()
+        if piece == 2:
+            pieces[1][-1] = pieces[2][0]
     pieces[M.THICK][:, [M.GC, M.DRY]] = 0.0
-    return _packed(task, edges, pieces)
+    curve = Curve(task, edges, pieces)
+    _check(curve)
+    return curve, found
 
 
-def _ratios(edges: list[float], piece: int) -> list[float]:
+def nodes_of(n: int) -> Array:
+    """Return the nodes of a piece from its thick end."""
+    return np.asarray(np.cos(np.pi * np.arange(n) / (n - 1)))
+
+
+def fit_of(n: int) -> Array:
+    """Return the matrix from values at the nodes of a piece to its coefficients."""
+    vander = np.polynomial.chebyshev.chebvander(nodes_of(n), n - 1)
+    return np.linalg.inv(vander).astype(np.float64)
+
+
+def _ratios(edges: list[float], piece: int, n: int) -> list[float]:
     """Return the film ratios of a piece's nodes from its thick end."""
     thick, thin = edges[piece], edges[piece + 1]
     if piece == M.THICK:
         thick, thin = math.log(thick), math.log(thin)
-    at = 0.5 * ((1.0 + NODES) * thick + (1.0 - NODES) * thin)
+    at = 0.5 * ((1.0 + nodes_of(n)) * thick + (1.0 - nodes_of(n)) * thin)
     return [float(x) for x in (np.exp(at) if piece == M.THICK else at)]
 
 
-def _packed(task: LineTask, edges: list[float], pieces: Array) -> Array:
-    """Return head and coefficients; refuse what a look-up could not search."""
+def _check(curve: Curve) -> None:
+    """Refuse what a look-up could not search."""
+    task = curve.task
     where = (
         f"speed = {task.speed:g} rad/s, tilt = {task.tilt:g} rad, "
         f"oil_temperature = {task.oil_temperature:g} K"
     )
-    if not np.all(np.isfinite(pieces)):
+    if not all(np.all(np.isfinite(piece)) for piece in curve.pieces):
         raise SolveError(f"map: a solution is not finite at {where}")
-    thick = pieces[0, :, M.GF]
-    if np.any(np.diff(thick) <= 0.0):  # the load has to rise towards the thin end
+    thick = curve.pieces[M.THICK][:, M.GF]
+    if np.any(np.diff(thick) <= 0.0):  # it has to rise towards the thin end
         raise SolveError(f"map: the load does not rise as a thick film gets thinner at {where}")
-    line = np.empty(M.LINE)
-    line[: M.N_EDGES] = edges[3:]
-    line[M.STEEPEST] = _steepest(task, edges, pieces)
-    sums = np.einsum("ij,pjc->pci", _FIT, pieces)
-    tilts = sums[:, M.N_CURVES :, : M.N_TILT_TERMS]
-    line[M.N_LINE_HEAD :] = np.concatenate(
-        [sums[:, : M.N_CURVES].reshape(M.N_PIECES, -1), tilts.reshape(M.N_PIECES, -1)], axis=1
-    ).ravel()
-    return line
 
 
-def _steepest(task: LineTask, edges: list[float], pieces: Array) -> float:
+def packed(curve: Curve, more_terms: Sequence[int]) -> Array:
+    """Return head and coefficients of a line; the curves beside load and torque are cut."""
+    parts: list[Array] = []
+    sums = [fit_of(len(piece)) @ piece for piece in curve.pieces]  # (terms, N_CURVES + 2)
+    for part, more in zip(sums, more_terms, strict=True):
+        tilts = np.zeros((2, M.N_TILT_TERMS))
+        kept = min(len(part), M.N_TILT_TERMS)
+        tilts[:, :kept] = part[:kept, M.N_CURVES :].T
+        main, others = part[:, : M.N_MAIN].T, part[:more, M.N_MAIN : M.N_CURVES].T
+        parts += [main.ravel(), others.ravel(), tilts.ravel()]
+    return np.concatenate([curve.edges[3:], [_steepest(curve, sums)], *parts])
+
+
+def _steepest(curve: Curve, sums: list[Array]) -> float:
     """Return the largest slope of ln(load) over the film ratio where asperities touch."""
     chebyshev = np.polynomial.chebyshev
     u = np.linspace(-1.0, 1.0, 81)
     steepest = -np.inf
     for piece in range(1, M.N_PIECES - 1):
-        fits = [_FIT @ pieces[piece, :, curve] for curve in (M.GF, M.GC)]
+        fits = [sums[piece][:, k] for k in (M.GF, M.GC)]
         loads = [factor * np.exp(chebyshev.chebval(u, c))
-                 for factor, c in zip((task.scale, 1.0), fits, strict=True)]  # fmt: skip
+                 for factor, c in zip((curve.task.scale, 1.0), fits, strict=True)]  # fmt: skip
         slopes = [w * chebyshev.chebval(u, chebyshev.chebder(c))
                   for w, c in zip(loads, fits, strict=True)]  # fmt: skip
-        half = 0.5 * (edges[piece] - edges[piece + 1])
+        half = 0.5 * (curve.edges[piece] - curve.edges[piece + 1])
         steepest = max(steepest, float(np.max(sum(slopes) / sum(loads)) / half))
     return steepest

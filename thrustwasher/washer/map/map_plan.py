@@ -1,14 +1,16 @@
 """What a map covers and how finely: box, patches, pieces; and its header."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from ...errors import ParameterError
 from ...model.parameters import as_numbers
-from ...numerics.chebyshev import N_NODES, nodes_of
+from ...numerics.chebyshev import lines_of
 from ...numerics.jit import Array
 from ...tribology.viscosity import viscosity
 from ..kernel_arguments import constants
@@ -21,33 +23,66 @@ DEFAULT_BOX = {
     "load": (20.0, 1850.0), "speed": (0.0, 1400.0), "tilt": (1e-3, 3e-3),
     "oil_temperature": (290.0, 400.0),
 }  # fmt: skip
-BEND = 20.0  # [rad/s] below it nodes lie evenly in speed, above it evenly in its logarithm
+TOLERANCE = 5e-3  # relative, of the torque
+TOLERANCES = (5e-4, 0.1)  # allowed
+FIELD_FROM = 6e-3  # a map of this tolerance stands for the mesh of "field", a finer one for "fine"
+BEND = 2.0  # [rad/s] below it nodes lie evenly in speed, above it evenly in its logarithm
 ONSET = 5.0  # film ratio; the contact load there is some mN
-PATCH = {"speed": 0.82, "tilt": 0.56, "oil_temperature": 27.5}  # widths on the scaled axes
 LEAST_WIDTH = {"speed": 1e-3, "tilt": 1e-4, "oil_temperature": 0.05}  # less counts as fixed
 COARSE = (10, 32)  # grid of everything that needs no accuracy
 SPARE = 1.05  # how much of the load range lies beyond its ends
+PLACES = (0.0, 0.25, 0.75)  # nodes of a patch, its last one excepted: -1, -1/2, 1/2
+
+Place = tuple[float, float, float]  # speed [rad/s], tilt [rad], oil temperature [K]
 
 
 @dataclass(frozen=True, kw_only=True)
 class MapPlan:
-    """Box [SI], scaled axes (low, high, patches) and the contact loads between the pieces."""
+    """Box [SI], patches of the axes, coefficients, and the contact loads between the pieces."""
 
     params: WasherParams
     box: dict[str, tuple[float, float]]
-    axes: tuple[tuple[float, float, int], ...]
     marks: tuple[float, float, float]  # N, ascending
+    tolerance: float = TOLERANCE
+    bend: float = BEND  # rad/s
+    patches: tuple[int, int, int] = (1, 1, 1)  # 0 for a fixed input
+    terms: tuple[int, ...] = (8,) * L.N_PIECES  # coefficients of the main curves in each piece
+    more_terms: tuple[int, ...] = (6,) * L.N_PIECES  # of the other curves
 
     @property
-    def shape(self) -> tuple[int, int, int]:
-        """Nodes of the three axes."""
-        first, second, third = (nodes_of(patches) for _, _, patches in self.axes)
-        return first, second, third
+    def axes(self) -> tuple[tuple[float, float], ...]:
+        """Return the ends of the scaled axes."""
+        speed, tilt, oil = (self.box[name] for name in INPUTS[1:])
+        low = max(speed[0], 0.5 * L.FLOOR_SPEED)
+        return (
+            (math.asinh(low / self.bend), math.asinh(max(speed[1], low) / self.bend)),
+            (math.log(tilt[0]), math.log(tilt[1])),
+            (-math.log(self.viscosity(oil[0])), -math.log(self.viscosity(oil[1]))),
+        )
 
-    def nodes(self) -> tuple[list[float], list[float], list[float]]:
-        """Return speeds [rad/s], tilts [rad] and oil temperatures [K] of the nodes."""
-        speed, tilt, oil = (_axis_nodes(*axis) for axis in self.axes)
-        return [BEND * math.sinh(x) for x in speed], [math.exp(x) for x in tilt], oil
+    @property
+    def size(self) -> int:
+        """Numbers of the map."""
+        return L.DATA + lines_of(*self.patches) * self.line
+
+    @property
+    def line(self) -> int:
+        """Numbers of a line."""
+        return int(pieces_at(self.terms, self.more_terms)[-1])
+
+    def at(self, speed: float, tilt: float, oil: float) -> Place:
+        """Return the inputs at a place on the scaled axes."""
+        return self.bend * math.sinh(speed), math.exp(tilt), self.oil_of(-oil)
+
+    def places(self) -> list[Place]:
+        """Return where the lines lie, in the map's order."""
+        nodes = [_axis_nodes(*ends, n) for ends, n in zip(self.axes, self.patches, strict=True)]
+        speeds = [self.bend * math.sinh(x) for x in nodes[0]]
+        tilts, oils = [math.exp(x) for x in nodes[1]], [self.oil_of(-x) for x in nodes[2]]
+        within = [x for k, x in enumerate(tilts) if k % 3]
+        outer = [(speed, tilt, oil) for speed in speeds for oil in oils for tilt in tilts[::3]]
+        inner = product(within, speeds[::3], oils[::3])
+        return outer + [(speed, tilt, oil) for tilt, speed, oil in inner]
 
     def viscosity(self, oil_temperature: float) -> float:
         """Return the viscosity [Pa s] of the oil at its own temperature."""
@@ -55,40 +90,80 @@ class MapPlan:
         law = p.viscosity_scale, p.viscosity_constant, p.viscosity_exponent
         return float(viscosity(oil_temperature, *law)[0])
 
+    def oil_of(self, log_viscosity: float) -> float:
+        """Return the oil temperature [K] in the box with a viscosity; by bisection."""
+        low, high = self.box["oil_temperature"]
+        for end in (low, high):
+            if abs(log_viscosity - math.log(self.viscosity(end))) < 1e-12:
+                return end
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            if math.log(self.viscosity(middle)) > log_viscosity:
+                low = middle
+            else:
+                high = middle
+        return 0.5 * (low + high)
+
     def header(self, reach: float) -> Array:
         """Return the map's header; ``reach`` sets where the thick films end (see the layout)."""
         head = np.zeros(L.DATA)
         numbers = as_numbers(self.params)[:N_STEADY]
-        head[L.KIND], head[L.SIZE] = L.MAGIC, L.DATA + math.prod(self.shape) * L.LINE
+        head[L.KIND], head[L.SIZE] = L.MAGIC, self.size
         head[L.PARAMS : L.PARAMS + len(numbers)] = numbers
-        head[L.AXES : L.AXES + 9] = [x for axis in self.axes for x in axis]
-        head[L.BEND], head[L.ONSET], head[L.REACH] = BEND, ONSET, reach
-        head[L.LOAD_MIN], head[L.LOAD_MAX] = self.box["load"]
+        axes = zip(self.axes, self.patches, strict=True)
+        head[L.AXES : L.AXES + 9] = [x for ends, n in axes for x in (*ends, n)]
+        head[L.BEND], head[L.ONSET], head[L.REACH] = self.bend, ONSET, reach
+        head[L.BOX : L.BOX + 8] = [x for name in INPUTS for x in self.box[name]]
+        if head[L.BOX + 2] <= L.FLOOR_SPEED:
+            head[L.BOX + 2] = 0.0
         head[L.MARKS : L.MARKS + 3] = self.marks
-        head[L.SPEED_MAX] = self.box["speed"][1]
         head[L.SIGMA] = constants(self.params, COARSE)[D_SIGMA1]
+        head[L.TERMS : L.TERMS + L.N_PIECES] = self.terms
+        head[L.MORE_TERMS : L.MORE_TERMS + L.N_PIECES] = self.more_terms
+        head[L.PIECE_AT : L.IDENTITY] = pieces_at(self.terms, self.more_terms)
         return head
 
 
-def plan_map(params: WasherParams, box: dict[str, tuple[float, float]] | None = None) -> MapPlan:
-    """Return how a box is cut up, or say what is wrong with it.
+def pieces_at(terms: Sequence[float], more_terms: Sequence[float]) -> Array:
+    """Return where the pieces begin in a line, and behind them its length."""
+    sizes = L.N_MAIN * np.asarray(terms) + L.N_MORE * np.asarray(more_terms) + L.N_TILTS
+    return np.asarray(np.cumsum([L.N_LINE_HEAD, *sizes]))
+
+
+def plan_map(
+    params: WasherParams, box: dict[str, tuple[float, float]] | None = None,
+    tolerance: float = TOLERANCE,
+) -> MapPlan:  # fmt: skip
+    """Return a plan with the fewest patches, or say what is wrong with box and tolerance.
 
     ``box`` holds (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]; inputs
-    not named are as in ``DEFAULT_BOX``; equal ends fix an input (not the load).
+    not named are as in ``DEFAULT_BOX``; equal ends fix an input (not the load). ``tolerance`` is
+    that of the torque, relative.
     """
+    if params.oil_supply_temperature != 0.0:
+        raise ParameterError(
+            f"oil_supply_temperature = {params.oil_supply_temperature:g} K, allowed for a map: 0 "
+            "(as oil_temperature)"
+        )
+    if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
+        low, high = TOLERANCES
+        raise ParameterError(f"tolerance = {tolerance:g}, allowed: {low:g} .. {high:g}")
     ends = dict(DEFAULT_BOX)
     for name, pair in (box or {}).items():
         if name not in ends:
             raise ParameterError(f"box: {name!r}, allowed: {', '.join(INPUTS)}")
         ends[name] = _checked(name, pair)
-    speed = ends["speed"]
-    low = max(speed[0], 0.5 * L.FLOOR_SPEED)
-    axes = (
-        _cut("speed", math.asinh(low / BEND), math.asinh(max(speed[1], low) / BEND)),
-        _cut("tilt", math.log(ends["tilt"][0]), math.log(ends["tilt"][1])),
-        _cut("oil_temperature", *ends["oil_temperature"]),
+    marks = _marks(params, ends["load"][1])
+    plan = MapPlan(params=params, box=ends, marks=marks, tolerance=tolerance)
+    moved = (plan.box["tilt"][1] / plan.box["tilt"][0] - 1.0,
+             plan.box["oil_temperature"][1] - plan.box["oil_temperature"][0])  # fmt: skip
+    low, high = plan.axes[0]
+    first, second, third = (
+        int(width >= LEAST_WIDTH[name])
+        for name, width in zip(INPUTS[1:], (high - low, *moved), strict=True)
     )
-    return MapPlan(params=params, box=ends, axes=axes, marks=_marks(params, ends["load"][1]))
+    return MapPlan(params=params, box=ends, marks=marks, tolerance=tolerance,
+                   patches=(first, second, third))  # fmt: skip
 
 
 def _checked(name: str, pair: Any) -> tuple[float, float]:
@@ -108,23 +183,12 @@ def _checked(name: str, pair: Any) -> tuple[float, float]:
     return low, high
 
 
-def _cut(name: str, low: float, high: float) -> tuple[float, float, int]:
-    """Return one scaled axis: its ends and number of patches, 0 for a fixed input."""
-    if high - low < LEAST_WIDTH[name]:
-        return low, low, 0
-    return low, high, max(1, math.ceil((high - low) / PATCH[name] - 1e-9))
-
-
 def _axis_nodes(low: float, high: float, patches: int) -> list[float]:
     """Return the nodes of a scaled axis, ascending."""
     if patches == 0:
         return [low]
     width = (high - low) / patches
-    places = (0.0, 0.25, 0.75)  # -1, -1/2, 1/2 of a patch
-    inner = [low + width * (p + x) for p in range(patches) for x in places]
-    if len(inner) + 1 != patches * (N_NODES - 1) + 1:
-        raise AssertionError("nodes of a patch")  # the layout has changed
-    return [*inner, high]
+    return [*(low + width * (p + x) for p in range(patches) for x in PLACES), high]
 
 
 def _marks(params: WasherParams, load_max: float) -> tuple[float, float, float]:

@@ -2,6 +2,7 @@
 
 import math
 
+from ....numerics.chebyshev import SHARES
 from ....numerics.jit import Array, kernel
 from .. import layout as L
 from ..workspace import Point
@@ -84,17 +85,18 @@ def map_folds(
     fine = 2 * SAMPLES
     for piece in range(M.N_PIECES):
         read_loads(data, w, piece)
+        n = int(data[M.TERMS + piece])
         for k in range(fine + 1):
             u = 1.0 - 2.0 * k / fine
-            here, _ = load_at(w, piece, scale, u)
+            here, _ = load_at(w, n, piece, scale, u)
             side = 1.0 if rising else -1.0
             if best > 0.0 and side * (here - best) < -SHALLOW * best and count < folds.shape[0]:
                 # the extremum lies beside the best sample
-                read_loads(data, w, int(best_piece))
+                n_best = int(data[M.TERMS + int(best_piece)])
                 first = min(best_u + 2.0 / fine, 1.0)
                 last = max(best_u - 2.0 / fine, -1.0)
-                at = find_extremum(w, int(best_piece), scale, first, last)
-                load, _ = load_at(w, int(best_piece), scale, at)
+                at = find_extremum(w, n_best, int(best_piece), scale, first, last)
+                load, _ = load_at(w, n_best, int(best_piece), scale, at)
                 if side * (load - best) < 0.0:
                     at, load = best_u, best
                 place[AT_PIECE], place[AT_U], place[AT_SCALE] = best_piece, at, scale
@@ -104,7 +106,6 @@ def map_folds(
                 folds[count, L.N_ALL] = load
                 count += 1
                 rising = not rising
-                read_loads(data, w, piece)
                 best_piece, best_u, best = piece, u, here
             elif best <= 0.0 or side * (here - best) > 0.0:
                 best_piece, best_u, best = piece, u, here
@@ -115,10 +116,10 @@ def map_folds(
 def map_tilts(data: Array, w: Array, tilts: Array) -> None:
     """Fill ``tilts`` (2,): the washer's tilts about x and y over the gear's, at the place in w."""
     piece, u = int(w[PLACE + AT_PIECE]), w[PLACE + AT_U]
-    n = M.N_TILT_TERMS
-    read_lines(data, w, M.N_LINE_HEAD + piece * M.PIECE + M.TILTS, 2 * n, -1, M.SPARE)
+    n, first = M.N_TILT_TERMS, int(data[M.PIECE_AT + piece + 1]) - M.N_TILTS
+    read_lines(data, w, first, M.N_TILTS, SHARES, M.CHANGE)
     square = 2.0 * u * u - 1.0
     cube = 2.0 * u * square - u
     for k in range(2):
-        c = M.SPARE + k * n
+        c = M.CHANGE + k * n
         tilts[k] = w[c] + w[c + 1] * u + w[c + 2] * square + w[c + 3] * cube

@@ -144,7 +144,6 @@ class Continuation:
         self.m, self.f = washer_model(par), fields_of(self.w)
         set_steady(self.m, self.f)
         self.w.curve[L.ACCURACY] = 1e-8
-        set_steady(self.m, self.f)
 
     @property
     def film(self) -> float:
@@ -174,7 +173,8 @@ class Continuation:
             raise SolveError(
                 f"load_curve: {Status(code).advice} ({where}, film of "
                 f"{self.film / self.m.sigma1:.2f} sigma, speed = {self.pt.speed:g} rad/s, "
-                f"tilt = {self.pt.tilt:g} rad; tried: steps down to 1e-4 of the first); "
+                f"tilt = {self.pt.tilt:g} rad, oil_temperature = {self.pt.oil_temperature:g} K; "
+                "tried: steps down to 1e-4 of the first); "
                 "use another grid"
             )
 
@@ -189,8 +189,13 @@ class Continuation:
             self.to(1.25 * self.film)
 
     def to(self, s: float) -> None:
-        """Walk to a film thickness [m]."""
-        self._check(walk_to(self.w, self.pt, s), "walking")
+        """Walk to a film thickness [m]; where that gets stuck and asperities carry, by load."""
+        code = walk_to(self.w, self.pt, s)
+        if code and s < self.film and self.contact_share > ALONE:
+            while self.film > s:
+                self.to_load(1.02 * self.load)
+            code = walk_to(self.w, self.pt, s)
+        self._check(code, "walking")
 
     @property
     def contact_share(self) -> float:

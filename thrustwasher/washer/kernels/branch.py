@@ -22,7 +22,7 @@ from .continuation import (
 )
 from .gap import oil_viscosity
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, film_ratio, newton, smooth_film
-from .workspace import Point, Workspace, forget_factor, model_of
+from .workspace import Point, Workspace, copy, fields_of, forget_factor, model_of
 
 TOLERANCE = 1e-9  # of a solve from nothing
 FILM_RATIO = 3.0  # single-valued curves are called film above it
@@ -34,9 +34,10 @@ NOISE = 3e-4  # a load must change by more to count as past a fold; points are g
 
 @kernel
 def first_guess(w: Workspace, pt: Point) -> float:
-    """Return a film ratio to start from: narrow ring, film heated at its mean gap.
+    """Return about the film ratio: narrow ring, film heated at its mean gap.
 
     The factors 0.8 and 0.4 were fitted to solutions from 50 to 1367 rad/s: 15 % off at the median.
+    Below 0 no film was found that would carry the load.
     """
     m = model_of(w)
     width = m.outer_radius - m.inner_radius
@@ -56,8 +57,7 @@ def first_guess(w: Workspace, pt: Point) -> float:
         far = gap + 2.0 * mean * pt.tilt
         lift = 0.8 * thinned * strength
         gap = math.sqrt(lift / (pt.load + lift / (far * far)))
-    ratio = (gap - 0.4 * pt.tilt * width) / m.sigma1
-    return min(max(ratio, ENTRY_RATIO), 150.0)
+    return min((gap - 0.4 * pt.tilt * width) / m.sigma1, 150.0)
 
 
 @kernel
@@ -104,33 +104,55 @@ def _climb(w: Workspace, pt: Point) -> int:
 
 
 @kernel
-def _near(value: float, load: float, side: float) -> bool:
-    """Tell if a fold's load estimate is too close to the load to decide without refining.
+def _near(
+    places: tuple[float, float, float], loads: tuple[float, float, float], load: float
+) -> bool:
+    """Tell if a fold about the middle one of three points may lie beyond the load.
 
-    The highest or lowest point of a descent lies short of the fold by up to a tenth of its load,
-    towards ``side``: -1 if it is too low (film lost), 1 if too high (film regained).
+    A parabola through them says how far the fold lies beyond that point; a corner lies up to four
+    times as far.
     """
-    above = value / load - 1.0
-    return abs(above) < 0.02 or 0.0 < side * above < 0.25
+    (s0, s1, s2), (w0, w1, w2) = places, loads
+    beyond = 0.25 * load
+    if s0 != s1:
+        first, second = (w1 - w0) / (s1 - s0), (w2 - w1) / (s2 - s1)
+        bend = (second - first) / (s2 - s0)
+        slope = first + bend * (s1 - s0)
+        if bend != 0.0:
+            beyond = min(beyond, 1.25 * slope * slope / abs(bend))
+    return abs(w1 - load) < 0.02 * load + beyond
 
 
 @inlined
-def _contact_side(w: Workspace, pt: Point) -> int:
+def _contact_side(w: Workspace, pt: Point, lost: bool) -> int:
     """Solve for the load below the walker, which has passed every fold above the load.
 
-    One solution is left, so any way to it will do: first from a washer pressed on, then by walking.
+    One solution is left, so any way to it will do: from the walker, unless it has just ``lost`` the
+    film, from a washer pressed on, as warm as its asperities would make it, from a cold one, by
+    walking.
     """
-    sigma = w.par[L.D_SIGMA1]
+    sigma, temp = w.par[L.D_SIGMA1], fields_of(w).temp
+    radius = 0.5 * (w.par[L.P_INNER_RADIUS] + w.par[L.P_OUTER_RADIUS])
+    friction = fields_of(w).small[L.FRICTION]
+    warmer = friction * pt.load * abs(pt.speed) * radius / max(w.info[L.HEAT], 1e-2)
     remember(w, 1.0)
-    for attempt in range(2):
-        ratio = 0.8 - 0.6 * attempt
-        if ratio * sigma < w.curve[L.AT_FILM]:
+    for attempt in range(3):
+        status = OK
+        ratio = 0.8 - 0.4 * attempt
+        if attempt > 0 and ratio * sigma < w.curve[L.AT_FILM]:
+            recall(w, 1.0)
+            copy(temp, fields_of(w).trial)
             cold_start(w, pt, ratio)
+            if attempt == 1:
+                for k in range(temp.size):
+                    temp[k] = warmer * fields_of(w).trial[k]
             status = newton(w, pt, FILM, ratio * sigma, NO_FLOOR, 1e-2, 20.0)
-            if status == OK:
-                status = newton(w, pt, LOAD, pt.load, NO_FLOOR, TOLERANCE, 20.0)
-            if status == OK and smooth_film(w) <= w.curve[L.AT_FILM]:
-                return OK
+        elif attempt > 0 or lost or w.curve[L.AT_LOAD] < 0.7 * pt.load:
+            continue
+        if status == OK:
+            status = newton(w, pt, LOAD, pt.load, NO_FLOOR, TOLERANCE, 20.0)
+        if status == OK and smooth_film(w) <= w.curve[L.AT_FILM]:
+            return OK
     recall(w, 1.0)
     forget_factor(w)
     for _ in range(200):
@@ -165,7 +187,8 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
         w.found[L.BRANCH] = L.FILM_BRANCH
         return _climb(w, pt)
     # the highest point so far (after the film is lost, the lowest), and the place before it
-    s0, s1, w1 = w.curve[L.AT_FILM], w.curve[L.AT_FILM], w.curve[L.AT_LOAD]
+    s0, s1 = w.curve[L.AT_FILM], w.curve[L.AT_FILM]
+    w0, w1 = w.curve[L.AT_LOAD], w.curve[L.AT_LOAD]
     upper, lower = math.nan, math.nan  # bracket of the solution above any fold
     lost = False
     for _ in range(400):
@@ -178,7 +201,7 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
             lost = True
             w.found[L.MULTIPLICITY] = L.MULTIPLE
             w.found[L.LOST] = w1
-            if not has_film and _near(w1, pt.load, -1.0):
+            if not has_film and _near((s0, s1, s2), (w0, w1, w2), pt.load):
                 remember(w, 2.0)
                 status = find_fold(w, pt, s0, s2)
                 if status != OK:
@@ -195,12 +218,12 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
                 break
             if not has_film:  # beyond the fold: one solution only, on the contact branch
                 w.found[L.BRANCH] = L.CONTACT_BRANCH
-                status = _contact_side(w, pt)
+                status = _contact_side(w, pt, True)
                 return NO_BRANCH if status == OK and wanted == L.FILM_BRANCH else status
         elif lost and w2 > w1 * (1.0 + NOISE):
             # film regained between s0 and s2; the contact branch is wanted
             w.found[L.REGAINED] = w1
-            if _near(w1, pt.load, 1.0):
+            if _near((s0, s1, s2), (w0, w1, w2), pt.load):
                 status = find_fold(w, pt, s0, s2)
                 if status != OK:
                     return status
@@ -210,17 +233,21 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
             w.found[L.BRANCH] = L.CONTACT_BRANCH
             if w2 >= pt.load:  # the step has passed the solution already
                 return settle(w, pt, w.curve[L.AT_FILM] if w.curve[L.AT_FILM] > s2 else s1, s2)
-            return _contact_side(w, pt)
+            return _contact_side(w, pt, False)
         elif not lost and not has_film and w2 >= pt.load:
             upper, lower = s1, s2
             remember(w, 2.0)
-        if not lost and (above or not math.isnan(upper)) and (
-            w.curve[L.AT_SHARE] > 0.9 or w.curve[L.AT_FILM] < 0.5 * w.par[L.D_SIGMA1]
-        ):  # fmt: skip
-            w.found[L.MULTIPLICITY] = L.SINGLE  # the asperities carry: no fold will come
-            break
+        dry = not lost and w.curve[L.AT_SHARE] > 0.9  # the asperities carry: no fold will come
+        if has_film or not math.isnan(upper):
+            if dry or (not lost and w.curve[L.AT_FILM] < 0.5 * w.par[L.D_SIGMA1]):
+                w.found[L.MULTIPLICITY] = L.SINGLE
+                break
+        elif dry:
+            w.found[L.MULTIPLICITY], w.found[L.BRANCH] = L.SINGLE, L.CONTACT_BRANCH
+            status = _contact_side(w, pt, False)
+            return NO_BRANCH if status == OK and wanted == L.FILM_BRANCH else status
         if (w2 < w1) == lost:
-            s0, s1, w1 = s1, s2, w2
+            s0, s1, w0, w1 = s1, s2, w1, w2
         if w.curve[L.AT_FILM] < -12.0 * w.par[L.D_SIGMA1]:
             return MAX_ITERATIONS
     if above:  # no contact branch at this load after all
@@ -248,8 +275,9 @@ def solve_cold(w: Workspace, pt: Point, wanted: float) -> int:
     """Solve from nothing: Newton from a guess if that lands on a clear film, else a descent."""
     w.found[L.BRANCH], w.found[L.MULTIPLICITY] = 0.0, 0.0
     w.found[L.LOST], w.found[L.REGAINED] = math.nan, math.nan
-    if wanted != L.CONTACT_BRANCH:
-        cold_start(w, pt, first_guess(w, pt))
+    guess = first_guess(w, pt)
+    if wanted != L.CONTACT_BRANCH and guess > 0.0:
+        cold_start(w, pt, max(guess, ENTRY_RATIO))
         status = newton(w, pt, LOAD, pt.load, 2.4, TOLERANCE, 40.0)
         if status == OK and is_clear_film(w):
             w.found[L.BRANCH] = L.FILM_BRANCH

@@ -159,10 +159,11 @@ def walk_to(w: Workspace, pt: Point, target: float) -> int:
         step = target - here
         if abs(step) < 1e-9 * w.par[L.D_SIGMA1]:
             return OK
-        for _half in range(12):
+        for attempt in range(12):
             remember(w, 0.0)
             wanted = target if step == target - here else here + step
-            go_along(w, step)
+            if attempt == 0:  # a tangent that led astray is not followed again
+                go_along(w, step)
             status = newton(w, pt, FILM, wanted, NO_FLOOR, w.curve[L.ACCURACY], 12.0)
             if status == OK and w.info[L.REACHED_LOAD] > 0.0:
                 break

@@ -15,6 +15,7 @@ from .workspace import Point
 FILM, MIXED, BOUNDARY = 1, 2, 3  # regimes
 LEAST_TILT = 1e-9  # [rad]; less counts as none: a wedge of 0.02 nm has lift of no account
 LEAST_LOAD = 1.0  # [N]; an unloaded washer counts as loaded so much
+LEAST_SPEED = 1e-100  # [rad/s]; a washer that turns turns so fast: pressures stay in range
 LARGEST_SPREAD = 20.0  # outer over inner radius
 LEAST_ROUGHNESS = 1.5e-7  # [m]
 LEAST_MODULUS, LEAST_STRENGTH = 1e9, 1e7  # [Pa] of a body, as in its parameters
@@ -88,7 +89,10 @@ def is_bad(inp: Array) -> bool:
 def point_of(inp: Array) -> Point:
     """Return the operating point: load, speed, tilt, oil temperature as they count."""
     tilt = inp[L.I_TILT] if inp[L.I_TILT] > LEAST_TILT else 0.0
-    return Point(max(inp[L.I_LOAD], LEAST_LOAD), inp[L.I_SPEED], tilt, inp[L.I_OIL])
+    speed = inp[L.I_SPEED]
+    if 0.0 < abs(speed) < LEAST_SPEED:
+        speed = math.copysign(LEAST_SPEED, speed)
+    return Point(max(inp[L.I_LOAD], LEAST_LOAD), speed, tilt, inp[L.I_OIL])
 
 
 @kernel

@@ -166,6 +166,17 @@ def _contact_side(w: Workspace, pt: Point, lost: bool) -> int:
 
 
 @kernel
+def _named(w: Workspace, status: int, wanted: float) -> int:
+    """Name the branch arrived at: that of the film, but where a single-valued curve is in contact.
+
+    Returns ``status``, or NO_BRANCH if another branch was wanted.
+    """
+    thick = film_ratio(w) >= FILM_RATIO or w.found[L.MULTIPLICITY] != L.SINGLE
+    w.found[L.BRANCH] = L.FILM_BRANCH if thick else L.CONTACT_BRANCH
+    return NO_BRANCH if status == OK and wanted not in (L.ANY, w.found[L.BRANCH]) else status
+
+
+@kernel
 def descend(w: Workspace, pt: Point, wanted: float) -> int:
     """Solve for the load on the wanted branch by a descent from light load; return a status.
 
@@ -243,9 +254,8 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
                 w.found[L.MULTIPLICITY] = L.SINGLE
                 break
         elif dry:
-            w.found[L.MULTIPLICITY], w.found[L.BRANCH] = L.SINGLE, L.CONTACT_BRANCH
-            status = _contact_side(w, pt, False)
-            return NO_BRANCH if status == OK and wanted == L.FILM_BRANCH else status
+            w.found[L.MULTIPLICITY] = L.SINGLE
+            return _named(w, _contact_side(w, pt, False), wanted)
         if (w2 < w1) == lost:
             s0, s1, w0, w1 = s1, s2, w1, w2
         if w.curve[L.AT_FILM] < -12.0 * w.par[L.D_SIGMA1]:
@@ -262,12 +272,7 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
     forget_factor(w)
     w.curve[L.AT_FILM], w.curve[L.AT_LOAD] = lower, pt.load
     status = settle(w, pt, upper, lower)
-    thick = film_ratio(w) >= FILM_RATIO
-    single = w.found[L.MULTIPLICITY] == L.SINGLE
-    w.found[L.BRANCH] = L.FILM_BRANCH if thick or not single else L.CONTACT_BRANCH
-    if status == OK and wanted != L.ANY and w.found[L.BRANCH] != wanted:
-        return NO_BRANCH
-    return status
+    return _named(w, status, wanted)
 
 
 @inlined

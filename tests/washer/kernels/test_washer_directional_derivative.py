@@ -87,7 +87,9 @@ def test_derivatives_agree_with_differences_of_converged_solutions(place, factor
         # a slope counts as nothing where 1 % of the input would not move 1e-5 of the output
         floor = 1e-3 * scale / abs(inp[i])
         error = np.abs(dout - expected) / np.maximum(np.abs(expected), floor)
-        assert error.max() < 3e-5, (SPEC.outputs[int(error.argmax())].name, i)
+        # where the asperities' heat runs away over the rim, differences are no better
+        allowed = 2e-5 if place == "distressed" else 1e-6
+        assert error.max() < allowed, (SPEC.outputs[int(error.argmax())].name, i)
 
 
 @pytest.mark.parametrize(
@@ -113,7 +115,7 @@ def test_derivatives_of_all_outputs_hold_for_other_parameters(changes):
         expected = washer.differences(inp, i)
         floor = 1e-3 * scale / abs(inp[i])
         off = np.abs(dout - expected) / np.maximum(np.maximum(np.abs(expected), floor), 1e-300)
-        assert off.max() < 3e-5, (SPEC.outputs[int(off.argmax())].name, i)
+        assert off.max() < 5e-6, (SPEC.outputs[int(off.argmax())].name, i)
 
 
 def test_the_derivative_is_linear_in_its_seed():
@@ -122,7 +124,7 @@ def test_the_derivative_is_linear_in_its_seed():
     washer.polish(inp)
     weights = np.array([2.0, -0.3, 1e-4, 0.7])
     parts = sum(w * washer.sens(inp, e)[1] for w, e in zip(weights, np.eye(4), strict=True))
-    np.testing.assert_allclose(washer.sens(inp, weights)[1], parts, rtol=1e-7)
+    np.testing.assert_allclose(washer.sens(inp, weights)[1], parts, rtol=1e-9)
 
 
 def test_a_derivative_leaves_the_next_step_as_it_was():

@@ -123,7 +123,7 @@ def _near(
     return abs(w1 - load) < 0.02 * load + beyond
 
 
-@inlined
+@kernel
 def _contact_side(w: Workspace, pt: Point, lost: bool) -> int:
     """Solve for the load below the walker, which has passed every fold above the load.
 

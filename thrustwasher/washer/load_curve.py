@@ -32,6 +32,7 @@ from .washer_result import BRANCH_NAMES, Fold, WasherResult
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
+GOLDEN = 0.618
 FINEST = 0.1  # [sigma] between points near contact
 # where asperities carry this share and the load grows by this factor from point to point, points
 # go by load: hot oil may let it grow without bound at one film thickness
@@ -194,8 +195,16 @@ class Continuation:
             self.to(1.25 * self.film)
 
     def to(self, s: float) -> None:
-        """Walk to a film thickness [m]; where that gets stuck and asperities carry, by load."""
+        """Walk to a film thickness [m]; where that gets stuck less exactly, or by load.
+
+        Much oil on a coarse mesh makes Newton's method slow: a hundredth of the accuracy will do.
+        By load where asperities carry.
+        """
         code = walk_to(self.w, self.pt, s)
+        if code:
+            self.w.curve[L.ACCURACY] *= 100.0
+            code = walk_to(self.w, self.pt, s)
+            self.w.curve[L.ACCURACY] *= 0.01
         if code and s < self.film and self.contact_share > ALONE:
             while self.film > s:
                 self.to_load(1.02 * self.load)
@@ -226,10 +235,27 @@ class Continuation:
     def fold(self, kind: str, upper: float, lower: float) -> Fold:
         """Locate a fold between two film thicknesses and come back."""
         kept = self.copy()
-        self._check(find_fold(self.w, self.pt, upper, lower), kind)
+        if find_fold(self.w, self.pt, upper, lower):
+            self.come_back(kept)
+            self._search(1.0 if kind == "film_lost" else -1.0, upper, lower)
         load, out = self.load, self.outputs()
         self.come_back(kept)
         return Fold(kind, load, out[L.O_RATIO], out[L.O_MEAN], out[L.O_TORQUE])
+
+    def _search(self, sign: float, upper: float, lower: float) -> None:
+        """Go to the highest (1) or lowest (-1) load between two film thicknesses [m].
+
+        By golden section, for folds too flat for the slope to say on which side they lie.
+        """
+        while upper - lower > 1e-3 * self.m.sigma1:
+            loads = []
+            for share in (GOLDEN, 1.0 - GOLDEN):
+                self.to(lower + share * (upper - lower))
+                loads.append(sign * self.load)
+            if loads[0] > loads[1]:
+                lower += (1.0 - GOLDEN) * (upper - lower)
+            else:
+                upper -= (1.0 - GOLDEN) * (upper - lower)
 
     def outputs(self) -> list[float]:
         """Return all outputs here."""

@@ -18,9 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thrustwasher.clutch.kernels import layout
-from thrustwasher.fmu.model_kernels import load_kernel
 from thrustwasher.fmu.stepper import DirectInstance
-from thrustwasher.model.registry import find_spec
+from thrustwasher.model.registry import find_spec, kernel_of
 
 Array = NDArray[np.float64]
 H = 1e-3
@@ -28,7 +27,7 @@ H = 1e-3
 
 def runner(model: str) -> Callable[..., int]:
     """Return a compiled loop over the rows of a course."""
-    step = load_kernel(find_spec(model).kernel).step
+    step = kernel_of(find_spec(model)).step
 
     @numba.njit
     def run(
@@ -58,7 +57,7 @@ def measure(
             begin = time.perf_counter()
             run(*arrays, H)
             kernel.append((time.perf_counter() - begin) / len(course))
-        step = load_kernel(find_spec(spec).kernel).step
+        step = kernel_of(find_spec(spec)).step
         substeps = []
         for _ in range(9):
             core.state[:] = fresh
@@ -79,10 +78,10 @@ def measure(
 
 
 def engagement() -> Array:
-    """Return 400 ms of load, slip, oil temperature: pressure with 50 ms, slip to zero."""
+    """Return 400 ms of load, slip, oil temperature, drum: pressure with 50 ms, slip to zero."""
     t = np.arange(400) * H
     load = 5898.0 * (1.0 - np.exp(-t / 0.05))
-    return np.column_stack([load, 350.0 * (1.0 - t / 0.4), np.full_like(t, 297.15)])
+    return np.column_stack([load, 350.0 * (1.0 - t / 0.4), np.full_like(t, 297.15), 0.0 * t])
 
 
 def mesh_course() -> Array:

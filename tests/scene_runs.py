@@ -73,6 +73,15 @@ def shift(name, *, parts=None, **options):
 
 
 @cache
+def real_shift(name):
+    """Return a scene's result with its own washer."""
+    scene = load_scene(name)
+    return run_shift(scene, {
+        n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in scene.parts.items()
+    })  # fmt: skip
+
+
+@cache
 def default_shift():
-    """Return the default scene's result at its default step."""
-    return shift("planetary")
+    """Return the result of the sun-driven scene at its own step."""
+    return shift("planetary-sun")

@@ -158,7 +158,9 @@ def _plain(unit: str) -> str:
 def _pretty(unit: str) -> str:
     """Return the unit in typography, e.g. N·m, MJ/m²."""
     text = _PRETTY.get(unit, unit)
-    return text.replace(".", "·").replace("m2", "m²").replace("m3", "m³")
+    for plain, raised in (("m2", "m²"), ("m3", "m³"), ("s2", "s²"), ("s3", "s³")):
+        text = text.replace(plain, raised)
+    return text.replace(".", "·")
 
 
 def _wanted(unit: str) -> str:

@@ -135,7 +135,9 @@ def printed_oil(ratio: float, teeth: int) -> tuple[float, float, float]:
     With the reference viscosity as printed, 0.97 g/(cm s); bounded model, face 50 mm.
     """
     r = solve_gearmesh(
-        GearMeshParams(gear_ratio=ratio, pinion_teeth=teeth, viscosity_at="inlet"),
+        GearMeshParams.preset(
+            "paper", gear_ratio=ratio, pinion_teeth=teeth, viscosity_at="inlet"
+        ),
         power=POWER, speed=SPEED,
     )  # fmt: skip
     speed = flanks_at(r.start_of_contact, mesh_of(ratio, teeth), SPEED).speed_pinion

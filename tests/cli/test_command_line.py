@@ -48,7 +48,7 @@ def one_line(capsys):
         (["gearmesh", "--preset", "rosy"], ["preset", "rosy", "literal"]),
         (["washer", "--preset", "rosy"], ["preset", "rosy", "paper"]),
         (["sweep", "washer", "--preset", "rosy"], ["preset", "rosy", "paper"]),
-        (["sweep", "clutch", "--preset", "rosy"], ["preset", "rosy", "none"]),
+        (["sweep", "clutch", "--preset", "rosy"], ["preset", "rosy", "paper"]),
         (["gearmesh", "--speed", "0"], ["speed", "0", "rad/s"]),
         (["gearmesh", "--power", "1e12"], ["power", "W"]),
         (["washer", "--set", "roughnes=1e-7"], ["roughnes", "roughness?"]),

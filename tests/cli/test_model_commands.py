@@ -116,14 +116,14 @@ def test_settings_change_the_papers_washer(capsys):
 
 
 def test_the_table_of_a_mesh_sets_both_steels_side_by_side(capsys):
-    out = shown(words_of("gearmesh", MESH), capsys)
+    out = shown([*words_of("gearmesh", MESH), "--preset", "paper"], capsys)
     lines = {line.split()[0]: line for line in out.splitlines()}
     assert "27.308 °C" in lines["surface_temperature"] and "233.32 MPa" in lines["contact_stress"]
     assert "°C" not in lines["flash_rise"] and " K " in lines["flash_rise"]
     steels = [line for line in out.splitlines() if line.startswith("  AISI")]
     assert [line.split()[1] for line in steels] == ["1020", "4340"]
     assert "these gears" in steels[1] and "these gears" not in steels[0]
-    result = solve_gearmesh(GearMeshParams(), **MESH)
+    result = solve_gearmesh(GearMeshParams.preset("paper"), **MESH)
     assert [float(text) for text in steels[0].split()[2:5]] == pytest.approx(
         [result.modification_factor_aisi1020, result.allowable_ratio_aisi1020,
          result.stress_utilization_aisi1020], rel=1e-4,

@@ -87,8 +87,8 @@ def test_json_names_the_files(tmp_path, capsys):
 @pytest.mark.slow
 def test_an_upshift_differs_by_what_fmpy_sends_first(package, tmp_path, capsys):
     """Two steps without the holding brake: the clutch locks a step earlier, the heat stays."""
-    rows = simulated(package("planetary"), load_scene("planetary"))
-    told = own("planetary", tmp_path, capsys)
+    rows = simulated(package("planetary-sun"), load_scene("planetary-sun"))
+    told = own("planetary-sun", tmp_path, capsys)
     assert rows["lock_time"][-1] == pytest.approx(told["lock_time"], abs=1.5e-3)
     assert rows["clutch_heat"][-1] == pytest.approx(told["energy"]["clutch"], rel=3e-3)
     peak = rows["clutch_temperature"].max()

@@ -9,12 +9,14 @@ from thrustwasher.clutch.parameters import ClutchParams
 from thrustwasher.clutch.solve import boundary_friction, solve_clutch
 from thrustwasher.errors import ParameterError, Status
 
-PACK, UNCOOLED = ClutchParams(), ClutchParams(heat_transfer=0.0)
+SIZE = {"inner_radius": 0.064, "outer_radius": 0.085, "faces": 8}
+PACK = ClutchParams.preset("paper", **SIZE)
+UNCOOLED = ClutchParams.preset("paper", heat_transfer=0.0)
 
 
 def test_paper_like_sample_has_friction_of_the_paper():
     """0.11 at lock-up, falling with speed; 85 x 65 mm faces."""
-    sample = ClutchParams(inner_radius=0.0325, outer_radius=0.0425)
+    sample = ClutchParams.preset("paper")
     at = {n: solve_clutch(sample, load=1000.0, speed=n * np.pi / 30).friction_coefficient
           for n in (0, 600, 1500, 3000)}  # fmt: skip
     assert at[0] == pytest.approx(0.11, abs=1e-5)
@@ -75,7 +77,7 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
         (lambda: solve_clutch(PACK, load=1.0, speed=np.nan), "speed = nan rad/s"),
         (lambda: solve_clutch(PACK, load=1.0, speed=1.0, fidelity="x"), "fidelity = 'x'"),
         (
-            lambda: solve_clutch(ClutchParams(heat_transfer=0.0), load=1e3, speed=1.0),
+            lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0),
             "heat_transfer",
         ),
         (lambda: ClutchParams(inner_radius=0.09), "inner_radius = 0.09 m, allowed: below"),
@@ -112,20 +114,21 @@ def test_the_rungs_differ_by_what_they_leave_out():
     boundary, stribeck, field = (
         solve_clutch(PACK, **at, fidelity=f) for f in ("boundary", "stribeck", "field")
     )
-    assert boundary.temperature == 297.15 < stribeck.temperature < field.temperature
-    assert boundary.friction_torque == stribeck.friction_torque == field.contact_torque
-    assert field.viscous_torque > 0.0 == stribeck.viscous_torque
+    assert boundary.temperature == 297.15 < stribeck.temperature == field.temperature
+    assert boundary.friction_torque == stribeck.friction_torque == field.friction_torque
+    sheared = solve_clutch(ClutchParams.preset("paper", friction_data="boundary", **SIZE), **at)
+    assert sheared.viscous_torque > 0.0 == field.viscous_torque == stribeck.viscous_torque
 
 
 def test_an_open_pack_has_no_asperity_torque_and_a_crushed_one_says_so():
     light = solve_clutch(PACK, load=5.0, speed=0.5, oil_temperature=300.0)
     assert light.contact_torque < 1e-12 < light.viscous_torque
-    crushed = solve_clutch(ClutchParams(roughness=1e-7), load=6000.0, speed=0.01)
+    crushed = solve_clutch(ClutchParams(roughness=1e-7, land_share=1.0), load=6000.0, speed=0.01)
     assert crushed.status.name == "OUTSIDE_VERIFIED" and crushed.film_ratio < -3.0
 
 
 def test_a_settled_film_without_shear_is_the_rung_below():
-    still = ClutchParams(film_dynamics=False)
+    still = ClutchParams.preset("paper", film_dynamics=False, **SIZE)
     at = {"load": 5898.0, "speed": 50.0}
     assert (
         solve_clutch(still, **at).friction_torque

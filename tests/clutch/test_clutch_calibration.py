@@ -13,13 +13,14 @@ from thrustwasher.clutch.calibration.friction_law import (
     friction_over,
     friction_slopes,
     law_values,
+    settled_shear,
 )
 from thrustwasher.clutch.parameters import ClutchParams
 from thrustwasher.clutch.solve import solve_clutch
 from thrustwasher.errors import ParameterError
 
 TRUTH = {"plough_weight": 0.2, "shear_floor": 0.4, "stick_speed": 1.5, "decay_speed": 2.0}
-PACK, TRUE_PACK = ClutchParams(), ClutchParams(**TRUTH)
+PACK, TRUE_PACK = ClutchParams(friction_law="wang"), ClutchParams(friction_law="wang", **TRUTH)
 RADIUS = PACK.friction_radius
 SLIP = np.linspace(1.0, 160.0, 40)  # rad/s: 0.07 .. 12 m/s
 LOAD = np.where(np.arange(40) % 2, 1e3, 3e3)
@@ -49,7 +50,7 @@ def reason(found, name):
     ],
 )
 def test_the_law_over_arrays_is_that_of_the_kernels(changes):
-    pack = ClutchParams(**changes)
+    pack = ClutchParams(friction_law="wang", **changes)
     speeds = [0.0, 3.0, 15.0, 16.0, 100.0, 5000.0]
     wanted = [solve_clutch(pack, load=1e3, speed=w).friction_coefficient for w in speeds]
     assert friction_over(law_values(pack), np.array(speeds) * RADIUS) == pytest.approx(
@@ -59,7 +60,7 @@ def test_the_law_over_arrays_is_that_of_the_kernels(changes):
 
 @pytest.mark.parametrize("name", WANG_CONSTANTS)
 def test_slopes_are_the_derivatives_of_the_law(name):
-    values = law_values(ClutchParams(kink_width=0.2, indentation=0.3))
+    values = law_values(ClutchParams(friction_law="wang", kink_width=0.2, indentation=0.3))
     step = 1e-5 * values[name]
     speed = np.array([0.0, 1.0, 1.3, 4.0, 12.0])
     up = friction_over({**values, name: values[name] + step}, speed)
@@ -84,7 +85,7 @@ def test_exact_data_give_the_constants_back():
     ],
 )
 def test_any_two_of_the_constants_behind_the_two_ends_can_be_fitted(fit, truth):
-    exact = friction_over(law_values(ClutchParams(**truth)), SLIP * RADIUS)
+    exact = friction_over(law_values(ClutchParams(friction_law="wang", **truth)), SLIP * RADIUS)
     found = calibrate(PACK, speed=-SLIP, load=1e3, friction=exact, fit=fit)
     assert {n: getattr(found.params, n) for n in fit} == pytest.approx(truth, rel=1e-8)
 
@@ -213,7 +214,8 @@ def test_a_bound_is_named_with_what_would_free_it():
     assert found["plough_weight"].at_bound == "lower"
     assert "a larger hardness_ratio" in reason(found, "plough_weight")
     freed = calibrate(
-        ClutchParams(plough_weight=0.1), speed=SLIP, load=1e3, friction=0.7 * noisy(1),
+        ClutchParams(friction_law="wang", plough_weight=0.1), speed=SLIP, load=1e3,
+        friction=0.7 * noisy(1),
         fit=("hardness_ratio", "shear_floor", "stick_speed", "decay_speed"),
     )  # fmt: skip
     assert freed.rms < 0.5 * found.rms and freed["hardness_ratio"].at_bound == ""
@@ -257,7 +259,9 @@ def test_a_load_that_follows_speed_is_not_tested():
 
 
 def test_a_law_with_temperature_says_where_its_points_stand():
-    warm = ClutchParams(shear_temperature_slope=1e-3, reference_temperature=350.0)
+    warm = ClutchParams(
+        friction_law="wang", shear_temperature_slope=1e-3, reference_temperature=350.0
+    )
     found = calibrate(warm, speed=SLIP, load=LOAD, friction=noisy(8))
     assert "measured at reference_temperature (350 K)" in str(found)
     assert "Temperature" not in str(calibrate(PACK, speed=SLIP, load=LOAD, friction=noisy(8)))
@@ -316,7 +320,7 @@ def test_the_fitted_pack_can_be_solved_and_the_result_is_json():
 )
 @pytest.mark.parametrize("width", [0.0, 1.0])
 def test_hopeless_questions_get_an_honest_answer(slip, mu, fit, width):
-    pack = ClutchParams(kink_width=width)
+    pack = ClutchParams(friction_law="wang", kink_width=width)
     found = calibrate(pack, speed=slip, load=1e3, friction=mu, fit=fit)
     for e in found.estimates:
         assert e.interval[0] <= e.value <= e.interval[1]
@@ -330,15 +334,15 @@ GOOD = {"speed": SLIP, "load": LOAD, "friction": EXACT}
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"speed": SLIP[1:]}, "speed has 39 values, friction has 40"),
-        ({"speed": 5.0}, r"speed has shape \(\)"),
+        ({"speed": SLIP[1:]}, r"speed: shape \(39,\), allowed: one number per point \(40\)"),
+        ({"speed": 5.0}, r"speed: shape \(1,\)"),
         ({"speed": np.where(SLIP < 2, np.nan, SLIP)}, r"speed\[0\] = nan rad/s"),
         ({"speed": SLIP * 1e4}, r"speed\[0\] = 10000.0 rad/s, allowed: -5000 .. 5000 rad/s"),
         ({"load": -LOAD}, r"load\[0\] = -3000.0 N"),
         ({"load": 0.0}, r"load\[0\] = 0 N, allowed: above 0"),
         ({"load": ["a"] * 40}, "load: numbers in N are wanted"),
-        ({"friction": []}, r"friction has shape \(0,\)"),
-        ({"friction": np.ones((2, 2))}, r"friction has shape \(2, 2\)"),
+        ({"friction": []}, r"friction: shape \(0,\)"),
+        ({"friction": np.ones((2, 2))}, r"friction: shape \(2, 2\)"),
         ({"friction": EXACT * 100}, r"friction\[0\] = "),
         ({"friction": -EXACT}, "allowed: above 0"),
         ({"friction_error": 0.0}, r"friction_error\[0\] = 0, allowed: above 0"),
@@ -357,7 +361,53 @@ def test_wrong_input_is_named(changes, message):
         calibrate(PACK, **{**GOOD, **changes})
 
 
-def test_a_table_has_nothing_to_fit():
+def test_a_table_gives_way_to_the_law():
     table = ClutchParams.with_table([0.0, 5.0], [0.12, 0.13])
-    with pytest.raises(ParameterError, match="friction_law = 'table': its points are"):
-        calibrate(table, speed=[1.0, 2.0], load=[1e3, 1e3], friction=[0.1, 0.1])
+    found = calibrate(table, speed=SLIP, load=LOAD, friction=EXACT)
+    assert found.params.friction_law == "wang"
+    assert found.params.plough_weight == pytest.approx(0.2, rel=1e-6)
+
+
+# What the points were measured on.
+
+HOT = 373.15  # K
+
+
+def measured(**changes):
+    """Return the total friction of a settled pack whose asperities follow the true constants."""
+    rig = ClutchParams(friction_law="wang", friction_data="boundary", **TRUTH, **changes)
+    shear = settled_shear(rig, SLIP, LOAD, np.full(40, HOT))
+    found = [
+        solve_clutch(rig, load=f, speed=w, oil_temperature=HOT)
+        for f, w in zip(LOAD, SLIP, strict=True)
+    ]
+    mu = [r.friction_coefficient for r in found]
+    assert mu == pytest.approx(EXACT, rel=1e-12)
+    return EXACT + shear, shear
+
+
+def test_shear_of_the_settled_film_is_taken_off_for_a_law_of_the_asperities():
+    friction, shear = measured(permeability=1e-13)
+    assert shear.max() > 0.02 and (shear < 0.5 * friction).all()
+    points = {"speed": SLIP, "load": LOAD, "friction": friction}
+    law = ClutchParams(friction_law="wang", friction_data="boundary")
+    found = calibrate(law, **points, oil_temperature=HOT)
+    assert found.params.plough_weight == pytest.approx(0.2, rel=1e-6)
+    assert found.params.friction_data == found.as_dict()["friction_data"] == "boundary"
+    assert "asperities alone" in str(found)
+    as_they_are = calibrate(ClutchParams(), **points)
+    assert "total friction" in str(as_they_are) and as_they_are.rms > 1e3 * found.rms
+
+
+def test_points_that_are_shear_for_the_most_are_refused():
+    law = ClutchParams(friction_law="wang", friction_data="boundary")
+    cold = {"speed": SLIP, "load": LOAD, "friction": EXACT, "oil_temperature": 260.0}
+    with pytest.raises(ParameterError, match=r"friction\[\d+\] = .*: shear of the settled film"):
+        calibrate(law, **cold)
+    assert calibrate(ClutchParams(), **cold).params.friction_data == "total"
+
+
+def test_the_oil_s_temperature_is_asked_for():
+    law = ClutchParams(friction_law="wang", friction_data="boundary")
+    with pytest.raises(ParameterError, match="oil_temperature is missing, wanted with"):
+        calibrate(law, speed=SLIP, load=LOAD, friction=EXACT)

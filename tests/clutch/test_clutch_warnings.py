@@ -13,10 +13,12 @@ from thrustwasher.clutch.calibration.friction_law import (
 )
 from thrustwasher.clutch.parameters import ClutchParams
 
-PACK = ClutchParams()
+PACK = ClutchParams(friction_law="wang")
 SLIP = np.linspace(1.0, 250.0, 60)
 FALL = 0.05 * np.exp(-SLIP / 50.0)
-TRUE = ClutchParams(plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0)
+TRUE = ClutchParams(
+    friction_law="wang", plough_weight=0.2, shear_floor=0.4, stick_speed=1.5, decay_speed=2.0
+)
 EXACT = friction_over(law_values(TRUE), SLIP * TRUE.friction_radius)
 
 
@@ -45,8 +47,10 @@ def test_the_value_that_is_said_to_help_does_and_a_tenth_less_far_does_not(name)
     words = fitted(0.3 + FALL).warnings[0]
     value = float(re.search(rf"{name} \(([0-9.]+) or", words)[1])
     start = getattr(PACK, name)
-    assert fitted(0.3 + FALL, ClutchParams(**{name: value})).warnings == ()
-    less = fitted(0.3 + FALL, ClutchParams(**{name: start + 0.9 * (value - start)}))
+    assert fitted(0.3 + FALL, ClutchParams(friction_law="wang", **{name: value})).warnings == ()
+    less = fitted(
+        0.3 + FALL, ClutchParams(friction_law="wang", **{name: start + 0.9 * (value - start)})
+    )
     assert less.warnings
 
 
@@ -62,7 +66,10 @@ def test_a_fall_hidden_below_the_slowest_point_is_named():
     assert found.rms < 1e-9  # at the points nothing is wrong
     assert "below the slowest point, 0.07499 m/s" in found.warnings[0]
     value = float(re.search(r"adhesion_factor \(([0-9.]+) or less", found.warnings[0])[1])
-    assert fitted(np.full(60, 0.02), ClutchParams(adhesion_factor=value)).warnings == ()
+    assert (
+        fitted(np.full(60, 0.02), ClutchParams(friction_law="wang", adhesion_factor=value)).warnings
+        == ()
+    )
 
 
 def test_points_that_no_curve_meets_all_at_once_name_the_bound():
@@ -115,7 +122,7 @@ def test_a_piece_of_the_curve_is_no_reason_to_warn(piece):
 
 
 def test_scatter_beyond_the_edge_of_the_reach_is_no_warning():
-    edge = ClutchParams(plough_weight=1.0)
+    edge = ClutchParams(friction_law="wang", plough_weight=1.0)
     exact = friction_over(law_values(edge), SLIP * edge.friction_radius)
     assert all(fitted(scattered(exact, seed)).warnings == () for seed in range(8))
 

@@ -38,7 +38,7 @@ def fmus(request):
 
 def planetary(master="gauss-seidel", start=0.01, duration=0.04):
     """Return the first steps of the default shift, without what takes long to build."""
-    scene = load_scene("planetary").with_options(stop_time=STEPS * 1e-3, master=master)
+    scene = load_scene("planetary-sun").with_options(stop_time=STEPS * 1e-3, master=master)
     parts = {name: part for name, part in scene.parts.items() if name not in ("washer", "mesh")}
     return replace(scene, parts=parts, shift_start=start, shift_duration=duration)
 

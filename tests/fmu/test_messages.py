@@ -133,4 +133,5 @@ def test_every_category_that_is_declared_can_be_heard():
         "ShiftTransmission": always | {"logEvents"},
         "WetClutch": always,
         "GearMesh": always | {"logNonlinearSystems"},
+        "OilSump": always,
     }

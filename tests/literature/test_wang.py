@@ -20,7 +20,7 @@ from thrustwasher.clutch.calibration.friction_law import (
 from thrustwasher.clutch.closed_forms.heated_plate import braking_average
 
 INNER, OUTER = 0.0325, 0.0425  # m, Fig. 12
-SAMPLE = ClutchParams(inner_radius=INNER, outer_radius=OUTER)
+SAMPLE = ClutchParams.preset("paper")
 AREA = math.pi * (OUTER**2 - INNER**2)
 RADIUS = SAMPLE.friction_radius
 RPM = math.pi / 30.0
@@ -31,19 +31,19 @@ ALTERNATIVES = {0.20: 4.3891, 0.25: 3.6538, 0.30: 2.8720, 0.35: 2.0057, 0.40: 0.
 
 
 def friction_at(rpm, pressure=PRESSURE, **changes):
-    pack = ClutchParams(inner_radius=INNER, outer_radius=OUTER, **changes)
+    pack = ClutchParams.preset("paper", **changes)
     return solve_clutch(pack, load=pressure * AREA, speed=rpm * RPM, throw=False)
 
 
 def average_of(**changes):
-    pack = ClutchParams(inner_radius=INNER, outer_radius=OUTER, **changes)
+    pack = ClutchParams.preset("paper", **changes)
     ends = end_frictions(law_values(pack))
     return braking_average(*ends, pack.stick_speed, pack.decay_speed, FASTEST)
 
 
 def braking(**changes):
     """Return (speed over its start, friction, time over its end) of a braking at constant force."""
-    values = law_values(ClutchParams(inner_radius=INNER, outer_radius=OUTER, **changes))
+    values = law_values(ClutchParams.preset("paper", **changes))
     speed = np.linspace(FASTEST, 0.0, 20001)
     mu = friction_over(values, speed)
     passed = np.concatenate([[0.0], np.cumsum(0.5 * (1.0 / mu[1:] + 1.0 / mu[:-1]))])
@@ -106,7 +106,7 @@ def test_without_the_weight_the_computed_friction_is_above_the_measured_one():
 
 def test_a_braking_passes_the_four_stages_in_the_order_of_the_paper():
     """Two faces of the sample, 1 MPa in 0.1 s, slip falling from 3000 rpm to 0 in 1.2 s."""
-    pack = ClutchParams(inner_radius=INNER, outer_radius=OUTER, faces=2)
+    pack = ClutchParams.preset("paper")
     time = np.linspace(0.0, 1.25, 126)
     braked = engage_clutch(
         pack, time=time, load=PRESSURE * AREA * np.minimum(time / 0.1, 1.0),

@@ -109,7 +109,7 @@ def test_a_pack_heats_up_while_it_closes(rung, course):
     pack.initialize(0.0, {"load": 0.0, "speed": 100.0, "oil_temperature": 300.0})
     energies = []
     for i, (load, speed) in enumerate([(2000.0, 90.0), (6000.0, 40.0), (6000.0, 0.0), (0.0, -5.0)]):
-        pack.set_inputs([load, speed, 300.0])
+        pack.set_inputs([load, speed, 300.0, 0.0])
         pack.step(i * 0.02, 0.02)
         energies.append(pack.get(["energy"])[0])
     assert energies == sorted(energies) and energies[1] > energies[0] > 0.0

@@ -1,7 +1,6 @@
 """The same steps by the JIT and by compiled libraries."""
 
 import ctypes
-import importlib
 import tempfile
 from dataclasses import replace
 from functools import cache
@@ -10,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.model_kernels import load_kernel
 from thrustwasher.fmu.shell import c_tables, platform_libraries
-from thrustwasher.model.registry import all_specs, find_spec
+from thrustwasher.model.registry import all_specs, find_spec, kernel_of
+from thrustwasher.native.library import linked_objects
+from thrustwasher.native.objects import objects
 from thrustwasher.native.targets import PLATFORMS
 from thrustwasher.numerics.jit import jitted, way
 
@@ -30,7 +30,8 @@ def probe(model: str, level: str) -> ctypes.CDLL:
     platform = replace(linux, levels=tuple(one for one in linux.levels if one.name == level))
     files = {**c_tables.sources(spec, fmi=2, guid="0"), "probe.c": (HERE / "probe.c").read_bytes()}
     name = f"{model}_{level}"
-    made = platform_libraries.link_kernel(files, spec.kernel, platform, name, EXPORTS)
+    files |= platform_libraries.dispatch()
+    made = linked_objects(files, objects(spec.kernel, [platform]), platform, name, EXPORTS)
     path = Path(_folder.name) / f"{name}.so"
     path.write_bytes(made)
     return ctypes.CDLL(str(path))
@@ -40,9 +41,7 @@ class Python:
     """The entries as Python calls them."""
 
     def __init__(self, model: str) -> None:
-        spec = find_spec(model)
-        self.sizes = load_kernel(spec.kernel)
-        self.module = importlib.import_module(spec.kernel)
+        self.module = kernel_of(find_spec(model))
 
     def call(self, entry: str, *given):
         return getattr(self.module, entry)(*given)
@@ -78,9 +77,9 @@ class Run:
     """One instance: parameters at their start values, memory empty."""
 
     def __init__(self, entries: Python) -> None:
-        self.entries, k = entries, entries.sizes
-        self.par, self.state, self.work = np.zeros(k.n_par), np.zeros(k.n_state), np.zeros(k.n_work)
-        self.out, self.iout = np.zeros(k.n_out), np.zeros(k.n_iout, np.int32)
+        self.entries, k = entries, entries.module
+        self.par, self.state, self.work = np.zeros(k.NPAR), np.zeros(k.NSTATE), np.zeros(k.NWORK)
+        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
 
     def start(self, values) -> int:
         self.par[: len(values)] = values

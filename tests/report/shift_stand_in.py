@@ -34,14 +34,16 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
     s: dict[str, np.ndarray] = {
         "transmission.engine_speed": engine,
         "transmission.output_speed": output,
-        "transmission.ring_speed": output - (engine - output) / 2.2,
+        "transmission.drum_speed": output - (engine - output) / 2.2,
         "transmission.clutch_speed": slip,
         "transmission.washer_speed": 401.0 * (1.0 - done),
         "transmission.drive_torque": np.full_like(t, 150.0),
         "transmission.resistance_torque": 250.0 * (output / 100.0) ** 2,
         "transmission.clutch_reaction": reaction,
         "transmission.brake_reaction": np.where(t < 0.25, 330.0 - 2 * reaction, 0.0),
-        "transmission.sun_torque": np.where(t < 0.25, 150.0 - reaction, 60.0 + 60 * done**3),
+        "transmission.input_tooth_torque": np.where(
+            t < 0.25, 150.0 - reaction, 60.0 + 60 * done**3
+        ),
         "transmission.oil_supply_temperature": np.full_like(t, 297.15),
         "clutch.torque_capacity": capacity,
         "clutch.speed": slip,
@@ -112,7 +114,7 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
         Part("brake", find_spec("clutch"), {}),
     ]
     parts += [Part("washer", find_spec("washer"), small)] if washer else []
-    parts += [Part("mesh", find_spec("gearmesh"), {})] if mesh else []
+    parts += [Part("mesh", find_spec("gearmesh"), {"film_heat": "atan"})] if mesh else []
     heat = float(s["transmission.clutch_heat"][-1])
     figures: dict[str, float | None] = {
         "lock_time": 1.75, "lock_speed": 99.0, "release_time": 0.25, "slip_energy": heat,

@@ -15,7 +15,9 @@ from thrustwasher.report.model_plots.fit_plot import calibration_figure
 from thrustwasher.report.model_plots.gearmesh_plot import gearmesh_figure, over_teeth
 from thrustwasher.report.model_plots.washer_plots import curve_figure
 
-PACK = ClutchParams()
+PACK = ClutchParams.preset(  # data of the asperities: with shear of the oil on top
+    "paper", inner_radius=0.064, outer_radius=0.085, faces=8, friction_data="boundary"
+)
 POINT = {"load": 5898.0, "speed": -50.0, "oil_temperature": 297.15}
 SLIPS = [0.0, 10.0, 20.0, 60.0]
 MESH_POINT = {"power": 7500.0, "speed": 180.0, "oil_temperature": 299.85}

@@ -76,9 +76,9 @@ def test_page_carries_every_chapter_and_the_numbers(record):
     page = shift_report.shift_page(record)
     text = render(page)
     titles = [section.title for section in page.sections]
-    assert titles == ["Speeds", "Torques", "Temperatures", "Film ratios", "Friction of the clutch",
-                      "The thrust washer", "Energy", "Key figures", "Time spent",
-                      "What was simulated", "How far to trust it"]  # fmt: skip
+    assert titles == ["Beside what is usual", "Speeds", "Torques", "Temperatures", "Film ratios",
+                      "Friction of the clutch", "The thrust washer", "Energy", "Key figures",
+                      "Time spent", "What was simulated", "How far to trust it"]  # fmt: skip
     for words in ("1.75 s", "99 rad/s", "Thermo-viscous distress", "upper bound", "half the size",
                   "a remark of the run", "Jackson", "roughness_carrier"):  # fmt: skip
         assert words in text
@@ -151,7 +151,7 @@ def test_a_brake_alone_is_told_as_a_braking_test(record):
     text = render(shift_report.shift_page(lone))
     assert "the engine's work" not in text and "Torque of the brake" in text
     axis = axes_of(shift_plots.speed_figure(lone))[0]
-    assert "engine (sun)" not in {line.get_label() for line in axis.lines}
+    assert "engine" not in {line.get_label() for line in axis.lines}
 
 
 def test_a_short_shift_is_also_drawn_enlarged(record):

@@ -12,9 +12,9 @@ from thrustwasher.shift import load_scene, run_shift
 @pytest.fixture(scope="module")
 def downshift():
     """Second gear at 150 rad/s, engine on: the clutch opens, the engine rises, the brake holds."""
-    scene = replace(load_scene("planetary"), shift_from=1.0, shift_to=0.0, stop_time=1.5)
+    scene = replace(load_scene("planetary-sun"), shift_from=1.0, shift_to=0.0, stop_time=1.5)
     gearbox = scene.parts["transmission"]
-    start = {"initial_engine_speed": 80.0, "initial_ring_speed": 80.0, **NO_DRAG["transmission"]}
+    start = {"initial_engine_speed": 80.0, "initial_drum_speed": 80.0, **NO_DRAG["transmission"]}
     parts = {n: p for n, p in scene.parts.items() if n in ("transmission", "clutch", "brake")}
     parts["transmission"] = replace(gearbox, params=replace(gearbox.params, **start))
     scene = replace(scene, parts=parts)

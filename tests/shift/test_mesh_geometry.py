@@ -19,7 +19,7 @@ def test_ratio_and_teeth_are_those_of_sun_and_planet(name):
 
 
 def test_centre_distance_is_half_the_teeth_in_transverse_modules():
-    scene = load_scene("planetary")
+    scene = load_scene("planetary-sun")
     gearbox, mesh = scene.parts["transmission"].params, scene.parts["mesh"].params
     assert (gearbox.normal_module, gearbox.helix_angle) == (1.5e-3, pytest.approx(HELIX))
     distance = 0.5 * TRANSVERSE * (gearbox.sun_teeth + gearbox.planet_teeth)
@@ -28,13 +28,13 @@ def test_centre_distance_is_half_the_teeth_in_transverse_modules():
 
 def test_pressure_angle_and_addendum_are_transverse():
     """20 degrees and one normal module, both in the normal section of the tooth."""
-    mesh = load_scene("planetary").parts["mesh"].params
+    mesh = load_scene("planetary-sun").parts["mesh"].params
     angle = math.atan(math.tan(math.radians(20.0)) / math.cos(HELIX))
     assert mesh.pressure_angle == pytest.approx(angle, abs=math.radians(5e-4))
     assert mesh.addendum == pytest.approx(1.5e-3 / TRANSVERSE, abs=5e-5)
 
 
 def test_planet_and_sun_have_the_pitch_radii_that_the_washers_load_is_made_with():
-    mesh = load_scene("planetary").parts["mesh"].params
+    mesh = load_scene("planetary-sun").parts["mesh"].params
     planet = mesh.centre_distance / (1.0 + mesh.gear_ratio)
     assert planet == pytest.approx(0.5 * 18 * TRANSVERSE, rel=2e-5)

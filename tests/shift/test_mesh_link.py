@@ -38,7 +38,7 @@ class StandInMesh:
 
 
 def test_a_mesh_is_wired_and_its_heat_is_booked():
-    scene = load_scene("planetary").with_options(stop_time=0.1)
+    scene = load_scene("planetary-sun").with_options(stop_time=0.1)
     parts = instances(scene) | {"mesh": StandInMesh()}
     mesh = Part(spec=SPEC, fidelity="closed", params=ClutchParams())
     r = run_shift(replace(scene, parts=scene.parts | {"mesh": mesh}), parts)

@@ -8,7 +8,7 @@ from scene_runs import NO_DRAG, default_shift, shift, slow_without_jit
 # kinetic and clutch heat [kJ] until lock-up; per face [MJ/m2].
 EXPECTED = {
     "planetary-fast": (1.465, 98.98, 63.7, 44.1, -22.7, 42.2, 0.54),
-    "planetary": (1.649, 98.83, 73.5, 50.3, -22.8, 46.0, 0.59),
+    "planetary-sun": (1.649, 98.83, 73.5, 50.3, -22.8, 46.0, 0.59),
     "planetary-slow": (1.831, 98.67, 83.3, 56.5, -23.0, 49.8, 0.63),
 }
 
@@ -34,7 +34,7 @@ def test_shifts_without_drag_have_the_expected_magnitudes(name):
 def test_a_moving_film_shifts_sooner_because_its_oil_resists():
     """Shear of the oil carries a good part of the torque, more so when it is cold."""
     cold, hot = default_shift(), shift("planetary-hot-oil", parts=NO_DRAG)
-    settled = shift("planetary", parts=SETTLED | NO_DRAG, stop_time=2.2)
+    settled = shift("planetary-sun", parts=SETTLED | NO_DRAG, stop_time=2.2)
     after = [r.figures["lock_after_ramp_start"] for r in (cold, hot, settled)]
     assert after == sorted(after) and after[0] < 0.5 * after[2]
     open_drag = cold.signals["clutch.viscous_torque"][0]
@@ -43,7 +43,7 @@ def test_a_moving_film_shifts_sooner_because_its_oil_resists():
 
 def test_least_film_ratios_do_not_hang_on_where_samples_lie():
     """Film vanishes with speed: counted above a speed, and read at that speed, it is a figure."""
-    coarse, fine = (shift("planetary", step=h) for h in (1e-3, 5e-4))
+    coarse, fine = (shift("planetary-sun", step=h) for h in (1e-3, 5e-4))
     value = coarse.figures["least_mesh_film_ratio"]
     assert value == pytest.approx(fine.figures["least_mesh_film_ratio"], rel=5e-3)
     assert value > 1.2 * np.min(coarse.signals["mesh.film_ratio"])
@@ -65,12 +65,12 @@ def test_cold_oil_makes_both_packs_work_against_each_other():
 
 
 def test_settled_packs_without_shear_hand_over_cleanly():
-    r = shift("planetary", parts=SETTLED | NO_DRAG, stop_time=0.6)
+    r = shift("planetary-sun", parts=SETTLED | NO_DRAG, stop_time=0.6)
     assert r.figures["release_time"] > 0.38 and "tie_up_heat" not in r.figures
 
 
 def test_coupling_difference_shrinks_with_the_square_of_the_step():
-    coarse, fine = (shift("planetary", step=h).energy["coupling_difference_share"]
+    coarse, fine = (shift("planetary-sun", step=h).energy["coupling_difference_share"]
                     for h in (4e-3, 5e-4))  # fmt: skip
     assert np.log(coarse / fine) / np.log(8.0) == pytest.approx(2.0, abs=0.15)
 
@@ -88,7 +88,7 @@ def test_the_course_has_a_torque_and_an_inertia_phase():
     r = default_shift()
     s, t = r.signals, r.time
     assert [p.name for p in r.phases] == ["first gear", "torque phase", "inertia phase", "locked"]
-    tau, start = s["transmission.sun_torque"], r.phases[0].end
+    tau, start = s["transmission.input_tooth_torque"], r.phases[0].end
     assert tau.min() < 0.4 * tau[t <= start].max()
     locked = t > r.figures["lock_time"]
     assert (s["transmission.clutch_speed"][locked] == 0.0).all()
@@ -101,8 +101,8 @@ def test_plain_torque_loop_finds_the_same_shift_at_small_steps():
     """Coupling torque needs steps below 2 w0 J/T = 0.06 ms; it creeps instead of sticking."""
     limit = 2.0 * 0.1 * 0.1157 / 389.0
     held = {**SETTLED, **NO_DRAG, "transmission": {"washers": 0, "coupling": "torque"}}
-    r = shift("planetary", parts=held, step=0.5 * limit, stop_time=1.9)
-    reference = shift("planetary", parts=SETTLED | NO_DRAG, stop_time=1.9)
+    r = shift("planetary-sun", parts=held, step=0.5 * limit, stop_time=1.9)
+    reference = shift("planetary-sun", parts=SETTLED | NO_DRAG, stop_time=1.9)
     assert r.figures["slip_energy"] == pytest.approx(reference.figures["slip_energy"], rel=2e-3)
     assert abs(r.signals["transmission.clutch_speed"][-1]) < 0.1
     assert r.energy["residual_share"] < 1e-9

@@ -16,7 +16,7 @@ STOP = 0.75  # s: past lock-up
 @cache
 def real(step=1e-3):
     """Return the default shift at a step, every part with its own kernels."""
-    scene = load_scene("planetary").with_options(step=step, stop_time=STOP)
+    scene = load_scene("planetary-sun").with_options(step=step, stop_time=STOP)
     parts = {
         name: DirectInstance(part.spec, parameters=part.parameters())
         for name, part in scene.parts.items()

@@ -27,7 +27,7 @@ def test_every_signal_of_every_part_is_kept():
 
 def test_everything_but_the_series_is_json():
     d = json.loads(json.dumps(default_shift().as_dict(), allow_nan=False))
-    assert d["scene"] == "planetary" and d["energy_residual"] == d["energy"]["residual"]
+    assert d["scene"] == "planetary-sun" and d["energy_residual"] == d["energy"]["residual"]
     assert d["parameters"]["washer"]["inner_radius"] == 0.00555
     assert [p["name"] for p in d["phases"]][-1] == "locked"
 
@@ -61,7 +61,7 @@ def test_a_path_that_cannot_be_written_is_named_and_nothing_is_left(tmp_path):
 
 def test_messages_say_what_is_left_out():
     assert any("upper bound" in m for m in default_shift().messages)
-    bare = shift("planetary", stop_time=0.02, parts={"mesh": None, "washer": None}).messages
+    bare = shift("planetary-sun", stop_time=0.02, parts={"mesh": None, "washer": None}).messages
     assert any("gear mesh" in m for m in bare) and any("without drag" in m for m in bare)
 
 
@@ -79,7 +79,7 @@ def test_progress_is_called_to_the_end():
 
 
 def test_a_part_that_fails_is_named_with_the_time():
-    scene = load_scene("planetary").with_options(stop_time=0.05)
+    scene = load_scene("planetary-sun").with_options(stop_time=0.05)
     parts = instances(scene)
 
     def fail(t, h):
@@ -99,7 +99,7 @@ def test_a_step_that_does_not_divide_the_time_is_adapted_and_said():
 
 def test_a_stall_is_said():
     """A command that stays at one half: both packs hold, and everything stops."""
-    scene = load_scene("planetary")
+    scene = load_scene("planetary-sun")
     scene = replace(scene, shift_start=-50.0, shift_duration=100.0)
     packs = {n: replace(scene.parts[n], params=ClutchParams(faces=40)) for n in ("clutch", "brake")}
     scene = replace(scene, parts=scene.parts | packs)
@@ -109,7 +109,8 @@ def test_a_stall_is_said():
 
 
 def test_jacobi_hands_over_old_values_and_gauss_seidel_fresh_ones():
-    fresh, old = (shift("planetary", stop_time=0.3, master=m) for m in ("gauss-seidel", "jacobi"))
+    masters = ("gauss-seidel", "jacobi")
+    fresh, old = (shift("planetary-sun", stop_time=0.3, master=m) for m in masters)
     for r, lag in ((fresh, 0), (old, 1)):
         used = r.signals["transmission.clutch_torque"][2:]
         sent = r.signals["clutch.torque_capacity"][2 - lag : len(r.time) - lag]
@@ -117,7 +118,7 @@ def test_jacobi_hands_over_old_values_and_gauss_seidel_fresh_ones():
 
 
 def test_a_part_above_the_limit_of_its_temperature_is_an_event():
-    scene, time = load_scene("planetary"), np.array([0.0, 0.5, 1.0])
+    scene, time = load_scene("planetary-sun"), np.array([0.0, 0.5, 1.0])
     signals = {f"{pack}.temperature": np.full(3, 300.0) for pack in ("clutch", "brake")}
     signals["clutch.temperature"] = np.array([300.0, 523.5, 530.0])
     hot = [e for e in find_events(scene, time, signals) if e.kind.endswith("hot")]

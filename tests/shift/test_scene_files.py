@@ -9,7 +9,7 @@ from thrustwasher.errors import ParameterError
 from thrustwasher.shift import builtin_scenes, load_scene
 
 TEXT = """
-base = "planetary"
+base = "planetary-sun"
 {top}
 [{table}]
 {inside}
@@ -33,7 +33,7 @@ def test_every_builtin_scene_loads_and_explains_itself(name):
 
 
 def test_the_default_set_can_be_built_and_the_reference_set_has_no_gears():
-    p = load_scene("planetary").parts["transmission"].params
+    p = load_scene("planetary-sun").parts["transmission"].params
     assert (p.sun_teeth + p.ring_teeth) % p.planets == 0
     assert p.ring_teeth - p.sun_teeth == 2 * p.planet_teeth
     assert load_scene("msl").parts["transmission"].params.planet_teeth == 0
@@ -54,7 +54,7 @@ def test_a_part_may_start_from_a_preset(tmp_path):
     inside = 'preset = "paper"\nconduction = "carrier"'
     params = load_scene(written(tmp_path, "", "washer", inside)).parts["washer"].params
     assert (params.oil_cooling, params.conduction) == (False, "carrier")
-    assert params.outer_radius == load_scene("planetary").parts["washer"].params.outer_radius
+    assert params.outer_radius == load_scene("planetary-sun").parts["washer"].params.outer_radius
 
 
 def test_a_base_beside_the_file_is_found(tmp_path):
@@ -65,7 +65,7 @@ def test_a_base_beside_the_file_is_found(tmp_path):
 
 
 def test_the_command_is_a_ramp():
-    scene = load_scene("planetary")
+    scene = load_scene("planetary-sun")
     assert [scene.command(t) for t in (0.0, 0.1, 0.4, 9.0)] == [0.0, 0.0, 1.0, 1.0]
     assert scene.command(0.25) == pytest.approx(0.5)
 
@@ -74,7 +74,8 @@ def test_the_command_may_run_the_other_way(tmp_path):
     scene = load_scene(written(tmp_path, "", "shift", "from = 1\nto = 0.5"))
     assert [scene.command(t) for t in (0.0, 0.25, 9.0)] == [1.0, 0.75, 0.5]
     assert (scene.engaging, scene.releasing) == ("brake", "clutch")
-    assert load_scene("planetary").engaging == "clutch" and not load_scene("planetary").alone
+    upshift = load_scene("planetary-sun")
+    assert upshift.engaging == "clutch" and not upshift.alone
     assert load_scene("brake-test").alone
 
 
@@ -106,7 +107,7 @@ def test_the_choice_of_master_reaches_the_transmission():
             'friction_law = "dry"',
             r"\[clutch\]: friction_law = 'dry', allowed: 'wang'",
         ),
-        ("", "clutch", 'preset = "paper"', r"\[clutch\]: there is no 'preset' here"),
+        ("", "transmission", 'preset = "paper"', r"\[transmission\]: there is no 'preset' here"),
         ("", "washer", 'preset = "peper"', r"\[washer\]: preset = 'peper', allowed: 'paper'"),
         ("", "transmission", "oil_temperature = 300", r"oil_temperature cannot be set here"),
         ("", "transmission", "torque_age = 1", r"torque_age cannot be set here"),

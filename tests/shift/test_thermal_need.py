@@ -14,7 +14,7 @@ from thrustwasher.shift.thermal_need import body_times, change_time, thermal_nee
 from thrustwasher.shift.tolerance.run_to_tolerance import _without_choice
 
 
-def said(duration, mode="quasi_steady", scene="planetary"):
+def said(duration, mode="quasi_steady", scene="planetary-sun"):
     params = replace(load_scene(scene).parts["washer"].params, thermal_mode=mode)
     time = np.linspace(0.0, 10.0 * duration, 1001)
     power = 10.0 + 90.0 * np.clip(time / (duration / 0.8), 0.0, 1.0)

@@ -15,7 +15,7 @@ class Gearbox:
         self.time = 0.0
 
     def step(self, dt, clutch=0.0, brake=0.0):
-        self.instance.set_inputs([clutch, brake, 0.0, 0.0, 0.0])
+        self.instance.set_inputs([clutch, brake, *[0.0] * 7])
         self.instance.step(self.time, dt)
         self.time += dt
         return self

@@ -84,8 +84,8 @@ def _gearbox(slip, ring, more):
     """Return parameters with the given slip at the start; the carrier turns at 100 rad/s or so."""
     ring = 100.0 if ring is None else ring
     return {
-        "load_torque": 0.0, "washers": 0, "clutch_force": FORCE, "ring_inertia": RING,
-        "engine_torque": ENGINE, "initial_ring_speed": ring,
+        "load_torque": 0.0, "washers": 0, "clutch_force": FORCE, "drum_inertia": RING,
+        "engine_torque": ENGINE, "initial_drum_speed": ring,
         "initial_engine_speed": ring + slip, **more,
     }  # fmt: skip
 

@@ -18,7 +18,7 @@ from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift import load_scene, run_shift
 
 
-def small(name="planetary", **options):
+def small(name="planetary-sun", **options):
     """Return a scene without washer and mesh, which are slow to compile."""
     scene = load_scene(name).with_options(**options)
     parts = {n: p for n, p in scene.parts.items() if n not in ("washer", "mesh")}
@@ -67,7 +67,7 @@ def test_a_state_taken_over_from_a_run_counts_as_having_run():
 def test_an_instance_of_another_scene_is_named_with_what_differs():
     made = instances(SCENE)
     made["clutch"] = instances(small("msl"))["clutch"]
-    with pytest.raises(ParameterError, match=r"clutch: .* faces = 1, scene 'planetary' has 8"):
+    with pytest.raises(ParameterError, match=r"clutch: .* faces = 1, scene 'planetary-sun' has 8"):
         run_shift(SCENE, made)
 
 

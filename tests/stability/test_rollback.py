@@ -57,7 +57,7 @@ def begun(name, seed):
     spec, draw, parameters = MODELS[name]
     rnd = random.Random(seed)
     made = DirectInstance(spec, parameters=parameters)
-    made.initialize(0.0, dict(zip(made.input_names, draw(rnd), strict=True)))
+    made.initialize(0.0, dict(zip(made.input_names, draw(rnd), strict=False)))
     return made, [draw(rnd) for _ in range(12)]
 
 

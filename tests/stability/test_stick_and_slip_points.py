@@ -19,9 +19,9 @@ from thrustwasher.transmission.closed_forms.lock_up import engagement
 
 from gearbox import FREE, Gearbox  # isort: skip
 
-LOCKING = FREE | {"ring_inertia": 0.0, "engine_torque": 40.0, "initial_ring_speed": 9.0}
+LOCKING = FREE | {"drum_inertia": 0.0, "engine_torque": 40.0, "initial_drum_speed": 9.0}
 EXACT = engagement(300.0 * (1 + 1 / 2.2), 40.0, 0.0, 0.25, 8.0, 350.0, (350.0 + 2.2 * 9.0) / 3.2)
-HELD = {"load_torque": 0.0, "ring_inertia": 0.0, "washers": 0}
+HELD = {"load_torque": 0.0, "drum_inertia": 0.0, "washers": 0}
 REACTION = 250.0  # 2.2 (150 - 0.25 x 150/J), J = 0.25 + 8/3.2^2: brake's torque in first gear
 
 
@@ -88,7 +88,7 @@ def test_no_capacity_holds_nothing_and_the_least_number_holds_what_is_at_rest():
 
 
 def test_capacity_that_comes_and_goes_every_step_costs_one_event_each():
-    box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_ring_speed": 350.0})
+    box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_drum_speed": 350.0})
     for i in range(100):
         box.step(1e-3, clutch=300.0 if i % 2 else 0.0)
     assert box["events"] <= 100.0

@@ -63,14 +63,21 @@ def test_another_integrator_confirms_an_engagement():
         reference_engagement(ClutchParams(contact_rise=True), **course)
 
 
+@pytest.mark.parametrize("preset", ["paper", None])
 @pytest.mark.parametrize("changes", [{}, {"friction_law": "iso"}, {"load_share": 0.4},
+                                     {"friction_law": "li-seireg"},
                                      {"gear_ratio": 5.0, "pinion_teeth": 30}])  # fmt: skip
-def test_the_gears_quadrature_confirms_the_rung_fine(changes):
-    params = GearMeshParams(**changes)
+def test_the_gears_quadrature_confirms_the_rung_fine(changes, preset):
+    params = GearMeshParams.preset(preset or "paper", **changes)
+    if preset is None:
+        params = GearMeshParams(
+            helix_angle=0.2, sigma_rms=1e-7, **{"friction_law": "mixed", **changes}
+        )
     found = reference_gearmesh(params, power=7500.0, speed=180.0)
     fine = solve_gearmesh(params, power=7500.0, speed=180.0, fidelity="fine")
     assert fine.friction_torque == pytest.approx(found.values["friction_torque"], rel=2e-4)
     assert fine.asperity_temperature == pytest.approx(found.values["temperature"], rel=1e-4)
+    assert fine.film_thickness == pytest.approx(found.values["film_thickness"], rel=1e-3)
 
 
 @pytest.mark.parametrize("solve", [

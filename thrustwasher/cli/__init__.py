@@ -8,8 +8,7 @@ A command that solves a model at one point is no file: ``_solve`` makes it from 
 ``_solve``      the command that solves a model at one point, made from its record
 ``_options``    options made from a model's inputs and parameters
 ``_table``      columns of a CSV file, found by their names
-``_output``     JSON, tables, files that are written whole or not at all
-``_progress``   how far it is and how long it will take
+``_output``     JSON, tables, progress, files that are written whole or not at all
 ``_fmu_cache``  FMUs built when needed, for ``shift``
 ==============  ==================================================================
 """
@@ -75,7 +74,10 @@ def _status_of(error: BaseException, label: str) -> int:
     if isinstance(error, SystemExit):  # argparse after --help and --version
         return error.code if isinstance(error.code, int) else DONE
     if isinstance(error, BrokenPipeError):  # the reader, e.g. `head`, has gone: that is its right
-        _silence_stdout()
+        try:  # so that the interpreter's last flush is quiet
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        except (OSError, ValueError):
+            pass  # a test's stand-in for standard output has no file number
         return PIPE_CLOSED
     if isinstance(error, ParameterError | EnvironmentProblem):  # first: BranchError is both
         return _say(label, str(error), WRONG_INPUT)
@@ -132,7 +134,15 @@ def _dispatch(words: list[str]) -> int:
         parser = _Parser(f"thrustwasher {words[0]}", description=command.HELP, epilog=EPILOG)
         command.add_arguments(parser)
         return int(command.run(parser.parse_args(words[1:])))
-    parser = _overview()
+    lines = [f"  {name:9} {_command(name).HELP}" for name in COMMANDS]
+    parser = _Parser(
+        prog="thrustwasher",
+        usage="thrustwasher COMMAND [OPTION ...]",
+        description="Friction units for drivetrain simulation.\n\ncommands:\n" + "\n".join(lines),
+        epilog="thrustwasher COMMAND --help says more.\n" + EPILOG.replace(". ", ".\n"),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"thrustwasher {__version__}")
     parser.parse_args(words)
     parser.print_help()
     return DONE
@@ -145,20 +155,6 @@ def _command(name: str) -> Any:
     return import_module(f".{name}", __name__)
 
 
-def _overview() -> _Parser:
-    """Return the parser of the bare program, whose help lists the commands."""
-    lines = [f"  {name:9} {_command(name).HELP}" for name in COMMANDS]
-    parser = _Parser(
-        prog="thrustwasher",
-        usage="thrustwasher COMMAND [OPTION ...]",
-        description="Friction units for drivetrain simulation.\n\ncommands:\n" + "\n".join(lines),
-        epilog="thrustwasher COMMAND --help says more.\n" + EPILOG.replace(". ", ".\n"),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("--version", action="version", version=f"thrustwasher {__version__}")
-    return parser
-
-
 def _say(label: str, message: str, status: int) -> int:
     """Write one line to standard error and return the exit status."""
     line = " ".join(message.split())
@@ -166,14 +162,6 @@ def _say(label: str, message: str, status: int) -> int:
         line = f"{line[: LONGEST // 2]} ... {line[-LONGEST // 2 :]}"
     print(f"{label}: {line}", file=sys.stderr)
     return status
-
-
-def _silence_stdout() -> None:
-    """Point standard output to nowhere, so that the interpreter's last flush is quiet."""
-    try:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except (OSError, ValueError):
-        pass  # a test's stand-in for standard output has no file number
 
 
 class Stopped(KeyboardInterrupt):

@@ -22,10 +22,9 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
     group = parser.add_argument_group("operating point")
     for signal in inputs:
         span = f"{signal.low:g} .. {signal.high:g} {signal.unit}"
-        usual = signal.start or signal.nominal or 0.0
         group.add_argument(
-            option_name(signal.name), dest=signal.name, metavar="QUANTITY", default=usual,
-            help=f"{signal.help} [{signal.unit}]; {span}, default {usual:g}",
+            option_name(signal.name), dest=signal.name, metavar="QUANTITY", default=signal.usual,
+            help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}",
         )  # fmt: skip
 
 
@@ -73,13 +72,6 @@ class _ListParameters(argparse.Action):
 
 def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
     """Return the preset or the defaults with every ``--set`` applied; their own checks included."""
-    settings = read_settings(arguments, spec)
-    preset = getattr(arguments, "preset", None)
-    return made_of(spec, preset, settings)
-
-
-def read_settings(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, Any]:
-    """Return the value of every ``--set`` by name of the parameter."""
     metadata = {f.name: f.metadata for f in fields(spec.params)}
     values: dict[str, Any] = {}
     for setting in arguments.settings:
@@ -93,7 +85,7 @@ def read_settings(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str,
                 f"thrustwasher {spec.key} --parameters lists them"
             )
         values[name] = _parameter(name, text, metadata[name])
-    return values
+    return made_of(spec, getattr(arguments, "preset", None), values)
 
 
 def parameter_table(spec: "ModelSpec") -> str:
@@ -163,12 +155,6 @@ def read_grid(text: str) -> tuple[int, int]:
     if match is None:
         raise ParameterError(f"grid = {text!r}, allowed: two node counts as in 9x32")
     return int(match[1]), int(match[2])
-
-
-GRID = Option(
-    name="grid", help="nodes along the radius x around, e.g. 9x32 or 17x64", metavar="RxT",
-    read=f"{__name__}:read_grid",
-)  # fmt: skip
 
 
 def option_name(name: str) -> str:

@@ -10,7 +10,9 @@ from ..units import parse_quantity
 from . import _options, _output, _table
 
 HELP = "fit the clutch's friction law to measured friction (CSV: speed, load, friction)"
-UNITS = {"speed": "rad/s", "load": "N", "friction": "1", "friction_error": "1"}
+UNITS = {
+    "speed": "rad/s", "load": "N", "friction": "1", "friction_error": "1", "oil_temperature": "K",
+}  # fmt: skip
 EXAMPLES = "plough_weight, shear_floor, stick_speed, decay_speed, hardness_ratio, indentation"
 
 
@@ -18,7 +20,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
         "data", metavar="DATA.csv", nargs="?",
-        help="columns speed, load, friction and, if known, friction_error (standard deviation); "
+        help="columns speed, load, friction and, if known, friction_error (standard deviation) and "
+        "oil_temperature (for --set friction_data=boundary); "
         'a unit may follow in brackets, as in "speed [rpm]"',
     )  # fmt: skip
     parser.add_argument(
@@ -42,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
     confidence = parse_quantity(arguments.confidence, "1", "confidence")
     targets = _output.targets(arguments)
     columns: dict[str, Any] = dict(
-        _table.read_columns(arguments.data, UNITS, optional=("friction_error",))
+        _table.read_columns(arguments.data, UNITS, optional=("friction_error", "oil_temperature"))
     )
 
     from ..clutch.calibration.calibration import DEFAULT_FIT, calibrate
@@ -62,15 +65,15 @@ def run(arguments: argparse.Namespace) -> int:
         _output.print_json({**found.as_dict(), **pack, **inputs, "wall_time": wall_time})
         return 0
     print(found)
-    print(f"Use it: thrustwasher clutch {_settings(params, found)}")
+    print(f"Use it: thrustwasher clutch {_settings(found)}")
     return 0
 
 
-def _settings(given: Any, found: Any) -> str:
+def _settings(found: Any) -> str:
     """Return the options for the fitted constants and for all that was given beside them."""
     values: dict[str, Any] = {e.name: f"{e.value:.10g}" for e in found.estimates}
-    usual = _output.parameters_of(type(given)())
-    for name, value in _output.parameters_of(given).items():
+    usual = _output.parameters_of(type(found.params)())
+    for name, value in _output.parameters_of(found.params).items():
         if value != usual[name]:
             values.setdefault(name, value)
     return " ".join(f"--set {name}={value}" for name, value in values.items())

@@ -43,15 +43,9 @@ def _order(model: str) -> Any:
     return lambda card: (card.params.name, place.get(card.fidelity, 99), card.chart or "")
 
 
-def worst(card: Any, quantity: str) -> float | None:
-    """Return the largest error of a quantity over all cells."""
-    table = card.errors[quantity].worst if quantity in card.errors else ()
-    return max((e for row in table for e in row if e is not None), default=None)
-
-
 def _print_model(model: str, cards: list[Any]) -> None:
     """Print a table per parameter set."""
-    from ..ladder.formats import shown_error, shown_seconds
+    from ..ladder.formats import shown_seconds
 
     if not cards:
         print(f"{model}: no cards; make them: {VERIFY} {model}")
@@ -63,11 +57,7 @@ def _print_model(model: str, cards: list[Any]) -> None:
         print(f"{model}, {name} parameters: {spans}")
         rows = []
         for card in mine:
-            torque, kelvin = worst(card, "friction_torque"), worst(card, "temperature")
-            errors = [
-                "-" if torque is None else shown_error(torque, "relative", None),
-                "-" if kelvin is None else shown_error(kelvin, "absolute", "K"),
-            ]
+            errors = [card.shown_worst(q) for q in ("friction_torque", "temperature")]
             time = shown_seconds(card.cost.call_median_s)
             rung = f"{card.fidelity} {card.chart or ''}".strip()
             told = f"{card.held_out.n} points; {card.stale() or 'fresh'}"
@@ -83,7 +73,7 @@ def _record(card: Any) -> dict[str, Any]:
         "points": card.held_out.n, "failed": card.held_out.failed,
         "outside": card.held_out.outside,
         "envelope": {n: [a.min, a.max, a.unit] for n, a in card.envelope.items()},
-        "worst": {q: worst(card, q) for q in card.errors},
+        "worst": {q: card.worst(q) for q in card.errors},
         "reference_uncertainty": dict(card.reference.uncertainty),
         "call_median_s": card.cost.call_median_s, "call_iqr_s": card.cost.call_iqr_s,
         "first_call_s": card.cost.first_call_s,

@@ -2,10 +2,9 @@
 
 import argparse
 import time
-from collections.abc import Sequence
-from typing import Any
 
 from ..units import format_quantity
+from ..washer.model import GRID
 from ..washer.parameters import SPEC
 from . import _options, _output
 
@@ -26,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, INPUTS)
     _options.add_parameters(parser, SPEC)
-    _options.add_options(parser, [_options.GRID])
+    _options.add_options(parser, [GRID])
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
 
 
@@ -34,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Trace, then print, write or draw."""
     point = _options.read_inputs(arguments, INPUTS)
     params = _options.read_parameters(arguments, SPEC)
-    grid = _options.read_options(arguments, [_options.GRID])
+    grid = _options.read_options(arguments, [GRID])
     targets = _output.targets(arguments)
 
     from ..washer.load_curve import load_curve
@@ -54,18 +53,13 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
-    _print_folds(curve.folds)
-    return 0
-
-
-def _print_folds(folds: Sequence[Any]) -> None:
-    """Say where the film is lost and regained."""
-    if not folds:
+    if not curve.folds:
         print("no fold: one solution at every load")
-    for fold in folds:
+    for fold in curve.folds:
         words = fold.kind.replace("_", " ")
         print(
             f"{words} at {format_quantity(fold.load, 'N')}: film ratio {fold.film_ratio:.3g}, "
             f"{format_quantity(fold.temperature, 'K')}, "
             f"{format_quantity(fold.friction_torque, 'N.m')}"
         )
+    return 0

@@ -14,7 +14,7 @@ COLUMNS = {
     "time": "s", "load": "N", "speed": "rad/s", "friction_torque": "N.m", "contact_torque": "N.m",
     "viscous_torque": "N.m", "torque_capacity": "N.m", "temperature": "K", "film_thickness": "m",
     "film_ratio": "1", "friction_coefficient": "1", "contact_share": "1", "friction_power": "W",
-    "heat_flux": "W/m2", "energy": "J", "regime": "",
+    "heat_flux": "W/m2", "energy": "J", "oil_heat": "W", "stored_heat": "J", "regime": "",
 }  # fmt: skip
 TABLE = ("time", "load", "speed", "friction_torque", "viscous_torque", "temperature", "film_ratio",
          "regime")  # fmt: skip
@@ -52,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
     if arguments.json:
-        inputs = {**times, "oil_temperature": point["oil_temperature"]}
+        inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
         given = {"parameters": _output.parameters_of(params)}
         _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
         return 0
@@ -86,7 +86,7 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
     return engage_clutch(
         params, time=t, load=point["load"] * rise, fidelity=rung,
         speed=point["speed"] * (1.0 - t / times["duration"]),
-        oil_temperature=point["oil_temperature"],
+        oil_temperature=point["oil_temperature"], drum_speed=point["drum_speed"],
     )  # fmt: skip
 
 

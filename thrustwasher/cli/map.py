@@ -9,7 +9,6 @@ from ..errors import ParameterError
 from ..units import parse_quantity
 from ..washer.parameters import SPEC
 from . import _options, _output
-from ._progress import time_left
 
 HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
 DEEDS = ("build", "list", "check")
@@ -62,7 +61,7 @@ def _build(arguments: argparse.Namespace) -> int:
         tolerance = parse_quantity(arguments.tolerance, "1", "tolerance")
     card = make_map(params, Path(out), box=box, tolerance=tolerance, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
-                    progress=time_left)  # fmt: skip
+                    progress=_output.time_left)  # fmt: skip
     _show(card, str(out), arguments.json)
     return 0
 
@@ -107,7 +106,7 @@ def _check(arguments: argparse.Namespace) -> int:
     with runner(arguments.workers or 1) as run:
         verdict = check_map(
             params, arguments.file, points=arguments.points, fidelity=str(file.card["built_from"]),
-            run=run, progress=time_left("held-out points"),
+            run=run, progress=_output.time_left("held-out points"),
         )  # fmt: skip
     card = {**file.card, "held_out": asdict(verdict)}
     _show(card, arguments.file, arguments.json)

@@ -10,8 +10,7 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..units import parse_quantity
-from . import _output
-from ._progress import time_left
+from . import _output, _sequence
 from .build import chosen_platforms, chosen_target
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
@@ -78,6 +77,8 @@ def run(arguments: argparse.Namespace) -> int:
         master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
     )  # fmt: skip
     scene = with_fidelities(scene, arguments.fidelity)
+    if scene.sequence:
+        return _sequence.run(arguments, scene, _fmu_instances)
     if arguments.ssp:
         return _export(arguments, scene)
     if arguments.platforms:
@@ -86,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     target = chosen_target(arguments.fmu)
     began = time.perf_counter()
-    progress = time_left(scene.name) if sys.stderr.isatty() else None
+    progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
     with _fmu_instances(scene, target) as make:
         result = run_auto(scene, make, guard=not arguments.no_guard, progress=progress)
     if folder:
@@ -94,10 +95,20 @@ def run(arguments: argparse.Namespace) -> int:
             _write(result, draft)
     if arguments.json:
         total, out = time.perf_counter() - began, str(folder) if folder else None
-        _output.print_json({**result.as_dict(), "total_time": total, "out": out})
+        _output.print_json(
+            {**result.as_dict(), "warnings": _warnings(result), "total_time": total, "out": out}
+        )
     else:
         _say(result, folder)
     return 0
+
+
+def _warnings(result: Any) -> list[str]:
+    """Return what a reader must not miss."""
+    from ..report.shift import summary
+    from ..report.shift.shift_record import record_of
+
+    return summary.warnings(record_of(result))
 
 
 def _say(result: Any, folder: Path | None) -> None:

@@ -13,7 +13,6 @@ from ..model.spec import ModelSpec
 from ..sweep.axes import places, split_setting
 from . import _output
 from ._options import option_name
-from ._progress import time_left
 from ._table import read_columns
 
 HELP = "solve a model over ranges of inputs and parameters, on all cores or on a cluster"
@@ -72,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     began = time.perf_counter()
     table = run_sweep(
-        spec.key, _axes(arguments.over), at=at, points=points, params=params,
+        spec.key, _settings(arguments.over, "--over", {}), at=at, points=points, params=params,
         fidelity=arguments.fidelity, out=out, workers=_workers(arguments.workers),
         cluster=arguments.cluster,
         progress=_progress(spec),
@@ -92,15 +91,14 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _axes(settings: list[str]) -> dict[str, str]:
-    """Return the values of every ``--over`` by name."""
-    axes: dict[str, str] = {}
-    for setting in settings:
-        name, values = split_setting(setting, "--over")
-        if name in axes:
-            raise ParameterError(f"--over {setting}: {name} is given twice")
-        axes[name] = values
-    return axes
+def _settings(texts: list[str], option: str, found: dict[str, str]) -> dict[str, str]:
+    """Add the values of every option NAME=VALUES by name, each once."""
+    for text in texts:
+        name, values = split_setting(text, option)
+        if name in found:
+            raise ParameterError(f"{option} {text}: {name} is given twice")
+        found[name] = values
+    return found
 
 
 def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
@@ -113,12 +111,7 @@ def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
             if name not in known:
                 raise ParameterError(f"{option_name(name)}: is no input of {spec.name}")
             held[name] = value
-    for setting in arguments.settings:
-        name, value = split_setting(setting, "--set")
-        if name in held:
-            raise ParameterError(f"--set {setting}: {name} is given twice")
-        held[name] = value
-    return held
+    return _settings(arguments.settings, "--set", held)
 
 
 def _points(path: str, spec: ModelSpec) -> dict[str, Any]:
@@ -153,7 +146,7 @@ def _inputs() -> dict[str, str]:
 
 def _progress(spec: ModelSpec) -> Callable[[int, int], None]:
     """Return what shows the progress; on a new machine it explains the wait first."""
-    show = time_left(f"sweep {spec.key}:")
+    show = _output.time_left(f"sweep {spec.key}:")
     told = False
 
     def progress(done: int, total: int) -> None:

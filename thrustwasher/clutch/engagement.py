@@ -14,10 +14,10 @@ from ..numerics.jit import Array
 from .kernels import advance as clutch_advance
 from .kernels import layout as k
 from .kernels import pack_friction, pack_outputs, rates
-from .parameters import LOAD, OIL, SPEC, SPEED, ClutchParams
+from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 from .solve import prepare
 
-Course = tuple[float, float, float, float, float, float]
+Course = tuple[float, float, float, float, float, float, float, float]
 
 
 class PackCourse:
@@ -25,6 +25,7 @@ class PackCourse:
 
     def __init__(self, par: Any, load: float, oil: float) -> None:
         self.par, self.work, self.out = par, np.zeros(k.NWORK), np.zeros(k.NOUT)
+        self.first, self.to_oil = oil, 0.0  # temperature at the start [K]; heat in the oil [J]
         self.status = int(clutch_advance.load_memory(par, load, oil, np.zeros(k.NSTATE), self.work))
         if self.status == Status.OK and not rates.moves_film(par):
             self.work[k.W_NOW + k.Y_FILM] = 1.0
@@ -38,11 +39,14 @@ class PackCourse:
         ))  # fmt: skip
         return int(self.work[k.W_SUBSTEPS])
 
-    def show(self, load: float, slip: float) -> Array:
-        """Return the real outputs at the present point."""
-        pack_outputs.fill_outputs(self.par, load, slip, self.work, self.out)
+    def show(self, load: float, slip: float, drum: float, duration: float = 0.0) -> Array:
+        """Return the real outputs at the present point, ``duration`` [s] after the last one."""
+        pack_outputs.fill_outputs(self.par, load, slip, drum, self.work, self.out)
         self.out[k.O_TEMPERATURE], _ = pack_outputs.mean_surface(self.par, self.work)
         self.out[k.O_ENERGY] = self.par[k.P_FACES] * self.work[k.W_NOW + k.Y_ENERGY]
+        self.out[k.O_STORED_HEAT] = pack_outputs.stored_heat(self.par, self.work, self.first)
+        before, self.to_oil = self.to_oil, self.out[k.O_ENERGY] - self.out[k.O_STORED_HEAT]
+        self.out[k.O_OIL_HEAT] = (self.to_oil - before) / duration if duration > 0.0 else 0.0
         return self.out
 
 
@@ -65,6 +69,9 @@ class Engagement:
     friction_power: Array
     heat_flux: Array
     energy: Array
+    oil_heat: Array
+    """[W] heat that reached the oil, mean since the point before; 0 at the first."""
+    stored_heat: Array
     regime: list[str]
     status: Status
     """HOT if the interface passed 523 K, OK otherwise."""
@@ -86,6 +93,7 @@ def engage_clutch(
     load: ArrayLike,
     speed: ArrayLike,
     oil_temperature: float = 297.15,
+    drum_speed: ArrayLike = 0.0,
     fidelity: str = "field",
 ) -> Engagement:
     """Return film, temperature and torque of a pack whose load and slip are given over time.
@@ -97,6 +105,7 @@ def engage_clutch(
     load : (n,) axial force [N] at the points, or one number; straight in between
     speed : (n,) slip [rad/s] at the points, or one number; straight in between
     oil_temperature : [K]; the steel is as warm at the start
+    drum_speed : (n,) speed [rad/s] of the drum, or one number; the hub turns by the slip faster
     fidelity : as in ``solve_clutch``
 
     Raises
@@ -114,7 +123,7 @@ def engage_clutch(
     >>> import numpy as np
     >>> t = np.linspace(0.0, 0.3, 31)
     >>> e = engage_clutch(ClutchParams(), time=t, load=5898.0 * np.minimum(t / 0.1, 1.0),
-    ...                   speed=100.0)
+    ...                   speed=100.0, oil_temperature=353.15)
     >>> e.regime[0], e.regime[-1]
     ('film', 'boundary')
     """
@@ -122,14 +131,17 @@ def engage_clutch(
     forces = course_of("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0, len(points))
     slips = course_of("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
+    drums = course_of("drum_speed", drum_speed, "rad/s", DRUM.low or 0.0, DRUM.high or 0.0,
+                      len(points))  # fmt: skip
     par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
     pack = PackCourse(par, forces[0], oil)
     for i in range(len(points)):
         if i and pack.status == Status.OK:
-            course = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
-            substeps += pack.advance(course, points[i] - points[i - 1])
+            ends = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
+            substeps += pack.advance((*ends, drums[i - 1], drums[i]), points[i] - points[i - 1])
         if not Status(pack.status).is_failure:
-            rows[i] = pack.show(forces[i], slips[i])
+            duration = points[i] - points[i - 1] if i else 0.0
+            rows[i] = pack.show(forces[i], slips[i], drums[i], duration)
         if Status(pack.status).is_failure:
             raise SolveError(
                 f"t = {points[i]:g} s, load = {forces[i]:g} N, speed = {slips[i]:g} rad/s: "

@@ -36,7 +36,7 @@ MODEL = Model(
             "field": _PACK,
             "fine": _PACK,
         },
-        boxes={"default": _BOX, "planetary": _BOX},
+        boxes={"default": _BOX, "planetary-sun": _BOX},
         part="clutch",
         changed={"input_course": "linear"},
         references="thrustwasher.study.reference_clutch:SOURCE",
@@ -44,7 +44,8 @@ MODEL = Model(
     ),
     sweep=Sweep(
         walk="thrustwasher.clutch.solve:walk_steady",
-        not_shown=("energy", "heat_flux", "viscosity"),  # it slips for ever: its heat has no end
+        # it slips for ever: its heat has no end
+        not_shown=("energy", "heat_flux", "viscosity", "oil_heat", "stored_heat"),
     ),
     wiring=(
         "Into a ShiftTransmission: wire torque_capacity to it with coupling = capacity, "

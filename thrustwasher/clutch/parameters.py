@@ -7,7 +7,15 @@ from functools import partial
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
+from ..model.parameters import (
+    check_ranges,
+    check_rules,
+    choice,
+    count,
+    flag,
+    from_preset,
+    quantity,
+)
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 FRICTION_LAWS = {
@@ -19,6 +27,11 @@ FRICTION_LAWS = {
 INPUT_COURSES = {
     "held": "inputs stay as they are during a step; all outputs are those at its end",
     "linear": "inputs run straight from point to point; outputs after a step are of its start",
+}
+
+FRICTION_DATA = {
+    "total": "friction measured on a settled pack, shear of its oil included",
+    "boundary": "friction of the asperities alone (a rig at low speed): all shear of oil is added",
 }
 
 N_TABLE = 5
@@ -41,37 +54,62 @@ def _rising(place: int) -> Rule:
 RULES = (
     Rule("inner_radius = {inner_radius} m, allowed: below outer_radius ({outer_radius} m)"),
     *(_rising(place) for place in range(1, N_TABLE + 1)),
-)
+    Rule("groove_width = {groove_width} m, allowed: below pi (inner_radius + outer_radius)"
+         "/groove_count, the distance of {groove_count} grooves at the mean radius"),
+)  # fmt: skip
+
+# The sample of Wang, Wei & Wu (2012): their friction law, a plain lining, oil as warm as the faces
+PRESETS: dict[str, dict[str, Any]] = {
+    "paper": {
+        "inner_radius": 0.0325,
+        "outer_radius": 0.0425,
+        "faces": 2,
+        "friction_law": "wang",
+        "permeability": 4e-12,
+        "land_share": 1.0,
+        "groove_count": 0,
+        "initial_film": 8.8e-5,
+        "shear_heating": False,
+        "oil_flow": 0.0,
+    },
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClutchParams:
     """A pack of wet friction plates: geometry, lining, friction law, oil and steel.
 
-    The friction law is that of Wang, Wei & Wu (2012); its speed law was lost with the paper's
-    figures and is fitted to the prose. Lining data: Shock and Vibration 2021, 5522998. Faces, oil
-    cooling and speed smoothing are chosen here.
+    Defaults: a pack of a passenger car's transmission with an organic lining in transmission fluid,
+    its friction over slip speed a table typical of such linings (an estimate). Asperities: Shock
+    and Vibration 2021, 5522998. Permeability, oil cooling and speed smoothing are estimates. The
+    law of Wang, Wei & Wu (2012) is ``friction_law = "wang"``; its speed law was lost with the
+    paper's figures and is fitted to the prose.
     """
 
     inner_radius: float = quantity(0.064, "m", 1e-3, 1.0, "inner radius of the friction faces")
     outer_radius: float = quantity(0.085, "m", 2e-3, 2.0, "outer radius of the friction faces")
-    faces: int = count(8, 1, 100, "number of friction faces in the pack")
+    faces: int = count(4, 1, 100, "number of friction faces in the pack")
     effective_radius: float = quantity(
         0.0, "m", 0.0, 10.0, "radius the friction acts at (0: from the face's radii)"
     )
-    friction_law: str = choice("wang", FRICTION_LAWS, "ClutchFrictionLaw", "law of dry friction")
+    friction_law: str = choice(
+        "table", FRICTION_LAWS, "ClutchFrictionLaw", "law of friction over slip speed"
+    )
+    friction_data: str = choice(
+        "total", FRICTION_DATA, "FrictionData", "what the law of friction was measured on"
+    )
     constant_friction: float = quantity(0.12, "1", 0.0, 2.0, "coefficient of the constant law")
-    table_friction_0: float = _coefficient(0.13, "at standstill")
+    table_friction_0: float = _coefficient(0.112, "at standstill")
     table_speed_1: float = _table_speed(0.1, 1)
-    table_friction_1: float = _coefficient(0.12, "at table_speed_1")
+    table_friction_1: float = _coefficient(0.114, "at table_speed_1")
     table_speed_2: float = _table_speed(0.5, 2)
-    table_friction_2: float = _coefficient(0.12, "at table_speed_2")
+    table_friction_2: float = _coefficient(0.118, "at table_speed_2")
     table_speed_3: float = _table_speed(2.0, 3)
-    table_friction_3: float = _coefficient(0.125, "at table_speed_3")
+    table_friction_3: float = _coefficient(0.123, "at table_speed_3")
     table_speed_4: float = _table_speed(8.0, 4)
-    table_friction_4: float = _coefficient(0.13, "at table_speed_4")
+    table_friction_4: float = _coefficient(0.129, "at table_speed_4")
     table_speed_5: float = _table_speed(30.0, 5)
-    table_friction_5: float = _coefficient(0.13, "at table_speed_5 and above")
+    table_friction_5: float = _coefficient(0.126, "at table_speed_5 and above")
     indentation: float = quantity(0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R")
     plough_weight: float = quantity(0.085275, "1", 0.0, 1.0, "weight of the ploughing share")
     hardness_ratio: float = quantity(6.0, "1", 1.0, 20.0, "hardness over shear strength of lining")
@@ -96,27 +134,30 @@ class ClutchParams:
     asperity_radius: float = quantity(8e-4, "m", 1e-7, 1e-2, "radius of the lining's asperities")
     lining_thickness: float = quantity(1e-3, "m", 0.0, 0.02, "thickness of the permeable lining")
     permeability: float = quantity(
-        4e-12, "m2", 0.0, 1e-9, "permeability of the lining along its plane"
+        1e-13, "m2", 0.0, 1e-9, "permeability of the lining along its plane"
     )
-    groove_factor: float = quantity(
-        1.0, "1", 0.01, 1.0, "share of squeeze resistance the grooves leave"
-    )
-    initial_film: float = quantity(8.8e-5, "m", 1e-6, 1e-2, "film thickness of the open pack")
+    land_share: float = quantity(0.8, "1", 0.05, 1.0, "share of a face that is not groove")
+    groove_count: int = count(24, 0, 1000, "number of radial grooves in a face (0: none)")
+    groove_width: float = quantity(2e-3, "m", 1e-5, 0.1, "width of a groove at its foot")
+    groove_depth: float = quantity(4e-4, "m", 1e-5, 0.01, "depth of the grooves")
+    initial_film: float = quantity(1.5e-4, "m", 1e-6, 1e-2, "film thickness of the open pack")
     starts_pressed: bool = flag(False, "film is settled at the start (False: pack starts open)")
     film_dynamics: bool = flag(
         True,
         "field rung: oil takes time to leave and resists shear (False: film settled, no shear)",
     )
     shear_heating: bool = flag(
-        False, "field rung: oil between the faces is thinned by its own shear (False: as the faces)"
+        True, "field rung: oil between the faces is thinned by its own shear (False: as the faces)"
     )
     oil_flow: float = quantity(
-        0.0, "m3/s", 0.0, 1.0, "oil fed to the pack; limits its drag (0: gaps always full)"
-    )
+        1e-3 / 60.0, "m3/s", 0.0, 1.0,
+        "oil fed to the pack; limits its drag and cooling (0: as much as it takes)",
+    )  # fmt: skip
     oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
-    oil_conductivity: float = quantity(
-        0.145, "W/(m.K)", 0.01, 2.0, "heat conductivity of the oil (shear_heating)"
+    oil_heat_capacity: float = quantity(
+        2050.0, "J/(kg.K)", 500.0, 5000.0, "heat capacity of the oil"
     )
+    oil_conductivity: float = quantity(0.145, "W/(m.K)", 0.01, 2.0, "heat conductivity of the oil")
     viscosity_constant: float = quantity(
         3.545, "1", 0.0, 6.0, "G_o of the Roelands law (0: viscosity is viscosity_scale, constant)"
     )
@@ -131,7 +172,9 @@ class ClutchParams:
     contact_rise: bool = flag(
         False, "interface hotter than the plate's mean by conduction (semi-infinite at first)"
     )
-    heat_transfer: float = quantity(1000.0, "W/(m2.K)", 0.0, 1e5, "cooling of a face by the oil")
+    heat_transfer: float = quantity(
+        1000.0, "W/(m2.K)", 0.0, 1e5, "cooling by the oil of an open face, or without grooves"
+    )
     speed_smoothing: float = quantity(
         0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
     )
@@ -144,6 +187,19 @@ class ClutchParams:
         from .kernels.constants import broken_rule
 
         check_rules(self, RULES, broken_rule)
+
+    @classmethod
+    def preset(cls, name: str, **changes: Any) -> "ClutchParams":
+        """Return the parameters of a preset, some of them changed.
+
+        ``"paper"``: the sample of Wang, Wei & Wu (2012), two plain faces of 85 x 65 mm, with their
+        law of friction.
+
+        Raises
+        ------
+        ParameterError : no such preset, or a parameter out of range
+        """
+        return from_preset(cls, PRESETS, name, changes)
 
     @property
     def lining_area(self) -> float:
@@ -197,8 +253,11 @@ SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two side
                low=-5000.0, high=5000.0, nominal=100.0, start=0.0)  # fmt: skip
 OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
              low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
+DRUM = Signal(name="drum_speed", unit="rad/s", low=-5000.0, high=5000.0, nominal=100.0, start=0.0,
+              help="speed of the drum; the hub turns by the slip faster (0: the drum stands still)",
+              optional=True)  # fmt: skip
 _POINT = ("load", "speed")
-_ALL = (*_POINT, "oil_temperature")
+_ALL = (*_POINT, "oil_temperature", "drum_speed")
 _out = partial(output, depends=_ALL)
 
 SPEC = ModelSpec(
@@ -214,7 +273,7 @@ SPEC = ModelSpec(
         "fine": "the same in four rings, each with its own slip speed, heat and temperature",
     },
     default_fidelity="field",
-    inputs=(LOAD, SPEED, OIL),
+    inputs=(LOAD, SPEED, OIL, DRUM),
     outputs=(
         _out("friction_torque", "N.m", 100.0,
              "friction torque of the pack, sign of the slip, smooth through zero"),
@@ -225,23 +284,27 @@ SPEC = ModelSpec(
         _out("torque_capacity", "N.m", 100.0,
              "largest torque the pack can hold at this load and slip", low=0.0),
         _out("friction_coefficient", "1", 0.1,
-             "coefficient of boundary friction of the contacting faces"),
+             "coefficient of the law of friction at this slip"),
         _out("film_ratio", "1", 1.0, "film thickness over the combined RMS roughness"),
         _out("friction_power", "W", 1e4, "heat made by friction, torque times slip"),
         _out("energy", "J", 1e4, "heat made by friction since the start", depends=(), low=0.0),
         _out("contact_torque", "N.m", 100.0,
-             "share of the friction torque that the asperities make"),
+             "share of the friction torque by the law of friction, for the load on asperities"),
         _out("viscous_torque", "N.m", 10.0,
-             "share of the friction torque that shear of the oil makes"),
+             "share of the friction torque by shear of the oil beside the law"),
         _out("contact_share", "1", 0.1, "share of the faces' area in contact", low=0.0, high=1.0),
         _out("heat_flux", "W/m2", 1e5, "friction power over the area of all faces", low=0.0),
         _out("viscosity", "Pa.s", 0.05, "viscosity of the oil at the interface temperature"),
+        _out("oil_heat", "W", 1e3, "heat that reaches the oil, mean of the last step", depends=()),
+        _out("stored_heat", "J", 1e4, "heat in the steel plates, over that at the start",
+             depends=()),
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
                help="lubrication regime of the friction faces"),
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                depends=_POINT, help="how the last solution was obtained"),
     ),
     kernel="thrustwasher.clutch.kernels.step",
+    presets=PRESETS,
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.PackFlange",
@@ -252,9 +315,10 @@ SPEC = ModelSpec(
                  help="Slip speed and load in, torque capacity out (coupling capacity)",
                  members=(("speed", "w", "signal"), ("torque_capacity", "tau", "inflow"),
                           ("load", "load", "signal"))),
-        OIL_PORT,
+        Terminal(name="oil", kind=OIL_PORT.kind, help="Oil temperature in, heat to the oil out",
+                 members=(OIL_PORT.members[0], ("oil_heat", "Q_flow", "outflow"))),
     ),
     # An engagement: the force rises, the slip falls to zero, then the pack holds.
-    course=((0.0, 0.0, 120.0, 320.0), (0.2, 5000.0, 120.0, 320.0), (0.7, 5000.0, 0.0, 320.0),
-            (1.0, 4000.0, 0.0, 320.0)),
+    course=((0.0, 0.0, 120.0, 320.0, 0.0), (0.2, 5000.0, 120.0, 320.0, 60.0),
+            (0.7, 5000.0, 0.0, 320.0, 100.0), (1.0, 4000.0, 0.0, 320.0, 100.0)),
 )  # fmt: skip

@@ -1,6 +1,5 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
-import math
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
@@ -15,7 +14,7 @@ from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
 from .kernels import layout as k
 from .kernels import pack_friction, rates, steady
-from .parameters import LOAD, OIL, SPEC, SPEED, ClutchParams
+from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
@@ -132,15 +131,17 @@ class SteadyPack(NamedTuple):
     iterations: int
 
 
-def steady_pack(par: Any, load: float, slip: float, oil: float, ratio: float) -> SteadyPack:
+def steady_pack(
+    par: Any, load: float, slip: float, drum: float, oil: float, ratio: float
+) -> SteadyPack:
     """Return the steady state at a settled film of ``ratio`` roughnesses."""
     if par[k.P_FIDELITY] != k.FINE:
-        return _part(par, load, slip, oil, ratio)
+        return _part(par, load, slip, drum, oil, ratio)
     shares, parts = [], []
     for n in range(int(par[k.D_RINGS])):
         ring = rates.ring_of(par, n)
         shares.append(float(ring[k.D_AREA] / par[k.D_AREA]))
-        parts.append(_part(ring, load * shares[-1], slip, oil, ratio))
+        parts.append(_part(ring, load * shares[-1], slip, drum, oil, ratio))
     levers = [s * float(rates.ring_of(par, n)[k.D_RADIUS]) for n, s in enumerate(shares)]
 
     def mean(name: str, weights: list[float]) -> float:
@@ -159,9 +160,9 @@ def steady_pack(par: Any, load: float, slip: float, oil: float, ratio: float) ->
     )
 
 
-def _part(par: Any, load: float, slip: float, oil: float, ratio: float) -> SteadyPack:
-    temperature, status, rounds = steady.steady_temperature(par, load, slip, oil, ratio)
-    contact, viscous, _ = steady.steady_torques(par, load, slip, ratio, temperature)
+def _part(par: Any, load: float, slip: float, drum: float, oil: float, ratio: float) -> SteadyPack:
+    temperature, status, rounds = steady.steady_temperature(par, load, slip, drum, oil, ratio)
+    contact, viscous, _ = steady.steady_torques(par, load, slip, drum, ratio, temperature)
     return SteadyPack(
         float(contact), float(viscous), float(temperature), float(temperature),
         float(pack_friction.coefficient_slopes(par, slip, temperature)[0]),
@@ -175,6 +176,7 @@ def solve_clutch(
     load: float,
     speed: float,
     oil_temperature: float = 297.15,
+    drum_speed: float = 0.0,
     fidelity: str = "field",
     start: ClutchResult | None = None,
     throw: bool = True,
@@ -187,9 +189,10 @@ def solve_clutch(
     load : axial force on the pack [N]
     speed : slip [rad/s], with its sign
     oil_temperature : [K]
+    drum_speed : [rad/s] of the drum, with its sign; the hub turns by the slip faster
     fidelity : "closed" (constant coefficient), "boundary" (coefficient over slip speed, no heat),
-        "stribeck" (with heat), "field" (with heat and the shear of the settled film) or "fine" (the
-        same in rings, ``temperature`` their mean by area)
+        "stribeck" (with heat), "field" (with heat and shear of the oil) or "fine" (the same in
+        rings, ``temperature`` their mean by area)
     start : an earlier result to start the search for the film from
     throw : False returns the best estimate with its status instead of raising SolveError
 
@@ -211,22 +214,21 @@ def solve_clutch(
     >>> r.friction_torque, r.regime
     (0.0, 'adhesive')
     >>> round(r.torque_capacity, 2)
-    593.95
+    302.37
     """
     load = check_number("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0)
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
+    drum = check_number("drum_speed", drum_speed, "rad/s", DRUM.low or 0.0, DRUM.high or 0.0)
     par = prepare(params, fidelity)
-    moves = fidelity in ("field", "fine")
-    heated = speed != 0.0 and (load > 0.0 or moves) and fidelity != "boundary"
-    if heated and params.heat_transfer == 0.0:
+    heated = speed != 0.0 and fidelity != "boundary"
+    guess = start.film_ratio if start else 1.0
+    ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
+    if heated and steady.steady_cooling(par, load, ratio) == 0.0:
         raise ParameterError(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
         )
-    guess = start.film_ratio if start else 1.0
-    ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
-    s = steady_pack(par, load, speed, oil, ratio)
-    contact, viscous = s.contact, s.viscous
+    s = steady_pack(par, load, speed, drum, oil, ratio)
     status = max(Status(film), Status(s.status))
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
@@ -234,8 +236,8 @@ def solve_clutch(
         status = Status.OUTSIDE_VERIFIED
     if not status.is_failure and s.hottest > k.HOT_LIMIT:
         status = Status.HOT
-    sign = math.copysign(1.0, speed) if speed else 0.0
-    torque = sign * (contact + viscous)
+    sign, capacity = float(np.sign(speed)), s.contact + s.viscous
+    torque = sign * capacity
     return ClutchResult(
         friction_torque=torque,
         friction_coefficient=s.coefficient,
@@ -243,10 +245,10 @@ def solve_clutch(
         film_thickness=float(ratio * params.roughness),
         film_ratio=float(ratio),
         shear_ratio=s.shear_ratio,
-        torque_capacity=float(contact + viscous),
+        torque_capacity=float(capacity),
         friction_power=float(torque * speed),
-        contact_torque=sign * contact,
-        viscous_torque=sign * viscous,
+        contact_torque=sign * s.contact,
+        viscous_torque=sign * s.viscous,
         contact_share=float(pack_friction.contact_share(par, ratio)[0]),
         regime=list(REGIMES)[pack_friction.regime_of(par, ratio, speed) - 1],
         status=status,
@@ -264,8 +266,8 @@ def walk_steady(
     left_out = find_model(spec.key).sweep.not_shown
     names = [name for name in spec.real_outputs if name not in left_out]
     result = None
-    for (load, speed, oil), row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
-        result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil,
+    for (load, speed, oil, drum), row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
+        result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil, drum_speed=drum,
                               fidelity=fidelity, start=result, throw=False)  # fmt: skip
         row[:] = [getattr(result, name) for name in names]
         flag[0], flag[-1] = regimes[result.regime], result.status

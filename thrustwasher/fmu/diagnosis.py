@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from importlib import metadata
 
 from ..errors import ParameterError
-from ..model.registry import all_specs
+from ..model.registry import all_specs, kernel_of
 from ..native.files import code_folder
 from ..native.link import find_linker
-from .model_kernels import is_compiled, load_kernel, package_version
+from .model_kernels import is_compiled, package_version
 from .package.model_sources import source_folder
 
 
@@ -77,7 +77,7 @@ def _importable(name: str) -> Callable[[], str]:
 def _models() -> str:
     specs = all_specs()
     for spec in specs:
-        load_kernel(spec.kernel)
+        kernel_of(spec)
     return ", ".join(spec.name for spec in specs)
 
 

@@ -1,9 +1,9 @@
-"""The gear mesh at the start of contact.
+"""The gear mesh: loss and heat along the path of contact, or at its start as in the paper.
 
 ================  ============================================================================
 ``model``         its record
-``parameters``    a spur pair, its surfaces, oil, steel and the laws to apply; inputs, outputs
-``solve``         temperatures, contact, thermal stress where contact starts; loss of the mesh
+``parameters``    a pair, its surfaces, oil, steel and the laws to apply; inputs, outputs
+``solve``         loss, heat, temperatures, contact, thermal stress, safety
 ``closed_forms``  exact and published solutions that it is compared with
 ``kernels``       compiled code
 ================  ============================================================================

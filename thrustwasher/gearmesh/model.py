@@ -2,7 +2,7 @@
 
 from ..model.record import Command, Ladder, Model, Sweep, Variants
 
-_POINT = ("thrustwasher.gearmesh.kernels.mesh_point",)
+_POINT = ("thrustwasher.gearmesh.kernels.operating_point",)
 _BOX = {
     "load": (1.0, 200.0, "log"), "speed": (1.0, 700.0, "log"),
     "oil_temperature": (290.0, 400.0, "linear"),
@@ -29,8 +29,8 @@ MODEL = Model(
             "start_of_contact": (
                 "1", "x_s: start of contact along the line of action, 0 interferes",
             ),
-            "sliding_speed": ("m/s", "sliding speed at the start of contact"),
-            "slide_roll_ratio": ("1", "sliding over mean rolling speed there"),
+            "sliding_speed": ("m/s", "sliding speed where the flank is hottest"),
+            "slide_roll_ratio": ("1", "sliding over mean rolling speed where contact starts"),
             "hertz_width": ("m", "full width of the line contact"),
             "hertz_pressure": ("Pa", "peak pressure of the line contact"),
             "viscosity": ("Pa.s", "viscosity of the oil that is sheared"),
@@ -49,9 +49,9 @@ MODEL = Model(
             "closed": _POINT,
             "stribeck": _POINT,
             "field": _POINT,
-            "fine": ("thrustwasher.gearmesh.kernels.line_of_action",),
+            "fine": _POINT,
         },
-        boxes={"default": _BOX, "planetary": _BOX},
+        boxes={"default": _BOX, "planetary-sun": _BOX},
         part="mesh",
         references="thrustwasher.study.reference_gearmesh:SOURCE",
         chart="thrustwasher.study.charts.gearmesh_chart:GEARMESH",

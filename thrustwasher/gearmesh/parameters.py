@@ -1,4 +1,4 @@
-"""Parameters of the gear mesh: one spur pair, its surfaces, oil, steel and the laws to apply."""
+"""Parameters of the gear mesh: a pair of gears, its surfaces, oil, steel and the laws to apply."""
 
 import math
 from dataclasses import dataclass
@@ -11,6 +11,7 @@ from ..model.parameters import (
     check_rules,
     choice,
     count,
+    flag,
     from_preset,
     quantity,
 )
@@ -24,10 +25,25 @@ FRICTION_LAWS = {
     "li-seireg": "falls with film over radius (Atan Eq 4); slide/roll ratio above 0.27 only",
     "iso": "mean coefficient of ISO/TS 6336-20, at most f0",
     "constant": "the constant coefficient constant_friction",
+    "mixed": "film and asperities share the load; their mean is that of iso (film_heat loss only)",
+}
+FILM_HEAT = {
+    "loss": "all of the loss heats the flanks, along the whole path of contact",
+    "atan": "shear of the oil at ambient pressure warms the flank (Atan Eq 6, 7), friction the "
+            "asperities (Eq 3), both where contact starts",
+}  # fmt: skip
+THERMAL_MODES = {
+    "quasi_steady": "bodies at their steady temperature at every instant",
+    "transient": "bodies store heat",
+}
+THERMAL_STARTS = {
+    "steady": "bodies as warm as the first operating point makes them",
+    "oil": "bodies at oil temperature",
 }
 STEELS = {
     "AISI4340": "high-carbon steel: endurance 0.53 mechanical, 0.40 thermal of 1301 MPa",
     "AISI1020": "low-carbon steel: endurance 0.63 mechanical, 0.77 thermal of 689 MPa",
+    "case-hardened": "contact limit 1500 MPa; under thermal shocks counted as AISI4340",
 }
 VISCOSITY_AT = {
     "surface": "the film has the viscosity at the flank's temperature, found with it",
@@ -60,31 +76,46 @@ ASPERITY_BASES = {
     "bulk": "the asperity's rise is added to the oil's; without contact it is as hot as the film",
 }
 # Named sets of changes to the defaults, for GearMeshParams.preset.
+_PAPER = {
+    "film_heat": "atan", "thermal_mode": "quasi_steady", "friction_law": "li-seireg",
+    "steel": "AISI4340",
+}  # fmt: skip
 PRESETS: dict[str, dict[str, Any]] = {
-    "bounded": {},
+    "paper": _PAPER,
+    "bounded": _PAPER,
     "literal": {
-        "face_width": 1.0, "viscosity_at": "inlet", "area_law": "constant", "area_ratio": 30.0,
-        "switch": "none", "asperity_base": "bulk",
+        **_PAPER, "face_width": 1.0, "viscosity_at": "inlet", "area_law": "constant",
+        "area_ratio": 30.0, "switch": "none", "asperity_base": "bulk",
     },
-    "iso": {"friction_law": "iso"},
+    "iso": {**_PAPER, "friction_law": "iso"},
 }  # fmt: skip
 
 
 _ALWAYS = "so large that a pair is always in contact"
 
 
-def _shape(p: Any) -> tuple[float, float, float, float]:
-    return p.gear_ratio, float(p.pinion_teeth), p.pressure_angle, p.addendum
+def _numbers(p: Any) -> Any:
+    """Return the parameters as the kernels take them."""
+    import numpy as np
+
+    return np.array(as_numbers(p))
 
 
 def _interference(p: Any) -> str:
     from .kernels import constants as g
 
-    least = math.floor(g.least_teeth(p.gear_ratio, p.pressure_angle, p.addendum)) + 1
+    _, _, angle, _ = g.section(_numbers(p))
+    gear, slant = p.addendum_gear or p.addendum, math.cos(p.helix_angle)
+    if p.internal:
+        return (
+            f"addendum_gear = {gear!r}, allowed: less for a ring of {p.gear_ratio:g} x "
+            f"{p.pinion_teeth} teeth (its tips cut below the pinion's involute: interference)"
+        )
+    least = math.floor(g.least_teeth(p.gear_ratio, angle, gear * slant)) + 1
     return (
         f"pinion_teeth = {p.pinion_teeth!r}, allowed: {least} and more for gear_ratio = "
         f"{p.gear_ratio:g}, pressure_angle = {math.degrees(p.pressure_angle):g} deg, addendum "
-        f"= {p.addendum:g} (with fewer the gear's tips cut below the pinion's involute: "
+        f"= {gear:g} (with fewer the gear's tips cut below the pinion's involute: "
         "interference)"
     )
 
@@ -92,7 +123,7 @@ def _interference(p: Any) -> str:
 def _contact_ratio(p: Any) -> str:
     from .kernels import constants as g
 
-    contact = sum(g.path_lengths(*_shape(p), g.start_of_contact(*_shape(p))))
+    contact = sum(g.path_of(_numbers(p))[1:])
     return (
         f"addendum = {p.addendum!r}, allowed: {_ALWAYS}; the contact ratio is {contact:.4g}, "
         "allowed: 1 and more"
@@ -100,11 +131,9 @@ def _contact_ratio(p: Any) -> str:
 
 
 def _base_friction(p: Any) -> str:
-    import numpy as np
-
     from .kernels.constants import effective_roughness
 
-    s = effective_roughness(np.array(as_numbers(p)))
+    s = effective_roughness(_numbers(p))
     return (
         f"f0 = {p.f0!r}, allowed: {0.0864 - 1372.0 * s:.4g} .. 1 for effective_roughness = {s:g} "
         "(below, a thick film would have negative friction)"
@@ -114,7 +143,8 @@ def _base_friction(p: Any) -> str:
 def _slide_roll(p: Any) -> str:
     from .kernels import constants as g
 
-    found = g.slide_roll(p.gear_ratio, g.start_of_contact(*_shape(p)))
+    side = -1.0 if p.internal else 1.0
+    found = g.slide_roll(p.gear_ratio, g.path_of(_numbers(p))[0], side)
     return (
         "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, here "
         f"{found:.4g} at the start of contact (pinion_teeth = {p.pinion_teeth!r}); use "
@@ -135,28 +165,50 @@ RULES = (
     Rule("friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, not reached "
          "at the start of contact (pinion_teeth = {pinion_teeth}); use friction_law = 'iso'",
          _slide_roll),
+    Rule("addendum = {addendum}, allowed: less (the pinion's tips cut below the gear's involute: "
+         "interference)"),
+    Rule("film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
+         "({internal}), addendum_gear ({addendum_gear}) and friction_law = 'mixed': the paper has "
+         "a spur pair; use film_heat = 'loss'"),
+    Rule("contact_limit = {contact_limit} Pa, allowed: 0 (that of the steel) or 1e+08 .. 3e+09 Pa"),
+    Rule("addendum_gear = {addendum_gear}, allowed: 0 (as addendum) or 0.3 .. 1.5"),
+    Rule("normal_module = {normal_module} m, allowed: 0 (from centre_distance) or 1e-4 .. 0.1 m"),
 )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GearMeshParams:
-    """A spur pair at the start of contact: geometry, flanks, friction, steel, oil, laws.
+    """A pair of involute gears: geometry, flanks, friction, heat, steel, oil, laws.
 
-    Defaults: Atan (2005), SAE 30 oil, 20 degrees; not in the paper and chosen here: face width,
-    roughness values, f0, pressure viscosity, thermal expansion, the asperity group. The sets in
-    PRESETS ("bounded": these defaults, "literal": the paper taken at its word, per metre of face
-    width, "iso") are made by ``GearMeshParams.preset(name, **changes)``.
+    Dimensions and oil: Atan (2005), SAE 30 oil, 20 degrees; not in the paper and chosen here: face
+    width, roughness values, f0, pressure viscosity, thermal expansion, the asperity group. The
+    sets in PRESETS are made by ``GearMeshParams.preset(name, **changes)``: "paper" (or "bounded")
+    has the paper's friction, heat and steel, "literal" takes the paper at its word, per metre of
+    face width, "iso" is "paper" with the standard's friction.
     """
 
     gear_ratio: float = quantity(2.0, "1", 1.0, 20.0, "teeth of the gear over those of the pinion")
     pinion_teeth: int = count(20, 5, 500, "number of teeth of the pinion")
     centre_distance: float = quantity(0.254, "m", 5e-3, 10.0, "distance of the two gear axes")
-    pressure_angle: float = quantity(
-        0.3490658503988659, "rad", 0.2, 0.6, "pressure angle of the involute at the pitch point"
+    normal_module: float = quantity(
+        0.0, "m", 0.0, 0.1, "normal module, gives the centre distance (0: from centre_distance)"
     )
-    addendum: float = quantity(1.0, "1", 0.3, 1.5, "addendum of both gears over the module")
+    pressure_angle: float = quantity(
+        0.3490658503988659, "rad", 0.2, 0.6, "pressure angle in the normal section, pitch point"
+    )
+    helix_angle: float = quantity(
+        0.0, "rad", 0.0, 0.7853981633974483, "helix angle on the pitch cylinder, 45 deg at most"
+    )
+    internal: bool = flag(False, "whether the gear is a ring with internal teeth")
+    addendum: float = quantity(1.0, "1", 0.3, 1.5, "addendum of the pinion over the normal module")
+    addendum_gear: float = quantity(0.0, "1", 0.0, 1.5, "addendum of the gear (0: as addendum)")
     face_width: float = quantity(0.05, "m", 1e-3, 5.0, "width of the teeth in contact")
-    load_share: float = quantity(1.0, "1", 0.05, 1.0, "share of load on the pair that starts")
+    load_factor: float = quantity(
+        1.0, "1", 0.5, 5.0, "load factor K of pressure, flash and pitting stress"
+    )
+    load_share: float = quantity(
+        1.0, "1", 0.05, 1.0, "share of load on the pair that starts, for film_heat atan"
+    )
     surface: str = choice("rough", SURFACES, "Surface", "finish of the two flanks")
     sigma_rms: float = quantity(
         0.0, "m", 0.0, 2e-5, "composite RMS roughness (0: that of the surface)"
@@ -167,10 +219,37 @@ class GearMeshParams:
     mean_roughness: float = quantity(
         0.0, "m", 0.0, 2e-5, "Ra for the ISO law (0: composite RMS over sqrt 2)"
     )
-    friction_law: str = choice("li-seireg", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
+    friction_law: str = choice("iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
     f0: float = quantity(0.12, "1", 0.0, 1.0, "coefficient of friction without any film")
     constant_friction: float = quantity(0.05, "1", 0.0, 1.0, "coefficient of the constant law")
-    steel: str = choice("AISI4340", STEELS, "Steel", "steel that the main outputs are for")
+    eyring_stress: float = quantity(5e6, "Pa", 1e5, 1e8, "Eyring stress of the film, mixed law")
+    film_heat: str = choice("loss", FILM_HEAT, "FilmHeat", "heat that warms the flanks")
+    thermal_mode: str = choice(
+        "transient", THERMAL_MODES, "ThermalMode", "how the bodies follow the inputs in time"
+    )
+    thermal_start: str = choice(
+        "steady", THERMAL_STARTS, "ThermalStart", "bodies at the start, if transient"
+    )
+    bulk_conductance: float = quantity(
+        0.0, "W/K", 0.0, 1e5, "heat of the bodies to the oil per kelvin (0: from the flash)"
+    )
+    bulk_heat_capacity: float = quantity(
+        0.0, "J/K", 0.0, 1e8, "heat capacity of the bodies (0: of both gears' masses)"
+    )
+    lubrication_factor: float = quantity(
+        1.0, "1", 0.1, 3.0, "factor X_S of the bulk temperature: 1 dip, 1.2 spray"
+    )
+    steel: str = choice("case-hardened", STEELS, "Steel", "steel that the main outputs are for")
+    contact_limit: float = quantity(
+        0.0, "Pa", 0.0, 3e9, "allowable contact stress (0: that of the steel)"
+    )
+    structural_factor: float = quantity(
+        1.0, "1", 0.1, 2.0, "structural factor X_W of the steel against scuffing"
+    )
+    fzg_stage: int = count(10, 1, 14, "load stage at which the oil fails in the FZG test")
+    permissible_film_ratio: float = quantity(
+        1.0, "1", 0.01, 10.0, "film over Ra that micropitting takes (1: its safety is the ratio)"
+    )
     youngs_modulus: float = quantity(205e9, "Pa", 2e10, 1e12, "Young's modulus of both gears")
     poisson_ratio: float = quantity(0.3, "1", 0.0, 0.49, "Poisson's ratio of both gears")
     conductivity: float = quantity(50.2, "W/(m.K)", 1.0, 500.0, "heat conductivity of both gears")
@@ -228,7 +307,7 @@ class GearMeshParams:
 
     @classmethod
     def preset(cls, name: str, **changes: Any) -> "GearMeshParams":
-        """Return a named set of parameters ("bounded", "literal", "iso") with further changes.
+        """Return a named set of parameters ("paper", "literal", "iso") with further changes.
 
         >>> GearMeshParams.preset("literal", pinion_teeth=30).face_width
         1.0
@@ -240,17 +319,17 @@ LOAD = Signal(name="load", unit="N.m", help="torque on the pinion, its sign does
               low=-1e5, high=1e5, nominal=40.0, start=0.0)  # fmt: skip
 SPEED = Signal(name="speed", unit="rad/s", help="speed of the pinion, either sign",
                low=-5000.0, high=5000.0, nominal=180.0, start=0.0)  # fmt: skip
-OIL = Signal(name="oil_temperature", unit="K", help="temperature of oil and gear bodies",
+OIL = Signal(name="oil_temperature", unit="K", help="temperature of the oil",
              low=233.15, high=473.15, nominal=300.0, start=299.85)  # fmt: skip
 _ALL = ("load", "speed", "oil_temperature")
 _out = partial(output, depends=_ALL)
 
 OUTPUTS = (
     _out("friction_torque", "N.m", 1.0, "mesh loss as a torque on the pinion, sign of speed"),
-    _out("temperature", "K", 300.0, "temperature of the pinion's asperities where contact starts"),
-    _out("film_thickness", "m", 1e-6, "least film thickness where contact starts"),
-    _out("surface_temperature", "K", 300.0, "temperature of the flank where contact starts"),
-    _out("contact_stress", "Pa", 2e8, "Hertz contact stress where contact starts",
+    _out("temperature", "K", 300.0, "temperature of the asperities where they are hottest"),
+    _out("film_thickness", "m", 1e-6, "film thickness where the flank is hottest"),
+    _out("surface_temperature", "K", 300.0, "temperature of the flank where it is hottest"),
+    _out("contact_stress", "Pa", 2e8, "Hertz contact stress, greatest along the path",
          depends=("load",)),
     _out("thermal_stress", "Pa", 1e8, "stress from the asperity's temperature rise"),
     _out("modification_factor", "1", 1.0, "squared thermal over contact stress, each by its limit"),
@@ -259,7 +338,7 @@ OUTPUTS = (
     _out("flash_rise", "K", 10.0, "temperature rise by friction over the nominal area",
          relative=True),
     _out("film_ratio", "1", 1.0, "film thickness over composite RMS roughness"),
-    _out("friction_coefficient", "1", 0.1, "coefficient of friction of the flanks"),
+    _out("friction_coefficient", "1", 0.1, "coefficient of friction where the flank is hottest"),
     _out("friction_power", "W", 100.0, "heat made by the mesh, torque times speed"),
     _out("modification_factor_aisi1020", "1", 1.0, "modification factor for low-carbon AISI 1020"),
     _out("modification_factor_aisi4340", "1", 1.0, "modification factor for high-carbon AISI 4340"),
@@ -267,8 +346,23 @@ OUTPUTS = (
     _out("allowable_ratio_aisi4340", "1", 1.0, "share of contact stress allowed for AISI 4340"),
     _out("stress_utilization_aisi1020", "1", 1.0, "combined stress over endurance of AISI 1020"),
     _out("stress_utilization_aisi4340", "1", 1.0, "combined stress over endurance of AISI 4340"),
+    _out("mean_friction", "1", 0.1, "coefficient of friction that the loss feels"),
+    _out("flash_max", "K", 10.0, "greatest flash temperature along the path", relative=True),
+    _out("bulk_temperature", "K", 300.0, "temperature of the gears' bodies"),
+    _out("oil_heat", "W", 100.0, "heat that reaches the oil, mean of the step"),
+    output("stored_heat", "J", 100.0, "heat stored in the bodies since the start"),
+    _out("contact_pressure_max", "Pa", 1e9, "greatest Hertz pressure along the path",
+         depends=("load",)),
+    _out("pitting_stress", "Pa", 1e9, "contact stress sigma_H of the pitting calculation",
+         depends=("load",)),
+    _out("pitting_safety", "1", 1.0, "contact limit over pitting stress", depends=("load",)),
+    _out("scuffing_safety", "1", 1.0, "rise of the oil that scuffs over that of the contact"),
+    _out("scuffing_margin", "K", 100.0, "scuffing temperature less that of the contact",
+         relative=True),
+    _out("film_ratio_gf", "1", 1.0, "least film of the path over mean Ra"),
+    _out("micropitting_safety", "1", 1.0, "film_ratio_gf over the permissible_film_ratio"),
     Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
-           help="lubrication regime where contact starts"),
+           help="lubrication regime where the flank is hottest"),
     Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus", depends=_ALL,
            help="how the last solution was obtained"),
 )  # fmt: skip
@@ -276,13 +370,13 @@ OUTPUTS = (
 SPEC = ModelSpec(
     key="gearmesh",
     name="GearMesh",
-    help="Spur gear mesh: loss torque, contact, flank and asperity temperature, endurance",
+    help="Gear mesh: loss torque, heat, contact, flank and asperity temperature, endurance",
     params=GearMeshParams,
     fidelities={
-        "closed": "Hertz contact, Blok flash temperature, constant friction, oil as supplied",
-        "stribeck": "the same as field, viscosity and flank's temperature in closed form",
-        "field": "friction over the film, viscosity found with the flank's temperature",
-        "fine": "the same at every position of the line of action, the loss their sum",
+        "closed": "closed form: constant friction, Blok's flash temperature, oil as supplied",
+        "stribeck": "as field; of the paper's heat the flank's temperature in closed form",
+        "field": "friction at every position of the path; the paper's heat where contact starts",
+        "fine": "the same at twice the positions; the paper's heat at every position",
     },
     default_fidelity="field",
     inputs=(LOAD, SPEED, OIL),
@@ -295,7 +389,8 @@ SPEC = ModelSpec(
                  help="Speed and torque of the pinion in, its friction torque out",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
                           ("load", "load", "signal"))),
-        OIL_PORT,
+        Terminal(name="oil", kind=OIL_PORT.kind, help="Oil temperature in, heat to the oil out",
+                 members=(OIL_PORT.members[0], ("oil_heat", "Q_flow", "outflow"))),
     ),
     # Run up under torque, work, coast down through standstill into reverse.
     course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 60.0, 120.0, 330.0),

@@ -1,4 +1,4 @@
-"""Gear mesh: temperatures, contact and thermal stress where contact starts, loss of the mesh."""
+"""Gear mesh: loss, heat, temperatures, contact and thermal stress, safety factors."""
 
 import math
 from dataclasses import asdict, dataclass
@@ -11,7 +11,7 @@ from ..model.parameters import check_number
 from ..model.prepare import filled
 from .kernels import layout as k
 from .kernels.constants import derive
-from .kernels.line_of_action import solve_mesh
+from .kernels.operating_point import solve_point
 from .parameters import LOAD, OIL, PRESETS, SPEC, SPEED, GearMeshParams
 
 __all__ = ["PRESETS", "GearMeshParams", "GearMeshResult", "solve_gearmesh"]
@@ -19,15 +19,19 @@ __all__ = ["PRESETS", "GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 @dataclass(frozen=True, slots=True)
 class GearMeshResult:
-    """A spur pair at one operating point, seen where contact starts; SI units."""
+    """A pair of gears at one operating point, seen where its flanks are hottest; SI units.
+
+    With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine".
+    """
 
     friction_torque: float
     """[N m] mean loss of the whole mesh as a torque on the pinion, sign of the speed; 0 at rest."""
     friction_power: float
     """[W] heat made by the mesh."""
     friction_coefficient: float
+    """[-] there; ``mean_friction`` is what the loss feels."""
     contact_stress: float
-    """[Pa] sigma_m of Atan Eq 9, with the rounded factor 0.591."""
+    """[Pa] greatest along the path; "atan": sigma_m of Eq 9 with its rounded factor 0.591."""
     hertz_pressure: float
     """[Pa] greatest Hertz pressure, 4/pi of the mean."""
     hertz_width: float
@@ -43,7 +47,7 @@ class GearMeshResult:
     asperity_temperature: float
     """[K] of the pinion's asperities, of the steel chosen."""
     flash_rise: float
-    """[K] rise by friction if the whole nominal area carried (area ratio 1, no film switch)."""
+    """[K] rise by friction there if the whole nominal area carried (no film switch)."""
     area_ratio: float
     """[-] nominal over real contact area that the asperity temperature is taken with."""
     thermal_stress: float
@@ -59,6 +63,28 @@ class GearMeshResult:
     stress_utilization_aisi1020: float
     """[-] combined stress over endurance limit (root of the right side of Atan Eq 10)."""
     stress_utilization_aisi4340: float
+    mean_friction: float
+    """[-] that the loss feels."""
+    flash_max: float
+    """[K] greatest flash temperature along the path."""
+    bulk_temperature: float
+    """[K] of the gears' bodies, steady."""
+    oil_heat: float
+    """[W] that reaches the oil."""
+    stored_heat: float
+    """[J] 0: the bodies are steady."""
+    contact_pressure_max: float
+    """[Pa] greatest Hertz pressure along the path, load factor included."""
+    pitting_stress: float
+    """[Pa] sigma_H of the pitting calculation."""
+    pitting_safety: float
+    scuffing_safety: float
+    """[-] scuffing temperature over that of the contact, both above the oil's."""
+    scuffing_margin: float
+    """[K] scuffing temperature less that of the contact."""
+    film_ratio_gf: float
+    """[-] least film along the path over the mean Ra."""
+    micropitting_safety: float
     start_of_contact: float
     """[-] x_s along the line of action, from the pinion's base tangent point."""
     contact_ratio: float
@@ -114,13 +140,13 @@ def solve_gearmesh(
 
     Parameters
     ----------
-    params : the spur pair, its surfaces, oil, steel and laws
+    params : the pair, its surfaces, oil, steel and laws
     power : transmitted [W], -1e9 .. 1e9; only its size counts
     speed : of the pinion [rad/s], -5000 .. 5000; the loss torque takes its sign. 0 is allowed
         without power only: the torque power/speed would have no bound (1e5 N m is the largest)
-    oil_temperature : of the oil and the gears' bodies [K], 233.15 .. 473.15
-    fidelity : "field", or "closed": Hertz contact, Blok's flash temperature with the heat divided
-        by the speeds, friction constant_friction, viscosity of the oil supplied
+    oil_temperature : of the oil [K], 233.15 .. 473.15; the gears' bodies are as warm as they get
+    fidelity : "field"; "closed": constant_friction, viscosity of the oil supplied; "fine": twice as
+        many positions
     start : an earlier result; taken for the sake of one call for all models, not needed: there is
         one solution and it is found from any point
     throw : False returns the best estimate with its status instead of raising SolveError
@@ -137,22 +163,23 @@ def solve_gearmesh(
 
     Notes
     -----
-    Source: Atan (2005) with the corrections in docs/theory/gear-mesh.md; mesh loss after
-    Ohlendorf. Everything is evaluated at the start of contact, on the pinion's flank.
+    Source: docs/theory/gear-mesh.md: ISO 6336-2, -20, -22 as publicly quoted, mesh loss after
+    Ohlendorf, Blok's flash temperature; ``film_heat`` "atan": Atan (2005), corrected.
 
     Examples
     --------
     >>> r = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)
-    >>> round(r.start_of_contact, 5), round(r.sliding_speed, 3), round(r.film_ratio, 2)
-    (0.08683, 5.782, 1.35)
+    >>> round(r.start_of_contact, 5), round(r.mean_friction, 4), round(r.friction_power, 1)
+    (0.08683, 0.0281, 34.9)
     """
     power = check_number("power", power, "W", -1e9, 1e9)
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
     par, field = prepare(params, fidelity), np.zeros(k.NWORK)
     torque = pinion_torque(power, speed)
-    status = Status(solve_mesh(par, torque, speed, oil, field))
-    if not np.isfinite(field).all():
+    drive, state = torque * abs(speed), np.zeros(k.NSTATE)
+    status = Status(solve_point(par, torque, speed, oil, drive, state, 0.0, field))
+    if not np.isfinite(field[: k.N_FIELD]).all():
         status = Status.NOT_FINITE
     if status.is_failure and throw:
         raise SolveError(
@@ -165,7 +192,7 @@ def solve_gearmesh(
 def _result(
     par: Any, f: list[float], torque: float, speed: float, status: Status, fidelity: str
 ) -> GearMeshResult:
-    loss = f[k.F_FRICTION] * float(par[k.D_LOSS]) * torque
+    loss = f[k.F_MEAN_FRICTION] * float(par[k.D_LOSS]) * torque
     ratio = f[k.F_RATIO]
     shown = dict(zip(SPEC.real_outputs, f, strict=False))  # they come first
     shown["friction_torque"] = math.copysign(loss, speed) if speed else 0.0

@@ -41,6 +41,9 @@ def checked_box(spec: ModelSpec, box: Mapping[str, float | tuple[float, float]])
             raise ParameterError(f"box: {name!r} is no input; allowed: {', '.join(names)}")
     found: Box = {}
     for signal in spec.inputs:
+        if signal.name not in box and signal.optional:
+            found[signal.name] = _interval(signal.name, signal.start or 0.0, signal.unit)
+            continue
         if signal.name not in box:
             raise ParameterError(
                 f"box: {signal.name} [{signal.unit}] is missing; every input is wanted: "

@@ -19,6 +19,7 @@ from ..errors import ParameterError
 from ..model.registry import find_model
 from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
 from . import card_parts as part
+from .formats import shown_error
 
 SCHEMA = 1
 SAFETY = 1.5  # between a cell's worst held-out point and what is promised
@@ -80,6 +81,16 @@ class Card:
             return found
         alike = self.by_film_ratio.error_of(quantity, film_ratio)
         return found if alike is None else min(found, alike)
+
+    def worst(self, quantity: str) -> float | None:
+        """Return the largest error of a quantity over all cells."""
+        table = self.errors[quantity].worst if quantity in self.errors else ()
+        return max((e for row in table for e in row if e is not None), default=None)
+
+    def shown_worst(self, quantity: str) -> str:
+        """Return it as a person reads it, "-" if there is none."""
+        found, errors = self.worst(quantity), self.errors.get(quantity)
+        return "-" if found is None or not errors else shown_error(found, errors.kind, errors.unit)
 
     def stale(self, params: Any = None) -> str | None:
         """Return why the card does not hold here, with the command that renews it, or None.

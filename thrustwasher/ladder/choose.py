@@ -154,8 +154,13 @@ def decide(request: Request, found: list[Candidate], refused: dict[str, str]) ->
     options = plans(request, found)
     if not options:
         raise SolveError(_refusal(request, found, refused))
-    best = options[0]
-    lines = [_first_line(request, best), *_outside_lines(request, best)]
+    best, seen = options[0], options[0].seen
+    asked = shown_error(request.tol, seen.kind, seen.unit)
+    lines = [
+        f"{request.spec.key}: {best.rung.fidelity}{seen.charts}, {request.quantity} within "
+        f"{seen.promise} (asked {asked}), {shown_seconds(best.rung.call)} per call",
+        *_outside_lines(request, best),
+    ]
     lines += _others(request, found, best) + [f"not asked: {r}: {w}" for r, w in refused.items()]
     return _choice(best, tuple(lines))
 
@@ -166,14 +171,6 @@ def _choice(plan: Plan, lines: tuple[str, ...]) -> Choice:
     return Choice(
         plan.rung.fidelity, plan.seen.error, plan.seconds, lines, after, plan.share, plan.where
     )
-
-
-def _first_line(request: Request, plan: Plan) -> str:
-    seen = plan.seen
-    asked = shown_error(request.tol, seen.kind, seen.unit)
-    promise = f"{request.quantity} within {seen.promise} (asked {asked})"
-    time = f"{shown_seconds(plan.rung.call)} per call"
-    return f"{request.spec.key}: {plan.rung.fidelity}{seen.charts}, {promise}, {time}"
 
 
 def _outside_lines(request: Request, plan: Plan) -> list[str]:

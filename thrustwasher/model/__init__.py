@@ -18,7 +18,8 @@ Python FMU and the native FMU call the same code:
 ``derive(par)``        fill ``par[N_PARAM:]``; return a status; called once per parameter change
 ``broken_rule(par)``   number of the first broken rule between parameters, 0 if there is none
 ``step(...)``          ``step(par, inp, state, work, out, iout, t, dt)`` returns a status
-``sens(...)``          ``sens(par, inp, state, work, seed, dout)`` returns a status
+``sens(...)``          ``sens(par, inp, state, work, seed, dout)`` returns a status; not all have it
+``TABLE``              where in ``work`` the table of a rung lies, if one looks its answers up
 =====================  ============================================================================
 
 ``par`` and ``inp`` are read only. ``state`` is all the memory there is (all zeros: no history); it
@@ -32,4 +33,9 @@ leaves ``state`` as it was to the bit; ``out`` and ``iout`` may hold anything th
 inputs change by ``seed`` and ``state`` is held; ``work`` must be as the last successful step with
 these ``par``, ``inp`` and ``state`` left it, and may be used. Exact, no differences of solutions;
 where the model has a corner, the side counts that the point is on.
+
+``TABLE`` names ``AT``, ``ROOM`` (place and length of the table), ``MAGIC`` (its first number),
+``SIZE`` (place of its length), ``PARAMS``, ``N_PARAMS`` (place and number of the parameters it was
+made for), ``HEADER`` (how many of its numbers are doubles in a file), ``SWITCH``, ``ON`` (place in
+``par`` and number of the fidelity that wants it).
 """

@@ -5,7 +5,9 @@ Numbers that come with a call are checked here too.
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import field, fields
+from dataclasses import field, fields, make_dataclass
+from functools import wraps
+from operator import attrgetter
 from typing import Any, TypeVar
 
 from ..errors import ParameterError
@@ -50,6 +52,42 @@ def allowed(meta: Any) -> str:
     unit = "" if meta["unit"] == "1" else f" {meta['unit']}"
     whole = ", a whole number" if meta["kind"] == "integer" else ""
     return f"{meta['min']:g} .. {meta['max']:g}{unit}{whole}"
+
+
+def extended(params: type[T], name: str, more: Mapping[str, Any]) -> type[T]:
+    """Return a parameter dataclass of this name with more fields, behind its own."""
+    space = {"__module__": params.__module__, "__doc__": params.__doc__}
+    fields_ = [(n, float, f) for n, f in more.items()]
+    return make_dataclass(
+        name, fields_, bases=(params,), frozen=True, kw_only=True, namespace=space
+    )
+
+
+def other_names(params: type[T]) -> type[T]:
+    """Let fields be given and read by the name in their metadata's ``also`` as well."""
+    others, plain = other_names_of(params), params.__init__
+
+    @wraps(plain)
+    def init(self: Any, **given: Any) -> None:
+        plain(self, **plainly_named(others, given))
+
+    params.__init__ = init  # type: ignore[method-assign]
+    for other, name in others.items():
+        setattr(params, other, property(attrgetter(name)))
+    return params
+
+
+def other_names_of(params: type[Any]) -> dict[str, str]:
+    """Return the other names of fields: other name -> name."""
+    return {f.metadata["also"]: f.name for f in fields(params) if "also" in f.metadata}
+
+
+def plainly_named(others: Mapping[str, str], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values by the fields' own names; ParameterError if one comes by both of its names."""
+    for other, name in others.items():
+        if other in given and name in given:
+            raise ParameterError(f"{other}: another name of {name}, allowed: one of the two")
+    return {others.get(key, key): value for key, value in given.items()}
 
 
 def params_of(spec: ModelSpec, given: Any) -> Any:

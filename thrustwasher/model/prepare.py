@@ -88,9 +88,7 @@ def tables_of(spec: ModelSpec, rung: str | None = None) -> Tables | None:
 
 def _known(spec: ModelSpec) -> dict[str, float]:
     """Return what the kernel says about its table; empty if it has none."""
-    kernel = import_module(spec.kernel)
-    found: dict[str, float] = getattr(kernel, "TABLE", None) or {}
-    return found
+    return getattr(import_module(spec.kernel), "TABLE", None) or {}
 
 
 def rising(time: ArrayLike) -> Array:
@@ -105,10 +103,14 @@ def course_of(
     name: str, values: ArrayLike, unit: str, low: float, high: float, n: int | None = None
 ) -> Array:
     """Return a checked array; one number stands for ``n`` equal ones."""
-    array = np.asarray(values, float)
+    unit = "" if unit == "1" else f" {unit}"
+    try:
+        array = np.asarray(values, float)
+    except (TypeError, ValueError):
+        raise ParameterError(f"{name}: numbers{unit and ' in'}{unit} are wanted") from None
     if n is not None and array.ndim == 0:
         array = np.full(n, float(array))
-    if array.ndim != 1 or (n is not None and len(array) != n):
+    if array.ndim != 1 or len(array) != (n or len(array) or 1):
         raise ParameterError(
             f"{name}: shape {array.shape}, allowed: one number per point"
             + ("" if n is None else f" ({n})")
@@ -117,6 +119,6 @@ def course_of(
     if bad.any():
         i = int(np.argmax(bad))
         raise ParameterError(
-            f"{name}[{i}] = {float(array[i])!r} {unit}, allowed: {low:g} .. {high:g} {unit}"
+            f"{name}[{i}] = {float(array[i])!r}{unit}, allowed: {low:g} .. {high:g}{unit}"
         )
     return array

@@ -20,6 +20,7 @@ MODELS = {
     "clutch": "thrustwasher.clutch",
     "gearmesh": "thrustwasher.gearmesh",
     "transmission": "thrustwasher.transmission",
+    "sump": "thrustwasher.sump",
 }
 # Built when named, not with all: parts that only a system of FMUs needs.
 HELPERS = {"command": "thrustwasher.command"}

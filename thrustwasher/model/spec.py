@@ -38,8 +38,14 @@ class Signal:
     start: float | None = None
     depends: tuple[str, ...] = ()
     relative: bool = False  # a temperature difference, no absolute temperature
+    optional: bool = False  # an input that may be left out: it is at its start then
     events: tuple[str, str] | None = None
     limit: str = ""
+
+    @property
+    def usual(self) -> float:
+        """The value of an input that is not given: its start, or a nominal one in place of 0."""
+        return self.start or (0.0 if self.optional else self.nominal) or 0.0
 
 
 def output(

@@ -54,7 +54,7 @@ def check(data: bytes, *, exports: Iterable[str], glibc: tuple[int, int] | None)
 def undefined(code: bytes) -> set[str]:
     """Return the symbols that an object file refers to and does not define."""
     if code[:4] == b"\x7fELF":
-        return _elf_undefined(code)
+        return {name for name, _, home in _elf_symbols(code, _SYMTAB) if name and home == 0}
     number = _word(code, 0)
     if number == _MACHO:
         return _macho_undefined(code)
@@ -91,25 +91,22 @@ def _elf_sections(code: bytes) -> list[tuple[int, ...]]:
     return [struct.unpack_from("<IIQQQQIIQQ", code, start + i * size) for i in range(number)]
 
 
+def _elf_symbols(code: bytes, kind: int) -> Iterator[tuple[str, int, int]]:
+    """Give name, binding and home (0: undefined) of the symbols in ELF's sections of a type."""
+    sections = _elf_sections(code)
+    for section in sections:
+        if section[1] == kind:
+            names, start = sections[section[6]][4], section[4]
+            for symbol in struct.iter_unpack("<IBBHQQ", code[start : start + section[5]]):
+                yield _text(code, names + symbol[0]), symbol[1] >> 4, symbol[3]
+
+
 def _commands(code: bytes) -> Iterator[tuple[int, int]]:
     """Give the number and the place of each load command of Mach-O."""
     place = 32
     for _ in range(_word(code, 16)):
         yield _word(code, place), place
         place += _word(code, place + 4)
-
-
-def _elf_undefined(code: bytes) -> set[str]:
-    sections = _elf_sections(code)
-    found = set()
-    for section in sections:
-        if section[1] == _SYMTAB:
-            names = sections[section[6]][4]
-            for place in range(section[4] + 24, section[4] + section[5], 24):  # the first is empty
-                name, _, _, home = struct.unpack_from("<IBBH", code, place)
-                if home == 0:
-                    found.add(_text(code, names + name))
-    return found
 
 
 def _coff_undefined(code: bytes) -> set[str]:
@@ -137,7 +134,8 @@ def _macho_undefined(code: bytes) -> set[str]:
 
 
 def _elf(data: bytes) -> Linked:
-    sections, needed, exports, versions = _elf_sections(data), set(), set(), set()
+    sections, needed, versions = _elf_sections(data), set(), set()
+    exports = {name for name, bound, home in _elf_symbols(data, _DYNSYM) if home and bound}
     for section in sections:
         kind, start, size = section[1], section[4], section[5]
         names = sections[section[6]][4] if section[6] < len(sections) else 0
@@ -145,10 +143,6 @@ def _elf(data: bytes) -> Linked:
             for tag, value in struct.iter_unpack("<QQ", data[start : start + size]):
                 if tag == _NEEDED:
                     needed.add(_text(data, names + value))
-        elif kind == _DYNSYM:
-            for symbol in struct.iter_unpack("<IBBHQQ", data[start : start + size]):
-                if symbol[3] and symbol[1] >> 4:  # defined, not local
-                    exports.add(_text(data, names + symbol[0]))
         elif kind == _VERNEED:
             versions |= _versions(data, start, names)
     return Linked("ELF", frozenset(needed), frozenset(exports), frozenset(versions))

@@ -2,6 +2,7 @@
 
 import ctypes
 import os
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -11,7 +12,7 @@ from ..errors import EnvironmentProblem
 from . import binaries, files, link, shipped
 from .digest import HERE
 from .entries import symbols
-from .files import to_stderr
+from .files import Note, to_stderr
 from .link import this_level, this_platform
 from .objects import Objects, kept_folder, objects
 from .targets import GLIBC, Platform
@@ -77,20 +78,25 @@ def linked_library(
     kernel: str, platform: Platform, code: Objects, linker: link.Linker | None = None
 ) -> bytes:
     """Return the objects of a kernel module linked to a library for Python, checked."""
-    linker = linker or link.find_linker()
     names = " ".join(f"X({name})" for name in symbols(kernel))
-    parts: dict[str, str | bytes] = {
-        f"kernel_{level}.o": content for (_, level), content in code.items()
-    }
-    parts["symbols.h"] = f"#define SYMBOLS(X) {names}\n"
+    parts: dict[str, str | bytes] = {"symbols.h": f"#define SYMBOLS(X) {names}\n"}
     for name in ("cpu.h", "library.c"):
         parts[name] = (HERE / "c" / name).read_bytes()
-    levels = platform.levels
-    defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
+    return linked_objects(parts, code, platform, shipped.short(kernel), [TABLE], linker=linker)
+
+
+def linked_objects(
+    sources: Mapping[str, str | bytes], code: Objects, platform: Platform, name: str,
+    exports: Iterable[str], *, linker: link.Linker | None = None, note: Note = to_stderr,
+) -> bytes:  # fmt: skip
+    """Return C files linked with a kernel's objects, checked for what they need and export."""
+    linker, levels = linker or link.find_linker(), platform.levels
+    parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
     made = link.shared_library(
-        parts, platform=platform, name=shipped.short(kernel), defines=defines, linker=linker
-    )
-    binaries.check(made, exports=[TABLE], glibc=GLIBC if linker.is_cross else None)
+        {**sources, **parts}, platform=platform, name=name, linker=linker, note=note,
+        defines=[f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else [],
+    )  # fmt: skip
+    binaries.check(made, exports=exports, glibc=GLIBC if linker.is_cross else None)
     return made
 
 

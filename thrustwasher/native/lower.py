@@ -38,7 +38,11 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
             function.add_function_attribute("noinline")
         elif level.attribute:
             function.add_function_attribute(level.attribute)
-    _rename(module)
+    # internal names get numbers: the compiler's hold addresses and differ
+    for letter, values in (("f", module.functions), ("g", module.global_variables)):
+        inside = [v for v in values if v.linkage.name in ("internal", "private")]
+        for number, value in enumerate(inside):
+            value.name = f"{letter}.{number}"
     _optimise(module, machine, level)
     gate.check_module(module, kernel)
     code = bytes(machine.emit_object(module))
@@ -68,14 +72,6 @@ def _takes_attributes() -> bool:
     except RuntimeError:
         return False
     return True
-
-
-def _rename(module: Any) -> None:
-    """Give numbers to what is internal: the compiler's names hold addresses and differ."""
-    for letter, values in (("f", module.functions), ("g", module.global_variables)):
-        inside = [v for v in values if v.linkage.name in ("internal", "private")]
-        for number, value in enumerate(inside):
-            value.name = f"{letter}.{number}"
 
 
 def _optimise(module: Any, machine: Any, level: Level) -> None:

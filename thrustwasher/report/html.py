@@ -72,6 +72,7 @@ class Card:
 
     name: str
     value: str
+    note: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,5 @@
 """One look for all plots: colours told apart by everyone, units on axes, no global state."""
 
-import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -104,17 +103,6 @@ def second_scale(axes: Axes, factor: float, words: str) -> Any:
     scale = axes.secondary_xaxis("top", functions=functions)
     scale.set_xlabel(words)
     return scale
-
-
-RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def powers_of_ten(axes: Axes) -> None:
-    """Label a logarithmic axis of many decades by plain text, which needs no formula typeset."""
-    axes.yaxis.set_major_formatter(
-        lambda value, _: "10" + f"{round(math.log10(value))}".translate(RAISED)
-    )
-    axes.minorticks_off()
 
 
 TICKS = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), tuple(map(float, range(1, 10))))

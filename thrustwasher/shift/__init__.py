@@ -1,17 +1,18 @@
 """A gear shift: parts that run together through FMI.
 
-================  =========================================================================
-``cosim``         connected instances and the loop over communication points
-``key_figures``   what is read from the signals of a finished shift
-``masters``       co-simulation masters
-``oscillation``   oscillations, and whether they are the driveline's or the master's
-``run``           run a shift: connect the instances, step them to the end, read the result
-``scene``         what is simulated
-``shift_result``  what a run leaves: time series, events, key figures, cost
-``ssp``           a shift as an SSP 1.0 package, for any SSP master
-``thermal_need``  which thermal mode a washer needs
-``tolerance``     a shift with the cheapest rungs that hold a tolerance
-================  =========================================================================
+==================  =========================================================================
+``cosim``           connected instances and the loop over communication points
+``key_figures``     what is read from the signals of a finished shift
+``masters``         co-simulation masters
+``oscillation``     oscillations, and whether they are the driveline's or the master's
+``run``             run a shift: connect the instances, step them to the end, read the result
+``scene``           what is simulated
+``several_shifts``  several shifts in one run, with long steps between them
+``shift_result``    what a run leaves: time series, events, key figures, cost
+``ssp``             a shift as an SSP 1.0 package, for any SSP master
+``thermal_need``    which thermal mode a washer needs
+``tolerance``       a shift with the cheapest rungs that hold a tolerance
+==================  =========================================================================
 """
 
 from importlib import import_module
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from .run import run_shift
     from .scene.scene import Part, Published, Scene, with_fidelities
     from .scene.scene_file import builtin_scenes, load_scene
+    from .several_shifts import SequenceResult, run_sequence
     from .shift_result import Cost, ShiftResult
     from .tolerance.run_to_tolerance import run_auto
 
@@ -32,13 +34,15 @@ _HOMES = {
     "run": ("run_shift",),
     "scene.scene": ("Part", "Published", "Scene", "with_fidelities"),
     "scene.scene_file": ("builtin_scenes", "load_scene"),
+    "several_shifts": ("SequenceResult", "run_sequence"),
     "shift_result": ("Cost", "ShiftResult"),
     "tolerance.run_to_tolerance": ("run_auto",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
-    "FIGURES", "Cost", "Event", "KeyFigure", "Part", "Phase", "Published", "Scene", "ShiftResult",
-    "builtin_scenes", "load_scene", "run_auto", "run_shift", "with_fidelities",
+    "FIGURES", "Cost", "Event", "KeyFigure", "Part", "Phase", "Published", "Scene",
+    "SequenceResult", "ShiftResult", "builtin_scenes", "load_scene", "run_auto", "run_sequence",
+    "run_shift", "with_fidelities",
 ]  # fmt: skip
 
 

@@ -55,6 +55,8 @@ def run_shift(
     ParameterError, SolveError : the message names part and time; among them instances that were
         made with other parameters than the scene's, or stepped before
     """
+    if scene.sequence is not None:
+        raise ParameterError(f"scene {scene.name!r}: it has a [sequence], allowed: run_sequence")
     made_for, scene = scene, scene.with_options(step=step, master=master)
     messages = _remarks(made_for, scene)
     system = connected(scene, instances)
@@ -77,14 +79,13 @@ def run_shift(
         begin = perf_counter()
         _drive(advance, n, progress)
     wall = perf_counter() - begin
-    return _result(scene, run, steps, wall, _costs(scene, system, before, wall), messages)
+    return result_of(scene, run, steps, wall, _costs(scene, system, before, wall), messages)
 
 
 def run_adaptive(scene: Scene, system: System, progress: Progress | None) -> tuple[Run, Steps]:
     """Step an initialized system to the end with a master that chooses its steps itself."""
     begin, end = scene.start_time, scene.stop_time
-    corners = (scene.shift_start, scene.shift_start + scene.shift_duration)
-    stops = [*(t for t in corners if begin < t < end), end]
+    stops = [*(t for t in scene.corners() if begin < t < end), end]
     master = Doubling(system, scene.master_tolerance, scene.command, stops, scene.step)
     master.keep(begin)
     time, said = begin, 0
@@ -129,7 +130,7 @@ def _costs(
     return found
 
 
-def _result(
+def result_of(
     scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str]
 ) -> ShiftResult:
     """Read everything from the rows of a finished run."""
@@ -200,9 +201,12 @@ def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
     parts = {n: ConnectedPart(n, p.spec, instances[n]) for n, p in scene.parts.items()}
     gearbox = scene.parts["transmission"].params
     carries_on = gearbox.coupling == "capacity" and gearbox.capacity_extrapolation
-    system = System(
-        parts, links(gearbox.coupling, set(parts)), carries_on=PACK_INPUTS if carries_on else ()
-    )
+    # A stand-in for a model may lack a signal: it is then not connected.
+    wires = [
+        k for k in links(gearbox.coupling, set(parts))
+        if k.input in parts[k.target].input_names and k.output in parts[k.source].output_names
+    ]  # fmt: skip
+    system = System(parts, wires, carries_on=PACK_INPUTS if carries_on else ())
     system.set_command(scene.command(scene.start_time))
     return system
 
@@ -238,7 +242,7 @@ def _numbers(part: Part) -> dict[str, float]:
 
 def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     """Return what a reader has to know before looking at any number."""
-    remarks = []
+    remarks = list(scene.notes)
     gearbox = scene.parts["transmission"].params
     if made_for.parts["transmission"].params.torque_age != gearbox.torque_age:
         remarks.append(

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from functools import cache
@@ -20,14 +21,10 @@ def params_digest(params: Any) -> str:
 
     Numbers that are equal have equal digests: 1 and 1.0 count as the same.
     """
-    values = {f.name: _plain(getattr(params, f.name)) for f in fields(params)}
+    values = {f.name: getattr(params, f.name) for f in fields(params)}
+    values |= {k: float(v) for k, v in values.items() if type(v) is int}
     text = json.dumps([type(params).__name__, values], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _plain(value: Any) -> Any:
-    """Return numbers as floats; text and Booleans as they are."""
-    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
 def changed_fields(params: Any) -> dict[str, Any]:
@@ -69,6 +66,15 @@ def _file_digest(name: str) -> str:
     if path is None:
         raise FileNotFoundError(name)
     return hashlib.sha256(digest.read(path)).hexdigest()
+
+
+def finite(value: Any) -> Any:
+    """Return JSON types with None for numbers that are not finite."""
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def seal_of(record: Mapping[str, Any]) -> str:

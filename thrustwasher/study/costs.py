@@ -96,7 +96,7 @@ def stepper(
     step = step or kernel.step
     par = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
     branches = source_of(spec.key).branches
-    first = [known.point[s.name] for s in spec.inputs]
+    first = [known.point.get(s.name, s.usual) for s in spec.inputs]
     inp = np.array([*first, *([branches.get(known.branch or "", 0.0)] if branches else [])])
     state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
     out, iout = np.zeros(kernel.NOUT), np.zeros(max(kernel.NIOUT, 1), np.int32)

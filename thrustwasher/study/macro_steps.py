@@ -1,6 +1,6 @@
 """Error of a shift against its cost, and where masters fail: over step, master, coupling and rung.
 
-The shift is the built-in ``planetary`` without washers and gear mesh: what is judged is how the
+The shift is the built-in ``planetary-sun`` without washers and gear mesh: what is judged is how the
 packs and the driveline are coupled. ``study`` holds every way to couple them against its limit of
 small steps, in quantities that a shift does not forget: heat of the clutch, time of lock-up, peak
 temperature. ``masters`` judges the package's own masters as other methods are judged.
@@ -94,7 +94,7 @@ WAYS = (
 
 def scene_of(way: Way, step: float) -> Scene:
     """Return the shift to be run; ``step`` is the first one where the master chooses others."""
-    scene = load_scene("planetary").with_options(step=step, master=way.master)
+    scene = load_scene("planetary-sun").with_options(step=step, master=way.master)
     parts = {k: v for k, v in scene.parts.items() if k not in ("washer", "mesh")}
     gearbox = parts["transmission"]
     params = replace(
@@ -156,7 +156,7 @@ def study(
         for knob in tolerances if way.adaptive else steps:
             samples.append(sample(way, knob, make, truth, uncertainty, 1 if quick else 3))
     return {
-        "scene": "planetary without washers and gear mesh", "truth": truth, "samples": samples,
+        "scene": "planetary-sun without washers and gear mesh", "truth": truth, "samples": samples,
         "quantities": [q.as_dict() for q in QUANTITIES],
     }  # fmt: skip
 
@@ -213,7 +213,7 @@ def sample(
     quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
     return Sample(
         way.name, f"{way.name}, {value}", "master_tolerance" if way.adaptive else "macro step",
-        value, "planetary", errors,
+        value, "planetary-sun", errors,
         {q.name: uncertainty[q.name] / q.size(truth[q.name]) for q in QUANTITIES},
         statistics.median(wall) if wall else math.nan, quartiles[2] - quartiles[0],
         min(wall, default=math.nan), len(wall), math.nan, 0.0, float(count), "steps of all parts",

@@ -5,7 +5,6 @@ import json
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 from ..errors import SolveError
@@ -39,7 +38,11 @@ def reference_points(
 
     A run that is stopped goes on where it was.
     """
-    path, digest = _kept(case, source)
+    axes = [asdict(a) for a in case.envelope.values()]
+    what = [kernel_digest(closure(*source.kernels)), params_digest(case.params), axes, case.seed,
+            list(source.routes), list(source.grid or ()), MARGIN]  # fmt: skip
+    digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
+    path = user_cache() / "references" / f"{case.spec.key}-{case.name}-{digest}.journal"
     found: list[ReferencePoint] = []
     with closing(Journal(path, {"source": digest}, "set of reference values")) as journal:
         known = {
@@ -52,13 +55,3 @@ def reference_points(
             found += known[k]
             progress(done)
     return found
-
-
-def _kept(case: Case, source: Source) -> tuple[Path, str]:
-    """Return the file for a case and the digest of kernels, parameters, box and method."""
-    axes = [asdict(a) for a in case.envelope.values()]
-    what = [kernel_digest(closure(*source.kernels)), params_digest(case.params), axes, case.seed,
-            list(source.routes), list(source.grid or ()), MARGIN]  # fmt: skip
-    digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
-    name = f"{case.spec.key}-{case.name}-{digest}.journal"
-    return user_cache() / "references" / name, digest

@@ -1,7 +1,7 @@
 """Reference values of the wet clutch: more rings, another integrator at tight tolerance.
 
 Chart `settled` is slip that lasts for ever, as ``solve_clutch`` takes it; chart `engagement` is a
-pack that closes while its slip runs out, as in a shift, at points of time.
+pack that closes while its slip runs out, as in a shift, at points of time. The drum stands still.
 """
 
 from itertools import pairwise
@@ -54,7 +54,7 @@ def reference_clutch(
     for n in RINGS:
         par = prepare(params, "fine")
         derive_rings(par, n)
-        s = steady_pack(par, load, speed, oil_temperature, whole.film_ratio)
+        s = steady_pack(par, load, speed, 0.0, oil_temperature, whole.film_ratio)
         rows.append({
             "friction_torque": sign * (s.contact + s.viscous), "temperature": s.temperature,
             "contact_torque": sign * s.contact, "viscous_torque": sign * s.viscous,
@@ -111,10 +111,11 @@ def _by_radau(
         x = (at - t[a]) / (t[a + 1] - t[a])
         work[k.W_SURFACE : k.W_SURFACE + n] = y[2:]
         here = force[a] + (force[a + 1] - force[a]) * x, slip[a] + (slip[a + 1] - slip[a]) * x
-        clutch_rates.pack_rates(par, *here, y[0], work, k.W_KEPT)
-        film, first = work[k.W_KEPT + k.R_RATE], k.W_KEPT + k.R_RINGS + k.R_POWER
-        powers = work[first : first + n * k.N_OF_RING : k.N_OF_RING]
-        heat = np.array(gains) * powers - par[k.D_DECAY] * (y[2:] - oil)
+        clutch_rates.pack_rates(par, *here, 0.0, y[0], work, k.W_KEPT)
+        film, first = work[k.W_KEPT + k.R_RATE], k.W_KEPT + k.R_RINGS
+        rings = work[first : first + n * k.N_OF_RING].reshape(n, k.N_OF_RING)
+        powers, cooling = rings[:, k.R_POWER], rings[:, k.R_COOL]
+        heat = np.array(gains) * (powers - cooling * (y[2:] - oil))
         return np.concatenate(([film, powers.sum()], heat))
 
     y = np.concatenate(([work[k.W_NOW + k.Y_FILM], 0.0], np.full(n, oil)))
@@ -130,8 +131,8 @@ def _by_radau(
     out = np.zeros(k.NOUT)
     work[k.W_SURFACE : k.W_SURFACE + n] = y[2:]
     work[k.W_SURFACE_CHANGE : k.W_SURFACE_CHANGE + n] = 0.0
-    point = (float(force[-1]), float(slip[-1]), float(y[0]))
-    pack_outputs.ring_outputs(par, point, (0.0, 0.0, 0.0), work, out, np.zeros(k.NOUT))
+    point = (float(force[-1]), float(slip[-1]), float(y[0]), 0.0)
+    pack_outputs.ring_outputs(par, point, (0.0,) * 4, work, out, np.zeros(k.NOUT))
     return {
         "friction_torque": float(out[k.O_TORQUE]), "film_ratio": float(y[0]),
         "temperature": float(pack_outputs.mean_surface(par, work)[0]),
@@ -158,8 +159,12 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
     Both are extrapolated over the number of rings. A chart on which the equations have no solution
     is left out, and slip that would burn the lining before it settles.
     """
+
+    def settled(params: Any, point: Any) -> tuple[Values, dict[str, float]]:
+        return reference_clutch(params, **point).of(QUANTITIES)
+
     found = []
-    for chart, ask in (("settled", _settled), ("engagement", _engagement)):
+    for chart, ask in (("settled", settled), ("engagement", _engagement)):
         try:
             values, uncertainty = ask(params, point)
         except SolveError:
@@ -168,12 +173,6 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
             continue
         found.append(ReferencePoint(point, chart, None, values, uncertainty))
     return found
-
-
-def _settled(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
-    """Return the quantities of slip that lasts, and what they may be off by."""
-    at: Any = point
-    return reference_clutch(params, **at).of(QUANTITIES)
 
 
 def _engagement(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
@@ -194,9 +193,9 @@ def _by_rings(params: Any, n: int, point: Point) -> Array:
     pack = PackCourse(par, load[0], oil)
     for i in range(len(time)):
         if i:
-            ends = (load[i - 1], slip[i - 1], oil, load[i], slip[i], oil)
+            ends = (load[i - 1], slip[i - 1], oil, load[i], slip[i], oil, 0.0, 0.0)
             pack.advance(ends, time[i] - time[i - 1])
-        out = pack.show(load[i], slip[i])
+        out = pack.show(load[i], slip[i], 0.0)
         if Status(pack.status).is_failure:
             raise SolveError(f"engagement: {Status(pack.status).advice} (t = {time[i]:g} s)")
         rows[:, i] = [out[place] for place in PLACES]

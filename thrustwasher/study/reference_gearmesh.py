@@ -7,8 +7,10 @@ import numpy as np
 
 from ..errors import SolveError
 from ..gearmesh.kernels import layout as k
-from ..gearmesh.kernels.line_of_action import N_NODES, place_mesh
+from ..gearmesh.kernels.line_of_action import place_mesh
 from ..gearmesh.kernels.mesh_point import mesh_point
+from ..gearmesh.kernels.operating_point import solve_point
+from ..gearmesh.kernels.path_of_contact import N_NODES, NODES, WEIGHTS, derive_path
 from ..gearmesh.parameters import GearMeshParams
 from ..gearmesh.solve import pinion_torque, prepare, solve_gearmesh
 from ..ladder.card_parts import QUANTITIES
@@ -16,6 +18,14 @@ from .reference_values import OK, Answer, Point, ReferencePoint, ReferenceValues
 
 TOLERANCE = 1e-12
 SEARCHED = 200  # positions on each stretch from which the hottest is searched
+METHODS = ("adaptive quadrature", "search for the hottest position")
+PATH = (k.D_POSITION, k.D_PATH_SHARE)
+SHOWN = {
+    "friction_coefficient": k.F_FRICTION, "mean_friction": k.F_MEAN_FRICTION,
+    "temperature": k.F_ASPERITY, "film_ratio": k.F_RATIO, "film_thickness": k.F_FILM,
+    "flash_rise": k.F_FLASH, "surface_temperature": k.F_SURFACE, "bulk_temperature": k.F_BULK,
+    "film_temperature": k.F_FILM_TEMPERATURE,
+}  # fmt: skip
 ROUNDING = 1e-12  # relative, of values that nothing but rounding moves
 
 
@@ -42,6 +52,8 @@ def reference_gearmesh(
     fine = solve_gearmesh(params, power=power, speed=speed, oil_temperature=oil_temperature,
                           fidelity="fine")  # fmt: skip
     torque = pinion_torque(power, speed)
+    if params.film_heat == "loss":
+        return _of_loss(params, torque, speed, oil_temperature)
     par = prepare(params, "fine")
     total, missed, weight, hottest = 0.0, 0.0, 0.0, np.zeros(k.N_FIELD)
     for first in range(0, int(par[k.D_PLACES]), N_NODES):
@@ -71,9 +83,47 @@ def reference_gearmesh(
     uncertainty["friction_coefficient"] += missed
     if not all(np.isfinite(list(values.values()))):
         raise SolveError(f"reference_gearmesh: {fine.status.advice}; tried: {SEARCHED} positions")
-    return ReferenceValues(
-        values, uncertainty, ("adaptive quadrature at 1e-12", "search for the hottest position")
-    )
+    return ReferenceValues(values, uncertainty, METHODS)
+
+
+def _of_loss(params: GearMeshParams, torque: float, speed: float, oil: float) -> ReferenceValues:
+    """Return the values of a mesh that its loss heats, on as many positions as there is room for.
+
+    The uncertainty is what half as many, at least the rung's `fine`, differ by. Flash and loss of a
+    mesh whose friction is the same along the path are closed forms on any number of positions.
+    """
+    found: list[dict[str, float]] = []
+    for most in (k.N_PATH // 2, k.N_PATH):
+        par, work = prepare(params, "field"), np.zeros(k.NWORK)
+        subdivide(par, most)
+        solve_point(par, torque, speed, oil, torque * abs(speed), np.zeros(k.NSTATE), 0.0, work)
+        loss = float(par[k.D_LOSS] * torque * np.sign(speed) * work[k.F_MEAN_FRICTION])
+        found.append({"friction_torque": loss, **{n: float(work[i]) for n, i in SHOWN.items()}})
+    coarse, best = found
+    if not all(np.isfinite(list(best.values()))):
+        raise SolveError("reference_gearmesh: the outputs are not finite")
+    off = {n: abs(v - coarse[n]) + ROUNDING * abs(v) for n, v in best.items()}
+    return ReferenceValues(best, off, ("Lobatto's rule on ever shorter stretches",))
+
+
+def subdivide(par: Any, most: int) -> None:
+    """Cut the stretches of the line of action into equal parts, ``most`` positions in all."""
+    pieces = int(par[k.D_PLACES]) // N_NODES
+    parts = most // N_NODES // pieces
+    old = {name: par[name : name + k.N_PATH].copy() for name in PATH}
+    for n in range(pieces * parts):
+        low, high = (float(old[k.D_POSITION][n // parts * N_NODES + i]) for i in (0, N_NODES - 1))
+        share = float(old[k.D_PATH_SHARE][n // parts * N_NODES])
+        for i in range(N_NODES):
+            at, length = n * N_NODES + i, (high - low) / parts
+            s = low + length * (n % parts + NODES[i])
+            par[k.D_POSITION + at], par[k.D_PATH_SHARE + at] = s, share
+            par[k.D_PATH_LENGTH + at] = length * WEIGHTS[i]
+            par[k.D_PATH_LOSS + at] = length * WEIGHTS[i] * abs(s) * share
+    par[k.D_PLACES] = float(pieces * parts * N_NODES)
+    loss = par[k.D_PATH_LOSS : k.D_PATH_LOSS + int(par[k.D_PLACES])]
+    loss /= loss.sum()
+    derive_path(par)
 
 
 def _positions(
@@ -110,22 +160,18 @@ def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
 def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
     """Return the reference's answer at a held-out point; none where there is none."""
     try:
-        return [ReferencePoint(point, None, None, *_reference(params, **point).of(QUANTITIES))]
+        power, oil = point["load"] * point["speed"], point["oil_temperature"]
+        known = reference_gearmesh(params, power=power, speed=point["speed"], oil_temperature=oil)
+        return [ReferencePoint(point, None, None, *known.of(QUANTITIES))]
     except SolveError:
         return []
 
 
 def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:
     """Return the reference's answer at a case of the charts."""
-    return _reference(GearMeshParams(), *point)
-
-
-def _reference(
-    params: GearMeshParams, load: float, speed: float, oil_temperature: float
-) -> ReferenceValues:
-    return reference_gearmesh(
-        params, power=load * speed, speed=speed, oil_temperature=oil_temperature
-    )
+    load, speed, oil = point
+    params = GearMeshParams()
+    return reference_gearmesh(params, power=load * speed, speed=speed, oil_temperature=oil)
 
 
 def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
@@ -143,7 +189,8 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
 
 SOURCE = Source(
     _at_points, _answer, _at_case,
-    tuple(f"thrustwasher.gearmesh.kernels.{name}" for name in ("line_of_action", "constants")),
+    tuple(f"thrustwasher.gearmesh.kernels.{name}"
+          for name in ("line_of_action", "constants", "operating_point")),
     None,
     ("adaptive quadrature over the line of action", "search for the hottest position"),
 )  # fmt: skip

@@ -10,7 +10,7 @@ it was, because reference values and finished cards are kept.
 import argparse
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +55,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _case(case: Case, only: str | None, n: int, out: Path) -> int:
     """Make the cards of one parameter set; return how many rungs failed."""
-    wanted = [only] if only else [r for r in case.spec.fidelities if _lacks_cards(case, r)]
+    spec, params = case.spec, case.params
+    usable = [rung for rung in spec.fidelities if holds(spec, rung, params)]
+    wanted = [only] if only else [r for r in usable if not fresh_cards(spec.key, r, params)]
     if not wanted:
         _say(f"{case.spec.key} {case.name}: nothing to do")
         return 0
@@ -81,7 +83,14 @@ def _case(case: Case, only: str | None, n: int, out: Path) -> int:
 def _known(case: Case, n: int) -> list[ReferencePoint]:
     """Return the reference values of a case, of a part of its box fewer."""
     n = n if case.part is None else min(n, POINTS_IN_PART)
-    return reference_points(case, source_of(case.spec.key), n, _progress(case, n))
+
+    def show(k: int) -> None:
+        if sys.stderr.isatty() or k % 50 == 0:
+            end = "" if sys.stderr.isatty() else "\n"
+            text = f"\r{case.spec.key} {case.name}: reference {k}/{n}"
+            print(text, end=end, file=sys.stderr, flush=True)
+
+    return reference_points(case, source_of(case.spec.key), n, show)
 
 
 def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
@@ -107,10 +116,6 @@ def holds(spec: ModelSpec, rung: str, params: Any) -> bool:
         return False
 
 
-def _lacks_cards(case: Case, rung: str) -> bool:
-    return holds(case.spec, rung, case.params) and not fresh_cards(case.spec.key, rung, case.params)
-
-
 def case_of(case: Case, rung: str) -> Case:
     """Return the case for a rung: a map is verified where it lies."""
     tables = tables_of(case.spec, rung)
@@ -131,26 +136,12 @@ def rung_cards(case: Case, rung: str, known: list[ReferencePoint]) -> Iterator[C
 
 def summary(card: Card) -> str:
     """Return a line of what a card says."""
-    worst = {
-        q: max((w for row in e.worst for w in row if w is not None), default=float("nan"))
-        for q, e in card.errors.items()
-    }
-    text = ", ".join(f"{q} {w:.2g}" for q, w in worst.items())
+    text = ", ".join(f"{q} {card.shown_worst(q)}" for q in card.errors)
     h = card.held_out
     return (
         f"  {card.name}: n {h.n}, failed {h.failed}, outside {h.outside}; {text}; "
         f"{1e6 * card.cost.call_median_s:.3g} us"
     )
-
-
-def _progress(case: Case, n: int) -> Callable[[int], None]:
-    def show(k: int) -> None:
-        if sys.stderr.isatty() or k % 50 == 0:
-            end = "" if sys.stderr.isatty() else "\n"
-            text = f"\r{case.spec.key} {case.name}: reference {k}/{n}"
-            print(text, end=end, file=sys.stderr, flush=True)
-
-    return show
 
 
 def _say(text: str) -> None:

@@ -165,7 +165,11 @@ def _assemble(
         usual = signal.start or signal.nominal or 0.0
         shown[signal.name] = _column(signal.name, rows, held, n, usual)
     if "power" in shown:
-        shown["load"] = _torque(shown["power"], shown["speed"], spec)
+        largest = next(s.high for s in spec.inputs if s.name == "load") or 0.0
+        with np.errstate(divide="ignore", invalid="ignore"):
+            torque = np.where(shown["power"] == 0.0, 0.0, np.abs(shown["power"] / shown["speed"]))
+        # NaN where the power asks for more than is allowed
+        shown["load"] = np.where(torque <= largest, torque, np.nan)
     inputs = np.ascontiguousarray(np.stack([shown[s.name] for s in spec.inputs], axis=1))
     units = {s.name: s.unit for s in spec.inputs} | ({"power": "W"} if "power" in shown else {})
     for name in varied:
@@ -179,14 +183,6 @@ def _assemble(
 def _column(name: str, rows: dict[str, Any], held: dict[str, Any], n: int, usual: float) -> Array:
     column: Array = rows[name] if name in rows else np.full(n, float(held.get(name, usual)))
     return column
-
-
-def _torque(power: Array, speed: Array, spec: ModelSpec) -> Array:
-    """Return the pinion's torque [N m]; NaN where the power asks for more than is allowed."""
-    largest = next(s.high for s in spec.inputs if s.name == "load") or 0.0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        torque: Array = np.where(power == 0.0, 0.0, np.abs(power / speed))
-    return np.where(torque <= largest, torque, np.nan)
 
 
 def _parameters(

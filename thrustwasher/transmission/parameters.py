@@ -1,56 +1,170 @@
 """Parameters, inputs and outputs of the shift transmission: the one list of all interfaces."""
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
 
-from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
+from ..errors import ParameterError
+from ..model.parameters import (
+    check_ranges,
+    check_rules,
+    choice,
+    count,
+    extended,
+    flag,
+    other_names,
+    quantity,
+)  # fmt: skip
 from ..model.spec import ModelSpec, Rule, Signal, Terminal, output
 
+ARRANGEMENT = {
+    "sun-input": "the sun is driven, the brake holds the ring: first gear 1 + z_r/z_s",
+    "ring-input": "the ring is driven, the brake holds the sun: first gear 1 + z_s/z_r",
+}
+ACTUATION = {
+    "command": "shift_command moves the load from the brake to the clutch",
+    "pressure": "pistons press the packs: courses of pressure and pressure inputs",
+}
 COUPLING = {
     "capacity": "the packs send the torque they can hold; stick and slip are decided in here",
     "torque": "the packs send their friction torque: the plain loop, limited in step size",
 }
 
 
-def _planet_teeth(p: "TransmissionParams") -> str:
+def _planet_teeth(p: Any) -> str:
     return (
-        f"planet_teeth = {p.planet_teeth!r}, allowed: half of ring_teeth - sun_teeth, within one "
-        f"tooth (here {0.5 * (p.ring_teeth - p.sun_teeth):g}), or 0"
+        f"planet_teeth = {p.planet_teeth!r}, allowed: half of ring_teeth - sun_teeth (here "
+        f"{0.5 * (p.ring_teeth - p.sun_teeth):g}), within one tooth with profile_shifted, or 0"
     )
+
+
+def _room(p: Any) -> str:
+    free = (p.sun_teeth + p.planet_teeth) * math.sin(math.pi / p.planets) - 2.0
+    return (
+        f"planets = {p.planets!r}, allowed: so many that their tips do not meet: planet_teeth "
+        f"({p.planet_teeth!r}) below (sun_teeth + planet_teeth) sin(pi/planets) - 2 = {free:.4g}"
+    )
+
+
+COURSES = {  # of points in time; what is out of use beside the engine's: its constant torque
+    "clutch_pressure": ("Pa", 0.0, 1e8, "pressure of the clutch"),
+    "brake_pressure": ("Pa", 0.0, 1e8, "pressure of the brake"),
+    "engine_torque": ("N.m", -1e5, 1e5, "engine torque"),
+}
+POINTS = 10  # of a course at most
+
+
+def course_fields(name: str, points: Sequence[tuple[float, float]]) -> dict[str, float]:
+    """Return the parameters of a course of points (time [s], value in SI units).
+
+    ParameterError if there are none or too many.
+    """
+    if not 1 <= len(points) <= POINTS:
+        raise ParameterError(f"{name}: {len(points)} points, allowed: 1 .. {POINTS}")
+    times = {f"{name}_time_{i}": t for i, (t, _) in enumerate(points, 1)}
+    values = {f"{name}_{i}": x for i, (_, x) in enumerate(points, 1)}
+    return {f"{name}_points": len(points), **times, **values}
+
+
+def course_points(params: Any, name: str) -> list[tuple[float, float]]:
+    """Return the points of a course: time [s] and value."""
+    return [
+        (getattr(params, f"{name}_time_{i}"), getattr(params, f"{name}_{i}"))
+        for i in range(1, getattr(params, f"{name}_points") + 1)
+    ]
+
+
+def _order(name: str) -> Rule:
+    def exact(p: Any) -> str:
+        times = [t for t, _ in course_points(p, name)]
+        i, a, b = next((i, a, b) for i, (a, b) in enumerate(pairwise(times), 2) if not b > a)
+        return f"{name}_time_{i} = {b!r} s, allowed: above the time of the point before ({a!r} s)"
+
+    return Rule(f"{name}_time_2 = {{{name}_time_2}} s, allowed: rising from point to point", exact)
 
 
 RULES = (
     Rule("ring_teeth = {ring_teeth}, allowed: above sun_teeth ({sun_teeth})"),
     Rule("planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
-         "{sun_teeth}), within one tooth, or 0", _planet_teeth),
+         "{sun_teeth}), within one tooth with profile_shifted, or 0", _planet_teeth),
     Rule("shaft_damping = {shaft_damping} N.m.s/rad, allowed: 0 with a rigid shaft "
          "(shaft_stiffness = 0)"),
     Rule("initial_twist = {initial_twist} rad, allowed: 0 with a rigid shaft "
          "(shaft_stiffness = 0)"),
+    Rule("planets = {planets}, allowed: numbers that divide sun_teeth + ring_teeth ({sun_teeth} + "
+         "{ring_teeth}), or they cannot be put in"),
+    Rule("planets = {planets}, allowed: so many that their tips do not meet: (sun_teeth + "
+         "planet_teeth) sin(pi/planets) above planet_teeth + 2", _room),
+    Rule("piston_outer_radius = {piston_outer_radius} m, allowed: from piston_inner_radius "
+         "({piston_inner_radius} m) on"),
+    Rule("piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
+         "({piston_outer_radius} m)"),
+    *map(_order, COURSES),
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TransmissionParams:
-    """One planetary set with engine at the sun, drum at the ring and output at the carrier.
+def _piston(pack: str) -> dict[str, Any]:
+    return {
+        f"{pack}_piston_area": quantity(8e-3, "m2", 0.0, 10.0, f"area of the {pack}'s piston"),
+        f"{pack}_return_spring": quantity(
+            3e4, "Pa", 0.0, 1e8, f"pressure that holds the {pack}'s return spring"
+        ),
+        f"{pack}_fill_volume": quantity(
+            0.0, "m3", 0.0, 0.1, f"oil that fills the {pack}'s piston (0: filled at once)"
+        ),
+        f"{pack}_fill_flow": quantity(
+            1e-4, "m3/s", 1e-9, 1.0, f"flow that fills or empties the {pack}"
+        ),
+        f"{pack}_pressure_lag": quantity(
+            0.0, "s", 0.0, 10.0, f"time constant of the {pack}'s pressure behind its command"
+        ),
+    }
 
-    The brake holds the ring (first gear, ratio 1 + z_r/z_s), the clutch locks sun to ring (second
-    gear, ratio 1). A stiffness puts a spring and a damper between carrier and vehicle; the load
-    then acts on the vehicle. All defaults are engineering estimates of a car-sized set.
+
+def _course(name: str, unit: str, low: float, high: float, text: str) -> dict[str, Any]:
+    numbers = range(1, POINTS + 1)
+    return {
+        f"{name}_points": count(0, 0, POINTS, f"number of points of the {text} over time"),
+        **{f"{name}_time_{i}": quantity(0.0, "s", -1e6, 1e6, f"{text}: time of point {i}")
+           for i in numbers},
+        **{f"{name}_{i}": quantity(0.0, unit, low, high, f"{text}: value of point {i}")
+           for i in numbers},
+    }  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class _TransmissionParams:
+    """One planetary set: engine at the driven gear, a drum at the other, output at the carrier.
+
+    The brake holds the drum (first gear, ratio 1 + drum teeth/driven teeth), the clutch locks
+    both gears together (second gear, ratio 1). Assembly rules hold for sets with planet_teeth;
+    without, the set is an ideal one. A stiffness puts a spring and a damper between carrier and
+    vehicle; the load then acts on the vehicle. All defaults are estimates of a car-sized set.
     """
 
+    arrangement: str = choice("sun-input", ARRANGEMENT, "Arrangement", "which gear is driven")
     sun_teeth: int = count(30, 1, 1000, "teeth of the sun gear")
     planet_teeth: int = count(18, 0, 1000, "teeth of a planet (0: half of ring minus sun)")
     ring_teeth: int = count(66, 2, 2000, "teeth of the ring gear")
+    profile_shifted: bool = flag(False, "planet_teeth may be one off half of ring - sun")
     planets: int = count(4, 1, 24, "number of planets on the carrier")
     normal_module: float = quantity(1.5e-3, "m", 1e-4, 0.05, "normal module of the gears")
     helix_angle: float = quantity(0.3490658503988659, "rad", 0.0, 0.8, "helix angle at the pitch")
-    sun_inertia: float = quantity(0.25, "kg.m2", 1e-6, 1e4, "inertia of engine and sun")
+    input_inertia: float = quantity(
+        0.25, "kg.m2", 1e-6, 1e4, "inertia of engine and driven gear", also="sun_inertia"
+    )
     carrier_inertia: float = quantity(
         8.0, "kg.m2", 1e-6, 1e6, "inertia of the carrier, with a rigid shaft also of the vehicle"
     )
-    ring_inertia: float = quantity(0.01, "kg.m2", 0.0, 1e4, "inertia of ring and drum (0 allowed)")
+    drum_inertia: float = quantity(
+        0.01, "kg.m2", 0.0, 1e4, "inertia of drum and braked gear (0 allowed)", also="ring_inertia"
+    )
     initial_engine_speed: float = quantity(350.0, "rad/s", -5e3, 5e3, "engine speed at the start")
-    initial_ring_speed: float = quantity(0.0, "rad/s", -5e3, 5e3, "ring speed at the start")
+    initial_drum_speed: float = quantity(
+        0.0, "rad/s", -5e3, 5e3, "drum speed at the start", also="initial_ring_speed"
+    )
     engine_torque: float = quantity(150.0, "N.m", -1e5, 1e5, "engine torque once it is on")
     engine_start_time: float = quantity(0.0, "s", -1e9, 1e9, "time the engine torque is turned on")
     load_torque: float = quantity(250.0, "N.m", 0.0, 1e6, "load torque at load_speed, grows as w^2")
@@ -70,12 +184,51 @@ class TransmissionParams:
     shaft_damping: float = quantity(0.0, "N.m.s/rad", 0.0, 1e6, "damping of the output shaft")
     vehicle_inertia: float = quantity(8.0, "kg.m2", 1e-6, 1e6, "inertia behind an elastic shaft")
     initial_twist: float = quantity(0.0, "rad", -10.0, 10.0, "twist of the shaft at the start")
+    actuation: str = choice("command", ACTUATION, "Actuation", "what presses the packs")
+    piston_inner_radius: float = quantity(
+        0.0, "m", 0.0, 1.0, "of the clutch's piston, which turns with the drum"
+    )
+    piston_outer_radius: float = quantity(
+        0.0, "m", 0.0, 1.0, "of the clutch's piston (0: no centrifugal head)"
+    )
+    piston_supply_radius: float = quantity(
+        0.0, "m", 0.0, 1.0, "where oil enters the turning piston"
+    )
+    balance_share: float = quantity(0.0, "1", 0.0, 1.0, "share of the head a balance chamber takes")
+    oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil in the piston")
+    rolling_torque: float = quantity(0.0, "N.m", 0.0, 1e6, "load against the motion at any speed")
+    grade_torque: float = quantity(0.0, "N.m", -1e6, 1e6, "load at any speed and rest, of a slope")
+    ring_mesh: bool = flag(
+        False, "ring_mesh_torque is the ring meshes' loss (False: mesh_torque stands for both)"
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
         from .kernels.dynamics import broken_rule
 
         check_rules(self, RULES, broken_rule)
+
+    @property
+    def ratio(self) -> float:
+        """Teeth of the braked gear over those of the driven one; first gear is 1 + ratio."""
+        if self.arrangement == "ring-input":
+            return self.sun_teeth / self.ring_teeth
+        return self.ring_teeth / self.sun_teeth
+
+    @property
+    def meshes(self) -> float:
+        """Number of sun meshes with as much loss as all meshes that ``mesh_torque`` stands for."""
+        if self.ring_mesh:
+            return self.planets
+        sun, ring = self.sun_teeth, self.ring_teeth
+        planet = self.planet_teeth or 0.5 * (ring - sun)
+        return self.planets * (1.0 + (1.0 / planet - 1.0 / ring) / (1.0 / planet + 1.0 / sun))
+
+
+_MORE = _piston("clutch") | _piston("brake")
+for _name, _about in COURSES.items():
+    _MORE |= _course(_name, *_about)
+TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionParams", _MORE))
 
 
 def _torque(name: str, text: str) -> Signal:
@@ -89,33 +242,46 @@ INPUTS = (
     _torque("mesh_torque", "friction torque of one sun mesh, referred to the planet"),
     Signal(name="shift_command", unit="1", help="0 first gear, 1 second gear, at the step's end",
            low=0.0, high=1.0, nominal=1.0, start=0.0),
+    *(Signal(name=f"{pack}_pressure", unit="Pa", low=0.0, high=1e8, nominal=1e5, start=0.0,
+             help=f"pressure of the {pack} beside its course, at the step's end")
+      for pack in ("clutch", "brake")),
+    _torque("engine_torque_input", "torque of an engine model, beside the engine's own"),
+    _torque("load_torque_input", "torque of a vehicle model against the output, beside the load's"),
+    _torque("ring_mesh_torque", "friction torque of one ring mesh, referred to the planet"),
 )  # fmt: skip
-_TORQUES = tuple(signal.name for signal in INPUTS[:4])
-_PACKS = _TORQUES[:2]  # drag decides only who holds a clutch beyond its capacity, not how much
+_ENGINE, _LOAD = ("engine_torque_input",), ("load_torque_input",)
+_TORQUES = (*(signal.name for signal in INPUTS[:4]), *_ENGINE, *_LOAD, "ring_mesh_torque")
+_PACKS = (
+    *_TORQUES[:2],
+    *_ENGINE,
+    *_LOAD,
+)  # drag decides only who holds a clutch beyond its capacity, not how much
 _COMMAND = ("shift_command",)
 
 OUTPUTS = (
-    output("clutch_load", "N", 5e3, "axial force on the clutch pack", _COMMAND),
-    output("clutch_speed", "rad/s", 100.0, "slip of the clutch, sun minus ring"),
-    output("brake_load", "N", 5e3, "axial force on the brake pack", _COMMAND),
-    output("brake_speed", "rad/s", 100.0, "slip of the brake, speed of the ring"),
+    output("clutch_load", "N", 5e3, "axial force on the clutch pack",
+           (*_COMMAND, "clutch_pressure")),
+    output("clutch_speed", "rad/s", 100.0, "slip of the clutch, driven gear minus drum"),
+    output("brake_load", "N", 5e3, "axial force on the brake pack",
+           (*_COMMAND, "brake_pressure")),
+    output("brake_speed", "rad/s", 100.0, "slip of the brake, speed of the drum"),
     output("washer_load", "N", 100.0, "axial load on one thrust washer", _TORQUES),
     output("washer_speed", "rad/s", 100.0, "speed of a planet on its pin"),
     output("washer_tilt", "rad", 1e-3, "tilt of a planet against the carrier"),
-    output("mesh_load", "N.m", 10.0, "torque of one planet in the sun mesh", _TORQUES),
+    output("mesh_load", "N.m", 10.0, "torque of one planet in its sun and its ring mesh", _TORQUES),
     output("mesh_speed", "rad/s", 100.0, "speed of a planet against the carrier"),
-    output("engine_speed", "rad/s", 100.0, "speed of engine and sun"),
+    output("engine_speed", "rad/s", 100.0, "speed of engine and driven gear"),
     output("output_speed", "rad/s", 100.0, "speed of carrier and output"),
-    output("ring_speed", "rad/s", 100.0, "speed of ring and drum"),
-    output("drive_torque", "N.m", 100.0, "torque of the engine now"),
-    output("resistance_torque", "N.m", 100.0, "torque of the load now"),
+    output("drum_speed", "rad/s", 100.0, "speed of drum and braked gear"),
+    output("drive_torque", "N.m", 100.0, "torque of the engine now", _ENGINE),
+    output("resistance_torque", "N.m", 100.0, "torque of the load now", _LOAD),
     output("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _PACKS),
     output("brake_reaction", "N.m", 100.0, "torque the brake really holds", _TORQUES),
-    output("sun_torque", "N.m", 100.0, "torque in the sun's teeth", _TORQUES),
-    output("drag_torque", "N.m", 1.0, "drag of all washers and meshes at the sun", _TORQUES),
+    output("input_tooth_torque", "N.m", 100.0, "torque in the driven gear's teeth", _TORQUES),
+    output("drag_torque", "N.m", 1.0, "drag of washers and meshes at the driven gear", _TORQUES),
     output("tooth_force", "N", 1e3, "tangential force in one mesh", _TORQUES),
     output("tilting_couple", "N.m", 10.0, "couple of the axial tooth forces on a planet", _TORQUES),
-    output("sun_thrust", "N", 1e3, "axial force on the sun gear", _TORQUES),
+    output("sun_thrust", "N", 1e3, "axial force on the sun gear, against the ring's", _TORQUES),
     output("engine_work", "J", 1e4, "work of the engine since the start"),
     output("load_work", "J", 1e4, "work into the load since the start"),
     output("kinetic_energy", "J", 1e4, "kinetic energy of the driveline"),
@@ -130,16 +296,32 @@ OUTPUTS = (
     output("release_time", "s", 1.0, "time the brake last broke away (-1: it never did)"),
     output("oil_supply_temperature", "K", 300.0, "temperature of the oil sent to every part"),
     output("vehicle_speed", "rad/s", 100.0, "speed of the vehicle behind the output shaft"),
-    output("shaft_torque", "N.m", 100.0, "torque of the output shaft (rigid: of the load)"),
+    output("shaft_torque", "N.m", 100.0, "torque of the output shaft (rigid: of the load)", _LOAD),
     output("shaft_twist", "rad", 0.1, "twist of the output shaft, carrier before vehicle"),
     output("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
     output("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
+    output("output_torque", "N.m", 100.0, "torque of the gears on the carrier", _TORQUES),
+    output("output_acceleration", "rad/s2", 10.0, "acceleration of the vehicle, at the output",
+           _TORQUES),
+    output("clutch_hub_speed", "rad/s", 100.0, "speed of the clutch's hub, the driven gear"),
+    output("clutch_drum_speed", "rad/s", 100.0, "speed of the clutch's drum"),
+    output("brake_hub_speed", "rad/s", 100.0, "speed of the brake's hub, the drum"),
+    output("brake_drum_speed", "rad/s", 100.0, "speed of the brake's housing: 0"),
+    *(output(f"{pack}_piston_pressure", "Pa", 1e5, f"pressure at the {pack}'s piston",
+             (f"{pack}_pressure",)) for pack in ("clutch", "brake")),
+    *(output(f"{pack}_filled_time", "s", 1.0, f"time the {pack} was last filled (-1: never)")
+      for pack in ("clutch", "brake")),
+    *(output(f"{pack}_kiss_time", "s", 1.0, f"time the {pack}'s piston last touched (-1: never)")
+      for pack in ("clutch", "brake")),
     Signal(name="clutch_locked", unit="1", kind="boolean", depends=_TORQUES,
            help="the clutch sticks, its slip is exactly zero",
            events=("clutch locked", "clutch broke away")),
     Signal(name="brake_locked", unit="1", kind="boolean", depends=_TORQUES,
-           help="the brake sticks, the ring stands still",
+           help="the brake sticks, the drum stands still",
            events=("brake locked", "brake broke away")),
+    *(Signal(name=f"{pack}_filled", unit="1", kind="boolean", depends=(f"{pack}_pressure",),
+             help=f"the {pack}'s piston has all its oil and can press",
+             events=(f"{pack} filled", f"{pack} empties")) for pack in ("clutch", "brake")),
     Signal(name="events", unit="1", kind="integer",
            help="lock-ups and break-aways located so far"),
     Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
@@ -171,9 +353,18 @@ SPEC = ModelSpec(
                  help="Speed, load and tilt of one washer out, its torque in",
                  members=(("washer_speed", "w", "signal"), ("washer_torque", "tau", "inflow"),
                           ("washer_load", "load", "signal"), ("washer_tilt", "tilt", "signal"))),
+        Terminal(name="input_shaft", kind="thrustwasher.ShaftFlange",
+                 help="Speed of the engine out, its torque in",
+                 members=(("engine_speed", "w", "signal"),
+                          ("engine_torque_input", "tau", "inflow"))),
+        Terminal(name="output_shaft", kind="thrustwasher.ShaftFlange",
+                 help="Speed of the vehicle at the output out, its torque against it in",
+                 members=(("vehicle_speed", "w", "signal"),
+                          ("load_torque_input", "tau", "inflow"))),
     ),
     # An upshift: the brake lets go while the clutch takes over and locks.
-    course=((0.0, 0.0, 400.0, 0.05, 0.2, 0.0), (0.2, 0.0, 400.0, 0.05, 0.2, 0.0),
-            (0.5, 150.0, 0.0, 0.05, 0.2, 0.6), (0.7, 300.0, 0.0, 0.05, 0.2, 1.0),
-            (1.0, 300.0, 0.0, 0.05, 0.2, 1.0)),
+    course=tuple((*row, 0.0, 0.0, 0.0, 0.0, 0.0) for row in (
+        (0.0, 0.0, 400.0, 0.05, 0.2, 0.0), (0.2, 0.0, 400.0, 0.05, 0.2, 0.0),
+        (0.5, 150.0, 0.0, 0.05, 0.2, 0.6), (0.7, 300.0, 0.0, 0.05, 0.2, 1.0),
+        (1.0, 300.0, 0.0, 0.05, 0.2, 1.0))),
 )  # fmt: skip

@@ -15,3 +15,38 @@ def exponential_weights(z: float) -> tuple[float, float, float]:
         return decay, 1.0 - z * second, second
     first = -math.expm1(-min(z, 700.0)) / z
     return decay, first, (1.0 - first) / z
+
+
+@kernel
+def rise_after(
+    capacity: float, above: float, power: float, cooling: float, dt: float
+) -> tuple[float, float]:
+    """Return the rise [K] of a body over its coolant after ``dt`` [s], mean heat to the latter [W].
+
+    ``above`` [K] before, ``capacity`` C [J/K]; ``power`` P [W] and ``cooling`` G [W/K] hold: C T' =
+    P - G T. At dt = 0 the heat is that of the moment.
+    """
+    decay, first, second = exponential_weights(cooling * dt / capacity)
+    rise = power * dt / capacity
+    return above * decay + rise * first, cooling * (above * first + rise * second)
+
+
+@kernel
+def rise_changes(
+    capacity: float, above: float, power: float, cooling: float, dt: float,
+    change: tuple[float, float, float],
+) -> tuple[float, float]:  # fmt: skip
+    """Return the changes of what ``rise_after`` returns; ``change`` of above, power, cooling."""
+    z = cooling * dt / capacity
+    decay, first, second = exponential_weights(z)
+    if z < 0.02:
+        bend = -1.0 / 2.0 + z * (1.0 / 3.0 - z * (1.0 / 8.0 - z / 30.0))
+        turn = -1.0 / 6.0 + z * (1.0 / 12.0 - z * (1.0 / 40.0 - z / 180.0))
+    else:
+        bend = (decay - first) / z
+        turn = (-bend - second) / z
+    more, warmer, cooler = change[0], change[1] * dt / capacity, change[2]
+    rise, dz = power * dt / capacity, cooler * dt / capacity
+    to = more * decay - above * decay * dz + warmer * first + rise * bend * dz
+    flow = more * first + warmer * second + (above * bend + rise * turn) * dz
+    return to, cooler * (above * first + rise * second) + cooling * flow

@@ -16,7 +16,7 @@ from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import BODIES, SPEC, WasherParams, property_of
-from .solve import resolve_grid
+from .solve import RANGES, resolve_grid
 
 __all__ = ["CourseError", "WasherCourse", "follow_washer"]
 
@@ -109,10 +109,11 @@ def follow_washer(
     """
     points = rising(time)
     columns = [
-        course_of(s.name, given, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0),
-                  float(s.high or 0.0), len(points))
-        for s, given in zip(SPEC.inputs, (load, speed, tilt, oil_temperature), strict=True)
-    ]  # fmt: skip
+        course_of(name, given, unit, low, high, len(points))
+        for (name, unit, low, high), given in zip(
+            RANGES, (load, speed, tilt, oil_temperature), strict=True
+        )
+    ]
     if fidelity == "map":
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'coarse', 'field' or 'fine'")
     inputs = np.column_stack(columns)

@@ -10,17 +10,9 @@ from ..model.parameters import check_number
 from ..numerics.jit import Array
 from ..numerics.status import OK
 from .kernel_arguments import constants, work_array
+from .kernels import continuation
 from .kernels import layout as L
 from .kernels.constants import washer_model
-from .kernels.continuation import (
-    enter_curve,
-    find_fold,
-    note,
-    recall,
-    remember,
-    step_down,
-    walk_to,
-)
 from .kernels.heat import set_steady
 from .kernels.newton import LOAD, NO_FLOOR, newton
 from .kernels.outputs import outputs_at
@@ -101,7 +93,7 @@ def load_curve(
         by_load = rising and (by_load or (steep and here.contact_share > ALONE))
         if not by_load:
             try:
-                here.to(step_down(here.m.sigma1, here.film, FINEST))
+                here.to(continuation.step_down(here.m.sigma1, here.film, FINEST))
             except SolveError:  # soft bodies turn the washer so that its film grows with the load
                 by_load = rising and (bool(folds) or here.film < 0.0)
                 if not by_load:
@@ -187,7 +179,7 @@ class Continuation:
 
     def start(self, ratio: float) -> None:
         """Solve from nothing at a film ratio."""
-        self._check(enter_curve(self.w, self.pt, ratio), "entry")
+        self._check(continuation.enter_curve(self.w, self.pt, ratio), "entry")
 
     def enter(self, load: float) -> None:
         """Go to where the washer carries less than ``load`` [N]."""
@@ -201,16 +193,16 @@ class Continuation:
         Much oil on a coarse mesh makes Newton's method slow: a hundredth of the accuracy will do.
         By load where asperities carry.
         """
-        code = walk_to(self.w, self.pt, s)
+        code = continuation.walk_to(self.w, self.pt, s)
         if code:
             self.w.curve[L.ACCURACY] *= 100.0
-            code = walk_to(self.w, self.pt, s)
+            code = continuation.walk_to(self.w, self.pt, s)
             self.w.curve[L.ACCURACY] *= 0.01
         if code and s < self.film and self.contact_share > ALONE:
             for _ in range(MOST_LOADS):
                 if self.film > s:
                     self.to_load(1.02 * self.load)
-            code = walk_to(self.w, self.pt, s)
+            code = continuation.walk_to(self.w, self.pt, s)
         self._check(code, "walking")
 
     @property
@@ -222,22 +214,22 @@ class Continuation:
         """Solve at a load [N] from here, where the asperities carry: no fold is on the way."""
         while self.load < load * (1.0 - 1e-9):
             step, status = load - self.load, OK
-            remember(self.w, 0.0)
+            continuation.remember(self.w, 0.0)
             for _ in range(12):
                 wanted, tolerance = self.load + step, self.w.curve[L.ACCURACY]
                 status = newton(self.w, self.pt, LOAD, wanted, NO_FLOOR, tolerance, 20.0)
                 if status == OK:
                     break
-                recall(self.w, 0.0)
+                continuation.recall(self.w, 0.0)
                 self.f.tag[L.TAG_VALID] = 0.0
                 step *= 0.4
             self._check(status, "at a load")
-            note(self.w)
+            continuation.note(self.w)
 
     def fold(self, kind: str, upper: float, lower: float) -> Fold:
         """Locate a fold between two film thicknesses and come back."""
         kept = self.copy()
-        if find_fold(self.w, self.pt, upper, lower):
+        if continuation.find_fold(self.w, self.pt, upper, lower):
             self.come_back(kept)
             self._search(1.0 if kind == "film_lost" else -1.0, upper, lower)
         load, out = self.load, self.outputs()

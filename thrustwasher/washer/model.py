@@ -4,6 +4,10 @@ from ..model.record import Command, Ladder, Model, Option
 
 _FIELD = tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants"))
 _BOX = {"tilt": (1e-3, 3e-3, "log"), "oil_temperature": (290.0, 400.0, "linear")}
+GRID = Option(
+    name="grid", help="nodes along the radius x around, e.g. 9x32 or 17x64", metavar="RxT",
+    read="thrustwasher.cli._options:read_grid",
+)  # fmt: skip
 MODEL = Model(
     key="washer",
     name="ThrustWasher",
@@ -18,12 +22,7 @@ MODEL = Model(
         more=("curve", "map"),
         closing="{iterations} iterations, {fidelity}, grid {grid[0]}x{grid[1]}",
         options=(
-            Option(
-                name="grid",
-                help="nodes along the radius x around, e.g. 9x32 or 17x64",
-                metavar="RxT",
-                read="thrustwasher.cli._options:read_grid",
-            ),
+            GRID,
             Option(
                 name="branch",
                 help="solution wanted where several exist; default: a washer loaded up from light "
@@ -49,7 +48,7 @@ MODEL = Model(
         },
         boxes={
             "default": {"load": (20.0, 1850.0, "log"), "speed": (50.0, 1400.0, "log"), **_BOX},
-            "planetary": {"load": (1.0, 200.0, "log"), "speed": (1.0, 450.0, "log"), **_BOX},
+            "planetary-sun": {"load": (1.0, 200.0, "log"), "speed": (1.0, 450.0, "log"), **_BOX},
         },
         part="washer",
         references="thrustwasher.study.reference_washer:SOURCE",

@@ -59,7 +59,7 @@ def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]
     return n_r, n_t
 
 
-_RANGES = tuple(
+RANGES = tuple(
     # an FMU takes 0 from an unconnected input; here a load is wanted
     (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
     for s in SPEC.inputs
@@ -73,7 +73,7 @@ def check_point(
     a, b, c, d = (
         check_number(name, value, unit, low, high)
         for (name, unit, low, high), value in zip(
-            _RANGES, (load, speed, tilt, oil_temperature), strict=True
+            RANGES, (load, speed, tilt, oil_temperature), strict=True
         )
     )
     return a, b, c, d

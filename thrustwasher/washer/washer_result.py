@@ -116,10 +116,11 @@ class WasherResult:
         washer = rise(m.washer_at, m.washer_step)
         film = rise(m.film_at, m.film_step) if m.film_step else 0.5 * (carrier + washer)
         outward, around = _liquid_flow(m, f)
+        slope = m.sin * w.q[L.TILT_X] - m.cos * w.q[L.TILT_Y]
         return WasherFields(
             radius=m.r.copy(),
             angle=np.mod(np.arctan2(m.sin, m.cos), 2.0 * np.pi),
-            film_thickness=film_gap(m.r, m.cos, m.sin, w.q),
+            film_thickness=w.q[L.Z_WASHER] + np.outer(m.r, slope),
             pressure=over(f.p),
             contact_pressure=over(f.pc),
             carrier_temperature=self.oil_temperature + carrier,
@@ -151,7 +152,11 @@ class ErrorEstimate:
             return self.field
         value = self.field.__get__(result)
         if type(value) is Unread:
-            known = card_error(result)
+            names = ("load", "speed", "tilt", "oil_temperature")
+            known = error_estimate(
+                "washer", result.fidelity, result.params, {n: getattr(result, n) for n in names},
+                branch=result.branch, film_ratio=result.film_ratio,
+            )  # fmt: skip
             value = float(value) if known is None else known
             self.field.__set__(result, value)
         return value
@@ -163,21 +168,6 @@ class ErrorEstimate:
 
 _field = WasherResult.__dict__["error_estimate"]
 setattr(WasherResult, "error_estimate", ErrorEstimate(_field))  # noqa: B010
-
-
-def card_error(result: WasherResult) -> float | None:
-    """Return the error that the card of a result's rung gives for its point.
-
-    None without a fresh card for these parameters, and outside its box.
-    """
-    point = {
-        "load": result.load, "speed": result.speed, "tilt": result.tilt,
-        "oil_temperature": result.oil_temperature,
-    }  # fmt: skip
-    return error_estimate(
-        "washer", result.fidelity, result.params, point, branch=result.branch,
-        film_ratio=result.film_ratio,
-    )  # fmt: skip
 
 
 def result_of(
@@ -203,12 +193,6 @@ def hold_warning(result: WasherResult) -> str:
         f"gap 2 cannot hold the washer: its dry friction takes {result.stick_margin:.2g} times the "
         "friction torque, so the washer would slip on the gear; here both turn together"
     )
-
-
-def film_gap(radius: Array, cos: Array, sin: Array, q: Array) -> Array:
-    """Return h1 [m] (n_r, n_theta) at the positions q."""
-    slope = sin * q[L.TILT_X] - cos * q[L.TILT_Y]
-    return np.asarray(q[L.Z_WASHER] + np.outer(radius, slope))
 
 
 def _liquid_flow(m: WasherModel, f: Fields) -> tuple[Array, Array]:

@@ -35,17 +35,47 @@ def friction(p, speed):
     return 2.0 / (math.pi * x * x) * (plough + 2.0 * ratio / p.hardness_ratio * (1.0 - root))
 
 
+def table_friction(p, speed):
+    """Coefficient of the table law, straight between its points."""
+    at = [0.0, *(getattr(p, f"table_speed_{k}") for k in range(1, 6))]
+    return float(np.interp(speed, at, [getattr(p, f"table_friction_{k}") for k in range(6)]))
+
+
+def thinned(p, eta, speed, temperature):
+    """Share of the shear stress that oil heated by its own shear keeps; Gavis & Laurence 1968."""
+    d = 1e-3
+    steep = math.log(oil_viscosity(p, temperature - d) / oil_viscosity(p, temperature + d))
+    a = math.sqrt(steep / (2.0 * d) * eta * speed**2 / p.oil_conductivity / 8.0)
+    return math.asinh(a) / (a * math.sqrt(1.0 + a * a)) if p.shear_heating and a else 1.0
+
+
+def pad_factor(p):
+    """Squeeze resistance of the pads between the grooves over that of a plain ring."""
+    wide = p.outer_radius - p.inner_radius
+    long = math.pi * (p.outer_radius + p.inner_radius) / p.groove_count - p.groove_width
+    a, b = sorted((wide, long))
+    odd = range(1, 4000, 2)
+    k = 1.0 - 192.0 * a / (math.pi**5 * b) * sum(
+        math.tanh(min(j * math.pi * b / (2.0 * a), 30.0)) / j**5 for j in odd
+    )
+    square = p.outer_radius**2 - p.inner_radius**2
+    group = p.outer_radius**4 - p.inner_radius**4
+    group -= square**2 / math.log(p.outer_radius / p.inner_radius)
+    return p.groove_count * a**3 * b * k / (1.5 * math.pi * group)
+
+
 class Reference:
     """Film ratio and temperature of a pack; ``load`` and ``slip`` are functions of time."""
 
-    def __init__(self, params, load, slip, oil=297.15):
-        self.p, self.load, self.slip, self.oil = params, load, slip, oil
+    def __init__(self, params, load, slip, oil=297.15, drum=0.0):
+        self.p, self.load, self.slip, self.oil, self.drum = params, load, slip, oil, drum
         p = params
         square = p.outer_radius**2 - p.inner_radius**2
         self.area = math.pi * square
         self.radius = 2.0 * (p.outer_radius**3 - p.inner_radius**3) / (3.0 * square)
         self.fourth = p.outer_radius**4 - p.inner_radius**4
         self.group = self.fourth - square**2 / math.log(p.outer_radius / p.inner_radius)
+        self.grooves = pad_factor(p) if p.groove_count else 1.0
         self.count = p.asperity_density * p.asperity_radius * p.roughness
         self.scale = (
             16.0 * math.sqrt(2.0) * math.pi / 15.0 * self.count**2
@@ -53,36 +83,61 @@ class Reference:
         )  # fmt: skip
         self.heat = p.steel_density * p.steel_heat_capacity * self.area * p.steel_thickness / 2.0
 
+    def fill(self, slip, gap, eta):
+        """Share of the gap that the supply keeps full against what centrifugal force pumps."""
+        p = self.p
+        if not p.oil_flow:
+            return 1.0
+        squares = (self.drum + slip / 2.0) ** 2 + slip**2 / 20.0
+        demand = math.pi * p.oil_density * squares * gap**3 * self.area / math.pi
+        demand /= 12.0 * eta * math.log(p.outer_radius / p.inner_radius)
+        return min(1.0, p.oil_flow / p.faces / demand) if demand else 1.0
+
     def parts(self, t, u, temperature):
-        """Return film rate [1/s], contact and viscous torque [N m]."""
+        """Return film rate [1/s], contact and viscous torque [N m], coefficient of cooling."""
         p, slip, sigma = self.p, self.slip(t), self.p.roughness
         load, eta = self.load(t), oil_viscosity(self.p, temperature)
-        pressure, carried = load / self.area, self.scale * height_integral(2.5, u)
+        carried = p.land_share * self.area * self.scale * height_integral(2.5, u)
         gap = sigma * (u * ndtr(u) + math.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi))
         flow = (1.0 - 0.9 * math.exp(-0.56 * u)) * (u * sigma) ** 3
         flow += 12.0 * p.permeability * p.lining_thickness
-        ease = 2.0 * self.area / (3.0 * math.pi * eta * self.group * p.groove_factor * ndtr(u))
-        rate = -ease * flow * (pressure - carried) / sigma
-        if pressure < 1e3:
+        ease = 2.0 / (3.0 * math.pi * eta * self.group * self.grooves * ndtr(u))
+        rate = -ease * flow * (load - carried) / sigma
+        if load < 1e3 * self.area:
             rate = (p.initial_film / sigma - u) / 0.05
+        share = min(1.0, carried / max(load, 1e3 * self.area))
         touching = min(1.0, math.pi**2 * self.count**2 * height_integral(2.0, u))
-        mu = friction(p, abs(slip) * self.radius)
-        contact = p.faces * mu * min(carried, pressure) * self.area * self.radius
-        shear = p.faces * eta * abs(slip) * math.pi / 2.0 * self.fourth / gap * (1.0 - touching)
-        return rate, contact, shear
+        speed = abs(slip) * self.radius
+        mu = friction(p, speed) if p.friction_law == "wang" else table_friction(p, speed)
+        contact = p.faces * mu * share * load * self.radius
+        open_for = p.land_share / gap * (1.0 - touching)
+        open_for += (1.0 - p.land_share) / (gap + p.groove_depth)
+        shear = p.faces * eta * abs(slip) * math.pi / 2.0 * self.fourth * open_for
+        shear *= thinned(p, eta, speed, temperature) * self.fill(slip, gap, eta)
+        if p.friction_data == "total":
+            shear *= 1.0 - share
+        return rate, contact, shear, self.cooling(share)
+
+    def cooling(self, share):
+        """Coefficient [W/(m2 K)] of a face that asperities carry to this share."""
+        p, h = self.p, self.p.heat_transfer
+        if p.groove_count and p.land_share < 1.0:
+            grooves = 4.86 * p.oil_conductivity / (2.0 * p.groove_depth)
+            h = share * grooves * (1.0 - p.land_share) + (1.0 - share) * h
+        flow = p.oil_density * p.oil_heat_capacity * p.oil_flow / (p.faces * self.area)
+        return flow * (1.0 - math.exp(-h / flow)) if flow else h
 
     def torque(self, t, u, temperature):
-        _, contact, shear = self.parts(t, u, temperature)
+        _, contact, shear, _ = self.parts(t, u, temperature)
         slip = self.slip(t)
         return contact * math.tanh(slip / self.p.speed_smoothing) + math.copysign(shear, slip)
 
     def rates(self, t, y):
         p = self.p
-        rate, contact, shear = self.parts(t, *y)
+        rate, contact, shear, cooling = self.parts(t, *y)
         slip = abs(self.slip(t))
         power = slip * (contact * math.tanh(slip / p.speed_smoothing) + shear) / p.faces
-        cooling = p.heat_transfer * self.area * (y[1] - self.oil)
-        return [rate, (power - cooling) / self.heat]
+        return [rate, (power - cooling * self.area * (y[1] - self.oil)) / self.heat]
 
     def solve(self, times, start=None):
         """Return film ratio and temperature at ``times``; Radau, rtol 1e-10."""

@@ -5,7 +5,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from clutch_pack import Pack
+from clutch_pack import Pack, plain
 from clutch_reference import Reference
 from hypothesis import given
 from hypothesis import strategies as st
@@ -62,7 +62,7 @@ def test_inputs_that_are_held_are_held(permeability):
 @pytest.mark.parametrize("permeability", PERMEABILITIES)
 def test_a_smooth_engagement_follows_the_tight_reference(permeability):
     """Pressure and slip sampled at 1 ms; 0.1 % where the torque matters (1 % of the largest)."""
-    params = ClutchParams(permeability=permeability)
+    params = plain(permeability=permeability)
     times = np.arange(401) * H
 
     def load(t):
@@ -78,13 +78,13 @@ def test_a_smooth_engagement_follows_the_tight_reference(permeability):
         params, time=times, load=[load(t) for t in times], speed=[slip(t) for t in times]
     )
     counts = exact > 0.01 * exact.max()
-    assert found.friction_torque[counts] == pytest.approx(exact[counts], rel=2e-4)
+    assert found.friction_torque[counts] == pytest.approx(exact[counts], rel=4e-4)
     assert found.temperature == pytest.approx(temperature, abs=0.01)
 
 
 def test_the_known_course_of_the_check_case():
     """Constant viscosity, 0.6 MPa with 50 ms: 3 sigma after 51 ms, settled (1 %) after 0.22 s."""
-    params = ClutchParams(viscosity_scale=0.0681, viscosity_constant=0.0)
+    params = plain(viscosity_scale=0.0681, viscosity_constant=0.0)
     times = np.linspace(0.0, 0.4, 4001)
     area = math.pi * (0.085**2 - 0.064**2)
     e = engage_clutch(
@@ -204,7 +204,7 @@ def test_an_open_pack_drags_less_once_it_pumps_more_oil_than_it_gets():
         for pack in (fed, full):
             pack.step(0.0, slip, 0.0)
         eta = full.out[k.O_VISCOSITY]
-        demand = pumped_flow(850.0, eta, slip, 8.8e-5, 0.064, 0.085)
+        demand = pumped_flow(850.0, eta, (slip, 0.0), 8.8e-5, 0.064, 0.085)
         share = min(1.0, flow / 8 / demand)
         assert fed.out[k.O_TORQUE] == pytest.approx(share * full.out[k.O_TORQUE], rel=1e-12)
     assert share < 0.5
@@ -285,6 +285,8 @@ SLOPES = {
     "fed": {"oil_flow": 3e-5},
     "both": {"shear_heating": True, "oil_flow": 3e-5},
     "warm shear": {"shear_temperature_slope": 2e-3},
+    "boundary": {"friction_data": "boundary"},
+    "grooves": {"land_share": 0.8, "groove_count": 24, "oil_flow": 3e-5, "shear_heating": True},
 }
 
 
@@ -292,17 +294,17 @@ SLOPES = {
 @pytest.mark.parametrize("u", [-1.0, 0.3, 0.9, 2.5, 8.0, 30.0])
 @pytest.mark.parametrize("load", [100.0, 6000.0])
 def test_the_slopes_are_those_of_the_rates(params, u, load):
-    """Central differences of film rate and power over film ratio and temperature."""
+    """Central differences of film rate, power and cooling, over all that they depend on."""
     pack = Pack(**params)
-    slip, temperature, d = 200.0, 320.0, 1e-5
-    rates = pack_slopes(pack.par, load, slip, u, temperature)[0]
-    for (du, dt), places in (((d, 0.0), (1, 4)), ((0.0, 1e2 * d), (2, 5))):
-        up = pack_slopes(pack.par, load, slip, u + du, temperature + dt)[0]
-        down = pack_slopes(pack.par, load, slip, u - du, temperature - dt)[0]
-        for value, place in zip((0, 3), places, strict=True):
-            slope = (up[value] - down[value]) / (2.0 * (du + dt))
-            scale = abs(rates[value]) * 1e-3
-            assert rates[place] == pytest.approx(slope, rel=2e-6, abs=1e-6 * scale)
+    point, d = np.array([load, 200.0, 30.0, u, 320.0]), 1e-5  # load, slip, drum, film, temperature
+    steps = np.diag([1e2, 1e2, 1e2, 1.0, 1e2]) * d
+    found = pack_slopes(pack.par, *point)[:3]
+    over = ((3, 0), (3, 4, 0, 1, 2), (3, 0))  # what the slopes of each are over
+    for n, (values, places) in enumerate(zip(found, over, strict=True)):
+        for slope, place in zip(values[1:], places, strict=True):
+            up, down = (pack_slopes(pack.par, *(point + s * steps[place]))[n][0] for s in (1, -1))
+            wanted = (up - down) / (2.0 * steps[place, place])
+            assert slope == pytest.approx(wanted, rel=2e-6, abs=1e-9 * abs(values[0]))
 
 
 @given(
@@ -341,7 +343,7 @@ def random_pack(rng):
         else:
             given[f.name] = bool(rng.random() < 0.5)
     try:
-        return Pack(**given)
+        return Pack(made=ClutchParams, **given)
     except ParameterError:
         return random_pack(rng)
 

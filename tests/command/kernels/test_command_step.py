@@ -19,7 +19,7 @@ def source(scene, lead=0.0):
 
 
 @pytest.mark.parametrize("lead", [0.0, 0.004])
-@pytest.mark.parametrize("name", ["planetary", "brake-test"])
+@pytest.mark.parametrize("name", ["planetary-sun", "brake-test"])
 def test_the_ramp_is_the_scenes_to_the_bit(name, lead):
     scene = load_scene(name)
     h = 1.0 / 256
@@ -32,7 +32,7 @@ def test_the_ramp_is_the_scenes_to_the_bit(name, lead):
 
 
 def test_without_a_duration_the_command_jumps():
-    scene = replace(load_scene("planetary"), shift_duration=0.0, shift_start=0.25)
+    scene = replace(load_scene("planetary-sun"), shift_duration=0.0, shift_start=0.25)
     with source(scene) as command:
         command.initialize()
         command.step(0.125, 0.125)

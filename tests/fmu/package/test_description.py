@@ -269,6 +269,9 @@ def test_the_plugs_are_these():
         "ShiftTransmission.brake": {"w", "tau", "load"},
         "ShiftTransmission.mesh": {"w", "tau", "load"},
         "ShiftTransmission.washer": {"w", "tau", "load", "tilt"},
+        "ShiftTransmission.input_shaft": {"w", "tau"},
+        "ShiftTransmission.output_shaft": {"w", "tau"},
+        **{f"OilSump.part_{i}": {"T", "Q_flow"} for i in range(1, 7)},
     }
     assert members("WetClutch.shaft")["tau"].name == "friction_torque"
     assert members("WetClutch.shaft_capacity")["tau"].name == "torque_capacity"

@@ -127,10 +127,10 @@ def test_the_figures_of_accuracy_are_those_of_the_cards(name):
 
 def test_the_stiffest_spring_of_a_clutch_is_at_zero_slip():
     clutch = find_spec("WetClutch")
-    point = {"load": 5e3, "oil_temperature": 353.15}
-    capacity = 330.0  # N.m, the pack's at this load
+    point = {"load": 5e3, "oil_temperature": 353.15, "drum_speed": 0.0}
+    capacity = 168.0  # N.m, the pack's at this load
     assert slope(clutch, point | {"speed": 0.0}) == pytest.approx(capacity / 0.1, rel=0.05)
-    assert slope(clutch, point | {"speed": 60.0}) < 0.0  # friction falls: nothing cures it
+    assert 0.0 < slope(clutch, point | {"speed": 60.0}) < 1.0  # friction rises: harmless
 
 
 def test_markup_knows_headings_lists_code_and_paragraphs():

@@ -20,13 +20,13 @@ def mesh(ratio, teeth, angle=PHI, addendum=1.0):
 
 def paths(ratio, teeth, angle=PHI, addendum=1.0):
     shape = float(ratio), float(teeth), angle, addendum
-    return g.path_lengths(*shape, g.start_of_contact(*shape))
+    return g.path_lengths(*shape, g.start_of_contact(*shape, 1.0), 1.0)
 
 
 @pytest.mark.parametrize(("ratio", "teeth"), PAIRS)
 @pytest.mark.parametrize(("angle", "addendum"), [(PHI, 1.0), (math.radians(25.0), 0.8)])
 def test_contact_starts_where_the_gears_tips_cut_the_line_of_action(ratio, teeth, angle, addendum):
-    found = g.start_of_contact(float(ratio), float(teeth), angle, addendum)
+    found = g.start_of_contact(float(ratio), float(teeth), angle, addendum, 1.0)
     wanted = involute_mesh.start_of_contact(mesh(ratio, teeth, angle, addendum))
     assert found == pytest.approx(wanted, rel=1e-12)
     path = involute_mesh.path_of_contact(mesh(ratio, teeth, angle, addendum))
@@ -37,16 +37,16 @@ def test_contact_starts_where_the_gears_tips_cut_the_line_of_action(ratio, teeth
 def test_at_the_least_number_of_teeth_contact_starts_on_the_base_circle(ratio, least):
     found = g.least_teeth(ratio, PHI, 1.0)
     assert found == pytest.approx(least, abs=5e-3)
-    assert g.start_of_contact(ratio, found, PHI, 1.0) == pytest.approx(0.0, abs=1e-14)
+    assert g.start_of_contact(ratio, found, PHI, 1.0, 1.0) == pytest.approx(0.0, abs=1e-14)
     assert found == pytest.approx(involute_mesh.least_pinion_teeth(ratio, PHI), rel=1e-13)
 
 
 @pytest.mark.parametrize(("ratio", "teeth"), PAIRS)
 def test_slide_roll_is_sliding_over_the_mean_rolling_speed(ratio, teeth):
-    start = g.start_of_contact(float(ratio), float(teeth), PHI, 1.0)
+    start = g.start_of_contact(float(ratio), float(teeth), PHI, 1.0, 1.0)
     f = involute_mesh.flanks_at(start, mesh(ratio, teeth), 100.0)
     wanted = 2.0 * f.sliding / (f.speed_pinion + f.speed_gear)
-    assert g.slide_roll(float(ratio), start) == pytest.approx(wanted, rel=1e-12)
+    assert g.slide_roll(float(ratio), start, 1.0) == pytest.approx(wanted, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_slide_roll_is_sliding_over_the_mean_rolling_speed(ratio, teeth):
 def test_contact_ratio_and_loss_factor_of_two_pairs(ratio, teeth, contact, loss):
     approach, recess = paths(ratio, teeth)
     assert approach + recess == pytest.approx(contact, abs=5e-6)
-    assert g.loss_factor(float(ratio), float(teeth), approach, recess) == pytest.approx(
+    assert g.loss_factor(float(ratio), float(teeth), approach, recess, 1.0) == pytest.approx(
         loss, abs=5e-7
     )
 
@@ -64,7 +64,7 @@ def test_contact_ratio_and_loss_factor_of_two_pairs(ratio, teeth, contact, loss)
 @pytest.mark.parametrize(("ratio", "teeth"), PAIRS)
 def test_for_one_or_two_pairs_the_loss_is_ohlendorfs(ratio, teeth):
     approach, recess = paths(ratio, teeth)
-    found = g.loss_factor(float(ratio), float(teeth), approach, recess)
+    found = g.loss_factor(float(ratio), float(teeth), approach, recess, 1.0)
     assert found == pytest.approx(involute_mesh.loss_factor(mesh(ratio, teeth)), rel=1e-13)
     if max(approach, recess) <= 1.0:
         e = approach + recess
@@ -81,5 +81,5 @@ def test_the_loss_is_the_mean_sliding_of_equally_loaded_pairs_however_many(appro
     pairs = phases[:, None] + np.arange(7)
     inside = pairs < recess
     means = (np.abs(pairs) * inside).sum(axis=1) / inside.sum(axis=1)
-    found = g.loss_factor(2.0, 20.0, approach, recess)
+    found = g.loss_factor(2.0, 20.0, approach, recess, 1.0)
     assert found == pytest.approx(2.0 * math.pi * 3.0 / 40.0 * means.mean(), rel=3e-3)

@@ -29,9 +29,9 @@ def test_capacities_that_go_on_by_themselves_are_not_corrected():
 def test_held_capacities_are_corrected_to_the_end_of_the_step():
     """The ramp's capacities are then not late: lock-up errs a quarter of what it did."""
     gearbox = {"washers": 0, "capacity_extrapolation": False}
-    fine = shift("planetary", parts=NO_DRAG, stop_time=0.8).figures["lock_time"]
+    fine = shift("planetary-sun", parts=NO_DRAG, stop_time=0.8).figures["lock_time"]
     held, corrected = (
-        shift("planetary", parts=NO_DRAG | {"transmission": gearbox}, master=m, stop_time=0.8,
+        shift("planetary-sun", parts=NO_DRAG | {"transmission": gearbox}, master=m, stop_time=0.8,
               step=4e-3).figures["lock_time"] - fine
         for m in ("gauss-seidel", MASTER)
     )  # fmt: skip
@@ -40,7 +40,7 @@ def test_held_capacities_are_corrected_to_the_end_of_the_step():
 
 def late_drag(master):
     """Return by how much the drag of the teeth in a step is not that of the step's end [N.m]."""
-    scene = load_scene("planetary").with_options(master=master, stop_time=0.2, step=2e-3)
+    scene = load_scene("planetary-sun").with_options(master=master, stop_time=0.2, step=2e-3)
     scene = replace(scene, parts={n: p for n, p in scene.parts.items() if n != "washer"})
     found = run_shift(scene, instances(scene)).signals
     end = {n: found[f"transmission.mesh_{n}"][-1] for n in ("load", "speed")}

@@ -21,13 +21,14 @@ MASTER = "step-doubling"
 
 @cache
 def doubled(tolerance=1e-4, **options):
-    return shift("planetary", parts=NO_DRAG, master=MASTER, master_tolerance=tolerance, **options)
+    given = {"master": MASTER, "master_tolerance": tolerance, **options}
+    return shift("planetary-sun", parts=NO_DRAG, **given)
 
 
 @cache
 def exact():
     """Return figures that err a twentieth of what is asked for here."""
-    return shift("planetary", parts=NO_DRAG, step=1e-3).figures
+    return shift("planetary-sun", parts=NO_DRAG, step=1e-3).figures
 
 
 def test_a_smaller_tolerance_buys_a_smaller_error_with_more_steps():
@@ -100,7 +101,7 @@ class Hesitant(Doubling):
 
 def test_a_step_rolled_back_leaves_no_trace(monkeypatch):
     """States of all parts and the master's own values: the same to the bit."""
-    scene = load_scene("planetary").with_options(master=MASTER, stop_time=0.7)
+    scene = load_scene("planetary-sun").with_options(master=MASTER, stop_time=0.7)
     scene = replace(scene, parts={n: p for n, p in scene.parts.items() if n != "washer"})
     found = []
     for kind in (Doubling, Hesitant):
@@ -179,7 +180,7 @@ def test_steps_that_no_length_makes_good_are_counted(monkeypatch):
 
 
 def test_what_needs_fixed_steps_is_refused_by_name():
-    scene = load_scene("planetary").with_options(master=MASTER)
+    scene = load_scene("planetary-sun").with_options(master=MASTER)
     chosen = with_fidelities(scene, ["auto:0.01"])
     with pytest.raises(ParameterError, match="masters with fixed steps"):
         run_auto(chosen, lambda name, part: None)
@@ -190,7 +191,7 @@ def test_what_needs_fixed_steps_is_refused_by_name():
 @pytest.mark.parametrize("master", [MASTER, "linearly-implicit"])
 def test_a_part_that_cannot_go_back_is_named(master):
     """So is one that can give no slope either."""
-    scene = load_scene("planetary").with_options(master=master, stop_time=0.01)
+    scene = load_scene("planetary-sun").with_options(master=master, stop_time=0.01)
     parts = {n: p for n, p in scene.parts.items() if n != "mesh"}
     scene = replace(scene, parts=parts)
     made = instances(scene)

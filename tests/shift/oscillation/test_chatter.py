@@ -13,7 +13,7 @@ BARE = {"washer": None, "mesh": None}
 
 def bare(stop_time=0.9, coupling="torque", **options):
     parts = BARE | {"transmission": {"washers": 0, "coupling": coupling}}
-    return shift("planetary", parts=parts, stop_time=stop_time, **options)
+    return shift("planetary-sun", parts=parts, stop_time=stop_time, **options)
 
 
 @pytest.mark.parametrize(("master", "limit"), [("gauss-seidel", 2.0), ("jacobi", 1.0)])
@@ -35,9 +35,9 @@ def test_the_step_that_is_named_ends_the_chatter(master):
     smooth = {"speed_smoothing": 1.0}
     parts = BARE | {"transmission": {"washers": 0, "coupling": "torque"}}
     parts |= {"clutch": smooth, "brake": smooth}
-    wrong = shift("planetary", parts=parts, stop_time=0.8, master=master, step=2e-3)
+    wrong = shift("planetary-sun", parts=parts, stop_time=0.8, master=master, step=2e-3)
     clutch = {c.pack: c for c in wrong.chatter}["clutch"]
-    right = shift("planetary", parts=parts, stop_time=0.8, master=master, step=clutch.good_step)
+    right = shift("planetary-sun", parts=parts, stop_time=0.8, master=master, step=clutch.good_step)
     assert right.chatter == []
 
 

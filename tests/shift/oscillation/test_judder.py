@@ -38,7 +38,7 @@ def law_slope():
 
 def closed_limit():
     p = load_scene("judder").parts["transmission"].params
-    m = planetary(2.2, p.sun_inertia, p.ring_inertia, p.carrier_inertia, p.vehicle_inertia)
+    m = planetary(2.2, p.input_inertia, p.drum_inertia, p.carrier_inertia, p.vehicle_inertia)
     return damping_limit(m, law_slope(), p.shaft_stiffness)
 
 
@@ -130,8 +130,8 @@ def test_a_rigid_shaft_has_nothing_to_swing():
 
 
 def test_shear_of_cold_oil_keeps_the_clutch_from_judder():
-    """With the film's shear the torque rises with slip again."""
-    field = {"clutch": {"fidelity": "field", "starts_pressed": True}}
+    """With the film's shear beside a law of the asperities the torque rises with slip again."""
+    field = {"clutch": {"fidelity": "field", "starts_pressed": True, "friction_data": "boundary"}}
     j = shift("judder", parts=field, **SHORT).judder
     assert j.slope > 0.0 and j.limit_damping == 0.0 and j.kind == "decaying"
     assert j.growth == pytest.approx(j.mode_growth, rel=0.02)

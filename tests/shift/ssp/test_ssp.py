@@ -8,13 +8,14 @@ from scene_runs import instances as direct_instances
 from scene_runs import slow_without_jit
 from ssp_master import NS, components, connections, description, run, values
 
+from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.native.files import zipped
 from thrustwasher.shift import builtin_scenes, load_scene, run_shift
 from thrustwasher.shift.ssp.package import files
 from thrustwasher.shift.ssp.system_structure import plan, prepared, start_values
 
-SCENES = builtin_scenes()
+SCENES = [n for n in builtin_scenes() if load_scene(n).sequence is None]
 FIGURES = ("lock_time", "lock_speed", "clutch_heat", "brake_heat", "engine_speed")
 
 
@@ -110,11 +111,16 @@ def test_defaults_of_the_parts_are_the_scenes(name):
 
 
 def test_the_page_names_parts_step_and_delay():
-    page = files(planned("planetary"), tool="thrustwasher 9", date="2026-01-01T00:00:00Z")
+    page = files(planned("planetary-sun"), tool="thrustwasher 9", date="2026-01-01T00:00:00Z")
     text = page["documentation/index.html"].decode()
     for word in ("0.001 s", "torque_age", "WetClutch", "washer_temperature_max", "Parts.ssd"):
         assert word in text
     assert "http" not in text and "<script" not in text
+
+
+def test_a_sequence_is_no_package():
+    with pytest.raises(ParameterError, match="one shift"):
+        planned("duty-cycle")
 
 
 def test_the_package_has_the_same_bytes_for_the_same_scene():

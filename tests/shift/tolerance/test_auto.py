@@ -42,12 +42,12 @@ def made(log):
 
 
 def auto(*wishes, stop=STOP):
-    return with_fidelities(load_scene("planetary").with_options(stop_time=stop), wishes)
+    return with_fidelities(load_scene("planetary-sun").with_options(stop_time=stop), wishes)
 
 
 def test_a_scene_file_asks_for_all_parts_and_for_one(tmp_path):
     file = tmp_path / "s.toml"
-    file.write_text('base = "planetary"\nfidelity = "auto:0.02"\n[mesh]\nfidelity = "closed"\n')
+    file.write_text('base = "planetary-sun"\nfidelity = "auto:0.02"\n[mesh]\nfidelity = "closed"\n')
     found = {n: (p.fidelity, p.tolerance) for n, p in load_scene(file).parts.items()}
     assert found == {
         "transmission": ("rigid", None), "clutch": ("field", 0.02), "brake": ("field", 0.02),
@@ -63,7 +63,7 @@ def test_later_wishes_overrule_earlier_ones():
     parts = auto("auto:0.02", "mesh=closed", "clutch=auto:0.1").parts
     assert parts["mesh"].fidelity == "closed" and parts["mesh"].tolerance is None
     assert (parts["brake"].tolerance, parts["clutch"].tolerance) == (0.02, 0.1)
-    assert auto("auto", "field").parts == load_scene("planetary").with_options(
+    assert auto("auto", "field").parts == load_scene("planetary-sun").with_options(
         stop_time=STOP
     ).parts  # fmt: skip
 

@@ -72,7 +72,7 @@ def run(monkeypatch):
 
         made = []
         monkeypatch.setattr(selection, "choose", choose)
-        scene = load_scene("planetary").with_options(stop_time=STOP)
+        scene = load_scene("planetary-sun").with_options(stop_time=STOP)
         scene = replace(scene, parts={n: p for n, p in scene.parts.items() if n != "mesh"})
         found = run_auto(with_fidelities(scene, ["washer=auto:0.01"]), make, **options)
         return found, [i for rung, i in made if rung == "field"]

@@ -6,7 +6,7 @@ import pytest
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.transmission.kernels import layout as L
 from thrustwasher.transmission.kernels import step as k
-from thrustwasher.transmission.parameters import COUPLING, SPEC, TransmissionParams
+from thrustwasher.transmission.parameters import ACTUATION, COUPLING, SPEC, TransmissionParams
 
 from slopes import Unit, disagreement  # isort: skip
 
@@ -14,9 +14,14 @@ NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
 DEPENDS = np.array([[i.name in s.depends for i in SPEC.inputs] for s in SPEC.outputs[: k.NOUT]])
 
 
+BESIDE = (1e5, 2e5, 0.0, 0.0, 0.05)  # pressures, torques from outside, of a ring mesh
+
+
 def gearbox(**params):
     par = np.zeros(k.NPAR)
-    par[: k.N_PARAM] = [*as_numbers(TransmissionParams(**params)), 1.0]
+    par[: k.N_PARAM] = [
+        *as_numbers(TransmissionParams(**{"ring_mesh": True} | params)), 1.0
+    ]  # fmt: skip
     assert k.derive(par) == 0
     return Unit(k, par)
 
@@ -26,10 +31,13 @@ def random_box(rng):
         coupling=str(rng.choice(list(COUPLING))),
         capacity_extrapolation=bool(rng.integers(2)),
         torque_age=int(rng.integers(3)),
-        ring_inertia=float(rng.choice([0.0, 0.01, 0.3])),
+        drum_inertia=float(rng.choice([0.0, 0.01, 0.3])),
         initial_engine_speed=float(rng.choice([0.0, 350.0, -100.0])),
-        initial_ring_speed=float(rng.choice([0.0, 100.0, -50.0])),
+        initial_drum_speed=float(rng.choice([0.0, 100.0, -50.0])),
         helix_angle=float(rng.choice([0.0, 0.35])),
+        actuation=str(rng.choice(list(ACTUATION))),
+        brake_pressure_lag=float(rng.choice([0.0, 0.1])),
+        shaft_stiffness=float(rng.choice([0.0, 0.0, 0.0, 1e4])),
     )
 
 
@@ -37,7 +45,8 @@ def random_point(rng):
     """Return torques weak and strong, none of them 0, and a command."""
     packs = 10.0 ** rng.uniform(0.0, 3.5, 2) * rng.choice([1.0, 1.0, 1.0, -1.0], 2)
     drag = 10.0 ** rng.uniform(-3.0, 0.5, 2) * rng.choice([-1.0, 1.0], 2)
-    return np.array([*packs, *drag, rng.uniform(0.1, 0.9)])
+    pressures, outside = rng.uniform(4e4, 1e6, 2), rng.uniform(-200.0, 200.0, 2)
+    return np.array([*packs, *drag, rng.uniform(0.1, 0.9), *pressures, *outside, 0.3 * drag[1]])
 
 
 def modes(unit):
@@ -59,11 +68,13 @@ def test_derivatives_are_those_of_differences_wherever_a_shift_may_be(seed):
 
 def stuck_box(clutch, brake):
     """Return a gearbox at rest or turning, and a point where the packs named stick."""
-    start = {} if brake else {"initial_ring_speed": 350.0}
+    start = {} if brake else {"initial_drum_speed": 350.0}
     if clutch and brake:
         start["initial_engine_speed"] = 0.0
     unit = gearbox(**start)
-    return unit, np.array([900.0 if clutch else 30.0, 900.0 if brake else 30.0, 0.05, -0.2, 0.5])
+    return unit, np.array(
+        [900.0 if clutch else 30.0, 900.0 if brake else 30.0, 0.05, -0.2, 0.5, *BESIDE]
+    )
 
 
 @pytest.mark.parametrize(("clutch", "brake"), [(1, 0), (0, 1), (1, 1)])
@@ -82,9 +93,9 @@ def test_derivatives_hold_where_packs_stick(clutch, brake):
 
 def helped_box():
     """Return a gearbox and a point where the planets' drag helps the clutch to stick."""
-    unit = gearbox(initial_ring_speed=350.0)
-    wanted = unit.step([900.0, 30.0, 2.0, 5.0, 0.5])[NAMES.index("clutch_reaction")]
-    return unit, np.array([wanted - 1.0, 30.0, 2.0, 5.0, 0.5])
+    unit = gearbox(initial_drum_speed=350.0)
+    wanted = unit.step([900.0, 30.0, 2.0, 5.0, 0.5, *BESIDE])[NAMES.index("clutch_reaction")]
+    return unit, np.array([wanted - 1.0, 30.0, 2.0, 5.0, 0.5, *BESIDE])
 
 
 def test_drag_that_helps_a_stuck_clutch_leaves_it_its_capacity():
@@ -92,7 +103,7 @@ def test_drag_that_helps_a_stuck_clutch_leaves_it_its_capacity():
     found = unit.gradient(point)
     assert modes(unit)[0] == 0.0
     assert unit.out[NAMES.index("clutch_reaction")] == point[0]
-    assert found[NAMES.index("clutch_reaction")].tolist() == [1.0, 0.0, 0.0, 0.0, 0.0]
+    assert found[NAMES.index("clutch_reaction")].tolist() == [1.0] + [0.0] * 9
     assert disagreement(unit, point, 0.01 * point).max() < 1e-6
 
 
@@ -114,7 +125,7 @@ def test_only_listed_inputs_count_and_all_of_them():
 def test_the_derivative_is_linear_in_its_direction():
     rng = np.random.default_rng(41)
     for _ in range(20):
-        unit, point, seed = random_box(rng), random_point(rng), rng.standard_normal(5)
+        unit, point, seed = random_box(rng), random_point(rng), rng.standard_normal(10)
         parts = unit.gradient(point) * seed
         wrong = np.abs(unit.sens(point, seed) - parts.sum(1))
         assert (wrong <= 1e-12 * np.abs(parts).sum(1)).all()
@@ -122,26 +133,38 @@ def test_the_derivative_is_linear_in_its_direction():
 
 def test_turning_backwards_is_the_mirror_image():
     """With engine and speeds reversed torques change sign, their derivatives over sizes too."""
-    odd = ("sun_torque", "drag_torque", "clutch_reaction", "brake_reaction")
-    point = np.array([120.0, 90.0, 0.05, 0.2, 0.5])
-    forward = gearbox(initial_ring_speed=40.0).gradient(point)
+    odd = (
+        "drive_torque",
+        "resistance_torque",
+        "shaft_torque",
+        "output_torque",
+        "output_acceleration",
+        "input_tooth_torque",
+        "drag_torque",
+        "clutch_reaction",
+        "brake_reaction",
+    )
+    point = np.array([120.0, 90.0, 0.05, 0.2, 0.5, *BESIDE])
+    forward = gearbox(initial_drum_speed=40.0).gradient(point)
     backward = gearbox(
-        initial_ring_speed=-40.0, initial_engine_speed=-350.0, engine_torque=-150.0
+        initial_drum_speed=-40.0, initial_engine_speed=-350.0, engine_torque=-150.0
     ).gradient(point)
     signs = np.array([-1.0 if n in odd else 1.0 for n in NAMES])[:, None]
+    # Torques from outside are not turned round.
+    signs = signs * np.array([1.0] * 7 + [-1.0, -1.0, 1.0])
     assert backward == pytest.approx(signs * forward, rel=1e-12)
 
 
 def test_a_corner_counts_as_flat():
     """Without drag or capacity the size of a torque may only grow: no slope is given there."""
-    found = gearbox(initial_ring_speed=40.0).gradient([0.0, 0.0, 0.0, 0.0, 0.5])
+    found = gearbox(initial_drum_speed=40.0).gradient([0.0, 0.0, 0.0, 0.0, 0.5, *BESIDE])
     assert (found[:, :4] == 0.0).all() and found[NAMES.index("clutch_load"), 4] == 5898.0
 
 
 def test_older_torques_look_further_ahead():
     """Extrapolated by their age, changed capacities count 1 + age times."""
     for age in (0, 1, 2):
-        unit = gearbox(initial_ring_speed=40.0, torque_age=age)
-        unit.step([50.0, 40.0, 0.0, 0.0, 0.5], dt=1e-3)
-        found = unit.gradient([60.0, 45.0, 0.0, 0.0, 0.5])
+        unit = gearbox(initial_drum_speed=40.0, torque_age=age)
+        unit.step([50.0, 40.0, 0.0, 0.0, 0.5, *BESIDE], dt=1e-3)
+        found = unit.gradient([60.0, 45.0, 0.0, 0.0, 0.5, *BESIDE])
         assert abs(found[NAMES.index("clutch_reaction"), 0]) == 1.0 + age

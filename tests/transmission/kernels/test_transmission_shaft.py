@@ -39,7 +39,7 @@ CASES = {  # packs that hold, and the inertia before the shaft (ring inertia 0.0
 @pytest.mark.parametrize("step", [1e-3, 0.05])
 def test_two_inertias_on_the_shaft_swing_as_the_closed_form_says(case, step):
     held, inertia = CASES[case]
-    box = Gearbox(**FREE | SHAFT, ring_inertia=0.05, initial_engine_speed=0.0, initial_twist=0.02)
+    box = Gearbox(**FREE | SHAFT, drum_inertia=0.05, initial_engine_speed=0.0, initial_twist=0.02)
     while box.time < 0.3:
         assert box.step(step, **held) == 0
         twist, rate, *_ = free_twist(inertia, box.time)
@@ -51,7 +51,7 @@ def test_two_inertias_on_the_shaft_swing_as_the_closed_form_says(case, step):
 
 def test_frequency_and_decay_read_from_the_swing_are_the_closed_forms():
     *_, frequency, decay = free_twist(0.4 + 3.2**2 * 0.25, 0.0)
-    box = Gearbox(**FREE | SHAFT, ring_inertia=0.0, initial_engine_speed=0.0, initial_twist=0.02)
+    box = Gearbox(**FREE | SHAFT, drum_inertia=0.0, initial_engine_speed=0.0, initial_twist=0.02)
     box.step(0.0, brake=1e4)
     rows = []
     while box.time < 1.0:
@@ -74,7 +74,7 @@ def test_frequency_and_decay_read_from_the_swing_are_the_closed_forms():
 
 
 def test_what_the_spring_loses_the_damper_and_the_motion_take():
-    box = Gearbox(**FREE | SHAFT, ring_inertia=0.01, initial_engine_speed=0.0, initial_twist=0.1)
+    box = Gearbox(**FREE | SHAFT, drum_inertia=0.01, initial_engine_speed=0.0, initial_twist=0.1)
     spring = 0.5 * SHAFT["shaft_stiffness"] * 0.1**2
     last = 0.0
     for _ in range(1200):
@@ -89,7 +89,7 @@ def test_what_the_spring_loses_the_damper_and_the_motion_take():
 
 def shift(**params):
     """Return a gearbox after a shift: brake open, clutch locking, load on the vehicle."""
-    box = Gearbox(ring_inertia=0.01, washers=8, **params)
+    box = Gearbox(drum_inertia=0.01, washers=8, **params)
     for i in range(300):
         assert box.step(5e-3, clutch=350.0 if i > 20 else 0.0, brake=380.0 if i <= 20 else 0.0,
                         washer=0.03, mesh=0.2) == 0  # fmt: skip
@@ -122,8 +122,8 @@ def test_the_vehicle_meets_the_load():
 
 def test_a_winding_shaft_breaks_a_stuck_clutch_away_and_lets_it_lock_again():
     """The twist swings the torque in the locked clutch above its capacity and back, each period."""
-    box = Gearbox(**FREE | SHAFT | {"shaft_damping": 0.0}, ring_inertia=0.0,
-                  initial_engine_speed=100.0, initial_ring_speed=100.0,
+    box = Gearbox(**FREE | SHAFT | {"shaft_damping": 0.0}, drum_inertia=0.0,
+                  initial_engine_speed=100.0, initial_drum_speed=100.0,
                   initial_twist=0.15)  # fmt: skip
     for _ in range(4000):
         assert box.step(1e-3, clutch=75.0) == 0
@@ -138,8 +138,8 @@ def test_a_winding_shaft_breaks_a_stuck_clutch_away_and_lets_it_lock_again():
 def test_events_on_the_shaft_do_not_depend_on_the_communication_step():
     ends = []
     for n in (40, 400):
-        box = Gearbox(**FREE | SHAFT, ring_inertia=0.01, initial_engine_speed=101.0,
-                      initial_ring_speed=100.0, initial_twist=0.15)  # fmt: skip
+        box = Gearbox(**FREE | SHAFT, drum_inertia=0.01, initial_engine_speed=101.0,
+                      initial_drum_speed=100.0, initial_twist=0.15)  # fmt: skip
         for _ in range(n):
             assert box.step(0.4 / n, clutch=60.0) == 0
         ends.append([box[name] for name in ("lock_time", "events", "shaft_twist", "clutch_heat")])
@@ -165,7 +165,7 @@ rows = st.tuples(torques, torques, st.one_of(st.just(0.0), st.floats(-2.0, 2.0))
 def test_whatever_arrives_the_book_closes_and_heat_is_not_negative(
     engine, ring_inertia, load, stiffness, damping, twist, dt, received
 ):
-    box = Gearbox(initial_engine_speed=engine, ring_inertia=ring_inertia, load_torque=load,
+    box = Gearbox(initial_engine_speed=engine, drum_inertia=ring_inertia, load_torque=load,
                   carrier_inertia=0.3, shaft_stiffness=stiffness, shaft_damping=damping,
                   initial_twist=twist)  # fmt: skip
     turnover = 1.0 + 0.5 * stiffness * twist**2

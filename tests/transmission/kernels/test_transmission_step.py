@@ -28,8 +28,10 @@ class Gearbox:
         self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
         self.time = 0.0
 
-    def step(self, dt, clutch=0.0, brake=0.0, washer=0.0, mesh=0.0, command=0.0):
-        inp = np.array([clutch, brake, washer, mesh, command])
+    def step(self, dt, **inputs):
+        names = [s.name.removesuffix("_torque").replace("shift_", "") for s in SPEC.inputs]
+        assert set(inputs) <= set(names), names
+        inp = np.array([inputs.get(name, 0.0) for name in names])
         status = k.step(self.par, inp, self.state, self.work, self.out, self.iout, self.time, dt)
         self.time += dt if status == 0 else 0.0
         return status
@@ -48,7 +50,13 @@ def test_the_arrays_are_laid_out_as_the_lists_say():
     def names(start, skip=()):
         return [n[len(start) :].lower() for n in vars(L) if n.startswith(start) and n not in skip]
 
-    assert names("P_") == [f.name for f in fields(TransmissionParams)] + ["fidelity"]
+    found = [f.name for f in fields(TransmissionParams)] + ["fidelity"]
+    whole = names("P_", ("P_CLUTCH_COURSE", "P_ENGINE_COURSE", "P_FIDELITY"))
+    assert found[: len(whole)] == whole and len(found) == L.N_PARAM
+    assert found[L.P_CLUTCH_PISTON_AREA + L.N_OWN] == "brake_piston_area"
+    assert found[L.P_CLUTCH_PISTON_AREA + L.OWN_LAG] == "clutch_pressure_lag"
+    assert found[L.P_CLUTCH_COURSE] == "clutch_pressure_points"
+    assert found[L.P_ENGINE_COURSE + 1 + L.MAX_POINTS] == "engine_torque_1"
     assert names("O_") == [s.name for s in SPEC.outputs if s.kind == "real"]
     others = [s.name for s in SPEC.outputs if s.kind != "real"]
     assert names("IO_") == [n.replace("solver_", "") for n in others]
@@ -57,7 +65,7 @@ def test_the_arrays_are_laid_out_as_the_lists_say():
 
 def test_clutch_locks_two_free_inertias_when_the_closed_form_says():
     """Massless ring, brake open: the clutch acts with (1 + 1/r) between sun and carrier."""
-    box = Gearbox(**FREE | {"ring_inertia": 0.0, "engine_torque": 40.0, "initial_ring_speed": 9.0})
+    box = Gearbox(**FREE | {"drum_inertia": 0.0, "engine_torque": 40.0, "initial_drum_speed": 9.0})
     sun, carrier = 350.0, (350.0 + 2.2 * 9.0) / 3.2
     exact = engagement(300.0 * (1 + 1 / 2.2), 40.0, 0.0, 0.25, 8.0, sun, carrier)
     while not box["clutch_locked"]:
@@ -68,20 +76,20 @@ def test_clutch_locks_two_free_inertias_when_the_closed_form_says():
     assert box["clutch_speed"] == 0.0
 
 
-@pytest.mark.parametrize("ring_inertia", [0.0, 0.01, 0.3])
-def test_slip_sees_the_reduced_inertia(ring_inertia):
-    box = Gearbox(**FREE | {"ring_inertia": ring_inertia})
+@pytest.mark.parametrize("drum_inertia", [0.0, 0.01, 0.3])
+def test_slip_sees_the_reduced_inertia(drum_inertia):
+    box = Gearbox(**FREE | {"drum_inertia": drum_inertia})
     box.step(0.0)
     slip = box["clutch_speed"]
     box.step(1e-3, clutch=100.0)
-    expected = 100.0 / reduced_inertia(2.2, 0.25, ring_inertia, 8.0)
+    expected = 100.0 / reduced_inertia(2.2, 0.25, drum_inertia, 8.0)
     assert (slip - box["clutch_speed"]) / 1e-3 == pytest.approx(expected, rel=1e-10)
 
 
 def test_the_lock_up_does_not_depend_on_the_communication_step():
     times = []
     for n in (1, 7, 100):
-        box = Gearbox(ring_inertia=0.02)
+        box = Gearbox(drum_inertia=0.02)
         for _ in range(n):
             assert box.step(2.0 / n, clutch=350.0) == 0
         times.append(box["lock_time"])
@@ -93,13 +101,13 @@ def test_a_held_drum_stays_at_exactly_zero_and_carries_r_tau():
     for _ in range(50):
         box.step(1e-2, brake=380.0)
         assert box["brake_speed"] == 0.0 and box["brake_locked"] == 1.0
-        assert box["brake_reaction"] == pytest.approx(-2.2 * box["sun_torque"], rel=1e-12)
+        assert box["brake_reaction"] == pytest.approx(-2.2 * box["input_tooth_torque"], rel=1e-12)
     assert box["engine_speed"] == pytest.approx(3.2 * box["output_speed"], rel=1e-15)
 
 
 def test_break_away_comes_where_the_capacity_crosses_the_reaction():
     """Brake capacity falls linearly; the reaction at constant speed is known in closed form."""
-    box = Gearbox(load_torque=0.0, ring_inertia=0.0, washers=0)
+    box = Gearbox(load_torque=0.0, drum_inertia=0.0, washers=0)
     inertia = 0.25 + 8.0 / 3.2**2  # first gear, seen by the engine
     reaction = 2.2 * (150.0 - 0.25 * 150.0 / inertia)
     box.step(0.01, brake=404.0)
@@ -123,7 +131,7 @@ def test_both_packs_hold_everything_still_and_say_so():
     for _ in range(200):
         assert box.step(0.01, clutch=500.0, brake=500.0) == 0
     assert box["clutch_locked"] == box["brake_locked"] == 1.0
-    assert box["engine_speed"] == box["output_speed"] == box["ring_speed"] == 0.0
+    assert box["engine_speed"] == box["output_speed"] == box["drum_speed"] == 0.0
     assert box["solver_status"] == Status.STALLED
     assert box["clutch_reaction"] == pytest.approx(box["brake_reaction"]) == 150.0
     box.step(0.01, clutch=500.0, brake=0.0)
@@ -141,7 +149,7 @@ def test_an_engine_turned_on_inside_a_step_starts_there():
 
 def test_locked_clutch_breaks_away_and_locks_again_within_one_step():
     """Capacity dips under the reaction and is received again: both events are located."""
-    box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_ring_speed": 350.0})
+    box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_drum_speed": 350.0})
     box.step(0.01, clutch=300.0)
     box.step(0.01, clutch=300.0)
     assert box["clutch_locked"] == 1.0
@@ -158,7 +166,7 @@ def test_a_dip_of_the_slip_below_zero_inside_one_step_is_not_missed():
     found = []
     for n in (1, 50):
         box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_engine_speed": 144.3,
-                                "initial_ring_speed": 100.0})  # fmt: skip
+                                "initial_drum_speed": 100.0})  # fmt: skip
         box.step(1e-4, clutch=400.8)
         for i in range(n):
             box.step(0.05 / n, clutch=400.0 * (1.0 - i / n))
@@ -168,7 +176,7 @@ def test_a_dip_of_the_slip_below_zero_inside_one_step_is_not_missed():
 
 
 def test_drag_alone_holds_the_planets_but_not_the_clutch():
-    box = Gearbox(**FREE | {"initial_ring_speed": 350.0, "engine_torque": 1.0, "washers": 8})
+    box = Gearbox(**FREE | {"initial_drum_speed": 350.0, "engine_torque": 1.0, "washers": 8})
     for _ in range(10):
         assert box.step(0.01, washer=0.5) == 0
     assert box["clutch_speed"] == 0.0 and box["clutch_locked"] == 0.0
@@ -180,7 +188,7 @@ def test_loads_on_planet_washer_and_mesh_are_the_closed_forms():
     box.step(1e-3, brake=380.0)
     helix = math.radians(20.0)
     sun, planet = pitch_radius(30, 1.5e-3, helix), pitch_radius(18, 1.5e-3, helix)
-    forces = planet_forces(box["sun_torque"], sun, planet, helix, 4)
+    forces = planet_forces(box["input_tooth_torque"], sun, planet, helix, 4)
     assert box["tooth_force"] == pytest.approx(forces.tangential, rel=1e-13)
     assert box["tilting_couple"] == pytest.approx(forces.couple, rel=1e-13)
     assert box["sun_thrust"] == pytest.approx(forces.sun_thrust, rel=1e-13)
@@ -244,8 +252,8 @@ rows = st.tuples(torques, torques, st.one_of(st.just(0.0), st.floats(-2.0, 2.0))
 def test_whatever_arrives_friction_takes_energy_and_the_book_closes(
     engine, ring, ring_inertia, torque, load, dt, age, received
 ):
-    box = Gearbox(initial_engine_speed=engine, initial_ring_speed=ring, load_torque=load,
-                  ring_inertia=ring_inertia, engine_torque=torque, torque_age=age)  # fmt: skip
+    box = Gearbox(initial_engine_speed=engine, initial_drum_speed=ring, load_torque=load,
+                  drum_inertia=ring_inertia, engine_torque=torque, torque_age=age)  # fmt: skip
     turnover = 1.0
     for clutch, brake, washer in received:
         assert box.step(dt, clutch=clutch, brake=brake, washer=washer, mesh=0.1) == 0

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ParameterError, suggestion
+from ...model.prepare import course_of
 from ...numerics.jit import Array
-from ..parameters import LOAD, SPEED, ClutchParams
+from ..parameters import LOAD, OIL, SPEED, ClutchParams
 from . import friction_law as law
 from .calibration_result import Calibration, Estimate
 from .data_warnings import warnings
@@ -30,6 +31,7 @@ def calibrate(
     load: ArrayLike,
     friction: ArrayLike,
     friction_error: ArrayLike | None = None,
+    oil_temperature: ArrayLike | None = None,
     fit: Sequence[str] = DEFAULT_FIT,
     confidence: float = 0.95,
     profile: bool = True,
@@ -43,12 +45,15 @@ def calibrate(
 
     Parameters
     ----------
-    params : the pack: its friction radius, the constants that are not fitted, the first guess
+    params : the pack: its friction radius, the constants that are not fitted, the first guess; its
+        ``friction_data`` says what the law describes. "total": the points as they are. "boundary":
+        the points less the shear of the settled film. A table gives way to the law
     speed : (points,) slip [rad/s]; the sign does not matter
     load : (points,) or one value [N], above 0; used to test that friction does not depend on it
     friction : (points,) measured coefficient of friction [-]
     friction_error : (points,) or one value, standard deviation of ``friction``; without it the
         scatter of the residuals is taken
+    oil_temperature : (points,) or one value [K]; wanted for friction_data "boundary" alone
     fit : names of constants: plough_weight, shear_floor, stick_speed, decay_speed, hardness_ratio,
         indentation; constant_friction alone under friction_law "constant"
     confidence : probability of the intervals, above 0 and below 1
@@ -75,14 +80,18 @@ def calibrate(
     >>> import numpy as np
     >>> from thrustwasher import solve_clutch
     >>> slip = np.linspace(5.0, 150.0, 30)
-    >>> truth = ClutchParams(plough_weight=0.2, decay_speed=2.0)
+    >>> truth = ClutchParams(friction_law="wang", plough_weight=0.2, decay_speed=2.0)
     >>> mu = [solve_clutch(truth, load=5e3, speed=w).friction_coefficient for w in slip]
     >>> found = calibrate(ClutchParams(), speed=slip, load=5e3, friction=mu)
     >>> round(found.params.plough_weight, 6), round(found.params.decay_speed, 6)
     (0.2, 2.0)
     """
+    if params.friction_law == "table":
+        params = replace(params, friction_law="wang")
     names = checked_names(params, fit)
     problem = checked_problem(params, names, speed, load, friction, friction_error)
+    if params.friction_data == "boundary":
+        problem = _of_asperities(params, problem, speed, oil_temperature)
     if not isinstance(confidence, int | float) or not 0.0 < confidence < 1.0:
         raise ParameterError(f"confidence = {confidence!r}, allowed: above 0 and below 1")
     first = np.array([problem.base[name] for name in names])
@@ -184,15 +193,25 @@ def _correlation(problem: Problem, told: Information) -> Array:
     return np.asarray(matrix)
 
 
+def _of_asperities(
+    params: ClutchParams, problem: Problem, speed: ArrayLike, oil_temperature: ArrayLike | None
+) -> Problem:
+    """Return the problem without the shear of the settled film."""
+    if oil_temperature is None:
+        raise ParameterError(
+            "oil_temperature is missing, wanted with friction_data = 'boundary': shear of the oil "
+            "is taken off the measured friction"
+        )
+    oil = course_of("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0,
+                    len(problem.friction))  # fmt: skip
+    shear = law.settled_shear(params, np.asarray(speed, float), problem.load, oil)
+    return replace(problem, friction=law.without_shear(problem.friction, shear))
+
+
 def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
     """Return the names to fit, or say which one cannot be."""
     names = (fit,) if isinstance(fit, str) else tuple(fit)
     acting = law.constants_of(params)
-    if not acting:
-        raise ParameterError(
-            f"friction_law = {params.friction_law!r}: its points are the measurement itself, there "
-            "is nothing to fit; allowed: 'wang' or 'constant'"
-        )
     allowed = f"allowed under friction_law {params.friction_law!r}: {', '.join(acting)}"
     if not names:
         raise ParameterError(f"fit names nothing, {allowed}")
@@ -214,19 +233,20 @@ def checked_problem(
     friction: ArrayLike, friction_error: ArrayLike | None,
 ) -> Problem:  # fmt: skip
     """Return what is to be solved, or name the first value that cannot be used."""
-    mu = _column("friction", friction, "", -LARGEST_FRICTION, LARGEST_FRICTION)
+    mu = course_of("friction", friction, "1", -LARGEST_FRICTION, LARGEST_FRICTION)
     count = len(mu)
-    slip = _column("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, count, False)
-    force = _column("load", load, "N", 0.0, LOAD.high or 0.0, count)
+    slips = np.atleast_1d(np.asarray(speed, object))  # one speed for all tells nothing
+    slip = course_of("speed", slips, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, count)
+    force = course_of("load", load, "N", 0.0, LOAD.high or 0.0, count)
     weight = np.ones(count)
     if friction_error is not None:
-        error = _column("friction_error", friction_error, "", 0.0, LARGEST_FRICTION, count)
-        weight = 1.0 / _above_zero("friction_error", error, "")
+        error = course_of("friction_error", friction_error, "1", 0.0, LARGEST_FRICTION, count)
+        weight = 1.0 / _above_zero("friction_error", error)
     if mu.mean() <= 0.0:
         raise ParameterError(
             f"friction is {mu.mean():.3g} on average, allowed: above 0 (for either sign of speed)"
         )
-    force, slip_speed = _above_zero("load", force, "N"), np.abs(slip) * params.friction_radius
+    force, slip_speed = _above_zero("load", force, " N"), np.abs(slip) * params.friction_radius
     scale = np.where(np.isin(names, SPEEDS), float(slip_speed.max()) or 1.0, 1.0)
     if names == law.CONSTANT_LAW:
         scale[0] = float(mu.mean())
@@ -236,36 +256,9 @@ def checked_problem(
     )  # fmt: skip
 
 
-def _column(
-    name: str, values: ArrayLike, unit: str, low: float, high: float, count: int = 0,
-    scalar: bool = True,
-) -> Array:  # fmt: skip
-    """Return a finite one-dimensional array in range; one value serves all points if allowed."""
-    try:
-        array = np.asarray(values, float)
-    except (TypeError, ValueError):
-        raise ParameterError(f"{name}: numbers{_in(unit, ' in')} are wanted") from None
-    if array.ndim == 0 and count and scalar:
-        array = np.full(count, float(array))
-    if array.ndim != 1 or len(array) == 0:
-        raise ParameterError(f"{name} has shape {array.shape}, allowed: one value per point")
-    if count and len(array) != count:
-        raise ParameterError(f"{name} has {len(array)} values, friction has {count}")
-    bad = ~((array >= low) & (array <= high))
-    if bad.any():
-        i = int(np.argmax(bad))
-        span = f"allowed: {low:g} .. {high:g} {unit}".rstrip()
-        raise ParameterError(f"{name}[{i}] = {float(array[i])!r}{_in(unit)}, {span}")
-    return array
-
-
-def _above_zero(name: str, array: Array, unit: str) -> Array:
+def _above_zero(name: str, array: Array, unit: str = "") -> Array:
     """Return the array, or name its first zero."""
     if (array == 0.0).any():
         i = int(np.argmax(array == 0.0))
-        raise ParameterError(f"{name}[{i}] = 0{_in(unit)}, allowed: above 0")
+        raise ParameterError(f"{name}[{i}] = 0{unit}, allowed: above 0")
     return array
-
-
-def _in(unit: str, word: str = "") -> str:
-    return f"{word} {unit}" if unit else ""

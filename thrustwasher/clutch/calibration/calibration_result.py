@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...numerics.jit import Array
+from ...storage.digests import finite
 from ..parameters import ClutchParams
 from .friction_law import friction_slopes
 from .identifiability import Information, LoadTest, counted
@@ -65,6 +66,11 @@ class Calibration:
     _best: Array = field(repr=False)
     _told: Information = field(repr=False)
 
+    @property
+    def friction(self) -> Array:
+        """(points,) measured coefficient, less the shear that was taken off."""
+        return self._problem.friction
+
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of one constant."""
         return next(e for e in (*self.estimates, *self.end_frictions) if e.name == name)
@@ -91,10 +97,11 @@ class Calibration:
         load = asdict(self.load_test) | {"is_significant": self.load_test.is_significant}
         return {
             "warnings": list(self.warnings),
+            "friction_data": self.params.friction_data,
             "fitted": {e.name: e.value for e in self.estimates},
-            "estimates": [_plain(asdict(e)) for e in self.estimates],
-            "end_frictions": [_plain(asdict(e)) for e in self.end_frictions],
-            "correlation": _plain(self.correlation.tolist()),
+            "estimates": [finite(asdict(e)) for e in self.estimates],
+            "end_frictions": [finite(asdict(e)) for e in self.end_frictions],
+            "correlation": finite(self.correlation.tolist()),
             "confounded": list(self.confounded),
             "residuals": self.residuals.tolist(),
             "rms": self.rms,
@@ -125,13 +132,17 @@ def _sentences(found: Calibration) -> list[str]:
         f"{counted(len(found.estimates), 'constant')} fitted to {counted(count, 'point')}, rms "
         f"residual {found.rms:.3g}, {counted(found.degrees_of_freedom, 'degree')} of freedom."
     )
+    if found.params.friction_data == "total":
+        lines.append("Points and law: total friction of a settled pack, shear of its oil included.")
+    else:
+        lines.append("Law: asperities alone; the settled film's shear was taken off the points.")
     if found.reduced_chi_square is not None:
         lines.append(_chi_text(found))
     lines += [_row(e, share) for e in (*found.estimates, *found.end_frictions)]
     for reason in dict.fromkeys(e.reason for e in found.estimates if e.reason):
         names = [e.name for e in found.estimates if e.reason == reason]
         lines.append(f"{', '.join(names)}: {reason}.")
-    lines += [_curved_text(e) for e in found.estimates if _is_curved(e)]
+    lines += filter(None, map(_curved, found.estimates))
     lines.append(f"Load: {found.load_test.text}.")
     if found.params.shear_temperature_slope != 0.0:
         warm = found.params.reference_temperature
@@ -175,26 +186,8 @@ def _chi_text(found: Calibration) -> str:
     return text + ": the residuals are as large as friction_error says."
 
 
-def _is_curved(e: Estimate) -> bool:
-    if e.profile_interval is None:
-        return False
-    width = e.interval[1] - e.interval[0]
-    return any(
-        abs(a - b) > CURVED * width for a, b in zip(e.interval, e.profile_interval, strict=True)
-    )
-
-
-def _curved_text(e: Estimate) -> str:
-    ends = spanned(*(e.profile_interval or e.interval))
-    return f"{e.name}: the profile interval {ends} differs; trust it more."
-
-
-def _plain(value: Any) -> Any:
-    """Return the same with None for numbers that are not finite."""
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    return value
+def _curved(e: Estimate) -> str:
+    width, ends = e.interval[1] - e.interval[0], e.profile_interval or e.interval
+    if all(abs(a - b) <= CURVED * width for a, b in zip(e.interval, ends, strict=True)):
+        return ""
+    return f"{e.name}: the profile interval {spanned(*ends)} differs; trust it more."

@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import ParameterError
 from ...numerics.jit import Array
-from ..kernels.pack_friction import ploughing
+from ..kernels.pack_friction import ploughing, settled_slope, viscous_slopes
 from ..parameters import ClutchParams
+from ..solve import prepare
 
 WANG_CONSTANTS = (
     "plough_weight", "shear_floor", "stick_speed", "decay_speed", "hardness_ratio", "indentation",
@@ -27,6 +29,33 @@ def law_values(params: ClutchParams) -> dict[str, float]:
     """Return every number the law depends on, by the name of its parameter."""
     names = (*WANG_CONSTANTS, *CONSTANT_LAW, "kink_width", "adhesion_factor")
     return {name: float(getattr(params, name)) for name in names}
+
+
+def settled_shear(params: ClutchParams, slip: Array, load: Array, oil: Array) -> Array:
+    """Return what shear of the settled film's oil adds to the coefficient [-] of a pack.
+
+    ``slip`` [rad/s], ``load`` [N], temperature of the oil [K], one value per point.
+    """
+    par = prepare(params, "field")
+    lever = params.faces * params.friction_radius * load
+    points = zip(slip.tolist(), load.tolist(), oil.tolist(), strict=True)
+    torque = [
+        viscous_slopes(par, w, 0.0, settled_slope(par, f, 1.0)[0], t)[0] for w, f, t in points
+    ]
+    return np.asarray(np.array(torque) / lever)
+
+
+def without_shear(friction: Array, shear: Array) -> Array:
+    """Return the friction of the asperities; refuse points that are mostly the oil's shear."""
+    bad = shear > 0.5 * friction
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise ParameterError(
+            f"friction[{i}] = {float(friction[i])!r}: shear of the settled film makes "
+            f"{shear[i]:.3g} of it, allowed with friction_data = 'boundary': up to half; leave the "
+            "point out, or take friction_data = 'total'"
+        )
+    return friction - shear
 
 
 def shares(values: Mapping[str, float]) -> tuple[float, float]:

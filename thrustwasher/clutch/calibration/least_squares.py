@@ -96,7 +96,11 @@ def best_fit(problem: Problem, first: Array) -> Array:
         is_new = all(np.abs((guess - g) / problem.scale).max() > SAME for g in good)
         if is_new and problem.cost(guess) <= least * (1.0 + AS_GOOD) + 1e6 * noise:
             good.append(guess)
-    found = [_on_bounds(problem, _polished(problem, guess)) for guess in good]
+    fine = [_refine(problem, guess) for guess in good]  # a valley may be too flat for it
+    found = [
+        _on_bounds(problem, g if f is None or problem.cost(f) > problem.cost(g) else f)
+        for g, f in zip(good, fine, strict=True)
+    ]
     if not found:
         raise SolveError(
             f"the friction law could not be fitted from {len(starts)} starting points; fit fewer "
@@ -221,12 +225,6 @@ def _refine(
         ftol=tolerance, xtol=tolerance, gtol=tolerance,
     )  # fmt: skip
     return np.asarray(found.x) if found.status > 0 and np.isfinite(found.cost) else None
-
-
-def _polished(problem: Problem, guess: Array) -> Array:
-    """Return the optimum to the last digits; the guess itself where a valley is too flat for it."""
-    fine = _refine(problem, guess)
-    return guess if fine is None or problem.cost(fine) > problem.cost(guess) else fine
 
 
 def _on_bounds(problem: Problem, guess: Array) -> Array:

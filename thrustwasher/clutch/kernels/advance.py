@@ -10,7 +10,7 @@ from ...numerics.status import MAX_ITERATIONS, OK
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .pack_friction import coefficient_slopes, settled_slope
-from .rates import moves_film, n_unknowns, surfaces
+from .rates import moves_film, n_unknowns, settled_cooling, surfaces
 from .rosenbrock import Course, attempt
 from .rosenbrock_derivatives import Change, follow
 
@@ -60,21 +60,22 @@ def settle_film(par: Array, load: float, work: Array) -> int:
 
 @kernel
 def warm_up(
-    par: Array, k: int, power_start: float, power_end: float, oil: float, duration: float,
-    work: Array,
+    par: Array, k: int, power_start: float, power_end: float, oil: float, cooling: float,
+    duration: float, work: Array,
 ) -> None:  # fmt: skip
     """Advance a ring's heat in W_NOW exactly, and the energy, under a power that runs straight.
 
-    ``power_start``, ``power_end``: of a face [W].
+    ``power_start``, ``power_end``: of a face [W]; ``cooling`` of the pack's faces [W/(m2 K)].
     """
     block, n = int(par[L.D_FIRST]) + k * L.N_PACK, 1 + int(par[L.D_MODES])
     if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
         for i in range(n):
             place = np.uintp(L.W_NOW + L.Y_HEAT + k * n + i)
             level = oil if i == 0 else 0.0
-            decay, first, second = exponential_weights(
-                par[np.uintp(block + L.D_DECAY + i)] * duration
-            )
+            rate = par[np.uintp(block + L.D_DECAY + i)]
+            if i == 0:
+                rate = par[np.uintp(block + L.D_GAIN)] * cooling * par[np.uintp(block + L.D_AREA)]
+            decay, first, second = exponential_weights(rate * duration)
             gain = power_start * first + (power_end - power_start) * second
             work[place] = (
                 level
@@ -102,7 +103,8 @@ def settle(par: Array, course: Course, duration: float, power_start: float, work
     )
     end = settled_power(par, course[3], course[4], work)
     held = course[0] == course[3] and course[1] == course[4]
-    warm_up(par, 0, end if held else power_start, end, course[2], duration, work)
+    cooling = settled_cooling(par, course[3])
+    warm_up(par, 0, end if held else power_start, end, course[2], cooling, duration, work)
     return status
 
 
@@ -118,7 +120,7 @@ def advance(
 ) -> int:
     """Bring W_NOW through a stretch over which load, slip and oil temperature run straight."""
     if is_integrated(par):
-        status = integrate(par, course, (0.0, 0.0, 0.0), duration, first, False, work)
+        status = integrate(par, course, (0.0, 0.0, 0.0, 0.0), duration, first, False, work)
         return status if status != OK else settle_film(par, course[3], work)
     return settle(par, course, duration, power_start, work)
 
@@ -132,8 +134,8 @@ def integrate(
 
     Parameters
     ----------
-    course : load [N], slip [rad/s], oil temperature [K] at the start, then at the end; straight
-        in between
+    course : load [N], slip [rad/s], oil temperature [K] at the start, then at the end, then the
+        drum's speed [rad/s] at both; straight in between
     change : of the inputs at the end; counts with ``follows`` only
     first : size of the first substep [s] to try, 0 if unknown
     follows : the changes of the unknowns at W_VARIED, which are 0 at the start, go along

@@ -1,3 +1,4 @@
+# mypy: disable-error-code="no-any-return"
 """Constants of a pack behind its parameters, and rules between these."""
 
 import math
@@ -11,6 +12,10 @@ from ...tribology.flow_factors import squeeze_group
 from ...tribology.greenwood_tripp import pressure_scale
 from . import layout as L
 from .pack_friction import ploughing
+
+SUMMED = 31.0 / 32.0 * 1.0369277551433699  # of 1/j^5 over odd j
+N_ODD = 13  # tanh(j pi/2) is 1 to rounding beyond
+NUSSELT = 4.86  # Nusselt number of laminar flow in a slot, one wall heated
 
 
 @kernel
@@ -39,17 +44,38 @@ def derive_film(par: Array) -> None:
     par[L.D_CONTACT_AREA] = math.pi * math.pi * group * group
     par[L.D_CLOSING] = (
         2.0 * par[L.D_AREA] * sigma * sigma
-        / (3.0 * math.pi * squeeze_group(ri, ro) * par[L.P_GROOVE_FACTOR])
+        / (3.0 * math.pi * squeeze_group(ri, ro) * groove_factor(par))
     )  # fmt: skip
     cube = sigma * sigma * sigma
     par[L.D_SEEPAGE] = 12.0 * par[L.P_PERMEABILITY] * par[L.P_LINING_THICKNESS] / cube
     square = (ro - ri) * (ro + ri)
     lever = square * (ro * ro + ri * ri)
     par[L.D_VISCOUS] = par[L.P_FACES] * 0.5 * math.pi * lever / sigma
-    # What centrifugal force pumps through a full gap, one side at rest; docs/theory/clutch.md.
-    par[L.D_DEMAND] = math.pi * par[L.P_OIL_DENSITY] * cube * square / (40.0 * math.log(ro / ri))
+    # What centrifugal force pumps through a full gap; docs/theory/clutch.md.
+    par[L.D_DEMAND] = math.pi * par[L.P_OIL_DENSITY] * cube * square / (12.0 * math.log(ro / ri))
     par[L.D_SUPPLY] = par[L.P_OIL_FLOW] / par[L.P_FACES]
     par[L.D_OPEN_RATIO] = par[L.P_INITIAL_FILM] / sigma
+    par[L.D_GROOVE_RATIO] = par[L.P_GROOVE_DEPTH] / sigma
+
+
+@kernel
+def groove_factor(par: Array) -> float:
+    """Return the squeeze resistance [-] of the lands between the grooves over a plain ring's.
+
+    N rectangular pads a x l, a <= l, each with F = eta v a^3 l k/h^3 and k = 1 - 192 a/(pi^5 l)
+    sum over odd j of tanh(j pi l/(2 a))/j^5. Derived in docs/theory/clutch.md.
+    """
+    ri, ro, n = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GROOVE_COUNT]
+    if n == 0.0:
+        return 1.0
+    along = math.pi * (ro + ri) / n - par[L.P_GROOVE_WIDTH]
+    a, b = min(ro - ri, along), max(ro - ri, along)
+    total = SUMMED
+    for i in range(N_ODD):
+        j = 2.0 * i + 1.0
+        total -= 2.0 / (math.exp(min(j * math.pi * b / a, 700.0)) + 1.0) / (j * j * j * j * j)
+    k = 1.0 - 192.0 * a / (math.pi * math.pi * math.pi * math.pi * math.pi * b) * total
+    return n * a * a * a * b * k / (1.5 * math.pi * squeeze_group(ri, ro))
 
 
 @kernel
@@ -64,8 +90,7 @@ def derive_heat(par: Array) -> None:
     volume_heat = par[L.P_STEEL_DENSITY] * par[L.P_STEEL_HEAT_CAPACITY]
     capacity = volume_heat * par[L.D_AREA] * half
     par[L.D_CAPACITY] = capacity
-    par[L.D_COOLING] = par[L.P_HEAT_TRANSFER] * par[L.D_AREA]
-    par[L.D_DECAY] = par[L.D_COOLING] / capacity
+    par[L.D_DECAY] = 0.0  # of the mean temperature: it depends on the film
     par[L.D_GAIN] = 1.0 / capacity
     par[L.D_MODES] = float(L.N_MODES) if par[L.P_CONTACT_RISE] != 0.0 else 0.0
     first = math.pi * math.pi * par[L.P_STEEL_CONDUCTIVITY] / (volume_heat * half * half)
@@ -77,6 +102,17 @@ def derive_heat(par: Array) -> None:
         rest -= 1.0 / square
     last = float(L.N_MODES) * float(L.N_MODES)
     par[np.uintp(L.D_GAIN + L.N_MODES)] = 2.0 / capacity * (1.0 + last * rest)
+
+
+@kernel
+def derive_cooling(par: Array) -> None:
+    """Fill how well a closed face is cooled, by oil in its grooves, and what the supply takes."""
+    par[L.D_CLOSED_COOLING] = par[L.P_HEAT_TRANSFER]
+    if par[L.P_GROOVE_COUNT] > 0.0 and par[L.P_LAND_SHARE] < 1.0:
+        in_groove = NUSSELT * par[L.P_OIL_CONDUCTIVITY] / (2.0 * par[L.P_GROOVE_DEPTH])
+        par[L.D_CLOSED_COOLING] = in_groove * (1.0 - par[L.P_LAND_SHARE])
+    heat = par[L.P_OIL_DENSITY] * par[L.P_OIL_HEAT_CAPACITY] * par[L.P_OIL_FLOW]
+    par[L.D_OIL_COOLING] = heat / (par[L.P_FACES] * par[L.D_AREA])
 
 
 @kernel
@@ -125,6 +161,7 @@ def derive(par: Array) -> int:
     derive_friction(par)
     derive_film(par)
     derive_heat(par)
+    derive_cooling(par)
     par[L.D_RINGS], par[L.D_FIRST], par[L.D_SQUEEZE] = 1.0, 0.0, 1.0
     if par[L.P_FIDELITY] == L.FINE:
         derive_rings(par, L.N_RINGS)
@@ -149,4 +186,7 @@ def broken_rule(par: Array) -> int:
             if not speed > last:
                 return 2 + k
             last = speed
+    n, circle = par[L.P_GROOVE_COUNT], par[L.P_OUTER_RADIUS] + par[L.P_INNER_RADIUS]
+    if n > 0.0 and not n * par[L.P_GROOVE_WIDTH] < math.pi * circle:
+        return 2 + L.N_TABLE
     return 0

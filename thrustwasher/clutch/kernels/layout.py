@@ -2,29 +2,31 @@
 
 # Parameters, in the order of ClutchParams.
 (
-    P_INNER_RADIUS, P_OUTER_RADIUS, P_FACES, P_EFFECTIVE_RADIUS, P_FRICTION_LAW,
+    P_INNER_RADIUS, P_OUTER_RADIUS, P_FACES, P_EFFECTIVE_RADIUS, P_FRICTION_LAW, P_FRICTION_DATA,
     P_CONSTANT_FRICTION, P_TABLE_FRICTION_0, P_TABLE_SPEED_1, P_TABLE_FRICTION_1, P_TABLE_SPEED_2,
     P_TABLE_FRICTION_2, P_TABLE_SPEED_3, P_TABLE_FRICTION_3, P_TABLE_SPEED_4, P_TABLE_FRICTION_4,
     P_TABLE_SPEED_5, P_TABLE_FRICTION_5, P_INDENTATION, P_PLOUGH_WEIGHT, P_HARDNESS_RATIO,
     P_ADHESION_FACTOR,
     P_SHEAR_FLOOR, P_STICK_SPEED, P_DECAY_SPEED, P_KINK_WIDTH, P_SHEAR_TEMPERATURE_SLOPE,
     P_REFERENCE_TEMPERATURE, P_ROUGHNESS, P_CONTACT_MODULUS, P_ASPERITY_DENSITY,
-    P_ASPERITY_RADIUS, P_LINING_THICKNESS, P_PERMEABILITY, P_GROOVE_FACTOR, P_INITIAL_FILM,
-    P_STARTS_PRESSED, P_FILM_DYNAMICS, P_SHEAR_HEATING, P_OIL_FLOW, P_OIL_DENSITY,
-    P_OIL_CONDUCTIVITY, P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE,
+    P_ASPERITY_RADIUS, P_LINING_THICKNESS, P_PERMEABILITY, P_LAND_SHARE, P_GROOVE_COUNT,
+    P_GROOVE_WIDTH, P_GROOVE_DEPTH, P_INITIAL_FILM, P_STARTS_PRESSED, P_FILM_DYNAMICS,
+    P_SHEAR_HEATING, P_OIL_FLOW, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_OIL_CONDUCTIVITY,
+    P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE,
     P_STEEL_THICKNESS, P_STEEL_DENSITY, P_STEEL_HEAT_CAPACITY, P_STEEL_CONDUCTIVITY,
     P_CONTACT_RISE, P_HEAT_TRANSFER, P_SPEED_SMOOTHING, P_INPUT_COURSE, P_FIDELITY,
-) = range(53)  # fmt: skip
-N_PARAM = 53
+) = range(58)  # fmt: skip
+N_PARAM = 58
 
 N_MODES = 8  # of heat conduction across half a steel plate
 
 # Constants behind them.
 (
-    D_AREA, D_RADIUS, D_PLOUGH, D_ADHESION, D_PRESSURE, D_CONTACT_AREA, D_CAPACITY, D_COOLING,
-    D_CLOSING, D_SEEPAGE, D_VISCOUS, D_DEMAND, D_SUPPLY, D_OPEN_RATIO, D_MODES,
-) = range(N_PARAM, N_PARAM + 15)  # fmt: skip
-D_DECAY = N_PARAM + 15  # decay rate [1/s] of the lumped heat, then of each mode
+    D_AREA, D_RADIUS, D_PLOUGH, D_ADHESION, D_PRESSURE, D_CONTACT_AREA, D_CAPACITY,
+    D_CLOSED_COOLING, D_OIL_COOLING, D_CLOSING, D_SEEPAGE, D_VISCOUS, D_DEMAND, D_SUPPLY,
+    D_OPEN_RATIO, D_GROOVE_RATIO, D_MODES,
+) = range(N_PARAM, N_PARAM + 17)  # fmt: skip
+D_DECAY = N_PARAM + 17  # decay rate [1/s] of each mode, from the second place on
 D_GAIN = D_DECAY + 1 + N_MODES  # their rise [K/s] per W into a face
 N_PACK = D_GAIN + 1 + N_MODES
 # Behind them the rings the pack is resolved into: their number, the place of the first one's
@@ -35,8 +37,8 @@ D_RINGS, D_FIRST, D_SQUEEZE = N_PACK, N_PACK + 1, N_PACK + 2
 D_BLOCKS = D_SQUEEZE + MAX_RINGS
 NPAR = D_BLOCKS + MAX_RINGS * N_PACK
 
-I_LOAD, I_SPEED, I_OIL = range(3)
-NINP = 3
+I_LOAD, I_SPEED, I_OIL, I_DRUM = range(4)
+NINP = 4
 
 # The unknowns of a pack: film ratio, energy of a face, then ring by ring the plate's mean
 # temperature and its modes, without gaps.
@@ -47,9 +49,10 @@ NY = Y_HEAT + N_HEAT
 # Memory. What has to do with a point in time belongs to the last one whose inputs are known.
 S_STARTED, S_FILM, S_ENERGY, S_HEAT = range(4)  # the last three: unknowns in their order
 (
-    S_SHOWN_TEMPERATURE, S_SHOWN_ENERGY, S_POWER, S_LOAD, S_SLIP, S_OIL, S_DURATION, S_SUBSTEP,
-) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 8)  # fmt: skip
-NSTATE = S_HEAT + N_HEAT + 8
+    S_SHOWN_TEMPERATURE, S_SHOWN_ENERGY, S_SHOWN_STORED, S_SHOWN_OIL_HEAT, S_FIRST, S_POWER,
+    S_LOAD, S_SLIP, S_OIL, S_DRUM, S_DURATION, S_SUBSTEP,
+) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 12)  # fmt: skip
+NSTATE = S_HEAT + N_HEAT + 12
 
 N_STAGES = 6
 W_NOW, W_TRIAL, W_RATE, W_STAGES = 0, NY, 2 * NY, 3 * NY
@@ -57,23 +60,23 @@ W_SUBSTEPS = W_STAGES + N_STAGES * NY  # counts: accepted and refused substeps
 W_REFUSED = W_SUBSTEPS + 1
 W_PROPOSED = W_SUBSTEPS + 2  # size [s] the next substep should have
 W_DURATION = W_SUBSTEPS + 3  # the step [s] that all this belongs to
-# Slopes behind the outputs shown: of both torques (>= 0) over load, |slip|, film ratio, interface
-# temperature; of the other outputs; film ratio over the load where it settles with it.
-(
-    W_CONTACT, W_CONTACT_LOAD, W_CONTACT_SLIP, W_CONTACT_FILM, W_CONTACT_HEAT,
-    W_VISCOUS, W_VISCOUS_SLIP, W_VISCOUS_FILM, W_VISCOUS_HEAT,
-    W_FRICTION_SLIP, W_FRICTION_HEAT, W_SHARE_FILM, W_VISCOSITY_HEAT, W_SMOOTH, W_SETTLED_LOAD,
-) = range(W_SUBSTEPS + 4, W_SUBSTEPS + 19)  # fmt: skip
+# Slope of the film ratio over the load where it settles with it; how well a face is cooled
+# [W/(m2 K)].
+W_SETTLED_LOAD, W_COOLING = W_SUBSTEPS + 4, W_SUBSTEPS + 5
 # Rates and their slopes at a point: film rate, its slopes over film ratio and load; then for each
-# ring the power of a face [W], its slopes over film ratio, temperature, load of the pack and slip,
-# and the slope of the film rate over the ring's temperature.
+# ring the power of a face [W], its slopes over film ratio, temperature, load of the pack, slip and
+# drum speed, the slope of the film rate over the ring's temperature, the cooling of a face [W/K],
+# its slopes over film ratio and load, the plate's mean temperature above the oil's [K].
 R_RATE, R_RATE_U, R_RATE_F, R_RINGS = range(4)
-R_POWER, R_POWER_U, R_POWER_T, R_POWER_F, R_POWER_S, R_RATE_T = range(6)
-N_OF_RING = 6
+(
+    R_POWER, R_POWER_U, R_POWER_T, R_POWER_F, R_POWER_S, R_POWER_D, R_RATE_T, R_COOL, R_COOL_U,
+    R_COOL_F, R_EXCESS,
+) = range(11)  # fmt: skip
+N_OF_RING = 11
 N_RATES = R_RINGS + MAX_RINGS * N_OF_RING
 # They are kept for each stage of the last substep, for where the drift of the rates was read, for a
 # neighbouring state, and as changes of the slopes.
-W_KEPT = W_SUBSTEPS + 19
+W_KEPT = W_SUBSTEPS + 6
 DRIFTED, NEIGHBOUR, BENT = N_STAGES, N_STAGES + 1, N_STAGES + 2
 W_NEIGHBOUR, W_BENT = W_KEPT + NEIGHBOUR * N_RATES, W_KEPT + BENT * N_RATES
 W_VARIED = W_KEPT + (BENT + 1) * N_RATES  # changes of the unknowns with the inputs
@@ -82,22 +85,24 @@ W_VARIED_DRIFT, W_VARIED_STAGES = W_VARIED + NY, W_VARIED + 2 * NY
 # linear systems have in common for each ring, and the right side.
 W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
 W_SURFACE_CHANGE, W_POWER_CHANGE = W_SURFACE + MAX_RINGS, W_SURFACE + 2 * MAX_RINGS
-W_GAIN, W_DIAGONAL, W_FILM_PIVOT, W_DETERMINANT, W_HELD = (
+W_DECAY, W_WARMED, W_DIAGONAL, W_FILM_PIVOT, W_DETERMINANT, W_HELD = (
     W_SURFACE + 3 * MAX_RINGS, W_SURFACE + 4 * MAX_RINGS, W_SURFACE + 5 * MAX_RINGS,
-    W_SURFACE + 6 * MAX_RINGS, W_SURFACE + 7 * MAX_RINGS,
+    W_SURFACE + 6 * MAX_RINGS, W_SURFACE + 7 * MAX_RINGS, W_SURFACE + 8 * MAX_RINGS,
 )  # fmt: skip
-NWORK = W_SURFACE + 8 * MAX_RINGS
+NWORK = W_SURFACE + 9 * MAX_RINGS
 
 (
     O_TORQUE, O_TEMPERATURE, O_FILM, O_CAPACITY, O_COEFFICIENT, O_RATIO, O_POWER, O_ENERGY,
-    O_CONTACT_TORQUE, O_VISCOUS_TORQUE, O_CONTACT_SHARE, O_HEAT_FLUX, O_VISCOSITY,
-) = range(13)  # fmt: skip
-NOUT = 13
+    O_CONTACT_TORQUE, O_VISCOUS_TORQUE, O_CONTACT_SHARE, O_HEAT_FLUX, O_VISCOSITY, O_OIL_HEAT,
+    O_STORED_HEAT,
+) = range(15)  # fmt: skip
+NOUT = 15
 IO_REGIME, IO_STATUS = range(2)
 NIOUT = 2
 
 CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD, FINE = range(1, 6)  # fidelity
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
+BOUNDARY_DATA = 2  # friction_data
 N_TABLE = 5  # points above standstill
 LINEAR_COURSE = 2  # input_course
 HOT_LIMIT = 523.0  # K

@@ -18,6 +18,7 @@ from . import layout as L
 FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
 SERIES_LIMIT = 0.5  # below it the ploughing term is summed, above it the closed form is safe
 N_TERMS = 40  # 0.25^40 < 1e-24
+SETTLED = 1.0 - 1e-11  # share of the load from which on asperities carry it all
 
 
 @kernel
@@ -81,32 +82,81 @@ def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, 
     pressure = load / par[L.D_AREA]
     if pressure < L.OPEN_PRESSURE:
         return par[L.D_OPEN_RATIO], 0.0, OK, 0
-    ratio, slope, status, iterations = separation_and_slope(pressure / par[L.D_PRESSURE], guess)
+    carried = par[L.D_PRESSURE] * par[L.P_LAND_SHARE]
+    ratio, slope, status, iterations = separation_and_slope(pressure / carried, guess)
     return ratio, slope / load, status, iterations
 
 
 @kernel
-def contact_slopes(
-    par: Array, load: float, slip: float, u: float, temperature: float
-) -> tuple[float, float, float, float, float, float, float]:
-    """Return the torque [N m >= 0] of the asperities at the film ratio ``u``; slopes; pressure.
+def load_share(par: Array, load: float, u: float) -> tuple[float, float, float, float, float]:
+    """Return the share L [-] of the load that asperities carry at the film ratio ``u``; slopes.
 
-    (torque, d/du, d/dT [N m/K], d/d|slip|, d/dload, contact pressure p_c [Pa], dp_c/du). The
-    asperities never carry more than the load, also where a film that still opens presses them
-    harder.
+    (L, dL/du, dL/dload, their pressure over the whole face [Pa], its slope over u). They never
+    carry more than the load, also where a film that still opens presses them harder. An open pack
+    counts as pressed with OPEN_PRESSURE.
     """
     height, slope = contact_integral(u)
-    pressure, rise = par[L.D_PRESSURE] * height, par[L.D_PRESSURE] * slope
-    mu, mu_slope, mu_slip = coefficient_slopes(par, slip, temperature)
+    scale = par[L.D_PRESSURE] * par[L.P_LAND_SHARE]
+    pressure, rise = scale * height, scale * slope
+    whole = load / par[L.D_AREA]
+    least = max(whole, L.OPEN_PRESSURE)
+    if pressure >= least * SETTLED:
+        return 1.0, 0.0, 0.0, pressure, rise
+    share = pressure / least
+    by_load = -share / load if whole > L.OPEN_PRESSURE else 0.0
+    return share, rise / least, by_load, pressure, rise
+
+
+@kernel
+def cooling_slope(par: Array, share: float) -> tuple[float, float]:
+    """Return how well a face is cooled [W/(m2 K)] and its slope over the share L; it is linear.
+
+    Oil in the grooves cools a closed face, oil all over an open one; a given supply warms up on its
+    way through the pack and takes no more than that.
+    """
+    steep = par[L.D_CLOSED_COOLING] - par[L.P_HEAT_TRANSFER]
+    h, supply = par[L.P_HEAT_TRANSFER] + steep * share, par[L.D_OIL_COOLING]
+    if supply > 0.0:
+        used = -math.expm1(-min(h / supply, 700.0))
+        return supply * used, steep * (1.0 - used)
+    return h, steep
+
+
+@kernel
+def pack_torques(
+    par: Array, load: float, slip: float, drum: float, u: float, temperature: float
+) -> tuple[
+    tuple[float, float, float, float, float], tuple[float, float, float, float, float, float],
+    tuple[float, float, float, float, float], tuple[float, float, float, float],
+]:  # fmt: skip
+    """Return the torques [N m >= 0] of asperities and oil, with slopes, and what they come from.
+
+    Asperities: (torque, d/du, d/dT [N m/K], d/d|slip|, d/dload); oil: the same and d/ddrum; then
+    ``load_share``; (eta [Pa s], d eta/dT, share of the area in contact, its d/du).
+
+    The law of friction is that of a settled pack, shear of its oil included: shear beside it counts
+    for the load that asperities do not carry. All of it counts where the law is that of the
+    asperities alone.
+    """
+    carried = load_share(par, load, u)
+    share, share_u, share_f, _, _ = carried
+    mu, mu_t, mu_s = coefficient_slopes(par, slip, temperature)
     lever = par[L.P_FACES] * par[L.D_RADIUS]
-    carried = pressure * par[L.D_AREA]
-    grows, presses = rise * par[L.D_AREA], 0.0
-    if carried > load:
-        carried, grows, presses = load, 0.0, 1.0
-    return (
-        lever * mu * carried, lever * mu * grows, lever * mu_slope * carried,
-        lever * mu_slip * carried, lever * mu * presses, pressure, rise,
+    normal, grows = lever * share * load, 0.0
+    if load < L.OPEN_PRESSURE * par[L.D_AREA] or share >= 1.0:
+        grows = lever * share
+    contact = (normal * mu, lever * mu * share_u * load, normal * mu_t, normal * mu_s, mu * grows)
+    full, by_u, by_t, by_s, by_d, eta, eta_t, area, area_u = viscous_slopes(
+        par, slip, drum, u, temperature
+    )
+    if par[L.P_FRICTION_DATA] == L.BOUNDARY_DATA:
+        return contact, (full, by_u, by_t, by_s, by_d, 0.0), carried, (eta, eta_t, area, area_u)
+    rest = 1.0 - share
+    shear = (
+        rest * full, rest * by_u - share_u * full, rest * by_t, rest * by_s, rest * by_d,
+        -share_f * full,
     )  # fmt: skip
+    return contact, shear, carried, (eta, eta_t, area, area_u)
 
 
 @kernel
@@ -157,25 +207,45 @@ def sheared_share(cdf: float, u: float) -> tuple[float, float]:
 
 
 @kernel
+def filled_share(
+    par: Array, slip: float, drum: float, gap: float, eta: float
+) -> tuple[float, float, float]:
+    """Return the filled share [-] of an open gap and its log slopes over slip and drum speed.
+
+    The gap is full while the supply covers what centrifugal force pumps through it, from there on
+    in the proportion of the two: air fills the rest. Oil turns with the drum on one side of the
+    gap and with the hub on the other. Derived in docs/theory/clutch.md.
+    """
+    mean = drum + 0.5 * slip
+    squares = mean * mean + 0.05 * slip * slip
+    demand = par[L.D_DEMAND] * squares * gap * gap * gap / eta
+    if par[L.D_SUPPLY] == 0.0 or demand <= par[L.D_SUPPLY]:
+        return 1.0, 0.0, 0.0
+    return par[L.D_SUPPLY] / demand, -(mean + 0.1 * slip) / squares, -2.0 * mean / squares
+
+
+@kernel
 def viscous_slopes(
-    par: Array, slip: float, u: float, temperature: float
-) -> tuple[float, float, float, float, float, float, float, float]:
+    par: Array, slip: float, drum: float, u: float, temperature: float
+) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity; contact share.
 
-    (torque, d/du, d/dT, d/d|slip|, eta [Pa s], d eta/dT, share of the area in contact, its d/du).
-    Couette flow over the mean gap h_T where there is no contact. With a given oil supply the gap
-    is full up to the slip at which centrifugal force pumps more than is supplied, above it in the
-    proportion of the two.
+    (torque, d/du, d/dT, d/d|slip|, d/ddrum, eta [Pa s], d eta/dT, share of the area in contact, its
+    d/du). Couette flow over the mean gap h_T where lands do not touch, and over h_T and the depth
+    of the grooves.
     """
     scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
     eta, eta_slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
     share, share_slope = contact_share(par, u)
     gap, gap_slope = mean_gap(u, 1.0)
     open_share, open_slope = sheared_share(gap_slope, u)
-    full = par[L.D_VISCOUS] * eta * abs(slip) / gap
-    power = 1.0  # of |slip| in the torque
-    relative_u = -gap_slope / gap
-    relative_t = eta_slope / eta
+    land, deep = par[L.P_LAND_SHARE] * open_share / gap, gap + par[L.D_GROOVE_RATIO]
+    grooves = (1.0 - par[L.P_LAND_SHARE]) / deep
+    thin = land * (1.0 - share) + grooves  # of 1/gap, over the face
+    thin_u = land * ((1.0 - share) * (open_slope - gap_slope / gap) - share_slope)
+    thin_u -= grooves * gap_slope / deep
+    full = par[L.D_VISCOUS] * eta
+    power, relative_t = 1.0, eta_slope / eta  # exponent of |slip| in the torque; its d ln/dT
     if par[L.P_SHEAR_HEATING] != 0.0 and eta_slope < 0.0:
         thinned, steepness = shear_thinned(
             -relative_t * eta * (slip * par[L.D_RADIUS]) * (slip * par[L.D_RADIUS])
@@ -185,30 +255,17 @@ def viscous_slopes(
         power += 2.0 * steepness
         reduced = 135.0 + temperature - 273.15
         relative_t += steepness * (relative_t - (par[L.P_VISCOSITY_EXPONENT] + 1.0) / reduced)
-    if par[L.D_SUPPLY] > 0.0:
-        demand = par[L.D_DEMAND] * slip * slip * gap * gap * gap / eta
-        if demand > par[L.D_SUPPLY]:
-            full *= par[L.D_SUPPLY] / demand
-            power -= 2.0
-            relative_u *= 4.0
-            relative_t += eta_slope / eta
-    full *= open_share
-    relative_u += open_slope
-    torque = full * (1.0 - share)
-    if slip != 0.0:
-        by_slip = power * torque / abs(slip)
-    else:
-        by_slip = par[L.D_VISCOUS] * eta / gap * open_share * (1.0 - share)
+    filled, by_slip, by_drum = filled_share(par, slip, drum, gap, eta)
+    full *= filled
+    if filled < 1.0:
+        thin_u -= 3.0 * thin * gap_slope / gap
+        relative_t += eta_slope / eta
+    torque = full * thin * abs(slip)
     return (
-        torque,
-        torque * relative_u - full * share_slope,
-        torque * relative_t,
-        by_slip,
-        eta,
-        eta_slope,
-        share,
+        torque, full * thin_u * abs(slip), torque * relative_t,
+        full * thin * (power + by_slip * slip), torque * by_drum, eta, eta_slope, share,
         share_slope,
-    )
+    )  # fmt: skip
 
 
 @kernel

@@ -14,7 +14,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from ...tribology.flow_factors import INV_SQRT2, INV_SQRT2PI, gap_flow
 from . import layout as L
-from .pack_friction import coefficient_slopes, contact_slopes, viscous_slopes
+from .pack_friction import coefficient_slopes, cooling_slope, pack_torques
 
 LEAST_CDF = 1e-3
 
@@ -40,17 +40,16 @@ def n_unknowns(par: Array) -> int:
 
 @kernel
 def film_rate(
-    par: Array, pressure: float, u: float, carried: float, carried_slope: float,
-    eta: float, eta_slope: float,
-) -> tuple[float, float, float, float]:  # fmt: skip
-    """Return du/dt [1/s] of the film ratio; slopes over u, temperature [1/(s K)] and pressure.
+    par: Array, pressure: float, u: float, carried: float, carried_slope: float, eta: float
+) -> tuple[float, float, float]:
+    """Return du/dt [1/s] of the film ratio; slopes over u and pressure.
 
     The film carries what the asperities do not: d h_T/dt = cdf(u) dh/dt is what flows out between
     the rough faces and through the lining (Darcy). An open pack returns to its clearance. Where
     the faces overlap by more than 3 sigma the cdf is held: the film there follows in no time.
     """
     if pressure < L.OPEN_PRESSURE:
-        return (par[L.D_OPEN_RATIO] - u) / L.OPENING_TIME, -1.0 / L.OPENING_TIME, 0.0, 0.0
+        return (par[L.D_OPEN_RATIO] - u) / L.OPENING_TIME, -1.0 / L.OPENING_TIME, 0.0
     flow, flow_slope = gap_flow(u)
     cdf = 0.5 * math.erfc(-max(u, -30.0) * INV_SQRT2)
     cdf_slope = INV_SQRT2PI * math.exp(-0.5 * min(u * u, 1400.0))
@@ -61,40 +60,40 @@ def film_rate(
     squeezed = pressure - carried
     rate = -ease * open_for * squeezed
     slope = -ease * (flow_slope * squeezed - open_for * carried_slope) - rate * cdf_slope / cdf
-    return rate, slope, -rate * eta_slope / eta, -ease * open_for
+    return rate, slope, -ease * open_for
 
 
 @kernel
 def pack_slopes(
-    par: Array, load: float, slip: float, u: float, temperature: float
+    par: Array, load: float, slip: float, drum: float, u: float, temperature: float
 ) -> tuple[
-    tuple[float, float, float, float, float, float], tuple[float, float, float], float, float
-]:
-    """Return the rates of a pack of one temperature, and how they change with the inputs.
+    tuple[float, float, float], tuple[float, float, float, float, float, float],
+    tuple[float, float, float], float, float,
+]:  # fmt: skip
+    """Return the rates of a pack of one temperature, and how they change.
 
-    (du/dt, its slopes over u and T, power of a face [W], its slopes over u and T), then (slope of
-    du/dt over the load, slopes of the power over load and |slip|), viscosity and its slope.
+    (du/dt, its slopes over u and load), (power of a face [W], its slopes over u, T, load, |slip|
+    and drum), (cooling of a face [W/K], its slopes over u and load), viscosity and its slope.
     """
-    contact, contact_u, contact_t, contact_s, contact_f, pressure, rise = contact_slopes(
-        par, load, slip, u, temperature
-    )
-    viscous, viscous_u, viscous_t, viscous_s, eta, eta_slope, _, _ = viscous_slopes(
-        par, slip, u, temperature
-    )
-    rate, rate_u, rate_t, rate_p = film_rate(
-        par, load / par[L.D_AREA], u, pressure, rise, eta, eta_slope
-    )
+    contact, viscous, carried, oil = pack_torques(par, load, slip, drum, u, temperature)
+    rate, rate_u, rate_p = film_rate(par, load / par[L.D_AREA], u, carried[3], carried[4], oil[0])
     faces, width = par[L.P_FACES], par[L.P_SPEED_SMOOTHING]
     speed = abs(slip) / faces
     smooth = math.tanh(abs(slip) / width)
     steep = (1.0 - smooth) * (1.0 + smooth) / width
-    torque = contact * smooth + viscous
-    by_slip = torque / faces + speed * (contact_s * smooth + contact * steep + viscous_s)
-    rates = (
-        rate, rate_u, rate_t, speed * torque,
-        speed * (contact_u * smooth + viscous_u), speed * (contact_t * smooth + viscous_t),
+    torque = contact[0] * smooth + viscous[0]
+    power = (
+        speed * torque, speed * (contact[1] * smooth + viscous[1]),
+        speed * (contact[2] * smooth + viscous[2]), speed * (contact[4] * smooth + viscous[5]),
+        torque / faces + speed * (contact[3] * smooth + contact[0] * steep + viscous[3]),
+        speed * viscous[4],
     )  # fmt: skip
-    return rates, (rate_p / par[L.D_AREA], speed * contact_f * smooth, by_slip), eta, eta_slope
+    cooling, over = cooling_slope(par, carried[0])
+    cooling, over = cooling * par[L.D_AREA], over * par[L.D_AREA]
+    return (
+        (rate, rate_u, rate_p / par[L.D_AREA]), power,
+        (cooling, over * carried[1], over * carried[2]), oil[0], oil[1],
+    )  # fmt: skip
 
 
 @kernel
@@ -115,16 +114,23 @@ def surfaces(par: Array, work: Array, base: int, to: int) -> None:
 
 @kernel
 def _keep(
-    found: tuple[float, float, float, float, float, float], by: tuple[float, float, float],
-    slip: float, at: int, work: Array,
+    power: tuple[float, float, float, float, float, float], cooling: tuple[float, float, float],
+    share: float, slip: float, at: int, work: Array,
 ) -> None:  # fmt: skip
-    """Store the power of a ring and its slopes."""
-    work[np.uintp(at + L.R_POWER)] = found[3]
-    work[np.uintp(at + L.R_POWER_U)], work[np.uintp(at + L.R_POWER_T)] = found[4], found[5]
-    work[np.uintp(at + L.R_POWER_F)], work[np.uintp(at + L.R_POWER_S)] = (
-        by[1],
-        by[2] * sign_of(slip),
-    )
+    """Store power and cooling of a ring, which has this share of the load, and their slopes."""
+    for i in range(3):
+        work[np.uintp(at + L.R_POWER + i)] = power[i]
+    work[np.uintp(at + L.R_POWER_F)] = power[3] * share
+    work[np.uintp(at + L.R_POWER_S)] = power[4] * sign_of(slip)
+    work[np.uintp(at + L.R_POWER_D)] = power[5]
+    work[np.uintp(at + L.R_COOL)], work[np.uintp(at + L.R_COOL_U)] = cooling[0], cooling[1]
+    work[np.uintp(at + L.R_COOL_F)] = cooling[2] * share
+
+
+@kernel
+def settled_cooling(par: Array, load: float) -> float:
+    """Return how well a face is cooled [W/(m2 K)] where the film is settled, or the pack open."""
+    return cooling_slope(par, 1.0 if load >= L.OPEN_PRESSURE * par[L.D_AREA] else 0.0)[0]
 
 
 @kernel
@@ -138,14 +144,20 @@ def _settled_power(par: Array, load: float, slip: float, k: int, at: int, work: 
     steep = (1.0 - smooth) * (1.0 + smooth) / width
     speed = abs(slip) * smooth * lever
     by_slip = lever * load * (smooth * mu + abs(slip) * (steep * mu + smooth * mu_s))
-    found = (0.0, 0.0, 0.0, speed * mu * load, 0.0, speed * mu_t * load)
-    _keep(found, (0.0, speed * mu, by_slip), slip, at, work)
+    power = (speed * mu * load, 0.0, speed * mu_t * load, speed * mu, by_slip, 0.0)
+    cooling = settled_cooling(par, load) * ring[L.D_AREA]
+    _keep(power, (cooling, 0.0, 0.0), 1.0, slip, at, work)
     work[np.uintp(at + L.R_RATE_T)] = 0.0
 
 
 @kernel
-def _rates_in_rings(par: Array, load: float, slip: float, u: float, work: Array, to: int) -> None:
-    """Do what ``pack_rates`` says for a pack in rings."""
+def pack_rates(
+    par: Array, load: float, slip: float, drum: float, u: float, work: Array, to: int
+) -> None:
+    """Fill ``work[to:]`` with film rate, powers, cooling and their slopes (layout, R_RATE on).
+
+    ``u``: film ratio; the rings' temperatures are those in W_SURFACE.
+    """
     rate, rate_u, rate_f, mean, first = 0.0, 0.0, 0.0, 0.0, 1.0
     at, rings = to + L.R_RINGS, int(par[L.D_RINGS])
     moves = moves_film(par)
@@ -155,14 +167,14 @@ def _rates_in_rings(par: Array, load: float, slip: float, u: float, work: Array,
             continue
         ring = ring_of(par, k)
         share, weight = ring[L.D_AREA] / par[L.D_AREA], par[np.uintp(L.D_SQUEEZE + k)]
-        found, by, eta, eta_t = pack_slopes(
-            ring, load * share, slip, u, work[np.uintp(L.W_SURFACE + k)]
+        film, power, cooling, eta, eta_t = pack_slopes(
+            ring, load * share, slip, drum, u, work[np.uintp(L.W_SURFACE + k)]
         )
-        _keep(found, (by[0] * share, by[1] * share, by[2]), slip, at + k * L.N_OF_RING, work)
+        _keep(power, cooling, share, slip, at + k * L.N_OF_RING, work)
         work[np.uintp(at + k * L.N_OF_RING + L.R_RATE_T)] = weight * eta_t
         mean += weight * eta
         if k == 0:
-            first, rate, rate_u, rate_f = eta, found[0], found[1], by[0] * share
+            first, rate, rate_u, rate_f = eta, film[0], film[1], film[2] * share
     if moves:
         opens = load < L.OPEN_PRESSURE * par[L.D_AREA]
         thick = 1.0 if opens else first / mean
@@ -172,19 +184,3 @@ def _rates_in_rings(par: Array, load: float, slip: float, u: float, work: Array,
             work[place] = 0.0 if opens else -rate * work[place] / mean
     work[np.uintp(to + L.R_RATE)] = rate
     work[np.uintp(to + L.R_RATE_U)], work[np.uintp(to + L.R_RATE_F)] = rate_u, rate_f
-
-
-@kernel
-def pack_rates(par: Array, load: float, slip: float, u: float, work: Array, to: int) -> None:
-    """Fill ``work[to:]`` with film rate, powers and their slopes (clutch_layout, R_RATE on).
-
-    ``u``: film ratio; the rings' temperatures are those in W_SURFACE.
-    """
-    if par[L.D_FIRST] != 0.0:
-        _rates_in_rings(par, load, slip, u, work, to)
-        return
-    found, by, _, _ = pack_slopes(par, load, slip, u, work[L.W_SURFACE])
-    _keep(found, by, slip, to + L.R_RINGS, work)
-    work[np.uintp(to + L.R_RINGS + L.R_RATE_T)] = found[2]
-    work[np.uintp(to + L.R_RATE)] = found[0]
-    work[np.uintp(to + L.R_RATE_U)], work[np.uintp(to + L.R_RATE_F)] = found[1], by[0]

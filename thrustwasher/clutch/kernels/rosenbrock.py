@@ -4,8 +4,8 @@
 The film follows the load at hundreds per second, so the method is linearly implicit and L-stable:
 RODAS (order 4, six stages, embedded order 3) of Hairer & Wanner, Solving Ordinary Differential
 Equations II, VI.4. The heat of a ring is linear but for its friction power, which depends on film
-ratio and interface temperature alone: every stage is a 2 x 2 system for each ring, whatever the
-number of conduction modes.
+ratio and interface temperature alone, and for the cooling, which depends on the film ratio: every
+stage is a 2 x 2 system for each ring, whatever the number of conduction modes.
 """
 
 import math
@@ -17,7 +17,7 @@ from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .rates import n_unknowns, pack_rates, surfaces
 
-Course = tuple[float, float, float, float, float, float]
+Course = tuple[float, float, float, float, float, float, float, float]
 GAMMA = 0.25
 A = np.array([
     [0.0, 0.0, 0.0, 0.0, 0.0],
@@ -49,33 +49,42 @@ SHARE_IN_RINGS = 0.1  # of the tolerance that a pack in rings may use
 @kernel
 def is_moving(course: Course) -> bool:
     """Tell if the inputs at the end of a stretch differ from those at its start."""
-    return course[0] != course[3] or course[1] != course[4] or course[2] != course[5]
+    return (
+        course[0] != course[3] or course[1] != course[4] or course[2] != course[5]
+        or course[6] != course[7]
+    )  # fmt: skip
 
 
 @kernel
 def _rates(par: Array, course: Course, x: float, work: Array, base: int, place: int) -> None:
     """Fill W_RATE with the rates of all unknowns at the share ``x`` of the stretch.
 
-    ``course``: load, slip, oil temperature at the start, then at the end. The slopes are kept at
-    the ``place``-th of W_KEPT.
+    ``course``: load, slip, oil temperature at the start, then at the end, then the drum's speed at
+    both. The slopes are kept at the ``place``-th of W_KEPT.
     """
     load = course[0] + (course[3] - course[0]) * x
     slip = course[1] + (course[4] - course[1]) * x
     oil = course[2] + (course[5] - course[2]) * x
+    drum = course[6] + (course[7] - course[6]) * x
     kept = L.W_KEPT + place * L.N_RATES
     surfaces(par, work, base, L.W_SURFACE)
-    pack_rates(par, max(load, 0.0), slip, work[np.uintp(base + L.Y_FILM)], work, kept)
+    pack_rates(par, max(load, 0.0), slip, drum, work[np.uintp(base + L.Y_FILM)], work, kept)
     n, first = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
     total = 0.0
     for k in range(int(par[L.D_RINGS])):
-        power = work[np.uintp(kept + L.R_RINGS + k * L.N_OF_RING + L.R_POWER)]
+        at = kept + L.R_RINGS + k * L.N_OF_RING
+        power = work[np.uintp(at + L.R_POWER)]
         total += power
         block, heat = first + k * L.N_PACK, L.Y_HEAT + k * n
-        for i in range(n):
-            level = oil if i == 0 else 0.0
+        excess = work[np.uintp(base + heat)] - oil
+        work[np.uintp(at + L.R_EXCESS)] = excess
+        work[np.uintp(L.W_RATE + heat)] = par[np.uintp(block + L.D_GAIN)] * (
+            power - work[np.uintp(at + L.R_COOL)] * excess
+        )
+        for i in range(1, n):
             gain, decay = par[np.uintp(block + L.D_GAIN + i)], par[np.uintp(block + L.D_DECAY + i)]
-            work[np.uintp(L.W_RATE + heat + i)] = gain * power - decay * (
-                work[np.uintp(base + heat + i)] - level
+            work[np.uintp(L.W_RATE + heat + i)] = (
+                gain * power - decay * work[np.uintp(base + heat + i)]
             )
     work[np.uintp(L.W_RATE + L.Y_FILM)] = work[np.uintp(kept + L.R_RATE)]
     work[np.uintp(L.W_RATE + L.Y_ENERGY)] = total
@@ -85,17 +94,22 @@ def _rates(par: Array, course: Course, x: float, work: Array, base: int, place: 
 def factorise(par: Array, s: float, work: Array) -> None:
     """Fill what all stages' systems (s - J) U = right side share; J is kept at the first place.
 
-    A ring and the film: (s - f_u) du - f_T D = r, (1 - gain P_T) D - gain P_u du = held, D being
-    the change of the ring's interface. Each ring has its own such system, from which the other
-    rings are eliminated.
+    A ring and the film: (s - f_u) du - f_T D = r, (1 - gain P_T) D - warmed du = held, D being the
+    change of the ring's interface. Each ring has its own such system, from which the other rings
+    are eliminated.
     """
     n, first, rings = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST]), int(par[L.D_RINGS])
     for k in range(rings):
         at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
-        block, gain = first + k * L.N_PACK, 0.0
-        for i in range(n):
+        block = first + k * L.N_PACK
+        decay = par[np.uintp(block + L.D_GAIN)] * work[np.uintp(at + L.R_COOL)]
+        work[np.uintp(L.W_DECAY + k)] = decay
+        gain = mean = par[np.uintp(block + L.D_GAIN)] / (s + decay)
+        for i in range(1, n):
             gain += par[np.uintp(block + L.D_GAIN + i)] / (s + par[np.uintp(block + L.D_DECAY + i)])
-        work[np.uintp(L.W_GAIN + k)] = gain
+        work[np.uintp(L.W_WARMED + k)] = gain * work[
+            np.uintp(at + L.R_POWER_U)
+        ] - mean * cooled_by_film(work, at)
         work[np.uintp(L.W_DIAGONAL + k)] = 1.0 - gain * work[np.uintp(at + L.R_POWER_T)]
     for k in range(rings):
         pivot = s - work[np.uintp(L.W_KEPT + L.R_RATE_U)]
@@ -108,11 +122,16 @@ def factorise(par: Array, s: float, work: Array) -> None:
 
 
 @kernel
+def cooled_by_film(work: Array, at: int) -> float:
+    """Return the slope of a face's heat to the oil over the film ratio [W]."""
+    return work[np.uintp(at + L.R_COOL_U)] * work[np.uintp(at + L.R_EXCESS)]
+
+
+@kernel
 def _coupling(work: Array, k: int) -> float:
     """Return the product of a ring's and the film's slopes over each other."""
     at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
-    rate_t, power_u = work[np.uintp(at + L.R_RATE_T)], work[np.uintp(at + L.R_POWER_U)]
-    return rate_t * work[np.uintp(L.W_GAIN + k)] * power_u
+    return work[np.uintp(at + L.R_RATE_T)] * work[np.uintp(L.W_WARMED + k)]
 
 
 @kernel
@@ -120,8 +139,8 @@ def solve_stage(par: Array, s: float, work: Array, stage: int) -> None:
     """Turn the right side in the stage's place into its solution, with what ``factorise`` left."""
     n, first, rings = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST]), int(par[L.D_RINGS])
     for k in range(rings):
-        held = 0.0
-        for i in range(n):
+        held = work[np.uintp(stage + L.Y_HEAT + k * n)] / (s + work[np.uintp(L.W_DECAY + k)])
+        for i in range(1, n):
             pivot = s + par[np.uintp(first + k * L.N_PACK + L.D_DECAY + i)]
             held += work[np.uintp(stage + L.Y_HEAT + k * n + i)] / pivot
         work[np.uintp(L.W_HELD + k)] = held
@@ -137,18 +156,22 @@ def solve_stage(par: Array, s: float, work: Array, stage: int) -> None:
                     / work[np.uintp(L.W_DIAGONAL + j)]
                 )  # fmt: skip
         at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
-        held, gain = work[np.uintp(L.W_HELD + k)], work[np.uintp(L.W_GAIN + k)]
+        held, warmed = work[np.uintp(L.W_HELD + k)], work[np.uintp(L.W_WARMED + k)]
         power_u, power_t = work[np.uintp(at + L.R_POWER_U)], work[np.uintp(at + L.R_POWER_T)]
         determinant = work[np.uintp(L.W_DETERMINANT + k)]
         if k == 0:
             film = (
                 r * work[np.uintp(L.W_DIAGONAL)] + work[np.uintp(at + L.R_RATE_T)] * held
             ) / determinant
-        surface = (work[np.uintp(L.W_FILM_PIVOT + k)] * held + gain * power_u * r) / determinant
+        surface = (work[np.uintp(L.W_FILM_PIVOT + k)] * held + warmed * r) / determinant
         power = power_u * film + power_t * surface
         energy += power
         block, heat = first + k * L.N_PACK, stage + L.Y_HEAT + k * n
-        for i in range(n):
+        net = power - cooled_by_film(work, at) * film
+        work[np.uintp(heat)] = (work[np.uintp(heat)] + par[np.uintp(block + L.D_GAIN)] * net) / (
+            s + work[np.uintp(L.W_DECAY + k)]
+        )
+        for i in range(1, n):
             place = np.uintp(heat + i)
             work[place] = (work[place] + par[np.uintp(block + L.D_GAIN + i)] * power) / (
                 s + par[np.uintp(block + L.D_DECAY + i)]

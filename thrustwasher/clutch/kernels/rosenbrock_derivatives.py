@@ -19,40 +19,59 @@ from .rosenbrock import (
     A,
     C,
     Course,
+    cooled_by_film,
     factorise,
     is_moving,
     solve_stage,
 )  # fmt: skip
 
-Change = tuple[float, float, float]
+Change = tuple[float, float, float, float]
 APART = 1e-5  # relative distance of the neighbouring states
 WARMTH = 100.0  # K, scale of temperatures
 
 
 @kernel
 def _changed_rates(
-    par: Array, work: Array, place: int, film: float, load: float, slip: float
+    par: Array, work: Array, place: int, film: float, change: Change, at: float
 ) -> float:
     """Return the change of the film rate with those of states and inputs; fill W_POWER_CHANGE.
+
+    ``change`` of the inputs at the end of the stretch, at the share ``at`` of it.
 
     The changes of the rings' temperatures are in W_SURFACE_CHANGE.
     """
     kept = L.W_KEPT + place * L.N_RATES
     rate = work[np.uintp(kept + L.R_RATE_U)] * film
     for k in range(int(par[L.D_RINGS])):
-        at, heat = kept + L.R_RINGS + k * L.N_OF_RING, work[np.uintp(L.W_SURFACE_CHANGE + k)]
-        rate += work[np.uintp(at + L.R_RATE_T)] * heat
-        power = work[np.uintp(at + L.R_POWER_U)] * film + work[np.uintp(at + L.R_POWER_T)] * heat
-        power += work[np.uintp(at + L.R_POWER_F)] * load + work[np.uintp(at + L.R_POWER_S)] * slip
+        ring, heat = kept + L.R_RINGS + k * L.N_OF_RING, work[np.uintp(L.W_SURFACE_CHANGE + k)]
+        rate += work[np.uintp(ring + L.R_RATE_T)] * heat
+        power = work[np.uintp(ring + L.R_POWER_U)] * film
+        power += work[np.uintp(ring + L.R_POWER_T)] * heat
+        power += work[np.uintp(ring + L.R_POWER_F)] * change[0] * at
+        power += work[np.uintp(ring + L.R_POWER_S)] * change[1] * at
+        power += work[np.uintp(ring + L.R_POWER_D)] * change[3] * at
         work[np.uintp(L.W_POWER_CHANGE + k)] = power
-    return rate + work[np.uintp(kept + L.R_RATE_F)] * load
+    return rate + work[np.uintp(kept + L.R_RATE_F)] * change[0] * at
 
 
 @kernel
-def _change_slopes(
-    par: Array, load: float, slip: float, load_change: float, slip_change: float, work: Array
-) -> None:
-    """Fill W_BENT with the changes of the slopes at a substep's start."""
+def _changed_cooling(
+    work: Array, kept: int, k: int, film: float, heat: float, change: Change, at: float
+) -> float:
+    """Return the change of a face's heat to the oil [W]; ``heat``: of its mean temperature [K]."""
+    ring = kept + L.R_RINGS + k * L.N_OF_RING
+    better = work[np.uintp(ring + L.R_COOL_F)] * change[0] * at * work[np.uintp(ring + L.R_EXCESS)]
+    better += cooled_by_film(work, ring) * film
+    return better + work[np.uintp(ring + L.R_COOL)] * (heat - change[2] * at)
+
+
+@kernel
+def _change_slopes(par: Array, course: Course, change: Change, x: float, work: Array) -> None:
+    """Fill W_BENT with the changes of the slopes at a substep's start, at the share ``x``."""
+    load = max(course[0] + (course[3] - course[0]) * x, 0.0)
+    slip = course[1] + (course[4] - course[1]) * x
+    drum = course[6] + (course[7] - course[6]) * x
+    load_change, slip_change, drum_change = change[0] * x, change[1] * x, change[3] * x
     for i in range(L.N_RATES):
         work[np.uintp(L.W_BENT + i)] = 0.0
     u, film = work[np.uintp(L.W_NOW + L.Y_FILM)], work[np.uintp(L.W_VARIED + L.Y_FILM)]
@@ -61,7 +80,7 @@ def _change_slopes(
         abs(film) / (1.0 + abs(u)),
         max(
             abs(load_change) / (load + L.OPEN_PRESSURE * par[L.D_AREA]),
-            abs(slip_change) / (abs(slip) + par[L.P_SPEED_SMOOTHING]),
+            (abs(slip_change) + abs(drum_change)) / (abs(slip) + par[L.P_SPEED_SMOOTHING]),
         ),
     )
     for k in range(int(par[L.D_RINGS])):
@@ -75,8 +94,8 @@ def _change_slopes(
             heat = work[np.uintp(L.W_SURFACE_CHANGE + k)]
             work[np.uintp(L.W_SURFACE + k)] += e * heat
         pack_rates(
-            par, max(load + e * load_change, 0.0), slip + e * slip_change, u + e * film, work,
-            L.W_NEIGHBOUR,
+            par, max(load + e * load_change, 0.0), slip + e * slip_change, drum + e * drum_change,
+            u + e * film, work, L.W_NEIGHBOUR,
         )  # fmt: skip
         half = 0.5 / e
         for i in range(L.R_RINGS + int(par[L.D_RINGS]) * L.N_OF_RING):
@@ -100,7 +119,8 @@ def _jump(
         surfaces(par, work, base, L.W_SURFACE)
         pack_rates(
             par, max(course[0] + rise * at, 0.0), slip + (course[4] - slip) * at,
-            work[np.uintp(base + L.Y_FILM)], work, L.W_NEIGHBOUR,
+            course[6] + (course[7] - course[6]) * at, work[np.uintp(base + L.Y_FILM)], work,
+            L.W_NEIGHBOUR,
         )  # fmt: skip
         rate = work[np.uintp(L.W_NEIGHBOUR + L.R_RATE)]
         jump += rate if side == 0 else -rate
@@ -115,10 +135,10 @@ def _drift(
     film = work[np.uintp(L.W_VARIED + L.Y_FILM)]
     surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
     at = x + NUDGE * share
-    rate = _changed_rates(par, work, place, film, change[0] * at, change[1] * at)
+    rate = _changed_rates(par, work, place, film, change, at)
     for k in range(int(par[L.D_RINGS])):
         work[np.uintp(L.W_SURFACE + k)] = work[np.uintp(L.W_POWER_CHANGE + k)]
-    rate_0 = _changed_rates(par, work, 0, film, change[0] * x, change[1] * x)
+    rate_0 = _changed_rates(par, work, 0, film, change, x)
     per = 1.0 / (NUDGE * h)
     work[np.uintp(L.W_VARIED_DRIFT + L.Y_FILM)] = (rate - rate_0) * per
     work[np.uintp(L.W_VARIED_DRIFT + L.Y_ENERGY)] = 0.0
@@ -126,15 +146,16 @@ def _drift(
     for k in range(int(par[L.D_RINGS])):
         block, heat = first + k * L.N_PACK, L.W_VARIED_DRIFT + L.Y_HEAT + k * n
         power = work[np.uintp(L.W_SURFACE + k)] - work[np.uintp(L.W_POWER_CHANGE + k)]
+        warm = work[np.uintp(L.W_VARIED + L.Y_HEAT + k * n)]
+        cooled = _changed_cooling(work, L.W_KEPT + place * L.N_RATES, k, film, warm, change, at)
+        cooled -= _changed_cooling(work, L.W_KEPT, k, film, warm, change, x)
         for i in range(n):
-            drift = par[np.uintp(block + L.D_GAIN + i)] * power * per
-            if i == 0:
-                drift += par[np.uintp(block + L.D_DECAY)] * change[2] * share / h
-            work[np.uintp(heat + i)] = drift
+            net = power - cooled if i == 0 else power
+            work[np.uintp(heat + i)] = par[np.uintp(block + L.D_GAIN + i)] * net * per
 
 
 @kernel
-def _stage(par: Array, change: Change, at: float, h: float, k: int, work: Array) -> None:
+def _stage(par: Array, change: Change, x: float, at: float, h: float, k: int, work: Array) -> None:
     """Fill the right side of the change of stage ``k``; W_BENT: changes of the slopes."""
     base, own = L.W_VARIED_STAGES + k * L.NY, L.W_STAGES + k * L.NY
     n, m, first = n_unknowns(par), 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
@@ -144,9 +165,7 @@ def _stage(par: Array, change: Change, at: float, h: float, k: int, work: Array)
             value += A[k, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
         work[np.uintp(L.W_RATE + i)] = value
     surfaces(par, work, L.W_RATE, L.W_SURFACE_CHANGE)
-    rate = _changed_rates(
-        par, work, k, work[np.uintp(L.W_RATE + L.Y_FILM)], change[0] * at, change[1] * at
-    )
+    rate = _changed_rates(par, work, k, work[np.uintp(L.W_RATE + L.Y_FILM)], change, at)
     film = work[np.uintp(own + L.Y_FILM)]
     surfaces(par, work, own, L.W_SURFACE)
     bent = work[np.uintp(L.W_BENT + L.R_RATE_U)] * film
@@ -157,14 +176,23 @@ def _stage(par: Array, change: Change, at: float, h: float, k: int, work: Array)
         power = work[np.uintp(L.W_POWER_CHANGE + r)] + (
             work[np.uintp(of + L.R_POWER_U)] * film + work[np.uintp(of + L.R_POWER_T)] * heat
         )
-        for i in range(m):
-            place, block = L.Y_HEAT + r * m + i, first + r * L.N_PACK
-            level = change[2] * at if i == 0 else 0.0
+        place, block = L.Y_HEAT + r * m, first + r * L.N_PACK
+        ring = L.W_KEPT + L.R_RINGS + r * L.N_OF_RING
+        warmer = work[np.uintp(L.W_VARIED + place)] - change[2] * x
+        cooled = _changed_cooling(
+            work, L.W_KEPT + k * L.N_RATES, r, work[np.uintp(L.W_RATE + L.Y_FILM)],
+            work[np.uintp(L.W_RATE + place)], change, at,
+        )  # fmt: skip
+        cooled += work[np.uintp(of + L.R_COOL)] * work[np.uintp(own + place)]
+        cooled += film * (
+            work[np.uintp(of + L.R_COOL_U)] * work[np.uintp(ring + L.R_EXCESS)]
+            + work[np.uintp(ring + L.R_COOL_U)] * warmer
+        )
+        work[np.uintp(base + place)] = par[np.uintp(block + L.D_GAIN)] * (power - cooled)
+        for i in range(1, m):
             value = par[np.uintp(block + L.D_GAIN + i)] * power
-            value -= par[np.uintp(block + L.D_DECAY + i)] * (
-                work[np.uintp(L.W_RATE + place)] - level
-            )
-            work[np.uintp(base + place)] = value
+            value -= par[np.uintp(block + L.D_DECAY + i)] * work[np.uintp(L.W_RATE + place + i)]
+            work[np.uintp(base + place + i)] = value
     work[np.uintp(base + L.Y_FILM)] = rate + bent
     for i in range(n):
         value = work[np.uintp(base + i)]
@@ -188,18 +216,14 @@ def follow(
     h = share * duration
     s = 1.0 / (GAMMA * h)
     if x > 0.0:
-        slip = course[1] + (course[4] - course[1]) * x
-        _change_slopes(
-            par, max(course[0] + (course[3] - course[0]) * x, 0.0), slip, change[0] * x,
-            change[1] * x, work,
-        )  # fmt: skip
+        _change_slopes(par, course, change, x, work)
     else:
         for i in range(L.N_RATES):
             work[np.uintp(L.W_BENT + i)] = 0.0
     _drift(par, change, x, share, h, L.DRIFTED if is_moving(course) else 0, work)
     factorise(par, s, work)
     for k in range(L.N_STAGES):
-        _stage(par, change, x + ALPHA[k] * share, h, k, work)
+        _stage(par, change, x, x + ALPHA[k] * share, h, k, work)
         solve_stage(par, s, work, L.W_VARIED_STAGES + k * L.NY)
     last = L.N_STAGES - 1
     jump = _jump(par, course, change[0], x, share, duration, work)

@@ -20,7 +20,7 @@ from .advance import advance, load_memory, settle_film, store_memory, warm_up
 from .constants import broken_rule, derive
 from .directional_derivative import directional_derivative as sens
 from .pack_friction import regime_of
-from .pack_outputs import fill_outputs, mean_surface
+from .pack_outputs import fill_outputs, mean_surface, stored_heat
 from .rates import n_unknowns, pack_rates, surfaces
 
 __all__ = [
@@ -48,9 +48,10 @@ def step(
     Returns 0 or the status of a failure; advice stands in ``iout`` only. In rings ``temperature``
     is their area mean; the advice HOT goes by the hottest one.
     """
-    load, slip, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
+    load, slip, oil, drum = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL], inp[L.I_DRUM]
     if not (
         math.isfinite(load) and load >= 0.0 and math.isfinite(slip) and math.isfinite(oil)
+        and math.isfinite(drum)
         and math.isfinite(dt) and dt >= 0.0 and oil > 0.0
     ):  # fmt: skip
         iout[L.IO_STATUS] = BAD_INPUT
@@ -64,16 +65,19 @@ def step(
         work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
     if linear:
         if started and status == OK:
-            course = (state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil)
+            course = (
+                state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil,
+                state[L.S_DRUM], drum,
+            )  # fmt: skip
             status = advance(
                 par, course, state[L.S_DURATION], state[L.S_POWER], state[L.S_SUBSTEP], work
             )
     elif dt > 0.0 and status == OK:
-        course = (load, slip, oil, load, slip, oil)
+        course = (load, slip, oil, load, slip, oil, drum, drum)
         status = advance(par, course, dt, 0.0, state[L.S_SUBSTEP], work)
     if status == OK:
         status = settle_film(par, load, work)
-    fill_outputs(par, load, slip, work, out)
+    fill_outputs(par, load, slip, drum, work, out)
     power = out[L.O_POWER] / par[L.P_FACES]
     temperature, hottest = mean_surface(par, work)
     energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
@@ -82,7 +86,7 @@ def step(
         unknowns = L.W_TRIAL  # the memory is that of now; what is shown looks ahead
         for i in range(n_unknowns(par)):
             work[np.uintp(L.W_TRIAL + i)] = work[np.uintp(L.W_NOW + i)]
-        look_ahead(par, load, slip, oil, dt, power, work)
+        look_ahead(par, inp, dt, power, work)
         temperature, hottest = mean_surface(par, work)
         energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
     elif linear and started:
@@ -91,17 +95,25 @@ def step(
             temperature = state[L.S_SHOWN_TEMPERATURE]
         if par[L.P_FIDELITY] != L.FINE:
             hottest = temperature
+    if energy < state[L.S_SHOWN_ENERGY]:
+        energy = state[L.S_SHOWN_ENERGY]  # heat does not come back: a too large advance waits
     out[L.O_TEMPERATURE], out[L.O_ENERGY] = temperature, energy
+    first = state[L.S_FIRST] if started else oil
+    out[L.O_OIL_HEAT], out[L.O_STORED_HEAT] = state[L.S_SHOWN_OIL_HEAT], state[L.S_SHOWN_STORED]
+    if dt > 0.0:  # what was made and is not stored went into the oil
+        out[L.O_STORED_HEAT] = stored_heat(par, work, first)
+        more = out[L.O_STORED_HEAT] - state[L.S_SHOWN_STORED]
+        out[L.O_OIL_HEAT] = (energy - state[L.S_SHOWN_ENERGY] - more) / dt
     if status == OK and not _is_finite(par, work, unknowns, out):
         status = NOT_FINITE
-    # Heat does not come back: where the advance was too large the output waits.
-    energy = max(energy, state[L.S_SHOWN_ENERGY])
-    out[L.O_ENERGY] = energy
     if dt > 0.0 and status == OK:
         store_memory(par, work, unknowns, state)
         state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL] = load, slip, oil
+        state[L.S_DRUM], state[L.S_FIRST] = drum, first
         state[L.S_POWER], state[L.S_DURATION], state[L.S_SUBSTEP] = power, dt, work[L.W_PROPOSED]
         state[L.S_SHOWN_TEMPERATURE], state[L.S_SHOWN_ENERGY] = temperature, energy
+        state[L.S_SHOWN_OIL_HEAT] = out[L.O_OIL_HEAT]
+        state[L.S_SHOWN_STORED] = out[L.O_STORED_HEAT]
     iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
     advice = OK
     if out[L.O_RATIO] < L.LEAST_RATIO:
@@ -113,22 +125,21 @@ def step(
 
 
 @kernel
-def look_ahead(
-    par: Array, load: float, slip: float, oil: float, dt: float, power: float, work: Array
-) -> None:
+def look_ahead(par: Array, inp: Array, dt: float, power: float, work: Array) -> None:
     """Warm the pack in W_NOW for ``dt`` with its present power; the temperatures to W_SURFACE.
 
     ``power``: of a face of a lumped pack [W].
     """
+    oil, cooling = inp[L.I_OIL], work[L.W_COOLING]
     if par[L.P_FIDELITY] == L.FINE:
         film = work[np.uintp(L.W_NOW + L.Y_FILM)]
-        pack_rates(par, load, slip, film, work, L.W_NEIGHBOUR)
+        pack_rates(par, inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_DRUM], film, work, L.W_NEIGHBOUR)
         for k in range(int(par[L.D_RINGS])):
             place = L.W_NEIGHBOUR + L.R_RINGS + k * L.N_OF_RING + L.R_POWER
             of_ring = work[np.uintp(place)]
-            warm_up(par, k, of_ring, of_ring, oil, dt, work)
+            warm_up(par, k, of_ring, of_ring, oil, cooling, dt, work)
     else:
-        warm_up(par, 0, power, power, oil, dt, work)
+        warm_up(par, 0, power, power, oil, cooling, dt, work)
     surfaces(par, work, L.W_NOW, L.W_SURFACE)
 
 

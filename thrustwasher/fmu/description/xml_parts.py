@@ -153,14 +153,14 @@ def number(value: float) -> str:
 
 def type_attributes(t: RealType) -> dict[str, str]:
     """Return what a declared type of a real says."""
-    said = {"quantity": t.quantity, "unit": t.unit}
-    if t.display:
-        said["displayUnit"] = t.display
-    if t.relative:
-        said["relativeQuantity"] = "true"
-    if t.low is not None:
-        said["min"] = number(t.low)
-    return said | {"nominal": number(t.nominal)}
+    said = {"quantity": t.quantity, "unit": t.unit, **_shown(t.display, t.relative)}
+    least = {} if t.low is None else {"min": number(t.low)}
+    return said | least | {"nominal": number(t.nominal)}
+
+
+def _shown(display: str | None, relative: bool) -> dict[str, str]:
+    shown = {"displayUnit": display} if display else {}
+    return shown | ({"relativeQuantity": "true"} if relative else {})
 
 
 def head_attributes(v: Variable) -> dict[str, str]:
@@ -173,7 +173,11 @@ def head_attributes(v: Variable) -> dict[str, str]:
 def value_attributes(v: Variable) -> dict[str, str]:
     """Return what a variable says of its value: unit, range, nominal and start."""
     if v.type == "Real":
-        return _real_attributes(v)
+        declared = declared_type(v)
+        said = {"declaredType": declared.name} if declared else {}
+        said |= {"unit": v.unit, **_shown(display_unit(v), v.relative)}
+        numbers = {"min": v.low, "max": v.high, "nominal": v.nominal, "start": v.start}
+        return said | {name: number(x) for name, x in numbers.items() if x is not None}
     said = {"declaredType": v.type_name} if v.type_name else {}
     if v.type != "Boolean":
         bounds = ("min", v.low), ("max", v.high)
@@ -182,18 +186,6 @@ def value_attributes(v: Variable) -> dict[str, str]:
         start = int(v.start)
         said["start"] = str(bool(start)).lower() if v.type == "Boolean" else str(start)
     return said
-
-
-def _real_attributes(v: Variable) -> dict[str, str]:
-    declared, display = declared_type(v), display_unit(v)
-    said = {"declaredType": declared.name} if declared else {}
-    said["unit"] = v.unit
-    if display:
-        said["displayUnit"] = display
-    if v.relative:
-        said["relativeQuantity"] = "true"
-    numbers = {"min": v.low, "max": v.high, "nominal": v.nominal, "start": v.start}
-    return said | {name: number(x) for name, x in numbers.items() if x is not None}
 
 
 def unknowns(found: tuple[Variable, ...]) -> Iterator[tuple[str, Variable, list[Variable]]]:

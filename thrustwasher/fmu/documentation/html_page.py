@@ -6,9 +6,8 @@ from html import escape
 from pathlib import Path
 
 from ...errors import Status
-from ...ladder.card import Card, load_cards
+from ...ladder.card import load_cards
 from ...ladder.card_parts import QUANTITIES
-from ...ladder.formats import shown_error
 from ...model.registry import MODELS, find_model
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
@@ -93,18 +92,11 @@ def accuracy(spec: ModelSpec) -> Rows:
             f"{card.fidelity} {card.chart or ''}".strip(),
             ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in card.envelope.items()),
             str(card.held_out.n),
-            *(_worst(card, quantity) for quantity in QUANTITIES),
+            *map(card.shown_worst, QUANTITIES),
             f"version {card.package['version']}",
         )
         for card in found
     ]
-
-
-def _worst(card: Card, quantity: str) -> str:
-    """Return the largest error of a quantity in any cell of a card."""
-    errors = card.errors.get(quantity)
-    found = [e for row in errors.worst for e in row if e is not None] if errors else []
-    return shown_error(max(found), errors.kind, errors.unit) if errors and found else "-"
 
 
 def _equations(folder: Path) -> str:
@@ -149,7 +141,7 @@ def _limit(spec: ModelSpec, runs: bool) -> str:
         return ""
     if not runs:
         return LIMIT.format(slope="")
-    point = {s.name: s.start or s.nominal or 0.0 for s in spec.inputs}
+    point = {s.name: s.usual for s in spec.inputs}
     said = [
         f"{slope(spec, point | {'speed': v}):.1e} at {v:g} rad/s" for v in (0.0, point["speed"])
     ]

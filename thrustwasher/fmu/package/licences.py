@@ -56,23 +56,21 @@ def _text(name: str) -> bytes:
         beside = PACKAGE.parent / "LICENSE"
         return _read(beside) if beside.is_file() else _distributed("thrustwasher", "LICENSE")
     if name == "fmi-headers.txt":
-        return _headers()
+        # the copyright notice inside the FMI headers
+        header = _read(_package("fmpy") / "c-code" / "fmi2Functions.h").decode("utf-8")
+        found = re.search(r"Copyright.*?POSSIBILITY OF SUCH DAMAGE\.", header, re.DOTALL)
+        if not found:
+            raise EnvironmentProblem(
+                "the FMI headers of FMPy carry no notice; install another FMPy"
+            )
+        lines = [line.strip() for line in found[0].splitlines()]
+        return ("\n".join(lines) + "\n").encode()
     if name == "llvm.txt":
         return _distributed("llvmlite", "LICENSE.thirdparty")
     inside = {"zig.txt": "LICENSE", "mingw-w64.txt": "lib/libc/mingw/COPYING"}
     if name in inside:
         return _read(_package("ziglang") / inside[name])
     return _distributed(name.removesuffix(".txt"), "LICENSE")
-
-
-def _headers() -> bytes:
-    """Return the copyright notice inside the FMI headers."""
-    header = _read(_package("fmpy") / "c-code" / "fmi2Functions.h").decode("utf-8")
-    found = re.search(r"Copyright.*?POSSIBILITY OF SUCH DAMAGE\.", header, re.DOTALL)
-    if not found:
-        raise EnvironmentProblem("the FMI headers of FMPy carry no notice; install another FMPy")
-    lines = [line.strip() for line in found[0].splitlines()]
-    return ("\n".join(lines) + "\n").encode()
 
 
 def _package(name: str) -> Path:

@@ -84,7 +84,10 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        _forget_repeated_path(self.resources)
+        # pythonfmu adds the folder to sys.path once per instantiation: one is enough
+        if self.resources in sys.path:
+            first = sys.path.index(self.resources)
+            sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != self.resources]
         spec = find_spec(self.model)
         _settle_library(self.resources, spec.name)
         if type(self).digest != content_digest(spec):
@@ -203,13 +206,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             self.tell(f"{self.core.spec.name} at t = {self.core.time:g} s: {status.name}: "
                       f"{status.advice}", Fmi2Status.warning, "logStatusWarning")  # fmt: skip
         self.warned = status
-
-
-def _forget_repeated_path(folder: str | None) -> None:
-    """Keep one entry of the FMU's folder in sys.path: pythonfmu adds one per instantiation."""
-    if folder in sys.path:
-        first = sys.path.index(folder)
-        sys.path[first + 1 :] = [p for p in sys.path[first + 1 :] if p != folder]
 
 
 def _settle_library(folder: str | None, model: str) -> None:

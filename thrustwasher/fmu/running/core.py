@@ -10,10 +10,11 @@ import numpy as np
 
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.prepare import fill_table, wants_table
+from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...native.load import bound
 from ..description.interface import Variable, enumerations, variables
-from ..model_kernels import content_digest, count_places, load_kernel
+from ..model_kernels import content_digest, count_places
 from .snapshot import Snapshot
 
 
@@ -35,20 +36,20 @@ class Core:
     """
 
     def __init__(self, spec: ModelSpec) -> None:
-        kernel = load_kernel(spec.kernel)
+        kernel = kernel_of(spec)
         self.spec, self._derive = spec, kernel.derive
-        self._broken_rule = kernel.broken_rule
+        self._broken_rule = getattr(kernel, "broken_rule", None)
         self.variables = variables(spec)
-        self.par, self.inp = np.zeros(kernel.n_par), np.zeros(kernel.n_inp)
-        self.state, self.work = np.zeros(kernel.n_state), np.zeros(kernel.n_work)
-        self.out, self.iout = np.zeros(kernel.n_out), np.zeros(kernel.n_iout, np.int32)
+        self.par, self.inp = np.zeros(kernel.NPAR), np.zeros(kernel.NINP)
+        self.state, self.work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
+        self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._step_into = partial(kernel.step, self.par, self.inp, self.state, self.work)
         self._step = bound(
             kernel.step, par=self.par, inp=self.inp, state=self.state, work=self.work,
             out=self.out, iout=self.iout,
         )  # fmt: skip
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
-        self._zeros = np.zeros(kernel.n_out)
+        self._zeros = np.zeros(kernel.NOUT)
         self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
         self.status_slot = next((v.slot for v in self.variables if v.type_name == "SolverStatus"
                                  and v.store == "iout"), None)  # fmt: skip

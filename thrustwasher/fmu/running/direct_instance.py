@@ -7,9 +7,9 @@ from typing import Any, Self
 import numpy as np
 
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, suggestion
+from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
-from ..model_kernels import load_kernel
 from .core import Core, Mode
 from .snapshot import from_bytes
 
@@ -27,7 +27,7 @@ class DirectInstance:
         self._outputs = [v.reference for v in found if v.causality == "output"]
         self._parameters = dict(parameters or {})
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
-        self._sens = load_kernel(spec.kernel).sens
+        self._sens = getattr(kernel_of(spec), "sens", None)
         self.saves_state, self.gives_derivatives = True, self._sens is not None
         self.reset()
         self.instantiate_time = perf_counter() - start
@@ -67,9 +67,9 @@ class DirectInstance:
         self.initialize_time = perf_counter() - start
 
     def set_inputs(self, values: Sequence[float]) -> None:
-        """Set all inputs."""
+        """Set the inputs in their order; those that ``values`` does not reach stay as they are."""
         start = perf_counter()
-        self.core.set(self._inputs, values, "Real")
+        self.core.set(self._inputs[: len(values)], values, "Real")
         self.wall_time += perf_counter() - start
 
     def step(self, t: float, h: float) -> None:

@@ -159,14 +159,20 @@ def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> 
         ) from None
     finally:
         os.chdir(before)
-    _keep_loaded(fmu.dll)
+    # pinned: unloading it and loading it again costs time and upsets its destructors
+    if sys.platform == "linux":
+        ctypes.CDLL(fmu.dll._name, mode=os.RTLD_NOLOAD | os.RTLD_NODELETE | os.RTLD_NOW)
     try:
-        (_begin3 if third else _begin2)(fmu, messages)
+        if third:  # its logger gets a plain text
+            fmu.instantiate(loggingOn=True, logMessage=lambda _, *told: _keep(messages, *told))
+        else:
+            _begin2(fmu, messages)
     except Exception as problem:
         fmu.freeLibrary()
-        # pythonfmu writes one line on where it was, then the exception
-        last = (m.text.rpartition("\n")[2] for m in messages if m.status >= WARNING)
-        why = "; ".join(_bare(text) for text in last) or str(problem)
+        # pythonfmu writes one line on where it was, then the exception as Name('sentence')
+        last = (m.text.rpartition("\n")[2].strip() for m in messages if m.status >= WARNING)
+        bare = (re.sub(r"^\w+\((['\"])(.*)\1,?\)$", r"\2", text) for text in last)
+        why = "; ".join(bare) or str(problem)
         raise EnvironmentProblem(f"{identifier} cannot be instantiated: {why}") from None
     return fmu
 
@@ -197,28 +203,7 @@ def _begin2(fmu: Any, messages: Messages) -> None:
     fmu.instantiate(callbacks=callbacks, loggingOn=True)
 
 
-def _begin3(fmu: Any, messages: Messages) -> None:
-    """Instantiate after FMI 3, where the logger gets a plain text."""
-
-    def log(_: Any, status: int, category: bytes, text: bytes) -> None:
-        _keep(messages, status, category, text)
-
-    fmu.instantiate(loggingOn=True, logMessage=log)
-
-
 def _keep(messages: Messages, status: int, category: bytes | None, text: bytes | None) -> None:
     told = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
     messages.append(Message(status, *told))
     messages.said.value = 1
-
-
-def _bare(text: str) -> str:
-    """Return the sentence inside an exception that was written as Name('sentence')."""
-    found = re.fullmatch(r"\w+\((['\"])(.*)\1,?\)", text.strip())
-    return found[2] if found else text
-
-
-def _keep_loaded(dll: Any) -> None:
-    """Pin the library: unloading it and loading it again costs time and upsets its destructors."""
-    if sys.platform == "linux":
-        ctypes.CDLL(dll._name, mode=os.RTLD_NOLOAD | os.RTLD_NODELETE | os.RTLD_NOW)

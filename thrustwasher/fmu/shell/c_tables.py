@@ -4,13 +4,15 @@ from collections.abc import Sequence
 from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
+from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
 from ..description.model_description import TYPES
 from ..description.xml_parts import LOG_CATEGORIES, log_categories
-from ..model_kernels import count_places, load_kernel
+from ..model_kernels import count_places, has_derivatives
 from . import call_table
 
+SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
 COMMON = ("lifecycle.c", "resource.c", "values.c", "text.c", "messages.c", "state.c",
@@ -77,7 +79,7 @@ def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
     kind, cause = v.type.upper(), v.causality.upper()
     depends = sum(1 << inputs.index(name) for name in v.depends)
     return _row(
-        _text(v.name), _text(v.unit), *map(_number, v.bounds), _number(v.start or 0.0),
+        _text(v.name), _text(v.unit), *(float(x).hex() for x in (*v.bounds, v.start or 0.0)),
         f"0x{depends:x}u", v.slot, names.index(v.type_name) if v.type_name else -1,
         f"TYPE_{kind}", f"CAUSE_{cause}", f"STORE_{v.store.upper()}",
         int(v.relative), f"TYPE_BIT(TYPE_{kind}) | CAUSE_BIT(CAUSE_{cause})",
@@ -85,18 +87,17 @@ def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
 
 
 def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, list[str]]]) -> str:
-    kernel = load_kernel(spec.kernel)
+    kernel = kernel_of(spec)
     found = variables(spec)
     status = [v for v in found if v.type_name == "SolverStatus"]
     numbers = {
-        "FMI": fmi, "NPAR": kernel.n_par, "NINP": kernel.n_inp, "NSTATE": kernel.n_state,
-        "NWORK": kernel.n_work, "NOUT": kernel.n_out, "NIOUT": kernel.n_iout,
+        "FMI": fmi, **{name: getattr(kernel, name) for name in SIZES},
         "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
-        **{f"TABLE_{name}": value for name, value in kernel.table.items()},
-        "HAS_RULES": int(kernel.broken_rule is not None),
-        "HAS_SENS": int(kernel.sens is not None),
+        **{f"TABLE_{name}": value for name, value in getattr(kernel, "TABLE", {"ROOM": 0}).items()},
+        "HAS_RULES": int(hasattr(kernel, "broken_rule")),
+        "HAS_SENS": int(has_derivatives(spec)),
     }  # fmt: skip
     shown = [v for v in found if v.causality == "input" or v.name in ("film_ratio", "engine_speed")]
     return "\n".join([
@@ -125,10 +126,6 @@ def _tables(lists: dict[str, tuple[str, list[str]]]) -> str:
 
 def _row(*values: Any) -> str:
     return "{" + ", ".join(map(str, values)) + "}"
-
-
-def _number(value: float) -> str:
-    return float(value).hex()
 
 
 def _text(value: str | None) -> str:

@@ -1,27 +1,21 @@
 """The shared libraries inside native FMUs: the C shell linked with kernels, one per platform."""
 
 import struct
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
 
 from ...errors import ParameterError
 from ...model.prepare import tables_of
+from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
-from ...native import binaries, digest, shipped
+from ...native import digest, shipped
 from ...native.files import Note, to_stderr
-from ...native.link import (
-    Linker,
-    find_linker,
-    local_linker,
-    shared_library,
-    this_level,
-    this_platform,
-)  # fmt: skip
+from ...native.library import linked_objects
+from ...native.link import Linker, find_linker, local_linker, this_level, this_platform
 from ...native.objects import objects, prepare
-from ...native.targets import GLIBC, PLATFORMS, Platform
-from ..model_kernels import load_kernel
+from ...native.targets import PLATFORMS
 from ..package.model_sources import source_folder
 from . import c_tables, call_table
 
@@ -74,7 +68,7 @@ def compile_local(specs: Iterable[ModelSpec], note: Note) -> None:
     """Compile models for use on this machine, side by side, unless they are compiled already."""
     platform = this_platform()
     # The model with the most memory has the most code; begun last it would run alone at the end.
-    largest_first = sorted(specs, key=lambda spec: -load_kernel(spec.kernel).n_work)
+    largest_first = sorted(specs, key=lambda spec: -kernel_of(spec).NWORK)
     missing = [spec for spec in largest_first if local_level(spec)]
     if missing:
         one = replace(platform, levels=(this_level(platform),))
@@ -123,29 +117,12 @@ def library(
     target = PLATFORMS[platform]
     if level:
         target = replace(target, levels=tuple(x for x in target.levels if x.name == level))
-    files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi)}
+    files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi), **dispatch()}
     files |= c_tables.sources(spec, fmi=fmi, guid=guid)
-    exports = call_table.functions(fmi)
-    return link_kernel(files, spec.kernel, target, spec.name, exports, linker=linker, note=note)
-
-
-def link_kernel(
-    files: Mapping[str, str | bytes], kernel: str, platform: Platform, name: str,
-    exports: Iterable[str], *, linker: Linker | None = None, note: Note = to_stderr,
-) -> bytes:  # fmt: skip
-    """Return C files linked with the dispatch to a kernel's objects, checked for what it needs."""
-    code = objects(kernel, [platform], note)
-    parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
-    levels = platform.levels
-    defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
-    linker = linker or find_linker()
-    made = shared_library(
-        {**files, **dispatch(), **parts}, platform=platform, name=name, defines=defines,
+    return linked_objects(
+        files, objects(spec.kernel, [target], note), target, spec.name, call_table.functions(fmi),
         linker=linker, note=note,
     )  # fmt: skip
-    glibc = GLIBC if linker.is_cross else None
-    binaries.check(made, exports=exports, glibc=glibc)
-    return made
 
 
 def shell(fmi: int) -> dict[str, bytes]:

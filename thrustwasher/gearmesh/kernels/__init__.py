@@ -3,17 +3,22 @@
 ==========================  ======================================================================
 ``constants``               What the parameters of a gear mesh come to before any speed or torque
                             is known
+``path_of_contact``         The path of contact: where the pairs touch, what each bears, what its
+                            sliding costs and heats
 ``contact``                 Line contact of two flanks: Hertz, oil film, friction, thermal stress
                             and endurance
-``directional_derivative``  How the outputs of the gear mesh change with its inputs: exact, from
-                            the numbers of a step
+``path_friction``           Friction along the path of contact, and how it changes
+``loss_heat``               The mesh heated by all of its loss
+``operating_point``         The mesh at one operating point, with the heat of its loss or that of
+                            the paper; safety against pitting, scuffing and micropitting
+``step``                    One co-simulation step: it remembers the temperature of the bodies
 ``flank_temperature``       Temperature rises at a sliding line contact: friction on the flank,
                             shear of the oil film
+``mesh_point``              The mesh at one operating point with the paper's heat
+``line_of_action``          Rung `fine` with the paper's heat: resolved along the line of action
+``directional_derivative``  How the outputs change with the inputs: exact, from the numbers of a
+                            step
 ``layout``                  Where each number of the gear mesh lies in its arrays
-``line_of_action``          Rung `fine` of the gear mesh: resolved along the line of action
-``mesh_point``              The mesh at one operating point: load, film, heat, stress
-``step``                    One co-simulation step of the gear mesh: it follows its inputs at once
-                            and remembers nothing
 ==========================  ======================================================================
 """
 
@@ -25,12 +30,14 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.constants.effective_roughness",
         "thrustwasher.gearmesh.kernels.constants.least_teeth",
         "thrustwasher.gearmesh.kernels.constants.path_lengths",
+        "thrustwasher.gearmesh.kernels.constants.path_of",
+        "thrustwasher.gearmesh.kernels.constants.section",
         "thrustwasher.gearmesh.kernels.constants.slide_roll",
         "thrustwasher.gearmesh.kernels.constants.start_of_contact",
         "thrustwasher.gearmesh.kernels.flank_temperature.surface_temperature",
         "thrustwasher.gearmesh.kernels.line_of_action.place_mesh",
-        "thrustwasher.gearmesh.kernels.line_of_action.solve_mesh",
         "thrustwasher.gearmesh.kernels.mesh_point.mesh_point",
+        "thrustwasher.gearmesh.kernels.operating_point.solve_point",
         "thrustwasher.gearmesh.kernels.step.sens",
         "thrustwasher.gearmesh.kernels.step.step",
     ),

@@ -1,7 +1,8 @@
 """What the parameters of a gear mesh come to before any speed or torque is known.
 
-The pair is involute and spur, the pinion drives. Positions on the line of action are counted from
-the pinion's base tangent point (0) to the gear's (1); the pitch point lies at 1/(1 + ratio).
+The pair is involute, seen in the transverse section; the pinion drives. Positions on the line of
+action count from the pinion's base tangent point (0) in lengths of C sin(angle): that of the gear
+lies at 1, of a ring at -1, the pitch point at 1/(ratio + side). ``side`` is 1, of a ring -1.
 """
 
 import math
@@ -12,7 +13,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .contact import compliance
-from .line_of_action import line_of_action
+from .path_of_contact import base_pitch, derive_path, line_of_action
 
 SIGMA_ROUGH, SIGMA_FINE = 2.26e-6, 0.566e-6  # m, composite RMS of two ground flanks
 ROUGHNESS_ROUGH, ROUGHNESS_FINE = 4.5e-5, 1.5e-5  # S of Li & Seireg
@@ -21,6 +22,10 @@ MEAN_OVER_RMS = 1.0 / math.sqrt(2.0)  # Ra of a flank, 1.6 and 0.4 um, over the 
 LEAST_EFFECTIVE = 2.143e-5 / 2.873  # the film's term of Li & Seireg's law changes sign there
 LARGEST_EFFECTIVE = 0.0864 / 1372.0  # the film has no effect from there on
 LEAST_SLIDE_ROLL = 0.27
+# Contact limits [Pa]: ISO 6336-5, MQ, as usually quoted; the mechanical ones of Atan's Table 1.
+LIMIT_CASE, LIMIT_4340, LIMIT_1020 = 1500e6, 689.5e6, 434.3e6
+RIM = 4.0  # transverse modules from a ring's pitch circle to its outside; an estimate
+STILL_COOLING = 50.0  # W/(m2 K), of gears that hardly move, over their pitch cylinders; an estimate
 
 
 @kernel
@@ -33,25 +38,70 @@ def effective_roughness(par: Array) -> float:
 
 
 @kernel
+def section(par: Array) -> tuple[float, float, float, float]:
+    """Return side, centre distance [m], transverse angle [rad], cosine of the base helix angle."""
+    helix, angle, cos_base = par[L.P_HELIX_ANGLE], par[L.P_PRESSURE_ANGLE], 1.0
+    side = -1.0 if par[L.P_INTERNAL] > 0.0 else 1.0
+    if helix > 0.0:
+        cos_base = math.cos(math.asin(math.sin(helix) * math.cos(angle)))
+        angle = math.atan(math.tan(angle) / math.cos(helix))
+    centre = par[L.P_CENTRE_DISTANCE]
+    if par[L.P_NORMAL_MODULE] > 0.0:
+        teeth = par[L.P_PINION_TEETH] * (par[L.P_GEAR_RATIO] + side)
+        centre = 0.5 * par[L.P_NORMAL_MODULE] * teeth / math.cos(helix)
+    return side, centre, angle, cos_base
+
+
+@kernel
+def path_of(par: Array) -> tuple[float, float, float]:
+    """Return the start of contact [-], then approach and recess in base pitches."""
+    ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
+    side, _, angle, _ = section(par)
+    slant = math.cos(par[L.P_HELIX_ANGLE])
+    addendum = par[L.P_ADDENDUM] * slant  # over the transverse module
+    gear = par[L.P_ADDENDUM_GEAR] * slant if par[L.P_ADDENDUM_GEAR] > 0.0 else addendum
+    start = start_of_contact(ratio, teeth, angle, gear, side)
+    approach, recess = path_lengths(ratio, teeth, angle, addendum, start, side)
+    return start, approach, recess
+
+
+@kernel
+def derive_geometry(par: Array) -> None:
+    """Fill section, path of contact, curvature and speeds where it starts, loads per torque."""
+    ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
+    side, centre, angle, cos_base = section(par)
+    par[L.D_SIDE], par[L.D_CENTRE], par[L.D_ANGLE], par[L.D_COS_BASE] = (
+        side, centre, angle, cos_base,
+    )  # fmt: skip
+    start, approach, recess = path_of(par)
+    par[L.D_START], par[L.D_APPROACH], par[L.D_RECESS] = start, approach, recess
+    line, pitch, width = centre * math.sin(angle), centre / (ratio + side), par[L.P_FACE_WIDTH]
+    par[L.D_SLIDE_ROLL] = slide_roll(ratio, start, side)
+    par[L.D_CONTACT_RATIO] = approach + recess
+    around = 2.0 * math.pi * pitch / teeth  # pitch of the teeth [m]
+    par[L.D_OVERLAP] = width * math.tan(par[L.P_HELIX_ANGLE]) / around
+    par[L.D_LOAD] = 1.0 / (width * pitch * math.cos(angle))
+    par[L.D_UNIT_LOAD] = 1.0 / (width * pitch)
+    par[L.D_LINE] = par[L.P_LOAD_SHARE] / (width * pitch * math.cos(angle))
+    if par[L.P_FILM_HEAT] == L.LOSS:
+        par[L.D_LINE] = par[L.D_LOAD]
+    par[L.D_RADIUS] = start * (1.0 - side * start) * line
+    par[L.D_V1] = start * line
+    par[L.D_V2] = (1.0 - side * start) * line / ratio
+    par[L.D_SLIDING] = line * (1.0 - (ratio + side) * start) / ratio
+    apart = base_pitch(ratio, teeth, angle, side) * (ratio + side)
+    par[L.D_SLIDE] = apart * line / ratio  # sliding per base pitch from the pitch point
+    par[L.D_ROLLING] = 2.0 * pitch * math.sin(angle)
+    par[L.D_PITCH_RADIUS] = line * ratio / ((ratio + side) * (ratio + side))
+    par[L.D_LOSS] = loss_factor(ratio, teeth, approach, recess, side) / cos_base
+    if par[L.D_OVERLAP] >= 1.0:  # all of the path bears at any time
+        par[L.D_LOSS] = wide_loss_factor(ratio, teeth, approach, recess, side) / cos_base
+
+
+@kernel
 def derive(par: Array) -> int:
     """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
-    ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
-    angle, addendum = par[L.P_PRESSURE_ANGLE], par[L.P_ADDENDUM]
-    start = start_of_contact(ratio, teeth, angle, addendum)
-    approach, recess = path_lengths(ratio, teeth, angle, addendum, start)
-    line = par[L.P_CENTRE_DISTANCE] * math.sin(angle)
-    pitch = par[L.P_CENTRE_DISTANCE] / (1.0 + ratio)
-    par[L.D_START] = start
-    par[L.D_SLIDE_ROLL] = slide_roll(ratio, start)
-    par[L.D_CONTACT_RATIO] = approach + recess
-    par[L.D_RADIUS] = start * (1.0 - start) * line
-    par[L.D_LINE] = par[L.P_LOAD_SHARE] / (par[L.P_FACE_WIDTH] * pitch * math.cos(angle))
-    par[L.D_V1] = start * line
-    par[L.D_V2] = (1.0 - start) * line / ratio
-    par[L.D_SLIDING] = line * (1.0 - (1.0 + ratio) * start) / ratio
-    par[L.D_ROLLING] = 2.0 * pitch * math.sin(angle)
-    par[L.D_PITCH_RADIUS] = line * ratio / ((1.0 + ratio) * (1.0 + ratio))
-    par[L.D_LOSS] = loss_factor(ratio, teeth, approach, recess)
+    derive_geometry(par)
     par[L.D_THETA] = compliance(par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO])
     par[L.D_CAPACITY] = par[L.P_DENSITY] * par[L.P_HEAT_CAPACITY]
     par[L.D_OIL_CAPACITY] = par[L.P_OIL_DENSITY] * par[L.P_OIL_HEAT_CAPACITY]
@@ -65,9 +115,13 @@ def derive(par: Array) -> int:
     by_speed = math.sqrt(par[L.D_V1]) / (math.sqrt(par[L.D_V1]) + math.sqrt(par[L.D_V2]))
     constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE and par[L.P_FIDELITY] != L.CLOSED
     par[L.D_SHARE] = par[L.P_PARTITION_SHARE] if constant else by_speed
-    par[L.D_PLACES] = 0.0
-    if par[L.P_FIDELITY] == L.FINE:
-        line_of_action(par, approach, recess)
+    derive_limits(par)
+    derive_body(par)
+    par[L.D_PLACES] = par[L.D_HOTTEST] = 0.0
+    if par[L.P_FILM_HEAT] == L.LOSS or par[L.P_FIDELITY] == L.FINE:
+        line_of_action(par, par[L.D_APPROACH], par[L.D_RECESS])
+    if par[L.P_FILM_HEAT] == L.LOSS:
+        derive_path(par)
     for i in range(L.N_PARAM, L.D_POSITION):
         if not math.isfinite(par[np.uintp(i)]):
             return NOT_FINITE
@@ -75,15 +129,18 @@ def derive(par: Array) -> int:
 
 
 @kernel
-def start_of_contact(ratio: float, teeth: float, angle: float, addendum: float) -> float:
+def start_of_contact(
+    ratio: float, teeth: float, angle: float, addendum: float, side: float
+) -> float:
     """Return the position x_s [-] where contact starts: the gear's addendum circle cuts the line.
 
     ``ratio`` gear over pinion teeth, ``teeth`` of the pinion, pressure ``angle`` [rad],
-    ``addendum`` over module. Not above 0: the tip of the gear meets no involute (interference).
+    ``addendum`` of the gear over module. Not above 0: its tip meets no involute (interference).
     """
     base = ratio * math.cos(angle)
-    tip = ratio + 2.0 * addendum / teeth
-    return 1.0 - math.sqrt(tip * tip - base * base) / ((1.0 + ratio) * math.sin(angle))
+    tip = ratio + side * (2.0 * addendum / teeth)
+    reach = math.sqrt(max(tip * tip - base * base, 0.0))
+    return side * (1.0 - reach / ((ratio + side) * math.sin(angle)))
 
 
 @kernel
@@ -94,20 +151,20 @@ def least_teeth(ratio: float, angle: float, addendum: float) -> float:
 
 
 @kernel
-def slide_roll(ratio: float, start: float) -> float:
+def slide_roll(ratio: float, start: float, side: float) -> float:
     """Return sliding speed over mean rolling speed [-], 2 |V2 - V1|/(V1 + V2), at ``start``."""
-    slide = abs(1.0 - (1.0 + ratio) * start)
-    return 2.0 * slide / (1.0 + (ratio - 1.0) * start)
+    slide = abs(1.0 - (ratio + side) * start)
+    return 2.0 * slide / (1.0 + (ratio - side) * start)
 
 
 @kernel
 def path_lengths(
-    ratio: float, teeth: float, angle: float, addendum: float, start: float
+    ratio: float, teeth: float, angle: float, addendum: float, start: float, side: float
 ) -> tuple[float, float]:
     """Return (approach, recess): the path before and after the pitch point, in base pitches."""
-    line = 0.5 * teeth * (1.0 + ratio) * math.sin(angle)  # C sin(angle) over module
+    line = 0.5 * teeth * (ratio + side) * math.sin(angle)  # C sin(angle) over module
     pitch = math.pi * math.cos(angle)
-    approach = (1.0 / (1.0 + ratio) - start) * line / pitch
+    approach = (1.0 / (ratio + side) - start) * line / pitch
     tip, base = 0.5 * teeth + addendum, 0.5 * teeth * math.cos(angle)
     recess = (math.sqrt(tip * tip - base * base) - 0.5 * teeth * math.sin(angle)) / pitch
     return approach, recess
@@ -120,7 +177,7 @@ def _moment(low: float, high: float) -> float:
 
 
 @kernel
-def loss_factor(ratio: float, teeth: float, approach: float, recess: float) -> float:
+def loss_factor(ratio: float, teeth: float, approach: float, recess: float, side: float) -> float:
     """Return H_v [-]: the power lost over the power transmitted, for a friction coefficient of 1.
 
     Mean over the path of contact when the pairs in contact share the load equally, at any time as
@@ -135,7 +192,55 @@ def loss_factor(ratio: float, teeth: float, approach: float, recess: float) -> f
         total += _moment(low, low + more) / (whole + 1.0)
         if k < whole:
             total += _moment(low + more, low + 1.0) / max(whole, 1.0)
-    return 2.0 * math.pi * (ratio + 1.0) / (teeth * ratio) * total
+    return 2.0 * math.pi * (ratio + side) / (teeth * ratio) * total
+
+
+@kernel
+def wide_loss_factor(
+    ratio: float, teeth: float, approach: float, recess: float, side: float
+) -> float:
+    """Return H_v [-] of teeth so wide and helical that the whole path always bears evenly."""
+    square = (approach * approach + recess * recess) / (approach + recess)
+    return math.pi * (ratio + side) / (teeth * ratio) * square
+
+
+@kernel
+def derive_limits(par: Array) -> None:
+    """Fill pitting stress per root of the line load, its limit, scuffing temperature's slope."""
+    ratio, side = par[L.P_GEAR_RATIO], par[L.D_SIDE]
+    angle, contact, overlap = par[L.D_ANGLE], par[L.D_CONTACT_RATIO], min(par[L.D_OVERLAP], 1.0)
+    zone = 2.0 * par[L.D_COS_BASE] / (math.cos(angle) * math.sin(angle))
+    sharing = (4.0 - contact) / 3.0 * (1.0 - overlap) + overlap / contact
+    if overlap >= 1.0:
+        sharing = 1.0 / contact
+    diameter = 2.0 * par[L.D_CENTRE] / (ratio + side)
+    elastic = 1.0 / (math.pi * par[L.D_THETA])
+    slant = math.cos(par[L.P_HELIX_ANGLE])
+    shape = zone * elastic * max(sharing, 0.0) / slant * (ratio + side) / (ratio * diameter)
+    par[L.D_PITTING] = math.sqrt(shape * math.cos(angle) * par[L.P_LOAD_FACTOR])
+    limit = LIMIT_CASE
+    if par[L.P_STEEL] == L.AISI4340:
+        limit = LIMIT_4340
+    elif par[L.P_STEEL] == L.AISI1020:
+        limit = LIMIT_1020
+    par[L.D_LIMIT] = par[L.P_CONTACT_LIMIT] if par[L.P_CONTACT_LIMIT] > 0.0 else limit
+    stage = par[L.P_FZG_STAGE]
+    par[L.D_SCUFFING] = (0.85 + 1.4 * par[L.P_STRUCTURAL_FACTOR]) * stage * stage
+
+
+@kernel
+def derive_body(par: Array) -> None:
+    """Fill heat capacity [J/K] of the bodies and their conductance [W/K] when nothing turns."""
+    pinion = par[L.D_CENTRE] / (par[L.P_GEAR_RATIO] + par[L.D_SIDE])
+    gear, width = pinion * par[L.P_GEAR_RATIO], par[L.P_FACE_WIDTH]
+    disc = gear * gear
+    if par[L.D_SIDE] < 0.0:
+        rim = RIM * 2.0 * pinion / par[L.P_PINION_TEETH]
+        disc = rim * (2.0 * gear + rim)
+    mass = math.pi * width * (pinion * pinion + disc) * par[L.P_DENSITY]
+    given = par[L.P_BULK_HEAT_CAPACITY]
+    par[L.D_BULK_CAPACITY] = given if given > 0.0 else mass * par[L.P_HEAT_CAPACITY]
+    par[L.D_STILL] = STILL_COOLING * 2.0 * math.pi * width * (pinion + gear)
 
 
 @kernel
@@ -144,12 +249,19 @@ def broken_rule(par: Array) -> int:
 
     Every parameter lies in its own range. The numbers are places in the model's list of texts.
     """
-    ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
-    angle, addendum = par[L.P_PRESSURE_ANGLE], par[L.P_ADDENDUM]
-    start = start_of_contact(ratio, teeth, angle, addendum)
+    if 0.0 < par[L.P_CONTACT_LIMIT] < 1e8:
+        return 8
+    if 0.0 < par[L.P_ADDENDUM_GEAR] < 0.3:
+        return 9
+    if 0.0 < par[L.P_NORMAL_MODULE] < 1e-4:
+        return 10
+    side, _, angle, _ = section(par)
+    ratio, is_paper = par[L.P_GEAR_RATIO], par[L.P_FILM_HEAT] != L.LOSS
+    if not ratio + side > 0.0:
+        return 1
+    start, approach, recess = path_of(par)
     if not start > 0.0:
         return 1
-    approach, recess = path_lengths(ratio, teeth, angle, addendum, start)
     if not approach + recess >= 1.0:
         return 2
     if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
@@ -158,6 +270,14 @@ def broken_rule(par: Array) -> int:
             return 3
         if not par[L.P_F0] >= 0.0864 - 1372.0 * s:
             return 4
-        if not slide_roll(ratio, start) > LEAST_SLIDE_ROLL:
+        if not slide_roll(ratio, start, side) > LEAST_SLIDE_ROLL:
             return 5
+    reach = approach + recess
+    if side > 0.0:
+        reach *= base_pitch(ratio, par[L.P_PINION_TEETH], angle, side)
+        if not start + reach < 1.0:
+            return 6
+    beyond = par[L.P_HELIX_ANGLE] + par[L.P_ADDENDUM_GEAR] + par[L.P_INTERNAL] > 0.0
+    if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
+        return 7
     return 0

@@ -122,12 +122,12 @@ def flash_change(
 
 @kernel
 def asperity_change(
-    par: Array, field: Array, hardness: float, oil: float, load: float,
+    par: Array, field: Array, hardness: float, body: float, load: float,
     changes: tuple[float, float, float, float, float, float],
 ) -> tuple[float, float]:  # fmt: skip
-    """Return (rise of the asperities over the oil [K], its change) for a steel of that hardness.
+    """Return (rise of the asperities over the body [K], its change) for a steel of that hardness.
 
-    ``changes``: of oil, surface, film, flash [K], contact weight, free area ratio.
+    ``changes``: of body, surface, film, flash [K], contact weight, free area ratio.
     """
     area, growth = field[L.F_FREE_AREA], changes[5]
     if par[L.P_AREA_LAW] == L.BOUNDED:
@@ -139,8 +139,11 @@ def asperity_change(
         rise = weight * area * flash
         change = changes[4] * area * flash + weight * (growth * flash + area * changes[3])
     if par[L.P_ASPERITY_BASE] == L.ON_SURFACE:
-        return field[L.F_SURFACE] - oil + rise, changes[1] - changes[0] + change
-    above = field[L.F_FILM_TEMPERATURE] - oil
+        if par[L.P_FILM_HEAT] == L.LOSS:
+            rise -= weight * flash
+            change -= changes[4] * flash + weight * changes[3]
+        return field[L.F_SURFACE] - body + rise, changes[1] - changes[0] + change
+    above = field[L.F_FILM_TEMPERATURE] - body
     change += (1.0 - weight) * (changes[2] - changes[0]) - changes[4] * above
     return (1.0 - weight) * above + rise, change
 
@@ -171,6 +174,16 @@ def fill_changes(
     film, bulk, surface, hottest = film_changes(par, field, oil, turning, load, speed, change)
     friction = follow_friction(par, field, film, bulk, load, speed)
     flash = flash_change(par, field, torque, load, speed, torque_change, friction)
+    asperity_changes(par, field, change, film, surface, hottest, flash, friction, load, dout)
+
+
+@kernel
+def asperity_changes(
+    par: Array, field: Array, change: float, film: float, surface: float, hottest: float,
+    flash: float, friction: float, load: float, dout: Array,
+) -> None:  # fmt: skip
+    """Fill the changes that follow from those of body, film (relative), surface, film and flash."""
+    body = field[L.F_BULK]
     ratio = field[L.F_RATIO] * film
     weight = 0.0
     if par[L.P_SWITCH] == L.SMOOTH:
@@ -181,7 +194,7 @@ def fill_changes(
     stiff = thermal_stress(
         1.0, par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO], par[L.P_THERMAL_EXPANSION]
     )
-    rise, soft = asperity_change(par, field, factor * ULTIMATE_1020, oil, load, changes)
+    rise, soft = asperity_change(par, field, factor * ULTIMATE_1020, body, load, changes)
     k, allowed, used = endurance_change(
         mechanical, load, stiff * rise, stiff * soft, field[L.F_ALLOWABLE_1020],
         field[L.F_UTILIZATION_1020], SCALES_1020,
@@ -190,14 +203,14 @@ def fill_changes(
     dout[L.F_UTILIZATION_1020] = used
     dout[L.F_ASPERITY], dout[L.F_THERMAL] = change + soft, stiff * soft
     dout[L.F_MODIFICATION], dout[L.F_ALLOWABLE] = k, allowed
-    rise, hard = asperity_change(par, field, factor * ULTIMATE_4340, oil, load, changes)
+    rise, hard = asperity_change(par, field, factor * ULTIMATE_4340, body, load, changes)
     k, allowed, used = endurance_change(
         mechanical, load, stiff * rise, stiff * hard, field[L.F_ALLOWABLE_4340],
         field[L.F_UTILIZATION_4340], SCALES_4340,
     )  # fmt: skip
     dout[L.F_MODIFICATION_4340], dout[L.F_ALLOWABLE_4340] = k, allowed
     dout[L.F_UTILIZATION_4340] = used
-    if par[L.P_STEEL] == L.AISI4340:
+    if par[L.P_STEEL] != L.AISI1020:
         dout[L.F_ASPERITY], dout[L.F_THERMAL] = change + hard, stiff * hard
         dout[L.F_MODIFICATION], dout[L.F_ALLOWABLE] = k, allowed
     dout[L.F_FILM], dout[L.F_RATIO] = field[L.F_FILM] * film, ratio

@@ -2,44 +2,60 @@
 
 # Parameters, in the order of GearMeshParams.
 (
-    P_GEAR_RATIO, P_PINION_TEETH, P_CENTRE_DISTANCE, P_PRESSURE_ANGLE, P_ADDENDUM, P_FACE_WIDTH,
+    P_GEAR_RATIO, P_PINION_TEETH, P_CENTRE_DISTANCE, P_NORMAL_MODULE, P_PRESSURE_ANGLE,
+    P_HELIX_ANGLE, P_INTERNAL, P_ADDENDUM, P_ADDENDUM_GEAR, P_FACE_WIDTH, P_LOAD_FACTOR,
     P_LOAD_SHARE, P_SURFACE, P_SIGMA_RMS, P_EFFECTIVE_ROUGHNESS, P_MEAN_ROUGHNESS, P_FRICTION_LAW,
-    P_F0, P_CONSTANT_FRICTION, P_STEEL, P_YOUNGS_MODULUS, P_POISSON_RATIO, P_CONDUCTIVITY,
-    P_HEAT_CAPACITY, P_DENSITY, P_THERMAL_EXPANSION, P_OIL_CONDUCTIVITY, P_OIL_HEAT_CAPACITY,
-    P_OIL_DENSITY, P_VISCOSITY_SCALE, P_VISCOSITY_B, P_VISCOSITY_C, P_VISCOSITY_AT,
-    P_FILM_VISCOSITY, P_PRESSURE_VISCOSITY, P_HEAT_PARTITION, P_PARTITION_SHARE, P_TRACTION_LAW,
-    P_LIMITING_TRACTION, P_ASPERITY_GROUP, P_HARDNESS_FACTOR, P_AREA_LAW, P_AREA_RATIO, P_SWITCH,
-    P_ASPERITY_BASE, P_SPEED_SMOOTHING, P_FIDELITY,
-) = range(42)  # fmt: skip
-N_PARAM = 42
-# Constants that derive() adds: geometry per unit of speed and torque, surface, material.
+    P_F0, P_CONSTANT_FRICTION, P_EYRING_STRESS, P_FILM_HEAT, P_THERMAL_MODE, P_THERMAL_START,
+    P_BULK_CONDUCTANCE, P_BULK_HEAT_CAPACITY, P_LUBRICATION_FACTOR, P_STEEL, P_CONTACT_LIMIT,
+    P_STRUCTURAL_FACTOR, P_FZG_STAGE, P_PERMISSIBLE_FILM_RATIO, P_YOUNGS_MODULUS, P_POISSON_RATIO,
+    P_CONDUCTIVITY, P_HEAT_CAPACITY, P_DENSITY, P_THERMAL_EXPANSION, P_OIL_CONDUCTIVITY,
+    P_OIL_HEAT_CAPACITY, P_OIL_DENSITY, P_VISCOSITY_SCALE, P_VISCOSITY_B, P_VISCOSITY_C,
+    P_VISCOSITY_AT, P_FILM_VISCOSITY, P_PRESSURE_VISCOSITY, P_HEAT_PARTITION, P_PARTITION_SHARE,
+    P_TRACTION_LAW, P_LIMITING_TRACTION, P_ASPERITY_GROUP, P_HARDNESS_FACTOR, P_AREA_LAW,
+    P_AREA_RATIO, P_SWITCH, P_ASPERITY_BASE, P_SPEED_SMOOTHING, P_FIDELITY,
+) = range(58)  # fmt: skip
+N_PARAM = 58
+# Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
+# a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
 (
     D_START, D_SLIDE_ROLL, D_RADIUS, D_LINE, D_V1, D_V2, D_SLIDING, D_ROLLING, D_PITCH_RADIUS,
     D_LOSS, D_THETA, D_CAPACITY, D_OIL_CAPACITY, D_EFFUSIVITY, D_SIGMA, D_ROUGHNESS, D_MEAN,
-    D_SHARE, D_CONTACT_RATIO, D_PLACES,
-) = range(42, 62)  # fmt: skip
-# The line of action, for the rung `fine`: positions from the pitch point in base pitches, shares of
-# the load that heat the pair there, shares of the loss; D_PLACES is the number of positions.
+    D_SHARE, D_CONTACT_RATIO, D_SIDE, D_CENTRE, D_ANGLE, D_COS_BASE, D_OVERLAP, D_APPROACH,
+    D_RECESS, D_SLIDE, D_LOAD, D_UNIT_LOAD, D_PITTING, D_LIMIT, D_SCUFFING, D_CONDUCTANCE, D_STILL,
+    D_BULK_CAPACITY, D_HOTTEST, D_FLASH_MOST, D_FILM_LEAST, D_PRESSURE_MOST, D_PLACES,
+) = range(N_PARAM, N_PARAM + 40)  # fmt: skip
+# The line of action: positions from the pitch point in base pitches, shares of the load that the
+# pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
+# also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure.
 N_PATH = 80
-D_POSITION, D_PATH_SHARE, D_PATH_LOSS, NPAR = 62, 62 + N_PATH, 62 + 2 * N_PATH, 62 + 3 * N_PATH
+D_POSITION = D_PLACES + 1
+D_PATH_SHARE, D_PATH_LOSS, D_PATH_LENGTH, D_PATH_FLASH, D_PATH_FILM, D_PATH_PRESSURE, NPAR = (
+    D_POSITION + i * N_PATH for i in range(1, 8)
+)
 I_LOAD, I_SPEED, I_OIL = range(3)
 NINP = 3
-NSTATE = 1  # unused: the mesh follows its inputs at once
+# Memory: whether a step was made, temperature of the bodies [K], heat stored since then [J].
+S_STARTED, S_BULK, S_STORED, NSTATE = range(4)
 # What is known of one operating point; the real outputs come first, in their order.
 (
     F_TORQUE, F_ASPERITY, F_FILM, F_SURFACE, F_STRESS, F_THERMAL, F_MODIFICATION, F_ALLOWABLE,
     F_FILM_TEMPERATURE, F_FLASH, F_RATIO, F_FRICTION, F_POWER, F_MODIFICATION_1020,
     F_MODIFICATION_4340, F_ALLOWABLE_1020, F_ALLOWABLE_4340, F_UTILIZATION_1020,
-    F_UTILIZATION_4340, F_LINE_LOAD, F_WIDTH, F_PRESSURE, F_SLIDING, F_VISCOSITY, F_WEIGHT, F_AREA,
+    F_UTILIZATION_4340, F_MEAN_FRICTION, F_FLASH_MAX, F_BULK, F_OIL_HEAT, F_STORED, F_PRESSURE_MAX,
+    F_PITTING_STRESS, F_PITTING_SAFETY, F_SCUFFING_SAFETY, F_SCUFFING_MARGIN, F_FILM_GF,
+    F_MICROPITTING, F_LINE_LOAD, F_WIDTH, F_PRESSURE, F_SLIDING, F_VISCOSITY, F_WEIGHT, F_AREA,
     F_STATUS, F_ITERATIONS, F_BULK_VISCOSITY, F_SURFACE_RISE, F_FILM_RISE, F_STRESS_SLOPE,
     F_FRICTION_SLOPE, F_FREE_AREA, F_FREE_AREA_SLOPE, F_SMOOTH_SIGN, F_FREE_RISE,
-) = range(37)  # fmt: skip
-N_FIELD = 37
-# Behind them, for the rung `fine`: the hottest position's own numbers, those of the position at
-# hand, the constants there, the number of the hottest.
-W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + 62
-NWORK = W_PLACE + 1
-NOUT = 19
+) = range(49)  # fmt: skip
+N_FIELD = 49
+# Behind them, for the rung `fine` of the paper's heat: the hottest position's own numbers, those of
+# the position at hand, the constants there; then, for both heats, the number of the hottest.
+W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
+# Where the loss heats: how the step began (HELD and so on), the bodies over the oil then [K],
+# duration [s]; friction of every position, in mixed friction that of the film and contact's share.
+W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
+W_SHEARED, W_CONTACT, NWORK = (W_FRICTION + i * N_PATH for i in range(1, 4))
+NOUT = 31
 IO_REGIME, IO_STATUS = range(2)
 NIOUT = 2
 
@@ -47,8 +63,12 @@ FILM, MIXED, BOUNDARY = range(1, 4)  # regimes
 # Numbers of the enumerations.
 CLOSED, STRIBECK, FIELD, FINE = range(1, 5)  # fidelity
 ROUGH = 1  # surface
-LI_SEIREG, ISO = 1, 2  # friction_law, 3 is constant
-AISI4340 = 1  # steel
+LI_SEIREG, ISO, MIXED_FRICTION = 1, 2, 4  # friction_law, 3 is constant
+LOSS = 1  # film_heat, 2 is the paper's
+QUASI_STEADY = 1  # thermal_mode, 2 is transient
+STEADY_START = 1  # thermal_start, 2 is the oil's temperature
+HELD, STEADY, OILS = range(3)  # how a step began: as the last one ended, or with a first state
+AISI4340, AISI1020 = 1, 2  # steel, 3 is case-hardened
 AT_SURFACE = 1  # viscosity_at and film_viscosity, 2 is the inlet
 CONSTANT_SHARE = 1  # heat_partition, 2 follows the speeds
 AMBIENT = 1  # traction_law, 2 is limited

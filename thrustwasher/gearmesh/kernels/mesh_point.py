@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""The mesh at one operating point: load, film, heat, stress.
+"""The mesh at one operating point with the paper's heat: load, film, heat, stress.
 
 Everything is evaluated where contact starts. Near zero the line load counts at least 1 N/m and the
 speed at least 1 mrad/s, rounded, so that every number stays finite with a continuous slope.
@@ -148,6 +148,8 @@ def asperity_temperature(
     else:
         area_rise = weight * area * field[L.F_FLASH]
     if par[L.P_ASPERITY_BASE] == L.ON_SURFACE:
+        if par[L.P_FILM_HEAT] == L.LOSS:  # the flash is in the flank's temperature already
+            area_rise -= weight * field[L.F_FLASH]
         return field[L.F_SURFACE] + area_rise, area
     return weight * oil + (1.0 - weight) * field[L.F_FILM_TEMPERATURE] + area_rise, area
 
@@ -179,7 +181,7 @@ def stress_asperities(par: Array, oil: float, field: Array) -> None:
     field[L.F_UTILIZATION_4340] = utilization(
         thermal_hard, mechanical, THERMAL_4340, MECHANICAL_4340, ULTIMATE_4340
     )
-    if par[L.P_STEEL] == L.AISI4340:
+    if par[L.P_STEEL] != L.AISI1020:
         field[L.F_ASPERITY], field[L.F_AREA], field[L.F_THERMAL] = hard, hard_area, thermal_hard
         field[L.F_MODIFICATION] = field[L.F_MODIFICATION_4340]
         field[L.F_ALLOWABLE] = field[L.F_ALLOWABLE_4340]
@@ -192,7 +194,7 @@ def stress_asperities(par: Array, oil: float, field: Array) -> None:
 @kernel
 def outside(par: Array, oil: float, field: Array) -> bool:
     """Tell if the point lies where the laws are stretched: oil, hardness, softened steel."""
-    ultimate = ULTIMATE_4340 if par[L.P_STEEL] == L.AISI4340 else ULTIMATE_1020
+    ultimate = ULTIMATE_1020 if par[L.P_STEEL] == L.AISI1020 else ULTIMATE_4340
     return (
         oil < COLDEST or oil > WARMEST or field[L.F_ASPERITY] > HOTTEST_ASPERITY
         or field[L.F_PRESSURE] > par[L.P_HARDNESS_FACTOR] * ultimate
@@ -227,7 +229,7 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
     else:
         heat = par[L.D_SHARE] * friction * rubbing * field[L.F_SLIDING]
         rise = flash_rise(heat, width, v1, par[L.D_EFFUSIVITY])
-    field[L.F_FRICTION], field[L.F_FLASH] = friction, rise
+    field[L.F_FRICTION], field[L.F_FLASH], field[L.F_BULK] = friction, rise, oil
     field[L.F_WEIGHT] = contact_weight(par, field[L.F_RATIO])
     stress_asperities(par, oil, field)
     if status == OK:

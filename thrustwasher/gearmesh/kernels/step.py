@@ -1,4 +1,4 @@
-"""One co-simulation step of the gear mesh: it follows its inputs at once and remembers nothing."""
+"""One co-simulation step of the gear mesh: it remembers the temperature of the gears' bodies."""
 
 import math
 
@@ -11,8 +11,8 @@ from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
 from . import layout as L
 from .constants import broken_rule as broken_rule
 from .constants import derive as derive
-from .line_of_action import mesh_changes, solve_mesh
 from .mesh_point import LEAST_LINE_LOAD
+from .operating_point import point_changes, solve_point
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT = L.NOUT, L.NIOUT
@@ -37,29 +37,32 @@ def step(
     t: float,
     dt: float,
 ) -> int:
-    """Fill the outputs at the present load, speed and oil temperature; ``state`` stays.
+    """Fill the outputs at the present load, speed and oil temperature, held from t to t + dt.
 
     Returns 0 or the status of a failure; advice stands in ``iout`` only.
     """
     load, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
     if not (
         math.isfinite(load) and math.isfinite(speed) and math.isfinite(oil) and dt >= 0.0
-        and oil > 0.0
+        and math.isfinite(dt) and oil > 0.0
     ):  # fmt: skip
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
-    status = solve_mesh(par, load, speed, oil, work)
     # The loss grows from zero load with a continuous slope, over twice the least line load.
     pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
     smooth_sign = math.tanh(speed / par[L.P_SPEED_SMOOTHING])
+    status = solve_point(par, load, speed, oil, pressed * smooth_sign * speed, state, dt, work)
     work[L.F_SMOOTH_SIGN] = smooth_sign
-    work[L.F_TORQUE] = work[L.F_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
+    work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
     work[L.F_POWER] = work[L.F_TORQUE] * speed
     iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])
     for i in range(L.NOUT):
         out[np.uintp(i)] = work[np.uintp(i)]
         if not math.isfinite(out[np.uintp(i)]):
             status = NOT_FINITE
+    if dt > 0.0 and status < 10:
+        state[L.S_STARTED] = 1.0
+        state[L.S_BULK], state[L.S_STORED] = work[L.F_BULK], work[L.F_STORED]
     iout[L.IO_STATUS] = status
     return status if status >= 10 else 0
 
@@ -73,15 +76,21 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     Returns 0, or NOT_FINITE.
     """
     torque, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
-    mesh_changes(par, work, torque, speed, oil, seed, dout)
     width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
     pressed, smooth = soft_size(torque, width), work[L.F_SMOOTH_SIGN]
-    friction = work[L.F_FRICTION]
-    more = dout[L.F_FRICTION] * pressed
-    more += friction * soft_size_slope(torque, width) * seed[L.I_LOAD]
+    heavier, friction = soft_size_slope(torque, width), work[L.F_MEAN_FRICTION]
     steep = (1.0 - smooth) * (1.0 + smooth) / par[L.P_SPEED_SMOOTHING]
+    # what the mesh transmits [W] as it counts for the loss, and its change
+    drive = pressed * smooth * speed
+    more = heavier * seed[L.I_LOAD] * smooth * speed
+    more += pressed * (steep * speed + smooth) * seed[L.I_SPEED]
+    point_changes(
+        par, work, torque, speed, oil, par[L.D_LOSS] * drive, par[L.D_LOSS] * more, seed, dout
+    )
+    rising = dout[L.F_MEAN_FRICTION] * pressed
+    rising += friction * heavier * seed[L.I_LOAD]
     dout[L.F_TORQUE] = par[L.D_LOSS] * (
-        more * smooth + friction * pressed * steep * seed[L.I_SPEED]
+        rising * smooth + friction * pressed * steep * seed[L.I_SPEED]
     )
     dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
     for i in range(L.NOUT):

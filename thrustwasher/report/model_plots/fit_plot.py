@@ -39,12 +39,12 @@ def calibration_figure(found: Any, columns: Mapping[str, Sequence[float]]) -> Fi
         spread = None if error is None else np.asarray(error)[chosen]
         look: Any = {"color": colour, "marker": marker, "ls": "", "ms": 4.5, "alpha": 0.85}
         top.errorbar(
-            speed[chosen], np.asarray(columns["friction"])[chosen], spread, label=name,
+            speed[chosen], found.friction[chosen], spread, label=name,
             elinewidth=0.8, zorder=3, **look,
         )  # fmt: skip
         middle.plot(speed[chosen], found.residuals[chosen], **look)
         right.plot(load[chosen], found.residuals[chosen], **look)
-    friction = np.asarray(columns["friction"], float)
+    friction = found.friction
     ends = float(friction.min()), float(friction.max())
     _draw_curve(top, found, 1.05 * float(speed.max()) or 1.0, *ends)
     for axis in (middle, right):

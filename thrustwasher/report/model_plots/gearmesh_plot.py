@@ -79,7 +79,7 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
             axes[2].plot([here], [factor], **dot)
     heading(
         figure,
-        f"Gear mesh at the start of contact: {format_quantity(point['power'], 'W')}, "
+        f"Gear mesh where it is hottest: {format_quantity(point['power'], 'W')}, "
         f"{format_quantity(point['speed'], 'rad/s')}, oil "
         f"{format_quantity(point['oil_temperature'], 'K')}; dots: {here} teeth, "
         f"asperities at {format_quantity(result.asperity_temperature, 'K')}",

@@ -7,13 +7,17 @@ from matplotlib.axes import Axes
 
 from ..palette import BLACK, BLUE, COLOURS, GREEN, GREY, ORANGE, RED, RPM, SIGMA, SKY
 from ..shift.shift_record import PACKS, Array, Record
-from ..shift.worst_moments import distressed
-from ..style import note_at_right
+from ..shift.worst_moments import FILM_SPEED, distressed
+from ..style import decade_ticks, note_at_right
 from .panel_base import draw, draw_phase_lines, draw_phases, finish, thin
 
 LOWEST_RATIO = 0.05  # film ratios at or below this are drawn on this line
 SHOWN = 2.5  # times the largest coefficient of the faces: above, the load is only beginning
 LEAST_LOAD = 1.0  # N
+SAFETIES = (
+    ("pitting_safety", "against pitting", BLUE), ("scuffing_safety", "against scuffing", RED),
+)  # fmt: skip
+NO_LIMIT = 1.0  # permissible film ratio of flanks without one: safety and ratio are the same
 STEELS = (("aisi1020", "AISI 1020", BLUE), ("aisi4340", "AISI 4340", ORANGE))
 
 
@@ -152,15 +156,22 @@ def draw_stress(axis: Axes, record: Record) -> None:
     finish(axis, title, "utilisation [1]")
 
 
-def draw_allowable(axis: Axes, record: Record) -> None:
-    """Draw by what factor heat lowers the contact stress allowed."""
-    draw_phases(axis, record, words=False)
-    lowest = 1.0
-    for key, words, colour in STEELS:
-        name = f"mesh.allowable_ratio_{key}"
-        values = record.series(name)
-        if values is not None:
-            draw(axis, record, name, words, colour)
-            lowest = min(lowest, float(np.min(values)))
-    axis.set_ylim(max(0.0, lowest - 0.1), 1.05)
-    finish(axis, "Contact stress allowed with heat, over that without", "ratio [1]")
+def draw_safeties(axis: Axes, record: Record) -> None:
+    """Draw the safeties of the teeth while they turn; 1 is the limit."""
+    draw_phases(axis, record)
+    for part, mesh, dashes in (("mesh", "", "-"), ("ring_mesh", ", ring mesh", "--")):
+        speed = record.series(f"{part}.speed")
+        own = record.part(part)
+        given = own is not None and own.params().permissible_film_ratio != NO_LIMIT
+        film = ("micropitting_safety", "against micropitting", GREEN) if given else (
+            "film_ratio_gf", "film over Ra, no limit", GREY
+        )  # fmt: skip
+        for name, words, colour in (*SAFETIES, film):
+            values = record.series(f"{part}.{name}")
+            if values is not None and speed is not None:
+                shown = np.where(np.abs(speed) >= FILM_SPEED, values, np.nan)
+                axis.plot(record.time, shown, color=colour, ls=dashes, label=words + mesh)
+    axis.axhline(1.0, color=BLACK, lw=0.9, ls=(0, (1, 3)), label="limit")
+    axis.set_yscale("log")
+    decade_ticks(axis)
+    finish(axis, "Safeties of the gear teeth", "safety [1]")

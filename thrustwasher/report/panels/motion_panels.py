@@ -1,16 +1,16 @@
-"""Panels over the time of a shift: speeds, torques, temperatures, energy, a swinging shaft."""
+"""Panels over time: speeds, torques, pressures, jerk, temperatures, energy, a swinging shaft."""
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from ..palette import BLACK, BLUE, CELSIUS, COLOURS, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from ..shift.heat_split import HeatSplit
 from ..shift.shift_record import PACKS, Array, Record
-from ..style import powers_of_ten
-from .panel_base import draw, draw_events, draw_phases, finish, thin
+from .panel_base import draw, draw_events, draw_phase_lines, draw_phases, finish, thin
 
 LINING_LIMIT = 523.15  # [K] oil and lining fail above
 WASHER_RISE = 200.0  # [K] mean rise above the oil at which the paper calls a washer distressed
-LEAST_POWER = 0.1  # [W] the foot of the logarithmic axis
+JERK_TIME = 0.01  # s over which a change of acceleration counts
 
 
 def elastic(record: Record) -> bool:
@@ -24,10 +24,10 @@ def draw_speeds(axis: Axes, record: Record) -> None:
     draw_phases(axis, record, legend=True)
     lone_brake = record.alone and record.engaging == "brake"
     for name, words, colour, dashes in (
-        ("transmission.engine_speed", "engine (sun)", BLUE, "-"),
+        ("transmission.engine_speed", "engine", BLUE, "-"),
         ("transmission.output_speed", "output (carrier)", GREEN, "-"),
         ("transmission.vehicle_speed", "vehicle", BLACK, ":"),
-        ("transmission.ring_speed", "drum (ring)", PURPLE, "-"),
+        ("transmission.drum_speed", "drum", PURPLE, "-"),
         ("transmission.clutch_speed", "clutch slip", RED, "--"),
         ("transmission.washer_speed", "planet on its pin", ORANGE, "-."),
     ):
@@ -36,7 +36,7 @@ def draw_speeds(axis: Axes, record: Record) -> None:
             continue
         if "vehicle" in name and not elastic(record):
             continue
-        if not lone_brake or "ring" in name:
+        if not lone_brake or "drum" in name:
             draw(axis, record, name, words, colour, dashes)
     draw_events(axis, record)
     finish(axis, _speed_title(record), "speed [rad/s]")
@@ -60,12 +60,12 @@ def draw_torques(axis: Axes, record: Record) -> None:
         ("transmission.clutch_reaction", "clutch", RED, "-"),
         ("clutch.torque_capacity", "clutch could hold", RED, ":"),
         ("transmission.brake_reaction", "brake", PURPLE, "-"),
-        ("transmission.sun_torque", "sun's teeth", GREY, "--"),
+        ("transmission.input_tooth_torque", "driven gear's teeth", GREY, "--"),
         ("transmission.resistance_torque", "load at the output", GREEN, "-"),
         ("transmission.shaft_torque", "output shaft", BLACK, "-"),
     ):
         values = record.series(name)
-        hidden = (record.alone and "sun" in name) or ("shaft" in name and not elastic(record))
+        hidden = (record.alone and "tooth" in name) or ("shaft" in name and not elastic(record))
         if values is not None and np.any(values != 0.0) and not hidden:
             draw(axis, record, name, words, colour, dashes)
     _draw_brake_capacity(axis, record)
@@ -132,6 +132,7 @@ def draw_temperatures(axis: Axes, record: Record) -> None:
 
 def draw_energy(axis: Axes, record: Record) -> None:
     """Draw where the energy went as areas that fill up to what came in."""
+    draw_phase_lines(axis, record)
     zero = np.zeros_like(record.time)
 
     def kilojoules(name: str) -> Array:
@@ -169,22 +170,6 @@ def draw_energy(axis: Axes, record: Record) -> None:
     finish(axis, title, "energy since the start [kJ]")
 
 
-def draw_heat_flow(axis: Axes, record: Record) -> None:
-    """Draw the friction power of the packs, of one washer and of one mesh, by decades."""
-    draw_phases(axis, record)
-    lines = [(pack, pack, COLOURS[pack]) for pack in PACKS if record.presses(pack)]
-    lines += [("washer", "one washer", ORANGE), ("mesh", "one mesh", GREEN)]
-    for part, words, colour in lines:
-        values = record.series(f"{part}.friction_power")
-        if values is not None and np.any(values > LEAST_POWER):
-            shown = np.where(values > LEAST_POWER, values, np.nan)
-            axis.plot(record.time, shown, color=colour, label=words)
-    axis.set_yscale("log")
-    axis.set_ylim(bottom=LEAST_POWER)
-    powers_of_ten(axis)
-    finish(axis, "Heat flow", "power [W]")
-
-
 def draw_shaft(axis: Axes, record: Record) -> None:
     """Draw the torque of the shaft and of the load behind it."""
     draw_phases(axis, record)
@@ -207,3 +192,67 @@ def _mark(axis: Axes, record: Record) -> None:
     """Draw where the swing was judged."""
     for time in (record.judder.start, record.judder.end):
         axis.axvline(time, color=GREY, lw=0.9, ls="--")
+
+
+def draw_acceleration(axis: Axes, record: Record) -> None:
+    """Draw the acceleration of the vehicle."""
+    draw_phases(axis, record)
+    felt = (record.reach or 1.0) * record.signals["transmission.output_acceleration"]
+    axis.plot(record.time, felt, color=GREEN, label="vehicle")
+    finish(axis, "Acceleration of the vehicle", "acceleration [m/s²]")
+
+
+def draw_jerk(axis: Axes, record: Record) -> None:
+    """Draw the change of the vehicle's acceleration over the next 10 ms."""
+    draw_phases(axis, record, words=False)
+    felt = (record.reach or 1.0) * record.signals["transmission.output_acceleration"]
+    change = np.interp(record.time + JERK_TIME, record.time, felt) - felt
+    axis.plot(record.time, change / JERK_TIME, color=BLUE, lw=1.0, label="over the next 10 ms")
+    finish(axis, "Jerk", "jerk [m/s³]")
+
+
+def draw_pressures(axis: Axes, record: Record) -> None:
+    """Draw the pressures at both pistons and the springs that they work against."""
+    draw_phases(axis, record)
+    gearbox = record.part("transmission")
+    for pack in PACKS:
+        pressure = record.signals[f"transmission.{pack}_piston_pressure"]
+        axis.plot(record.time, pressure / 1e3, color=COLOURS[pack], label=f"{pack}'s piston")
+        spring = getattr(gearbox.params(), f"{pack}_return_spring") if gearbox else 0.0
+        axis.axhline(spring / 1e3, color=COLOURS[pack], lw=0.9, ls=":",
+                     label=f"{pack}'s return spring")  # fmt: skip
+    finish(axis, "Pressures", "pressure [kPa]")
+
+
+def draw_pack_speeds(axis: Axes, record: Record) -> None:
+    """Draw the speeds of both sides of the packs; slip is the difference."""
+    draw_phases(axis, record, words=False)
+    for name, words, colour, dashes in (
+        ("brake_hub", "brake, hub", COLOURS["brake"], "-"),
+        ("brake_drum", "brake, housing", COLOURS["brake"], "--"),
+        ("clutch_hub", "clutch, hub", COLOURS["clutch"], "-"),
+        ("clutch_drum", "clutch, drum", COLOURS["clutch"], "--"),
+    ):
+        draw(axis, record, f"transmission.{name}_speed", words, colour, dashes)
+    finish(axis, "Speeds of both sides of the packs", "speed [rad/s]")
+
+
+def draw_heat_split(axis: Axes, record: Record, split: HeatSplit) -> None:
+    """Draw how much of a pack's heat is in its plates and how much in the oil."""
+    draw_phases(axis, record)
+    some, stored = thin(record), split.stored
+    layers = [(split.to_oil, "in the oil", SKY)]
+    layers += [] if stored is None else [(stored, "in the steel plates", ORANGE)]
+    axis.stackplot(record.time[some], *(heat[some] / 1e3 for heat, *_ in layers), lw=0, alpha=0.8,
+                   labels=[words for _, words, _ in layers],
+                   colors=[colour for *_, colour in layers])  # fmt: skip
+    axis.plot(record.time, split.made / 1e3, color=BLACK, ls="--", lw=1.2, label="made by friction")
+    finish(axis, f"Heat of the {split.words}: where it is", "heat since the start [kJ]")
+
+
+def draw_sump(axis: Axes, record: Record) -> None:
+    """Draw the temperature of the oil in the sump."""
+    draw_phases(axis, record, words=False)
+    draw(axis, record, "sump.temperature", "oil in the sump", BLACK, zero=CELSIUS)
+    axis.ticklabel_format(axis="y", useOffset=False)
+    finish(axis, "Oil sump", "temperature [°C]")

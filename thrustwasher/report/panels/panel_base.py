@@ -1,5 +1,7 @@
 """What all panels over the time of a shift share: lines, phases, events."""
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -51,8 +53,8 @@ def draw_events(axis: Axes, record: Record) -> None:
     for number, event in enumerate(shown, 1):
         height = height + 1 if event.time - before < close else 0
         before = event.time
-        axis.axvline(event.time, color="#444444", lw=0.8, ls=":",
-                     label=f"{number}: {event.time:.4g} s {event.text}")  # fmt: skip
+        words = fill(f"{number}: {event.time:.4g} s {event.text}", 36, subsequent_indent="    ")
+        axis.axvline(event.time, color="#444444", lw=0.8, ls=":", label=words)
         axis.annotate(str(number), (event.time, 0.0), (2, 3 + 9 * height),
                       textcoords="offset points", xycoords=axis.get_xaxis_transform(),
                       fontsize=8, color="#444444")  # fmt: skip

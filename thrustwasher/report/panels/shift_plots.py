@@ -2,9 +2,11 @@
 
 from collections.abc import Callable
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..shift.heat_split import heat_split
 from ..shift.shift_record import Record
 from ..style import styled, time_figure
 from . import contact_panels, motion_panels
@@ -55,11 +57,45 @@ def washer_figure(record: Record) -> Figure | None:
 
 
 def stress_figure(record: Record) -> Figure | None:
-    """Return how near tooth stress comes to its limit; None if the scene has no gear mesh."""
+    """Return the safeties of the teeth, by the paper's heat their stress; None without a mesh."""
+    if record.rated_teeth:
+        return _drawn(record, 3.8, contact_panels.draw_safeties)
     if record.series("mesh.stress_utilization_aisi1020") is None:
         return None
-    draw = contact_panels.draw_stress, contact_panels.draw_allowable
-    return _drawn(record, 5.4, *draw, shares=(1.7, 1.0))
+    return _drawn(record, 3.8, contact_panels.draw_stress)
+
+
+def comfort_figure(record: Record) -> Figure | None:
+    """Return acceleration and jerk of the vehicle; None without one."""
+    if record.reach is None or record.series("transmission.output_acceleration") is None:
+        return None
+    draw = motion_panels.draw_acceleration, motion_panels.draw_jerk
+    return _drawn(record, 4.8, *draw, shares=(1.3, 1.0))
+
+
+def actuation_figure(record: Record) -> Figure | None:
+    """Return pressures and the speeds of both sides of the packs; None without pistons."""
+    pressure = record.series("transmission.clutch_piston_pressure")
+    if pressure is None or not np.any(pressure):
+        return None
+    return _drawn(
+        record, 5.2, motion_panels.draw_pressures, motion_panels.draw_pack_speeds,
+        shares=(1.0, 1.0),
+    )  # fmt: skip
+
+
+def heat_figure(record: Record) -> Figure | None:
+    """Return where the heat of the engaging pack is, and the sump; None if it is not known."""
+    split = heat_split(record, record.engaging)
+    if split is None:
+        return None
+
+    def draw(axis: Axes, record: Record) -> None:
+        motion_panels.draw_heat_split(axis, record, split)
+
+    if record.series("sump.temperature") is None:
+        return _drawn(record, 3.4, draw)
+    return _drawn(record, 5.0, draw, motion_panels.draw_sump, shares=(1.6, 1.0))
 
 
 def friction_figure(record: Record) -> Figure | None:
@@ -77,10 +113,8 @@ def judder_figure(record: Record) -> Figure | None:
 
 
 def energy_figure(record: Record) -> Figure:
-    """Return where the energy went, stacked, and the heat flows."""
-    return _drawn(
-        record, 6.4, motion_panels.draw_energy, motion_panels.draw_heat_flow, shares=(1.7, 1.0)
-    )
+    """Return where the energy went, stacked."""
+    return _drawn(record, 4.2, motion_panels.draw_energy)
 
 
 def overview_figure(record: Record) -> Figure:

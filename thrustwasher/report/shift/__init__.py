@@ -1,10 +1,12 @@
 """The report of a shift, chapter by chapter.
 
 =================  =======================================================================
+``heat_split``     made, stored, given to the oil: the heat of a part
 ``shift_record``   what the report needs from a finished shift, as plain data
 ``shift_report``   the page: what was simulated, what came out, how far to trust it
 ``shift_tables``   the tables as rows of text
 ``summary``        the sentences; they stand in ``words.jinja``
+``usual``          what is usual beside what came out
 ``worst_moments``  the worst values, when they were reached, the washer solved again there
 =================  =======================================================================
 """

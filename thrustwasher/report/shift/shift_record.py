@@ -112,6 +112,8 @@ class Record:
     """How they were checked after the run, and what was run again; None: they were not."""
     steps: Any = None
     """None: all as long as ``step``."""
+    reach: float | None = None
+    """Way of the vehicle per angle of the output [m/rad]; None: there is no vehicle."""
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -131,6 +133,12 @@ class Record:
     def whole_name(self) -> str:
         """What shares of the energy book refer to."""
         return "the engine's work" if self.energy["engine_work"] else "the kinetic energy"
+
+    @property
+    def rated_teeth(self) -> bool:
+        """Whether there are teeth whose safeties count, those heated by their own loss."""
+        mesh = self.part("mesh")
+        return mesh is not None and mesh.params().film_heat == "loss"
 
     def presses(self, pack: str) -> bool:
         """Return whether a pack is pressed at any time of the run."""
@@ -200,4 +208,5 @@ def record_of(result: Any) -> Record:
         selection=result.selection,
         guard=result.guard,
         steps=result.steps if result.steps.shortest < result.steps.longest else None,
+        reach=scene.vehicle.reach if scene.vehicle else None,
     )

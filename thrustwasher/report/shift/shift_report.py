@@ -11,6 +11,7 @@ from ..panels import shift_plots
 from . import shift_tables, summary
 from .shift_record import Record
 from .summary import paragraphs
+from .usual import beside, usual_table
 from .worst_moments import Moment, highest, solve_moment, worst_film
 
 SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged as well
@@ -19,7 +20,12 @@ SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged a
 def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
     """Return the whole report of a finished shift."""
     sections = [
+        *_usual_sections(record),
         *_course_sections(record),
+        *_drawn("comfort", "What passengers feel", shift_plots.comfort_figure(record),
+                COMFORT_CAPTION),
+        *_drawn("actuation", "What presses the packs", shift_plots.actuation_figure(record),
+                ACTUATION_CAPTION),
         *_drawn("temperatures", "Temperatures", shift_plots.temperature_figure(record),
                 *paragraphs("temperatures", record)),
         *_drawn("films", "Film ratios", shift_plots.film_figure(record), FILM_CAPTION,
@@ -27,10 +33,12 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
         *_friction_sections(record),
         *_judder_sections(record),
         *_washer_sections(record),
-        *_drawn("stress", "The gear teeth", shift_plots.stress_figure(record), STRESS_CAPTION,
-                "tooth_stress"),
+        *_drawn("stress", "The gear teeth", shift_plots.stress_figure(record),
+                SAFETY_CAPTION if record.rated_teeth else STRESS_CAPTION, "tooth_stress"),
         *_drawn("energy", "Energy", shift_plots.energy_figure(record), ENERGY_CAPTION,
                 tables=[shift_tables.energy_table(record)]),
+        *_drawn("heat", "Where the heat went", shift_plots.heat_figure(record), HEAT_CAPTION,
+                tables=[shift_tables.heat_table(record)]),
         Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
         *rung_sections(record),
         Section("cost", "Time spent", texts=paragraphs("cost", record),
@@ -73,8 +81,19 @@ FILM_CAPTION = (
     "asperities do. Values below the axis are drawn on its lower end."
 )
 STRESS_CAPTION = (
-    "Above: contact stress and thermal stress together, each over what the steel endures; at "
-    "1 its endurance limit is reached. Below: what heat leaves of the contact stress allowed."
+    "Contact stress and thermal stress together, each over what the steel endures; at 1 its "
+    "endurance limit is reached."
+)
+SAFETY_CAPTION = (
+    "While the teeth turn. At 1 the limit of the calculation is reached. How much film keeps off "
+    "micropitting is the user's to give: permissible_film_ratio."
+)
+COMFORT_CAPTION = "Positive: the vehicle speeds up. Every step of acceleration is felt as jerk."
+ACTUATION_CAPTION = "A piston presses above its spring. Slip is the difference of a pack's lines."
+HEAT_CAPTION = (
+    "Both areas together reach the dashed line if no joule is lost. What was stored is below zero "
+    "where a part ends cooler than it began. The rest is what a part without account stores, and "
+    "the error of adding up over steps."
 )
 TITLES = {
     "physical": "Judder",
@@ -104,23 +123,40 @@ def _course_sections(record: Record) -> list[Section]:
         caption = "The shift itself, enlarged."
         speeds.append(Plot("speeds_enlarged", shift_plots.speed_figure(part), caption))
         torques.append(Plot("torques_enlarged", shift_plots.torque_figure(part), caption))
-    return [Section("speeds", "Speeds", plots=speeds), Section("torques", "Torques", plots=torques)]
+    phases = shift_tables.phase_table(record)
+    return [
+        Section("speeds", "Speeds", plots=speeds, tables=[phases]),
+        Section("torques", "Torques", plots=torques),
+    ]
+
+
+def _usual_sections(record: Record) -> list[Section]:
+    """Return the figures with a range beside them."""
+    table = usual_table(record)
+    if not table.rows:
+        return []
+    title = "Beside what is usual"
+    return [Section("usual", title, texts=paragraphs("usual", record), tables=[table])]
 
 
 CARDS = (
-    "lock_time", "lock_after_half_ramp", "lock_speed", "stopped_inertia", "slip_energy",
-    "slip_energy_per_area", "peak_power", "friction_mean", "friction_lock", "{pack}_temperature",
-    "peak_washer_temperature_max", "least_washer_film_ratio", "peak_flash_temperature",
+    "lock_after_ramp_start", "lock_after_half_ramp", "lock_speed", "stopped_inertia", "slip_energy",
+    "slip_energy_per_area", "{pack}_heat_flux", "peak_jerk", "friction_mean", "friction_lock",
+    "{pack}_temperature", "peak_washer_temperature_max", "least_washer_film_ratio",
+    "peak_flash_temperature",
 )  # fmt: skip
 OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "friction_lock")
 
 
 def _cards(record: Record) -> list[Card]:
     """Return the figures at the top; braking time and friction where a pack acts alone."""
-    hidden = ("lock_time",) if record.alone else OF_A_LONE_PACK
+    hidden = ("lock_after_ramp_start",) if record.alone else OF_A_LONE_PACK
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
     known = {figure.name: figure for figure in record.key_figures}
+    usual = beside(record)
     cards = [
+        Card(f.text, usual[name][0].value_words(f.value), usual[name][0].note(f.value))
+        if name in usual else
         Card(f.text, f"{f.value:.4g} s" if f.unit == "s"
              else say(f.value, f.unit, digits=4, difference=f.difference))
         for name in names if (f := known.get(name)) is not None and f.value is not None

@@ -9,6 +9,8 @@ import numpy as np
 
 from ...units import format_quantity as say
 from ..html import Table
+from ..palette import RPM
+from .heat_split import heat_splits
 from .shift_record import Part, Record
 
 SAID_TWICE = ("slip_energy_per_area",)  # the pack's own heat per area is the same
@@ -43,6 +45,36 @@ def energy_table(record: Record) -> Table:
               if value or words.startswith("residual")],
         numbers=(1, 2),
     )  # fmt: skip
+
+
+def phase_table(record: Record) -> Table:
+    """Return when each phase began, how long it took and what the engaging pack took up in it."""
+    heat = record.signals[f"transmission.{record.engaging}_heat"]
+    rows = []
+    for phase in record.phases:
+        begin, end = np.interp((phase.start, phase.end), record.time, heat)
+        engine, output = (
+            np.interp(phase.end, record.time, record.signals[f"transmission.{name}_speed"])
+            for name in ("engine", "output")
+        )
+        rows.append((
+            phase.name, f"{phase.start:.4g}", f"{phase.end - phase.start:.4g}", _joule(end - begin),
+            f"{RPM * engine:.0f}", f"{RPM * output:.0f}",
+        ))  # fmt: skip
+    heads = ("phase", "from [s]", "lasts [s]", f"heat in the {record.engaging} [J]",
+             "engine at its end [rpm]", "output [rpm]")  # fmt: skip
+    return Table(heads, rows, numbers=(1, 2, 3, 4, 5))
+
+
+def heat_table(record: Record) -> Table:
+    """Return the heat of every part: made, stored, given to the oil, and what is left over."""
+    rows = [
+        (s.words, _joule(s.made[-1]), "" if s.stored is None else _joule(s.stored[-1]),
+         _joule(s.to_oil[-1]), _joule(s.rest[-1]), _percent(s.to_oil[-1], s.made[-1]))
+        for s in heat_splits(record)
+    ]  # fmt: skip
+    heads = ("", "made [J]", "stored [J]", "to the oil [J]", "rest [J]", "to the oil [%]")
+    return Table(heads, rows, numbers=(1, 2, 3, 4, 5))
 
 
 def key_table(record: Record) -> Table:

@@ -11,6 +11,7 @@ from jinja2 import Environment, StrictUndefined
 from ...units import format_quantity
 from .shift_record import PACKS, Record
 from .shift_tables import source_texts
+from .usual import of_meshes
 from .worst_moments import highest, least_margin
 
 
@@ -22,7 +23,9 @@ def _words() -> Any:
     environment.filters["say"] = lambda value, unit, digits=3: format_quantity(
         value, unit, digits=digits
     )
-    environment.globals.update(highest=highest, least_margin=least_margin, pi=math.pi)
+    environment.globals.update(highest=highest, least_margin=least_margin, pi=math.pi,
+                               pitting=of_meshes("pitting_safety"),
+                               scuffing=of_meshes("scuffing_safety"))  # fmt: skip
     text = Path(__file__).with_name("words.jinja").read_text("utf-8")
     return environment.from_string(text).module
 

@@ -3,6 +3,7 @@
 =====================  ===================================================
 ``figure_list``        the key figures there are: name, words, unit
 ``key_figures``        their values, and where the energy went
+``comfort``            what passengers feel: jerk, torque hole, flare
 ``events_and_phases``  what happened when
 =====================  ===================================================
 """

@@ -1,5 +1,6 @@
 """Events and phases of a shift, read from its signals."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from ...model.record import resolve
 from ...numerics.jit import Array
 from ..oscillation.judder import FEW
+from ..scene.connections import PACKS
 from ..scene.scene import Scene
 
 Signals = dict[str, Array]
@@ -17,8 +19,11 @@ STANDSTILL = 1.0  # rad/s
 CHANGES = (
     ("transmission.clutch_locked", ("clutch_locked", "clutch locks"),
      ("clutch_released", "clutch breaks away"), "transmission.lock_time", None),
-    ("transmission.brake_locked", ("brake_locked", "brake holds the ring"),
-     ("brake_released", "brake lets go of the ring"), None, "transmission.release_time"),
+    ("transmission.brake_locked", ("brake_locked", "brake holds the drum"),
+     ("brake_released", "brake lets go of the drum"), None, "transmission.release_time"),
+    *((f"transmission.{pack}_filled", (f"{pack}_filled", f"{pack}'s piston is full"),
+       (f"{pack}_emptied", f"{pack}'s piston goes back"), f"transmission.{pack}_filled_time", None)
+      for pack in PACKS),
     ("washer.distress", ("film_lost", "washer loses its film"),
      ("film_regained", "washer regains its film"), None, None),
 )  # fmt: skip
@@ -75,11 +80,29 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
         if len(hot):
             when = float(time[hot[0]])
             found.append(Event(when, f"{part}_hot", f"{part} is hotter than {limit:g} K"))
-    return sorted(found, key=lambda e: e.time)
+    return sorted([*found, *_of_pistons(scene, time, signals)], key=lambda e: e.time)
+
+
+def _of_pistons(scene: Scene, time: Array, signals: Signals) -> Iterator[Event]:
+    """Say where pistons touch, and where the pack that lets go carries nothing any more."""
+    if scene.kiss_end is None:
+        return
+    for pack in PACKS:
+        for when in np.unique(signals[f"transmission.{pack}_kiss_time"]):
+            if when > time[0]:
+                yield Event(float(when), f"{pack}_kiss", f"{pack}'s piston touches its plates")
+    other = scene.releasing
+    torque = signals[f"transmission.{other}_reaction"]
+    held = np.sign(np.interp(scene.shift_start, time, torque))
+    free = np.flatnonzero((time > scene.shift_start) & (held * torque <= 0.0))
+    if held and len(free):
+        i = slice(free[0] - 1, free[0] + 1)
+        when = np.interp(0.0, -held * torque[i], time[i])
+        yield Event(float(when), f"{other}_unloaded", f"{other} carries nothing")
 
 
 def _standstill(time: Array, signals: Signals, i: int) -> float:
-    """Return when the ring came to rest in the step that ends at point ``i``.
+    """Return when the drum came to rest in the step that ends at point ``i``.
 
     The transmission locates it but does not hand it out. The brake's heat of that step does: slip
     falls to zero in proportion to time, so heat = torque x slip at the step's start x time / 2.
@@ -95,7 +118,7 @@ def _standstill(time: Array, signals: Signals, i: int) -> float:
 
 
 def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phase]:
-    """Return gear, torque phase, inertia phase and locked, as far as the run got.
+    """Return gear, fill, torque phase, inertia phase and locked, as far as the run got.
 
     A pack that takes over from no other has no torque phase: it slips from the ramp on.
     """
@@ -109,9 +132,15 @@ def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phas
     lock = first(f"{pack}_locked")
     release = min(first(f"{other}_released"), lock)
     if signals[f"transmission.{other}_locked"][0] > 0.5:
+        kiss = start
+        if scene.kiss_end is not None:
+            full = next((e.time for e in found if e.kind == f"{pack}_filled"), start)
+            release = min(release, first(f"{other}_unloaded"))
+            kiss = min(max(scene.kiss_end, full), release)  # the other may let go before
         marks = [
             (GEARS[other], scene.start_time, start),
-            ("torque phase", start, release),
+            ("fill", start, kiss),
+            ("torque phase", kiss, release),
             ("inertia phase", release, lock),
         ]
     else:

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from ...numerics.jit import Array
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.scene import Scene
+from .comfort import comfort_figures, phase_figures
 from .events_and_phases import Event, Signals, turning
 from .figure_list import FILM_SPEED, Found, KeyFigure, assemble
 
@@ -20,7 +21,9 @@ MESH_PEAKS = {
     "peak_mesh_stress": "mesh.contact_stress",
     "peak_mesh_thermal_stress": "mesh.thermal_stress",
 }
-STEELS = ("aisi1020", "aisi4340")
+STEELS = ("aisi1020", "aisi4340")  # of the paper, with its heat
+MESHES = ("mesh", "ring_mesh")
+SAFETIES = ("pitting_safety", "scuffing_safety")
 
 
 def key_figures(
@@ -41,10 +44,12 @@ def key_figures(
         **pack_figures(scene, "clutch", time, signals),
         **pack_figures(scene, "brake", time, signals),
         **tie_up_figures(scene, time, signals),
+        **phase_figures(scene, signals, events, lock),
+        **comfort_figures(scene, time, signals, lock),
         **judder_figures(judder),
         "peak_sun_thrust": peak(signals["transmission.sun_thrust"], time),
         **washer_figures(time, signals),
-        **mesh_figures(time, signals),
+        **mesh_figures(scene, time, signals),
     }
     if not scene.alone:
         found["lock_speed"] = (_engine_speed(scene, time, signals, lock), None)
@@ -54,14 +59,14 @@ def key_figures(
 def _engine_speed(scene: Scene, time: Array, signals: Signals, lock: float | None) -> float | None:
     """Return the engine's speed at lock-up; the transmission itself keeps that of the clutch.
 
-    When the brake locks, the ring rests and the engine runs at 1 + r times the output.
+    When the brake locks, the drum rests and the engine runs at 1 + r times the output.
     """
     if lock is None:
         return None
     if scene.engaging == "clutch":
         return float(signals["transmission.lock_speed"][-1])
     gearbox = scene.parts["transmission"].params
-    ratio = 1.0 + gearbox.ring_teeth / gearbox.sun_teeth
+    ratio = 1.0 + gearbox.ratio
     return float(ratio * np.interp(lock, time, signals["transmission.output_speed"]))
 
 
@@ -145,6 +150,10 @@ def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Foun
         f"peak_{pack}_torque": peak(np.abs(signals[f"{pack}.friction_torque"]), time),
         f"least_{pack}_film_ratio": least(signals[f"{pack}.film_ratio"], time),
     }
+    if f"{pack}.oil_heat" in signals:
+        given = float(np.sum(signals[f"{pack}.oil_heat"][1:] * np.diff(time)))
+        found[f"{pack}_oil_heat"] = (given, None)
+        found[f"{pack}_stored_heat"] = (float(signals[f"{pack}.stored_heat"][-1]), None)
     if f"{pack}.viscous_torque" in signals:
         slip = signals[f"{pack}.speed"]
         oil, whole = (
@@ -243,10 +252,11 @@ def washer_figures(time: Array, signals: Signals) -> Found:
     }
 
 
-def mesh_figures(time: Array, signals: Signals) -> Found:
-    """Return heat, temperatures, film and margins of the mesh; nothing without one.
+def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
+    """Return heat, temperatures, film and safety of the meshes; nothing without one.
 
-    A stress margin is 1 - utilisation: at 0 the endurance limit is reached.
+    Safeties are the least of sun and ring mesh. With the paper's heat there are stress margins of
+    its steels instead, 1 - utilisation: at 0 the endurance limit is reached.
     """
     if "mesh.friction_torque" not in signals:
         return {}
@@ -258,7 +268,11 @@ def mesh_figures(time: Array, signals: Signals) -> Found:
         found["least_mesh_film_ratio"] = least_film("mesh", time, signals)
     if "mesh.allowable_ratio" in signals:
         found["least_allowable_ratio"] = least(signals["mesh.allowable_ratio"], time)
-    for steel in STEELS:
+    paper = getattr(scene.parts["mesh"].params, "film_heat", "atan") == "atan"
+    for name in () if paper else SAFETIES:
+        own = [signals[f"{part}.{name}"] for part in MESHES if part in scene.parts]
+        found[f"least_{name}"] = least(np.min(own, axis=0), time)
+    for steel in STEELS if paper else ():
         used = signals.get(f"mesh.stress_utilization_{steel}")
         if used is not None:
             found[f"stress_margin_{steel}"] = least(1.0 - used, time)

@@ -18,7 +18,7 @@ from ...errors import SolveError
 from ..cosim.loop import Recorder, Steps
 from ..cosim.schedule import carry_out, gauss_seidel
 from ..cosim.system import System, with_state
-from ..scene.connections import SPEED
+from ..scene.connections import COMMAND, SPEED
 
 NAME = "step-doubling"
 LONGEST, SHORTEST = 16.0, 1.0 / 1024.0  # steps, as shares of the first one
@@ -31,7 +31,10 @@ CLOSE = 1e-9  # of a step: how closely an event is located
 HALVINGS = 60
 TURN = 10.0  # of the error of a slip: less is no change of sign
 NEAR = 1e-6  # of a step: an event so close to its end is at its end
-PAST = ("lock_time", "lock_speed", "release_time")  # outputs that only tell of the past
+PAST = (  # outputs that only tell of the past
+    "lock_time", "lock_speed", "release_time", "clutch_filled_time", "brake_filled_time",
+    "clutch_kiss_time", "brake_kiss_time",
+)  # fmt: skip
 
 
 class Controller:
@@ -177,10 +180,12 @@ class Doubling:
         self._control = Controller(first)
         self.recorder = Recorder(system, 1024)
         self.time: list[float] = []
+        hub = system.transmission
+        given = {COMMAND, *(hub.input_names[slot] for slot, *_ in hub.sources)}
         self._scales = [
             (i, tolerance, tolerance * (s.nominal or 1.0))
-            for i, s in enumerate(system.transmission.spec.outputs)
-            if s.kind == "real" and not s.depends and s.name not in PAST
+            for i, s in enumerate(hub.spec.outputs)
+            if s.kind == "real" and not given.intersection(s.depends) and s.name not in PAST
         ]  # fmt: skip
         self._rejected = self._located = self._forced = 0
 

@@ -71,7 +71,7 @@ def find_chatter(scene: Scene, time: Array, signals: Signals, step: float) -> li
         smoothing = scene.parts[pack].params.speed_smoothing
         capacity = float(np.median(signals[f"{pack}.torque_capacity"][close]))
         m = planetary(
-            params.ring_teeth / params.sun_teeth, params.sun_inertia, params.ring_inertia,
+            params.ratio, params.input_inertia, params.drum_inertia,
             params.carrier_inertia, params.vehicle_inertia, pack,
         )  # fmt: skip
         found.append(Chatter(

@@ -34,13 +34,13 @@ def matrix(
     held : packs that stick
     vehicle : speed of the vehicle [rad/s], for the slope of the load; 0: it has none
     """
-    r = params.ring_teeth / params.sun_teeth
+    r = params.ratio
     rows = {  # of each pack its slip, as a row over (sun, carrier)
         "clutch": np.array([(1.0 + r) / r, -(1.0 + r) / r]),
         "brake": np.array([-1.0 / r, (1.0 + r) / r]),
     }
-    ring = params.ring_inertia * np.outer(rows["brake"], rows["brake"])
-    mass = np.diag([params.sun_inertia, params.carrier_inertia]) + ring
+    ring = params.drum_inertia * np.outer(rows["brake"], rows["brake"])
+    mass = np.diag([params.input_inertia, params.carrier_inertia]) + ring
     basis = _free(rows, held)
     rub = sum((c * np.outer(rows[p], rows[p]) for p, c in slopes.items()), np.zeros((2, 2)))
     mass, rub = basis.T @ mass @ basis, basis.T @ rub @ basis
@@ -141,6 +141,7 @@ def capacity_slopes(
         mu, _, steepness = coefficient_slopes(par, slip, temperature)
         slope = (capacity - abs(viscous)) * steepness / mu if mu > 0.0 else 0.0
         if viscous:
-            slope += viscous_slopes(par, slip, film, temperature)[3]
+            full, _, _, by_slip, *_ = viscous_slopes(par, slip, 0.0, film, temperature)
+            slope += abs(viscous) / full * by_slip
         slopes.append(slope)
     return np.array(slopes)

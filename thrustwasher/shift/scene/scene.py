@@ -2,12 +2,15 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from itertools import pairwise
 from typing import Any
 
 from ...errors import ParameterError
 from ...ladder.choose import rung_and_tolerance
 from ...model.prepare import check_together
 from ...model.spec import ModelSpec
+from ...transmission.parameters import COURSES, course_points
+from ...transmission.vehicle import Vehicle
 from ..masters.master import MASTERS
 
 MAX_STEPS = 500_000  # all signals of so many steps still fit into memory
@@ -44,6 +47,21 @@ class Published:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ShiftSequence:
+    """Shifts up and down, each with its window of fine steps; times in s.
+
+    Long steps lie between the windows. ``courses``: of pressures and engine torque by direction,
+    as parameters of the transmission, from the shift's own time on.
+    """
+
+    shifts: tuple[tuple[float, str], ...]
+    window: float
+    pause_step: float
+    ramp: dict[str, float]
+    courses: dict[str, dict[str, Any]]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Scene:
     """A shift to be simulated; times in s, temperature in K.
 
@@ -66,6 +84,11 @@ class Scene:
     shift_to: float = 1.0
     parts: dict[str, Part]
     published: Published | None = None
+    vehicle: Vehicle | None = None
+    notes: tuple[str, ...] = ()
+    """What a reader of a run has to know of its making."""
+    sequence: ShiftSequence | None = None
+    """Several shifts in one run; None: the one that the scene's own ramp or courses make."""
 
     def command(self, time: float) -> float:
         """Return the shift command: a ramp between two values."""
@@ -91,7 +114,33 @@ class Scene:
         """True if the engaging pack is all that acts: no engine, no load, no other pack."""
         gearbox = self.parts["transmission"].params
         other = getattr(gearbox, f"{self.releasing}_force")
+        if gearbox.actuation == "pressure" or gearbox.engine_torque_points:
+            return False
         return not (gearbox.engine_torque or gearbox.load_torque or other)
+
+    def corners(self) -> set[float]:
+        """Return the times [s] at which a ramp or a course has a corner."""
+        gearbox = self.parts["transmission"].params
+        points = {t for name in COURSES for t, _ in course_points(gearbox, name)}
+        return {self.shift_start, self.shift_start + self.shift_duration} | points
+
+    @property
+    def kiss_end(self) -> float | None:
+        """Where the engaging pack's course leaves the kiss point [s]; None without pistons.
+
+        It is the last point before the pressure rises for good to what closes the pack: the first
+        one above the return spring, or the last of those at falling or equal pressure behind it.
+        """
+        gearbox = self.parts["transmission"].params
+        points = course_points(gearbox, f"{self.engaging}_pressure")
+        spring = getattr(gearbox, f"{self.engaging}_return_spring")
+        above = [i for i, (t, p) in enumerate(points) if t >= self.shift_start and p > spring]
+        if gearbox.actuation != "pressure" or not above:
+            return None
+        i = above[0]
+        while i + 1 < len(points) and points[i + 1][1] <= points[i][1]:
+            i += 1
+        return points[i][0]
 
     def with_options(
         self,
@@ -124,7 +173,7 @@ class Scene:
                 f"{high:g}"
             )
         span = self.stop_time - self.start_time
-        if not self.step <= span <= MAX_STEPS * self.step:
+        if not self.step <= span <= MAX_STEPS * self.step and not self.sequence:
             raise ParameterError(
                 f"{where}: stop_time = {self.stop_time!r} s, allowed: start_time + 1 .. "
                 f"{MAX_STEPS} steps of {self.step!r} s (start_time = {self.start_time!r} s)"
@@ -139,6 +188,7 @@ class Scene:
             gearbox.params,
             oil_temperature=self.oil_temperature,
             torque_age=MASTERS[self.master].torque_age,
+            ring_mesh="ring_mesh" in self.parts,
         )
         parts = {**self.parts, "transmission": replace(gearbox, params=params)}
         # The transmission looks ahead by itself: packs that say where they are now couple to it
@@ -148,6 +198,26 @@ class Scene:
                 linear = replace(part.params, input_course="linear")
                 parts[name] = replace(part, params=linear)
         return replace(self, parts=parts)
+
+
+def shift_of_pressures(gearbox: Any) -> dict[str, float]:
+    """Return the shift that courses of pressure make, as fields of a scene.
+
+    The pack whose pressure ends higher than it began engages; the shift begins where its pressure
+    first rises and ends with its last point.
+    """
+    rise = {}
+    for pack in ("clutch", "brake"):
+        points = course_points(gearbox, f"{pack}_pressure") or [(0.0, 0.0)]
+        rise[pack] = points[-1][1] - points[0][1]
+    engaging = max(rise, key=lambda pack: rise[pack])
+    points = course_points(gearbox, f"{engaging}_pressure") or [(0.0, 0.0)]
+    begin = next((a[0] for a, b in pairwise(points) if b[1] > a[1]), points[0][0])
+    ends = (0.0, 1.0) if engaging == "clutch" else (1.0, 0.0)
+    return {
+        "shift_start": begin, "shift_duration": points[-1][0] - begin,
+        "shift_from": ends[0], "shift_to": ends[1],
+    }  # fmt: skip
 
 
 def with_fidelities(scene: Scene, wishes: Sequence[str]) -> Scene:

@@ -5,7 +5,7 @@ takes everything from that scene and changes what it names.
 """
 
 import tomllib
-from dataclasses import fields
+from dataclasses import fields, replace
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -13,12 +13,21 @@ from typing import Any
 
 from ...errors import ParameterError, suggestion
 from ...ladder.choose import rung_and_tolerance
-from ...model.parameters import allowed, made_of
+from ...model.parameters import made_of, other_names_of, plainly_named
 from ...model.spec import ModelSpec
-from ...units import parse_quantity
 from ..key_figures.figure_list import FIGURES
+from . import oil
 from .connections import PARTS, REQUIRED
-from .scene import STEP_RANGE, TOLERANCE_RANGE, Part, Published, Scene
+from .scene import (
+    STEP_RANGE,
+    TOLERANCE_RANGE,
+    Part,
+    Published,
+    Scene,
+    shift_of_pressures,
+)  # fmt: skip
+from .scene_tables import driveline_table, number, oil_of, quantity, read_value, unknown, vehicle_of
+from .sequence import checked_sequence, read_sequence
 
 # Key -> (unit, least, largest); texts have no unit.
 TEXTS = ("title", "description", "base", "master", "fidelity")
@@ -35,7 +44,7 @@ SHIFT = {
     "from": ("1", 0.0, 1.0),
     "to": ("1", 0.0, 1.0),
 }
-TABLES = ("shift", "published", *PARTS)
+TABLES = ("shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *PARTS)
 
 
 def builtin_scenes() -> list[str]:
@@ -92,9 +101,13 @@ def _parse(name: str) -> dict[str, Any]:
             f"scene = {name!r}, allowed: {', '.join(known)} or the path of a .toml file{hint}"
         )
     try:
-        return tomllib.loads(text)
+        table = tomllib.loads(text)
     except (ValueError, RecursionError) as problem:  # also numbers and nesting without end
         raise ParameterError(f"scene = {name!r}: not valid TOML ({problem})") from None
+    for part, spec in PARTS.items():
+        if isinstance(table.get(part), dict):
+            table[part] = plainly_named(other_names_of(spec.params), table[part])
+    return table
 
 
 def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
@@ -106,72 +119,93 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
     return result
 
 
-def _unknown(where: str, key: str, known: list[str]) -> ParameterError:
-    hint = suggestion(key, known, "; did you mean {!r}?", f", allowed: {', '.join(known)}")
-    return ParameterError(f"{where}: there is no {key!r} here{hint}")
-
-
-def _number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:
-    unit, low, high = rule
-    number = _quantity(where, key, value, unit)
-    if not low <= number <= high:
-        tail = "" if unit == "1" else f" {unit}"
-        raise ParameterError(
-            f"{where}: {key} = {number!r}{tail}, allowed: {low:g} .. {high:g}{tail}"
-        )
-    return number
-
-
-def _quantity(where: str, key: str, value: Any, unit: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
-    try:
-        return parse_quantity(value, unit, key)
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
-
-
 def _scene(name: str, table: dict[str, Any]) -> Scene:
     where = f"scene {name!r}"
     known = [*TEXTS, *NUMBERS, *TABLES]
     for key, value in table.items():
         if key not in known:
-            raise _unknown(where, key, known)
+            raise unknown(where, key, known)
         if key in TEXTS and not isinstance(value, str):
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a text")
         if key in TABLES and not isinstance(value, dict):
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a table [{key}]")
-    for key in (*REQUIRED, "shift", "stop_time"):
+    moves = "pressure" if "pressure" in table else "shift"
+    if moves == "pressure" and "shift" in table:
+        raise ParameterError(f"{where}: [shift] beside [pressure], allowed: a ramp or courses")
+    for key in (*REQUIRED, moves, "stop_time"):
         if key not in table:
             raise ParameterError(f"{where}: {key!r} is missing")
     numbers = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
-    numbers |= {k: _number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
-    parts = {}
-    for key in PARTS:
-        if key in table:
-            given = dict(table[key])
-            if "fidelity" in table and len(PARTS[key].fidelities) > 1:
-                given.setdefault("fidelity", table["fidelity"])  # the scene's word for all parts
-            parts[key] = _part(f"{where} [{key}]", PARTS[key], given)
+    numbers |= {k: number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
+    vehicle = vehicle_of(f"{where} [vehicle]", table.get("vehicle"))
+    table = {**table, "transmission": driveline_table(where, table, vehicle)}
+    parts, notes = _parts(where, table, numbers["oil_temperature"])
     scene = Scene(
         name=name,
         title=table.get("title", name),
         description=table.get("description", "").strip(),
         master=table.get("master", "gauss-seidel"),
         parts=parts,
+        vehicle=vehicle,
+        sequence=None,
+        notes=tuple(notes),
         published=_published(f"{where} [published]", table.get("published")),
-        **_shift(f"{where} [shift]", table["shift"]),
+        **(
+            _shift(f"{where} [shift]", table["shift"])
+            if moves == "shift"
+            else shift_of_pressures(parts["transmission"].params)
+        ),
         **numbers,
     )
+    if "sequence" in table:
+        where = f"{where} [sequence]"
+        scene = checked_sequence(where, scene, read_sequence(where, scene, table["sequence"]))
     return scene.checked()
+
+
+def _parts(
+    where: str, table: dict[str, Any], temperature: float
+) -> tuple[dict[str, Part], list[str]]:
+    """Return the parts of a scene, and what of them is not the scene's common oil."""
+    the_oil = oil_of(f"{where} [oil]", table.get("oil", {}))
+    parts: dict[str, Part] = {}
+    notes = []
+    for key in PARTS:
+        if key in table:
+            given = dict(table[key])
+            if "fidelity" in table and len(PARTS[key].fidelities) > 1:
+                given.setdefault("fidelity", table["fidelity"])  # the scene's word for all parts
+            common = _of_oil(f"{where} [oil]", the_oil, PARTS[key])
+            if own := [name for name in common if name in given]:
+                notes.append(f"{key}: {', '.join(own)} of its own, not of the scene's oil")
+            given = common | given
+            if key == "sump":
+                gearbox = replace(parts["transmission"].params, ring_mesh="ring_mesh" in table)
+                given = _sump(given, gearbox, temperature)
+            parts[key] = _part(f"{where} [{key}]", PARTS[key], given)
+    return parts, notes
+
+
+def _of_oil(where: str, the_oil: dict[str, Any], spec: ModelSpec) -> dict[str, float]:
+    """Return what the scene's oil says of a part."""
+    try:
+        return oil.parameters_of(the_oil, spec)
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+
+
+def _sump(table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
+    """Return the sump's table with the oil's temperature and the numbers of parts alike."""
+    alike = {"factor_3": gearbox.washers, "factor_4": gearbox.meshes, "factor_5": gearbox.planets}
+    return {"initial_temperature": oil, **alike, **table}
 
 
 def _shift(where: str, table: dict[str, Any]) -> dict[str, float]:
     """Return the ramp of the shift command, as fields of a scene."""
     for key in table:
         if key not in SHIFT:
-            raise _unknown(where, key, list(SHIFT))
-    given = {f"shift_{key}": _number(where, key, x, SHIFT[key]) for key, x in table.items()}
+            raise unknown(where, key, list(SHIFT))
+    given = {f"shift_{key}": number(where, key, x, SHIFT[key]) for key, x in table.items()}
     return {"shift_start": 0.0, "shift_duration": 0.0, **given}
 
 
@@ -185,14 +219,15 @@ def _published(where: str, table: dict[str, Any] | None) -> Published | None:
         raise ParameterError(f"{where}: source = {source!r}, allowed: a text")
     for key in values:
         if key not in FIGURES:
-            raise _unknown(where, key, ["source", *FIGURES])
-    figures = {k: _quantity(where, k, v, FIGURES[k].unit) for k, v in values.items()}
+            raise unknown(where, key, ["source", *FIGURES])
+    figures = {k: quantity(where, k, v, FIGURES[k].unit) for k, v in values.items()}
     return Published(source=source, figures=figures)
 
 
 RESERVED = {
     "oil_temperature": "the scene's own oil_temperature sets it for all parts",
     "torque_age": "the choice of master sets it",
+    "ring_mesh": "a table [ring_mesh] sets it",
     "input_course": "in a shift it is linear, as the transmission expects",
 }
 
@@ -208,22 +243,13 @@ def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
         elif key == "preset" and spec.presets:
             preset = str(value)
         elif key not in known:
-            raise _unknown(where, key, ["fidelity", *known])
+            raise unknown(where, key, ["fidelity", *known])
         elif key in RESERVED:
             raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")
         else:
-            values[key] = _value(where, key, value, known[key])
+            values[key] = read_value(where, key, value, known[key])
     try:
         params = made_of(spec, preset, values)
         return Part(spec=spec, fidelity=fidelity, params=params, tolerance=tolerance)
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None
-
-
-def _value(where: str, key: str, value: Any, meta: Any) -> Any:
-    if meta["kind"] == "real":
-        return _quantity(where, key, value, meta["unit"])
-    wanted = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
-    if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
-        raise ParameterError(f"{where}: {key} = {value!r}, allowed: {allowed(meta)}")
-    return value

@@ -12,6 +12,7 @@ do with the values in a package, and some do nothing.
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from ...errors import ParameterError
 from ...model.spec import ModelSpec, Signal, tailored
 from ..cosim.instances import Stepping
 from ..run import connected
@@ -57,6 +58,8 @@ class Structure(NamedTuple):
 
 def prepared(scene: Scene) -> Scene:
     """Return the scene as the package runs it: parallel, with the transmission told so."""
+    if scene.sequence is not None:
+        raise ParameterError("[sequence]: allowed in a package: one shift")
     return scene.with_options(master=MASTER)
 
 

@@ -41,7 +41,8 @@ def _panels(
     across: str, crosses: bool = True,
 ) -> tuple[Figure, list[Axes]]:  # fmt: skip
     """Return a figure with room for its legend, and a panel of errors per quantity."""
-    quantities, foot = study["quantities"], _rows(study["samples"])
+    quantities, families = study["quantities"], {s["family"] for s in study["samples"]}
+    foot = -(-(len(families) + 1) // SIDE_BY_SIDE)  # rows of the legend, a name for the front too
     figure, panels = new_figure(11.0, height, 1, len(quantities), foot=foot)
     for axes, quantity in zip(panels, quantities, strict=True):
         name = quantity["name"]
@@ -49,11 +50,6 @@ def _panels(
         unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
         label(axes, f"{prefix}{WORDS.get(name, name)}", across, f"error [{unit}]")
     return figure, panels
-
-
-def _rows(samples: Sequence[Sampled]) -> int:
-    """Return how many rows the legend takes: a name for each family, one for the front."""
-    return -(-(len({s["family"] for s in samples}) + 1) // SIDE_BY_SIDE)
 
 
 def draw_samples(
@@ -66,7 +62,12 @@ def draw_samples(
     known = [s for s in samples if s[cost] and s["errors"].get(name, {}).get("worst") is not None]
     floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
     low = _draw_floor(axes, known, name, floor)
-    _set_span(axes, [s[cost] for s in samples if s[cost]])
+    costs = [s[cost] for s in samples if s[cost]] or [1.0]
+    decades = math.log10(max(costs) / min(costs))
+    wide = max(0.5, decades)
+    more = 0.5 * (wide - decades)  # and room for words beside the marks
+    axes.set_xlim(min(costs) / 10.0 ** (more + 0.06 * wide),
+                  max(costs) * 10.0 ** (more + 0.12 * wide))  # fmt: skip
     families = list(dict.fromkeys(s["family"] for s in samples))
     free = RIVALS if set(families) & set(COLOURS) else (BLUE, SKY, *RIVALS)
     rivals = iter(free * 4)
@@ -93,14 +94,6 @@ def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -
         words = "uncertainty of the reference"
         note_at_right(axes, words, floor, place=0.99, shift=(0, 2), va="bottom", color=GREY)
     return 0.6 * low
-
-
-def _set_span(axes: Axes, costs: Sequence[float]) -> None:
-    """Set the range of costs: half a decade at least, with room for words beside the marks."""
-    low, high = min(costs, default=1.0), max(costs, default=1.0)
-    wide = max(0.5, math.log10(high / low))
-    more = 0.5 * (wide - math.log10(high / low))
-    axes.set_xlim(low / 10.0 ** (more + 0.06 * wide), high * 10.0 ** (more + 0.12 * wide))
 
 
 def _draw_family(

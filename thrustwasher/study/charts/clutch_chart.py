@@ -37,11 +37,12 @@ class ClutchMethod(KernelMethod):
         self._h = TIMES[-1] / self._n
 
     def _inputs(self, case: ChartCase) -> Any:
-        """Return force, slip and oil temperature at all points (n + 1, 3)."""
+        """Return force, slip, oil temperature and drum speed at all points (n + 1, 4)."""
         time, force, slip = engagement_corners(*case.point[:2])
         t = self._h * np.arange(self._n + 1)
         oil = np.full_like(t, case.point[2])
-        return np.column_stack([np.interp(t, time, force), np.interp(t, time, slip), oil])
+        force_at, slip_at = np.interp(t, time, force), np.interp(t, time, slip)
+        return np.column_stack([force_at, slip_at, oil, np.zeros_like(t)])
 
     def _engage(self, inputs: Any, step: Any) -> int:
         """Step over the inputs, the last step next to nothing; return the worst status."""

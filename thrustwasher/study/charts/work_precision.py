@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from ...errors import ParameterError, Status
+from ...storage.digests import finite
 from ..costs import REPEATS, Timing, time_call
 from ..reference_cache import source_of
 from ..reference_values import ReferenceValues
@@ -51,7 +52,7 @@ class Sample:
 
     def as_dict(self) -> dict[str, Any]:
         """Return the sample as JSON types; no number is NaN or infinite."""
-        return {k: _plain(v) for k, v in asdict(self).items()}
+        return dict(finite(asdict(self)))
 
 
 def measure(
@@ -148,14 +149,6 @@ def uncertainty_of(
         )
         for q in quantities
     }
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {k: _plain(v) for k, v in value.items()}
-    return value
 
 
 def work_precision(

@@ -8,6 +8,7 @@ signal over a step. A stepper takes all that the loop knows and returns what it 
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 ONE, TWO, THREE = (1.0,), (1.0, 1.0), (1.0, 0.0, 0.0)
@@ -18,59 +19,28 @@ State = tuple[float, ...]
 Stepper = Callable[[State], State]
 MANY = 3000  # steps that tell if a deviation grows
 HUGE, TINY = 1e6, 1e-6
-Make = Callable[[float], Any]
 Limit = dict[str, Any]
 
 
-def torque_held(kappa: float) -> Stepper:
-    """Return slip under a torque c w that is fresh in each step; ``kappa`` = H c/J."""
-    return lambda s: ((1.0 - kappa) * s[0],)
+# Slip under a torque c w, kappa = H c/J; "tanh": under T tanh(w/w_0), w_0 = 1e-3, H T/(J w_0).
+TORQUES: dict[str, Callable[[float, State], State]] = {
+    "fresh": lambda kappa, s: ((1.0 - kappa) * s[0],),
+    "late": lambda kappa, s: (s[0] - kappa * s[1], s[0]),
+    "extrapolated": lambda kappa, s: (s[0] - kappa * (1.5 * s[0] - 0.5 * s[1]), s[0]),
+    "implicit": lambda kappa, s: (s[0] - kappa * s[0] / (1.0 + kappa),),
+    "tanh": lambda kappa, s: (s[0] - kappa * 1e-3 * math.tanh(s[0] / 1e-3),),
+}
 
 
-def torque_late(kappa: float) -> Stepper:
-    """Return slip under a torque that is one step old."""
-    return lambda s: (s[0] - kappa * s[1], s[0])
-
-
-def torque_drawn_on(kappa: float) -> Stepper:
-    """Return slip under a torque that goes on as it did in the last step."""
-    return lambda s: (s[0] - kappa * (1.5 * s[0] - 0.5 * s[1]), s[0])
-
-
-def torque_implicit(kappa: float) -> Stepper:
-    """Return slip under a torque handed over with its slope, taken at the step's end."""
-    return lambda s: (s[0] - kappa * s[0] / (1.0 + kappa),)
-
-
-def tanh_held(kappa: float, width: float = 1e-3) -> Stepper:
-    """Return slip under T tanh(w/w_0), held; ``kappa`` = H T/(J w_0), ``width`` w_0."""
-    return lambda s: (s[0] - kappa * width * math.tanh(s[0] / width),)
-
-
-def spring_held(k: float, c: float, h: float) -> Stepper:
-    """Return a mass of 1 under the force k x + c v of another part, fresh in each step."""
-
-    def step(s: State) -> State:
-        force = k * s[0] + c * s[1]
-        return s[0] + h * s[1] - 0.5 * h * h * force, s[1] - h * force
-
-    return step
-
-
-def spring_late(k: float, c: float, h: float) -> Stepper:
-    """Return the same with the force of a step ago."""
-
-    def step(s: State) -> State:
-        force = k * s[0] + c * s[1]
-        return s[0] + h * s[1] - 0.5 * h * h * s[2], s[1] - h * s[2], force
-
-    return step
-
-
-def power_held(slope: float, conductance: float, step: float) -> Stepper:
-    """Return a body of capacity 1 that is cooled, and heated by ``slope`` times its rise."""
-    kept = math.exp(-conductance * step)
-    return lambda s: (kept * s[0] + (1.0 - kept) * slope * s[0] / conductance,)
+def spring(k: float, c: float, h: float, s: State) -> State:
+    """Step a mass of 1 under the force k x + c v of another part: fresh, or that of a step ago."""
+    fresh = k * s[0] + c * s[1]
+    force = s[2] if len(s) == 3 else fresh
+    return (
+        s[0] + h * s[1] - 0.5 * h * h * force,
+        s[1] - h * force,
+        *([fresh] if len(s) == 3 else ()),
+    )
 
 
 def dies_out(step: Stepper, start: State, steps: int = MANY) -> bool:
@@ -141,30 +111,27 @@ def limits() -> list[Limit]:
     """Return all limits as JSON types, each by bisection or by the growth over a run."""
     return [
         _limit("torque fresh, held (Gauss-Seidel)", "H < 2 J/c: stable", 2.0,
-              _stable(torque_held, ONE)),
+              _kappa(dies_out, "fresh", ONE)),
         _limit("torque fresh, held (Gauss-Seidel)", "H < J/c: no overshoot", 1.0,
-              _smooth(torque_held, ONE)),
-        _limit("torque a step old (Jacobi)", "H < J/c: stable", 1.0, _stable(torque_late, TWO)),
+              _kappa(keeps_its_side, "fresh", ONE)),
+        _limit("torque a step old (Jacobi)", "H < J/c: stable", 1.0, _kappa(dies_out, "late", TWO)),
         _limit("torque a step old (Jacobi)", "H < J/(4 c): no overshoot", 0.25,
-              _smooth(torque_late, TWO)),
-        _limit("torque extrapolated", "H < J/c: stable", 1.0, _stable(torque_drawn_on, TWO)),
-        _limit("T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0, _stable(tanh_held, (1e-6,))),
+              _kappa(keeps_its_side, "late", TWO)),
+        _limit("torque extrapolated", "H < J/c: stable", 1.0,
+              _kappa(dies_out, "extrapolated", TWO)),
+        _limit("T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0,
+              _kappa(dies_out, "tanh", (1e-6,))),
         _limit("torque with its slope, kappa 10", "factor 1/(1 + kappa) a step: always stable",
-              1.0 / 11.0, factor(torque_implicit(10.0), ONE, 40)),
+              1.0 / 11.0, factor(partial(TORQUES["implicit"], 10.0), ONE, 40)),
         _limit("falling friction, kappa -0.1", "grows by 1 + H abs(c)/J a step: physics",
-              1.1, factor(torque_held(-0.1), ONE)),
+              1.1, factor(partial(TORQUES["fresh"], -0.1), ONE)),
         *_springs(), *_rest(),
     ]  # fmt: skip
 
 
-def _stable(make: Make, start: State) -> float:
-    """Bisect the kappa up to which a deviation dies out."""
-    return edge(lambda kappa: dies_out(make(kappa), start), 1e-3, 5.0)
-
-
-def _smooth(make: Make, start: State) -> float:
-    """Bisect the kappa up to which a deviation does not change its sign."""
-    return edge(lambda kappa: keeps_its_side(make(kappa), start), 1e-3, 5.0)
+def _kappa(holds: Callable[[Stepper, State], bool], torque: str, start: State) -> float:
+    """Bisect the kappa up to which a deviation dies out, or does not change its sign."""
+    return edge(lambda kappa: holds(partial(TORQUES[torque], kappa), start), 1e-3, 5.0)
 
 
 def _springs() -> list[Limit]:
@@ -172,12 +139,12 @@ def _springs() -> list[Limit]:
     start = (1.0, 0.0)
 
     def held(c: float) -> bool:
-        return dies_out(spring_held(SPRING, c, STEP), start)
+        return dies_out(partial(spring, SPRING, c, STEP), start)
 
     def late(c: float, h: float = 1e-4) -> bool:
-        return dies_out(spring_late(SPRING, c, h), THREE, 15_000)
+        return dies_out(partial(spring, SPRING, c, h), THREE, 15_000)
 
-    undamped = spring_held(SPRING, 0.0, STEP)
+    undamped = partial(spring, SPRING, 0.0, STEP)
     return [
         _limit("undamped spring, force held", "grows by sqrt(1 + k H^2/(2 m)) a step: never",
               math.sqrt(1.0 + SPRING * STEP**2 / (2.0 * MASS)),
@@ -195,7 +162,10 @@ def _rest() -> list[Limit]:
     """Heat, and the reach of chatter."""
 
     def settles(slope: float) -> bool:
-        return dies_out(power_held(slope, CONDUCTANCE, HEAT_STEP), ONE)
+        """Tell if a body dies out that is cooled, and heated by ``slope`` times its rise."""
+        kept = math.exp(-CONDUCTANCE * HEAT_STEP / CAPACITY)
+        held = (1.0 - kept) * slope
+        return dies_out(lambda s: (kept * s[0] + held * s[0] / CONDUCTANCE,), ONE)
 
     least = -CONDUCTANCE / math.tanh(0.5 * CONDUCTANCE * HEAT_STEP / CAPACITY)
     low, high = coulomb_reach(FRICTION, DRIVE, STEP)

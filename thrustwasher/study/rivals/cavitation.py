@@ -28,6 +28,15 @@ RELAXATION = 1.7
 MOST_SWEEPS = 20000
 MOST_SOLVES = 200
 CHANGE, REST = 1e-4, 1e-6
+# Heights of films over (x, y); the first closes all the way, the second has no wedge.
+SHAPES: dict[str, Callable[[Any, Any], Any]] = {
+    "slider": lambda x, y: 2.0 - x + 0.0 * y,
+    "level": lambda x, y: 1.0 + 0.0 * x * y,
+    "one wave": lambda x, y: 1.0 + 0.6 * np.cos(2.0 * math.pi * x) + 0.0 * y,
+    "two waves": lambda x, y: 1.0 + 0.6 * np.cos(4.0 * math.pi * x) + 0.0 * y,
+    "waves and tilt": lambda x, y: 1.0 + 0.5 * np.cos(6.0 * math.pi * x) + 0.4 * y,
+    "dimple": lambda x, y: 1.0 + 0.8 * np.exp(-((x - 0.4) ** 2 + (y - 0.5) ** 2) / 0.02),
+}
 
 
 @dataclass(frozen=True)
@@ -59,45 +68,15 @@ class Film:
         return float(self.pressure.sum())
 
 
-def pad(height: Callable[[Any, Any], Any], n: int = 31, direction: float = 1.0) -> Pad:
-    """Return the equations of a film of height h(x, y) on the unit square, sliding along +-x."""
-    d = 1.0 / (n + 1)
+def pad(shape: str, n: int = 31, direction: float = 1.0) -> Pad:
+    """Return the equations of a film of a shape on the unit square, sliding along +-x."""
+    d, height = 1.0 / (n + 1), SHAPES[shape]
     inner = d * np.arange(1, n + 1)
     faces = d * (np.arange(n + 1) + 0.5)
     at_east = np.asarray(height(faces[:, None], inner[None, :]), np.float64)
     at_north = np.asarray(height(inner[:, None], faces[None, :]), np.float64)
     source = -direction * d * (at_east[1:] - at_east[:-1])
     return Pad(at_east**3, at_north**3, source)
-
-
-def slider(x: Array, y: Array) -> Array:
-    """Return a film that closes all the way: full everywhere."""
-    return 2.0 - x + 0.0 * y
-
-
-def level(x: Array, y: Array) -> Array:
-    """Return a film of one height: nothing lifts."""
-    return 1.0 + 0.0 * x * y
-
-
-def one_wave(x: Array, y: Array) -> Array:
-    """Return a film that closes and opens once."""
-    return 1.0 + 0.6 * np.cos(2.0 * math.pi * x) + 0.0 * y
-
-
-def two_waves(x: Array, y: Array) -> Array:
-    """Return a film that closes and opens twice."""
-    return 1.0 + 0.6 * np.cos(4.0 * math.pi * x) + 0.0 * y
-
-
-def waves_and_tilt(x: Array, y: Array) -> Array:
-    """Return three waves on a tilted pad."""
-    return 1.0 + 0.5 * np.cos(6.0 * math.pi * x) + 0.4 * y
-
-
-def dimple(x: Array, y: Array) -> Array:
-    """Return a flat film with a round pocket."""
-    return np.asarray(1.0 + 0.8 * np.exp(-((x - 0.4) ** 2 + (y - 0.5) ** 2) / 0.02))
 
 
 def _band(p: Pad) -> Array:

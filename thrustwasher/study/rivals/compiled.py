@@ -14,17 +14,13 @@ from ...numerics.jit import cache_folder
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def _folder() -> str:
-    sources = sorted(Path(__file__).parent.glob("*.py"))
-    digest = hashlib.sha256(b"".join(f.read_bytes() for f in sources)).hexdigest()[:16]
-    return os.path.join(cache_folder(), f"rivals-{digest}")
-
-
 def _compiled(function: Callable[..., Any]) -> Any:
     settings: Any = config
     njit: Any = numba.njit
+    sources = sorted(Path(__file__).parent.glob("*.py"))
+    digest = hashlib.sha256(b"".join(f.read_bytes() for f in sources)).hexdigest()[:16]
     before = settings.CACHE_DIR
-    settings.CACHE_DIR = _folder()
+    settings.CACHE_DIR = os.path.join(cache_folder(), f"rivals-{digest}")
     try:
         return njit(cache=True, fastmath=False, error_model="numpy", nogil=True)(function)
     finally:

@@ -8,6 +8,7 @@ Viscosity law and numbers: Atan (2005), Eq 13. ``heat_loop`` judges the methods.
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ...errors import Status
@@ -67,11 +68,6 @@ def substitute(loop: Loop, share: float = 1.0, most: int = 200) -> Answer:
     return t, Status.MAX_ITERATIONS, most
 
 
-def relaxed(loop: Loop) -> Answer:
-    """Substitute half of each step."""
-    return substitute(loop, 0.5)
-
-
 def newton(loop: Loop, most: int = 50) -> Answer:
     """Take Newton's steps from the temperature without thinning, undamped."""
     t = loop.bulk + loop.rise
@@ -104,7 +100,7 @@ def heat_loop() -> Group:
     methods = {
         "substituted 50 times": substitute_often,
         "substituted until it stays": substitute,
-        "half of each step": relaxed,
+        "half of each step": partial(substitute, share=0.5),
         "Newton, undamped": newton,
         "Newton in a bracket, the package's": ours,
     }

@@ -34,15 +34,7 @@ from ...washer.parameters import WasherParams
 from ..charts.chart_series import Configuration, series
 from ..charts.methods import ChartCase, MethodAnswer, neighbours, path_to
 from .compiled import rival
-from .plain2006_fields import (
-    Mesh,
-    Settings,
-    conductances,
-    gap_at,
-    heat,
-    make_mesh,
-    relax_pressure,
-)
+from .plain2006_fields import Mesh, Settings, conductances, gap_at, heat, make_mesh, relax_pressure
 
 Array = NDArray[np.float64]
 GRID = (9, 67)

@@ -7,6 +7,7 @@ The shaft's torque k x is what two parts of a co-simulation hand to each other.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -24,7 +25,7 @@ OVERFLOW = 1e150
 TOLERANCE = 1e-4  # of step doubling
 
 
-def _walk(shaft: Shaft, advance: Advance) -> float:
+def _walk(advance: Advance, shaft: Shaft) -> float:
     """Step in the swing's own units (k = J = 1); ``advance(x, v, kept, h)``."""
     x, v, kept = 1.0, 0.0, 1.0
     for _ in range(shaft.steps):
@@ -34,11 +35,10 @@ def _walk(shaft: Shaft, advance: Advance) -> float:
     return x * x + v * v
 
 
-def runge_kutta(shaft: Shaft) -> float:
-    """Classical Runge-Kutta steps of fixed length."""
-    h = shaft.turn
+def _stages(x: float, v: float, kept: float, h: float) -> tuple[float, float, float]:
+    """Take a classical Runge-Kutta step."""
     c, s = 1.0 - h * h / 2.0 + h**4 / 24.0, h - h**3 / 6.0
-    return _walk(shaft, lambda x, v, kept, h: (c * x + s * v, c * v - s * x, kept))
+    return c * x + s * v, c * v - s * x, kept
 
 
 def lsoda(shaft: Shaft) -> float:
@@ -58,29 +58,10 @@ def _push(x: float, v: float, torque: float, h: float) -> tuple[float, float]:
     return x + h * v - 0.5 * h * h * torque, v - h * torque
 
 
-def gauss_seidel(shaft: Shaft) -> float:
-    """Torque fresh in each step, held over it."""
-    return _walk(shaft, lambda x, v, kept, h: (*_push(x, v, x, h), kept))
-
-
-def jacobi(shaft: Shaft) -> float:
-    """Torque one step old."""
-    return _walk(shaft, lambda x, v, kept, h: (*_push(x, v, kept, h), x))
-
-
-def linearly_implicit(shaft: Shaft) -> float:
-    """Torque with its slope, taken at the step's end."""
-
-    def advance(x: float, v: float, kept: float, h: float) -> tuple[float, float, float]:
-        new = (v - h * x) / (1.0 + h * h)
-        return x + h * new, new, kept
-
-    return _walk(shaft, advance)
-
-
-def step_doubling(shaft: Shaft) -> float:
-    """Held torque, a step against two half ones; halved until they agree."""
-    return _walk(shaft, _doubled)
+def _implicit(x: float, v: float, kept: float, h: float) -> tuple[float, float, float]:
+    """Step under a torque with its slope, taken at the step's end."""
+    new = (v - h * x) / (1.0 + h * h)
+    return x + h * new, new, kept
 
 
 def _doubled(x: float, v: float, kept: float, h: float) -> tuple[float, float, float]:
@@ -97,3 +78,10 @@ def _doubled(x: float, v: float, kept: float, h: float) -> tuple[float, float, f
         if worst <= limit or parts > 1000:
             return a, b, max(1, parts // 2) if worst < 0.2 * limit else parts
         parts *= 2
+
+
+runge_kutta, linearly_implicit = partial(_walk, _stages), partial(_walk, _implicit)
+# torque fresh in each step and held over it; one step old; held, steps halved until they agree
+gauss_seidel = partial(_walk, lambda x, v, kept, h: (*_push(x, v, x, h), kept))
+jacobi = partial(_walk, lambda x, v, kept, h: (*_push(x, v, kept, h), x))
+step_doubling = partial(_walk, _doubled)

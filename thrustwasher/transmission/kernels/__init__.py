@@ -9,6 +9,8 @@
                             instants where something changes
 ``layout``                  Where every number of the shift transmission lies in the arrays of its
                             step
+``piston``                  The pistons that press the packs: courses of pressure, filling, lag,
+                            centrifugal head
 ``step``                    One co-simulation step of the shift transmission: received torques in,
                             speeds and loads out
 ``stick_slip``              Stick and slip of two packs: which modes are consistent, and when they

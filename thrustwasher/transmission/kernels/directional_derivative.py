@@ -12,7 +12,8 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
-from .dynamics import brake_capacity, clutch_capacity, clutch_share
+from .dynamics import brake_capacity, clutch_capacity, clutch_share, drum_speed
+from .piston import force
 
 LEAST_WASHER_LOAD = 1.0  # N
 
@@ -37,22 +38,32 @@ def pack_change(
 
 @kernel
 def torque_changes(
-    par: Array, work: Array, clutch: tuple[float, float], brake: tuple[float, float], drag: float
-) -> tuple[float, float]:
+    par: Array, work: Array, clutch: tuple[float, float], brake: tuple[float, float], drag: float,
+    engine: float, load: float,
+) -> tuple[float, float]:  # fmt: skip
     """Return changes of X and T_brake for the modes in ``work``, as ``solve_torques`` finds them.
 
-    ``clutch``, ``brake``: changes of torque given and capacity; ``drag`` that of the drag.
+    ``clutch``, ``brake``: changes of torque given and capacity; ``drag``, ``engine`` and ``load``
+    those of these torques, the load at the carrier.
     """
+    c, b = (1.0 + par[L.D_RATIO]) / par[L.D_RATIO], 1.0 / par[L.D_RATIO]
+    driven = par[L.D_INV_SS] * engine - par[L.D_INV_SC] * load
+    carrier = par[L.D_INV_SC] * engine - par[L.D_INV_CC] * load
+    free_clutch, free_brake = c * (driven - carrier), c * carrier - b * driven
     s_cc, s_cb, s_bb = par[L.D_SLIP_CC], par[L.D_SLIP_CB], par[L.D_SLIP_BB]
     clutch_mode, brake_mode = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
     if clutch_mode == L.STUCK and brake_mode == L.STUCK:
-        return 0.0, 0.0
+        det = s_cc * s_bb - s_cb * s_cb
+        return (
+            (s_bb * free_clutch - s_cb * free_brake) / det,
+            (s_cc * free_brake - s_cb * free_clutch) / det,
+        )
     x = clutch[0] + clutch_mode * (clutch[1] + drag)
     held = brake[0] + brake_mode * brake[1]
     if clutch_mode == L.STUCK:
-        x = -s_cb * held / s_cc
+        x = (free_clutch - s_cb * held) / s_cc
     elif brake_mode == L.STUCK:
-        held = -s_cb * x / s_bb
+        held = (free_brake - s_cb * x) / s_bb
     return x, held
 
 
@@ -72,6 +83,27 @@ def share_change(
 
 
 @kernel
+def pressed_change(par: Array, state: Array, work: Array, seed: Array, dout: Array) -> None:
+    """Fill the changes of loads and pressures; a pressure that lags follows no input at once."""
+    if par[L.P_ACTUATION] != L.PRESSURE:
+        dout[L.O_CLUTCH_LOAD] = par[L.P_CLUTCH_FORCE] * seed[L.I_COMMAND]
+        dout[L.O_BRAKE_LOAD] = -par[L.P_BRAKE_FORCE] * seed[L.I_COMMAND]
+        return
+    driven, carrier = work[L.W_Y + L.Y_INPUT], work[L.W_Y + L.Y_CARRIER]
+    drum = drum_speed(par[L.D_RATIO], driven, carrier)
+    for k in range(2):
+        at, own = L.W_PISTON + k * L.N_PISTON, L.P_CLUTCH_PISTON_AREA + k * L.N_OWN
+        p, spring = work[np.uintp(at)], par[np.uintp(own + L.OWN_SPRING)]
+        full = work[np.uintp(at + L.PISTON_FULL)] != 0.0
+        if par[np.uintp(own + L.OWN_LAG)] > 0.0 and state[L.S_STARTED] != 0.0:
+            continue
+        change = seed[np.uintp(L.I_PRESSURE + k)] if full or p < spring else 0.0
+        dout[np.uintp(L.O_CLUTCH_PISTON_PRESSURE + k)] = change
+        if force(par, work, k, drum) > 0.0:
+            dout[np.uintp(L.O_CLUTCH_LOAD + 2 * k)] = par[np.uintp(own)] * change
+
+
+@kernel
 def directional_derivative(
     par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array
 ) -> int:
@@ -85,32 +117,41 @@ def directional_derivative(
     r, s = par[L.D_RATIO], state[L.S_LAST_DURATION]  # the instant matters after a step only
     washers = par[L.P_WASHERS] * sign_of(inp[L.I_WASHER]) * seed[L.I_WASHER]
     meshes = par[L.D_MESHES] * sign_of(inp[L.I_MESH]) * seed[L.I_MESH]
+    meshes += par[L.D_RING_MESHES] * sign_of(inp[L.I_RING_MESH]) * seed[L.I_RING_MESH]
     resists = (washers + meshes) * par[L.D_SPIN] * r / (1.0 + r)
     capacity = clutch_capacity(work, s)
     clutch = pack_change(par, inp, state, 0, capacity, seed[L.I_CLUTCH])
     brake = pack_change(par, inp, state, 1, brake_capacity(work, s), seed[L.I_BRAKE])
-    x, held = torque_changes(par, work, clutch, brake, resists)
+    engine, load = seed[L.I_ENGINE], seed[L.I_LOAD]
+    rigid = not par[L.P_SHAFT_STIFFNESS] > 0.0
+    shaft = load if rigid else 0.0
+    x, held = torque_changes(par, work, clutch, brake, resists, engine, shaft)
     carried = share_change(work, clutch[0], clutch[1], x, capacity)
 
     c, b = (1.0 + r) / r, 1.0 / r
-    inertia = par[L.P_SUN_INERTIA]
-    rate = par[L.D_INV_SS] * (b * held - c * x) + par[L.D_INV_SC] * c * (x - held)
+    inertia = par[L.P_INPUT_INERTIA]
+    on_driven, on_carrier = engine + b * held - c * x, c * (x - held) - shaft
+    rate = par[L.D_INV_SS] * on_driven + par[L.D_INV_SC] * on_carrier
+    carrier_rate = par[L.D_INV_SC] * on_driven + par[L.D_INV_CC] * on_carrier
     drag = (x - carried) * c
-    tau = -carried - drag - inertia * rate
+    tau = engine - carried - drag - inertia * rate
     own = clutch_share(par, work, s)
-    torque = work[L.W_ENGINE] - own - (work[L.W_CLUTCH] - own) * c - inertia * work[L.W_SUN_RATE]
-    per_force = 1.0 / (par[L.P_PLANETS] * par[L.D_SUN_RADIUS])
+    torque = work[L.W_ENGINE] - own - (work[L.W_CLUTCH] - own) * c - inertia * work[L.W_INPUT_RATE]
+    per_force = 1.0 / (par[L.P_PLANETS] * par[L.D_INPUT_RADIUS])
     per_couple = 2.0 * par[L.D_PLANET_RADIUS] * par[L.D_TAN_HELIX]
     per_load = par[L.P_THRUST_SHARE] / (2.0 * par[L.P_WASHER_RADIUS])
     force = sign_of(torque) * tau * per_force
     couple = per_couple * force
     if per_load * per_couple * abs(torque) * per_force > LEAST_WASHER_LOAD:
         dout[L.O_WASHER_LOAD] = per_load * couple
-    dout[L.O_CLUTCH_LOAD] = par[L.P_CLUTCH_FORCE] * seed[L.I_COMMAND]
-    dout[L.O_BRAKE_LOAD] = -par[L.P_BRAKE_FORCE] * seed[L.I_COMMAND]
+    dout[L.O_DRIVE_TORQUE], dout[L.O_RESISTANCE_TORQUE] = engine, load
+    dout[L.O_SHAFT_TORQUE] = shaft
+    dout[L.O_OUTPUT_TORQUE] = shaft + par[L.P_CARRIER_INERTIA] * carrier_rate
+    dout[L.O_OUTPUT_ACCELERATION] = carrier_rate if rigid else -load / par[L.P_VEHICLE_INERTIA]
+    pressed_change(par, state, work, seed, dout)
     dout[L.O_MESH_LOAD] = force * par[L.D_PLANET_RADIUS]
     dout[L.O_CLUTCH_REACTION], dout[L.O_BRAKE_REACTION] = carried, held
-    dout[L.O_SUN_TORQUE], dout[L.O_DRAG_TORQUE] = tau, drag
+    dout[L.O_INPUT_TOOTH_TORQUE], dout[L.O_DRAG_TORQUE] = tau, drag
     dout[L.O_TOOTH_FORCE], dout[L.O_TILTING_COUPLE] = force, couple
     dout[L.O_SUN_THRUST] = force * par[L.P_PLANETS] * par[L.D_TAN_HELIX]
     for i in range(L.NOUT):

@@ -1,9 +1,11 @@
 # mypy: disable-error-code="no-any-return"
 """Dynamics of the planetary set: torques and accelerations for given modes of clutch and brake.
 
-Unknowns are the speeds of sun and carrier; the ring follows from the teeth, so that a ring without
-inertia is an ordinary case. Clutch and drag act on the same slip: the drag is carried along as the
-clutch torque that does the same work, X = T_clutch + T_drag r/(1 + r).
+The driven gear is the sun or the ring (``arrangement``), the other one has the drum that the brake
+holds; r is its teeth over those of the driven gear. Unknowns are the speeds of driven gear and
+carrier; the drum follows from the teeth, so that a drum without inertia is an ordinary case. Clutch
+and drag act on the same slip: the drag is carried along as the clutch torque that does the same
+work, X = T_clutch + T_drag r/(1 + r).
 
 With a stiffness the shaft behind the carrier is a spring and a damper to the vehicle, which then
 has a speed of its own and meets the load. Without, the carrier is the vehicle.
@@ -34,6 +36,7 @@ B_ERROR = np.array([
 SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
 TWIST_SCALE = 0.01  # rad
 ENERGY_SCALE = 100.0  # J
+SLOW = 0.1  # rad/s: rolling resistance passes through zero over it
 
 
 @kernel
@@ -43,28 +46,35 @@ def derive(par: Array) -> int:
     planet = par[L.P_PLANET_TEETH]
     if planet == 0.0:
         planet = 0.5 * (ring - sun)
-    r = ring / sun
+    driven, drum = (ring, sun) if par[L.P_ARRANGEMENT] == L.RING_INPUT else (sun, ring)
+    r = drum / driven
     par[L.D_RATIO] = r
-    par[L.D_SPIN] = sun / planet
+    par[L.D_SPIN] = driven / planet
     pitch = 0.5 * par[L.P_NORMAL_MODULE] / math.cos(par[L.P_HELIX_ANGLE])
-    par[L.D_SUN_RADIUS] = pitch * sun
+    par[L.D_INPUT_RADIUS] = pitch * driven
     par[L.D_PLANET_RADIUS] = pitch * planet
     par[L.D_TAN_HELIX] = math.tan(par[L.P_HELIX_ANGLE])
     ring_share = (1.0 / planet - 1.0 / ring) / (1.0 / planet + 1.0 / sun)
-    par[L.D_MESHES] = par[L.P_PLANETS] * (1.0 + ring_share)
+    apart = par[L.P_RING_MESH]
+    par[L.D_MESHES] = par[L.P_PLANETS] * (1.0 + (1.0 - apart) * ring_share)
+    par[L.D_RING_MESHES] = par[L.P_PLANETS] * apart
 
-    ring_inertia = par[L.P_RING_INERTIA] / (r * r)
-    m_ss = par[L.P_SUN_INERTIA] + ring_inertia
-    m_sc = -ring_inertia * (1.0 + r)
-    m_cc = par[L.P_CARRIER_INERTIA] + ring_inertia * (1.0 + r) * (1.0 + r)
+    drum_inertia = par[L.P_DRUM_INERTIA] / (r * r)
+    m_ss = par[L.P_INPUT_INERTIA] + drum_inertia
+    m_sc = -drum_inertia * (1.0 + r)
+    m_cc = par[L.P_CARRIER_INERTIA] + drum_inertia * (1.0 + r) * (1.0 + r)
     det = m_ss * m_cc - m_sc * m_sc
     i_ss, i_sc, i_cc = m_cc / det, -m_sc / det, m_ss / det
     par[L.D_INV_SS], par[L.D_INV_SC], par[L.D_INV_CC] = i_ss, i_sc, i_cc
-    # Slips from speeds: clutch = c (sun - carrier), brake = c carrier - b sun.
+    # Slips from speeds: clutch = c (driven - carrier), brake = c carrier - b driven.
     c, b = (1.0 + r) / r, 1.0 / r
     par[L.D_SLIP_CC] = c * c * (i_ss - 2.0 * i_sc + i_cc)
     par[L.D_SLIP_CB] = c * (c * (i_sc - i_cc) - b * (i_ss - i_sc))
     par[L.D_SLIP_BB] = c * c * i_cc - 2.0 * b * c * i_sc + b * b * i_ss
+    inner, outer = par[L.P_PISTON_INNER_RADIUS], par[L.P_PISTON_OUTER_RADIUS]
+    supply = 2.0 * par[L.P_PISTON_SUPPLY_RADIUS] ** 2
+    moment = outer**4 - inner**4 - supply * (outer**2 - inner**2)
+    par[L.D_HEAD] = 0.25 * math.pi * par[L.P_OIL_DENSITY] * moment * (1.0 - par[L.P_BALANCE_SHARE])
     for i in range(L.N_PARAM, L.NPAR):
         if not math.isfinite(par[np.uintp(i)]):
             return NOT_FINITE
@@ -72,22 +82,24 @@ def derive(par: Array) -> int:
 
 
 @kernel
-def ring_speed(r: float, sun: float, carrier: float) -> float:
-    """Return the speed of the ring [rad/s]; exactly 0 if sun = (1 + r) carrier."""
-    return ((1.0 + r) * carrier - sun) / r
+def drum_speed(r: float, driven: float, carrier: float) -> float:
+    """Return the speed of the drum [rad/s]; exactly 0 if driven = (1 + r) carrier."""
+    return ((1.0 + r) * carrier - driven) / r
 
 
 @kernel
-def clutch_slip(r: float, sun: float, carrier: float) -> float:
-    """Return the slip of the clutch, sun minus ring [rad/s]; exactly 0 if sun = carrier."""
-    return (1.0 + r) / r * (sun - carrier)
+def clutch_slip(r: float, driven: float, carrier: float) -> float:
+    """Return the slip of the clutch, driven minus drum [rad/s]; exactly 0 if driven = carrier."""
+    return (1.0 + r) / r * (driven - carrier)
 
 
 @kernel
-def load_torque(par: Array, speed: float) -> float:
+def load_torque(par: Array, work: Array, speed: float) -> float:
     """Return the torque of the load [N m] at a speed of what it acts on [rad/s]."""
     x = speed / par[L.P_LOAD_SPEED]
-    return math.copysign(par[L.P_LOAD_TORQUE] * x * x, speed)
+    load = math.copysign(par[L.P_LOAD_TORQUE] * x * x, speed)
+    rolling = par[L.P_ROLLING_TORQUE] * speed / math.hypot(speed, SLOW)
+    return load + (rolling + par[L.P_GRADE_TORQUE] + work[L.W_LOAD_GIVEN])
 
 
 @kernel
@@ -103,7 +115,7 @@ def output_torque(par: Array, work: Array, y: int) -> float:
     stiffness = par[L.P_SHAFT_STIFFNESS]
     carrier = work[np.uintp(y + L.Y_CARRIER)]
     if not stiffness > 0.0:
-        return load_torque(par, carrier)
+        return load_torque(par, work, carrier)
     twisting = carrier - work[np.uintp(y + L.Y_VEHICLE)]
     return stiffness * work[np.uintp(y + L.Y_TWIST)] + par[L.P_SHAFT_DAMPING] * twisting
 
@@ -131,11 +143,12 @@ def solve_torques(par: Array, work: Array, s: float, load: float) -> None:
     i_ss, i_sc, i_cc = par[L.D_INV_SS], par[L.D_INV_SC], par[L.D_INV_CC]
     s_cc, s_cb, s_bb = par[L.D_SLIP_CC], par[L.D_SLIP_CB], par[L.D_SLIP_BB]
     c, b = (1.0 + r) / r, 1.0 / r
-    engine = work[L.W_ENGINE]
-    free_sun = i_ss * engine - i_sc * load
+    engine = work[L.W_ENGINE_START] + work[L.W_ENGINE_SLOPE] * s
+    work[L.W_ENGINE] = engine
+    free_driven = i_ss * engine - i_sc * load
     free_carrier = i_sc * engine - i_cc * load
-    free_clutch = c * (free_sun - free_carrier)
-    free_brake = c * free_carrier - b * free_sun
+    free_clutch = c * (free_driven - free_carrier)
+    free_brake = c * free_carrier - b * free_driven
 
     clutch_mode, brake_mode = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
     x = work[L.W_CLUTCH_GIVEN] + clutch_mode * (clutch_capacity(work, s) + work[L.W_DRAG])
@@ -149,11 +162,11 @@ def solve_torques(par: Array, work: Array, s: float, load: float) -> None:
     elif brake_mode == L.STUCK:
         brake = (free_brake - s_cb * x) / s_bb
 
-    sun_side = engine - c * x + b * brake
+    driven_side = engine - c * x + b * brake
     carrier_side = c * x - c * brake - load
     work[L.W_CLUTCH], work[L.W_BRAKE] = x, brake
-    work[L.W_SUN_RATE] = i_ss * sun_side + i_sc * carrier_side
-    work[L.W_CARRIER_RATE] = i_sc * sun_side + i_cc * carrier_side
+    work[L.W_INPUT_RATE] = i_ss * driven_side + i_sc * carrier_side
+    work[L.W_CARRIER_RATE] = i_sc * driven_side + i_cc * carrier_side
 
 
 @kernel
@@ -178,14 +191,14 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     The heats are integrated with the same solution as the speeds, so that the energy book closes
     to the integrator's tolerance.
     """
-    sun, carrier = work[np.uintp(y + L.Y_SUN)], work[np.uintp(y + L.Y_CARRIER)]
+    driven, carrier = work[np.uintp(y + L.Y_INPUT)], work[np.uintp(y + L.Y_CARRIER)]
     resists = output_torque(par, work, y)
     solve_torques(par, work, s, resists)
-    work[np.uintp(slopes + L.Y_SUN)] = work[L.W_SUN_RATE]
+    work[np.uintp(slopes + L.Y_INPUT)] = work[L.W_INPUT_RATE]
     work[np.uintp(slopes + L.Y_CARRIER)] = work[L.W_CARRIER_RATE]
-    work[np.uintp(slopes + L.Y_ENGINE)] = work[L.W_ENGINE] * sun
+    work[np.uintp(slopes + L.Y_ENGINE)] = work[L.W_ENGINE] * driven
     vehicle = vehicle_speed(par, work, y)
-    load = load_torque(par, vehicle)
+    load = load_torque(par, work, vehicle)
     work[np.uintp(slopes + L.Y_LOAD)] = load * vehicle
     twisting, acceleration = 0.0, 0.0
     if par[L.P_SHAFT_STIFFNESS] > 0.0:
@@ -197,12 +210,12 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     r = par[L.D_RATIO]
     clutch_heat, washer_heat, mesh_heat, brake_heat = 0.0, 0.0, 0.0, 0.0
     if work[L.W_CLUTCH_MODE] != L.STUCK:
-        clutch_heat = clutch_share(par, work, s) * clutch_slip(r, sun, carrier)
-        spin = par[L.D_SPIN] * (sun - carrier) * work[L.W_CLUTCH_MODE]
+        clutch_heat = clutch_share(par, work, s) * clutch_slip(r, driven, carrier)
+        spin = par[L.D_SPIN] * (driven - carrier) * work[L.W_CLUTCH_MODE]
         washer_heat = work[L.W_WASHERS] * spin
         mesh_heat = work[L.W_MESHES] * spin
     if work[L.W_BRAKE_MODE] != L.STUCK:
-        brake_heat = work[L.W_BRAKE] * ring_speed(r, sun, carrier)
+        brake_heat = work[L.W_BRAKE] * drum_speed(r, driven, carrier)
     work[np.uintp(slopes + L.Y_CLUTCH)] = clutch_heat
     work[np.uintp(slopes + L.Y_BRAKE)] = brake_heat
     work[np.uintp(slopes + L.Y_WASHER)] = washer_heat
@@ -210,12 +223,12 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
 
 
 @kernel
-def kinetic_energy(par: Array, sun: float, carrier: float, vehicle: float) -> float:
-    """Return the kinetic energy of sun, ring, carrier and vehicle [J]."""
-    ring = ring_speed(par[L.D_RATIO], sun, carrier)
+def kinetic_energy(par: Array, driven: float, carrier: float, vehicle: float) -> float:
+    """Return the kinetic energy of driven, drum, carrier and vehicle [J]."""
+    drum = drum_speed(par[L.D_RATIO], driven, carrier)
     energy = 0.5 * (
-        par[L.P_SUN_INERTIA] * sun * sun
-        + par[L.P_RING_INERTIA] * ring * ring
+        par[L.P_INPUT_INERTIA] * driven * driven
+        + par[L.P_DRUM_INERTIA] * drum * drum
         + par[L.P_CARRIER_INERTIA] * carrier * carrier
     )
     if par[L.P_SHAFT_STIFFNESS] > 0.0:
@@ -239,13 +252,30 @@ def broken_rule(par: Array) -> int:
     sun, planet, ring = par[L.P_SUN_TEETH], par[L.P_PLANET_TEETH], par[L.P_RING_TEETH]
     if not ring > sun:
         return 1
-    if planet != 0.0 and not abs(ring - sun - 2.0 * planet) <= 2.0:
+    if planet != 0.0 and abs(ring - sun - 2.0 * planet) > 2.0 * par[L.P_PROFILE_SHIFTED]:
         return 2
     if par[L.P_SHAFT_STIFFNESS] == 0.0:
         if par[L.P_SHAFT_DAMPING] != 0.0:
             return 3
         if par[L.P_INITIAL_TWIST] != 0.0:
             return 4
+    planets = par[L.P_PLANETS]
+    apart = (sun + ring) / planets  # teeth between two planets, on both gears together
+    if planet != 0.0 and apart != math.floor(apart):
+        return 5
+    if planet != 0.0 and planets > 1.0:
+        if not (sun + planet) * math.sin(math.pi / planets) > planet + 2.0:
+            return 6
+    inner, outer = par[L.P_PISTON_INNER_RADIUS], par[L.P_PISTON_OUTER_RADIUS]
+    if outer < inner:
+        return 7
+    if par[L.P_PISTON_SUPPLY_RADIUS] > outer:
+        return 8
+    for which in range(3):
+        first = L.P_CLUTCH_COURSE + which * L.N_COURSE
+        for i in range(1, int(par[np.uintp(first)])):
+            if not par[np.uintp(first + 1 + i)] > par[np.uintp(first + i)]:
+                return 9 + which
     return 0
 
 

@@ -1,8 +1,9 @@
 # mypy: disable-error-code="no-any-return"
 """The course of one step: stretches of smooth motion between the instants where something changes.
 
-A stretch ends where the engine is turned on, where an extrapolated capacity reaches zero, or where
-a pack locks or breaks away; the instant is located on the local solution.
+A stretch ends where the engine is turned on or its course has a point, where an extrapolated
+capacity reaches zero, or where a pack locks or breaks away; the instant is located on the local
+solution.
 """
 
 import numpy as np
@@ -11,6 +12,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, NO_EVENT, NOT_FINITE, OK
 from . import layout as L
 from .dynamics import trial_step
+from .piston import course, next_point
 from .stick_slip import decide, dip, guard, locate, slip_of
 
 MAX_TRIALS = 20000
@@ -25,6 +27,9 @@ def next_break(par: Array, work: Array, t: float, s: float, end: float) -> float
     instant = par[L.P_ENGINE_START_TIME] - t
     if s < instant < found:
         found = instant
+    point = next_point(par, L.P_ENGINE_COURSE, t + s, t + end)
+    if point < t + end and s < point - t < found:
+        found = point - t
     for k in range(2):
         start = work[np.uintp(L.W_CLUTCH_START + 2 * k)]
         slope = work[np.uintp(L.W_CLUTCH_SLOPE + 2 * k)]
@@ -39,8 +44,16 @@ def next_break(par: Array, work: Array, t: float, s: float, end: float) -> float
 def begin_stretch(par: Array, work: Array, t: float, s: float, end: float) -> None:
     """Set what holds from ``s`` to ``end``: engine torque, which packs can hold, modes."""
     middle = 0.5 * (s + end)
-    on = t + middle >= par[L.P_ENGINE_START_TIME]
-    work[L.W_ENGINE] = par[L.P_ENGINE_TORQUE] if on else 0.0
+    if par[L.P_ENGINE_COURSE] > 0.0:
+        start, slope = course(par, L.P_ENGINE_COURSE, t + s), 0.0
+        if end > s:
+            slope = (course(par, L.P_ENGINE_COURSE, t + end) - start) / (end - s)
+        start -= slope * s
+    else:
+        on = t + middle >= par[L.P_ENGINE_START_TIME]
+        start, slope = par[L.P_ENGINE_TORQUE] if on else 0.0, 0.0
+    work[L.W_ENGINE_START], work[L.W_ENGINE_SLOPE] = start + work[L.W_ENGINE_GIVEN], slope
+    work[L.W_ENGINE] = work[L.W_ENGINE_START] + slope * middle
     clutch = work[L.W_CLUTCH_START] + work[L.W_CLUTCH_SLOPE] * middle
     brake = work[L.W_BRAKE_START] + work[L.W_BRAKE_SLOPE] * middle
     work[L.W_CLUTCH_ACTIVE] = 1.0 if clutch > 0.0 or work[L.W_DRAG] > 0.0 else 0.0
@@ -57,7 +70,7 @@ def note_events(
         work[L.W_EVENTS + 3] += 1.0
         if clutch == L.STUCK:
             work[L.W_EVENTS] = now
-            work[L.W_EVENTS + 1] = work[L.W_Y + L.Y_SUN]
+            work[L.W_EVENTS + 1] = work[L.W_Y + L.Y_INPUT]
     if (brake == L.STUCK) != (brake_before == L.STUCK):
         work[L.W_EVENTS + 3] += 1.0
         if brake != L.STUCK:
@@ -69,12 +82,12 @@ def project(par: Array, work: Array, clutch: bool, brake: bool) -> None:
     """Remove the rounding from speeds that must agree, so that a stuck slip is exactly zero."""
     carrier = work[L.W_Y + L.Y_CARRIER]
     if clutch and brake:
-        work[L.W_Y + L.Y_SUN] = 0.0
+        work[L.W_Y + L.Y_INPUT] = 0.0
         work[L.W_Y + L.Y_CARRIER] = 0.0
     elif clutch:
-        work[L.W_Y + L.Y_SUN] = carrier
+        work[L.W_Y + L.Y_INPUT] = carrier
     elif brake:
-        work[L.W_Y + L.Y_SUN] = (1.0 + par[L.D_RATIO]) * carrier
+        work[L.W_Y + L.Y_INPUT] = (1.0 + par[L.D_RATIO]) * carrier
 
 
 @kernel

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...numerics.jit import Array, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, STALLED
-from . import dynamics
+from . import dynamics, piston
 from . import layout as L
 from .directional_derivative import LEAST_WASHER_LOAD, directional_derivative
 from .integrate_step import is_at_rest, run
@@ -27,14 +27,16 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
         work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE]
         for i in range(4):
             work[np.uintp(L.W_EVENTS + i)] = state[np.uintp(L.S_LOCK_TIME + i)]
+        for i in range(2 * L.N_PISTON):
+            work[np.uintp(L.W_PISTON + i)] = state[np.uintp(L.S_PISTON + i)]
         return
     for i in range(L.N_Y):
         work[np.uintp(L.W_Y + i)] = 0.0
-    sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
-    carrier = (sun + r * ring) / (1.0 + r)
+    driven, drum, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_DRUM_SPEED], par[L.D_RATIO]
+    carrier = (driven + r * drum) / (1.0 + r)
     work[L.W_Y + L.Y_CARRIER] = carrier
     # With the drum at rest the slip must be zero to the last bit, or nothing can stick.
-    work[L.W_Y + L.Y_SUN] = (1.0 + r) * carrier if ring == 0.0 else sun
+    work[L.W_Y + L.Y_INPUT] = (1.0 + r) * carrier if drum == 0.0 else driven
     work[L.W_Y + L.Y_VEHICLE], work[L.W_Y + L.Y_TWIST] = carrier, par[L.P_INITIAL_TWIST]
     work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = 1.0, 1.0
     work[L.W_EVENTS], work[L.W_EVENTS + 1], work[L.W_EVENTS + 2] = -1.0, 0.0, -1.0
@@ -51,8 +53,10 @@ def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> Non
     overshoots for one step (a few percent just before lock-up at 1 ms).
     """
     r = par[L.D_RATIO]
+    work[L.W_ENGINE_GIVEN], work[L.W_LOAD_GIVEN] = inp[L.I_ENGINE], inp[L.I_LOAD]
     work[L.W_WASHERS] = par[L.P_WASHERS] * abs(inp[L.I_WASHER])
-    work[L.W_MESHES] = par[L.D_MESHES] * abs(inp[L.I_MESH])
+    ring = par[L.D_RING_MESHES] * abs(inp[L.I_RING_MESH])
+    work[L.W_MESHES] = par[L.D_MESHES] * abs(inp[L.I_MESH]) + ring
     drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
     work[L.W_DRAG] = drag * r / (1.0 + r)
     for k in range(2):
@@ -74,15 +78,36 @@ def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> Non
 
 
 @kernel
+def press(par: Array, inp: Array, state: Array, work: Array, t: float, dt: float) -> int:
+    """Carry both pistons over the step; return a status."""
+    status = OK
+    if par[L.P_ACTUATION] == L.PRESSURE:
+        for k in range(2):
+            after = inp[np.uintp(L.I_PRESSURE + k)]
+            before = state[np.uintp(L.S_LAST_PRESSURE + k)]
+            if state[L.S_STARTED] == 0.0:
+                before = after
+                piston.rest(par, work, k, piston.commanded(par, k, t, t, dt, before, after))
+            if dt == 0.0:
+                piston.show_now(par, work, k, piston.commanded(par, k, t, t, dt, before, after))
+            else:
+                status = max(status, piston.advance(par, work, k, t, dt, before, after))
+        return status
+    for i in range(2 * L.N_PISTON):
+        work[np.uintp(L.W_PISTON + i)] = 0.0
+    return status
+
+
+@kernel
 def kinetic_start(par: Array, state: Array, dt: float) -> float:
     """Return the kinetic energy at the start [J]; -1 before any step: that of now."""
     if state[L.S_STARTED] != 0.0:
         return float(state[L.S_KINETIC_START])
     if dt == 0.0:
         return -1.0
-    sun, ring, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_RING_SPEED], par[L.D_RATIO]
-    carrier = (sun + r * ring) / (1.0 + r)
-    return float(dynamics.kinetic_energy(par, sun, carrier, carrier))
+    driven, drum, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_DRUM_SPEED], par[L.D_RATIO]
+    carrier = (driven + r * drum) / (1.0 + r)
+    return float(dynamics.kinetic_energy(par, driven, carrier, carrier))
 
 
 @kernel
@@ -99,26 +124,36 @@ def keep(inp: Array, state: Array, work: Array, start: float, dt: float) -> None
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
     for i in range(4):
         state[np.uintp(L.S_LOCK_TIME + i)] = work[np.uintp(L.W_EVENTS + i)]
+    for i in range(2 * L.N_PISTON):
+        state[np.uintp(L.S_PISTON + i)] = work[np.uintp(L.W_PISTON + i)]
+    state[L.S_LAST_PRESSURE] = inp[L.I_PRESSURE]
+    state[L.S_LAST_BRAKE_PRESSURE] = inp[L.I_BRAKE_PRESSURE]
 
 
 @kernel
 def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> None:
     """Fill speeds, torques and loads at ``s`` seconds into the step."""
     r = par[L.D_RATIO]
-    sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
+    driven, carrier = work[L.W_Y + L.Y_INPUT], work[L.W_Y + L.Y_CARRIER]
     resists = dynamics.output_torque(par, work, L.W_Y)
     dynamics.solve_torques(par, work, s, resists)
     clutch = dynamics.clutch_share(par, work, s)
     drag = (work[L.W_CLUTCH] - clutch) * (1.0 + r) / r
-    tau = work[L.W_ENGINE] - clutch - drag - par[L.P_SUN_INERTIA] * work[L.W_SUN_RATE]
-    force = abs(tau) / (par[L.P_PLANETS] * par[L.D_SUN_RADIUS])
+    tau = work[L.W_ENGINE] - clutch - drag - par[L.P_INPUT_INERTIA] * work[L.W_INPUT_RATE]
+    force = abs(tau) / (par[L.P_PLANETS] * par[L.D_INPUT_RADIUS])
     couple = 2.0 * par[L.D_PLANET_RADIUS] * force * par[L.D_TAN_HELIX]
-    command = inp[L.I_COMMAND]
-    spin = par[L.D_SPIN] * (sun - carrier)
-    out[L.O_CLUTCH_LOAD] = command * par[L.P_CLUTCH_FORCE]
-    out[L.O_CLUTCH_SPEED] = dynamics.clutch_slip(r, sun, carrier)
-    out[L.O_BRAKE_LOAD] = (1.0 - command) * par[L.P_BRAKE_FORCE]
-    out[L.O_BRAKE_SPEED] = dynamics.ring_speed(r, sun, carrier)
+    drum = dynamics.drum_speed(r, driven, carrier)
+    if par[L.P_ACTUATION] == L.PRESSURE:
+        out[L.O_CLUTCH_LOAD] = piston.force(par, work, 0, drum)
+        out[L.O_BRAKE_LOAD] = piston.force(par, work, 1, drum)
+    else:
+        out[L.O_CLUTCH_LOAD] = inp[L.I_COMMAND] * par[L.P_CLUTCH_FORCE]
+        out[L.O_BRAKE_LOAD] = (1.0 - inp[L.I_COMMAND]) * par[L.P_BRAKE_FORCE]
+    spin = par[L.D_SPIN] * (driven - carrier)
+    out[L.O_CLUTCH_SPEED] = dynamics.clutch_slip(r, driven, carrier)
+    out[L.O_BRAKE_SPEED] = drum
+    out[L.O_CLUTCH_HUB_SPEED], out[L.O_CLUTCH_DRUM_SPEED] = driven, drum
+    out[L.O_BRAKE_HUB_SPEED], out[L.O_BRAKE_DRUM_SPEED] = drum, 0.0
     out[L.O_WASHER_LOAD] = max(
         LEAST_WASHER_LOAD, par[L.P_THRUST_SHARE] * couple / (2.0 * par[L.P_WASHER_RADIUS])
     )
@@ -126,17 +161,27 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     out[L.O_WASHER_TILT] = par[L.P_PLANET_TILT]
     out[L.O_MESH_LOAD] = force * par[L.D_PLANET_RADIUS]
     out[L.O_MESH_SPEED] = spin
-    out[L.O_ENGINE_SPEED], out[L.O_OUTPUT_SPEED] = sun, carrier
-    out[L.O_RING_SPEED] = dynamics.ring_speed(r, sun, carrier)
+    out[L.O_ENGINE_SPEED], out[L.O_OUTPUT_SPEED] = driven, carrier
+    out[L.O_DRUM_SPEED] = drum
     out[L.O_DRIVE_TORQUE] = work[L.W_ENGINE]
     vehicle = dynamics.vehicle_speed(par, work, L.W_Y)
-    out[L.O_RESISTANCE_TORQUE] = dynamics.load_torque(par, vehicle)
+    load = dynamics.load_torque(par, work, vehicle)
+    out[L.O_RESISTANCE_TORQUE] = load
+    out[L.O_OUTPUT_TORQUE] = resists + par[L.P_CARRIER_INERTIA] * work[L.W_CARRIER_RATE]
+    out[L.O_OUTPUT_ACCELERATION] = work[L.W_CARRIER_RATE]
+    if par[L.P_SHAFT_STIFFNESS] > 0.0:
+        out[L.O_OUTPUT_ACCELERATION] = (resists - load) / par[L.P_VEHICLE_INERTIA]
+    for k in range(2):
+        own = L.W_PISTON + k * L.N_PISTON
+        out[np.uintp(L.O_CLUTCH_PISTON_PRESSURE + k)] = work[np.uintp(own)]
+        out[np.uintp(L.O_CLUTCH_FILLED_TIME + k)] = work[np.uintp(own + L.PISTON_FILLED_TIME)]
+        out[np.uintp(L.O_CLUTCH_KISS_TIME + k)] = work[np.uintp(own + L.PISTON_KISS_TIME)]
     out[L.O_VEHICLE_SPEED], out[L.O_SHAFT_TORQUE] = vehicle, resists
     out[L.O_SHAFT_TWIST] = work[L.W_Y + L.Y_TWIST]
     out[L.O_CLUTCH_REACTION], out[L.O_BRAKE_REACTION] = clutch, work[L.W_BRAKE]
-    out[L.O_SUN_TORQUE], out[L.O_DRAG_TORQUE] = tau, drag
+    out[L.O_INPUT_TOOTH_TORQUE], out[L.O_DRAG_TORQUE] = tau, drag
     out[L.O_TOOTH_FORCE], out[L.O_TILTING_COUPLE] = force, couple
-    out[L.O_SUN_THRUST] = abs(tau) * par[L.D_TAN_HELIX] / par[L.D_SUN_RADIUS]
+    out[L.O_SUN_THRUST] = abs(tau) * par[L.D_TAN_HELIX] / par[L.D_INPUT_RADIUS]
     out[L.O_OIL_SUPPLY_TEMPERATURE] = par[L.P_OIL_TEMPERATURE]
 
 
@@ -146,9 +191,9 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
 
     The residual is what the entries leave unexplained.
     """
-    sun, carrier = work[L.W_Y + L.Y_SUN], work[L.W_Y + L.Y_CARRIER]
+    driven, carrier = work[L.W_Y + L.Y_INPUT], work[L.W_Y + L.Y_CARRIER]
     vehicle = dynamics.vehicle_speed(par, work, L.W_Y)
-    kinetic = dynamics.kinetic_energy(par, sun, carrier, vehicle)
+    kinetic = dynamics.kinetic_energy(par, driven, carrier, vehicle)
     if start < 0.0:
         start = kinetic
     out[L.O_ENGINE_WORK] = work[L.W_Y + L.Y_ENGINE]
@@ -187,17 +232,20 @@ def step(
         if not math.isfinite(inp[np.uintp(i)]):
             iout[L.IO_STATUS] = BAD_INPUT
             return BAD_INPUT
-    if not (
-        math.isfinite(t) and math.isfinite(dt) and dt >= 0.0 and 0.0 <= inp[L.I_COMMAND] <= 1.0
-    ):
+    good = math.isfinite(t) and math.isfinite(dt) and dt >= 0.0
+    good = good and 0.0 <= inp[L.I_COMMAND] <= 1.0
+    if not (good and inp[L.I_PRESSURE] >= 0.0 and inp[L.I_BRAKE_PRESSURE] >= 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     begin(par, inp, state, work)
     receive(par, inp, state, work, dt)
+    pressed = press(par, inp, state, work, t, dt)
     status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
     start = kinetic_start(par, state, dt)
     show_motion(par, inp, work, out, dt)
     show_energy(par, start, work, out)
+    if status == OK:
+        status = pressed
     if status == OK and not _is_finite(work, out, dt):
         status = NOT_FINITE
     if status == OK and dt > 0.0:
@@ -205,6 +253,9 @@ def step(
     clutch_holds = dynamics.clutch_capacity(work, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0
+    for k in range(2):
+        full = work[np.uintp(L.W_PISTON + k * L.N_PISTON + L.PISTON_FULL)]
+        iout[np.uintp(L.IO_CLUTCH_FILLED + k)] = 1 if full != 0.0 else 0
     iout[L.IO_EVENTS] = int(work[L.W_EVENTS + 3])
     iout[L.IO_STATUS] = STALLED if status == OK and is_at_rest(par, work) else status
     return status

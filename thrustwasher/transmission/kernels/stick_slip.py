@@ -16,8 +16,8 @@ from .dynamics import (
     brake_capacity,
     clutch_capacity,
     clutch_slip,
+    drum_speed,
     output_torque,
-    ring_speed,
     solve_torques,
     trial_step,
 )
@@ -28,18 +28,18 @@ MAX_ROOT_STEPS = 100
 @kernel
 def slip_of(par: Array, work: Array, pack: int, y: int) -> float:
     """Return the slip [rad/s] of clutch (0) or brake (1) for the vector at ``work[y:]``."""
-    sun, carrier = work[np.uintp(y + L.Y_SUN)], work[np.uintp(y + L.Y_CARRIER)]
+    driven, carrier = work[np.uintp(y + L.Y_INPUT)], work[np.uintp(y + L.Y_CARRIER)]
     if pack == 0:
-        return clutch_slip(par[L.D_RATIO], sun, carrier)
-    return ring_speed(par[L.D_RATIO], sun, carrier)
+        return clutch_slip(par[L.D_RATIO], driven, carrier)
+    return drum_speed(par[L.D_RATIO], driven, carrier)
 
 
 @kernel
 def slip_rate(par: Array, work: Array, pack: int) -> float:
     """Return the slip acceleration [rad/s2] after ``solve_torques``."""
     if pack == 0:
-        return clutch_slip(par[L.D_RATIO], work[L.W_SUN_RATE], work[L.W_CARRIER_RATE])
-    return ring_speed(par[L.D_RATIO], work[L.W_SUN_RATE], work[L.W_CARRIER_RATE])
+        return clutch_slip(par[L.D_RATIO], work[L.W_INPUT_RATE], work[L.W_CARRIER_RATE])
+    return drum_speed(par[L.D_RATIO], work[L.W_INPUT_RATE], work[L.W_CARRIER_RATE])
 
 
 @kernel

@@ -25,14 +25,17 @@ def squeeze_time(
 
 
 def pumped_flow(
-    density: float, viscosity: float, speed: float, gap: float, inner: float, outer: float
-) -> float:
-    """Return the flow [m3/s] that centrifugal force drives through a full gap, one side at rest.
+    density: float, viscosity: float, speeds: tuple[float, float], gap: float, inner: float,
+    outer: float,
+) -> float:  # fmt: skip
+    """Return the flow [m3/s] that centrifugal force drives through a full gap between two discs.
 
-    The oil turns with v = omega r z/h; radial momentum at low Reynolds number between two rims at
-    ambient pressure gives Q = pi rho omega^2 h^3 (Ro^2 - Ri^2)/(40 eta ln(Ro/Ri)).
+    The oil turns with the discs at its sides, linearly in between; radial momentum at low Reynolds
+    number between two rims at ambient pressure gives, with the mean speed m and the slip s,
+    Q = pi rho (m^2 + s^2/20) h^3 (Ro^2 - Ri^2)/(12 eta ln(Ro/Ri)): 1/40 if one side is at rest.
     """
     square = outer**2 - inner**2
-    return math.pi * density * speed**2 * gap**3 * square / (
-        40.0 * viscosity * math.log(outer / inner)
+    mean, slip = 0.5 * (speeds[0] + speeds[1]), speeds[0] - speeds[1]
+    return math.pi * density * (mean**2 + slip**2 / 20.0) * gap**3 * square / (
+        12.0 * viscosity * math.log(outer / inner)
     )  # fmt: skip

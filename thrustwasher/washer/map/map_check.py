@@ -70,7 +70,16 @@ def check_map(
         unanswered += odd
         if progress is not None:
             progress(k + 1, len(tasks))
-    return _verdict(held, folds, unanswered)
+    away = [h for h in held if not h.near_fold]
+    torques = np.array([h.torque for h in away] or [0.0])
+    return Verdict(
+        points=len(held), torque=_largest(h.torque for h in away),
+        torque_rms=float(np.sqrt(np.mean(torques**2))),
+        torque_near_fold=_largest(h.torque for h in held if h.near_fold),
+        film_ratio=_largest(h.ratio for h in away), temperature=_largest(h.rise for h in away),
+        oil=_largest(h.oil for h in away), fold_load=_largest(folds), folds=len(folds),
+        unanswered=unanswered,
+    )  # fmt: skip
 
 
 def _points(washer: WasherMap, n: int) -> list[tuple[float, float, float, float]]:
@@ -154,19 +163,6 @@ def _off_folds(
     except SolveError:
         return []
     return differences
-
-
-def _verdict(held: list[Held], folds: list[float], unanswered: int) -> Verdict:
-    away = [h for h in held if not h.near_fold]
-    torques = np.array([h.torque for h in away] or [0.0])
-    return Verdict(
-        points=len(held), torque=_largest(h.torque for h in away),
-        torque_rms=float(np.sqrt(np.mean(torques**2))),
-        torque_near_fold=_largest(h.torque for h in held if h.near_fold),
-        film_ratio=_largest(h.ratio for h in away), temperature=_largest(h.rise for h in away),
-        oil=_largest(h.oil for h in away), fold_load=_largest(folds), folds=len(folds),
-        unanswered=unanswered,
-    )  # fmt: skip
 
 
 def _largest(values: Iterable[float]) -> float:

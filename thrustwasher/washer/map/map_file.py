@@ -4,7 +4,6 @@ Shipped maps lie in ``thrustwasher/data/maps``; further folders are taken from t
 variable ``THRUSTWASHER_MAPS`` (separated as in ``PATH``) and are looked through first.
 """
 
-import io
 import json
 import os
 import struct
@@ -19,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
+from ...native.files import zipped
 from ...numerics.chebyshev import MOST_TERMS, lines_of
 from ...numerics.jit import Array
 from ...storage.digests import DATA
@@ -49,12 +49,7 @@ class MapFile:
 
 def pack(data: Array, card: dict[str, Any]) -> bytes:
     """Return the bytes of a map file; the same for the same contents."""
-    memory = io.BytesIO()
-    with zipfile.ZipFile(memory, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, content in ((CARD, json.dumps(card, indent=1).encode()), (NUMBERS, _bytes(data))):
-            archive.writestr(zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0)), content,
-                             zipfile.ZIP_DEFLATED)  # fmt: skip
-    return memory.getvalue()
+    return zipped({CARD: json.dumps(card, indent=1).encode(), NUMBERS: _bytes(data)})
 
 
 def plain(file: MapFile) -> bytes:

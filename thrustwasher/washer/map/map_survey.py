@@ -106,19 +106,14 @@ def _weights(here: Array, scale: Array, least: float) -> tuple[NDArray[np.bool_]
     return load > math.log(least), shares[0], shares[1]
 
 
-def _cubic(patches: int) -> Array:
-    """Return the places of the nodes of an axis, -1 .. 1."""
-    places = [(k + x) / patches for k in range(patches) for x in PLACES]
-    return 2.0 * np.array([*places, 1.0]) - 1.0
-
-
 def _off(patches: int, cubic: bool, warp: Callable[[Array], Array], n: int) -> Array:
     """Return the matrix from Chebyshev coefficients along an axis to errors of patches there.
 
     ``warp`` maps an axis that is bent otherwise onto that of the coefficients.
     """
     vander = np.polynomial.chebyshev.chebvander
-    nodes = _cubic(patches)
+    places = [(k + x) / patches for k in range(patches) for x in PLACES]
+    nodes = 2.0 * np.array([*places, 1.0]) - 1.0
     weights = np.zeros((len(DENSE), len(nodes)))
     for row, x in zip(weights, DENSE, strict=True):
         k = min(int(0.5 * (x + 1.0) * patches), patches - 1)

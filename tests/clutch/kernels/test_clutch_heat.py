@@ -1,0 +1,64 @@
+"""Where the heat of a pack goes: into the plates at first, from there into the oil."""
+
+import numpy as np
+import pytest
+from clutch_pack import Pack
+
+from thrustwasher import ClutchParams, engage_clutch
+from thrustwasher.clutch.kernels import layout as k
+from thrustwasher.clutch.parameters import SPEC
+
+H = 1e-3
+
+
+def run(pack, n=900):
+    """Close the pack, let it slip to rest, open it; return the integral of oil_heat [J]."""
+    into_oil = 0.0
+    for i in range(n):
+        load = 6000.0 * min(i / 100.0, 1.0) * (i < 700)
+        slip = 300.0 * max(0.0, 1.0 - i / 600.0) if i < 750 else 200.0
+        assert pack.step(load, slip, H, 350.0 + 0.01 * i, 50.0) == 0
+        into_oil += pack.out[k.O_OIL_HEAT] * H
+    return into_oil
+
+
+@pytest.mark.parametrize("fidelity", list(SPEC.fidelities))
+@pytest.mark.parametrize("course", ["held", "linear"])
+@pytest.mark.parametrize("rise", [False, True])
+def test_heat_made_is_stored_or_in_the_oil(fidelity, course, rise):
+    pack = Pack(fidelity, made=ClutchParams, input_course=course, contact_rise=rise)
+    into_oil = run(pack)
+    made, stored = pack.out[k.O_ENERGY], pack.out[k.O_STORED_HEAT]
+    assert made > 1e3 and made == pytest.approx(stored + into_oil, rel=1e-9)
+    assert (stored == 0.0) == (fidelity == "boundary")
+
+
+@pytest.mark.parametrize("fidelity", ["stribeck", "field", "fine"])
+def test_the_heat_of_the_oil_is_cooling_times_temperature(fidelity):
+    """Mean of a step against the flux at its ends, by the area mean of the plates' temperature."""
+    pack = Pack(fidelity, made=ClutchParams)
+    flux = []
+    for _ in range(60):
+        pack.step(6000.0, 200.0, H, 340.0)
+        over = pack.out[k.O_TEMPERATURE] - 340.0
+        flux.append(pack.work[k.W_COOLING] * pack.params.lining_area * over)
+        if len(flux) > 30:
+            mean = 0.5 * (flux[-1] + flux[-2])
+            assert pack.out[k.O_OIL_HEAT] == pytest.approx(mean, rel=2e-4)
+
+
+def test_stored_heat_is_that_of_the_plates_warmth():
+    pack = Pack(made=ClutchParams)
+    run(pack, 300)
+    steel = 7850.0 * 475.0 * pack.params.lining_area * 1e-3
+    rise = pack.state[k.S_HEAT] - 350.0
+    assert pack.out[k.O_STORED_HEAT] == pytest.approx(steel * rise, rel=1e-12)
+
+
+def test_an_engagement_tells_the_same_balance():
+    t = np.linspace(0.0, 0.4, 81)
+    e = engage_clutch(ClutchParams(), time=t, load=6000.0 * np.minimum(t / 0.1, 1.0),
+                      speed=300.0 * (1.0 - t / 0.5), oil_temperature=353.15)  # fmt: skip
+    into_oil = np.sum(e.oil_heat[1:] * np.diff(t))
+    assert e.energy[-1] == pytest.approx(e.stored_heat[-1] + into_oil, rel=1e-12)
+    assert 0.0 < into_oil < 0.1 * e.energy[-1]  # a shift is over before the plates have cooled

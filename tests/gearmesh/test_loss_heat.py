@@ -1,0 +1,315 @@
+"""Heat that is the loss: check numbers, closed forms, limits and the balance of heat."""
+
+import math
+from dataclasses import replace
+
+import helical_pair
+import numpy as np
+import pytest
+from helical_pair import Pair
+from scipy.integrate import quad
+
+from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
+from thrustwasher.gearmesh.closed_forms.flash_temperature import blok_flash
+from thrustwasher.gearmesh.closed_forms.line_contact import full_width
+from thrustwasher.gearmesh.kernels import constants
+from thrustwasher.gearmesh.kernels import layout as L
+from thrustwasher.gearmesh.kernels import step as k
+from thrustwasher.gearmesh.parameters import SPEC
+from thrustwasher.gearmesh.solve import prepare
+
+OIL, HELIX, FACE, SPEED, FORCE = 358.15, math.radians(20.0), 22e-3, 510.0, 1000.0
+SUN = GearMeshParams(
+    gear_ratio=38 / 18, pinion_teeth=18, normal_module=1.5e-3, helix_angle=HELIX, face_width=FACE,
+    mean_roughness=0.3e-6, youngs_modulus=206e9, conductivity=45.0, heat_capacity=440.0,
+    density=7800.0, viscosity_scale=8.28494e-3 * math.exp(-1074.1 / 214.5), viscosity_b=1074.1,
+    viscosity_c=129.5, pressure_viscosity=1.7e-8,
+)  # fmt: skip
+RING = replace(SUN, gear_ratio=74 / 18, internal=True, addendum_gear=0.8)
+PAIRS = {
+    "sun": (SUN, Pair(18, 38, 1.5e-3, SUN.pressure_angle, HELIX)),
+    "ring": (RING, Pair(18, 74, 1.5e-3, SUN.pressure_angle, HELIX, 1.0, 0.8, -1.0)),
+    "spur": (replace(SUN, helix_angle=0.0), Pair(18, 38, 1.5e-3, SUN.pressure_angle)),
+    "narrow": (replace(SUN, face_width=8e-3), Pair(18, 38, 1.5e-3, SUN.pressure_angle, HELIX)),
+}
+RADIUS = PAIRS["sun"][1].radius
+EFFUSIVITY, THETA = math.sqrt(45.0 * 440.0 * 7800.0), 2.0 * (1.0 - 0.3**2) / 206e9
+
+
+def at(params, force=FORCE, speed=SPEED, fidelity="field", **changes):
+    torque = force * PAIRS["spur" if params.helix_angle == 0.0 else "sun"][1].radius
+    return solve_gearmesh(replace(params, **changes), power=torque * speed, speed=speed,
+                          oil_temperature=OIL, fidelity=fidelity)  # fmt: skip
+
+
+def arrays(params, fidelity="field"):
+    """Return the constants, and positions, weights, shares of the path."""
+    par = prepare(params, fidelity)
+    n = int(par[L.D_PLACES])
+    return par, *(par[i : i + n] for i in (L.D_POSITION, L.D_PATH_LENGTH, L.D_PATH_SHARE))
+
+
+def test_geometry_and_pressures_of_the_sun_mesh():
+    pair, par = PAIRS["sun"][1], prepare(SUN, "field")
+    line = par[L.D_CENTRE] * math.sin(par[L.D_ANGLE])
+    pitch = par[L.D_CONTACT_RATIO] * pair.base_pitch
+    start = par[L.D_START] * line
+    pole = line / (1.0 + SUN.gear_ratio)
+    assert par[L.D_CONTACT_RATIO] == pytest.approx(1.488514, abs=5e-7)
+    found = np.array([start, pole, start + pitch])
+    assert 1e3 * found == pytest.approx([1.540668, 5.188892, 8.501400], abs=5e-7)
+    assert found == pytest.approx(helical_pair.path_of_contact(pair), rel=1e-13)
+    position = arrays(SUN)[1]
+    load = math.sqrt(FORCE * RADIUS * par[L.D_LOAD])
+    peaks = 4.0 / math.pi * load * par[L.D_PATH_PRESSURE : L.D_PATH_PRESSURE + len(position)]
+    assert 1e-6 * peaks[0] == pytest.approx(895.366, abs=5e-4)
+    assert 1e-6 * peaks[position == 0.0] == pytest.approx(563.299, abs=5e-4)
+    assert at(SUN).contact_pressure_max == pytest.approx(peaks[0], rel=1e-14)
+
+
+def test_pitting_stress_and_its_safety():
+    r = at(SUN)
+    assert 1e-6 * r.pitting_stress == pytest.approx(581.094, abs=5e-4)
+    assert 1e-6 * at(SUN, load_factor=1.5).pitting_stress == pytest.approx(711.69, abs=0.01)
+    assert r.pitting_safety == pytest.approx(1500.0 / 581.094, rel=1e-6)
+    assert at(SUN, contact_limit=1e9).pitting_safety == pytest.approx(1e3 / 581.094, rel=1e-6)
+    for name, (params, pair) in PAIRS.items():
+        wanted = helical_pair.pitting_stress(pair, FORCE, params.face_width, 206e9, 0.3)
+        assert at(params).pitting_stress == pytest.approx(wanted, rel=1e-12), name
+
+
+def test_loss_factors_friction_and_flash_of_the_sun_mesh():
+    pair = PAIRS["sun"][1]
+    assert prepare(SUN, "field")[L.D_LOSS] == pytest.approx(0.202623, abs=5e-7)
+    assert prepare(replace(SUN, face_width=8e-3), "field")[L.D_LOSS] == pytest.approx(
+        0.168919, abs=5e-7
+    )
+    assert helical_pair.loss_factor(pair, wide=False) == pytest.approx(0.168919, abs=5e-7)
+    constant = at(SUN, friction_law="constant")
+    assert constant.friction_power == pytest.approx(74.2296, abs=5e-5)
+    r = at(SUN)
+    assert r.mean_friction == pytest.approx(0.0477489, abs=5e-8)
+    assert r.flash_max == pytest.approx(20.6344, abs=5e-5)
+    par, position, _, _ = arrays(SUN)
+    end = par[L.D_PATH_FLASH + len(position) - 1] / par[L.D_PATH_FLASH]
+    assert r.flash_max * end == pytest.approx(11.5475, abs=5e-5)
+
+
+def flash_at(params, pair, rho, friction=1.0):
+    """Return Blok's temperature of evenly spread heat where the pinion's radius is ``rho``."""
+    force = FORCE * RADIUS / pair.radius
+    load = force / (math.cos(pair.angle) * sum(helical_pair.contact_ratios(pair)) * FACE)
+    width = full_width(load, helical_pair.normal_radius(pair, rho), THETA)
+    speeds = helical_pair.rolling(pair, rho, SPEED)
+    return blok_flash(load, friction, *speeds, width, EFFUSIVITY)
+
+
+@pytest.mark.parametrize("name", ["sun", "ring"])
+@pytest.mark.parametrize("fidelity", SPEC.fidelities)
+def test_loss_and_flash_are_those_of_the_closed_forms(name, fidelity):
+    params, pair = PAIRS[name]
+    r = at(params, fidelity=fidelity, friction_law="constant")
+    torque = FORCE * RADIUS
+
+    def heat(rho):
+        first, second = helical_pair.rolling(pair, rho, SPEED)
+        return abs(first - second)
+
+    start, pole, end = helical_pair.path_of_contact(pair)
+    slid = sum(quad(heat, *ends, epsrel=1e-13)[0] for ends in ((start, pole), (pole, end)))
+    force = torque / (pair.radius * math.cos(pair.angle) * math.cos(pair.base_helix))
+    assert r.friction_power == pytest.approx(0.05 * force * slid / (end - start), rel=1e-12)
+    closed = 0.05 * helical_pair.loss_factor(pair, wide=True) * torque * SPEED
+    assert r.friction_power == pytest.approx(closed, rel=1e-12)
+    most = max(flash_at(params, pair, rho, 0.05) for rho in np.linspace(start, end, 301))
+    assert r.flash_max == pytest.approx(most, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", list(PAIRS))
+@pytest.mark.parametrize("law", ["constant", "iso", "li-seireg", "mixed"])
+@pytest.mark.parametrize("fidelity", ["field", "fine"])
+def test_the_heat_of_all_positions_is_the_friction_power(name, law, fidelity):
+    params = replace(PAIRS[name][0], friction_law=law, sigma_rms=0.1e-6, load_factor=1.4)
+    pair = PAIRS[name][1]
+    par, position, weight, share = arrays(params, fidelity)
+    work, out = np.zeros(k.NWORK), np.zeros(k.NOUT)
+    point = np.array([FORCE * RADIUS, SPEED, OIL])
+    assert k.step(par, point, np.zeros(3), work, out, np.zeros(2, np.int32), 0.0, 0.0) == 0
+    friction = work[L.W_FRICTION : L.W_FRICTION + len(position)]
+    if law in ("constant", "iso"):
+        friction = np.full(len(position), work[L.F_FRICTION])
+    else:
+        assert np.ptp(friction) > 1e-3
+    rho = pair.radius * math.sin(pair.angle) + position * pair.base_pitch
+    sliding = np.abs(np.subtract(*helical_pair.rolling(pair, rho, SPEED)))
+    load = share * point[0] / (pair.radius * math.cos(pair.angle) * params.face_width)
+    q = friction * load * sliding  # W per metre of path and contact line
+    total = (q * weight).sum() * params.face_width / math.cos(pair.base_helix)
+    assert total == pytest.approx(out[L.F_POWER], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["sun", "ring"])
+def test_steady_bodies_are_047_of_the_mean_flash_above_the_oil(name):
+    params, pair = PAIRS[name]
+    r = at(params)
+    start, pole, end = helical_pair.path_of_contact(pair)
+    mean = sum(quad(lambda rho: flash_at(params, pair, rho), *ends, epsrel=1e-10)[0]
+               for ends in ((start, pole), (pole, end))) / (end - start)  # fmt: skip
+    assert r.bulk_temperature - OIL == pytest.approx(0.47 * r.mean_friction * mean, rel=1e-4)
+    sprayed = at(params, lubrication_factor=1.2).bulk_temperature - OIL
+    assert sprayed / (r.bulk_temperature - OIL) == pytest.approx(1.2, rel=1e-12)
+    assert r.oil_heat == pytest.approx(r.friction_power, rel=1e-13)
+    given = at(params, bulk_conductance=10.0).bulk_temperature - OIL
+    assert given == pytest.approx(r.friction_power / 10.0, rel=1e-12)
+
+
+def test_a_ring_and_a_gear_of_endless_size_are_the_same_rack():
+    shape = 1e7, 18.0, 0.35, 1.0
+    starts = [constants.start_of_contact(*shape, side) for side in (1.0, -1.0)]
+    assert starts[0] == pytest.approx(starts[1], rel=1e-5)
+    paths = [constants.path_lengths(*shape, x, s) for x, s in zip(starts, (1.0, -1.0), strict=True)]
+    assert paths[0] == pytest.approx(paths[1], rel=1e-5)
+
+
+def test_the_path_of_a_spur_pair_is_that_of_the_papers_geometry():
+    p = GearMeshParams()
+    loss, paper = prepare(p, "field"), prepare(GearMeshParams.preset("paper"), "field")
+    for place in (L.D_START, L.D_CONTACT_RATIO, L.D_LOSS, L.D_LINE, L.D_RADIUS, L.D_SLIDING):
+        assert loss[place] == paper[place]
+    by_module = replace(p, normal_module=0.254 / 30.0)
+    assert prepare(by_module, "field")[L.D_CENTRE] == pytest.approx(0.254, rel=1e-14)
+
+
+class Run:
+    """A mesh stepped through time, with the heat made and that handed to the oil."""
+
+    def __init__(self, params, fidelity="field"):
+        self.par = prepare(params, fidelity)
+        self.par[L.P_THERMAL_MODE] = 2.0  # which a solution without a past is not
+        self.state, self.work, self.out = np.zeros(k.NSTATE), np.zeros(k.NWORK), np.zeros(k.NOUT)
+        self.made = self.handed = 0.0
+
+    def step(self, load, speed, oil, dt):
+        point, flags = np.array([load, speed, oil]), np.zeros(k.NIOUT, np.int32)
+        assert k.step(self.par, point, self.state, self.work, self.out, flags, 0.0, dt) == 0
+        self.made += self.out[L.F_POWER] * dt
+        self.handed += self.out[L.F_OIL_HEAT] * dt
+
+
+@pytest.mark.parametrize("law", ["iso", "mixed"])
+@pytest.mark.parametrize("start", ["steady", "oil"])
+@pytest.mark.parametrize("params", [SUN, RING, GearMeshParams.preset("paper")],
+                         ids=["sun", "ring", "paper"])  # fmt: skip
+def test_heat_made_is_heat_stored_and_handed_to_the_oil(law, start, params):
+    if params.film_heat == "loss":
+        params = replace(params, friction_law=law, thermal_start=start)
+    run, rng = Run(params), np.random.default_rng(4)
+    run.step(20.0, 300.0, OIL, 1e-3)
+    first = run.out[L.F_BULK] - run.out[L.F_STORED] / run.par[L.D_BULK_CAPACITY]
+    for _ in range(400):
+        run.step(rng.uniform(-30.0, 30.0), rng.uniform(-50.0, 600.0), OIL + rng.uniform(0.0, 9.0),
+                 10.0 ** rng.uniform(-4.0, 2.0))  # fmt: skip
+    assert run.out[L.F_STORED] + run.handed == pytest.approx(run.made, rel=1e-9)
+    if params.film_heat == "loss":
+        rise = run.out[L.F_BULK] - first
+        assert run.par[L.D_BULK_CAPACITY] * rise == pytest.approx(run.out[L.F_STORED], rel=1e-9)
+
+
+def test_the_bodies_step_is_exact_and_bounded_however_long():
+    slow, fast = (Run(replace(SUN, thermal_start="oil")) for _ in range(2))
+    for _ in range(1000):
+        fast.step(14.0, SPEED, OIL, 0.01)
+    slow.step(14.0, SPEED, OIL, 10.0)
+    assert fast.out[L.F_BULK] == pytest.approx(slow.out[L.F_BULK], rel=1e-13)
+    assert fast.handed == pytest.approx(slow.handed, rel=1e-10)
+    slow.step(14.0, SPEED, OIL, 1e9)
+    steady = solve_gearmesh(SUN, power=14.0 * SPEED, speed=SPEED, oil_temperature=OIL)
+    assert slow.out[L.F_BULK] == pytest.approx(steady.bulk_temperature, rel=1e-12)
+
+
+def test_the_bodies_cool_at_rest_and_store_by_their_masses():
+    run = Run(SUN)
+    run.step(14.0, SPEED, OIL, 1.0)
+    hot = run.out[L.F_BULK]
+    run.step(0.0, 0.0, OIL, 5000.0)
+    assert run.out[L.F_BULK] < OIL + 0.01 * (hot - OIL)
+    gear = RADIUS * SUN.gear_ratio
+    mass = math.pi * FACE * (RADIUS**2 + gear**2) * 7800.0
+    assert run.par[L.D_BULK_CAPACITY] == pytest.approx(440.0 * mass, rel=1e-12)
+
+
+def test_load_factor_raises_flash_and_stresses_but_no_heat():
+    one, more = at(SUN), at(SUN, load_factor=1.5)
+    for name in ("friction_power", "mean_friction", "bulk_temperature", "film_ratio_gf"):
+        assert getattr(more, name) == getattr(one, name)
+    assert more.flash_max / one.flash_max == pytest.approx(1.5**0.75, rel=1e-13)
+    assert more.contact_pressure_max / one.contact_pressure_max == pytest.approx(1.5**0.5)
+
+
+def test_scuffing_and_micropitting_by_hand():
+    r = at(SUN, fzg_stage=9, structural_factor=1.1, permissible_film_ratio=0.4)
+    scuffs = 80.0 + (0.85 + 1.4 * 1.1) * 8.28494**-0.05 * 81.0
+    touching = r.bulk_temperature + r.flash_max - 273.15
+    assert r.scuffing_margin == pytest.approx(scuffs - touching, rel=1e-12)
+    assert r.scuffing_safety == pytest.approx((scuffs - 85.0) / (touching - 85.0), rel=1e-10)
+    assert r.micropitting_safety == pytest.approx(r.film_ratio_gf / 0.4, rel=1e-14)
+    assert r.film_ratio_gf == pytest.approx(r.film_thickness / 0.3e-6, rel=1e-12)  # A is hottest
+
+
+def test_mixed_friction_has_the_standards_mean_until_its_film_is_full():
+    mean = at(SUN).mean_friction
+    some = at(SUN, friction_law="mixed", sigma_rms=0.1e-6)
+    assert some.mean_friction == pytest.approx(mean, rel=1e-9)
+    assert some.friction_coefficient != pytest.approx(mean, rel=1e-2)
+    dry = at(SUN, friction_law="mixed", sigma_rms=2e-5)
+    assert dry.friction_coefficient == pytest.approx(mean, rel=1e-2)
+    full = at(SUN, friction_law="mixed", sigma_rms=1e-9)
+    assert full.mean_friction <= SUN.limiting_traction
+    # without asperities nothing is left to calibrate: what shears is the film
+    thinner = at(SUN, friction_law="mixed", sigma_rms=1e-9, eyring_stress=2.5e6)
+    assert thinner.mean_friction < full.mean_friction
+    slow, standard = (at(SUN, friction_law=law, speed=1e-3) for law in ("mixed", "iso"))
+    assert slow.friction_coefficient == pytest.approx(standard.mean_friction, rel=1e-2)
+    assert standard.mean_friction < 0.12  # the least rolling speed bounds it
+
+
+def test_li_seireg_and_mixed_follow_the_bodies_temperature():
+    for law in ("li-seireg", "mixed"):
+        hot = at(SUN, friction_law=law, sigma_rms=0.1e-6, bulk_conductance=0.7)
+        cold = at(SUN, friction_law=law, sigma_rms=0.1e-6, viscosity_at="inlet")
+        assert hot.bulk_temperature > OIL + 50.0
+        assert hot.film_thickness < cold.film_thickness
+        rise = hot.friction_power / 0.7
+        assert hot.bulk_temperature - OIL == pytest.approx(rise, rel=1e-10)
+
+
+def test_twice_as_many_positions_hardly_change_the_loss():
+    for name, (params, _) in PAIRS.items():
+        for law in ("mixed", "li-seireg"):
+            field, fine = (at(params, fidelity=f, friction_law=law, sigma_rms=0.1e-6).friction_power
+                           for f in ("field", "fine"))  # fmt: skip
+            assert field == pytest.approx(fine, rel=5e-4), (name, law)
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"helix_angle": 0.8}, r"helix_angle = 0.8 rad, allowed: 0 .. 0.785398 rad"),
+    ({"addendum": 0.5}, r"addendum = 0.5, .*the contact ratio is 0.\d+, allowed: 1 and more"),
+    ({"film_heat": "atan"}, r"film_heat = 'atan', allowed: without helix_angle"),
+    ({"addendum": 1.5, "addendum_gear": 0.3, "gear_ratio": 1.0, "pinion_teeth": 12},
+     "addendum = 1.5, allowed: less"),
+    ({"internal": True, "gear_ratio": 1.0}, "addendum_gear = 1.0, allowed: less for a ring"),
+    ({"internal": True, "gear_ratio": 2.0}, "addendum_gear = 1.0, allowed: less for a ring"),
+    ({"contact_limit": 1.0}, "contact_limit = 1.0 Pa, allowed: 0 "),
+    ({"addendum_gear": 0.1}, "addendum_gear = 0.1, allowed: 0 "),
+    ({"normal_module": 1e-6}, "normal_module = 1e-06 m, allowed: 0 "),
+    ({"pinion_teeth": 8}, "pinion_teeth = 8, allowed: 1"),
+])  # fmt: skip
+def test_what_cannot_be_is_refused_in_one_line(changes, message):
+    with pytest.raises(ParameterError, match=message) as refused:
+        replace(SUN, **changes)
+    assert "\n" not in str(refused.value)
+
+
+def test_mixed_friction_needs_the_heat_of_the_loss():
+    with pytest.raises(ParameterError, match="friction_law = 'mixed': the paper has a spur pair"):
+        GearMeshParams.preset("paper", friction_law="mixed")

@@ -1,0 +1,110 @@
+"""A helical pair, external or internal: path of contact, loss and contact stress. SI units.
+
+The pinion has index 1. ``side`` is 1 for an external gear and -1 for a ring. Positions along the
+transverse path of contact are the pinion's radii of curvature.
+"""
+
+import math
+from typing import NamedTuple
+
+
+class Pair(NamedTuple):
+    """Two gears at their reference centre distance; addenda in normal modules."""
+
+    teeth: float
+    teeth_gear: float
+    normal_module: float
+    normal_angle: float
+    helix: float = 0.0
+    addendum: float = 1.0
+    addendum_gear: float = 1.0
+    side: float = 1.0
+
+    @property
+    def angle(self) -> float:
+        """Transverse pressure angle."""
+        return math.atan(math.tan(self.normal_angle) / math.cos(self.helix))
+
+    @property
+    def base_helix(self) -> float:
+        """Helix angle on the base cylinder."""
+        return math.asin(math.sin(self.helix) * math.cos(self.normal_angle))
+
+    @property
+    def radius(self) -> float:
+        """Pitch radius of the pinion."""
+        return 0.5 * self.teeth * self.normal_module / math.cos(self.helix)
+
+    @property
+    def radius_gear(self) -> float:
+        """Pitch radius of the gear."""
+        return self.radius * self.teeth_gear / self.teeth
+
+    @property
+    def line(self) -> float:
+        """Length between the base tangent points, a sin(angle)."""
+        return (self.radius_gear + self.side * self.radius) * math.sin(self.angle)
+
+    @property
+    def base_pitch(self) -> float:
+        """Transverse base pitch."""
+        return 2.0 * math.pi * self.radius / self.teeth * math.cos(self.angle)
+
+
+def path_of_contact(pair: Pair) -> tuple[float, float, float]:
+    """Return the pinion's radius of curvature [m] at start A, pitch point C and end E."""
+    tip = pair.radius + pair.addendum * pair.normal_module
+    tip_gear = pair.radius_gear + pair.side * pair.addendum_gear * pair.normal_module
+    base, base_gear = (r * math.cos(pair.angle) for r in (pair.radius, pair.radius_gear))
+    start = pair.side * (pair.line - math.sqrt(tip_gear**2 - base_gear**2))
+    return start, pair.radius * math.sin(pair.angle), math.sqrt(tip**2 - base**2)
+
+
+def contact_ratios(pair: Pair) -> tuple[float, float]:
+    """Return approach and recess [-], the path before and after the pitch point in base pitches."""
+    start, pole, end = path_of_contact(pair)
+    return (pole - start) / pair.base_pitch, (end - pole) / pair.base_pitch
+
+
+def normal_radius(pair: Pair, rho: float) -> float:
+    """Return the combined radius [m] across the contact line where the pinion's is ``rho``."""
+    gear = pair.line - pair.side * rho
+    return rho * gear / ((gear + pair.side * rho) * math.cos(pair.base_helix))
+
+
+def rolling(pair: Pair, rho: float, speed: float) -> tuple[float, float]:
+    """Return the speeds [m/s] of the contact along both flanks, the pinion turning at ``speed``."""
+    return speed * rho, speed * pair.teeth / pair.teeth_gear * (pair.line - pair.side * rho)
+
+
+def loss_factor(pair: Pair, *, wide: bool) -> float:
+    """Return H_v [-]: power lost = H_v x coefficient of friction x power transmitted.
+
+    ``wide``: an overlap of 1 and more, the load spread evenly on the whole path at any time; else
+    two pairs share it equally and one bears it alone (Ohlendorf 1958), contact ratios 1 to 2 with
+    the pitch point where one is alone.
+    """
+    approach, recess = contact_ratios(pair)
+    squares, whole = approach**2 + recess**2, approach + recess
+    shape = squares / whole if wide else 1.0 - whole + squares
+    both = 1.0 / pair.teeth + pair.side / pair.teeth_gear
+    return math.pi * both / math.cos(pair.base_helix) * shape
+
+
+def pitting_stress(
+    pair: Pair, force: float, width: float, youngs_modulus: float, poisson: float
+) -> float:
+    """Return sigma_H [Pa] = Z_H Z_E Z_eps Z_beta sqrt(F_t (u + side)/(d_1 b u)), load factors 1.
+
+    ``force`` [N] around the pitch circle. ISO 6336-2 as publicly quoted, Z_beta = 1/sqrt(cos beta).
+    """
+    angle, contact = pair.angle, sum(contact_ratios(pair))
+    zone = 2.0 * math.cos(pair.base_helix) / (math.cos(angle) * math.sin(angle))
+    elastic = youngs_modulus / (2.0 * math.pi * (1.0 - poisson**2))
+    overlap = width * math.sin(pair.helix) / (math.pi * pair.normal_module)
+    share = 1.0 / contact
+    if overlap < 1.0:
+        share = (4.0 - contact) / 3.0 * (1.0 - overlap) + overlap / contact
+    u = pair.teeth_gear / pair.teeth
+    load = force / (2.0 * pair.radius * width) * (u + pair.side) / u
+    return math.sqrt(zone * elastic * share / math.cos(pair.helix) * load)

@@ -1,0 +1,129 @@
+"""What stands beside the figures of a shift: usual ranges, phases, heat, safeties; no blame."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shift_stand_in
+
+from thrustwasher.model.registry import find_spec
+from thrustwasher.report.html import render
+from thrustwasher.report.panels import shift_plots
+from thrustwasher.report.shift import shift_tables, summary
+from thrustwasher.report.shift.heat_split import heat_split
+from thrustwasher.report.shift.shift_record import KeyFigure, Part
+from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.report.shift.usual import beside, ranges, usual_table
+
+
+def full(pitting=1.8, jerk=24.7):
+    """Return a shift with vehicle, pistons, a pack that stores heat, rated teeth and a sump."""
+    made = shift_stand_in.record(washer=False, mesh=True)
+    t, one = made.time, np.ones_like(made.time)
+    power = made.signals["clutch.friction_power"]
+    # Nine tenths are stored; the oil gets the rest, as means of the steps.
+    energy = np.concatenate(([0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(t))))
+    given = np.concatenate(([0.0], 0.1 * np.diff(energy) / np.diff(t)))
+    teeth = {"pitting_safety": pitting, "scuffing_safety": 7.8, "micropitting_safety": 0.4,
+             "film_ratio_gf": 0.4, "contact_pressure_max": 976e6}  # fmt: skip
+    signals = {
+        **made.signals,
+        "transmission.output_acceleration": np.where(t < 1.75, 12.0, 11.0),
+        "transmission.clutch_piston_pressure": 1e6 * np.clip(t, 0.0, 0.7),
+        "transmission.brake_piston_pressure": 0.0 * one,
+        **{f"transmission.{pack}_{side}_speed": 100.0 * one
+           for pack in ("clutch", "brake") for side in ("hub", "drum")},
+        "clutch.load": 3000.0 * one, "clutch.energy": energy, "clutch.oil_heat": given,
+        "clutch.stored_heat": 0.9 * energy, "sump.temperature": 358.15 * one,
+        "mesh.speed": 400.0 * (t < 1.75),
+        **{f"mesh.{name}": value * one for name, value in teeth.items()},
+    }  # fmt: skip
+    figures = [KeyFigure("peak_jerk", "jerk", "m/s3", jerk),
+               KeyFigure("peak_clutch_heat_flux", "flux", "W/m2", 0.83e6),
+               KeyFigure("torque_hole", "hole", "m/s2", 0.1),
+               KeyFigure("greatest_slip", "slip", "rad/s", 370.0)]  # fmt: skip
+    parts = [p for p in made.parts if p.name != "mesh"] + [Part("mesh", find_spec("gearmesh"), {})]
+    return replace(made, signals=signals, reach=0.1, parts=parts,
+                   key_figures=[*made.key_figures, *figures])  # fmt: skip
+
+
+def test_every_range_is_in_order_and_says_what_it_rests_on():
+    assert len(ranges()) >= 10
+    for usual in ranges().values():
+        assert usual.range[0] < usual.range[1] and usual.text and usual.basis
+
+
+def test_at_least_ten_figures_stand_beside_a_range():
+    rows = {row[0]: row[1:] for row in usual_table(full()).rows}
+    assert len(rows) >= 10
+    plain = {words: [c.replace("\N{NO-BREAK SPACE}", " ") for c in row]
+             for words, row in rows.items()}  # fmt: skip
+    assert plain["jerk of the vehicle, over 10 ms"][:3] == ["24.7 m/s³", "10 .. 15 m/s³", "▲ above"]
+    assert plain["greatest heat per area and time"][:3] == [
+        "0.83 W/mm²", "1 .. 2.5 W/mm²", "▼ below"]  # fmt: skip
+    assert plain["least safety against pitting"][:3] == ["1.8", "1 or more", ""]
+    # 3 kN on four fifths of a face of 64/85 mm.
+    assert plain["greatest pressure on the land while it slips"][0] == "0.381 MPa"
+
+
+def test_a_figure_outside_its_range_is_marked_but_no_warning():
+    page = shift_page(full(jerk=99.0))
+    assert page.warnings == []
+    (card,) = [card for card in page.cards if card.name == "jerk"]
+    assert card.note.startswith("usual: 10") and card.note.endswith("above")
+
+
+def test_a_pack_alone_on_a_rig_has_no_ranges_of_a_shift():
+    assert beside(replace(full(), alone=True)) == {}
+
+
+def test_teeth_below_their_limit_are_a_warning_and_said_to_be_an_estimate():
+    (words,) = summary.warnings(full(pitting=0.9))
+    assert "against pitting is 0.90" in words and "publicly quoted" in words
+    assert "estimates, no rating" in " ".join(summary.trust_texts(full()))
+
+
+def test_steels_of_the_paper_are_not_held_against_other_teeth():
+    """The stand-in's margins of AISI 1020 are negative; these teeth are case-hardened."""
+    assert full().figures["stress_margin_aisi1020"] < 0.0
+    assert "AISI" not in " ".join([*summary.warnings(full()), *summary.sentences(full())])
+
+
+def test_phases_fill_the_run_and_share_the_heat_of_the_clutch():
+    rows = shift_tables.phase_table(full()).rows
+    assert [row[0] for row in rows] == ["first gear", "torque phase", "inertia phase", "locked"]
+    assert sum(float(row[2]) for row in rows) == pytest.approx(2.5)
+    heat = sum(float(row[3].replace("\N{THIN SPACE}", "")) for row in rows)
+    assert heat == pytest.approx(full().energy["clutch"], rel=1e-3)
+
+
+def test_heat_made_is_stored_or_in_the_oil():
+    split = heat_split(full(), "clutch")
+    assert split.to_oil[-1] == pytest.approx(0.1 * split.made[-1])
+    assert np.max(np.abs(split.rest)) < 1e-9 * split.made[-1]
+    row = next(row for row in shift_tables.heat_table(full()).rows if row[0] == "clutch")
+    assert row[-1] == "10.000"
+
+
+def test_each_panel_appears_only_where_the_scene_has_its_part():
+    anchors = {"comfort", "actuation", "heat"}
+    page = shift_page(full())
+    assert anchors <= {section.anchor for section in page.sections} and render(page)
+    bare = shift_page(shift_stand_in.record(washer=False))
+    assert not anchors & {section.anchor for section in bare.sections}
+    assert [a.get_title(loc="left") for a in shift_plots.heat_figure(full()).axes][1] == "Oil sump"
+
+
+def test_a_film_without_a_limit_is_drawn_as_no_safety():
+    def drawn(record):
+        return {line.get_label() for line in shift_plots.stress_figure(record).axes[0].lines}
+
+    assert "against micropitting" not in drawn(full())
+    mesh = Part("mesh", find_spec("gearmesh"), {"permissible_film_ratio": 0.3})
+    assert "against micropitting" in drawn(replace(full(), parts=[*full().parts[:-1], mesh]))
+
+
+def test_jerk_is_drawn_as_the_change_over_ten_milliseconds():
+    axis = shift_plots.comfort_figure(full()).axes[1]
+    drawn = axis.lines[0].get_ydata()
+    assert np.min(drawn) == pytest.approx(-0.1 / 0.01) and drawn[-1] == 0.0

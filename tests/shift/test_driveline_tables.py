@@ -1,0 +1,91 @@
+"""Engine, vehicle and courses of pressure in a scene file."""
+
+import pytest
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.shift import load_scene
+from thrustwasher.transmission.parameters import course_points
+from thrustwasher.transmission.vehicle import Vehicle
+
+CAR = {"mass": 1650.0, "wheel_radius": 0.32, "final_drive": 3.2, "wheel_inertia": 4.8}
+
+
+def changed(tmp_path, text, base="planetary"):
+    path = tmp_path / "mine.toml"
+    path.write_text(f'base = "{base}"\n{text}', encoding="utf-8")
+    return load_scene(path)
+
+
+def test_a_vehicle_gives_inertia_and_load():
+    car = Vehicle(**CAR, rolling=0.011, drag_area=0.68)
+    assert car.inertia == pytest.approx(16.96875, rel=1e-12)
+    given = car.driveline(elastic=False)
+    assert given["carrier_inertia"] == car.inertia and "vehicle_inertia" not in given
+    assert given["rolling_torque"] == pytest.approx(0.011 * 1650 * 9.80665 * 0.1, rel=1e-12)
+    speed = 238.0 * 0.1  # m/s at 238 rad/s of the output
+    torque = given["load_torque"] * (238.0 / given["load_speed"]) ** 2
+    assert torque == pytest.approx(0.6 * 0.68 * speed**2 * 0.1, rel=1e-12)
+    uphill = Vehicle(**CAR, rolling=0.0, grade=0.75).driveline(elastic=True)
+    assert uphill["grade_torque"] == pytest.approx(1650 * 9.80665 * 0.6 * 0.1, rel=1e-12)
+    assert uphill["vehicle_inertia"] == car.inertia
+
+
+def test_the_ring_driven_scene_is_read():
+    scene = load_scene("planetary")
+    gearbox = scene.parts["transmission"].params
+    assert gearbox.ratio == pytest.approx(38.0 / 74.0) and gearbox.actuation == "pressure"
+    assert gearbox.carrier_inertia == pytest.approx(16.96875)
+    assert course_points(gearbox, "clutch_pressure")[1] == (0.11, 4e4)
+    assert course_points(gearbox, "engine_torque")[-1] == (0.86, 250.0)
+    assert (scene.engaging, scene.shift_start, scene.kiss_end) == ("clutch", 0.1, 0.2)
+    assert not scene.alone and {0.1, 0.2, 0.79, 0.38} <= scene.corners()
+
+
+def test_a_boost_before_the_kiss_point_does_not_end_it(tmp_path):
+    boost = (
+        "points = [[0.1, 0], [0.105, 3e5], [0.14, 3e5], [0.145, 4e4], [0.21, 4e4], [0.4, 3.2e5]]"
+    )
+    assert changed(tmp_path, f"[pressure.clutch]\n{boost}").kiss_end == 0.21
+
+
+def test_a_downshift_presses_the_brake(tmp_path):
+    text = """
+[pressure.clutch]
+points = [[0.1, 7e5], [0.3, 0.0]]
+[pressure.brake]
+points = [[0.12, 0.0], [0.2, 5e4], [0.5, 7e5]]
+"""
+    scene = changed(tmp_path, text)
+    assert (scene.engaging, scene.shift_start, scene.kiss_end) == ("brake", 0.12, 0.2)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[shift]\nstart = 0.1", "a ramp or courses"),
+        ("[transmission]\ncarrier_inertia = 8.0", "carrier_inertia beside a table"),
+        ("[transmission]\nload_torque = 8.0", "load_torque beside a table"),
+        ("[transmission]\nengine_torque = 8.0", "one"),
+        ("[transmission]\nsun_inertia = 0.2", "input_inertia beside a table"),
+        ("[pressure.clutch]\npoints = [[0.2, 0.0], [0.1, 1e5]]", "clutch_pressure_time_2"),
+        ("[pressure.clutch]\npoints = [[0.2, -1.0]]", "clutch_pressure_1"),
+        ("[pressure.clutch]\npoints = [0.2, 1.0]", r"pairs \[time, pressure\]"),
+        ("[pressure.brake]\nouter_radius = 0.1", "there is no 'outer_radius' here"),
+        ("[pressure.drum]\npoints = []", "there is no 'drum' here"),
+        ("[engine]\npower = 1.0", "there is no 'power' here"),
+        ("[vehicle]\nmass = -1.0", "mass = -1.0 kg"),
+        ("[vehicle]\nwheels = 4", "there is no 'wheels' here"),
+    ],
+)
+def test_what_contradicts_is_refused_in_one_line(tmp_path, text, said):
+    with pytest.raises(ParameterError, match=said) as refused:
+        changed(tmp_path, text)
+    assert "\n" not in str(refused.value)
+
+
+def test_an_inertia_answers_to_both_names_in_a_scene(tmp_path):
+    scene = changed(tmp_path, "[transmission]\nsun_inertia = 0.3", "planetary-sun")
+    assert scene.parts["transmission"].params.input_inertia == 0.3
+    both = "[transmission]\nsun_inertia = 0.3\ninput_inertia = 0.3"
+    with pytest.raises(ParameterError, match="another name of input_inertia"):
+        changed(tmp_path, both, "planetary-sun")

@@ -1,0 +1,92 @@
+"""One oil for all parts of a scene: its viscosity at two or three temperatures, and the rest."""
+
+import math
+
+import pytest
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.shift import load_scene
+from thrustwasher.shift.run import _remarks
+from thrustwasher.shift.scene.oil import roelands, three_points, vogel
+from thrustwasher.tribology.viscosity import viscosity
+
+FLUID = ((297.15, 60.8e-3), (313.15, 31.4e-3), (373.15, 5.99e-3))
+
+
+def changed(tmp_path, text):
+    path = tmp_path / "mine.toml"
+    path.write_text(f'base = "planetary"\n{text}', encoding="utf-8")
+    return load_scene(path)
+
+
+def test_both_laws_go_through_three_points():
+    scale, constant, exponent = roelands(FLUID)
+    factor, b, c = vogel(FLUID)
+    for t, thick in FLUID:
+        assert viscosity(t, scale, constant, exponent)[0] == pytest.approx(thick, rel=1e-12)
+        assert factor * math.exp(b / (t - 273.15 + c)) == pytest.approx(thick, rel=1e-12)
+    # The fluid of Jackson & Green has 9.37 mPa s at 80 degC.
+    assert viscosity(353.15, scale, constant, exponent)[0] == pytest.approx(9.37e-3, rel=2e-3)
+
+
+def test_two_points_lie_on_the_line_of_astm_d341():
+    """SAE 30 of 100 and 11 mm2/s at 40 and 100 degC; log log(nu + 0.7) is straight over log T."""
+    points = three_points([(373.15, 11e-6 * 880.0), (313.15, 100e-6 * 880.0)], 880.0)
+    level = [math.log10(math.log10(1e6 * x / 880.0 + 0.7)) for _, x in points]
+    run = [math.log10(t) for t, _ in points]
+    slopes = [(level[i] - level[0]) / (run[i] - run[0]) for i in (1, 2)]
+    assert slopes[0] == pytest.approx(slopes[1], rel=1e-9)
+    assert [t for t, _ in points] == pytest.approx([283.15, 313.15, 373.15])
+
+
+def test_every_part_has_the_scenes_oil(tmp_path):
+    scene = changed(tmp_path, "[sump]\n")
+    washer, mesh = scene.parts["washer"].params, scene.parts["ring_mesh"].params
+    for part in ("clutch", "brake"):
+        assert scene.parts[part].params.viscosity_scale == washer.viscosity_scale
+    for name in ("clutch", "brake", "washer", "mesh", "ring_mesh", "sump"):
+        assert scene.parts[name].params.oil_heat_capacity == 2050.0
+    assert scene.parts["transmission"].params.oil_density == 850.0
+    assert mesh.pressure_viscosity == 1.7e-8
+    for t in (313.15, 358.15):
+        thick = mesh.viscosity_scale * math.exp(mesh.viscosity_b / (t - 273.15 + mesh.viscosity_c))
+        law = (washer.viscosity_scale, washer.viscosity_constant, washer.viscosity_exponent)
+        assert thick == pytest.approx(viscosity(t, *law)[0], rel=2e-3)
+    assert scene.notes == ()
+
+
+def test_a_parts_own_oil_overrides_and_is_said(tmp_path):
+    scene = changed(tmp_path, "[mesh]\noil_density = 900.0")
+    assert scene.parts["mesh"].params.oil_density == 900.0
+    assert scene.parts["ring_mesh"].params.oil_density == 850.0
+    assert _remarks(scene, scene) == ["mesh: oil_density of its own, not of the scene's oil"]
+
+
+def test_an_oil_is_known_by_its_kinematic_viscosity_too(tmp_path):
+    found = []
+    for key, unit, factor in (("viscosity", "mPa.s", 0.8), ("kinematic_viscosity", "cSt", 1.0)):
+        path = tmp_path / "mine.toml"
+        points = f"[[313.15, '{40 * factor} {unit}'], [373.15, '{7 * factor} {unit}']]"
+        path.write_text(
+            f'base = "planetary-sun"\n[oil]\ndensity = 800.0\n{key} = {points}', encoding="utf-8"
+        )
+        found.append(load_scene(path).parts["clutch"].params.viscosity_scale)
+    assert found[0] == pytest.approx(found[1], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("oil", "said"),
+    [
+        ("viscosity = [[313.15, 0.03], [373.15, 0.04]]", "0.04 Pa.s at 100 degC, allowed: above 0"),
+        ("viscosity = [[313.15, 0.03]]", "1 points, allowed: 2 or 3"),
+        ("viscosity = [[300, 0.06], [340, 0.05], [380, 0.001]]", "falls ever more slowly"),
+        ("viscosity = 3", "pairs"),
+        ("kinematic_viscosity = [[313.15, 3e-5], [373.15, 5e-6]]", "beside"),
+        ("viscositi = 3", "did you mean 'viscosity'"),
+        ("density = 8.5", "density = 8.5 kg/m3, allowed: 500 .. 1500"),
+    ],
+)
+def test_an_oil_that_is_none_is_refused_in_one_line(tmp_path, oil, said):
+    with pytest.raises(ParameterError, match=said) as refused:
+        changed(tmp_path, f"[oil]\n{oil}")
+    assert "\n" not in str(refused.value) and "[oil]" in str(refused.value)

@@ -1,0 +1,149 @@
+"""Several shifts in one run: each is the shift it would be alone, the oil gets all their heat."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scene_runs import instances
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.shift import load_scene, run_sequence, run_shift
+from thrustwasher.shift.scene.sequence import shift_scene
+
+BODY = """base = "planetary"
+stop_time = {stop}
+[sequence]
+shifts = {shifts}
+window = {window}
+[sequence.down]
+clutch = [[0.0, 7.2e5], [0.1, 7.2e5], [0.14, 1.5e5], [0.4, 1e5], [0.5, 0.0]]
+brake = [[0.0, 0.0], [0.3, 0.0], [0.31, 4e4], [0.5, 6e4], [0.7, 7.6e5]]
+engine = [[0.0, 32.0], [0.1, 120.0], [1.3, 120.0], [1.5, 25.0]]
+{more}"""
+TWO = '[[0.0, "up"], [6.0, "down"]]'
+
+
+def scene(tmp_path, shifts=TWO, stop=9.0, window=1.3, more="[sump]"):
+    path = tmp_path / "mine.toml"
+    path.write_text(BODY.format(shifts=shifts, stop=stop, window=window, more=more), "utf-8")
+    return load_scene(path)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    two = scene(tmp_path_factory.mktemp("two"))
+    return run_sequence(two, instances(two))
+
+
+def test_the_first_shift_is_the_one_it_is_alone(run):
+    alone = load_scene("planetary")
+    alone = run_shift(alone, instances(alone))
+    mine = run.shifts[0]
+    assert [p.name for p in mine.phases] == [p.name for p in alone.phases]
+    for name in ("lock_time", "slip_energy", "filled_time", "peak_jerk"):
+        assert mine.figures[name] == pytest.approx(alone.figures[name], rel=2e-3)
+
+
+def test_the_second_shift_is_down_and_its_heat_its_own(run):
+    s, down = run.signals, run.shifts[1]
+    assert [p.name for p in down.phases][-1] == "locked"
+    assert 6.3 < down.figures["lock_time"] < 6.8
+    total = s["transmission.brake_heat"][-1]
+    first = np.interp(6.0, run.time, s["transmission.brake_heat"])
+    assert down.figures["slip_energy"] == pytest.approx(total - first, rel=1e-6)
+    assert s["transmission.brake_locked"][-1] == 1.0 and s["transmission.clutch_locked"][-1] == 0.0
+
+
+def test_heat_made_is_heat_stored_and_heat_in_the_oil(run):
+    s, h = run.signals, np.diff(run.time)
+    for pack in ("clutch", "brake"):
+        stored = s[f"{pack}.stored_heat"][-1] - s[f"{pack}.stored_heat"][0]
+        oil = np.sum(s[f"{pack}.oil_heat"][1:] * h)
+        assert stored + oil == pytest.approx(s[f"{pack}.energy"][-1], rel=1e-9)
+    factors = (1.0, 1.0, 8.0, run.scene.parts["sump"].params.factor_4)
+    parts = ("clutch", "brake", "washer", "mesh")
+    sent = sum(f * np.sum(s[f"{p}.oil_heat"][1:] * h) for f, p in zip(factors, parts, strict=True))
+    assert s["sump.received_heat"][-1] == pytest.approx(sent, rel=1e-9)
+    left = s["sump.stored_heat"][-1] + s["sump.ambient_heat"][-1]
+    assert left == pytest.approx(s["sump.received_heat"][-1], rel=1e-9)
+    assert abs(s["transmission.energy_residual"][-1]) < 1e-9 * s["transmission.engine_work"][-1]
+
+
+def test_steps_are_long_between_the_shifts(run):
+    h = np.diff(run.time)
+    assert h.max() <= 0.5 + 1e-12 and h.min() == pytest.approx(1e-3)
+    assert len(h) < 2.0 * 1300 + 40
+    assert {1.3, 6.0, 7.3} <= set(run.time.tolist())
+
+
+def test_the_steps_between_hardly_matter_to_the_oil(run, tmp_path):
+    fine = scene(tmp_path)
+    fine = replace(fine, sequence=replace(fine.sequence, pause_step=0.05))
+    again = run_sequence(fine, instances(fine))
+    rise, other = (r.oil_temperature[-1] - r.oil_temperature[0] for r in (run, again))
+    assert other == pytest.approx(rise, rel=0.01)
+    assert again.shifts[1].figures["lock_time"] == pytest.approx(
+        run.shifts[1].figures["lock_time"], abs=1e-3
+    )
+
+
+def test_the_record_and_the_table_hold_both_shifts(run, tmp_path):
+    assert run.oil_temperature[-1] != run.oil_temperature[0]
+    record = run.as_dict()
+    assert [s["direction"] for s in record["shifts"]] == ["up", "down"]
+    run.write_csv(tmp_path / "all.csv")
+    assert len((tmp_path / "all.csv").read_text("utf-8").splitlines()) == len(run.time) + 1
+
+
+@pytest.mark.parametrize(("given", "words"), [
+    ({"shifts": '[[0.0, "up"], [6.0, "up"]]'}, "'up' at 6 s after 'up' at 0 s, allowed: up and"),
+    ({"shifts": '[[6.0, "up"], [0.0, "down"]]'}, "a shift at 0 s, allowed: window"),
+    ({"shifts": '[[0.0, "up"], [1.0, "down"]]'}, "a shift at 1 s, allowed: window"),
+    ({"shifts": '[[0.0, "up"], [8.0, "down"]]'}, "a shift at 8 s"),
+    ({"shifts": '[[0.0, "side"]]'}, "allowed: pairs"),
+    ({"shifts": "[]"}, "allowed: pairs"),
+    ({"more": "[sequence.up]"}, "there is no 'up' here"),
+    ({"window": 0.0}, "window = 0.0 s, allowed"),
+    ({"more": "[sump]\nvolume = 0.0"}, "volume = 0"),
+])  # fmt: skip
+def test_a_sequence_out_of_order_and_a_sump_without_oil_are_refused_in_one_line(
+    given, words, tmp_path
+):
+    with pytest.raises(ParameterError) as told:
+        scene(tmp_path, **given)
+    assert words in str(told.value) and "\n" not in str(told.value)
+
+
+def test_the_plot_shows_oil_plates_and_speeds(run):
+    from thrustwasher.report.panels.sequence_plot import sequence_figure
+
+    labels = [axes.get_ylabel() for axes in sequence_figure(run).axes]
+    assert labels == ["oil [degC]", "plates [degC]", "speed [rad/s]"]
+
+
+def test_a_shift_down_by_pistons_needs_its_courses(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(BODY.partition("[sequence.down]")[0].format(shifts=TWO, stop=9, window=1.3))
+    with pytest.raises(ParameterError, match=r"down\] is missing"):
+        load_scene(path)
+
+
+def test_ramps_of_a_command_go_up_and_down(tmp_path):
+    path = tmp_path / "ramps.toml"
+    path.write_text('base = "msl"\nstop_time = 40.0\n[sequence]\n'
+                    'shifts = [[0.0, "up"], [20.0, "down"]]\nwindow = 6.0\n')  # fmt: skip
+    whole = load_scene(path)
+    up, down = (shift_scene(whole, i) for i in range(2))
+    assert (up.command(0.0), up.command(20.0)) == (up.shift_from, up.shift_to) == (0.0, 1.0)
+    assert (down.command(20.0), down.command(40.0)) == (1.0, 0.0)
+    found = run_sequence(whole, instances(whole)).signals
+    assert found["transmission.brake_locked"][-1] == 1.0 and found["transmission.lock_time"][-1] > 0
+
+
+def test_one_run_does_not_take_the_other_scene(run, tmp_path):
+    with pytest.raises(ParameterError, match="run_sequence"):
+        run_shift(run.scene, {})
+    with pytest.raises(ParameterError, match="run_shift"):
+        run_sequence(load_scene("planetary"), {})
+    with pytest.raises(ParameterError, match="gauss-seidel"):
+        run_sequence(run.scene.with_options(master="jacobi"), {})

@@ -1,0 +1,28 @@
+"""A sump in a shift: the parts' oil has its temperature, and it gets their heat."""
+
+import numpy as np
+import pytest
+
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.shift import load_scene, run_shift
+
+
+def test_the_oil_of_all_parts_is_the_sumps_and_every_washer_heats_it(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'base = "planetary"\nstop_time = 0.02\n[sump]\nvolume = 1e-4\nhousing_capacity = 0.0\n'
+        'conductance = 0.0\n[washer]\nfidelity = "coarse"\n', encoding="utf-8",
+    )  # fmt: skip
+    scene = load_scene(path)
+    instances = {n: DirectInstance(p.spec, parameters=p.parameters())
+                 for n, p in scene.parts.items()}  # fmt: skip
+    s = run_shift(scene, instances).signals
+    oil = s["sump.temperature"]
+    assert oil[0] == 358.15 and oil[-1] > oil[0]
+    for part in ("clutch", "brake", "washer", "mesh", "ring_mesh"):
+        assert (s[f"{part}.oil_temperature"][1:] == oil[1:]).all()
+    received = np.sum(8.0 * s["sump.heat_3"][1:]) * 1e-3
+    factors = {1: 1.0, 2: 1.0, 4: 4.0, 5: 4.0}
+    others = sum(f * np.sum(s[f"sump.heat_{i}"][1:]) * 1e-3 for i, f in factors.items())
+    assert s["sump.received_heat"][-1] == pytest.approx(received + others, rel=1e-9)
+    assert received > 0.0 and (s["sump.heat_3"][2:] == s["washer.oil_heat"][1:-1]).all()

@@ -1,0 +1,232 @@
+# mypy: disable-error-code="no-any-return"
+"""The mesh heated by all of its loss: friction along the path, bodies, the hottest position."""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import (
+    floored,
+    floored_slope,
+    soft_most,
+    soft_most_slope,
+    soft_size,
+    soft_size_slope,
+)
+from ...numerics.status import HOT, OK, OUTSIDE_VERIFIED
+from ...tribology.lumped_body import rise_after, rise_changes
+from . import layout as L
+from .contact import hertz_width
+from .directional_derivative import asperity_changes, flash_change
+from .flank_temperature import LOWEST_OIL, film_factor, oil_viscosity
+from .mesh_point import (
+    HOT_FILM,
+    LEAST_LINE_LOAD,
+    LEAST_SPEED,
+    contact_weight,
+    outside,
+    stress_asperities,
+    viscosity_follows,
+)
+from .path_friction import fill_friction, film_scale, friction_changes, is_uniform
+from .path_of_contact import flanks_at
+
+HALVINGS = 52
+
+
+@kernel
+def _viscosity(par: Array, temperature: float) -> float:
+    return oil_viscosity(
+        temperature, par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+    )
+
+
+@kernel
+def _thinning(par: Array, temperature: float) -> float:
+    """Return the relative slope [1/K] of the viscosity."""
+    warmth = temperature - 273.15 + par[L.P_VISCOSITY_C]
+    return -par[L.P_VISCOSITY_B] / (warmth * warmth) if temperature >= LOWEST_OIL else 0.0
+
+
+@kernel
+def conductance(par: Array, line: float, turning: float) -> tuple[float, float]:
+    """Return G [W/K] from bodies to oil, and its slope over the log of w^(1/4) om^(1/2).
+
+    As given, or such that the steady bodies are 0.47 X_S times the mean flash temperature warmer
+    than the oil; at least that of gears at rest.
+    """
+    given, still = par[L.P_BULK_CONDUCTANCE], par[L.D_STILL]
+    if given > 0.0:
+        return given, 0.0
+    free = par[L.D_CONDUCTANCE] * math.sqrt(math.sqrt(line) * turning)
+    slope = soft_most_slope(free, still, 0.5 * still)
+    return soft_most(free, still, 0.5 * still), slope * free
+
+
+@kernel
+def steady_rise(
+    par: Array, line: float, turning: float, oil: float, rate: float, cooling: float, work: Array
+) -> float:
+    """Return how much warmer than the oil [K] the steady bodies are.
+
+    T - T_oil = rate f(T)/G, ``rate`` [W] the loss of a friction of 1 and f the mean friction with a
+    film of the bodies' temperature; by halving, from nothing to the largest friction's.
+    """
+    thin = _viscosity(par, oil)
+    follows, _, _ = viscosity_follows(par)
+    if is_uniform(par) or not follows or rate == 0.0:
+        return rate * fill_friction(par, line, turning, thin, thin, work) / cooling
+    low, high = 0.0, rate * max(par[L.P_F0], par[L.P_LIMITING_TRACTION]) / cooling
+    for _ in range(HALVINGS):
+        rise = 0.5 * (low + high)
+        found = fill_friction(par, line, turning, thin, _viscosity(par, oil + rise), work)
+        if rate * found / cooling > rise:
+            low = rise
+        else:
+            high = rise
+    return low
+
+
+@kernel
+def heat_of_loss(
+    par: Array, torque: float, speed: float, oil: float, drive: float, state: Array, dt: float,
+    work: Array,
+) -> int:  # fmt: skip
+    """Fill ``work[:N_FIELD]`` but loss and safety; return 0, an advice or a failure.
+
+    ``drive`` [W]: power that the mesh transmits; the loss is friction x D_LOSS x drive.
+    """
+    turning = floored(speed, LEAST_SPEED)
+    line = floored(torque * par[L.D_LINE], LEAST_LINE_LOAD)
+    cooling, _ = conductance(par, line, turning)
+    follows, _, _ = viscosity_follows(par)
+    thin, rate = _viscosity(par, oil), par[L.D_LOSS] * drive
+    above, began = 0.0, L.OILS
+    quasi_steady = par[L.P_THERMAL_MODE] == L.QUASI_STEADY
+    if quasi_steady:
+        dt = 0.0
+    if state[L.S_STARTED] != 0.0 and not quasi_steady:
+        above, began = state[L.S_BULK] - oil, L.HELD
+    elif par[L.P_THERMAL_START] == L.STEADY_START or quasi_steady:
+        above = steady_rise(par, line, turning, oil, rate, cooling, work)
+        began = L.STEADY
+    viscosity = _viscosity(par, oil + above) if follows else thin
+    power = rate * fill_friction(par, line, turning, thin, viscosity, work)
+    after, to_oil = rise_after(par[L.D_BULK_CAPACITY], above, power, cooling, dt)
+    work[L.W_BEGAN], work[L.W_FROM], work[L.W_DURATION] = float(began), above, dt
+    work[L.F_ITERATIONS] = 0.0
+    work[L.F_BULK], work[L.F_OIL_HEAT] = oil + after, to_oil
+    work[L.F_STORED] = state[L.S_STORED] + (power - to_oil) * dt
+    work[L.F_BULK_VISCOSITY], work[L.F_VISCOSITY] = thin, viscosity
+    _fill_hottest(par, torque, line, turning, work)
+    status = OK
+    if work[L.F_FILM_TEMPERATURE] > HOT_FILM:
+        status = HOT
+    elif outside(par, oil, work):
+        status = OUTSIDE_VERIFIED
+    work[L.F_STATUS] = float(status)
+    return status
+
+
+@kernel
+def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: Array) -> None:
+    """Fill contact, film, temperatures and stresses of the hottest position, path's extremes."""
+    place, factor = int(work[L.W_PLACE]), par[L.P_LOAD_FACTOR]
+    radius, v1, v2 = flanks_at(par, par[np.uintp(L.D_POSITION + place)])
+    v1, v2 = v1 * turning, v2 * turning
+    borne = factor * par[np.uintp(L.D_PATH_SHARE + place)]
+    width = hertz_width(borne * line, radius, par[L.D_THETA])
+    work[L.F_LINE_LOAD], work[L.F_WIDTH], work[L.F_PRESSURE] = (
+        borne * line,
+        width,
+        borne * line / width,
+    )
+    scale = film_scale(line, turning, work[L.F_VISCOSITY])
+    film = par[np.uintp(L.D_PATH_FILM + place)] * scale
+    work[L.F_FILM], work[L.F_RATIO] = film, film / par[L.D_SIGMA]
+    work[L.F_FILM_GF] = par[L.D_FILM_LEAST] * scale / par[L.D_MEAN]
+    work[L.F_PRESSURE_MAX] = 4.0 / math.pi * par[L.D_PRESSURE_MOST] * math.sqrt(factor * line)
+    work[L.F_STRESS], work[L.F_SLIDING] = work[L.F_PRESSURE_MAX], abs(v1 - v2)
+    rubbing, friction = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD), work[L.F_FRICTION]
+    quarter = math.sqrt(math.sqrt(line))
+    flash = friction * par[np.uintp(L.D_PATH_FLASH + place)] * factor / math.sqrt(math.sqrt(factor))
+    flash *= rubbing / quarter * math.sqrt(turning)
+    work[L.F_FLASH] = work[L.F_FLASH_MAX] = flash
+    work[L.F_SURFACE] = work[L.F_BULK] + flash
+    share = math.sqrt(v1) / (math.sqrt(v1) + math.sqrt(v2))
+    work[L.F_FILM_RISE] = share * friction * borne * rubbing * abs(v1 - v2) * film_factor(
+        film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
+        par[L.D_OIL_CAPACITY],
+    )  # fmt: skip
+    work[L.F_FILM_TEMPERATURE] = work[L.F_SURFACE] + work[L.F_FILM_RISE]
+    work[L.F_WEIGHT] = contact_weight(par, work[L.F_RATIO])
+    stress_asperities(par, work[L.F_BULK], work)
+
+
+@kernel
+def loss_changes(
+    par: Array, torque: float, speed: float, oil: float, rate: float, more: float, seed: Array,
+    work: Array, dout: Array,
+) -> None:  # fmt: skip
+    """Fill the changes of ``heat_of_loss`` along ``seed``.
+
+    ``rate`` [W] is the loss of a friction of 1, ``more`` its change. The temperature at which a
+    step began is held, but for the first one, which begins as its inputs say.
+    """
+    turning = floored(speed, LEAST_SPEED)
+    line = floored(torque * par[L.D_LINE], LEAST_LINE_LOAD)
+    faster = floored_slope(speed, LEAST_SPEED) * seed[L.I_SPEED] / turning
+    pressed = floored_slope(torque * par[L.D_LINE], LEAST_LINE_LOAD) * par[L.D_LINE]
+    load, warmer = pressed * seed[L.I_LOAD] / line, seed[L.I_OIL]
+    cooling, slope = conductance(par, line, turning)
+    cooler = slope * (0.25 * load + 0.5 * faster)
+    follows, _, _ = viscosity_follows(par)
+    above, dt, viscosity = work[L.W_FROM], work[L.W_DURATION], work[L.F_VISCOSITY]
+    mean, thin = work[L.F_MEAN_FRICTION], _thinning(par, oil) * warmer
+    steep = _thinning(par, oil + above) if follows else 0.0
+    held = 0.0 if follows else thin  # change of the film's viscosity with the body's held
+    dmean, hottest = friction_changes(par, line, turning, load, faster, thin, viscosity, held, work)
+    by_body, hot_by_body = friction_changes(
+        par, line, turning, 0.0, 0.0, 0.0, viscosity, steep, work
+    )
+    dabove = -warmer if work[L.W_BEGAN] == L.HELD else 0.0
+    if work[L.W_BEGAN] == L.STEADY:
+        rise = more * mean + rate * (dmean + by_body * warmer) - rate * mean / cooling * cooler
+        dabove = rise / (cooling - rate * by_body)
+    dbody = warmer + dabove
+    dmean += by_body * dbody
+    hottest += hot_by_body * dbody
+    power, dpower = rate * mean, more * mean + rate * dmean
+    dafter, dheat = rise_changes(
+        par[L.D_BULK_CAPACITY], above, power, cooling, dt, (dabove, dpower, cooler)
+    )
+    dafter += warmer
+    dout[L.F_MEAN_FRICTION], dout[L.F_FRICTION], dout[L.F_BULK] = dmean, hottest, dafter
+    dout[L.F_OIL_HEAT], dout[L.F_STORED] = dheat, 0.0
+    film = 0.7 * (held + steep * dbody + faster) - 0.13 * load
+    flash = flash_change(par, work, torque, load, faster, seed[L.I_LOAD], hottest)
+    dout[L.F_FLASH] = dout[L.F_FLASH_MAX] = flash
+    dout[L.F_FILM_GF] = work[L.F_FILM_GF] * film
+    dout[L.F_PRESSURE_MAX] = 0.5 * work[L.F_PRESSURE_MAX] * load
+    surface = dafter + flash
+    hotter = surface + _film_change(par, work, torque, turning, film, load, faster, seed, hottest)
+    asperity_changes(par, work, dafter, film, surface, hotter, flash, hottest, load, dout)
+
+
+@kernel
+def _film_change(
+    par: Array, work: Array, torque: float, turning: float, film: float, load: float, speed: float,
+    seed: Array, friction: float,
+) -> float:  # fmt: skip
+    """Return the change of the film's rise over the flank [K]."""
+    line, corner = torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD
+    rubbing = soft_size(line, corner)
+    if not (rubbing > 0.0 and work[L.F_FRICTION] > 0.0):
+        return 0.0
+    grows = soft_size_slope(line, corner) * par[L.D_LINE] * seed[L.I_LOAD] / rubbing
+    _, v1, _ = flanks_at(par, par[np.uintp(L.D_POSITION + int(work[L.W_PLACE]))])
+    half = 0.5 * v1 * turning * work[L.F_FILM] / par[L.P_OIL_CONDUCTIVITY]
+    power = -(0.013 + 9e-4 * par[L.D_OIL_CAPACITY] * half) * (speed + film)
+    power -= 1.003 * (0.5 * load - film)
+    return work[L.F_FILM_RISE] * (friction / work[L.F_FRICTION] + grows + speed + power)

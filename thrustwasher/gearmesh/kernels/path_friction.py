@@ -1,0 +1,199 @@
+# mypy: disable-error-code="no-any-return"
+"""Friction along the path of contact, and how it changes with load, speed and viscosities.
+
+All changes given are relative. The closed rung and the laws "constant" and "iso" have one friction
+for the whole path.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import floored, floored_slope, soft_least, soft_most, soft_most_slope
+from . import layout as L
+from .contact import iso_and_slope, li_seireg, li_seireg_slope
+from .path_of_contact import flanks_at
+
+LEAST_ROLLING = 0.1  # m/s, below it the standard's mean friction would grow without bound; estimate
+# Share of the load on asperities exp(-B ratio^C): Zhou & Hoeprich 1991, whose text was not at hand.
+SHARE_B, SHARE_C = 1.8, 1.2
+NO_CONTACT = 1e-9
+
+
+@kernel
+def is_uniform(par: Array) -> bool:
+    """Tell if one coefficient of friction holds for the whole path whatever the film does."""
+    law = par[L.P_FRICTION_LAW]
+    varies = law == L.LI_SEIREG or law == L.MIXED_FRICTION
+    return par[L.P_FIDELITY] == L.CLOSED or not varies
+
+
+@kernel
+def film_scale(line: float, turning: float, viscosity: float) -> float:
+    """Return the film's factor that all positions share: (mu om)^0.7 w^-0.13."""
+    return math.exp(0.7 * math.log(viscosity * turning) - 0.13 * math.log(line))
+
+
+@kernel
+def mean_friction(par: Array, line: float, turning: float, oil: float) -> tuple[float, float]:
+    """Return the standard's mean coefficient [-] (or the constant one) and its log slope."""
+    if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == 3.0:
+        return par[L.P_CONSTANT_FRICTION], 0.0
+    rolling = floored(par[L.D_ROLLING] * turning, LEAST_ROLLING)
+    unit = line * par[L.D_UNIT_LOAD] / par[L.D_LOAD]
+    radius = par[L.D_PITCH_RADIUS]
+    return iso_and_slope(unit, rolling, radius, oil, par[L.D_MEAN], par[L.P_F0])
+
+
+@kernel
+def contact_share(ratio: float) -> tuple[float, float]:
+    """Return the share of the load on asperities [-], its slope over the log of the film ratio."""
+    power = SHARE_B * math.exp(SHARE_C * math.log(ratio))
+    share = math.exp(-power)
+    return share, -SHARE_C * power * share
+
+
+@kernel
+def film_friction(
+    par: Array, k: int, line: float, turning: float, viscosity: float, film: float
+) -> tuple[float, float, float]:
+    """Return the friction [-] of an Eyring film at position ``k``, and log slopes.
+
+    tau = tau_0 asinh(mu exp(alpha p) V_s/(h tau_0)) over the mean pressure p, at most
+    limiting_traction. The slopes are those over the shear rate and over the pressure.
+    """
+    pressure = par[np.uintp(L.D_PATH_PRESSURE + k)] * math.sqrt(line)
+    eyring, thick = par[L.P_EYRING_STRESS], par[L.P_PRESSURE_VISCOSITY] * pressure
+    sliding = abs(par[np.uintp(L.D_POSITION + k)]) * par[L.D_SLIDE] * turning
+    shear = viscosity * math.exp(min(thick, 200.0)) * sliding / (film * eyring)
+    stress, steep = eyring * math.asinh(shear), eyring * shear / math.hypot(1.0, shear)
+    limit = par[L.P_LIMITING_TRACTION]
+    value, slope = soft_least(stress / pressure, limit, 0.1 * limit)
+    thicker = thick if thick < 200.0 else 0.0
+    return value, slope * steep / pressure, slope * (steep * thicker - stress) / pressure
+
+
+@kernel
+def boundary_friction(par: Array, wanted: float, contact: float) -> tuple[float, float]:
+    """Return the friction [-] of asperities with that share of it left to them, and its slope."""
+    f0 = par[L.P_F0]
+    if f0 <= 0.0:
+        return 0.0, 0.0
+    least, slope = soft_least(wanted / (contact + NO_CONTACT), f0, 0.1 * f0)
+    return soft_most(least, 0.0, 0.05 * f0), slope * soft_most_slope(least, 0.0, 0.05 * f0)
+
+
+@kernel
+def fill_friction(
+    par: Array, line: float, turning: float, oil: float, viscosity: float, work: Array
+) -> float:
+    """Fill friction of all positions and the hottest one's place; return the mean for the loss.
+
+    ``oil`` and ``viscosity`` [Pa s] of the oil supplied and in the film; ``line`` [N/m].
+    """
+    mean, work[L.F_FRICTION_SLOPE] = mean_friction(par, line, turning, oil)
+    place = int(par[L.D_HOTTEST])
+    work[L.W_PLACE], work[L.F_FRICTION], work[L.F_MEAN_FRICTION] = float(place), mean, mean
+    if is_uniform(par):
+        return mean
+    scale = film_scale(line, turning, viscosity)
+    if par[L.P_FRICTION_LAW] == L.MIXED_FRICTION:
+        _share_load(par, line, turning, viscosity, scale, mean, work)
+    else:
+        for k in range(int(par[L.D_PLACES])):
+            radius, _, _ = flanks_at(par, par[L.D_POSITION + k])
+            film = par[L.D_PATH_FILM + k] * scale
+            work[L.W_FRICTION + k] = li_seireg(film, radius, par[L.P_F0], par[L.D_ROUGHNESS])
+    mean, hottest = 0.0, -1.0
+    for k in range(int(par[L.D_PLACES])):
+        friction = work[np.uintp(L.W_FRICTION + k)]
+        mean += friction * par[np.uintp(L.D_PATH_LOSS + k)]
+        flash = friction * par[np.uintp(L.D_PATH_FLASH + k)]
+        if flash > hottest:
+            hottest, place = flash, k
+    work[L.W_PLACE], work[L.F_MEAN_FRICTION] = float(place), mean
+    work[L.F_FRICTION] = work[L.W_FRICTION + place]
+    return mean
+
+
+@kernel
+def _share_load(
+    par: Array, line: float, turning: float, viscosity: float, scale: float, mean: float,
+    work: Array,
+) -> None:  # fmt: skip
+    """Fill the friction of film and asperities; that of asperities makes the mean as given."""
+    sheared, contact = 0.0, 0.0
+    for k in range(int(par[L.D_PLACES])):
+        film = par[np.uintp(L.D_PATH_FILM + k)] * scale
+        share, _ = contact_share(film / par[L.D_SIGMA])
+        found, _, _ = film_friction(par, k, line, turning, viscosity, film)
+        weight = par[np.uintp(L.D_PATH_LOSS + k)]
+        contact += weight * share
+        sheared += weight * (1.0 - share) * found
+        work[np.uintp(L.W_CONTACT + k)], work[np.uintp(L.W_SHEARED + k)] = share, found
+    dry, _ = boundary_friction(par, mean - sheared, contact)
+    for k in range(int(par[L.D_PLACES])):
+        share = work[np.uintp(L.W_CONTACT + k)]
+        friction = share * dry + (1.0 - share) * work[np.uintp(L.W_SHEARED + k)]
+        work[np.uintp(L.W_FRICTION + k)] = friction
+
+
+@kernel
+def friction_changes(
+    par: Array, line: float, turning: float, load: float, speed: float, oil: float,
+    viscosity: float, thicker: float, work: Array,
+) -> tuple[float, float]:  # fmt: skip
+    """Return the changes of the mean friction and of that at the hottest position.
+
+    ``load``, ``speed``, ``oil``: relative changes of line load, speed and supplied oil's viscosity;
+    ``thicker`` that of the ``viscosity`` in the film.
+    """
+    rolling = par[L.D_ROLLING] * turning
+    faster = floored_slope(rolling, LEAST_ROLLING) * rolling / floored(rolling, LEAST_ROLLING)
+    iso = 0.2 * (load - faster * speed) - 0.05 * oil
+    mean = work[L.F_FRICTION_SLOPE] * iso
+    if is_uniform(par):
+        return mean, mean
+    film = 0.7 * (thicker + speed) - 0.13 * load
+    if par[L.P_FRICTION_LAW] == L.MIXED_FRICTION:
+        change = (film, thicker + speed - film, 0.5 * load)
+        return _shared_changes(par, line, turning, viscosity, change, mean, work)
+    scale, mean, hottest = film_scale(line, turning, viscosity), 0.0, 0.0
+    for k in range(int(par[L.D_PLACES])):
+        radius, _, _ = flanks_at(par, par[L.D_POSITION + k])
+        here = par[L.D_PATH_FILM + k] * scale
+        found = li_seireg_slope(here, radius, par[L.P_F0], par[L.D_ROUGHNESS]) * film
+        mean += found * par[L.D_PATH_LOSS + k]
+        if k == int(work[L.W_PLACE]):
+            hottest = found
+    return mean, hottest
+
+
+@kernel
+def _shared_changes(
+    par: Array, line: float, turning: float, viscosity: float,
+    change: tuple[float, float, float], mean: float, work: Array,
+) -> tuple[float, float]:  # fmt: skip
+    """Return the changes of the mixed friction; ``change`` of film, shear rate and pressure."""
+    scale, place = film_scale(line, turning, viscosity), int(work[L.W_PLACE])
+    standard, _ = mean_friction(par, line, turning, work[L.F_BULK_VISCOSITY])
+    contact, more, sheared, grows, here, there = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(int(par[L.D_PLACES])):
+        film = par[np.uintp(L.D_PATH_FILM + k)] * scale
+        share, steep = contact_share(film / par[L.D_SIGMA])
+        found, by_shear, by_pressure = film_friction(par, k, line, turning, viscosity, film)
+        weight = par[np.uintp(L.D_PATH_LOSS + k)]
+        moved, rising = steep * change[0], by_shear * change[1] + by_pressure * change[2]
+        contact += weight * share
+        more += weight * moved
+        sheared += weight * (1.0 - share) * found
+        grows += weight * ((1.0 - share) * rising - moved * found)
+        if k == place:
+            here, there = moved, (1.0 - share) * rising - moved * found
+    wanted = standard - sheared
+    dry, slope = boundary_friction(par, wanted, contact)
+    room = contact + NO_CONTACT
+    drier = slope * (mean - grows - wanted / room * more) / room
+    mean = more * dry + contact * drier + grows
+    return mean, here * dry + work[np.uintp(L.W_CONTACT + place)] * drier + there

@@ -1,0 +1,147 @@
+# mypy: disable-error-code="no-any-return"
+"""The path of contact: where the pairs touch, what each bears, what its sliding costs and heats.
+
+Positions count from the pitch point in base pitches. Spur teeth share the load equally, all pairs
+that are in contact; teeth with an overlap of 1 and more bear evenly on the whole path.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from . import layout as L
+from .contact import film_thickness, hertz_width
+from .flank_temperature import blok_rise
+
+# Lobatto's rule of five nodes on [0, 1]: both ends are among them, exact to power 7
+NODES = (0.0, 0.5 - math.sqrt(3.0 / 28.0), 0.5, 0.5 + math.sqrt(3.0 / 28.0), 1.0)
+WEIGHTS = (0.05, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 0.05)
+N_NODES = 5
+MAX_PIECES = 16
+EVEN_HEAT = math.sqrt(2.0 / math.pi) / 0.7859834  # Blok's factor of even over elliptic heat
+MEAN_FLASH = 0.47  # of it the bodies of gears in dip lubrication are warmer than the oil
+
+
+@kernel
+def base_pitch(ratio: float, teeth: float, angle: float, side: float) -> float:
+    """Return the transverse base pitch over the length of the line of action."""
+    return 2.0 * math.pi * math.cos(angle) / (teeth * (ratio + side) * math.sin(angle))
+
+
+@kernel
+def flanks_at(par: Array, position: float) -> tuple[float, float, float]:
+    """Return combined radius [m] across the contact line, both rolling speeds per speed [m]."""
+    ratio, angle, side = par[L.P_GEAR_RATIO], par[L.D_ANGLE], par[L.D_SIDE]
+    x = 1.0 / (ratio + side) + position * base_pitch(ratio, par[L.P_PINION_TEETH], angle, side)
+    line = par[L.D_CENTRE] * math.sin(angle)
+    radius = x * (1.0 - side * x) * line / par[L.D_COS_BASE]
+    return radius, x * line, (1.0 - side * x) * line / ratio
+
+
+@kernel
+def _nodes(par: Array, low: float, high: float, shared: float, borne: float) -> None:
+    """Add the positions from ``low`` to ``high`` [base pitches]; ``shared`` by that many pairs."""
+    n = int(par[L.D_PLACES])
+    if not high > low or n + N_NODES > L.N_PATH:
+        return
+    for k in range(N_NODES):
+        s = low + (high - low) * NODES[k]
+        par[L.D_POSITION + n + k] = s
+        par[L.D_PATH_SHARE + n + k] = borne
+        par[L.D_PATH_LENGTH + n + k] = (high - low) * WEIGHTS[k]
+        par[L.D_PATH_LOSS + n + k] = (high - low) * WEIGHTS[k] * abs(s) / shared
+    par[L.D_PLACES] = float(n + N_NODES)
+
+
+@kernel
+def _piece(par: Array, low: float, high: float, shared: float, borne: float) -> None:
+    """Add a piece; two halves of it for the rung `fine` where the loss heats."""
+    is_fine = par[L.P_FIDELITY] == L.FINE and par[L.P_FILM_HEAT] == L.LOSS
+    if is_fine and par[L.D_CONTACT_RATIO] < 4.0:
+        middle = 0.5 * (low + high)
+        _nodes(par, low, middle, shared, borne)
+        _nodes(par, middle, high, shared, borne)
+    else:
+        _nodes(par, low, high, shared, borne)
+
+
+@kernel
+def _split(par: Array, low: float, high: float, shared: float, borne: float) -> None:
+    """Add a stretch, cut at the pitch point, where sliding turns round."""
+    if low < 0.0 < high:
+        _piece(par, low, 0.0, shared, borne)
+        _piece(par, 0.0, high, shared, borne)
+    else:
+        _piece(par, low, high, shared, borne)
+
+
+@kernel
+def line_of_action(par: Array, approach: float, recess: float) -> None:
+    """Fill positions, shares and losses from the start to the end of contact.
+
+    The loss books equal shares, as ``loss_factor`` does, and comes to it. The paper's heat is made
+    by the pair that bears ``load_share`` where it has company, all of the load where it is alone.
+    """
+    whole = math.floor(approach + recess)
+    more = approach + recess - whole
+    given = par[L.P_LOAD_SHARE]
+    alone = 1.0 if whole <= 1.0 else min(1.0, given * (whole + 1.0) / whole)
+    if par[L.P_FILM_HEAT] == L.LOSS:
+        given, alone = 1.0 / (whole + 1.0), 1.0 / max(whole, 1.0)
+    stretches = int(min(whole, 0.5 * MAX_PIECES - 1.0)) + 1
+    par[L.D_PLACES] = 0.0
+    if par[L.D_OVERLAP] >= 1.0:
+        _split(par, -approach, recess, approach + recess, 1.0 / (approach + recess))
+        stretches = 0
+    for k in range(stretches):
+        low = -approach + k
+        _split(par, low, low + more, whole + 1.0, given)
+        if k < whole:
+            _split(par, low + more, low + 1.0, max(whole, 1.0), alone)
+    total = 0.0
+    for k in range(int(par[L.D_PLACES])):
+        total += par[L.D_PATH_LOSS + k]
+    for k in range(int(par[L.D_PLACES])):  # shares of the loss for one coefficient of friction
+        par[L.D_PATH_LOSS + k] /= total
+
+
+@kernel
+def place_constants(par: Array, k: int) -> None:
+    """Fill what position ``k`` makes of load, speed and viscosity of 1.
+
+    Flash temperature of a friction of 1 over w^(3/4) om^(1/2), film over (mu om)^0.7 w^-0.13, mean
+    Hertz pressure over w^(1/2); w is the load per face width if one pair bore all of it.
+    """
+    radius, v1, v2 = flanks_at(par, par[L.D_POSITION + k])
+    share, theta = par[L.D_PATH_SHARE + k], par[L.D_THETA]
+    width = hertz_width(share, radius, theta)
+    rise = EVEN_HEAT * blok_rise(1.0, share, v1, v2, width, par[L.D_EFFUSIVITY])
+    par[np.uintp(L.D_PATH_FLASH + k)] = rise
+    par[np.uintp(L.D_PATH_FILM + k)] = film_thickness(
+        1.0, 0.5 * (v1 + v2), share, radius, theta, par[L.P_PRESSURE_VISCOSITY]
+    )
+    par[np.uintp(L.D_PATH_PRESSURE + k)] = share / width
+
+
+@kernel
+def derive_path(par: Array) -> None:
+    """Fill the constants of all positions, their extremes, and the bodies' conductance.
+
+    The bodies are to be warmer than the oil by 0.47 X_S times the mean flash temperature, which
+    goes with w^(3/4) om^(1/2) as the loss goes with w om: the conductance over w^(1/4) om^(1/2).
+    """
+    mean, length, film = 0.0, 0.0, 1e300
+    par[L.D_FLASH_MOST] = par[L.D_PRESSURE_MOST] = 0.0
+    for k in range(int(par[L.D_PLACES])):
+        place_constants(par, k)
+        flash = par[L.D_PATH_FLASH + k]
+        mean += par[L.D_PATH_LENGTH + k] * flash
+        length += par[L.D_PATH_LENGTH + k]
+        film = min(film, par[L.D_PATH_FILM + k])
+        par[L.D_PRESSURE_MOST] = max(par[L.D_PRESSURE_MOST], par[L.D_PATH_PRESSURE + k])
+        if flash > par[L.D_FLASH_MOST]:
+            par[L.D_FLASH_MOST], par[L.D_HOTTEST] = flash, float(k)
+    par[L.D_FILM_LEAST] = film
+    rise = MEAN_FLASH * par[L.P_LUBRICATION_FACTOR] * mean / length
+    par[L.D_CONDUCTANCE] = par[L.D_LOSS] / (par[L.D_LOAD] * rise)

@@ -1,0 +1,158 @@
+"""Tables of a scene file: numbers with their units; engine, vehicle, pressures and oil."""
+
+from dataclasses import fields
+from typing import Any
+
+from ...errors import ParameterError, suggestion
+from ...model.parameters import allowed
+from ...transmission.parameters import COURSES, course_fields
+from ...transmission.vehicle import Vehicle
+from ...units import parse_quantity
+from . import oil
+from .connections import PACKS
+
+# Key of [pressure.clutch], [pressure.brake] -> parameter of the transmission, {} the pack.
+PISTON = {
+    key: f"{{}}_{key}"
+    for key in ("piston_area", "return_spring", "fill_volume", "fill_flow", "pressure_lag")
+}
+TURNING = {
+    "inner_radius": "piston_inner_radius", "outer_radius": "piston_outer_radius",
+    "supply_radius": "piston_supply_radius", "balance_share": "balance_share",
+}  # fmt: skip
+
+
+def unknown(where: str, key: str, known: list[str]) -> ParameterError:
+    """Return the error of a key that is not known."""
+    hint = suggestion(key, known, "; did you mean {!r}?", f", allowed: {', '.join(known)}")
+    return ParameterError(f"{where}: there is no {key!r} here{hint}")
+
+
+def nothing_else(where: str, rest: dict[str, Any], known: list[str]) -> None:
+    """Refuse whatever is left in a table."""
+    for key in rest:
+        raise unknown(where, key, known)
+
+
+def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:
+    """Return a number in SI units within its range; ``rule``: unit, least, largest."""
+    unit, low, high = rule
+    number = quantity(where, key, value, unit)
+    if not low <= number <= high:
+        tail = "" if unit == "1" else f" {unit}"
+        raise ParameterError(
+            f"{where}: {key} = {number!r}{tail}, allowed: {low:g} .. {high:g}{tail}"
+        )
+    return number
+
+
+def quantity(where: str, key: str, value: Any, unit: str) -> float:
+    """Return a number in SI units."""
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
+    try:
+        return parse_quantity(value, unit, key)
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+
+
+def pairs(
+    where: str, key: str, points: Any, over: tuple[str, str], unit: str, what: str = ""
+) -> list[tuple[float, float]]:
+    """Return pairs of two quantities in SI units; ``over``: name and unit of the first ones."""
+    what = what or key
+    if not isinstance(points, list) or not all(isinstance(p, list) and len(p) == 2 for p in points):
+        raise ParameterError(f"{where}: {key} = {points!r}, allowed: pairs [{over[0]}, {what}]")
+    return [
+        (quantity(where, over[0], t, over[1]), quantity(where, what, x, unit)) for t, x in points
+    ]
+
+
+def read_value(where: str, key: str, value: Any, meta: Any) -> Any:
+    """Return the value of a parameter, of the kind that its metadata say."""
+    if meta["kind"] == "real":
+        return quantity(where, key, value, meta["unit"])
+    wanted = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
+    if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
+        raise ParameterError(f"{where}: {key} = {value!r}, allowed: {allowed(meta)}")
+    return value
+
+
+def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) -> dict[str, Any]:
+    """Return the table of the transmission with what engine, vehicle and pressures say of it."""
+    given = dict(table["transmission"])
+    more: dict[str, Any] = {}
+    if vehicle:
+        more |= vehicle.driveline(bool(given.get("shaft_stiffness", 0.0)))
+    if "engine" in table:
+        engine = dict(table["engine"])
+        for key, name in (("speed", "initial_engine_speed"), ("inertia", "input_inertia")):
+            if key in engine:
+                more[name] = engine.pop(key)
+        more |= points_of(f"{where} [engine]", "engine_torque", "torque", engine)
+        nothing_else(f"{where} [engine]", engine, ["points", "speed", "inertia"])
+        if "engine_torque" in given:
+            raise ParameterError(
+                f"{where} [engine]: beside [transmission] engine_torque, allowed: one"
+            )
+    for pack, own in table.get("pressure", {}).items():
+        if pack not in PACKS or not isinstance(own, dict):
+            raise unknown(f"{where} [pressure]", pack, list(PACKS))
+        place, own, keys = f"{where} [pressure.{pack}]", dict(own), dict(PISTON)
+        keys |= TURNING if pack == "clutch" else {}
+        more |= points_of(place, f"{pack}_pressure", "pressure", own)
+        more |= {name.format(pack): own.pop(key) for key, name in keys.items() if key in own}
+        nothing_else(place, own, ["points", *keys])
+        more["actuation"] = "pressure"
+    for name in more:
+        if name in given:
+            raise ParameterError(
+                f"{where} [transmission]: {name} beside a table that gives it ([engine], [vehicle] "
+                "or [pressure]), allowed: one of them"
+            )
+    return given | more
+
+
+def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
+    """Return the vehicle of a scene."""
+    if table is None:
+        return None
+    known = {f.name: f.metadata for f in fields(Vehicle)}
+    nothing_else(where, {k: x for k, x in table.items() if k not in known}, list(known))
+    try:
+        return Vehicle(**{k: read_value(where, k, x, known[k]) for k, x in table.items()})
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+
+
+def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[str, Any]:
+    """Return the parameters of a course from the table's ``points``, pairs of time and value."""
+    points = pairs(
+        where, "points", table.pop("points", None), ("time", "s"), COURSES[name][0], what
+    )
+    try:
+        return course_fields(name, points)
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+
+
+def oil_of(where: str, table: dict[str, Any]) -> dict[str, Any]:
+    """Return the scene's oil: numbers in SI units, the viscosity as points."""
+    nothing_else(
+        where, {k: x for k, x in table.items() if k not in (*oil.NUMBERS, *oil.VISCOSITY)},
+        [*oil.NUMBERS, *oil.VISCOSITY],
+    )  # fmt: skip
+    found: dict[str, Any] = {
+        k: number(where, k, table[k], oil.NUMBERS[k][:3]) for k in oil.NUMBERS if k in table
+    }
+    given = [k for k in oil.VISCOSITY if k in table]
+    if len(given) > 1:
+        raise ParameterError(f"{where}: viscosity beside kinematic_viscosity, allowed: one")
+    for key in given:
+        unit, factor = ("Pa.s", 1.0) if key == "viscosity" else (
+            "m2/s", found.setdefault("density", oil.DENSITY)
+        )  # fmt: skip
+        found["viscosity"] = [
+            (t, factor * x) for t, x in pairs(where, key, table[key], ("temperature", "K"), unit)
+        ]
+    return found

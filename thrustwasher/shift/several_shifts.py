@@ -1,0 +1,154 @@
+"""Run several shifts in one: fine steps in each shift's window, long ones between them."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError
+from ..transmission.parameters import course_points
+from .cosim.instances import Stepping
+from .cosim.loop import Recorder, Run, Steps
+from .cosim.schedule import Pull, Schedule, Step, carry_out, gauss_seidel
+from .cosim.system import System
+from .run import Progress, check_instances, connected, model_remarks, result_of
+from .scene.connections import COMMAND
+from .scene.scene import Scene
+from .scene.sequence import sequence_of, shift_scene, times
+from .shift_result import ShiftResult
+
+Course = Callable[[float], float]
+# Input of the transmission -> course that drives it.
+DRIVEN = {"clutch_pressure": "clutch_pressure", "brake_pressure": "brake_pressure",
+          "engine_torque_input": "engine_torque"}  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class SequenceResult:
+    """A finished sequence: the signals of the whole run, and each shift as a result of its own.
+
+    In the shifts, heats and works count from the start of their window.
+    """
+
+    scene: Scene
+    time: NDArray[np.float64]
+    signals: dict[str, NDArray[np.float64]]
+    shifts: list[ShiftResult]
+    wall_time: float
+    messages: list[str]
+
+    @property
+    def oil_temperature(self) -> NDArray[np.float64]:
+        """Temperature of the oil [K] at each time: the sump's, constant without one."""
+        constant = np.full(len(self.time), self.scene.oil_temperature)
+        return self.signals.get("sump.temperature", constant)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return every number but the time series, as JSON can hold it."""
+        oil = self.oil_temperature
+        return {
+            "scene": self.scene.name, "title": self.scene.title, "steps": len(self.time) - 1,
+            "oil_temperature_start": float(oil[0]), "oil_temperature_end": float(oil[-1]),
+            "oil_temperature_max": float(oil.max()),
+            "energy_residual": float(self.signals["transmission.energy_residual"][-1]),
+            "shifts": [{"time": start, "direction": way, **shift.figures} for (start, way), shift
+                       in zip(sequence_of(self.scene).shifts, self.shifts, strict=True)],
+            "wall_time": self.wall_time, "messages": self.messages,
+        }  # fmt: skip
+
+    def write_csv(self, path: str | Path) -> None:
+        """Write time and all signals, as ``ShiftResult.write_csv`` does."""
+        replace(self.shifts[0], time=self.time, signals=self.signals).write_csv(path)
+
+
+def run_sequence(
+    scene: Scene, instances: Mapping[str, Stepping], *, progress: Progress | None = None
+) -> SequenceResult:
+    """Simulate all shifts of a scene's ``[sequence]`` with living instances.
+
+    Instances, ``progress`` and errors are those of ``run_shift``; ParameterError also with another
+    master than gauss-seidel, whose torques are not bound to a constant step.
+    """
+    shifts = [shift_scene(scene, i) for i in range(len(sequence_of(scene).shifts))]
+    if scene.master != "gauss-seidel":
+        raise ParameterError(
+            f"scene {scene.name!r}: master = {scene.master!r}, allowed with [sequence]: "
+            "'gauss-seidel'"
+        )
+    system = connected(scene, instances)
+    drive = _drives(system, shifts)
+    drive(scene.start_time, scene.start_time)
+    system.initialize(scene.start_time)
+    check_instances(scene, instances)
+    time = np.array(list(times(scene)))
+    recorder, schedule = Recorder(system, len(time)), _oil_last(gauss_seidel(system))
+    recorder.keep(0)
+    begin = perf_counter()
+    for i, (t, end) in enumerate(zip(time[:-1].tolist(), time[1:].tolist(), strict=True), 1):
+        drive(t, end)
+        carry_out(schedule, t, end - t)
+        recorder.keep(i)
+        if progress is not None and i % 100 == 0:
+            progress(i, len(time) - 1)
+    wall = perf_counter() - begin
+    signals = recorder.signals()
+    return SequenceResult(
+        scene=scene, time=time, signals=signals, wall_time=wall,
+        shifts=[_one(shift, system, time, recorder) for shift in shifts],
+        messages=model_remarks(scene, time, signals),
+    )  # fmt: skip
+
+
+def _drives(system: System, shifts: list[Scene]) -> Callable[[float, float], None]:
+    """Return what sets the transmission's inputs for a step: each shift's until the next begins.
+
+    Pressures and the command are those of the step's end, the engine's torque is its mean.
+    """
+    names, inputs = system.transmission.input_names, system.transmission.inputs
+    courses = [
+        {name: np.array(course_points(s.parts["transmission"].params, course)).T
+         for name, course in DRIVEN.items()} for s in shifts
+    ]  # fmt: skip
+
+    def drive(t: float, end: float) -> None:
+        k = max(0, sum(s.start_time <= t + 1e-9 for s in shifts) - 1)
+        inputs[names.index(COMMAND)] = shifts[k].command(end)
+        for name, points in courses[k].items():
+            if len(points):
+                at = 0.5 * (t + end) if name == "engine_torque_input" else end
+                inputs[names.index(name)] = float(np.interp(at, *points))
+
+    return drive
+
+
+def _oil_last(schedule: Schedule) -> Schedule:
+    """Let the sump step last: it then gets the heats of its own step, however long that is."""
+
+    def late(action: Any) -> bool:
+        return isinstance(action, Pull | Step) and action.part.name == "sump"
+
+    return sorted(schedule, key=late)
+
+
+def _one(
+    shift: Scene, system: System, time: NDArray[np.float64], recorder: Recorder
+) -> ShiftResult:
+    """Return one shift's result from its rows; energies count from its start."""
+    first, last = np.searchsorted(time, [shift.start_time - 1e-9, shift.stop_time + 1e-9])
+    own = Recorder(system, 0)
+    own.rows = recorder.rows[first:last].copy()
+    signals = own.signals()
+    for part in recorder.parts:
+        for signal in part.spec.outputs:
+            if signal.unit == "J" and signal.name != "kinetic_energy":
+                column = signals[f"{part.name}.{signal.name}"]
+                column -= column[0]
+    own_time = time[first:last]
+    commands = np.array([shift.command(t) for t in own_time.tolist()])
+    run = Run(system, [], own_time, shift.step, commands, own)
+    n = len(own_time) - 1
+    return result_of(shift, run, Steps(n, 0, run.h, run.h, 0, 0), 1.0, [], [])

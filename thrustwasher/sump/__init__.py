@@ -1,0 +1,8 @@
+"""The oil sump: what the parts' heat does to the temperature of their oil.
+
+==============  ===============================================================
+``model``       its record
+``parameters``  parameters, inputs and outputs: the one list of all interfaces
+``kernels``     compiled code
+==============  ===============================================================
+"""

@@ -1,0 +1,15 @@
+"""Compiled code of the oil sump.
+
+========  ==============================================================
+``step``  One step of the oil sump: the exact solution for constant heat
+========  ==============================================================
+"""
+
+# What Python calls: module of the library -> functions, each with its arrays of two dimensions.
+CALLED = {
+    "thrustwasher.sump.kernels.step": (
+        "thrustwasher.sump.kernels.step.derive",
+        "thrustwasher.sump.kernels.step.sens",
+        "thrustwasher.sump.kernels.step.step",
+    ),
+}

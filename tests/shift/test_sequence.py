@@ -60,8 +60,9 @@ def test_heat_made_is_heat_stored_and_heat_in_the_oil(run):
         stored = s[f"{pack}.stored_heat"][-1] - s[f"{pack}.stored_heat"][0]
         oil = np.sum(s[f"{pack}.oil_heat"][1:] * h)
         assert stored + oil == pytest.approx(s[f"{pack}.energy"][-1], rel=1e-9)
-    factors = (1.0, 1.0, 8.0, run.scene.parts["sump"].params.factor_4)
-    parts = ("clutch", "brake", "washer", "mesh")
+    sump = run.scene.parts["sump"].params
+    factors = (1.0, 1.0, 8.0, sump.factor_4, sump.factor_5)
+    parts = ("clutch", "brake", "washer", "mesh", "ring_mesh")
     sent = sum(f * np.sum(s[f"{p}.oil_heat"][1:] * h) for f, p in zip(factors, parts, strict=True))
     assert s["sump.received_heat"][-1] == pytest.approx(sent, rel=1e-9)
     left = s["sump.stored_heat"][-1] + s["sump.ambient_heat"][-1]

@@ -11,8 +11,8 @@ from ..shift.worst_moments import FILM_SPEED, distressed
 from ..style import decade_ticks, note_at_right
 from .panel_base import draw, draw_phase_lines, draw_phases, finish, thin
 
-LOWEST_RATIO = 0.05  # film ratios at or below this are drawn on this line
-SHOWN = 2.5  # times the largest coefficient of the faces: above, the load is only beginning
+LOWEST_RATIO = 0.01  # film ratios at or below this are drawn on this line
+LOADED = 0.1  # of the greatest load: below it the load is only beginning
 LEAST_LOAD = 1.0  # N
 SAFETIES = (
     ("pitting_safety", "against pitting", BLUE), ("scuffing_safety", "against scuffing", RED),
@@ -78,7 +78,7 @@ def _draw_regimes(axis: Axes, low: float, high: float) -> None:
         axis.axhline(ratio, color="#555555", lw=0.9, ls="--", zorder=1)
     axis.set_yscale("log")
     axis.set_ylim(low, high)
-    axis.set_yticks([v for v in (0.1, 0.3, 1, 3, 10, 30, 100, 300) if low <= v <= high])
+    axis.set_yticks([v for v in (0.01, 0.1, 0.3, 1, 3, 10, 30, 100, 300) if low <= v <= high])
     axis.yaxis.set_major_formatter("{x:g}")
     axis.minorticks_off()
 
@@ -107,7 +107,8 @@ def draw_friction(axis: Axes, record: Record) -> None:
     axis.plot(rpm, friction[where], color=BLUE, label="faces in contact")
     whole = _with_oil(record, where)
     if whole is not None:
-        shown = np.where(whole < SHOWN * np.max(friction[where]), whole, np.nan)
+        load = record.signals[f"{pack}.load"][where]
+        shown = np.where(load > LOADED * np.max(load), whole, np.nan)
         axis.plot(rpm, shown, color=ORANGE, ls="--", label="torque over load, oil's shear included")
     _draw_published(axis, record)
     axis.set_xlim(float(np.max(rpm)) * 1.02, 0.0)

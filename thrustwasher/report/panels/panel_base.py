@@ -9,6 +9,7 @@ from ..shift.shift_record import Array, Record
 from ..style import label
 
 MOST_EVENTS, FIRST_EVENTS = 8, 5  # numbered in a panel: all, or the first of too many
+NAMED = 0.065  # of the time shown: a phase that lasts longer has its name in it
 SHADES = ("#F1F1F1", "#FFF3D9", "#E2F0FA", "#E3F4EC", "#F7E9F1")
 
 
@@ -31,15 +32,16 @@ def thin(record: Record) -> Array:
 
 
 def draw_phases(axis: Axes, record: Record, words: bool = True, legend: bool = False) -> None:
-    """Shade the phases and write the name of those that are wide enough."""
+    """Shade the phases and write their names; with ``legend`` narrow ones are named there."""
     first, last = float(record.time[0]), float(record.time[-1])
     axis.set_xlim(first, last)
     axis.margins(y=0.1)  # room for the names at the top
     for index, phase in enumerate(record.phases):
         shade = SHADES[index % len(SHADES)]
+        wide = phase.end - phase.start > NAMED * (last - first)
         axis.axvspan(phase.start, phase.end, color=shade, lw=0, zorder=0,
-                     label=phase.name if legend else None)  # fmt: skip
-        if words and phase.end - phase.start > 0.11 * (last - first):
+                     label=phase.name if legend and not wide else None)  # fmt: skip
+        if words and wide:
             axis.annotate(phase.name, (0.5 * (phase.start + phase.end), 0.985), ha="center",
                           va="top", xycoords=axis.get_xaxis_transform(), fontsize=8.5,
                           color="#666666")  # fmt: skip

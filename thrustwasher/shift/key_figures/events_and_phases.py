@@ -54,10 +54,12 @@ def turning(signals: Signals) -> NDArray[np.bool_]:
 
 def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
     """Return all events in the order of time."""
-    found = [Event(scene.shift_start, "ramp_start", "shift ramp starts")]
+    start, last = ("shift ramp starts", "shift ramp ends") if scene.kiss_end is None else (
+        "pressures begin to move", "pressures have settled"
+    )  # fmt: skip
+    found = [Event(scene.shift_start, "ramp_start", start)]
     if scene.shift_duration > 0.0:
-        end = scene.shift_start + scene.shift_duration
-        found.append(Event(end, "ramp_end", "shift ramp ends"))
+        found.append(Event(scene.shift_start + scene.shift_duration, "ramp_end", last))
     found = [e for e in found if scene.start_time <= e.time <= scene.stop_time]
     for name, up, down, up_time, down_time in CHANGES:
         if name not in signals:
@@ -88,7 +90,8 @@ def _of_pistons(scene: Scene, time: Array, signals: Signals) -> Iterator[Event]:
     if scene.kiss_end is None:
         return
     for pack in PACKS:
-        for when in np.unique(signals[f"transmission.{pack}_kiss_time"]):
+        full = signals[f"transmission.{pack}_filled_time"]  # where it is full at once, it touches
+        for when in np.setdiff1d(signals[f"transmission.{pack}_kiss_time"], full):
             if when > time[0]:
                 yield Event(float(when), f"{pack}_kiss", f"{pack}'s piston touches its plates")
     other = scene.releasing

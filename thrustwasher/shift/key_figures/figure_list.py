@@ -35,7 +35,7 @@ Found = dict[str, tuple[float | None, float | None]]
 FIGURES: dict[str, Figure] = {
     "release_time": Figure("{other} lets go", "s"),
     "lock_time": Figure("{pack} locks", "s"),
-    "lock_after_ramp_start": Figure("{pack} locks, after the ramp began", "s"),
+    "lock_after_ramp_start": Figure("{pack} locks, after the shift began", "s"),
     "lock_after_half_ramp": Figure("{pack} locks, after the middle of the ramp", "s"),
     "lock_speed": Figure("engine speed at lock-up", "rad/s"),
     "greatest_slip": Figure("greatest slip of the {pack}", "rad/s"),

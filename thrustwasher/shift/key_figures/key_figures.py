@@ -32,12 +32,12 @@ def key_figures(
     """Return the numbers a shift is judged by, SI units; None where there is no such thing."""
     start, pack, other = scene.shift_start, scene.engaging, scene.releasing
     lock = next((e.time for e in events if e.kind == f"{pack}_locked" and e.time >= start), None)
-    middle = start + 0.5 * scene.shift_duration
+    middle = None if scene.kiss_end is not None else start + 0.5 * scene.shift_duration
     release = next((e.time for e in events if e.kind == f"{other}_released"), None)
     found: Found = {
         "lock_time": (lock, None),
         "lock_after_ramp_start": (None if lock is None else lock - start, None),
-        "lock_after_half_ramp": (None if lock is None else lock - middle, None),
+        "lock_after_half_ramp": (None if lock is None or middle is None else lock - middle, None),
         "release_time": (release, None),
         **_slip(scene, time, signals, lock),
         **friction_figures(scene, time, signals, lock),

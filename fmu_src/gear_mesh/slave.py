@@ -9,7 +9,7 @@ ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
 
 
 class GearMesh(Slave):
-    """One spur pair: mesh loss, temperatures and stresses where contact starts."""
+    """One pair of involute gears: mesh loss, temperatures, stresses, safety factors."""
 
     model = "gearmesh"
     version, digest, guid = "@VERSION@", "@DIGEST@", "@GUID@"  # filled in by the build

@@ -40,7 +40,7 @@ static int refresh_work(Instance *m) {
         tell_failure(m, rc, m->now.time, 0.0);
         return BAD;
     }
-    memcpy(&m->now.solution, &m->undo, sizeof m->undo);
+    put_back(m);
     return GOOD;
 }
 

@@ -130,14 +130,16 @@ static void copy_solution(Solution *to, const Solution *from) {
     memcpy(to->iout, from->iout, sizeof to->iout);
 }
 
+void put_back(Instance *m) { copy_solution(&m->now.solution, &m->undo); }
+
 int solve(Instance *m, double t, double h) {
     Solution *s = &m->now.solution;
     copy_solution(&m->undo, s);
     int rc = tw_step(m->now.par, m->now.inp, s->state, m->work, s->out, s->iout, t, h);
     if (rc < 0 || (rc < FIRST_FAILURE && !all_finite(s->out, NOUT))) rc = STATUS_NOT_FINITE;
-    m->work_fits = rc < FIRST_FAILURE;
+    m->work_fits = rc < FIRST_FAILURE && h == 0.0; /* derivatives hold the memory */
     if (rc < FIRST_FAILURE) return 0;
-    copy_solution(s, &m->undo);
+    put_back(m);
     return rc;
 }
 

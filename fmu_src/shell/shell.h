@@ -73,6 +73,7 @@ int prepare(Instance *m);
 int refresh(Instance *m);
 int advance(Instance *m, double t, double h);
 int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
+void put_back(Instance *m); /* outputs and memory as before the last solve, one of h = 0 if large */
 
 /* By the bits: NaN raises no exception here, even where the host has unmasked them. */
 static inline int is_finite(double x) {

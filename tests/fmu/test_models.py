@@ -107,6 +107,41 @@ def test_a_solution_without_a_step_leaves_the_memory_alone(name):
             assert direct.core.state.tobytes() == before
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_derivatives_after_steps_are_those_of_readings_and_leave_no_trace(name, natives):
+    """By central differences of readings at the same point, the memory held."""
+    spec, rng = find_spec(name), random.Random(6)
+    outputs = [s.name for s in spec.outputs if s.kind == "real"]
+    point, away = drawn(spec, rng), [1e-4 * (s.nominal or 1.0) for s in spec.inputs]
+    if name == "ThrustWasher":
+        away = [10.0 * dx for dx in away]  # solved to 5e-6 only
+    with Instance(natives[name]) as fmu, DirectInstance(spec) as direct:
+        if not fmu.gives_derivatives:
+            pytest.skip(f"{name} has no derivatives")
+        for instance in (fmu, direct):
+            instance.initialize()
+            for i in range(5):
+                instance.set_inputs(point)
+                instance.step(i * H, H)
+        state = fmu.get_state()
+        fmu.step(5 * H, H)
+        after = fmu.outputs()
+        fmu.set_state(state)
+        found = direct.directional_derivative(outputs, direct.input_names, away)
+        assert fmu.directional_derivative(outputs, fmu.input_names, away) == found
+        fmu.step(5 * H, H)
+        assert fmu.outputs() == after
+        ends = []
+        for sign in (1.0, -1.0):
+            fmu.set_state(state)
+            fmu.set_inputs([x + sign * dx for x, dx in zip(point, away, strict=True)])
+            ends.append(fmu.get(outputs))
+        fmu.free_state(state)
+    for output, slope, more, less in zip(outputs, found, *ends, strict=True):
+        rounding = 1e-9 * max(abs(more), abs(less))
+        assert slope == pytest.approx(0.5 * (more - less), rel=1e-3, abs=rounding), output
+
+
 # Listed dependencies of a discrete output that no point drawn here shows.
 UNSEEN = {
     # a film between lining and steel that cannot be solved would show in it; none is known

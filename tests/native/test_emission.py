@@ -104,10 +104,10 @@ import ctypes, sys
 sys.path[:0] = {path!r}
 from kernel_runs import Native, Run, course, parameters
 libm = ctypes.CDLL("libm.so.6")
-run = Run(Native("gearmesh", {level!r}))
-run.start(parameters("gearmesh"))
-rows, dt = course("gearmesh", 3)
+native, (rows, dt) = Native("gearmesh", {level!r}), course("gearmesh", 3)
 def results():
+    run = Run(native)
+    run.start(parameters("gearmesh"))
     return [(run.step(row, 0.0, dt), run.memory())[1] for row in rows]
 plain = results()
 UPWARD, ALL = 0x800, 0x3D

@@ -118,7 +118,7 @@ def test_an_edited_source_makes_the_shipped_code_stale(monkeypatch):
 def call(addresses):
     """Return what a gear function at its address returns."""
     entry = describe(slide_roll, [])
-    return python_function(entry, addresses[entry.symbol])(2.0, 0.1)
+    return python_function(entry, addresses[entry.symbol])(2.0, 0.1, 1.0)
 
 
 @linux

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define MOST 128 /* values in a call */
+#define MOST 256 /* values in a call */
 
 typedef enum { REAL, WHOLE, ENUMERATION, BOOLEAN } Type;
 

@@ -116,6 +116,7 @@ def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model
     def slope(unknown, seed):
         core = twin.core
         core.refresh()
+        core.solve_aside()
         dout = np.zeros(kernel.NOUT)
         status = kernel.sens(core.par, core.inp, core.state, core.work, np.array(seed), dout)
         if status >= 10:

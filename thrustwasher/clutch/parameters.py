@@ -315,8 +315,7 @@ SPEC = ModelSpec(
                  help="Slip speed and load in, torque capacity out (coupling capacity)",
                  members=(("speed", "w", "signal"), ("torque_capacity", "tau", "inflow"),
                           ("load", "load", "signal"))),
-        Terminal(name="oil", kind=OIL_PORT.kind, help="Oil temperature in, heat to the oil out",
-                 members=(OIL_PORT.members[0], ("oil_heat", "Q_flow", "outflow"))),
+        OIL_PORT,
     ),
     # An engagement: the force rises, the slip falls to zero, then the pack holds.
     course=((0.0, 0.0, 120.0, 320.0, 0.0), (0.2, 5000.0, 120.0, 320.0, 60.0),

@@ -389,8 +389,7 @@ SPEC = ModelSpec(
                  help="Speed and torque of the pinion in, its friction torque out",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
                           ("load", "load", "signal"))),
-        Terminal(name="oil", kind=OIL_PORT.kind, help="Oil temperature in, heat to the oil out",
-                 members=(OIL_PORT.members[0], ("oil_heat", "Q_flow", "outflow"))),
+        OIL_PORT,
     ),
     # Run up under torque, work, coast down through standstill into reverse.
     course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 60.0, 120.0, 330.0),

@@ -85,8 +85,8 @@ class Terminal:
 
 
 OIL_PORT = Terminal(
-    name="oil", kind="thrustwasher.HeatPort", help="Oil temperature in, friction power out",
-    members=(("oil_temperature", "T", "signal"), ("friction_power", "Q_flow", "outflow")),
+    name="oil", kind="thrustwasher.HeatPort", help="Oil temperature in, heat to the oil out",
+    members=(("oil_temperature", "T", "signal"), ("oil_heat", "Q_flow", "outflow")),
 )  # fmt: skip
 
 

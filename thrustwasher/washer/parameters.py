@@ -280,8 +280,7 @@ SPEC = ModelSpec(
                  help="Slip speed, load and tilt in, friction torque out",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
                           ("load", "load", "signal"), ("tilt", "tilt", "signal"))),
-        Terminal(name="oil", kind=OIL_PORT.kind, help="Oil temperature in, heat to the oil out",
-                 members=(OIL_PORT.members[0], ("oil_heat", "Q_flow", "outflow"))),
+        OIL_PORT,
     ),
     table="thrustwasher.washer.map.look_up:TABLES",
     step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed

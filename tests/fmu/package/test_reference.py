@@ -76,7 +76,7 @@ def test_the_reference_run_repeats_to_the_byte(name):
 @pytest.mark.parametrize("step", [None, 1e-4, 0.1])
 def test_fmpy_simulates_with_any_step_and_gets_numbers(name, step, fmus, tmp_path):
     options = {} if step is None else {"output_interval": step, "stop_time": max(0.02, 3 * step)}
-    if name != "ThrustWasher":  # a thousand times cheaper
+    if name not in ("ThrustWasher", "OilSump"):  # these cost little and end within seconds
         options.pop("stop_time", None)
     folder = unzipped(fmus[name], tmp_path)
     for driven in ({}, {"input": read_csv(folder / f"{name}_in.csv")}):

@@ -72,9 +72,9 @@ def run_sweep(
 
     Examples
     --------
-    >>> table = run_sweep("clutch", {"load": "1 kN:3 kN:1 kN"}, at={"speed": 50.0})
+    >>> table = run_sweep("clutch", {"load": "1 kN:3 kN:1 kN"}, at={"speed": 10.0})
     >>> table["friction_torque"].round(2).tolist(), table["status"].tolist()
-    ([64.35, 95.85, 129.93], ['OK', 'OK', 'OK'])
+    ([35.65, 71.29, 106.94], ['OK', 'OK', 'OK'])
     """
     refuse_import_by_worker()
     if workers is not None and not (isinstance(workers, int) and 1 <= workers <= MOST_WORKERS):

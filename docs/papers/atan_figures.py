@@ -19,8 +19,8 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.gearmesh.closed_forms.flash_temperature import (
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
+from closed_forms.flash_temperature import (
     ELLIPTIC,
     Body,
     blok_flash,
@@ -30,13 +30,15 @@ from thrustwasher.gearmesh.closed_forms.flash_temperature import (
     sheared_heat,
     surface_rise,
 )
-from thrustwasher.gearmesh.closed_forms.involute_mesh import (
+from closed_forms.involute_mesh import (
     Mesh,
     flanks_at,
     line_load,
     start_of_contact,
 )
-from thrustwasher.gearmesh.closed_forms.line_contact import compliance, full_width
+from closed_forms.line_contact import compliance, full_width
+
+from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
 from thrustwasher.report.model_plots.gearmesh_plot import draw_ratios, draw_temperatures
 from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
 from thrustwasher.report.style import heading, label, legend_below, new_figure, styled

@@ -3,9 +3,8 @@
 import math
 
 import pytest
+from closed_forms.heated_plate import braking_average
 from scipy.integrate import quad
-
-from thrustwasher.clutch.closed_forms.heated_plate import braking_average
 
 
 @pytest.mark.parametrize(("stick", "decay"), [(1.185, 2.872), (0.0, 1.0), (5.0, 0.05)])

@@ -6,9 +6,7 @@ from itertools import product
 import mpmath as mp
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
-
-from thrustwasher.gearmesh.closed_forms.flash_temperature import (
+from closed_forms.flash_temperature import (
     ELLIPTIC,
     EVEN,
     Body,
@@ -22,14 +20,14 @@ from thrustwasher.gearmesh.closed_forms.flash_temperature import (
     sheared_heat,
     surface_rise,
 )
-from thrustwasher.gearmesh.closed_forms.involute_mesh import (
+from closed_forms.involute_mesh import (
     Mesh,
     flanks_at,
     least_pinion_teeth,
     line_load,
     start_of_contact,
 )
-from thrustwasher.gearmesh.closed_forms.line_contact import (
+from closed_forms.line_contact import (
     LARGEST_ROUGHNESS,
     LEAST_ROUGHNESS,
     compliance,
@@ -38,7 +36,7 @@ from thrustwasher.gearmesh.closed_forms.line_contact import (
     li_seireg,
     peak_pressure,
 )
-from thrustwasher.gearmesh.closed_forms.thermal_fatigue import (
+from closed_forms.thermal_fatigue import (
     CONTACT,
     Endurance,
     allowable_ratio,
@@ -47,6 +45,7 @@ from thrustwasher.gearmesh.closed_forms.thermal_fatigue import (
     modification_factor,
     thermal_stress,
 )
+from scipy.integrate import quad, solve_ivp
 
 PHI, E, NU, SPEED, POWER, FACE = math.radians(20.0), 205e9, 0.3, 180.0, 7500.0, 0.05
 STEEL = Body(compliance(E, NU), 50.2, 7850.0, 475.0)

@@ -7,10 +7,10 @@ from dataclasses import fields
 from functools import partial
 
 import pytest
+from closed_forms import flash_temperature, involute_mesh, thermal_fatigue
 
 from thrustwasher import GearMeshParams, ParameterError, SolveError, solve_gearmesh
 from thrustwasher.errors import Status
-from thrustwasher.gearmesh.closed_forms import flash_temperature, involute_mesh, thermal_fatigue
 from thrustwasher.gearmesh.parameters import SPEC
 from thrustwasher.gearmesh.solve import PRESETS
 

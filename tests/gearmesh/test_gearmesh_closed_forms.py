@@ -8,9 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.gearmesh.closed_forms.flash_temperature import (
+from closed_forms.flash_temperature import (
     ELLIPTIC,
     Body,
     atan_flash,
@@ -21,7 +19,8 @@ from thrustwasher.gearmesh.closed_forms.flash_temperature import (
     sheared_heat,
     surface_rise,
 )
-from thrustwasher.gearmesh.closed_forms.involute_mesh import (
+from closed_forms.greenwood import real_area_share
+from closed_forms.involute_mesh import (
     Flanks,
     Mesh,
     end_of_contact,
@@ -32,7 +31,7 @@ from thrustwasher.gearmesh.closed_forms.involute_mesh import (
     path_of_contact,
     start_of_contact,
 )
-from thrustwasher.gearmesh.closed_forms.line_contact import (
+from closed_forms.line_contact import (
     compliance,
     dowson_higginson,
     full_width,
@@ -41,7 +40,7 @@ from thrustwasher.gearmesh.closed_forms.line_contact import (
     peak_pressure,
     vogel_viscosity,
 )
-from thrustwasher.gearmesh.closed_forms.thermal_fatigue import (
+from closed_forms.thermal_fatigue import (
     Endurance,
     allowable_ratio,
     contact_stress,
@@ -49,7 +48,8 @@ from thrustwasher.gearmesh.closed_forms.thermal_fatigue import (
     modification_factor,
     thermal_stress,
 )
-from thrustwasher.tribology.closed_forms.greenwood import real_area_share
+
+from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
 
 OIL = 299.85
 paper = partial(GearMeshParams.preset, "paper")

@@ -5,9 +5,7 @@ from itertools import pairwise, product
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-
-from thrustwasher.gearmesh.closed_forms.involute_mesh import (
+from closed_forms.involute_mesh import (
     Mesh,
     end_of_contact,
     flanks_at,
@@ -19,6 +17,7 @@ from thrustwasher.gearmesh.closed_forms.involute_mesh import (
     start_of_contact,
     tooth_module,
 )
+from scipy.integrate import quad
 
 PHI = math.radians(20.0)
 MESHES = [Mesh(m, n, 0.254, PHI) for m, n in product((1.0, 2.0, 5.0, 8.0), (18, 20, 30, 60))]

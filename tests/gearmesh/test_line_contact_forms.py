@@ -4,16 +4,7 @@ import math
 
 import mpmath as mp
 import pytest
-from scipy.integrate import quad
-
-from thrustwasher.gearmesh.closed_forms.line_contact import (
-    compliance,
-    dowson_higginson,
-    full_width,
-    peak_pressure,
-    vogel_viscosity,
-)
-from thrustwasher.tribology.closed_forms.greenwood import (
+from closed_forms.greenwood import (
     elastic_pressure,
     first_moment,
     height_moment,
@@ -23,6 +14,14 @@ from thrustwasher.tribology.closed_forms.greenwood import (
     two_sided_area_share,
     two_sided_pressure,
 )
+from closed_forms.line_contact import (
+    compliance,
+    dowson_higginson,
+    full_width,
+    peak_pressure,
+    vogel_viscosity,
+)
+from scipy.integrate import quad
 
 THETA = 2.0 * compliance(205e9, 0.3)
 

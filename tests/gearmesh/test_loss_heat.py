@@ -6,12 +6,12 @@ from dataclasses import replace
 import helical_pair
 import numpy as np
 import pytest
+from closed_forms.flash_temperature import blok_flash
+from closed_forms.line_contact import full_width
 from helical_pair import Pair
 from scipy.integrate import quad
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.gearmesh.closed_forms.flash_temperature import blok_flash
-from thrustwasher.gearmesh.closed_forms.line_contact import full_width
 from thrustwasher.gearmesh.kernels import constants
 from thrustwasher.gearmesh.kernels import layout as L
 from thrustwasher.gearmesh.kernels import step as k

@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from closed_forms.flash_temperature import atan_flash, pinion_flash
+from closed_forms.thermal_fatigue import Endurance, thermal_stress
 
 from thrustwasher import GearMeshParams, solve_gearmesh
-from thrustwasher.gearmesh.closed_forms.flash_temperature import atan_flash, pinion_flash
-from thrustwasher.gearmesh.closed_forms.thermal_fatigue import Endurance, thermal_stress
 
 DOCS = Path(__file__).parents[2] / "docs" / "papers"
 INLET = 299.85

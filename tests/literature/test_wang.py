@@ -10,6 +10,7 @@ from itertools import groupby
 
 import numpy as np
 import pytest
+from closed_forms.heated_plate import braking_average
 
 from thrustwasher import ClutchParams, boundary_friction, engage_clutch, solve_clutch
 from thrustwasher.clutch.calibration.friction_law import (
@@ -17,7 +18,6 @@ from thrustwasher.clutch.calibration.friction_law import (
     friction_over,
     law_values,
 )
-from thrustwasher.clutch.closed_forms.heated_plate import braking_average
 
 INNER, OUTER = 0.0325, 0.0425  # m, Fig. 12
 SAMPLE = ClutchParams.preset("paper")

@@ -7,9 +7,8 @@ import math
 
 import numpy as np
 import pytest
+from closed_forms.lock_up import speed_against_quadratic_load
 from scene_runs import shift, slow_without_jit
-
-from thrustwasher.transmission.closed_forms.lock_up import speed_against_quadratic_load
 
 LOCK_TIME, LOCK_SPEED = 2.1107904, 5.0425032
 MASTERS = ["gauss-seidel", "jacobi"]

@@ -11,12 +11,12 @@ Cure: the default coupling hands over capacities, which know no c: ten times the
 
 import numpy as np
 import pytest
+from closed_forms.lock_up import reduced_inertia
 
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift.run import run_shift
 from thrustwasher.study.failures.failure_cells import OK, SAYS, SLOW
 from thrustwasher.study.macro_steps import Way, masters, scene_of
-from thrustwasher.transmission.closed_forms.lock_up import reduced_inertia
 
 
 def instances(scene):

@@ -13,9 +13,9 @@ Cure: modes are state and events are located on the solution; sticking is tried 
 import math
 
 import pytest
+from closed_forms.lock_up import engagement
 
 from thrustwasher.errors import Status
-from thrustwasher.transmission.closed_forms.lock_up import engagement
 
 from gearbox import FREE, Gearbox  # isort: skip
 

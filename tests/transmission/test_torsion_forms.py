@@ -2,16 +2,15 @@
 
 import numpy as np
 import pytest
+from closed_forms.lock_up import reduced_inertia
+from closed_forms.torsional_stability import (
+    characteristic,
+    damping_limit,
+)  # fmt: skip
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher.transmission.closed_forms.lock_up import reduced_inertia
-from thrustwasher.transmission.closed_forms.torsional_stability import (
-    Mobility,
-    characteristic,
-    damping_limit,
-    planetary,
-)  # fmt: skip
+from thrustwasher.transmission.mobility import Mobility, planetary
 
 
 def mode(m, slope, stiffness, damping):

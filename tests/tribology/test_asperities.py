@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from closed_forms.greenwood import elastic_pressure
 from scipy.integrate import quad
 
 from thrustwasher.tribology.asperities import (
@@ -16,7 +17,6 @@ from thrustwasher.tribology.asperities import (
     contact_pressure,
     contact_table,
 )
-from thrustwasher.tribology.closed_forms.greenwood import elastic_pressure
 
 E, NU, SY, RADIUS, DENSITY = 201e9, 0.296, 0.993e9, 1e-5, 6.865114e9
 BOTH = E / (2.0 * (1.0 - NU**2))  # E' of two such bodies

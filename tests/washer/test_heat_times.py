@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from thrustwasher.washer.closed_forms.heated_ring import stack_times
+from thrustwasher.washer.closed_forms import stack_times
 from thrustwasher.washer.kernels.ladder import SHARES, TIMES
 
 K, C = 60.5, 7850.0 * 475.0

@@ -4,16 +4,16 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-
-from thrustwasher.tribology.closed_forms.greenwood import elastic_pressure, height_integral
-from thrustwasher.washer.closed_forms.heated_ring import annulus_rise, stack_rise
-from thrustwasher.washer.closed_forms.thin_film import (
+from closed_forms.greenwood import elastic_pressure, height_integral
+from closed_forms.heated_ring import annulus_rise, stack_rise
+from closed_forms.thin_film import (
     couette_torque,
-    narrow_ring_load,
     wedge_moment,
     wedge_pressure,
 )
+from scipy.integrate import quad
+
+from thrustwasher.washer.closed_forms import narrow_ring_load
 
 RI, RO, K = 0.0111, 0.0227, 60.5
 

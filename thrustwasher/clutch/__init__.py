@@ -6,7 +6,6 @@
 ``solve``         boundary friction, and a pack that slips at a constant speed
 ``engagement``    load and slip are given over time, torque and heat follow
 ``calibration``   the friction law fitted to measurements, and what they tell of it
-``closed_forms``  exact solutions that it is compared with
 ``kernels``       compiled code
 ================  =====================================================================
 """

@@ -4,7 +4,6 @@
 ``model``         its record
 ``parameters``    a pair, its surfaces, oil, steel and the laws to apply; inputs, outputs
 ``solve``         loss, heat, temperatures, contact, thermal stress, safety
-``closed_forms``  exact and published solutions that it is compared with
 ``kernels``       compiled code
 ================  ============================================================================
 """

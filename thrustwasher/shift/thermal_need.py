@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ..washer.closed_forms.heated_ring import stack_times
+from ..washer.closed_forms import stack_times
 from ..washer.kernels.ladder import SHARES, TIMES
 from ..washer.parameters import WasherParams
 

@@ -4,7 +4,7 @@
 ``model``         its record
 ``parameters``    parameters, inputs and outputs: the one list of all interfaces
 ``vehicle``       a vehicle as inertia and load of the output
-``closed_forms``  exact solutions that it is compared with
+``mobility``      how slip and twist answer to torques
 ``kernels``       compiled code
 ================  ==============================================================
 """

@@ -3,7 +3,6 @@
 ========================  ======================================================================
 ``asperities``            Elasto-plastic asperities: the force of one, and the pressure of many
                           over the separation
-``closed_forms``          Exact and published solutions that several subjects are compared with
 ``flow_factors``          Film functions of rough surfaces: mean gap, flow, shear flow factor,
                           squeezing; with slopes
 ``greenwood_tripp``       Contact of a rough lining: Greenwood & Tripp's integrals over the

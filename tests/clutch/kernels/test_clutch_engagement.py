@@ -5,22 +5,22 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
+from closed_forms.heated_plate import insulated_plate_rise, semi_infinite_rise
+from closed_forms.squeeze_film import (
+    pumped_flow,
+    squeeze_group,
+    squeeze_time,
+)
 from clutch_pack import Pack, plain
 from clutch_reference import Reference
 from hypothesis import given
 from hypothesis import strategies as st
 
 from thrustwasher import ClutchParams, ParameterError, engage_clutch
-from thrustwasher.clutch.closed_forms.heated_plate import insulated_plate_rise, semi_infinite_rise
 from thrustwasher.clutch.kernels import layout as k
 from thrustwasher.clutch.kernels.pack_friction import shear_thinned, sheared_share
 from thrustwasher.clutch.kernels.rates import pack_slopes
 from thrustwasher.errors import Status
-from thrustwasher.tribology.closed_forms.squeeze_film import (
-    pumped_flow,
-    squeeze_group,
-    squeeze_time,
-)
 
 H = 1e-3
 PERMEABILITIES = [0.0, 1e-14, 1e-13, 1e-12, 4e-12]

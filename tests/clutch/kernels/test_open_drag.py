@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from closed_forms.squeeze_film import pumped_flow
 from clutch_pack import Pack
 
 from thrustwasher import ClutchParams
 from thrustwasher.clutch.kernels import layout as k
-from thrustwasher.tribology.closed_forms.squeeze_film import pumped_flow
 
 RPM = math.pi / 30.0
 

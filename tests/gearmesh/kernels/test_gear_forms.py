@@ -3,8 +3,8 @@
 import math
 
 import pytest
+from closed_forms import line_contact, thermal_fatigue
 
-from thrustwasher.gearmesh.closed_forms import line_contact, thermal_fatigue
 from thrustwasher.gearmesh.kernels import contact, mesh_point
 
 E, NU = 205e9, 0.3

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from closed_forms import involute_mesh
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from thrustwasher.gearmesh.closed_forms import involute_mesh
 from thrustwasher.gearmesh.kernels import constants as g
 
 PHI = math.radians(20.0)

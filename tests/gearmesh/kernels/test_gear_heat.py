@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from closed_forms import flash_temperature
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from thrustwasher.gearmesh.closed_forms import flash_temperature
 from thrustwasher.gearmesh.kernels import flank_temperature as h
 
 B, C = 755.0, 70.0

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from closed_forms.torsional_stability import damping_limit
 from scene_runs import shift, slow_without_jit
 
 from thrustwasher.clutch.solve import solve_clutch
@@ -16,7 +17,7 @@ from thrustwasher.shift.oscillation.torsion import (
     matrix,
     torsional_mode,
 )
-from thrustwasher.transmission.closed_forms.torsional_stability import damping_limit, planetary
+from thrustwasher.transmission.mobility import planetary
 
 SHORT = {"stop_time": 0.65}  # the swing is still small
 

@@ -5,13 +5,13 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
+from closed_forms.lock_up import engagement, reduced_inertia
+from closed_forms.planetary import pitch_radius, planet_forces
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thrustwasher.errors import Status
 from thrustwasher.model.parameters import as_numbers
-from thrustwasher.transmission.closed_forms.lock_up import engagement, reduced_inertia
-from thrustwasher.transmission.closed_forms.planetary import pitch_radius, planet_forces
 from thrustwasher.transmission.kernels import layout as L
 from thrustwasher.transmission.kernels import step as k
 from thrustwasher.transmission.parameters import SPEC, TransmissionParams

@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 import pytest
-
-from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap, shear_flow
-from thrustwasher.washer.closed_forms.thin_film import (
+from closed_forms.thin_film import (
     couette_torque,
-    narrow_ring_load,
     wedge_moment,
     wedge_pressure,
 )
+
+from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap, shear_flow
+from thrustwasher.washer.closed_forms import narrow_ring_load
 from thrustwasher.washer.kernels.film import (
     _solve_one,
     evaluate_film,

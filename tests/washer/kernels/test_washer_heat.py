@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from closed_forms.heated_ring import annulus_rise, stack_rise
 
-from thrustwasher.washer.closed_forms.heated_ring import annulus_rise, stack_rise
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.gap import dry_friction, evaluate_gaps, evaluate_viscosity
 from thrustwasher.washer.kernels.heat import heat_change, heat_residual, let_film_follow

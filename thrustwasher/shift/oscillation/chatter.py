@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...numerics.jit import Array
-from ...transmission.closed_forms.torsional_stability import planetary
+from ...transmission.mobility import planetary
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 

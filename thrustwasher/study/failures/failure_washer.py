@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from ...model.parameters import made_of
 from ...tribology.lumped_body import exponential_weights
-from ...washer.closed_forms.thin_film import narrow_ring_load
+from ...washer.closed_forms import narrow_ring_load
 from ...washer.load_curve import load_curve
 from ...washer.parameters import SPEC, WasherParams
 from ...washer.solve import solve_washer

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from .involute_mesh import Mesh, start_of_contact
+from closed_forms.involute_mesh import Mesh, start_of_contact
 
 CONTACT = 0.591
 """[-] of Eq 9; exactly sqrt(1/(pi (1 - nu^2))), 0.5914 for nu = 0.3."""

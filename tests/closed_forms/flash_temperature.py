@@ -6,8 +6,8 @@ The film's formulas are those of Rashid & Seireg (1987) as Atan (2005) uses them
 import math
 from typing import NamedTuple
 
-from .involute_mesh import Mesh, flanks_at, line_load, pinion_radius, start_of_contact
-from .line_contact import full_width
+from closed_forms.involute_mesh import Mesh, flanks_at, line_load, pinion_radius, start_of_contact
+from closed_forms.line_contact import full_width
 
 # Blok's constant depends on how the heat is spread over the band: evenly, then the flank is hottest
 # where it leaves; or as Hertz's pressure, then inside the band (the number: largest value of

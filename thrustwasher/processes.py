@@ -52,15 +52,6 @@ def run_here(job: Callable[[Any], Any], tasks: Sequence[Any], _chunksize: int) -
 
 
 @contextmanager
-def mapped(
-    n: int, job: Callable[[Any], Any], tasks: Sequence[Any], chunksize: int
-) -> Iterator[Iterator[Any]]:
-    """Give what a job makes of each task, in order: by ``n`` fresh processes; for one, here."""
-    with runner(n) as run:
-        yield run(job, tasks, chunksize)
-
-
-@contextmanager
 def runner(n: int) -> Iterator[Run]:
     """Give what runs jobs as `run_here` does: ``n`` fresh processes; for one, this one."""
     if n <= 1:

@@ -18,7 +18,7 @@ from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.package.model_sources import PACKAGE
 from thrustwasher.fmu.shell import call_table, platform_libraries
 from thrustwasher.model.registry import find_spec
-from thrustwasher.native import binaries, callbacks, digest, emit, gate, link
+from thrustwasher.native import binaries, callbacks, digest, emit, gate, lean, link
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
 
@@ -210,14 +210,16 @@ def test_numba_with_another_convention_is_refused_plainly():
     class Made:
         native_name = "other.name"
 
-        def inspect_llvm(self):
-            return ""
-
     with pytest.raises(EnvironmentProblem, match=r"is not known to the native build: a callback"):
-        callbacks.function_in(Made())
-    Made.native_name = "cfunc.step"
+        callbacks.function_name(Made())
     with pytest.raises(EnvironmentProblem, match="is not int32 f"):
-        callbacks.function_in(Made())
+        callbacks.check_convention("", "step")
+
+
+def test_numba_with_other_parts_is_refused_plainly(monkeypatch):
+    monkeypatch.setitem(lean._EXPECTED, ("JITCodeLibrary", "finalize"), ["self", "more"])
+    with pytest.raises(EnvironmentProblem, match=r"native build: JITCodeLibrary\.finalize is not"):
+        lean.check_numba()
 
 
 X86_64, ARM64 = 0x01000007, 0x0100000C

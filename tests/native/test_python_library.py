@@ -250,29 +250,6 @@ def test_a_machine_nothing_is_made_for_lets_numba_compile(tmp_path):
 
 
 @pytest.mark.slow
-def test_the_long_way_of_emission_gives_the_same_numbers(tmp_path):
-    """With a numba whose inside is not as expected."""
-    code = (
-        "import sys, importlib\nimport llvmlite.binding as llvm\n"
-        "from thrustwasher.native import emit, lean\nllvm.initialize_all_targets()\n"
-        "lean.is_known = lambda: False\n"
-        f"whole = emit.module(importlib.import_module('{GEAR}'), print)\n"
-        "open(sys.argv[1], 'wb').write(whole.as_bitcode())\n"
-    )
-    from thrustwasher.native import emit, lower
-
-    path, platform = tmp_path / "long.bc", PLATFORMS["linux64"]
-    surroundings = {**emit.environment(str(tmp_path / "numba")), "PYTHONPATH": str(ROOT)}
-    subprocess.run([sys.executable, "-c", code, str(path)], env=surroundings, check=True,
-                   stdout=subprocess.DEVNULL)  # fmt: skip
-    made = {("linux64", x.name): lower.object_code(path.read_bytes(), platform, x, "gear")
-            for x in platform.levels}  # fmt: skip
-    file = tmp_path / "gear.so"
-    file.write_bytes(library.linked_library(GEAR, platform, made, linker=link.local_linker()))
-    assert call(library._loaded(GEAR, file)) == call(library.addresses(GEAR))
-
-
-@pytest.mark.slow
 def test_everything_shipped_is_made_again_with_the_same_bytes():
     from thrustwasher.native import ship
 

@@ -23,11 +23,6 @@ ABI: dict[str, tuple[str, tuple[str, ...]]] = {
     "step": ("tw_step", (*_ARRAYS, "NOUT", "NIOUT", "", "")),
     "sens": ("tw_sens", (*_ARRAYS, "NINP", "NOUT")),
 }
-# Reference counts of arrays. The caller owns all memory, there is nothing to count.
-_COUNTING = re.compile(
-    r"^define linkonce_odr void @(NRT_incref|NRT_decref)\([^\n]*\{\n.*?^\}\n", re.M | re.S
-)
-_NOTHING = r"define internal void @\1(ptr %p) alwaysinline {\n  ret void\n}\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,16 +129,6 @@ def function_name(made: Any) -> str:
     if not name.startswith("cfunc."):
         raise unknown_numba(f"a callback is named {name[:40]!r}, not 'cfunc.' and its function")
     return name.removeprefix("cfunc.")
-
-
-def function_in(made: Any) -> tuple[str, str]:
-    """Return (text of the module, name) of the compiled function inside a C callback."""
-    text, name = made.inspect_llvm(), function_name(made)
-    text, changed = _COUNTING.subn(_NOTHING, text)
-    if changed not in (0, 2):  # a function without arrays counts nothing
-        raise unknown_numba(f"{changed} definitions of NRT_incref and NRT_decref, expected 2")
-    check_convention(text, name)
-    return text, name
 
 
 def check_convention(text: str, name: str) -> None:

@@ -17,7 +17,7 @@ from typing import Any
 
 from ..errors import EnvironmentProblem
 from . import lean
-from .callbacks import Callback, callbacks, compiled, function_in
+from .callbacks import callbacks
 from .digest import digest
 
 SAID = 2  # exit status: the last line on stderr is the message for the user
@@ -43,26 +43,8 @@ def environment(cache: str) -> dict[str, str]:
 def module(kernel: ModuleType, done: Callable[[int, int], None]) -> Any:
     """Return one module with all entries, external and hidden; everything else is internal."""
     wanted = callbacks(kernel)
-    whole = lean.module(wanted, done) if lean.is_known() else plain_module(wanted, done)
+    whole = lean.module(wanted, done)
     hide(whole, [callback.symbol for callback in wanted])
-    return whole
-
-
-def plain_module(wanted: list[Callback], done: Callable[[int, int], None]) -> Any:
-    """Return the entries' modules linked, as any numba makes them: several times slower."""
-    import llvmlite.binding as llvm
-
-    whole = None
-    for count, callback in enumerate(wanted, 1):
-        text, name = function_in(compiled(callback))
-        part = llvm.parse_assembly(text)
-        entry = part.get_function(name)
-        entry.name, entry.linkage = callback.symbol, "external"
-        if whole is None:
-            whole = part
-        else:  # what both call is there once: functions of the same name are merged
-            whole.link_in(part)
-        done(count, len(wanted))
     return whole
 
 

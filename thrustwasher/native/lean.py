@@ -3,8 +3,7 @@
 numba is made to run every function it compiles. It links all functions below one into it and
 optimises the whole again, makes machine code of it, wraps it for Python, and keeps it on the disk:
 four fifths of the time. Here each function's own module is kept as it was written, and all are
-linked once. None of this is public in numba; ``is_known`` tells whether its parts are as expected,
-and without them the long way gives the same code.
+linked once. None of this is public in numba: a version whose parts are not as expected is refused.
 """
 
 import inspect
@@ -12,7 +11,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-from .callbacks import Callback, check_convention, compiled, function_name
+from .callbacks import Callback, check_convention, compiled, function_name, unknown_numba
 
 # Methods that are replaced, with their arguments in the versions this was written for.
 _EXPECTED = {
@@ -32,22 +31,23 @@ define void @NRT_decref(ptr %p) alwaysinline {
 """
 
 
-def is_known() -> bool:
-    """Tell if numba's code generator has the parts that are replaced here."""
+def check_numba() -> None:
+    """Stop if numba's code generator lacks the parts that are replaced here."""
     from numba.core import codegen
 
     for (owner, name), arguments in _EXPECTED.items():
         method = getattr(getattr(codegen, owner, None), name, None)
         if method is None or list(inspect.signature(method).parameters) != arguments:
-            return False
-    return True
+            raise unknown_numba(f"{owner}.{name} is not as expected")
 
 
 def module(wanted: Sequence[Callback], done: Callable[[int, int], None]) -> Any:
     """Return one LLVM module with the functions of all callbacks under their symbols.
 
-    numba compiles for nothing else in this process from then on.
+    numba compiles for nothing else in this process from then on. EnvironmentProblem: this numba is
+    built otherwise.
     """
+    check_numba()
     libraries = _gathered()
     names = {}
     for count, callback in enumerate(wanted, 1):

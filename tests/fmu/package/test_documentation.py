@@ -1,10 +1,10 @@
 """Documentation of an FMU: all a user must know, nothing from outside; a notice for each part."""
 
 import re
-from html import escape
 from html.parser import HTMLParser
 
 import pytest
+from markupsafe import escape
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, Status

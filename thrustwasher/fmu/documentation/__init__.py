@@ -2,7 +2,7 @@
 
 =====================  ===============================================================
 ``html_page``          the page: the template in fmu_src filled from the model's lists
-``markup``             tables, lists and a little Markdown as HTML
+``markup``             a little Markdown as HTML
 ``reference_results``  results of the default experiment, to compare with
 =====================  ===============================================================
 """

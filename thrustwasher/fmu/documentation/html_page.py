@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import fields
-from html import escape
 from pathlib import Path
 
 from ...errors import Status
@@ -15,24 +14,11 @@ from ..model_kernels import package_version
 from ..package.licences import listed_licences
 from ..package.model_sources import source_folder
 from ..running.direct_instance import DirectInstance
-from .markup import data_uri, list_of, markup, table
+from .markup import data_uri, markup
 from .reference_results import FOLDER
 
 Rows = list[tuple[str, ...]]
 WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
-GENERAL = (
-    "All values are SI: kelvin, radian, newton. An input that is not connected reads 0; 0 K is "
-    "refused, every other input takes it.",
-    "Outputs are valid after the initialization and at the end of each step.",
-    "Any communication step is accepted, also steps of different length.",
-)
-LIMIT = """<p>A torque that resists slip, fed back over one communication step, is an explicit
-method. With the slope c of friction_torque over speed, the inertia J that the slip sees
-(J1 J2/(J1 + J2) of two shafts) and the step H, it is stable for H c/J &lt; 2 and without
-oscillation below 1 if the torque is fresh in each step, stable below 1 and without overshoot below
-1/4 if it is one step old. {slope} Where c is negative the system itself is unstable, and no step
-cures it. A linearly implicit master that uses the directional derivatives (native FMU) has no such
-limit.</p>"""
 
 
 def page(
@@ -54,13 +40,13 @@ def page(
     return environment.from_string(template).render(
         spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
         version=package_version(), reference=FOLDER,
-        table=table,
         icon=data_uri(icon) if icon.is_file() else "",
         inputs=_settable(found, "input"), parameters=_settable(found, "parameter"),
         outputs=[(v.name, _unit(v), v.help) for v in found if v.causality == "output"],
         enumerations=[(name, str(i.value), i.name, i.help)
                       for name, items in enumerations(spec).items() for i in items],
-        wiring=wiring(spec, runs=runs),
+        advice=find_model(spec.key).wiring if spec.key in MODELS else (),
+        feedthrough=_feedthrough(spec), slope=_slope_words(spec, runs),
         statuses=[(str(int(s)), s.name, "failure" if s.is_failure else "advice" if s else "-",
                    s.advice) for s in sorted(Status)],
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
@@ -106,47 +92,27 @@ def _equations(folder: Path) -> str:
     return markup(rest if title.startswith("# ") else readme, folder, level=2)
 
 
-def wiring(spec: ModelSpec, *, runs: bool = True) -> str:
-    """Return advice, feedthrough, the limit of explicit coupling and the terminals as HTML.
-
-    The limit names the model's own slope if the model ``runs`` for it.
-    """
-    advice = find_model(spec.key).wiring if spec.key in MODELS else ()
-    lines = [*GENERAL, f"Suggested step: {spec.step_size:g} s.", *advice]
-    plugs = [
-        (t.name, t.kind, ", ".join(f"{member} = {name}" for name, member, _ in t.members), t.help)
-        for t in spec.terminals
-    ]
-    parts = [list_of(lines), _feedthrough(spec), _limit(spec, runs)]
-    if plugs:
-        parts.append(table(("terminal", "kind", "members", "meaning"), plugs))
-    return "\n".join(filter(None, parts))
-
-
-def _feedthrough(spec: ModelSpec) -> str:
-    """Say which outputs follow which inputs at once: a master sees them one step late."""
+def _feedthrough(spec: ModelSpec) -> Rows:
+    """Return which outputs follow which inputs at once: a master sees them one step late."""
     groups: dict[tuple[str, ...], list[str]] = {}
     for signal in spec.outputs:
         groups.setdefault(signal.depends, []).append(signal.name)
-    rows = [(", ".join(names) or "-", ", ".join(o)) for names, o in groups.items()]
-    return (
-        "<p>Which inputs act at once, within the same point of time. A master with fixed steps "
-        "sees such an output one step late.</p>" + table(("inputs", "outputs"), rows)
-    )
+    return [(", ".join(names) or "-", ", ".join(found)) for names, found in groups.items()]
 
 
-def _limit(spec: ModelSpec, runs: bool) -> str:
-    inputs, outputs = ({s.name: s for s in side} for side in (spec.inputs, spec.outputs))
-    if "speed" not in inputs or "friction_torque" not in outputs:
-        return ""
+def _slope_words(spec: ModelSpec, runs: bool) -> str | None:
+    """Return the slope of the model's torque if it ``runs`` for it; None: it has no slip."""
+    inputs = {s.name: s for s in spec.inputs}
+    if "speed" not in inputs or "friction_torque" not in spec.real_outputs:
+        return None
     if not runs:
-        return LIMIT.format(slope="")
+        return ""
     point = {s.name: s.usual for s in spec.inputs}
     said = [
         f"{slope(spec, point | {'speed': v}):.1e} at {v:g} rad/s" for v in (0.0, point["speed"])
     ]
     others = ", ".join(f"{n} = {x:g} {inputs[n].unit}" for n, x in point.items() if n != "speed")
-    return LIMIT.format(slope=escape(f"Here c [N.m.s/rad] is {' and '.join(said)}, with {others}."))
+    return f"Here c [N.m.s/rad] is {' and '.join(said)}, with {others}."
 
 
 def slope(spec: ModelSpec, point: dict[str, float]) -> float:

@@ -1,21 +1,16 @@
 """The complete state of an instance, and its bytes: checked in full before anything is used."""
 
-import struct
+import json
 import zlib
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError
 
-MAGIC = b"thrustw2"
-# magic, total length, identity of the model's content, lengths, time, mode, flags, latch
-HEADER = struct.Struct("<8sQ16s7Id3i")
-TYPES = {"par": "<f8", "inp": "<f8", "state": "<f8", "out": "<f8", "iout": "<i4",
-         "refused": "<i4", "seen": "<i4"}  # fmt: skip
-CHECK = struct.Struct("<I")  # CRC-32 over all that precedes it
+TYPES = {"par": float, "inp": float, "state": float, "out": float, "iout": np.int32,
+         "refused": np.int32, "seen": np.int32}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,38 +32,26 @@ class Snapshot:
     seen: NDArray[np.int32]  # Boolean outputs that make events, at the last communication point
 
     def to_bytes(self) -> bytes:
-        """Return the same bytes on every platform: little endian, header first, CRC last."""
-        arrays = [getattr(self, name) for name in TYPES]
-        pairs = zip(arrays, TYPES.values(), strict=True)
-        payload = b"".join(array.astype(kind).tobytes() for array, kind in pairs)
-        sizes = [len(array) for array in arrays]
-        length = HEADER.size + len(payload) + CHECK.size
-        flags = int(self.dirty) + 2 * int(self.prepared)
-        head = HEADER.pack(MAGIC, length, self.identity.encode(), *sizes, self.time, self.mode,
-                           flags, self.latch)  # fmt: skip
-        return head + payload + CHECK.pack(zlib.crc32(head + payload))
+        """Return the same bytes on every platform: a CRC-32, then JSON, whose numbers are exact."""
+        held = asdict(self)
+        text = json.dumps({**held, **{name: held[name].tolist() for name in TYPES}}).encode()
+        return _check(text) + text
 
 
 def from_bytes(data: bytes) -> Snapshot:
-    """Read what ``to_bytes`` wrote, or raise ParameterError saying why not."""
-    if len(data) < HEADER.size + CHECK.size or data[:8] != MAGIC:
-        raise ParameterError("FMU state = bytes that no thrustwasher FMU has written")
-    _, length, identity, *rest = HEADER.unpack_from(data)
-    sizes: list[Any] = rest[:7]
-    time, mode, flags, latch = rest[7:]
-    expected = HEADER.size + 8 * sum(sizes[:4]) + 4 * sum(sizes[4:]) + CHECK.size
-    if length != len(data) or expected != len(data):
-        raise ParameterError(f"FMU state = {len(data)} bytes, allowed: {length}; it is truncated")
-    (check,) = CHECK.unpack_from(data, length - CHECK.size)
-    if check != zlib.crc32(data[: -CHECK.size]):
-        raise ParameterError("FMU state = bytes with a wrong checksum; they were changed")
-    arrays: dict[str, Any] = {}
-    offset = HEADER.size
-    for (name, kind), size in zip(TYPES.items(), sizes, strict=True):
-        array = np.frombuffer(data, kind, size, offset)
-        arrays[name] = array.astype(array.dtype.newbyteorder("="))
-        offset += array.nbytes
-    return Snapshot(
-        identity=identity.decode("ascii", "replace"), time=time, mode=mode,
-        dirty=bool(flags & 1), prepared=bool(flags & 2), latch=latch, **arrays,
-    )  # fmt: skip
+    """Read what ``to_bytes`` wrote, or raise ParameterError."""
+    check, text = data[:8], data[8:]
+    try:
+        if check != _check(text):
+            raise ValueError("wrong checksum")
+        found = json.loads(text)
+        arrays = {name: np.array(found[name], kind) for name, kind in TYPES.items()}
+        return Snapshot(**{**found, **arrays})
+    except (ValueError, TypeError, KeyError):
+        raise ParameterError(
+            f"FMU state = {len(data)} bytes, allowed: bytes that this FMU has written, unchanged"
+        ) from None
+
+
+def _check(text: bytes) -> bytes:
+    return b"%08x" % zlib.crc32(text)

@@ -6,7 +6,7 @@ what runs of different masters differ by.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
-from html import escape
+from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -24,35 +24,6 @@ SPACES = {
     "xmlns:oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
     "xmlns:osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
 }  # fmt: skip
-STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60em;margin:2em auto;padding:0 1em;
-color:#263242}table{border-collapse:collapse;width:100%;margin:1em 0}
-th,td{border:1px solid #c4ccd4;padding:.25em .5em;text-align:left;vertical-align:top}
-th{background:#eef1f4}code,pre{background:#f4f6f8}pre{padding:1em;overflow:auto}"""
-
-MASTER = """<p>Step all parts at once by {step:g} s with the values of the last point, held
-(a parallel master), from {start:g} s to {stop:g} s. Between the parts values are handed over as
-they are: no scaling, no filter, no sum.</p>
-<ul>
-<li>A torque arrives at the transmission one step late. Its parameter <code>torque_age</code> = 1
-tells it so, and it looks ahead by itself (<code>capacity_extrapolation</code>). A master that steps
-the transmission last, with fresh torques, wants <code>torque_age</code> = 0.</li>
-<li>The shift command would be one step late too: <code>lead</code> of the command source is that
-step. With another step, set <code>lead</code> to it.</li>
-<li>The oil's temperature is a value of every part, not a connection.</li>
-<li>Parameters and start values of the scene are the defaults of the FMUs. They stand in
-<code>SystemStructure.ssd</code> too, for tools that show and change them.</li>
-<li>The start values of all inputs are those at which the parts agree. A master that exchanges
-values before it starts finds the same.</li>
-<li><code>Parts.ssd</code> is the same system without outputs of its own and without written values,
-for masters that know neither (libcosim).</li>
-</ul>"""
-
-DIFFERENCES = """<p>A master that exchanges values before the first step (libcosim was tried)
-gives the numbers of <code>thrustwasher shift --master jacobi</code> to about 1e-12. FMPy's
-simulator sends zero to every connected input in its first step, so that a pack that holds lets go
-for two steps: in the scene <code>planetary</code> the clutch then locks 0.75 ms earlier with 0.12 %
-less heat, and the brake has 9 % more. Stepping the transmission last with fresh torques, as
-<code>thrustwasher shift</code> does by default, moves lock-up there by 4 microseconds.</p>"""
 
 
 def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
@@ -69,35 +40,11 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
 
 def page(system: Structure, *, tool: str) -> str:
     """Return the page: one file without scripts and outside links."""
-    scene = system.scene
-    times = {"step": scene.step, "start": scene.start_time, "stop": scene.stop_time}
-    parts = [
-        f"<h1>{escape(scene.title)}</h1><p>{escape(scene.description)}</p>",
-        f"<p>A package after System Structure and Parameterization 1.0, made by {escape(tool)} "
-        f"from the scene <code>{escape(scene.name)}</code>. The FMUs in it are co-simulation FMUs "
-        "after FMI 2.0; each brings its own documentation.</p>",
-        "<h2>How to step it</h2>", MASTER.format(**times),
-        "<h2>What masters differ by</h2>", DIFFERENCES,
-        "<h2>Parts</h2>", _table(["part", "FMU", "fidelity", "what it is"], [
-            [p.name, p.spec.name, p.parameters["fidelity"], p.spec.help]
-            for p in system.components]),
-        "<h2>Connections</h2>", _table(["from", "to"], [
-            [f"{k.source}.{k.output}", f"{k.target}.{k.input}"] for k in system.links]),
-        "<h2>Outputs of the system</h2>", _table(["output", "unit", "meaning"], [
-            [b.name, "" if b.signal.unit == "1" else b.signal.unit, b.signal.help]
-            for b in system.border]),
-    ]  # fmt: skip
-    title = f"<title>{escape(scene.title)}</title><style>{STYLE}</style>"
-    head = f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{title}</head>'
-    return "\n".join([f"{head}<body>", *parts, "</body></html>", ""])
+    from jinja2 import Environment
 
-
-def _table(heads: list[str], rows: list[list[str]]) -> str:
-    top = "".join(f"<th>{escape(h)}</th>" for h in heads)
-    body = "\n".join(
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
-    )
-    return f"<table><tr>{top}</tr>\n{body}</table>"
+    template = Path(__file__).with_name("page.html.jinja").read_text("utf-8")
+    environment = Environment(autoescape=True, trim_blocks=True, keep_trailing_newline=True)
+    return environment.from_string(template).render(**system._asdict(), tool=tool)
 
 
 def structure(system: Structure, *, tool: str, date: str, plain: bool = False) -> Element:

@@ -173,7 +173,7 @@ def judged(function):
     rows = SimpleNamespace(derive=function, NPAR=8, __name__="gate.rows")
     platform = PLATFORMS["linux64"]
     try:
-        bitcode = emit.module(rows, lambda done, total: None).as_bitcode()
+        bitcode = emit.module(rows).as_bitcode()
         lower.object_code(bitcode, platform, platform.levels[0], "rows.derive")
     except EnvironmentProblem as problem:
         return str(problem)

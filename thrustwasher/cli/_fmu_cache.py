@@ -18,16 +18,12 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
     """Return the FMU of each model for this machine, building those that are not there yet."""
     from ..fmu.build import build
     from ..fmu.running.loading import prune
-    from ..fmu.shell.platform_libraries import compile_local
-    from ..model.registry import find_spec
 
     folder = cache_folder(target)
     paths = {model: folder / f"{target}-fmi2" / f"{model}.fmu" for model in models}
     missing = [model for model, path in paths.items() if not path.is_file()]
     if missing:
         began = time.perf_counter()
-        if target == "native":  # as many at once as there are processors
-            compile_local([find_spec(model) for model in missing], note)
         build(missing, target=target, out=folder, local=True)
         note(f"built {', '.join(missing)} in {time.perf_counter() - began:.0f} s")
         prune(folder.parent, KEPT)

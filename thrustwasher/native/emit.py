@@ -10,7 +10,7 @@ import importlib
 import os
 import sys
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -21,7 +21,6 @@ from .callbacks import callbacks
 from .digest import digest
 
 SAID = 2  # exit status: the last line on stderr is the message for the user
-DONE = "entry"  # begins a line on standard output: an entry is done, "entry 3 of 24"
 
 
 def environment(cache: str) -> dict[str, str]:
@@ -40,10 +39,10 @@ def environment(cache: str) -> dict[str, str]:
     }  # fmt: skip
 
 
-def module(kernel: ModuleType, done: Callable[[int, int], None]) -> Any:
+def module(kernel: ModuleType) -> Any:
     """Return one module with all entries, external and hidden; everything else is internal."""
     wanted = callbacks(kernel)
-    whole = lean.module(wanted, done)
+    whole = lean.module(wanted)
     hide(whole, [callback.symbol for callback in wanted])
     return whole
 
@@ -73,9 +72,7 @@ def main(arguments: list[str]) -> int:
     warnings.filterwarnings("ignore", message=r"[\s\S]*Cannot cache compiled function")
     llvm.initialize_all_targets()
     try:
-        whole = module(
-            importlib.import_module(name), lambda k, n: print(f"{DONE} {k} of {n}", flush=True)
-        )
+        whole = module(importlib.import_module(name))
         digest.cache_clear()
         if digest(name) != wanted:
             raise EnvironmentProblem(f"{name}: its source changed meanwhile; start again")

@@ -7,7 +7,7 @@ linked once. None of this is public in numba: a version whose parts are not as e
 """
 
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
@@ -41,7 +41,7 @@ def check_numba() -> None:
             raise unknown_numba(f"{owner}.{name} is not as expected")
 
 
-def module(wanted: Sequence[Callback], done: Callable[[int, int], None]) -> Any:
+def module(wanted: Sequence[Callback]) -> Any:
     """Return one LLVM module with the functions of all callbacks under their symbols.
 
     numba compiles for nothing else in this process from then on. EnvironmentProblem: this numba is
@@ -49,10 +49,7 @@ def module(wanted: Sequence[Callback], done: Callable[[int, int], None]) -> Any:
     """
     check_numba()
     libraries = _gathered()
-    names = {}
-    for count, callback in enumerate(wanted, 1):
-        names[function_name(compiled(callback))] = callback.symbol
-        done(count, len(wanted))
+    names = {function_name(compiled(callback)): callback.symbol for callback in wanted}
     return _linked(libraries, names)
 
 

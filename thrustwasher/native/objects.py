@@ -7,14 +7,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from ..errors import EnvironmentProblem
 from . import emit, files, shipped
@@ -26,15 +24,13 @@ Objects = dict[tuple[str, str], bytes]  # (platform, level) -> object file
 Wanted = dict[tuple[str, str], tuple[Platform, Level]]
 PACKAGE = __name__.rpartition(".")[0]
 KEPT_VERSIONS = 5
-OFTEN = 5.0  # seconds between lines of progress
-_at_once = threading.Semaphore(os.cpu_count() or 1)
 
 
 def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) -> Objects:
     """Return (platform, level) -> object file with the entries of a kernel module.
 
-    What several platforms need is made once; ``note`` is called with a line of progress before and
-    while something takes long. EnvironmentProblem: the kernel needs what an FMU does not have, or
+    What several platforms need is made once; ``note`` is called with a line of progress before
+    something takes long. EnvironmentProblem: the kernel needs what an FMU does not have, or
     numba is not as expected.
     """
     wanted, found = wanted_for(platforms), shipped.objects_of(kernel)
@@ -46,11 +42,6 @@ def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) 
 def wanted_for(platforms: Iterable[Platform]) -> Wanted:
     """Return all levels of some platforms."""
     return {(p.name, level.name): (p, level) for p in platforms for level in p.levels}
-
-
-def prepare(kernels: Iterable[str], platforms: Sequence[Platform], note: Note = to_stderr) -> None:
-    """Make the objects of several models side by side, as many at once as there are processors."""
-    side_by_side(objects, [(kernel, platforms, note) for kernel in kernels])
 
 
 def kept_folder(kernel: str) -> Path:
@@ -98,39 +89,14 @@ def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note:
             return
         start, bitcode = time.perf_counter(), folder / "module.bc"
         if files.kept(bitcode) is None:
-            took = _last_time(folder.parent, name, kernel)
-            last = f"; last time {took:.0f} s" if took else ": seconds, the washer about a minute"
-            note(f"compiling {name}, whose source is new here{last}")
-            _make(bitcode, "emit", kernel, digest(kernel), note=_progress(name, note))
-        side_by_side(
-            _lower, [(_object(folder, w), bitcode, *wanted[w], name) for w in sorted(missing)]
-        )
-        took = time.perf_counter() - start
-        note(f"compiled {name} in {took:.0f} s")
-        with suppress(OSError):
-            (folder.parent / f"{name}.seconds").write_text(f"{took:.1f}", "ascii")
-
-
-def _last_time(home: Path, name: str, kernel: str) -> float:
-    """Return how long compiling took the last time here, else where the package was made [s]."""
-    with suppress(OSError, ValueError):
-        return float((home / f"{name}.seconds").read_text("ascii"))
-    about = shipped.index()["kernels"].get(kernel, {})
-    return float(about.get("seconds", 0.0))
-
-
-def _progress(name: str, note: Note) -> Callable[[str], None]:
-    """Return what is told each finished entry and says so now and then."""
-    start = last = time.perf_counter()
-
-    def told(line: str) -> None:
-        nonlocal last
-        now = time.perf_counter()
-        if line.startswith(emit.DONE) and now - last > OFTEN:
-            last = now
-            note(f"compiling {name}: {line.strip()}, {now - start:.0f} s")
-
-    return told
+            about = shipped.index()["kernels"].get(kernel, {}).get("seconds", 30.0)
+            note(f"compiling {name}, whose source is new here: about {about:.0f} s")
+            _make(bitcode, "emit", kernel, digest(kernel))
+        with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+            jobs = [(_object(folder, w), bitcode, *wanted[w], name) for w in sorted(missing)]
+            for job in [pool.submit(_lower, *given) for given in jobs]:
+                job.result()
+        note(f"compiled {name} in {time.perf_counter() - start:.0f} s")
 
 
 def _forget_old(folder: Path, name: str) -> None:
@@ -146,35 +112,22 @@ def _lower(path: Path, bitcode: Path, platform: Platform, level: Level, name: st
     _make(path, "lower", str(bitcode), platform.name, json.dumps(asdict(level)), name)
 
 
-def _make(
-    path: Path, module: str, *arguments: str, note: Callable[[str], None] = lambda line: None
-) -> None:
+def _make(path: Path, module: str, *arguments: str) -> None:
     """Run a module of this package in a process of its own, which writes one file."""
     if not importlib.util.find_spec("numba"):
         raise EnvironmentProblem("compiling kernels takes numba: pip install numba")
-    with _at_once, tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder:
         part = Path(folder) / "part"
         surroundings = emit.environment(os.path.join(folder, "numba"))
         surroundings["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
         # -P: modules are those of this package, not what lies in the working directory
         command = [sys.executable, "-P", "-m", f"{PACKAGE}.{module}", *arguments, str(part)]
-        with tempfile.TemporaryFile("w+", dir=folder) as errors:
-            with subprocess.Popen(
-                command, stdout=subprocess.PIPE, stderr=errors, text=True, env=surroundings
-            ) as process:
-                for line in process.stdout or ():
-                    note(line)
-            if process.returncode:
-                errors.seek(0)
-                lines = errors.read().strip().splitlines()
-                last = lines[-1] if lines else f"it ended with {process.returncode}"
-                said = process.returncode == emit.SAID
-                raise EnvironmentProblem(last if said else f"compiling {arguments[0]}: {last}")
+        done = subprocess.run(
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=surroundings
+        )
+        if done.returncode:
+            lines = done.stderr.strip().splitlines()
+            last = lines[-1] if lines else f"it ended with {done.returncode}"
+            said = done.returncode == emit.SAID
+            raise EnvironmentProblem(last if said else f"compiling {arguments[0]}: {last}")
         files.keep(path, part.read_bytes())
-
-
-def side_by_side(job: Callable[..., Any], arguments: Sequence[tuple[Any, ...]]) -> None:
-    """Do a job with each of the arguments, as many at once as there are processors."""
-    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        for result in [pool.submit(job, *given) for given in arguments]:
-            result.result()

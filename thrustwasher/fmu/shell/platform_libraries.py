@@ -1,20 +1,19 @@
 """The shared libraries inside native FMUs: the C shell linked with kernels, one per platform."""
 
 import struct
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
 
 from ...errors import ParameterError
 from ...model.prepare import tables_of
-from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...native import digest, shipped
 from ...native.files import Note, to_stderr
 from ...native.library import linked_objects
 from ...native.link import Linker, find_linker, local_linker, this_level, this_platform
-from ...native.objects import objects, prepare
+from ...native.objects import objects
 from ...native.targets import PLATFORMS
 from ..package.model_sources import source_folder
 from . import c_tables, call_table
@@ -62,17 +61,6 @@ def made_of(spec: ModelSpec, *, local: bool) -> str:
     kernel = spec.kernel
     linker = local_linker() if local else find_linker()
     return f"{shipped.digest_now(kernel)} {tools(linker)} {local_level(spec) if local else ''}"
-
-
-def compile_local(specs: Iterable[ModelSpec], note: Note) -> None:
-    """Compile models for use on this machine, side by side, unless they are compiled already."""
-    platform = this_platform()
-    # The model with the most memory has the most code; begun last it would run alone at the end.
-    largest_first = sorted(specs, key=lambda spec: -kernel_of(spec).NWORK)
-    missing = [spec for spec in largest_first if local_level(spec)]
-    if missing:
-        one = replace(platform, levels=(this_level(platform),))
-        prepare([spec.kernel for spec in missing], [one], note)
 
 
 def native_contents(

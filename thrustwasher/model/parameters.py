@@ -118,19 +118,23 @@ def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> 
 def check_ranges(params: Any) -> None:
     """Raise ParameterError for the first field out of range; the message names it."""
     for f in fields(params):
-        value, m = getattr(params, f.name), f.metadata
-        if m["kind"] == "enumeration":
-            good = isinstance(value, str) and value in m["options"]
-        elif m["kind"] == "boolean":
-            good = isinstance(value, bool) or value in (0, 1)
-        else:
-            is_number = isinstance(value, int | float) and not isinstance(value, bool)
-            good = is_number and m["min"] <= value <= m["max"]  # False for NaN too
-            if m["kind"] == "integer":
-                good = good and value == int(value)
-        if not good:
-            unit = "" if m["unit"] == "1" else f" {m['unit']}"
-            raise ParameterError(f"{f.name} = {value!r}{unit}, allowed: {allowed(m)}")
+        check_value(f.name, getattr(params, f.name), f.metadata)
+
+
+def check_value(name: str, value: Any, m: Mapping[str, Any]) -> None:
+    """Raise ParameterError if a value is not allowed by a field's metadata."""
+    if m["kind"] == "enumeration":
+        good = isinstance(value, str) and value in m["options"]
+    elif m["kind"] == "boolean":
+        good = isinstance(value, bool) or value in (0, 1)
+    else:
+        is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        good = is_number and m["min"] <= value <= m["max"]  # False for NaN too
+        if m["kind"] == "integer":
+            good = good and value == int(value)
+    if not good:
+        unit = "" if m["unit"] == "1" else f" {m['unit']}"
+        raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}")
 
 
 def check_number(name: str, value: float, unit: str, low: float, high: float) -> float:

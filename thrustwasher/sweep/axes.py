@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ..errors import ParameterError, suggestion
-from ..model.parameters import allowed
+from ..model.parameters import check_value
 from ..model.registry import find_model
 from ..model.spec import ModelSpec, Signal
 from ..units import parse_quantity
@@ -37,17 +37,13 @@ class Place:
     def check(self, value: Any) -> float | int | bool | str:
         """Return a value given in Python, or raise ParameterError naming what is allowed."""
         if self.kind in ("enumeration", "boolean"):
-            if value not in self.meta.get("options", (0, 1)):
-                raise ParameterError(f"{self.name} = {value!r}, allowed: {allowed(self.meta)}")
+            check_value(self.name, value, self.meta)
             return str(value) if self.kind == "enumeration" else bool(value)
         number = parse_quantity(
             value if isinstance(value, str) else float(value), self.unit, self.name,
             difference=bool(self.meta.get("relative")),
         )  # fmt: skip
-        whole = self.kind != "integer" or number == int(number)
-        if not self.meta["min"] <= number <= self.meta["max"] or not whole:
-            unit = "" if self.unit == "1" else f" {self.unit}"
-            raise ParameterError(f"{self.name} = {number!r}{unit}, allowed: {allowed(self.meta)}")
+        check_value(self.name, number, self.meta)
         return int(number) if self.kind == "integer" else number
 
 

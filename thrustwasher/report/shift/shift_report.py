@@ -17,7 +17,7 @@ from .worst_moments import Moment, highest, solve_moment, worst_film
 SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged as well
 
 
-def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
+def shift_page(record: Record) -> Page:
     """Return the whole report of a finished shift."""
     sections = [
         *_usual_sections(record),
@@ -53,7 +53,7 @@ def shift_page(record: Record, made_by: str = "thrustwasher") -> Page:
     return Page(
         title=record.title,
         subtitle=f"Scene {record.name}, {record.time[-1] - record.time[0]:.4g} s simulated in "
-        f"{say(record.wall_time, 's', digits=3)}, {len(record.parts)} FMUs, made by {made_by}",
+        f"{say(record.wall_time, 's', digits=3)}, {len(record.parts)} FMUs, made by thrustwasher",
         summary=summary.sentences(record),
         warnings=summary.warnings(record),
         cards=_cards(record),

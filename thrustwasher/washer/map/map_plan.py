@@ -91,18 +91,17 @@ class MapPlan:
         return float(viscosity(oil_temperature, *law)[0])
 
     def oil_of(self, log_viscosity: float) -> float:
-        """Return the oil temperature [K] in the box with a viscosity; by bisection."""
+        """Return the oil temperature [K] in the box with a viscosity."""
+        from scipy.optimize import brentq  # late: only who makes a map needs it
+
+        def above(oil: float) -> float:
+            return math.log(self.viscosity(oil)) - log_viscosity
+
         low, high = self.box["oil_temperature"]
         for end in (low, high):
-            if abs(log_viscosity - math.log(self.viscosity(end))) < 1e-12:
+            if abs(above(end)) < 1e-12:
                 return end
-        for _ in range(60):
-            middle = 0.5 * (low + high)
-            if math.log(self.viscosity(middle)) > log_viscosity:
-                low = middle
-            else:
-                high = middle
-        return 0.5 * (low + high)
+        return float(brentq(above, low, high, xtol=1e-12))
 
     def header(self, reach: float) -> Array:
         """Return the map's header; ``reach`` sets where the thick films end (see the layout)."""

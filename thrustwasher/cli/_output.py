@@ -25,9 +25,10 @@ LINES = 16  # of a table on the screen
 
 
 def scalars(result: Any) -> dict[str, Any]:
-    """Return the public fields of a result that JSON can hold, in their order."""
-    pairs = ((f.name, getattr(result, f.name)) for f in dataclasses.fields(result))
-    plain = ((name, as_json(value)) for name, value in pairs if not name.startswith("_"))
+    """Return the public fields and properties of a result that JSON can hold, in their order."""
+    shown = [n for n, what in vars(type(result)).items() if isinstance(what, property)]
+    names = [f.name for f in dataclasses.fields(result) if not f.name.startswith("_")]
+    plain = ((name, as_json(getattr(result, name))) for name in (*names, *shown))
     return {name: value for name, value in plain if value is not NotImplemented}
 
 

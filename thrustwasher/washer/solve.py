@@ -246,4 +246,4 @@ def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult
         change = abs(result.friction_torque - coarse.friction_torque)
         # order 1.3, the lowest seen (boundary lubrication; 2.2 in full film): error = change/1.46
         estimate = change / 1.46 / max(abs(result.friction_torque), 1e-12)
-    return replace(result, error_estimate=estimate)
+    return replace(result, _error=estimate)

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -50,6 +49,10 @@ class Fold:
     friction_torque: float  # [N m]
 
 
+class Unread(float):
+    """The error of a rung in general; the card may know better for the point at hand."""
+
+
 @dataclass(frozen=True, slots=True)
 class WasherResult:
     """Steady state of the washer at one operating point; SI units."""
@@ -77,13 +80,25 @@ class WasherResult:
     iterations: int
     fidelity: str
     grid: tuple[int, int]
-    error_estimate: float  # [-] relative, of friction_torque; see ErrorEstimate
+    _error: float = field(repr=False)  # [-] relative, of friction_torque
     load: float  # [N] as solved for
     speed: float  # [rad/s]
     tilt: float  # [rad]
     oil_temperature: float  # [K]
     params: WasherParams = field(repr=False, compare=False)
     _state: Array = field(repr=False, compare=False)
+
+    @property
+    def error_estimate(self) -> float:
+        """[-] relative, of friction_torque; its card is looked at when somebody asks."""
+        if type(self._error) is not Unread:
+            return self._error
+        names = ("load", "speed", "tilt", "oil_temperature")
+        known = error_estimate(
+            "washer", self.fidelity, self.params, {n: getattr(self, n) for n in names},
+            branch=self.branch, film_ratio=self.film_ratio,
+        )  # fmt: skip
+        return float(self._error) if known is None else known
 
     def fields(self) -> WasherFields:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""
@@ -131,43 +146,6 @@ class WasherResult:
             flow_outward=outward,
             flow_around=around,
         )
-
-
-class Unread(float):
-    """The error of a rung in general; the card may know better for the point at hand."""
-
-
-class ErrorEstimate:
-    """The field ``error_estimate`` of a result: its card is asked when somebody wants to know.
-
-    That takes longer than many a solve, and most solves in a loop are never asked.
-    """
-
-    def __init__(self, field: Any) -> None:
-        self.field = field
-
-    def __get__(self, result: WasherResult | None, owner: object = None) -> Any:
-        """Return the error; the card is looked at once."""
-        if result is None:
-            return self.field
-        value = self.field.__get__(result)
-        if type(value) is Unread:
-            names = ("load", "speed", "tilt", "oil_temperature")
-            known = error_estimate(
-                "washer", result.fidelity, result.params, {n: getattr(result, n) for n in names},
-                branch=result.branch, film_ratio=result.film_ratio,
-            )  # fmt: skip
-            value = float(value) if known is None else known
-            self.field.__set__(result, value)
-        return value
-
-    def __set__(self, result: WasherResult, value: float) -> None:
-        """Keep the error."""
-        self.field.__set__(result, value)
-
-
-_field = WasherResult.__dict__["error_estimate"]
-setattr(WasherResult, "error_estimate", ErrorEstimate(_field))  # noqa: B010
 
 
 def result_of(

@@ -3,7 +3,7 @@
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import Executor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
@@ -134,7 +134,7 @@ class Run:
                 return
             try:
                 with local_processes(min(n, len(self.plan.params_of))) as executor:
-                    self._hand_out(executor, n, helps=True)
+                    self._hand_out(executor, n)
             except BrokenProcessPool:
                 continue
         if not self.done.all():
@@ -161,33 +161,16 @@ class Run:
             else:  # the first task has loaded or compiled the kernels: that is not the pace
                 warm, began = True, time.perf_counter()
 
-    def _hand_out(self, executor: Executor, n: int, *, helps: bool = False) -> None:
-        """Solve with workers; a few tasks wait for each, no more.
-
-        ``helps``: until the workers have started this process solves too.
-        """
-        waiting: dict[Future[Any], Task] = {}
-        tasks = self._tasks(n)
+    def _hand_out(self, executor: Executor, n: int) -> None:
+        """Solve with workers."""
+        waiting = {executor.submit(solve_task, task): task for task in self._tasks(n)}
         try:
-            for task in tasks:
-                full = len(waiting) >= 3 * n
-                if full and helps and not any(future.done() for future in waiting):
-                    self._take(task, *solve_task(task))
-                    continue
-                if full:
-                    helps = False
-                    self._take_finished(waiting)
-                waiting[executor.submit(solve_task, task)] = task
-            while waiting:
-                self._take_finished(waiting)
+            for future in as_completed(list(waiting)):
+                self._take(waiting.pop(future), *future.result())
         except BaseException:
             for future in waiting:
                 future.cancel()
             raise
-
-    def _take_finished(self, waiting: dict[Future[Any], Task]) -> None:
-        for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-            self._take(waiting.pop(future), *future.result())
 
     def _take(self, task: Task, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:
         """Take the rows of a task in; the journal writes them within a second or at its end."""

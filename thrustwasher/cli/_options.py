@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 from ..errors import ParameterError, suggestion
 from ..model.parameters import allowed, made_of
 from ..model.record import Option, resolve
+from ..sweep.axes import Place
 from ..units import parse_quantity
 
 if TYPE_CHECKING:  # they need numpy, which not every command does
     from ..model.spec import ModelSpec, Signal
-
-_TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
 
 
 def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> None:
@@ -84,7 +83,7 @@ def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
                 f"--set {setting}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
             )
-        values[name] = _parameter(name, text, metadata[name])
+        values[name] = Place(name, False, metadata[name]).check(text)
     return made_of(spec, getattr(arguments, "preset", None), values)
 
 
@@ -160,16 +159,3 @@ def read_grid(text: str) -> tuple[int, int]:
 def option_name(name: str) -> str:
     """Return the option for an argument: oil_temperature is --oil-temperature."""
     return "--" + name.replace("_", "-")
-
-
-def _parameter(name: str, text: str, meta: Any) -> float | int | bool | str:
-    """Return the value of one ``--set``; ranges are checked by the dataclass."""
-    kind = meta["kind"]
-    if kind == "enumeration":
-        return text
-    if kind == "boolean":
-        if text.lower() not in _TRUE + _FALSE:
-            raise ParameterError(f"{name} = {text!r}, allowed: true or false")
-        return text.lower() in _TRUE
-    number = parse_quantity(text, meta["unit"], name, difference=bool(meta.get("relative")))
-    return int(number) if kind == "integer" and number == int(number) else number

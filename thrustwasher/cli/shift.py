@@ -68,7 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
-    from ..shift import load_scene, run_auto, with_fidelities
+    from ..shift import load_scene, run_auto, run_sequence, with_fidelities
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     tolerance = arguments.master_tolerance
@@ -78,7 +78,7 @@ def run(arguments: argparse.Namespace) -> int:
     )  # fmt: skip
     scene = with_fidelities(scene, arguments.fidelity)
     if scene.sequence:
-        return _sequence.run(arguments, scene, _fmu_instances)
+        _sequence.check(arguments, scene)
     if arguments.ssp:
         return _export(arguments, scene)
     if arguments.platforms:
@@ -88,16 +88,22 @@ def run(arguments: argparse.Namespace) -> int:
     target = chosen_target(arguments.fmu)
     began = time.perf_counter()
     progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
+    result: Any
     with _fmu_instances(scene, target) as make:
-        result = run_auto(scene, make, guard=not arguments.no_guard, progress=progress)
+        if scene.sequence:
+            instances = {name: make(name, part) for name, part in scene.parts.items()}
+            result = run_sequence(scene, instances, progress=progress)
+        else:
+            result = run_auto(scene, make, guard=not arguments.no_guard, progress=progress)
     if folder:
         with _output.whole_folder(folder) as draft:
-            _write(result, draft)
+            (_sequence.write if scene.sequence else _write)(result, draft)
     if arguments.json:
+        more = {} if scene.sequence else {"warnings": _warnings(result)}
         total, out = time.perf_counter() - began, str(folder) if folder else None
-        _output.print_json(
-            {**result.as_dict(), "warnings": _warnings(result), "total_time": total, "out": out}
-        )
+        _output.print_json({**result.as_dict(), **more, "total_time": total, "out": out})
+    elif scene.sequence:
+        _sequence.say(result)
     else:
         _say(result, folder)
     return 0

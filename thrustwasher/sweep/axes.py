@@ -13,7 +13,7 @@ from ..model.spec import ModelSpec, Signal
 from ..units import parse_quantity
 
 MOST_POINTS = 2_000_000
-_TRUE, _FALSE = ("true", "yes", "1"), ("false", "no", "0")
+BOOLEANS = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,9 @@ class Place:
         return str(self.meta["kind"])
 
     def check(self, value: Any) -> float | int | bool | str:
-        """Return a value given in Python, or raise ParameterError naming what is allowed."""
+        """Return a value given in Python or as text; ParameterError names what is allowed."""
+        if self.kind == "boolean" and str(value).lower() in BOOLEANS:
+            return BOOLEANS[str(value).lower()]
         if self.kind in ("enumeration", "boolean"):
             check_value(self.name, value, self.meta)
             return str(value) if self.kind == "enumeration" else bool(value)
@@ -128,9 +130,7 @@ def parse_values(text: str, place: Place, written: str = "") -> list[Any]:
     """
     values: list[Any] = []
     for item in (part.strip() for part in text.split(",")):
-        if place.kind == "boolean" and item.lower() in _TRUE + _FALSE:
-            values.append(item.lower() in _TRUE)
-        elif place.kind in ("boolean", "enumeration") or ":" not in item:
+        if place.kind in ("boolean", "enumeration") or ":" not in item:
             values.append(place.check(_with_unit(item, written)))
         else:
             values += _range(item, place, written)

@@ -17,7 +17,7 @@ ALLOWED = {
 }
 _OWN = {"__dso_handle", "_mh_dylib_header"}  # places that zig's linker for macOS always shows
 _NEEDED = 1  # tag in ELF's dynamic section
-_DYNAMIC, _DYNSYM, _VERNEED = 6, 11, 0x6FFFFFFE  # section types of ELF
+_DYNAMIC, _DYNSYM = 6, 11  # section types of ELF
 _SYMTAB = 2  # section type in ELF and load command in Mach-O
 _COFF = (0x8664, 0xAA64)
 _EXPORT, _IMPORT = 0, 1  # directories of PE
@@ -28,23 +28,18 @@ _TRIE = {0x80000022: 40, 0x80000033: 8}  # DYLD_INFO_ONLY, DYLD_EXPORTS_TRIE: wh
 
 @dataclass(frozen=True, slots=True)
 class Linked:
-    """Libraries needed, names exported, versions of the C library asked for (Linux)."""
+    """Libraries needed, names exported."""
 
     format: str
     needed: frozenset[str]
     exports: frozenset[str]
-    versions: frozenset[str] = frozenset()
 
 
-def check(data: bytes, *, exports: Iterable[str], glibc: tuple[int, int] | None) -> None:
-    """Stop if a library needs more than libc and libm, or does not export just the given names.
-
-    ``glibc`` is the newest version that may be asked for; None: whatever this machine has.
-    """
+def check(data: bytes, *, exports: Iterable[str]) -> None:
+    """Stop if a library needs more than libc and libm, or does not export just the given names."""
     found, wanted = read(data), set(exports)
     allowed = re.compile(ALLOWED[found.format], re.I if found.format == "PE" else 0)
     problems = [f"it needs {n}" for n in sorted(found.needed) if not allowed.fullmatch(n)]
-    problems += [f"it needs {v}" for v in sorted(found.versions) if glibc and _number(v) > glibc]
     problems += [f"it exports {name}" for name in sorted(found.exports - wanted - _OWN)]
     problems += [f"it does not export {name}" for name in sorted(wanted - found.exports)]
     if problems:
@@ -70,10 +65,6 @@ def read(data: bytes) -> Linked:
     if data[:4] == b"\x7fELF":
         return _elf(data)
     return _pe(data) if data[:2] == b"MZ" else _macho(data)
-
-
-def _number(version: str) -> tuple[int, ...]:
-    return tuple(int(part) for part in version.removeprefix("GLIBC_").split("."))
 
 
 def _word(data: bytes, place: int) -> int:
@@ -134,32 +125,15 @@ def _macho_undefined(code: bytes) -> set[str]:
 
 
 def _elf(data: bytes) -> Linked:
-    sections, needed, versions = _elf_sections(data), set(), set()
+    sections, needed = _elf_sections(data), set()
     exports = {name for name, bound, home in _elf_symbols(data, _DYNSYM) if home and bound}
     for section in sections:
-        kind, start, size = section[1], section[4], section[5]
-        names = sections[section[6]][4] if section[6] < len(sections) else 0
-        if kind == _DYNAMIC:
-            for tag, value in struct.iter_unpack("<QQ", data[start : start + size]):
+        if section[1] == _DYNAMIC:
+            start, names = section[4], sections[section[6]][4]
+            for tag, value in struct.iter_unpack("<QQ", data[start : start + section[5]]):
                 if tag == _NEEDED:
                     needed.add(_text(data, names + value))
-        elif kind == _VERNEED:
-            versions |= _versions(data, start, names)
-    return Linked("ELF", frozenset(needed), frozenset(exports), frozenset(versions))
-
-
-def _versions(data: bytes, start: int, names: int) -> set[str]:
-    """Walk the two levels of ELF's needed versions: libraries, and versions of each."""
-    found, step = set(), 1
-    while step:
-        _, number, _, first, step = struct.unpack_from("<HHIII", data, start)
-        place = start + first
-        for _ in range(number):
-            _, _, _, name, following = struct.unpack_from("<IHHII", data, place)
-            found.add(_text(data, names + name))
-            place += following
-        start += step
-    return found
+    return Linked("ELF", frozenset(needed), frozenset(exports))
 
 
 def _pe(data: bytes) -> Linked:

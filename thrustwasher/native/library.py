@@ -15,7 +15,7 @@ from .entries import symbols
 from .files import Note, to_stderr
 from .link import this_level, this_platform
 from .objects import Objects, kept_folder, objects
-from .targets import GLIBC, Platform
+from .targets import Platform
 
 TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order
 Addresses = dict[str, int]  # symbol -> address
@@ -96,7 +96,7 @@ def linked_objects(
         {**sources, **parts}, platform=platform, name=name, linker=linker, note=note,
         defines=[f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else [],
     )  # fmt: skip
-    binaries.check(made, exports=exports, glibc=GLIBC if linker.is_cross else None)
+    binaries.check(made, exports=exports)
     return made
 
 

@@ -11,7 +11,6 @@ from ..model.spec import ModelSpec
 from ..native.files import Note, write, zipped
 from ..native.link import this_platform
 from .description.model_description import description, terminals_and_icons
-from .description.xml_parts import text
 from .documentation.html_page import accuracy, page
 from .documentation.reference_results import reference_files
 from .model_kernels import content_digest, has_derivatives, package_version
@@ -135,7 +134,7 @@ def contents(
     told = page(spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms,
                 runs=reference)  # fmt: skip
     return {
-        DESCRIPTION: text(described),
+        DESCRIPTION: described,
         "documentation/index.html": told.encode(),
         **_icons(spec, folder, fmi),
         **licences(target, platforms),
@@ -147,7 +146,7 @@ def contents(
 def _icons(spec: ModelSpec, folder: Path, fmi: int) -> dict[str, bytes]:
     """Return the terminals and the model's picture; only FMI 2 tools look for ``model.png``."""
     file, place = folder / "icon.png", "terminalsAndIcons"
-    listed = text(terminals_and_icons(spec, icon=file.is_file()))
+    listed = terminals_and_icons(spec, icon=file.is_file())
     found = {f"{place}/terminalsAndIcons.xml": listed}
     if file.is_file():
         names = (f"{place}/icon.png", "model.png")[: 2 if fmi == 2 else 1]

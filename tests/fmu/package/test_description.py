@@ -11,7 +11,7 @@ from toy.spec import SPEC as TOY
 from thrustwasher.fmu.description import xml_parts
 from thrustwasher.fmu.description.interface import enumerations, variables
 from thrustwasher.fmu.description.model_description import description, terminals_and_icons
-from thrustwasher.fmu.description.xml_parts import declared_type, text
+from thrustwasher.fmu.description.xml_parts import declared_type
 from thrustwasher.model.registry import all_specs
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
@@ -21,7 +21,7 @@ each_fmi = pytest.mark.parametrize("fmi", [2, 3])
 
 
 def written(spec, fmi=2, **options):
-    return etree.fromstring(text(description(spec, fmi=fmi, guid="0", **options)))
+    return etree.fromstring(description(spec, fmi=fmi, guid="0", **options))
 
 
 @each_spec
@@ -35,7 +35,7 @@ def test_the_description_keeps_to_the_schema(spec, fmi, derivatives):
 @each_spec
 def test_fmpy_reads_fmi_3_and_finds_nothing(spec, tmp_path):
     file = tmp_path / "modelDescription.xml"
-    file.write_bytes(text(description(spec, fmi=3, guid="0")))
+    file.write_bytes(description(spec, fmi=3, guid="0"))
     read = read_model_description(str(file))
     assert [v.name for v in read.modelVariables] == [v.name for v in variables(spec)]
     assert read.fmiVersion == "3.0" and read.coSimulation.modelIdentifier == spec.name
@@ -44,7 +44,7 @@ def test_fmpy_reads_fmi_3_and_finds_nothing(spec, tmp_path):
 @each_spec
 def test_the_terminals_keep_to_the_schema_and_name_variables(spec):
     schema = etree.XMLSchema(etree.parse(SCHEMAS / "fmi3" / "fmi3TerminalsAndIcons.xsd"))
-    tree = etree.fromstring(text(terminals_and_icons(spec)))
+    tree = etree.fromstring(terminals_and_icons(spec))
     assert schema.validate(tree), schema.error_log
     members = {e.get("variableName") for e in tree.iter("TerminalMemberVariable")}
     assert members and members <= {v.name for v in variables(spec)}
@@ -198,8 +198,8 @@ def test_the_flags_of_fmi_3_are_these(spec):
 
 @each_spec
 def test_the_two_targets_of_fmi_2_differ_in_guid_and_derivatives_only(spec):
-    python = text(description(spec, fmi=2, guid="a"))
-    native = text(description(spec, fmi=2, guid="b", derivatives=True))
+    python = description(spec, fmi=2, guid="a")
+    native = description(spec, fmi=2, guid="b", derivatives=True)
     flag = b'providesDirectionalDerivative="%s"'
     assert native.count(flag % b"true") == native.count(b'guid="b"') == 1
     back = native.replace(flag % b"true", flag % b"false").replace(b'guid="b"', b'guid="a"')

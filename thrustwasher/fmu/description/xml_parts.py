@@ -2,11 +2,10 @@
 
 import os
 import subprocess
-from collections.abc import Iterator
 from datetime import UTC, datetime
 from math import pi
-from typing import NamedTuple
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from ...model.spec import ModelSpec
 from ...units import exponents
@@ -117,11 +116,15 @@ def log_categories(spec: ModelSpec) -> dict[str, str]:
     return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}
 
 
-def text(root: Element) -> bytes:
-    """Return the XML as it goes into the FMU."""
-    indent(root, "  ")
-    body: bytes = tostring(root, "utf-8")
-    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + body + b"\n"
+def filled(template: Path, **told: Any) -> bytes:
+    """Return a template filled in, as it goes into the FMU; values are escaped."""
+    from jinja2 import Environment, StrictUndefined  # late: what is built already needs none
+
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )  # fmt: skip
+    return environment.from_string(template.read_text("utf-8")).render(told).encode()
 
 
 def head(spec: ModelSpec) -> dict[str, str]:
@@ -134,16 +137,23 @@ def head(spec: ModelSpec) -> dict[str, str]:
     }  # fmt: skip
 
 
-def add_units(root: Element, found: tuple[Variable, ...]) -> None:
-    """Add UnitDefinitions: every unit in use with its base units and display units."""
-    definitions = SubElement(root, "UnitDefinitions")
+def units(found: tuple[Variable, ...]) -> list[tuple[str, dict[str, int], list[dict[str, str]]]]:
+    """Return every unit in use with its base units and display units."""
+    listed = []
     for name in sorted({v.unit for v in found if v.type == "Real"}):
-        unit = SubElement(definitions, "Unit", {"name": name})
-        SubElement(unit, "BaseUnit", {n: str(p) for n, p in exponents(name).items()})
+        displays = []
         for display, factor, offset in DISPLAY.get(name, ()):
             numbers = {"factor": (factor, 1.0), "offset": (offset, 0.0)}
             given = {k: number(x) for k, (x, default) in numbers.items() if x != default}
-            SubElement(unit, "DisplayUnit", {"name": display, **given})
+            displays.append({"name": display, **given})
+        listed.append((name, exponents(name), displays))
+    return listed
+
+
+def types(found: tuple[Variable, ...]) -> list[tuple[str, dict[str, str]]]:
+    """Return name and attributes of each declared type of a real that is in use."""
+    used = {declared_type(v) for v in found if v.type == "Real"}
+    return [(t.name, type_attributes(t)) for t in sorted(filter(None, used), key=lambda t: t.name)]
 
 
 def number(value: float) -> str:
@@ -188,15 +198,19 @@ def value_attributes(v: Variable) -> dict[str, str]:
     return said
 
 
-def unknowns(found: tuple[Variable, ...]) -> Iterator[tuple[str, Variable, list[Variable]]]:
-    """Yield (part, output, variables it depends on) for "outputs", then for "initial".
+def structure(found: tuple[Variable, ...]) -> list[tuple[str, str, list[Any]]]:
+    """Return name of the list in FMI 2, of an element in FMI 3, and pairs: output, what it needs.
 
     While running an output depends on the inputs that act at once, when it is initialized also on
     every parameter. Without a list the standard reads "depends on everything".
     """
     parameters = {v.name for v in found if v.causality == "parameter"}
-    for part, extra in (("outputs", set()), ("initial", parameters)):
-        for v in found:
-            if v.causality == "output":
-                names = extra | set(v.depends)
-                yield part, v, [known for known in found if known.name in names]
+    outputs = [v for v in found if v.causality == "output"]
+
+    def needs(more: set[str]) -> list[Any]:
+        return [(v, [k for k in found if k.name in more.union(v.depends)]) for v in outputs]
+
+    return [
+        ("Outputs", "Output", needs(set())),
+        ("InitialUnknowns", "InitialUnknown", needs(parameters)),
+    ]

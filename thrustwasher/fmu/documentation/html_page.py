@@ -10,6 +10,7 @@ from ...ladder.card_parts import QUANTITIES
 from ...model.registry import MODELS, find_model
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
+from ..description.xml_parts import filled
 from ..model_kernels import package_version
 from ..package.licences import listed_licences
 from ..package.model_sources import source_folder
@@ -31,14 +32,10 @@ def page(
     False the model is not run for the slope of its torque, and need not be compiled for this
     Python.
     """
-    from jinja2 import Environment, StrictUndefined  # late: what is built already needs none
-
     found = variables(spec)
     icon = folder / "icon.png"
-    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True)
-    template = (source_folder() / "documentation" / "index.html").read_text("utf-8")
-    return environment.from_string(template).render(
-        spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
+    return filled(
+        source_folder() / "documentation" / "index.html", spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
         version=package_version(), reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
         inputs=_settable(found, "input"), parameters=_settable(found, "parameter"),
@@ -52,7 +49,7 @@ def page(
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
         accuracy=accuracy(spec), equations=_equations(folder),
         licences=listed_licences(target, platforms),
-    )  # fmt: skip
+    ).decode()  # fmt: skip
 
 
 def _settable(found: tuple[Variable, ...], causality: str) -> Rows:

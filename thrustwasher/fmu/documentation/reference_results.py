@@ -1,22 +1,14 @@
 """Reference results inside an FMU: a user runs the default experiment and compares."""
 
-from xml.etree.ElementTree import Element, SubElement
+from pathlib import Path
 
 import numpy as np
 
 from ...model.spec import ModelSpec
-from ..description.xml_parts import default_experiment, text
+from ..description.xml_parts import default_experiment, filled
 from ..running.direct_instance import DirectInstance
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
-LAYERED = "http://fmi-standard.org/fmi-ls-manifest"
-ROOT = {
-    "xmlns:fmi-ls": LAYERED,
-    "fmi-ls:fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
-    "fmi-ls:fmi-ls-version": "1.0.0-alpha.1",
-    "fmi-ls:fmi-ls-description": "Layered Standard providing information on related files "
-    "included in an FMU.",
-}
 ROWS = 100  # of the results, about: a row for each step would be half of the FMU
 Rows = list[list[float]]
 
@@ -36,13 +28,14 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
         ("out", "result", "outputs of the default experiment, at the ends of some of its steps",
          spec.outputs, rows[:: max(1, len(rows) // ROWS)]),
     ]  # fmt: skip
-    root, files = Element("fmiReferences", ROOT), {}
-    for ending, role, meaning, signals, shown in told if spec.course else told[1:]:
-        name = f"{spec.name}_{ending}.csv"
-        files[name] = table([signal.name for signal in signals], shown)
-        SubElement(root, "Related", {"type": "text/csv", "source": name, "role": role,
-                                     "description": meaning})  # fmt: skip
-    files["fmi-ls-manifest.xml"] = text(root)
+    told = told if spec.course else told[1:]
+    related = [(f"{spec.name}_{ending}.csv", role, meaning) for ending, role, meaning, *_ in told]
+    files = {
+        name: table([signal.name for signal in signals], shown)
+        for (name, *_), (*_, signals, shown) in zip(related, told, strict=True)
+    }
+    manifest = Path(__file__).with_name("fmi-ls-manifest.xml.jinja")
+    files["fmi-ls-manifest.xml"] = filled(manifest, related=related)
     return {f"{FOLDER}/{name}": content for name, content in files.items()}
 
 

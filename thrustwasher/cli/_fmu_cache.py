@@ -11,7 +11,7 @@ from ..native.files import code_folder
 from ._output import note
 
 KEPT = 3  # versions
-TEXTS = (".py", ".json", ".npz", ".md", ".html", ".jinja", ".svg", ".png", ".c", ".h")
+TEXTS = (".py", ".json", ".npz", ".md", ".html", ".jinja", ".txt", ".svg", ".png", ".c", ".h")
 
 
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:

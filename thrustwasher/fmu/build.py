@@ -20,15 +20,6 @@ from .shell.platform_libraries import chosen, made_of, native_contents
 
 TARGETS = ("native", "python")
 DESCRIPTION = "modelDescription.xml"  # lies in front
-NEEDS = """This FMU calls Python and the package thrustwasher {version}.
-Install both on the machine that runs it: pip install thrustwasher=={version}
-The libraries in binaries/ and the modules in resources/pythonfmu are of pythonfmu {pythonfmu}, MIT.
-Linux, x86-64: the importing process must have libpython's symbols loaded, as every Python has;
-another host loads the shared library first, for example LD_PRELOAD=libpython3.x.so.
-Windows, x86-64: python3.dll on PATH and the Visual C++ runtime; not tested.
-Only a step can fail: it returns fmi2Discard. Calls that set and read values return fmi2OK; that a
-value was refused is said to the logger, in solver_status and by the next step.
-"""
 
 
 def build(
@@ -160,7 +151,8 @@ def _python_contents(spec: ModelSpec, folder: Path, guid: str) -> dict[str, byte
     template = (folder / "slave.py").read_text("utf-8")
     slave = template.replace("@VERSION@", package_version()).replace("@GUID@", guid)
     slave = slave.replace("@DIGEST@", content_digest(spec))
-    needs = NEEDS.format(version=package_version(), pythonfmu=metadata.version("pythonfmu"))
+    needs = (source_folder() / "documentation" / "externalDependencies.txt").read_text("utf-8")
+    needs = needs.format(version=package_version(), pythonfmu=metadata.version("pythonfmu"))
     return {
         "documentation/externalDependencies.txt": needs.encode(),
         f"resources/{module}.py": slave.encode(),

@@ -35,7 +35,8 @@ def page(
     found = variables(spec)
     icon = folder / "icon.png"
     return filled(
-        source_folder() / "documentation" / "index.html", spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
+        source_folder() / "documentation" / "index.html",
+        spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
         version=package_version(), reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
         inputs=_settable(found, "input"), parameters=_settable(found, "parameter"),

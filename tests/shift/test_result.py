@@ -65,6 +65,12 @@ def test_messages_say_what_is_left_out():
     assert any("gear mesh" in m for m in bare) and any("without drag" in m for m in bare)
 
 
+def test_a_run_with_instances_for_another_master_says_so():
+    scene = load_scene("msl").with_options(stop_time=0.02)
+    r = run_shift(scene, instances(scene), master="jacobi")
+    assert any("made for master 'gauss-seidel'" in m for m in r.messages)
+
+
 def test_progress_is_called_to_the_end():
     scene = load_scene("msl").with_options(stop_time=0.05)
     calls = []

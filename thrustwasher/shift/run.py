@@ -32,6 +32,8 @@ def run_shift(
     scene: Scene,
     instances: Mapping[str, Stepping],
     *,
+    step: float | None = None,
+    master: str | None = None,
     progress: Progress | None = None,
     compiled: bool | None = None,
 ) -> ShiftResult:
@@ -39,9 +41,11 @@ def run_shift(
 
     Parameters
     ----------
-    scene : what to simulate; ``scene.with_options`` has another step or master
+    scene : what to simulate; ``scene.with_options`` first if step or master are to differ, since
+        the transmission's parameters depend on the master
     instances : one per part of the scene, made with ``scene.parts[name].parameters()`` and not
         initialized since they were made or reset; they are neither closed nor reset here
+    step, master : other values than the scene's
     progress : called as ``progress(done, total)`` a hundred times at most, and at the end
     compiled : step the instances in one compiled function; default: if all of them are FMUs. The
         numbers are the same to the bit
@@ -53,7 +57,8 @@ def run_shift(
     """
     if scene.sequence is not None:
         raise ParameterError(f"scene {scene.name!r}: it has a [sequence], allowed: run_sequence")
-    messages = _remarks(scene)
+    made_for, scene = scene, scene.with_options(step=step, master=master)
+    messages = _remarks(made_for, scene)
     system = connected(scene, instances)
     adaptive = MASTERS[scene.master].adaptive
     if adaptive and compiled:
@@ -62,7 +67,7 @@ def run_shift(
         )
     run = None if adaptive else _laid_out(scene, system, messages)
     system.initialize(scene.start_time)
-    check_instances(scene, instances)
+    check_instances(made_for, instances)
     before = {n: (part.instance.calls, part.instance.wall_time) for n, part in system.parts.items()}
     if run is None:
         begin = perf_counter()
@@ -235,10 +240,16 @@ def _numbers(part: Part) -> dict[str, float]:
     return {**dict(zip(names, as_numbers(part.params), strict=True)), "fidelity": rung}
 
 
-def _remarks(scene: Scene) -> list[str]:
+def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     """Return what a reader has to know before looking at any number."""
     remarks = list(scene.notes)
     gearbox = scene.parts["transmission"].params
+    if made_for.parts["transmission"].params.torque_age != gearbox.torque_age:
+        remarks.append(
+            f"the instances were made for master {made_for.master!r} and ran with "
+            f"{scene.master!r}: capacities are extrapolated over the wrong time; "
+            "make them from scene.with_options(master=...)"
+        )
     if "mesh" not in scene.parts and gearbox.planet_teeth:
         remarks.append("there is no gear mesh model in this scene: the meshes run without loss")
     if "washer" not in scene.parts and gearbox.washers:

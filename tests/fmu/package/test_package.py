@@ -40,7 +40,7 @@ def test_the_guid_follows_the_content(tmp_path):
     for changed in (folder / "text.c", shell / "text.c", shell / "new.h"):
         changed.write_text("two")
         found.add(guid())
-    (shell / "note.txt").write_text("not compiled")
+    (shell / "note.log").write_text("not compiled")
     assert guid() in found and len(found) == 7
 
 

@@ -9,6 +9,8 @@ from scene_runs import real_shift, shift
 from thrustwasher.report.shift.shift_record import record_of
 from thrustwasher.report.shift.summary import warnings
 
+SHIFTS = ("planetary", "planetary-cold", "planetary-downshift", "planetary-transient", "msl")
+
 
 @cache
 def half():
@@ -53,7 +55,7 @@ def test_first_gear_is_1_514_and_the_book_closes(run):
     before = run.time <= 0.3
     ratio = s["transmission.engine_speed"][before] / s["transmission.output_speed"][before]
     assert ratio == pytest.approx(112.0 / 74.0, rel=1e-12)
-    assert run.energy["residual_share"] < 1e-9
+    assert run.energy["residual_share"] < 1e-12
 
 
 @pytest.mark.parametrize("name", ["lock_time", "slip_energy", "peak_clutch_temperature"])
@@ -61,18 +63,28 @@ def test_half_the_step_moves_lock_up_heat_and_temperature_by_a_thousandth_at_mos
     assert half().figures[name] == pytest.approx(run.figures[name], rel=1e-3)
 
 
-def test_heat_made_is_heat_stored_and_heat_in_the_oil():
-    s, h = (r := real_shift("planetary")).signals, 1e-3
-    for pack in ("clutch", "brake"):
-        oil = np.sum(s[f"{pack}.oil_heat"][1:]) * h
-        kept = s[f"{pack}.stored_heat"][-1]
-        assert s[f"{pack}.energy"][-1] == pytest.approx(oil + kept, rel=1e-9)
-        assert r.figures[f"{pack}_oil_heat"] == pytest.approx(oil, rel=1e-12)
-    for mesh in ("mesh", "ring_mesh"):
-        oil, made = (np.sum(s[f"{mesh}.{n}"][1:]) * h for n in ("oil_heat", "friction_power"))
-        assert made == pytest.approx(oil + s[f"{mesh}.stored_heat"][-1], rel=1e-9)
-    # The washer is steady: its balance is as good as its solver's last Newton step.
-    assert s["washer.oil_heat"] == pytest.approx(s["washer.friction_power"], rel=1e-5)
+@pytest.mark.parametrize("part", ["clutch", "brake", "washer", "mesh", "ring_mesh"])
+@pytest.mark.parametrize("name", SHIFTS)
+def test_heat_made_is_heat_stored_and_heat_in_the_oil(name, part):
+    r = real_shift(name)
+    s, h = r.signals, np.diff(r.time)
+    if part not in r.scene.parts:
+        pytest.skip("not in this scene")
+    oil = np.sum(s[f"{part}.oil_heat"][1:] * h)
+    made = np.sum(s[f"{part}.friction_power"][1:] * h)
+    if f"{part}.energy" in s:
+        made, held = s[f"{part}.energy"][-1], made
+        assert held == pytest.approx(made, rel=2e-3)
+    assert oil + s[f"{part}.stored_heat"][-1] == pytest.approx(made, rel=1e-9, abs=0.0)
+    if part in ("clutch", "brake"):
+        assert r.figures[f"{part}_oil_heat"] == pytest.approx(oil, rel=1e-12)
+
+
+def test_a_brake_that_holds_makes_no_heat():
+    """It starts settled; what it makes later is the drag of the open pack."""
+    s, opens = (r := real_shift("planetary")).signals, r.figures["release_time"]
+    assert s["brake.energy"][r.time < opens].max() == 0.0
+    assert s["brake.film_ratio"][100] == pytest.approx(s["brake.film_ratio"][0], rel=1e-12)
 
 
 def test_nothing_is_wrong_with_the_default_shift():
@@ -97,7 +109,7 @@ def test_the_ring_mesh_carries_the_suns_load_and_loses_less(run):
 def test_its_variants_finish(name, last):
     r = shift(name)
     assert r.scene.engaging == last and r.figures["lock_time"] is not None
-    assert r.energy["residual_share"] < 1e-9
+    assert r.energy["residual_share"] < 1e-12
 
 
 def test_half_shafts_swing_at_the_frequency_of_two_inertias():

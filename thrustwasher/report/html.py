@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from matplotlib import rc_context
-from matplotlib.figure import Figure
+if TYPE_CHECKING:  # who wants the words alone waits for no drawing
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class Plot:
     """A figure with the sentence below it; ``file`` is the stem of its file beside the page."""
 
     file: str
-    figure: Figure
+    figure: "Figure"
     caption: str
     square: bool = False
     bitmap: bool = False  # shaded maps are smaller as pictures than as drawings
@@ -111,8 +111,10 @@ def save_plots(page: Page, folder: Path) -> None:
             (folder / plot.name).write_bytes(plot.content)
 
 
-def _drawing(figure: Figure, prefix: str) -> str:
+def _drawing(figure: "Figure", prefix: str) -> str:
     """Return SVG whose identifiers begin with ``prefix``: many drawings share one page."""
+    from matplotlib import rc_context
+
     stream = io.StringIO()
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": prefix}):
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
@@ -122,7 +124,7 @@ def _drawing(figure: Figure, prefix: str) -> str:
     return re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{prefix}-", svg)
 
 
-def picture(figure: Figure, dpi: int = 100) -> bytes:
+def picture(figure: "Figure", dpi: int = 100) -> bytes:
     """Return a PNG; packing it tighter takes twice the time for a tenth less."""
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=dpi, pil_kwargs={"compress_level": 3})

@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..transmission.parameters import course_points
 from .cosim.instances import Stepping
 from .cosim.loop import Recorder, Run, Steps
-from .cosim.schedule import Pull, Schedule, Step, carry_out, gauss_seidel
+from .cosim.schedule import carry_out, gauss_seidel
 from .cosim.system import System
 from .run import Progress, check_instances, connected, model_remarks, result_of
 from .scene.connections import COMMAND
@@ -85,7 +85,7 @@ def run_sequence(
     system.initialize(scene.start_time)
     check_instances(scene, instances)
     time = np.array(list(times(scene)))
-    recorder, schedule = Recorder(system, len(time)), _oil_last(gauss_seidel(system))
+    recorder, schedule = Recorder(system, len(time)), gauss_seidel(system)
     recorder.keep(0)
     begin = perf_counter()
     for i, (t, end) in enumerate(zip(time[:-1].tolist(), time[1:].tolist(), strict=True), 1):
@@ -123,15 +123,6 @@ def _drives(system: System, shifts: list[Scene]) -> Callable[[float, float], Non
                 inputs[names.index(name)] = float(np.interp(at, *points))
 
     return drive
-
-
-def _oil_last(schedule: Schedule) -> Schedule:
-    """Let the sump step last: it then gets the heats of its own step, however long that is."""
-
-    def late(action: Any) -> bool:
-        return isinstance(action, Pull | Step) and action.part.name == "sump"
-
-    return sorted(schedule, key=late)
 
 
 def _one(

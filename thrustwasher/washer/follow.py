@@ -47,6 +47,8 @@ class WasherCourse:
     oil_outlet_temperature: Array
     film_temperature: Array
     stick_margin: Array
+    energy: Array
+    stored_heat: Array
     distress: NDArray[np.bool_]
     status: list[Status]
     """Per point: OK or an advice."""

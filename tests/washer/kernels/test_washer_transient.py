@@ -53,6 +53,10 @@ class Washer:
     def stored(self):
         return ladder.stored_heat(self.m, self.fields())
 
+    def leaving(self):
+        """Return the heat that reaches the oil at the end of the step [W]."""
+        return self.work[L.AT_OUTPUTS + L.O_OIL_HEAT]
+
     def taken(self):
         """Return the heat that flows into the bodies [W]."""
         f, total = self.fields(), 0.0
@@ -137,17 +141,36 @@ def test_substeps_are_of_second_order(params):
 def test_heat_made_is_heat_stored_and_heat_lost(params):
     w = Washer(replace(params, thermal_start="oil"))
     assert w.go(1e-6) == 0
-    gain, stored, work = w.out[POWER] - w.out[L.O_OIL_HEAT], w.stored(), 0.0
+    gain, stored, work = w.out[POWER] - w.leaving(), w.stored(), 0.0
     h = 2e-3
     for _ in range(25):
         before = gain
         assert w.go(h) == 0
-        gain = w.out[POWER] - w.out[L.O_OIL_HEAT]
+        gain = w.out[POWER] - w.leaving()
         far = ladder.far_heat(w.m, w.fields())
-        assert w.out[L.O_OIL_HEAT] - w.out[L.O_THROUGHFLOW_HEAT] == pytest.approx(far, rel=1e-9)
+        assert w.leaving() - w.out[L.O_THROUGHFLOW_HEAT] == pytest.approx(far, rel=1e-9)
         assert w.taken() - far == pytest.approx(gain, abs=1e-5 * w.out[POWER])
         work += 0.5 * h * (before + gain)
     assert w.stored() - stored == pytest.approx(work, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    "params",
+    [IN_TIME, replace(IN_TIME, thermal_mode="quasi_steady"), replace(DRY, thermal_start="oil")],
+)
+def test_energy_is_what_is_stored_and_all_that_reached_the_oil(params):
+    """While load, speed and oil change, in steps of any length."""
+    w, sent, by_rule = Washer(params), 0.0, 0.0
+    assert w.go(1e-6) == 0
+    first, last = w.out[L.O_OIL_HEAT] * 1e-6, w.leaving()
+    for i in range(200):
+        h = (1e-3, 2e-4, 5e-3)[i % 3]
+        assert w.go(h, load=300.0 + 5.0 * i, speed=545.0 - i, oil=OIL + 0.01 * i) == 0
+        sent += w.out[L.O_OIL_HEAT] * h
+        by_rule += 0.5 * (last + w.leaving()) * h
+        last = w.leaving()
+    assert w.out[L.O_ENERGY] == pytest.approx(w.out[L.O_STORED_HEAT] + sent + first, rel=1e-12)
+    assert sent == pytest.approx(by_rule, rel=0.02)
 
 
 @pytest.mark.parametrize("params", [IN_TIME, DRY])
@@ -259,7 +282,7 @@ def test_it_goes_through_whatever_comes(params):
         assert w.go(10.0 ** rng.uniform(-5.0, 0.5), *inputs) == 0, inputs
         kept = w.taken() - ladder.far_heat(w.m, w.fields())
         flow = max(np.abs(w.fields().flux).max() * 1e-3, w.out[POWER])
-        assert w.out[POWER] - w.out[L.O_OIL_HEAT] == pytest.approx(kept, abs=1e-4 * flow)
+        assert w.out[POWER] - w.leaving() == pytest.approx(kept, abs=1e-4 * flow)
 
 
 def test_half_the_step_changes_little():

@@ -6,8 +6,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, StrictUndefined
-
 from ...units import format_quantity
 from .shift_record import PACKS, Record
 from .shift_tables import source_texts
@@ -18,6 +16,8 @@ from .worst_moments import highest, least_margin
 @cache
 def _words() -> Any:
     """Return the template, whose macros are functions."""
+    from jinja2 import Environment, StrictUndefined
+
     environment = Environment(undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters["f"] = lambda value, text: format(value, text)
     environment.filters["say"] = lambda value, unit, digits=3: format_quantity(

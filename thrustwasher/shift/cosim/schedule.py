@@ -38,11 +38,12 @@ Schedule = list[Pull | Correct | Step]
 
 
 def gauss_seidel(system: System) -> Schedule:
-    """Return the sequential schedule: friction parts, then the transmission with fresh torques."""
-    return [
-        action for part in (*system.friction_parts, system.transmission)
-        for action in (Pull(part), Step(part))
-    ]  # fmt: skip
+    """Return the sequential schedule: friction parts, then the transmission with fresh torques.
+
+    A sump steps last: it gets the heats of its own step, however long that is.
+    """
+    parts = sorted((*system.friction_parts, system.transmission), key=lambda p: p.name == "sump")
+    return [action for part in parts for action in (Pull(part), Step(part))]
 
 
 def jacobi(system: System) -> Schedule:

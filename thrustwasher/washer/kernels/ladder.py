@@ -270,16 +270,16 @@ def set_held(m: WasherModel, dt: float, f: Fields) -> None:
 def _held(b: Body, dt: float, through: Array) -> tuple[float, float]:
     """Return the conductance outwards and by what the rise outside falls per kelvin of the oil.
 
-    ``through`` (2,): slopes of the heat through the far face, see the layout.
+    ``through`` (2,): slopes of the mean heat through the far face, see the layout.
     """
-    gain, falls, part, by_oil = 0.0, 0.0, 0.0, 0.0
+    gain, falls, part, by_oil = 0.0, 0.0, 1.0, 0.0
     for k in range(L.N_TERMS):
-        resistance, _, far = term(b, k)
+        resistance, time, far = term(b, k)
         kept, late, early = weigh(b, k, dt)
         gain += late + early
         falls += far * resistance * kept
-        part += far * (late + early)
-        by_oil -= far * far * resistance * kept
+        part -= far * time / dt * (late + early)
+        by_oil -= far * far * resistance * (time / dt) * (1.0 - kept)
     through[0] = part / gain
     through[1] = part / gain * falls + by_oil
     return 1.0 / gain, falls

@@ -62,10 +62,10 @@ NINP = 4
 # `out`, in the order of the model's list; behind them what only Python shows.
 (
     O_TORQUE, O_MEAN, O_FILM, O_PEAK, O_RATIO, O_FLUID_SHARE, O_COEFFICIENT, O_POWER, O_OIL_FLOW,
-    O_THROUGHFLOW_HEAT, O_OIL_HEAT, O_OUTLET, O_FILM_TEMPERATURE, O_STICK_MARGIN, O_FLUID_LOAD,
-    O_CONTACT_LOAD,
-) = range(16)  # fmt: skip
-NOUT, N_ALL = 14, 16
+    O_THROUGHFLOW_HEAT, O_OIL_HEAT, O_OUTLET, O_FILM_TEMPERATURE, O_STICK_MARGIN, O_ENERGY,
+    O_STORED_HEAT, O_FLUID_LOAD, O_CONTACT_LOAD,
+) = range(18)  # fmt: skip
+NOUT, N_ALL = 16, 18
 IO_REGIME, IO_DISTRESS, IO_STATUS = range(3)
 NIOUT = 3
 
@@ -126,4 +126,5 @@ S_FACTOR_POSITIONS = 20
 S_MAP_BRANCH, S_MAP_RATIO = 24, 25  # of the last look-up, 0 if there is none
 S_FACTOR_OUT, S_SUBSTEP = 26, 29  # (3) as OUT_CARRIER; the next substep to try [s]
 S_TANGENT, S_LOAD_SLOPE = 30, 34  # dq/ds (4) and dload/ds [N/m] at the last solution, 0: unknown
-S_FIELDS = 36  # temperatures, pressures, temperatures of the factor, terms of the ladders
+S_ENERGY, S_STORED_HEAT = 36, 37  # made and stored since the start [J]
+S_FIELDS = 38  # temperatures, pressures, temperatures of the factor, terms of the ladders

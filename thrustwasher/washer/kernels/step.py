@@ -20,6 +20,7 @@ from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, 
 from .solve import is_distressed, keep_solution, solve
 from .transient import (
     advance_heat,
+    heat_in_bodies,
     look_for_folds,
     name_branch,
     set_step_derivative,
@@ -70,8 +71,13 @@ def derive(par: NDArray[np.float64]) -> int:
 
 
 @inlined
-def _in_time(w: Workspace, pt: Point, dt: float, fresh: bool, state: Array) -> tuple[int, float]:
-    """Go on from the remembered temperatures through ``dt``; return status and next substep."""
+def _in_time(
+    w: Workspace, pt: Point, dt: float, fresh: bool, state: Array
+) -> tuple[int, float, float, float]:
+    """Go on from the remembered temperatures through ``dt``.
+
+    Returns a status, the next substep [s], the heat made and what of it stays in the bodies [J].
+    """
     if fresh:
         start_ladders(w)
     else:
@@ -79,10 +85,24 @@ def _in_time(w: Workspace, pt: Point, dt: float, fresh: bool, state: Array) -> t
         take_up(w, pt, state)
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
     w.info[L.ARRIVED], w.info[L.SCANNED] = 1.0, 0.0
-    status, substep = OK, 0.0
+    status, substep, made, before = OK, 0.0, 0.0, heat_in_bodies(w)
     if dt > 0.0 or not fresh:
-        status, substep = advance_heat(w, pt, dt, state[L.S_SUBSTEP])
-    return status, substep
+        status, substep, made = advance_heat(w, pt, dt, state[L.S_SUBSTEP])
+    return status, substep, made, heat_in_bodies(w) - before
+
+
+@kernel
+def _book(made: float, kept: float, dt: float, state: Array, out: Array) -> None:
+    """Fill the heats of a step: what is made [J] and not kept in the bodies reaches the oil."""
+    out[L.O_ENERGY] = state[L.S_ENERGY] + made
+    out[L.O_STORED_HEAT] = state[L.S_STORED_HEAT] + kept
+    if dt > 0.0:
+        out[L.O_OIL_HEAT] = made / dt - kept / dt
+
+
+@kernel
+def _keep_book(out: Array, state: Array) -> None:
+    state[L.S_ENERGY], state[L.S_STORED_HEAT] = out[L.O_ENERGY], out[L.O_STORED_HEAT]
 
 
 @kernel
@@ -110,6 +130,10 @@ def step(
             par, inp, wanted, state, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], out, iout,
             dt,
         )  # fmt: skip
+        if status == OK:
+            _book(out[L.O_POWER] * dt, 0.0, dt, state, out)
+            if dt > 0.0:
+                _keep_book(out, state)
         if status != NOT_HERE:
             return status
         work[BY_MAP] = 0.0
@@ -128,21 +152,26 @@ def step(
         if status != NO_BRANCH or wanted == L.ANY or is_asked:
             break
         wanted = L.ANY  # the branch of the map ends outside it
-    substep = state[L.S_SUBSTEP]
+    substep, made, kept = state[L.S_SUBSTEP], 0.0, 0.0
     if in_time and status == OK:
-        status, substep = _in_time(w, pt, dt, fresh, state)
+        status, substep, made, kept = _in_time(w, pt, dt, fresh, state)
     if not outputs_at(w, pt) and status == OK:
         status = NOT_FINITE
+    copy(w.outputs, out)
+    if not in_time:
+        made = out[L.O_POWER] * dt
+        out[L.O_OIL_HEAT] = out[L.O_POWER]
+    _book(made, kept, dt, state, out)
     lost = in_time and name_branch(w, w.outputs[L.O_RATIO], w.outputs[L.O_FLUID_SHARE])
     if dt > 0.0 and (status == OK or status == NO_BRANCH):
         keep_solution(w, pt, state)
         state[L.S_MAP_BRANCH] = 0.0
         state[L.S_SUBSTEP] = substep
+        _keep_book(out, state)
         if lost:
             look_for_folds(w, pt, state)
     if in_time and (dt > 0.0 or not fresh or par[L.P_THERMAL_START] == L.FROM_OIL):
         set_step_derivative(w, dt)
-    copy(w.outputs, out)
     judge(pt, out[L.O_RATIO], is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
     return status
 

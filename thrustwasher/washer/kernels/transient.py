@@ -15,6 +15,7 @@ from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, settle
 from .continuation import enter_curve, note, recall, remember, walk_down, walk_to
 from .heat import set_steady
 from .ladder import (
+    STAGE,
     advance_terms,
     error_of_flux,
     hold_bodies,
@@ -23,8 +24,10 @@ from .ladder import (
     set_stage,
     shift_terms,
     start_terms,
+    stored_heat,
 )
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, newton, smooth_film
+from .outputs import outputs_at
 from .solve import recall_state, scan_holds
 from .workspace import Point, Workspace, clear, copy, fields_of, forget_factor, model_of
 
@@ -47,6 +50,12 @@ def start_cold(w: Workspace) -> None:
 def start_ladders(w: Workspace) -> None:
     """Fill the ladders at a solution from which time begins."""
     start_terms(model_of(w), fields_of(w))
+
+
+@kernel
+def heat_in_bodies(w: Workspace) -> float:
+    """Return the heat that the bodies hold above oil temperature [J]."""
+    return stored_heat(model_of(w), fields_of(w))
 
 
 @kernel
@@ -140,14 +149,16 @@ def _arrive(w: Workspace, pt: Point) -> int:
 
 
 @inlined
-def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int, float]:
+def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int, float, float]:
     """Bring positions and temperatures through ``dt`` at these inputs; 0: bodies stay as they are.
 
-    Returns a status and the substep to try next [s]; substeps, ``first`` the first of them, are
-    chosen for temperatures within ``ATOL`` and ``RTOL``.
+    Returns a status, the substep to try next [s] and the heat made [J]; substeps, ``first`` the
+    first of them, are chosen for temperatures within ``ATOL`` and ``RTOL``. Powers of the stages
+    count as their fluxes do.
     """
     f = fields_of(w)
     held = dt <= 0.0
+    made, power = 0.0, 0.0
     rest, h = dt, first if first > 0.0 else dt
     status = MAX_ITERATIONS
     copy(f.temp, f.begin)
@@ -159,9 +170,11 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
                 _hold(w)
             else:
                 _set_stage(w, stage, h)
-            status = _arrive(w, pt)
-            if status != OK:
+            before, status = power, _arrive(w, pt)
+            if status != OK or held:
                 break
+            outputs_at(w, pt)
+            power = w.outputs[L.O_POWER]
         if held:
             break
         error = _error(w) if status == OK else 16.0
@@ -174,6 +187,7 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
             status = MAX_ITERATIONS
             continue
         _end_substep(w, h)
+        made += h * ((1.0 - STAGE) * before + STAGE * power)
         growth = min(3.0, 0.9 / math.sqrt(max(error, 1e-3)))
         rest -= h
         if growth < 1.0 or growth > 1.5:  # else the heat factor goes on to serve
@@ -181,7 +195,7 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
         if parts == 1.0:
             break
         status = MAX_ITERATIONS
-    return status, h
+    return status, h, made
 
 
 @kernel

@@ -151,7 +151,9 @@ class _TransmissionParams:
     profile_shifted: bool = flag(False, "planet_teeth may be one off half of ring - sun")
     planets: int = count(4, 1, 24, "number of planets on the carrier")
     normal_module: float = quantity(1.5e-3, "m", 1e-4, 0.05, "normal module of the gears")
-    helix_angle: float = quantity(0.3490658503988659, "rad", 0.0, 0.8, "helix angle at the pitch")
+    helix_angle: float = quantity(
+        0.3490658503988659, "rad", 0.0, 0.7853981633974483, "helix angle at the pitch"
+    )
     input_inertia: float = quantity(
         0.25, "kg.m2", 1e-6, 1e4, "inertia of engine and driven gear", also="sun_inertia"
     )

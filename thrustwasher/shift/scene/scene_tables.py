@@ -107,8 +107,8 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
     for name in more:
         if name in given:
             raise ParameterError(
-                f"{where} [transmission]: {name} beside a table that gives it ([engine], [vehicle] "
-                "or [pressure]), allowed: one of them"
+                f"{where} [transmission]: {name} = {given[name]!r} beside a table that gives "
+                "it ([engine], [vehicle] or [pressure]), allowed: one of them"
             )
     return given | more
 

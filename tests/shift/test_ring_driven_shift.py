@@ -112,6 +112,13 @@ def test_its_variants_finish(name, last):
     assert r.energy["residual_share"] < 1e-12
 
 
+@pytest.mark.parametrize("step", [1e-3, 2e-3])
+def test_the_downshift_is_comfortable(step):
+    figures = shift("planetary-downshift", step=step).figures
+    assert figures["peak_jerk"] <= 20.0 and figures["flare"] < 5.0
+    assert "tie_up_torque" not in figures
+
+
 def test_half_shafts_swing_at_the_frequency_of_two_inertias():
     r = shift("planetary-shuffle")
     gearbox = r.scene.parts["transmission"].params

@@ -73,9 +73,11 @@ def _walk_kernel(
     state = np.zeros(kernel.NSTATE)
     par = _constants(spec.key, fidelity, params)
     work = _work(spec, fidelity, params, par)
-    step = bound(kernel.step, par=par, state=state, work=work)
+    out = np.empty(kernel.NOUT)  # what is not shown comes last
+    step = bound(kernel.step, par=par, state=state, work=work, out=out)
     for point, row, flag in zip(inputs, numbers, flags, strict=True):
-        status = step(point, row, flag, 0.0, 1.0)
+        status = step(point, flag, 0.0, 1.0)
+        row[:] = out[: len(row)]
         if status >= FIRST_FAILURE:
             flag[-1] = status
 

@@ -1,6 +1,6 @@
 """The record of the thrust washer."""
 
-from ..model.record import Command, Ladder, Model, Option
+from ..model.record import Command, Ladder, Model, Option, Sweep
 
 _FIELD = tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants"))
 _BOX = {"tilt": (1e-3, 3e-3, "log"), "oil_temperature": (290.0, 400.0, "linear")}
@@ -59,6 +59,7 @@ MODEL = Model(
             "closed forms": "thrustwasher.study.failures.failure_washer:closed_forms",
         },
     ),
+    sweep=Sweep(not_shown=("energy", "stored_heat")),
     remark="thrustwasher.shift.thermal_need:thermal_need",
     wiring=(
         "The model is quasi-steady: the step only decides how finely the inputs are followed.",

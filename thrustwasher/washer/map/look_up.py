@@ -33,7 +33,8 @@ OUTPUTS = (
     "oil_heat", "oil_outlet_temperature", "film_temperature", "stick_margin", "fluid_load",
     "contact_load",
 )  # fmt: skip
-NOTHING = (math.nan,) * len(OUTPUTS)
+PLACES = (*range(L.O_ENERGY), L.O_FLUID_LOAD, L.O_CONTACT_LOAD)  # of them
+NOTHING = (math.nan,) * L.N_ALL
 
 
 class _Memory(threading.local):
@@ -118,7 +119,7 @@ class WasherMap:
         found = np.empty((len(rows), 2))
         look_up_rows(self.data, rows, wanted, self._own.work, out, found)
         shape = inputs[0].shape
-        columns = {name: out[:, k].reshape(shape) for k, name in enumerate(OUTPUTS)}
+        columns = {n: out[:, k].reshape(shape) for n, k in zip(OUTPUTS, PLACES, strict=True)}
         columns["branch"] = found[:, 0].reshape(shape)
         columns["several"] = (found[:, 1] == 2.0).reshape(shape)
         return columns

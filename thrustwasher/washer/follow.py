@@ -181,5 +181,7 @@ class _Run:
         return self._step(now, 0.0)
 
     def _step(self, inputs: Array, duration: float) -> int:
-        return int(kernel.step(self.par, inputs, self.state, self.work, self.out, self.iout,
+        code = int(kernel.step(self.par, inputs, self.state, self.work, self.out, self.iout,
                                0.0, duration))  # fmt: skip
+        self.out[L.O_OIL_HEAT] = self.work[L.AT_OUTPUTS + L.O_OIL_HEAT]  # at the point
+        return code

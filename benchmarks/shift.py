@@ -115,7 +115,7 @@ def converged(scene: Scene) -> ShiftResult:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--scene", default="planetary-sun")
+    parser.add_argument("--scene", default="planetary")
     parser.add_argument("--tolerance", type=float, default=0.01)
     parser.add_argument("--repeats", type=int, default=9)
     parser.add_argument("--converged", action="store_true")

@@ -35,7 +35,7 @@ def errors(worst, n=75, kind="relative"):
     unit, floor = (None, 1e-3) if kind == "relative" else ("K", None)
     worst = table(worst)
     counts = table(n, (len(worst), len(worst[0])))
-    return part.Errors(kind, unit, floor, worst, worst, counts)
+    return part.Errors(kind, unit, floor, worst, counts)
 
 
 def card(fidelity="field", worst=5e-3, median=2e-4, *, model="washer", n=75, iqr=None, first=0.2,
@@ -44,11 +44,11 @@ def card(fidelity="field", worst=5e-3, median=2e-4, *, model="washer", n=75, iqr
          **changed):  # fmt: skip
     """Return a card; what is not given is usual."""
     params = params or PARAMS[model]()
-    files = files_of(model, fidelity)
+    files = files_of(model, "field" if fidelity == "coarse" else fidelity)
     iqr = 0.05 * median if iqr is None else iqr
     shape = (len(edges[0]) - 1, len(edges[1]) - 1)
     made = Card(
-        schema=1, model=model, fidelity=fidelity, chart=chart, branch=branch, fold=fold,
+        schema=2, model=model, fidelity=fidelity, chart=chart, branch=branch, fold=fold,
         params=part.ParameterSet(name, params_digest(params), {}),
         kernels=part.Sources((*files, *(("maps/x.twm",) if built else ())), kernel_digest(files)),
         package={"version": "0.4.0", "commit": None, "dirty": None}, made="2026-01-01T00:00:00Z",
@@ -58,10 +58,10 @@ def card(fidelity="field", worst=5e-3, median=2e-4, *, model="washer", n=75, iqr
             "temperature": errors(table(kelvin, shape), n, "absolute"),
         },
         cells=part.Cells(("load", "speed"), edges, table(outside, shape)), by_film_ratio=None,
-        held_out=part.HeldOut(300, 0, 0, 7, "uniform in the scaled box"),
+        held_out=part.HeldOut(300, 0, 0, 7),
         reference=part.Reference("reference", None, ("two grids extrapolated",),
                                  {"friction_torque": uncertainty, "temperature": 1e-4}),
-        cost=part.Cost(median, iqr, 0.95 * median, first, build, 0, 1.0, "solves"),
+        cost=part.Cost(median, iqr, first, build),
         machine={"cpu": "a cpu", "cores": 2},
     )  # fmt: skip
     return dataclasses.replace(made, **changed)

@@ -38,7 +38,7 @@ def test_a_card_comes_back_from_its_file_as_it_was(tmp_path):
         (lambda c: c.update(colour="red"), "'colour'"),
         (lambda c: c["cost"].pop("build_s"), "'build_s'"),
         (lambda c: c.update(errors=[1.0]), "no attribute"),
-        (lambda c: c.update(schema=2), "schema = 2"),
+        (lambda c: c.update(schema=3), "schema = 3"),
     ],
 )
 def test_a_card_of_another_version_is_refused_with_file_and_key(tmp_path, edit, said):

@@ -11,6 +11,7 @@ from thrustwasher import ParameterError, SolveError
 from thrustwasher.ladder import candidates as home
 from thrustwasher.ladder.card_parts import Axis, Fold
 from thrustwasher.ladder.choose import choose
+from thrustwasher.washer.model import MODEL
 from thrustwasher.washer.parameters import SPEC
 
 LADDER = (
@@ -23,7 +24,8 @@ LADDER = (
 @pytest.fixture
 def ladder(monkeypatch):
     """Return a function that puts cards in place of the shipped ones."""
-    washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
+    washer, kernels = replace(SPEC, fidelities=dict.fromkeys(RUNGS, "")), MODEL.ladder.kernels
+    monkeypatch.setitem(kernels, "coarse", kernels["field"])
     monkeypatch.setattr("thrustwasher.washer.parameters.SPEC", washer)
 
     def put(*cards, refused=None):
@@ -214,7 +216,7 @@ def test_an_absolute_quantity_has_its_unit(ladder):
 
 
 def test_errors_beside_folds_are_said(ladder):
-    beside = Fold(None, 0.05, 12, 3, {"friction_torque": 0.04})
+    beside = Fold(0.05, 12, 3, {"friction_torque": 0.04})
     ladder(replace(LADDER[2], fold=beside))
     assert "within 5 % of a fold's load: 6 %" in str(choose("washer", BOX, tol=0.02))
 

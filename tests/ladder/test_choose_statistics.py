@@ -11,6 +11,7 @@ from thrustwasher import SolveError
 from thrustwasher.ladder import candidates as home
 from thrustwasher.ladder.card_parts import worst_near
 from thrustwasher.ladder.choose import choose
+from thrustwasher.washer.model import MODEL
 from thrustwasher.washer.parameters import SPEC
 
 # typical error and seconds per call
@@ -76,6 +77,7 @@ def record():
     with pytest.MonkeyPatch.context() as patch:
         washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
         patch.setattr("thrustwasher.washer.parameters.SPEC", washer)
+        patch.setitem(MODEL.ladder.kernels, "coarse", MODEL.ladder.kernels["field"])
         for k in range(REQUESTS):
             if k % 50 == 0:
                 phase = {r: rng.random(4) for r in LADDER}

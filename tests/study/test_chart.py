@@ -63,6 +63,10 @@ STABILITY = {
 }  # fmt: skip
 
 
+CORRECTION = {"part": "clutch: counted once", "figure": "friction", "unit": "1", "before": 0.1,
+              "after": 0.05, "recorded": True}  # fmt: skip
+
+
 @pytest.fixture(scope="module")
 def record(tmp_path_factory):
     samples = [
@@ -79,8 +83,6 @@ def record(tmp_path_factory):
                   {"name": "b", "point": [2.0], "before": []}],
         "cases_digest": "0", "cost_of": "a call [s]", "quantities": [QUANTITY], "truths": [],
         "samples": samples,
-        "curve": {"points": 37, "first_step_2006_s": 0.1, "curve_2006_s": 2.0,
-                  "curve_field_s": 0.02, "first_step_then_s": 1800.0},
     }  # fmt: skip
     found = {
         "schema": 1, "command": "thrustwasher chart", "date": "2026-11-21T18:00:00Z",
@@ -88,7 +90,7 @@ def record(tmp_path_factory):
                     "numba": "1", "compiled": True, "threads": {}, "load": 0.1},
         "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
         "calibration_s": 0.01, "quick": False, "models": {"washer": survey}, "run_s": 1.0,
-        "macro_steps": STUDY, "stability": [GROUP],
+        "macro_steps": STUDY, "corrections": [CORRECTION], "stability": [GROUP],
     }  # fmt: skip
     path = tmp_path_factory.mktemp("chart") / "in.json"
     path.write_text(json.dumps(found), "utf-8")
@@ -103,7 +105,7 @@ def drawn(record):
 
 
 def test_page_markdown_drawings_and_record_are_written(drawn, record):
-    drawings = ("washer", "washer-count", "shift", "stability")
+    drawings = ("washer", "washer-count", "shift", "corrections", "stability")
     wanted = {"chart.json", "chart.html", "chart.md", *(f"chart-{d}.svg" for d in drawings)}
     assert {p.name for p in drawn.iterdir()} == wanted
     kept = json.loads((drawn / "chart.json").read_text())
@@ -117,7 +119,7 @@ def test_who_won_what_failed_and_what_set_up_costs_is_said(drawn):
     assert "nothing beats closed (1 us, worst 50 %), map (2 us, worst 0.01 %)" in text
     assert "old fails in 2 of 2 cases (a < b: SINGULAR; b: SINGULAR)." in text
     assert "| map | 1 s | 200 ms | 2 us | 6056 |" in text  # (1.2 - 0.001)/(2e-4 - 2e-6)
-    assert "100 times less" in text and "30 minutes" in text
+    assert "| clutch: counted once | friction | 1 | 0.1* | 0.05 | 0.5 |" in text
     assert "sources changed since" in text
 
 

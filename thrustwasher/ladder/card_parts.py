@@ -24,7 +24,7 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Errors of one quantity, cell by cell: worst, root mean square, points.
+    """Errors of one quantity, cell by cell: worst, points.
 
     ``kind`` is "relative" (to the reference's value, or to ``floor`` if that is more) or "absolute"
     (in ``unit``).
@@ -34,7 +34,6 @@ class Errors:
     unit: str | None
     floor: float | None
     worst: Grid
-    rms: Grid
     n: Counts
 
 
@@ -88,7 +87,6 @@ class Fold:
     largest error of the others.
     """
 
-    card: str | None
     margin: float
     n: int
     other_side: int
@@ -114,13 +112,12 @@ class Sources:
 
 @dataclass(frozen=True, slots=True)
 class HeldOut:
-    """The points: how many, failures, and points outside the rung's own range."""
+    """The points, random in the scaled box: how many, failures, outside the rung's own range."""
 
     n: int
     failed: int
     outside: int
     seed: int
-    sampling: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,16 +135,12 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """Seconds per call on the named machine, and a count that needs none."""
+    """Seconds per call on the named machine, and what is spent once."""
 
     call_median_s: float
     call_iqr_s: float
-    call_min_s: float
     first_call_s: float
     build_s: float
-    build_solves: int
-    count: float | None
-    count_of: str | None
 
 
 def worst_near(errors: Errors, i: int, j: int) -> float | None:

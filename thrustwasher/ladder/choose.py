@@ -97,7 +97,7 @@ def choose(
     n_calls : how often the rung will be called: what is spent once weighs less the more calls
     safety : factor on the largest held-out error, at least 1
     params : the parameter object; default: the model's defaults
-    among : rungs to choose from; default: all
+    among : rungs to choose from; default: all that can have cards
 
     Returns
     -------
@@ -115,15 +115,14 @@ def choose(
     statistical: with n independent points and none above tol, less than 3/n of the verified box is
     above tol, with 95 % confidence. The same cards give the same answer.
     """
-    ladder_of(model)  # raises where no rung can have a card
-    spec = spec_of(model)
+    ladder, spec = ladder_of(model), spec_of(model)  # ParameterError where no rung has a card
+    rungs = [name for name in spec.fidelities if name in ladder.kernels]
     request = Request(
         spec, checked_box(spec, box), quantity, _above("tol", tol, 0.0, False),
         _above("n_calls", n_calls, 1.0), _above("safety", safety, 1.0),
     )  # fmt: skip
     if quantity not in QUANTITIES:
         raise ParameterError(f"quantity = {quantity!r}, allowed: {' or '.join(QUANTITIES)}")
-    rungs = list(spec.fidelities)
     for name in among or ():
         if name not in rungs:
             raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, rungs))}")

@@ -6,7 +6,7 @@ Numbers that come with a call are checked here too.
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields, make_dataclass
-from functools import wraps
+from functools import cache, wraps
 from operator import attrgetter
 from typing import Any, TypeVar
 
@@ -28,17 +28,17 @@ def count(default: int, low: int, high: int, text: str) -> Any:
     return field(default=default, metadata=meta)
 
 
-def flag(default: bool, text: str) -> Any:
+def flag(default: bool, text: str, **extra: Any) -> Any:
     """Return a Boolean field."""
-    meta = {"kind": "boolean", "unit": "1", "min": 0, "max": 1, "help": text}
+    meta = {"kind": "boolean", "unit": "1", "min": 0, "max": 1, "help": text, **extra}
     return field(default=default, metadata=meta)
 
 
-def choice(default: str, options: dict[str, str], type_name: str, text: str) -> Any:
+def choice(default: str, options: dict[str, str], type_name: str, text: str, **extra: Any) -> Any:
     """Return an enumeration field; ``options`` maps each name to one sentence."""
     meta = {
         "kind": "enumeration", "unit": "1", "min": 1, "max": len(options), "help": text,
-        "options": dict(options), "type": type_name,
+        "options": dict(options), "type": type_name, **extra,
     }  # fmt: skip
     return field(default=default, metadata=meta)
 
@@ -152,13 +152,15 @@ def check_number(name: str, value: float, unit: str, low: float, high: float) ->
 
 def as_numbers(params: Any) -> list[float]:
     """Return the fields as floats in declared order; an enumeration counts from 1."""
-    numbers = []
-    for f in fields(params):
-        value = getattr(params, f.name)
-        if f.metadata["kind"] == "enumeration":
-            value = list(f.metadata["options"]).index(value) + 1
-        numbers.append(float(value))
-    return numbers
+    values = ((getattr(params, name), codes) for name, codes in _codes(params.__class__))
+    return [float(codes[value] if codes else value) for value, codes in values]
+
+
+@cache
+def _codes(kind: Any) -> list[tuple[str, dict[str, int]]]:
+    """Return the names of all fields, with the numbers of an enumeration's options."""
+    options = [(f.name, f.metadata.get("options", ())) for f in fields(kind)]
+    return [(name, {option: i for i, option in enumerate(own, 1)}) for name, own in options]
 
 
 def check_rules(

@@ -78,10 +78,11 @@ class Command:
 class Ladder:
     """What the choice of a rung and the making of its cards need to know."""
 
-    kernels: Mapping[str, tuple[str, ...]]  # rung -> modules that compute its numbers
-    boxes: Mapping[str, Mapping[str, Scaled]]  # parameter set -> range of every input
-    part: str  # the model's part of the scene that a parameter set is named after
-    changed: Mapping[str, Any] = field(default_factory=dict)  # otherwise in held-out points
+    kernels: Mapping[str, tuple[str, ...]]
+    """Rungs that can be the cheapest at a tolerance up to 10 % -> modules that compute them."""
+    boxes: Mapping[str, Mapping[str, Scaled]]
+    """Parameter set -> range of every input: "default", a scene, or "scene.part"."""
+    part: str  # of a scene, where a parameter set names none
     references: str  # dotted name: where reference values come from
     chart: str  # dotted name: what the chart shows, at which operating points
     rivals: tuple[str, ...] = ()  # dotted names: series of methods of others for the chart

@@ -17,11 +17,13 @@ CHECK = "check"  # key of the checksum in a JSON file
 
 
 def params_digest(params: Any) -> str:
-    """Return the SHA-256 of a parameter object: name of its class and all its fields.
+    """Return the SHA-256 of a parameter object: name of its class and all fields of the part.
 
-    Numbers that are equal have equal digests: 1 and 1.0 count as the same.
+    Numbers that are equal have equal digests: 1 and 1.0 count as the same. Fields with
+    ``of_a_run`` in their metadata say how a run begins or goes, not what the part is.
     """
-    values = {f.name: getattr(params, f.name) for f in fields(params)}
+    mine = (f.name for f in fields(params) if not f.metadata.get("of_a_run"))
+    values = {name: getattr(params, name) for name in mine}
     values |= {k: float(v) for k, v in values.items() if type(v) is int}
     text = json.dumps([type(params).__name__, values], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()

@@ -15,7 +15,6 @@ from ..shift.scene.scene_file import load_scene
 SEED = 7
 POINTS, POINTS_IN_PART = 500, 350
 MOST = 50  # points drawn for each one wanted in a part of a box
-SAMPLING = "uniform in the scaled box"
 
 
 @dataclass(frozen=True)
@@ -86,7 +85,8 @@ def cases(model: str) -> list[Case]:
     for name, box in ladder.boxes.items():
         params = spec.params()
         if name != "default":  # what a shipped scene gives to its part
-            params = replace(load_scene(name).parts[ladder.part].params, **ladder.changed)
+            scene, _, part = name.partition(".")
+            params = load_scene(scene).parts[part or ladder.part].params
         axes = {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}
         found.append(Case(spec, name, params, axes, POINTS))
     return found

@@ -1,6 +1,5 @@
 """Put a card together and write its file."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -13,14 +12,12 @@ from ..ladder.card_parts import Cost, HeldOut, ParameterSet, Reference, Sources
 from ..model.prepare import tables_of
 from ..storage.digests import DATA, changed_fields, kernel_digest, params_digest
 from ..storage.whole_files import whole_file
-from .card_cases import SAMPLING, Case
+from .card_cases import Case
 from .costs import Timing
 from .error_tables import by_film_ratio, error_tables, fold_part, uncertainties
 from .reference_cache import source_of
 from .reference_values import FAILED, OK, OUTSIDE, Answer, ReferencePoint
 from .surroundings import this_machine, this_package
-
-MESHED = ("coarse", "field", "fine")
 
 
 def make_card(
@@ -29,8 +26,7 @@ def make_card(
 ) -> Card:  # fmt: skip
     """Return the card of one chart from reference values and a rung's answers to them."""
     errors, cells = error_tables(pairs, case.verified)
-    away = [a for t, a in pairs if not t.beside_fold]
-    verdicts = [a.verdict for a in away]
+    verdicts = [a.verdict for t, a in pairs if not t.beside_fold]
     known = [t for t, _ in pairs]
     source = source_of(case.spec.key)
     built = _built(case, rung)
@@ -45,9 +41,9 @@ def make_card(
         envelope=dict(case.verified), errors=errors, cells=cells,
         by_film_ratio=by_film_ratio(pairs),
         held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
-                         case.seed, SAMPLING),
+                         case.seed),
         reference=Reference("reference", source.grid, source.routes, uncertainties(known)),
-        cost=_cost(rung, timing, first, away, built),
+        cost=Cost(*_seconds(timing, first), (built and built.card.get("build_s")) or 0.0),
         machine=this_machine(),
     )  # fmt: skip
 
@@ -64,26 +60,14 @@ def _built(case: Case, rung: str) -> Any:
     return found
 
 
-def _cost(rung: str, timing: Timing, first: float, answers: Sequence[Answer], built: Any) -> Cost:
-    """Return a card's cost part; times have three digits."""
-    done = [a.work for a in answers if a.verdict == OK]
-    count = float(f"{sum(done) / max(len(done), 1):.4g}") or None  # None: nothing is iterated
-    what = "iterations x mesh nodes, from nothing" if rung in MESHED else "iterations"
-    build = float(built.card.get("build_s") or 0.0) if built else 0.0
-    solves = math.prod(built.card.get("nodes") or (0,)) if built else 0
-    return Cost(*_seconds(timing, first), build, solves, count, what if count else None)
-
-
-def _seconds(timing: Timing, first: float) -> tuple[float, float, float, float]:
-    times = (timing.median, timing.iqr, timing.least, first)
-    median, iqr, least, once = (float(f"{t:.3g}") for t in times)
-    return median, iqr, least, once
+def _seconds(timing: Timing, first: float) -> tuple[float, float, float]:
+    median, iqr, once = (float(f"{t:.3g}") for t in (timing.median, timing.iqr, first))
+    return median, iqr, once
 
 
 def timed_card(card: Card, timing: Timing, first: float) -> Card:
     """Return a card with times measured anew, on this machine."""
-    c = card.cost
-    cost = Cost(*_seconds(timing, first), c.build_s, c.build_solves, c.count, c.count_of)
+    cost = Cost(*_seconds(timing, first), card.cost.build_s)
     return replace(card, cost=cost, machine=this_machine())
 
 

@@ -1,4 +1,4 @@
-"""From answers at held-out points to a card's tables: worst and rms error cell by cell."""
+"""From answers at held-out points to a card's tables: the worst error cell by cell."""
 
 import math
 import statistics
@@ -99,21 +99,16 @@ def _table(quantity: str, placed: list[tuple[Place, Pair]], shape: Place, floor:
         if a.verdict == OK:
             found[at].append(deviation(quantity, t, a.values[quantity], floor))
     kind, unit = KINDS[quantity]
-    worst, rms, n = (
+    worst, n = (
         tuple(tuple(of(found[i, j]) for j in range(shape[1])) for i in range(shape[0]))
-        for of in (_worst, _rms, len)
+        for of in (_worst, len)
     )
-    return Errors(kind, unit, floor if kind == "relative" else None, worst, rms, n)  # type: ignore[arg-type]
+    return Errors(kind, unit, floor if kind == "relative" else None, worst, n)  # type: ignore[arg-type]
 
 
 def _worst(errors: list[float]) -> float | None:
     """Return the worst of the errors, rounded up to three digits."""
     return _up(max(errors)) if errors else None
-
-
-def _rms(errors: list[float]) -> float | None:
-    squares = sum(e * e for e in errors)
-    return float(f"{math.sqrt(squares / len(errors)):.3g}") if errors else None
 
 
 def _up(value: float) -> float:
@@ -156,7 +151,7 @@ def fold_part(pairs: Pairs) -> Fold | None:
         errors = [deviation(q, t, a.values[q], floor) for t, a in beside if a.verdict == OK]
         worst[q] = _up(max(errors, default=0.0))
     other = sum(a.verdict == OTHER_SIDE for _, a in beside)
-    return Fold(None, MARGIN, len(beside), other, worst)
+    return Fold(MARGIN, len(beside), other, worst)
 
 
 def uncertainties(known: Sequence[ReferencePoint]) -> dict[str, float]:

@@ -225,7 +225,7 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
         )  # fmt: skip
         return Answer({name: getattr(e, name).tolist() for name in QUANTITIES}, ref.OK)
     c = solve_clutch(params, **point, fidelity=fidelity)
-    return Answer({name: getattr(c, name) for name in QUANTITIES}, ref.OK, float(c.iterations))
+    return Answer({name: getattr(c, name) for name in QUANTITIES}, ref.OK)
 
 
 SOURCE = Source(

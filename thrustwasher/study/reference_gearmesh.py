@@ -184,7 +184,7 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
         "friction_torque": g.friction_torque, "temperature": g.asperity_temperature,
         "film_thickness": g.film_thickness, "film_ratio": g.film_ratio,
     }  # fmt: skip
-    return Answer(values, OK, float(g.iterations))
+    return Answer(values, OK)
 
 
 SOURCE = Source(

@@ -47,15 +47,10 @@ class ReferencePoint:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a rung says at a held-out point, and whether it counts: one of the words above.
-
-    ``work`` is a count of what was done that needs no machine: iterations, times nodes if the rung
-    has a mesh.
-    """
+    """What a rung says at a held-out point, and whether it counts: one of the words above."""
 
     values: Values
     verdict: str
-    work: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -201,13 +201,12 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
     point: Any = known.point
     r = solve_washer(params, **point, fidelity=fidelity, branch=known.branch, throw=False)
     values: Values = {name: getattr(r, name) for name in QUANTITIES}
-    work = float(r.iterations * max(r.grid[0] * r.grid[1], 1))
     if fidelity == "map" and (r.fidelity != "map" or r.status is Status.OUTSIDE_VERIFIED):
-        return Answer(values, ref.OUTSIDE, work)
+        return Answer(values, ref.OUTSIDE)
     if r.status is Status.NO_BRANCH and known.beside_fold:
-        return Answer(values, ref.OTHER_SIDE, work)
+        return Answer(values, ref.OTHER_SIDE)
     failed = r.status.is_failure and r.status is not Status.NO_BRANCH
-    return Answer(values, ref.FAILED if failed else ref.OK, work)
+    return Answer(values, ref.FAILED if failed else ref.OK)
 
 
 SOURCE = Source(

@@ -17,7 +17,7 @@ from typing import Any
 from ..errors import ParameterError, SolveError
 from ..ladder.card import VERIFY, Card, forget, fresh_cards
 from ..model.prepare import tables_of
-from ..model.registry import models_with_cards, spec_of
+from ..model.registry import ladder_of, models_with_cards
 from ..model.spec import ModelSpec
 from ..storage.digests import DATA
 from .card_cases import POINTS_IN_PART, Case, cases
@@ -41,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--params", metavar="NAME", help="parameter set; default: all")
     parser.add_argument("--out", type=Path, default=DATA / "cards", metavar="DIR")
     options = parser.parse_args(argv)
-    rungs = spec_of(options.model).fidelities if options.model else {}
+    rungs = ladder_of(options.model).kernels if options.model else {}
     if options.fidelity and options.fidelity not in rungs:
         parser.error(f"fidelity = {options.fidelity!r}, allowed: {', '.join(rungs)}")
     make = time_again if options.costs else _case
@@ -56,7 +56,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _case(case: Case, only: str | None, n: int, out: Path) -> int:
     """Make the cards of one parameter set; return how many rungs failed."""
     spec, params = case.spec, case.params
-    usable = [rung for rung in spec.fidelities if holds(spec, rung, params)]
+    usable = [rung for rung in ladder_of(spec.key).kernels if holds(spec, rung, params)]
     wanted = [only] if only else [r for r in usable if not fresh_cards(spec.key, r, params)]
     if not wanted:
         _say(f"{case.spec.key} {case.name}: nothing to do")
@@ -95,7 +95,7 @@ def _known(case: Case, n: int) -> list[ReferencePoint]:
 
 def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
     """Measure the costs in fresh cards anew, on a machine that is idle now; return 0."""
-    for rung in [only] if only else case.spec.fidelities:
+    for rung in [only] if only else ladder_of(case.spec.key).kernels:
         cards = fresh_cards(case.spec.key, rung, case.params)
         known = _known(case_of(case, rung), n) if cards else []
         for card in cards:

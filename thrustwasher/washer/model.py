@@ -3,7 +3,6 @@
 from ..model.record import Command, Ladder, Model, Option, Sweep
 
 _FIELD = tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants"))
-_BOX = {"tilt": (1e-3, 3e-3, "log"), "oil_temperature": (290.0, 400.0, "linear")}
 GRID = Option(
     name="grid", help="nodes along the radius x around, e.g. 9x32 or 17x64", metavar="RxT",
     read="thrustwasher.cli._options:read_grid",
@@ -42,13 +41,22 @@ MODEL = Model(
     ladder=Ladder(
         kernels={
             "map": ("thrustwasher.washer.kernels.map.map_step",),
-            "coarse": _FIELD,
             "field": _FIELD,
             "fine": _FIELD,
         },
         boxes={
-            "default": {"load": (20.0, 1850.0, "log"), "speed": (50.0, 1400.0, "log"), **_BOX},
-            "planetary-sun": {"load": (1.0, 200.0, "log"), "speed": (1.0, 450.0, "log"), **_BOX},
+            "default": {
+                "load": (20.0, 1850.0, "log"),
+                "speed": (50.0, 1400.0, "log"),
+                "tilt": (1e-3, 3e-3, "log"),
+                "oil_temperature": (290.0, 400.0, "linear"),
+            },
+            "planetary": {
+                "load": (2.0, 200.0, "log"),
+                "speed": (1.0, 650.0, "log"),
+                "tilt": (0.8e-3, 1.6e-3, "log"),
+                "oil_temperature": (250.0, 400.0, "linear"),
+            },
         },
         part="washer",
         references="thrustwasher.study.reference_washer:SOURCE",

@@ -184,20 +184,23 @@ class Scene:
             except ParameterError as problem:
                 raise ParameterError(f"{where} [{name}]: {problem}") from None
         gearbox = self.parts["transmission"]
-        params = replace(
-            gearbox.params,
-            oil_temperature=self.oil_temperature,
-            torque_age=MASTERS[self.master].torque_age,
-            ring_mesh="ring_mesh" in self.parts,
-        )
+        params = _with(
+            gearbox.params, oil_temperature=self.oil_temperature,
+            torque_age=MASTERS[self.master].torque_age, ring_mesh="ring_mesh" in self.parts,
+        )  # fmt: skip
         parts = {**self.parts, "transmission": replace(gearbox, params=params)}
         # The transmission looks ahead by itself: packs that say where they are now couple to it
         # with second order.
         for name, part in parts.items():
-            if any(f.name == "input_course" for f in fields(part.params)):
-                linear = replace(part.params, input_course="linear")
-                parts[name] = replace(part, params=linear)
+            if hasattr(part.params, "input_course"):
+                parts[name] = replace(part, params=_with(part.params, input_course="linear"))
         return replace(self, parts=parts)
+
+
+def _with(params: Any, **values: Any) -> Any:
+    """Return parameters with these values; what does not change is not checked again."""
+    new = {name: value for name, value in values.items() if getattr(params, name) != value}
+    return replace(params, **new) if new else params
 
 
 def shift_of_pressures(gearbox: Any) -> dict[str, float]:

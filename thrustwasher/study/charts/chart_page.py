@@ -8,6 +8,7 @@ from ...report.html import Page, Plot, Section, Table, fill_template
 from ..failures.stability_page import stability_figure
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, steps_figure
+from .corrections import corrections_section
 
 TITLE = "Speed against accuracy"
 HOW = (
@@ -23,6 +24,8 @@ def sections(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> list[Secti
     found = [_model_section(model, s, fronts[model]) for model, s in record["models"].items()]
     if "macro_steps" in record:
         found.append(_steps_section(record["macro_steps"], fronts["macro_steps"]))
+    if "corrections" in record:
+        found.append(corrections_section(record["corrections"]))
     if "stability" in record:
         found.append(_stability_section(record["stability"]))
     return found
@@ -83,8 +86,6 @@ def _model_section(
 ) -> Section:
     texts = [text.verdict(survey, fronts[q["name"]], q) for q in survey["quantities"]]
     texts += text.failure_sentences(survey)
-    if "curve" in survey:
-        texts += text.curve_sentences(survey["curve"])
     heads, rows = text.sample_rows(survey)
     even_heads, even_rows = text.break_even_rows(survey, "field")
     cases = [[c["name"], ", ".join(f"{v:g}" for v in c["point"])] for c in survey["cases"]]

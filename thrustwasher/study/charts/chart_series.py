@@ -5,8 +5,8 @@ Each model's own are named in its record. A changed list of points is another li
 """
 
 import hashlib
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -83,7 +83,6 @@ class Chart:
     series: Callable[..., list[Configuration]]
     cases: tuple[ChartCase, ...]
     few: tuple[int, ...]  # of the cases, for a quick look
-    more: Mapping[str, Callable[..., object]] = field(default_factory=dict)  # measured beside it
 
 
 WARM = "warm call, 1 % away [s]"

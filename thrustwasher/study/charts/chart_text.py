@@ -170,17 +170,6 @@ def _order(members: Sequence[Sampled], name: str) -> float | None:
     return linear_regression(*zip(*pairs, strict=True)).slope
 
 
-def curve_sentences(curve: Mapping[str, Any]) -> list[str]:
-    """Say how far it is from the run of 2006."""
-    return [
-        "The method of 2006 took 30 minutes for the first load step on a processor of 1.8 GHz. The "
-        f"same method compiled takes {seconds(curve['first_step_2006_s'])} for it on this machine, "
-        f"{seconds(curve['curve_2006_s'])} for the whole curve of {curve['points']} loads; the "
-        f"package's field takes {seconds(curve['curve_field_s'])} for the same curve, "
-        f"{curve['curve_2006_s'] / curve['curve_field_s']:.0f} times less."
-    ]
-
-
 def machine_sentence(record: Mapping[str, Any]) -> str:
     """Say where and with what the numbers were measured."""
     m, p = record["machine"], record["package"]

@@ -1,6 +1,5 @@
-"""The chart of the washer: operating points on both branches, meshes, the whole curve in load."""
+"""The chart of the washer: operating points on both branches, meshes."""
 
-import time
 from functools import partial
 
 import numpy as np
@@ -9,14 +8,10 @@ from ...model.spec import ModelSpec
 from ...washer.kernel_arguments import constants
 from ...washer.kernels.layout import N_HEAD
 from ...washer.kernels.workspace import size_of_state, size_of_work
-from ...washer.parameters import SPEC
-from ..rivals.plain2006 import Plain2006
 from .chart_series import KELVIN, WARM, Chart, Configuration, Quantity, Settings, rungs, series
 from .methods import ChartCase, KernelMethod
 
 GRIDS = ((7, 20), (9, 24), (10, 32), (13, 40), (16, 48), (19, 64), (28, 96))
-BEST_2006 = 1e-5  # tolerance of the method of 2006 beyond which its answers do not change
-LOADS = tuple(range(50, 1851, 50))  # of the washer's whole curve
 OIL = 297.15
 
 
@@ -38,31 +33,6 @@ def _washer(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     )
     count_of = "Newton iterations x nodes"
     return [*rungs(spec), *series("mesh of the package", "grid", meshes, count_of)]
-
-
-def whole_curve(*, quick: bool = False) -> dict[str, float]:
-    """Return the seconds that one curve up in load takes, by the method of 2006 and by ours.
-
-    545 rad/s, tilt 0.002 rad, 24 degC, 50 .. 1850 N in steps of 50 N; and the first load step of
-    the method of 2006 alone, which took 30 minutes then.
-    """
-    loads = LOADS[::4] if quick else LOADS
-    washer = Plain2006(tolerance=BEST_2006)
-    began = time.perf_counter()
-    washer.solve(loads[0], 545.0, 2e-3, OIL)
-    first = time.perf_counter() - began
-    for load in loads[1:]:
-        washer.solve(load, 545.0, 2e-3, OIL)
-    whole = time.perf_counter() - began
-    ours = KernelMethod(SPEC, "field")
-    points = tuple((float(load), 545.0, 2e-3, OIL) for load in loads)
-    ours.solve(ChartCase("curve", points[-1], points[:-1]))
-    began = time.perf_counter()
-    ours.solve(ChartCase("curve", points[-1], points[:-1]))
-    return {
-        "points": len(loads), "first_step_2006_s": first, "curve_2006_s": whole,
-        "curve_field_s": time.perf_counter() - began, "first_step_then_s": 1800.0,
-    }  # fmt: skip
 
 
 def _case(name: str, load: float, speed: float, tilt: float = 2e-3, oil: float = OIL,
@@ -90,5 +60,5 @@ CASES = (
 )
 WASHER = Chart(
     (Quantity("friction_torque", True, 1e-3), KELVIN), WARM, _washer,
-    CASES, (0, 1, 8, 11, 12), {"curve": whole_curve},
+    CASES, (0, 1, 8, 11, 12),
 )  # fmt: skip

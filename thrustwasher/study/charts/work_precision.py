@@ -171,14 +171,10 @@ def work_precision(
         repeats = 3 if quick else REPEATS
         true = known[setting.preset]
         samples.append(measure(setting, cases, true, quantities, repeats=repeats).as_dict())
-    found: dict[str, Any] = {
+    return {
         "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
         "cases_digest": digest(cases), "cost_of": chart.cost_of,
         "quantities": [q.as_dict() for q in quantities],
         "truths": [{q.name: t.values[q.name] for q in quantities} for t in known[""]],
         "samples": samples,
     }  # fmt: skip
-    for name, measured in chart.more.items():
-        progress(f"{model}: {name}")
-        found[name] = measured(quick=quick)
-    return found

@@ -222,7 +222,7 @@ def sample(
 
 
 def masters(make: Make, *, quick: bool = False) -> Group:
-    """Judge every master and coupling of the default shift by the clutch's heat and chatter.
+    """Judge every master and coupling of a shift with cold oil by the clutch's heat and chatter.
 
     ``make`` gives an instance for each part of a scene. Washers and gear mesh are left out. Each
     coupling is held against its own limit of small steps: smoothed friction is another model.
@@ -239,7 +239,7 @@ def masters(make: Make, *, quick: bool = False) -> Group:
 
     named = {f"master {name}": name for name in MASTERS}
     judged = f"clutch's heat off by more than {100 * WRONG_HEAT:g} %, or chatter"
-    return table("the default shift", judged, named, HAZARDS, judge)
+    return table("the shift of the scene planetary-sun", judged, named, HAZARDS, judge)
 
 
 def _smooth_run(make: Make, master: str, coupling: str, step: float) -> ShiftResult:

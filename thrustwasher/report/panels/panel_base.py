@@ -9,7 +9,7 @@ from ..shift.shift_record import Array, Record
 from ..style import label
 
 MOST_EVENTS, FIRST_EVENTS = 8, 5  # numbered in a panel: all, or the first of too many
-NAMED = 0.065  # of the time shown: a phase that lasts longer has its name in it
+LETTER = 0.008  # of the panel's width: a phase that its name fits in has it there
 SHADES = ("#F1F1F1", "#FFF3D9", "#E2F0FA", "#E3F4EC", "#F7E9F1")
 
 
@@ -38,7 +38,7 @@ def draw_phases(axis: Axes, record: Record, words: bool = True, legend: bool = F
     axis.margins(y=0.1)  # room for the names at the top
     for index, phase in enumerate(record.phases):
         shade = SHADES[index % len(SHADES)]
-        wide = phase.end - phase.start > NAMED * (last - first)
+        wide = phase.end - phase.start > LETTER * len(phase.name) * (last - first)
         axis.axvspan(phase.start, phase.end, color=shade, lw=0, zorder=0,
                      label=phase.name if legend and not wide else None)  # fmt: skip
         if words and wide:

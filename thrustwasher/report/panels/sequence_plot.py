@@ -4,7 +4,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from ..palette import CELSIUS
+from ..palette import BLACK, BLUE, CELSIUS, COLOURS, GREEN
 from ..style import label, styled, time_figure
 
 
@@ -13,13 +13,14 @@ def sequence_figure(result: Any) -> Figure:
     """Return the plot of a ``SequenceResult``; its shifts are marked by thin lines."""
     time, s = result.time, result.signals
     figure, (oil, packs, speeds) = time_figure(7.0, 3, (1.0, 1.0, 1.0))
-    oil.plot(time, result.oil_temperature - CELSIUS, label="oil in the sump")
-    label(oil, result.scene.title, "", "oil [degC]")
+    oil.plot(time, result.oil_temperature - CELSIUS, color=BLACK, label="oil in the sump")
+    label(oil, result.scene.title, "", "oil [°C]")
     for pack in ("clutch", "brake"):
-        packs.plot(time, s[f"{pack}.temperature"] - CELSIUS, label=f"{pack}'s plates")
-    label(packs, "", "", "plates [degC]")
-    for name in ("engine", "output"):
-        speeds.plot(time, s[f"transmission.{name}_speed"], label=name)
+        hot = s[f"{pack}.temperature"] - CELSIUS
+        packs.plot(time, hot, color=COLOURS[pack], label=f"{pack}'s plates")
+    label(packs, "", "", "plates [°C]")
+    for name, colour in (("engine", BLUE), ("output", GREEN)):
+        speeds.plot(time, s[f"transmission.{name}_speed"], color=colour, label=name)
     label(speeds, "", "", "speed [rad/s]")
     for axes in (oil, packs, speeds):
         for start, _ in result.scene.sequence.shifts:

@@ -107,7 +107,7 @@ def test_rules_between_parameters_are_checked_with_the_text_of_the_dataclass(toy
 
 def test_a_parameter_is_fixed_once_the_run_has_begun(toy):
     with pytest.raises(ParameterError, match="discs is a fixed parameter"):
-        toy._set_named({"discs": 3}, "parameter")
+        toy._put(toy._filled({"discs": 3}, "parameter"))
     assert toy.get(["discs"]) == [2.0]
     toy.step(0.0, H)
 

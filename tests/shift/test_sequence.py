@@ -125,7 +125,7 @@ def test_the_plot_shows_oil_plates_and_speeds(run):
     from thrustwasher.report.panels.sequence_plot import sequence_figure
 
     labels = [axes.get_ylabel() for axes in sequence_figure(run).axes]
-    assert labels == ["oil [degC]", "plates [degC]", "speed [rad/s]"]
+    assert labels == ["oil [°C]", "plates [°C]", "speed [rad/s]"]
 
 
 def test_a_shift_down_by_pistons_needs_its_courses(tmp_path):

@@ -1,8 +1,8 @@
 """Files and folders that are written whole or not at all."""
 
 import os
+import secrets
 import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -14,22 +14,23 @@ from ..errors import naming
 def whole_file(path: Path) -> Iterator[Path]:
     """Give a temporary path beside ``path`` that takes its place only if all went well."""
     with naming(path), new_folder(path.parent):
-        handle, name = tempfile.mkstemp(prefix=".", suffix=path.suffix, dir=path.parent)
-        os.close(handle)
-        try:
-            yield Path(name)
-            os.chmod(name, 0o666 & ~_umask())
-            os.replace(name, path)
+        draft = path.parent / f".{secrets.token_hex(8)}{path.suffix}"
+        try:  # a signal may stop it at any line: the name is known before the file is there
+            draft.touch(0o600, exist_ok=False)
+            yield draft
+            draft.chmod(0o666 & ~_umask())
+            os.replace(draft, path)
         finally:
-            Path(name).unlink(missing_ok=True)
+            draft.unlink(missing_ok=True)
 
 
 @contextmanager
 def whole_folder(path: Path) -> Iterator[Path]:
     """Give a temporary folder whose files move to ``path`` only if all went well."""
     with naming(path), new_folder(path):
-        draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=path))
+        draft = path / f".draft-{secrets.token_hex(8)}"
         try:
+            draft.mkdir(0o700)
             yield draft
             for made in sorted(draft.iterdir()):
                 os.replace(made, path / made.name)

@@ -105,6 +105,17 @@ def test_heat_made_is_stored_or_in_the_oil():
     assert row[-1] == "10.000"
 
 
+def test_a_part_without_an_account_of_its_heat_has_made_what_its_steps_did():
+    """Teeth say power, heat to the oil and what they store; powers are those of each step."""
+    record = full()
+    power, given = 50.0 + 30.0 * np.sin(9.0 * record.time), 20.0 + 5.0 * record.time
+    kept = np.concatenate(([0.0], np.cumsum((power - given)[1:] * np.diff(record.time))))
+    heats = {"friction_power": power, "oil_heat": given, "stored_heat": kept}
+    signals = record.signals | {f"mesh.{name}": values for name, values in heats.items()}
+    split = heat_split(replace(record, signals=signals), "mesh")
+    assert split.made[-1] > 100.0 and np.max(np.abs(split.rest)) < 1e-12 * split.made[-1]
+
+
 def test_each_panel_appears_only_where_the_scene_has_its_part():
     anchors = {"comfort", "actuation", "heat"}
     page = shift_page(full())

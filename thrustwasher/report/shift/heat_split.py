@@ -36,31 +36,25 @@ class HeatSplit(NamedTuple):
 def heat_split(record: Record, part: str) -> HeatSplit | None:
     """Return the heat of a part; None if the run does not know it.
 
-    A part that stores heat gives its oil's heat as the mean of each step, others as that of the
+    A part that stores heat gives its powers as the means of each step, others as those of the
     moment.
     """
     given, power = record.series(f"{part}.oil_heat"), record.series(f"{part}.friction_power")
     stored = record.series(f"{part}.stored_heat")
     if given is None or power is None:
         return None
-    step = np.diff(record.time)
-    oil = given[1:] * step if stored is not None else _trapezia(given, step)
-    made = record.series(f"{part}.energy")
+    step, made = np.diff(record.time), record.series(f"{part}.energy")
+
+    def total(power: Array) -> Array:
+        mean = power[1:] if stored is not None else 0.5 * (power[1:] + power[:-1])
+        return np.concatenate(([0.0], np.cumsum(mean * step)))
+
     return HeatSplit(
-        OWNERS[part], _sum(_trapezia(power, step)) if made is None else made - made[0], stored,
-        _sum(oil),
-    )  # fmt: skip
+        OWNERS[part], total(power) if made is None else made - made[0], stored, total(given)
+    )
 
 
 def heat_splits(record: Record) -> list[HeatSplit]:
     """Return the heat of every part that makes more than LEAST_HEAT."""
     found = (heat_split(record, part) for part in OWNERS)
     return [split for split in found if split is not None and split.made[-1] > LEAST_HEAT]
-
-
-def _trapezia(values: Array, step: Array) -> Array:
-    return np.asarray(0.5 * (values[1:] + values[:-1]) * step)
-
-
-def _sum(pieces: Array) -> Array:
-    return np.concatenate(([0.0], np.cumsum(pieces)))

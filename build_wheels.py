@@ -1,7 +1,7 @@
 """Build the wheels: ``python build_wheels.py [--out DIR] [PLATFORM ...]``.
 
 One for each platform, with the compiled kernels linked for it, and one for any machine ("any"). All
-hold the kernels' object files, from which FMUs for every platform are linked. Takes the packages
+hold the kernels' object files and the libraries of the FMUs for every platform. Takes the packages
 build and, for platforms other than this machine's, ziglang. Wheels for Windows, macOS and ARM are
 linked here, not run.
 """
@@ -64,7 +64,7 @@ def main() -> None:
     assert TAGS.keys() == PLATFORMS.keys()
     stale = [name for name in libraries() if not shipped.has_objects(name)]
     if stale:
-        sys.exit(f"stale: {', '.join(stale)}; first: python -m thrustwasher.native.ship")
+        sys.exit(f"stale: {', '.join(stale)}; first: python -m thrustwasher.fmu.shell.ship_all")
     if not link.find_linker().is_cross:
         sys.exit("wheels are linked by the package ziglang: pip install ziglang")
     for platform in given.platforms or [*TAGS, ANY]:

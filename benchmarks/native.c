@@ -64,7 +64,7 @@ int main(int argc, char **argv)
     int n = atoi(argv[3]), bad = 0;
     for (int round = 0; round < ROUNDS; round++) {
         double start = now();
-        void *m = Instantiate("timed", fmi2CoSimulation, argv[2], NULL, &callbacks, 0, 0);
+        void *m = Instantiate("timed", fmi2CoSimulation, argv[2], ".", &callbacks, 0, 0);
         if (!m)
             return 3;
         EnterInitializationMode(m);

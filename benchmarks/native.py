@@ -43,8 +43,8 @@ def headers() -> Path:
 
 def empty_library(spec: ModelSpec) -> bytes:
     """Return a library of the shell with this model's tables and a step that does nothing."""
-    files: dict[str, str | bytes] = {**shell(2), **fmi_headers(2), "empty.c": EMPTY}
-    files |= c_tables.sources(spec, fmi=2, guid=GUID)
+    files: dict[str, str | bytes] = {**shell(), **fmi_headers(), "empty.c": EMPTY}
+    files |= c_tables.sources(spec)
     return link.shared_library(files, platform=PLATFORMS["linux64"], name="empty")
 
 
@@ -58,7 +58,7 @@ def timed(program: Path, made: Path, spec: ModelSpec, n: int) -> tuple[float, fl
     words = [len(inputs), *(x for pair in zip(inputs, point, strict=True) for x in pair)]
     words += [len(outputs), *outputs]
     done = subprocess.run([program, made, GUID, str(n)], input=" ".join(map(str, words)), env={},
-                          check=True, capture_output=True, text=True)  # fmt: skip
+                          cwd=made.parent, check=True, capture_output=True, text=True)  # fmt: skip
     birth, step, bad = done.stdout.split()
     return float(birth), float(step), int(bad)
 
@@ -76,7 +76,8 @@ def main() -> None:
         print(f"{'model':18}{'make + init [ms]':>18}{'step [us]':>12}{'protocol [us]':>15}")
         for spec in [find_spec(name) for name in names] or all_specs():
             made = folder / f"{spec.name}.so"
-            made.write_bytes(library(spec, fmi=2, guid=GUID, platform="linux64"))
+            (folder / c_tables.PART).write_bytes(c_tables.part_file(spec, GUID))
+            made.write_bytes(library(spec, platform="linux64"))
             birth, step, bad = timed(program, made, spec, STEPS.get(spec.key, 2000))
             made.write_bytes(empty_library(spec))
             _, protocol, _ = timed(program, made, spec, EMPTY_STEPS)

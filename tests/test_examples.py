@@ -22,6 +22,7 @@ PINNED = {
     "ex11_overload": [3.75, 0.575, 0.125],  # s
     "ex12_engine_and_vehicle": 0.88137,  # s, the scene's own engine and vehicle: 0.881375
     "ex13_engine_and_vehicle_ssp": 0.88137,  # s
+    "ex14_jackson_green": 0.1437,  # share of the film's heat that the solids take
 }
 TOLERANCE = {
     "ex01_washer": 6e-3,
@@ -34,6 +35,7 @@ TOLERANCE = {
     "ex11_overload": 0.05,
     "ex12_engine_and_vehicle": 2e-4,
     "ex13_engine_and_vehicle_ssp": 2e-4,
+    "ex14_jackson_green": 1e-3,
 }
 OWN_FMUS = ("ex12_engine_and_vehicle", "ex13_engine_and_vehicle_ssp")
 NATIVE = ("ex08_native_washer", "ex09_package", *OWN_FMUS)

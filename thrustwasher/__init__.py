@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.9.0"
 
 if TYPE_CHECKING:
-    from .clutch.calibration.calibration import Calibration, calibrate
+    from .calibration.estimates import Calibration
+    from .calibration.model_fit import ModelCalibration, calibrate
     from .clutch.engagement import Engagement, engage_clutch
     from .clutch.solve import ClutchParams, boundary_friction, solve_clutch
     from .errors import BranchError, ParameterError, SolveError, Status
     from .gearmesh.solve import GearMeshParams, GearMeshResult, solve_gearmesh
     from .ladder.choose import Choice, choose
+    from .model.part_file import PartFile, load_part
     from .sweep.run_sweep import run_sweep
     from .sweep.sweep_table import SweepTable
     from .washer.follow import WasherCourse, follow_washer
@@ -25,9 +27,11 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "ladder.choose": ("Choice", "choose"),
+    "model.part_file": ("PartFile", "load_part"),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "clutch.solve": ("ClutchParams", "boundary_friction", "solve_clutch"),
-    "clutch.calibration.calibration": ("Calibration", "calibrate"),
+    "calibration.estimates": ("Calibration",),
+    "calibration.model_fit": ("ModelCalibration", "calibrate"),
     "gearmesh.solve": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "clutch.engagement": ("Engagement", "engage_clutch"),
     "washer.solve": ("WasherParams", "WasherResult", "solve_washer"),
@@ -39,10 +43,10 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "BranchError", "Calibration", "Choice", "ClutchParams", "Engagement", "GearMeshParams",
-    "GearMeshResult", "LoadCurve", "ParameterError", "SolveError", "Status", "SweepTable",
-    "WasherCourse", "WasherParams", "WasherResult", "boundary_friction", "calibrate", "choose",
-    "engage_clutch", "follow_washer", "load_curve", "run_sweep", "solve_clutch",
-    "solve_gearmesh", "solve_washer",
+    "GearMeshResult", "LoadCurve", "ModelCalibration", "ParameterError", "PartFile",
+    "SolveError", "Status", "SweepTable", "WasherCourse", "WasherParams", "WasherResult",
+    "boundary_friction", "calibrate", "choose", "engage_clutch", "follow_washer", "load_curve",
+    "load_part", "run_sweep", "solve_clutch", "solve_gearmesh", "solve_washer",
 ]  # fmt: skip
 
 

@@ -57,6 +57,8 @@ _DISPLAY: dict[str, tuple[str, ...]] = {
     "W/m2": ("MW/m2", "kW/m2", "W/m2"),
     "m3/s": ("l/min",),
 }
+# More units that a number may be exact in.
+_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",)}
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
@@ -125,6 +127,34 @@ def format_quantity(value: float, unit: str, *, difference: bool = False, digits
     number = value / factor
     text = _rounded(number, digits)
     return text if shown == "1" else f"{text} {_pretty(shown)}"
+
+
+def exact_quantity(value: float, unit: str, *, difference: bool = False) -> str | float:
+    """Return a text that ``parse_quantity`` reads as the same number to the bit.
+
+    Its unit is the readable one that needs the fewest digits; a bare number has none.
+
+    Examples
+    --------
+    >>> exact_quantity(5.15e-7, "m"), exact_quantity(297.15, "K"), exact_quantity(2.0, "1")
+    ('515 nm', '24 degC', 2.0)
+    """
+    if unit == "1":
+        return value
+    shown = (_readable(value, unit, _DISPLAY.get(unit, (unit,))), *_EXACT.get(unit, ()), unit)
+    texts = (
+        f"{_plain_number((value - (0.0 if difference else offset)) / factor, digits)} {other}"
+        for digits in range(1, 18)
+        for other in shown
+        for factor, offset in (UNITS.get(unit, {}).get(other, (1.0, 0.0)),)
+    )
+    same = (t for t in texts if parse_quantity(t, unit, "", difference=difference) == value)
+    return next(same, f"{value!r} {unit}")
+
+
+def _plain_number(number: float, digits: int) -> str:
+    """Return so many significant digits, without an exponent where that is short."""
+    return repr(float(f"{number:.{digits}g}")).removesuffix(".0")
 
 
 def _readable(value: float, unit: str, choices: tuple[str, ...]) -> str:

@@ -1,27 +1,32 @@
-/* Derivatives of outputs with respect to inputs, from the model's own equations. */
+/* Derivatives of outputs with respect to inputs, from the model's own equations; until the
+   initialization ends also with respect to parameters, as a difference of two solutions. */
+#include <math.h>
 #include <string.h>
 
 #include "kernel.h"
 #include "shell.h"
 
-static int are_known(Instance *m, const uint32_t *references, size_t n, int cause) {
+/* Real outputs; real inputs and, while the parameters still count as values, real parameters. */
+static int are_known(Instance *m, const uint32_t *references, size_t n, uint32_t causes) {
     for (size_t i = 0; i < n; i++) {
         const Variable *v = find(m, references[i]);
         if (!v) return 0;
-        if (v->cause == cause && v->type == TYPE_REAL) continue;
-        fail(m, "%s: derivatives are of real outputs, with respect to inputs", v->name);
+        if (v->bits & causes && v->type == TYPE_REAL) continue;
+        fail(m, "%s: derivatives are of real outputs, with respect to inputs and, in "
+             "initialization mode, real parameters", v->name);
         return 0;
     }
     return 1;
 }
 
 static int is_possible(Instance *m, const Direction *d, size_t n_seed) {
+    uint32_t parameters = m->now.mode == INITIALIZING ? CAUSE_BIT(CAUSE_PARAMETER) : 0;
     if (!HAS_SENS) {
-        fail(m, "%s has no derivatives", MODEL_NAME);
+        fail(m, "%s has no derivatives", m->part.name);
         return 0;
     }
-    if (!are_known(m, d->unknowns, d->n_unknowns, CAUSE_OUTPUT)) return 0;
-    if (!are_known(m, d->knowns, d->n_knowns, CAUSE_INPUT)) return 0;
+    if (!are_known(m, d->unknowns, d->n_unknowns, CAUSE_BIT(CAUSE_OUTPUT))) return 0;
+    if (!are_known(m, d->knowns, d->n_knowns, CAUSE_BIT(CAUSE_INPUT) | parameters)) return 0;
     for (size_t i = 0; i < n_seed; i++) {
         if (is_finite(d->seed[i])) continue;
         fail(m, "a seed of the derivative is not finite");
@@ -58,42 +63,91 @@ static int differentiate(Instance *m, double *seed, double *dout) {
     }
     if (rc >= 0 && rc < FIRST_FAILURE) return GOOD;
     m->work_fits = 0;
-    return fail(m, "%s at t = %g s has no derivative here%s: %s: %s", MODEL_NAME, m->now.time,
+    return fail(m, "%s at t = %g s has no derivative here%s: %s: %s", m->part.name, m->now.time,
                 rc == STATUS_SINGULAR ? ", at the fold" : "", status_text(rc)->name,
                 status_text(rc)->advice);
 }
 
-/* One solve for the whole direction. Where no input of it acts at once the answer is 0 exactly. */
+/* The outputs with another value of a parameter; 0 if there are none. */
+static int try_value(Instance *m, const Variable *v, double value, double *out) {
+    double *par = m->now.par;
+    par[v->slot] = value;
+#if HAS_RULES
+    if (tw_rule(par)) return 0;
+#endif
+    int rc = tw_derive(par);
+    if (rc < 0 || rc >= FIRST_FAILURE || solve(m, m->now.time, 0.0)) return 0;
+    memcpy(out, m->now.solution.out, sizeof m->now.solution.out);
+    put_back(m);
+    return 1;
+}
+
+/* dout += seed d out / d parameter: the central difference, where range, rules and solutions let it
+   be, else a one-sided one. */
+static int add_difference(Instance *m, const Variable *v, double seed, double *dout) {
+    double par[NPAR], out[2][AT_LEAST_ONE(NOUT)], x[2];
+    const double at = m->now.par[v->slot], room = v->high / 2.0 - v->low / 2.0;
+    const double h = 1e-5 * (at != 0.0 ? fabs(at) : room < 1.0 ? room : 1.0);
+    if (has_table_for(m, v)) {
+        return fail(m, "%s: no derivative with fidelity 'map', whose map is for one value", v->name);
+    }
+    memcpy(par, m->now.par, sizeof par);
+    for (int k = 0; k < 2; k++) {
+        x[k] = at + (k ? h : -h);
+        if (!is_inside(v, x[k]) || !try_value(m, v, x[k], out[k])) {
+            x[k] = at;
+            memcpy(out[k], m->now.solution.out, sizeof out[k]);
+        }
+        memcpy(m->now.par, par, sizeof par);
+    }
+    m->work_fits = 0;
+    if (x[0] == x[1]) return fail(m, "%s = %g has no derivative here", v->name, at);
+    for (int i = 0; i < NOUT; i++) dout[i] += seed * (out[1][i] - out[0][i]) / (x[1] - x[0]);
+    return GOOD;
+}
+
+/* The inputs' part of a direction in one solve, then the parameters one by one. Where no input of it
+   acts at once the answer is 0 exactly. */
 int directional(Instance *m, const Direction *d, double *sensitivity) {
-    double seed[AT_LEAST_ONE(NINP)] = {0}, dout[AT_LEAST_ONE(NOUT)];
+    double seed[AT_LEAST_ONE(NINP)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
+    double by_parameters[AT_LEAST_ONE(NOUT)] = {0};
     uint32_t moved = 0;
     if (!is_possible(m, d, d->n_knowns) || refresh_work(m)) return BAD;
     for (size_t i = 0; i < d->n_knowns; i++) {
-        int slot = VARIABLES[d->knowns[i]].slot;
-        seed[slot] += d->seed[i];
-        moved |= 1u << slot;
+        const Variable *v = &VARIABLES[d->knowns[i]];
+        if (v->cause != CAUSE_INPUT) continue;
+        seed[v->slot] += d->seed[i];
+        moved |= 1u << v->slot;
     }
-    if (differentiate(m, seed, dout)) return BAD;
+    if (moved && differentiate(m, seed, dout)) return BAD;
+    for (size_t i = 0; i < d->n_knowns; i++) {
+        const Variable *v = &VARIABLES[d->knowns[i]];
+        if (v->cause == CAUSE_INPUT) continue;
+        if (add_difference(m, v, d->seed[i], by_parameters)) return BAD;
+    }
     for (size_t i = 0; i < d->n_unknowns; i++) {
         const Variable *v = &VARIABLES[d->unknowns[i]];
-        sensitivity[i] = v->depends & moved ? dout[v->slot] : 0.0;
+        sensitivity[i] = (v->depends & moved ? dout[v->slot] : 0.0) + by_parameters[v->slot];
     }
     return GOOD;
 }
 
 /* For each known the sum over the unknowns, weighted by the seed. */
 int adjoint(Instance *m, const Direction *d, double *sensitivity) {
-    double seed[AT_LEAST_ONE(NINP)], dout[AT_LEAST_ONE(NOUT)];
-    if (!is_possible(m, d, d->n_unknowns) || refresh_work(m)) return BAD;
+    if (!is_possible(m, d, d->n_unknowns)) return BAD;
     for (size_t k = 0; k < d->n_knowns; k++) {
-        int slot = VARIABLES[d->knowns[k]].slot;
-        memset(seed, 0, sizeof seed);
-        seed[slot] = 1.0;
-        if (differentiate(m, seed, dout)) return BAD;
+        const Variable *v = &VARIABLES[d->knowns[k]];
+        double seed[AT_LEAST_ONE(NINP)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
+        if (refresh_work(m)) return BAD;
+        if (v->cause == CAUSE_INPUT) seed[v->slot] = 1.0;
+        if (v->cause == CAUSE_INPUT ? differentiate(m, seed, dout)
+                                    : add_difference(m, v, 1.0, dout)) return BAD;
         sensitivity[k] = 0.0;
         for (size_t i = 0; i < d->n_unknowns; i++) {
-            const Variable *v = &VARIABLES[d->unknowns[i]];
-            if (v->depends >> slot & 1u) sensitivity[k] += d->seed[i] * dout[v->slot];
+            const Variable *u = &VARIABLES[d->unknowns[i]];
+            if (v->cause != CAUSE_INPUT || u->depends >> v->slot & 1u) {
+                sensitivity[k] += d->seed[i] * dout[u->slot];
+            }
         }
     }
     return GOOD;

@@ -23,10 +23,10 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         log.logger = (void (*)(void))functions->logger;
         log.environment = functions->componentEnvironment;
     }
-    name_log(&log, instanceName, loggingOn);
+    name_log(&log, instanceName, loggingOn, 2);
     if (fmuType != fmi2CoSimulation) {
         Text text = {0};
-        add(&text, "%s is for co-simulation, not for model exchange", MODEL_NAME);
+        add(&text, "this FMU is for co-simulation, not for model exchange");
         tell(&log, BAD, LOG_ERROR, &text);
         return NULL;
     }

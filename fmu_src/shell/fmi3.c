@@ -13,13 +13,13 @@ static Log open_log(fmi3String name, fmi3Boolean on, fmi3InstanceEnvironment env
     log.send = send_message;
     log.logger = (void (*)(void))logMessage;
     log.environment = environment;
-    name_log(&log, name, on);
+    name_log(&log, name, on, 3);
     return log;
 }
 
 static fmi3Instance refuse_instance(const Log *log, const char *why) {
     Text text = {0};
-    add(&text, "%s %s", MODEL_NAME, why);
+    add(&text, "this FMU %s", why);
     tell(log, BAD, LOG_ERROR, &text);
     return NULL;
 }
@@ -33,14 +33,13 @@ fmi3Instance fmi3InstantiateCoSimulation(
     (void)visible, (void)earlyReturnAllowed;
     (void)requiredIntermediateVariables, (void)intermediateUpdate;
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
-    if (eventModeUsed) {
-        return refuse_instance(&log, "has no event mode: eventModeUsed has to be false");
-    }
     if (nRequiredIntermediateVariables > 0) {
         return refuse_instance(&log, "has no intermediate updates: "
                                "nRequiredIntermediateVariables has to be 0");
     }
-    return instantiate(&log, instantiationToken, resourcePath);
+    Instance *m = instantiate(&log, instantiationToken, resourcePath);
+    if (m) m->has_events = eventModeUsed != 0;
+    return m;
 }
 
 fmi3Instance fmi3InstantiateModelExchange(
@@ -85,7 +84,43 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
     ENTER(fmi3ExitInitializationMode);
-    return (fmi3Status)leave_initialization(m);
+    if (leave_initialization(m)) return fmi3Error;
+    if (m->has_events) m->now.mode = EVENTS;
+    return fmi3OK;
+}
+
+/* Event mode is there for tunable parameters: the model itself has no events. */
+fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
+    ENTER(fmi3EnterEventMode);
+    if (!m->has_events) {
+        return (fmi3Status)fail(m, "fmi3EnterEventMode: the instance was made with eventModeUsed "
+                                "= false");
+    }
+    m->now.mode = EVENTS;
+    return fmi3OK;
+}
+
+fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
+    ENTER(fmi3EnterStepMode);
+    m->now.mode = STEPPING;
+    return fmi3OK;
+}
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
+                                    fmi3Boolean *terminateSimulation,
+                                    fmi3Boolean *nominalsOfContinuousStatesChanged,
+                                    fmi3Boolean *valuesOfContinuousStatesChanged,
+                                    fmi3Boolean *nextEventTimeDefined,
+                                    fmi3Float64 *nextEventTime) {
+    fmi3Boolean *const flags[] = {discreteStatesNeedUpdate, terminateSimulation,
+                                  nominalsOfContinuousStatesChanged,
+                                  valuesOfContinuousStatesChanged, nextEventTimeDefined};
+    (void)nextEventTime; /* not defined */
+    ENTER(fmi3UpdateDiscreteStates);
+    for (int i = 0; i < 5; i++) {
+        if (flags[i]) *flags[i] = fmi3False;
+    }
+    return fmi3OK;
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance) {

@@ -9,14 +9,7 @@
         return fmi3Error;                \
     }
 
-DECLINE(EnterEventMode, fmi3Instance instance)
-DECLINE(EnterStepMode, fmi3Instance instance)
 DECLINE(EvaluateDiscreteStates, fmi3Instance instance)
-DECLINE(UpdateDiscreteStates,
-        fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
-        fmi3Boolean *terminateSimulation, fmi3Boolean *nominalsOfContinuousStatesChanged,
-        fmi3Boolean *valuesOfContinuousStatesChanged, fmi3Boolean *nextEventTimeDefined,
-        fmi3Float64 *nextEventTime)
 DECLINE(EnterConfigurationMode, fmi3Instance instance)
 DECLINE(ExitConfigurationMode, fmi3Instance instance)
 DECLINE(GetIntervalDecimal,

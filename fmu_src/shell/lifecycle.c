@@ -13,36 +13,34 @@ int reset(Instance *m) {
     m->unsolved = m->warned = m->work_fits = m->last_step = m->table_ready = 0;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];
-        if (v->store == STORE_PAR) m->now.par[v->slot] = v->start;
-        if (v->store == STORE_INP) m->now.inp[v->slot] = v->start;
+        if (v->store == STORE_PAR) m->now.par[v->slot] = m->part.starts[i];
+        if (v->store == STORE_INP) m->now.inp[v->slot] = m->part.starts[i];
     }
     return GOOD;
 }
 
 /* The host's name is copied: nobody says how long it lives. */
-void name_log(Log *log, const char *name, int on) {
-    strncpy(log->name, name && *name ? name : MODEL_NAME, sizeof log->name - 1);
+void name_log(Log *log, const char *name, int on, int fmi) {
+    log->fmi = fmi;
+    strncpy(log->name, name ? name : "", sizeof log->name - 1);
     memset(log->on, on != 0, sizeof log->on);
 }
 
 /* The only memory an instance takes; NULL, and the reason in the log, if it cannot be. */
 Instance *instantiate(const Log *log, const char *guid, const char *resources) {
-    Text text = {0};
-    if (!guid || strcmp(guid, GUID) != 0) {
-        add(&text, "%s: the description has the identifier %s, this library %s; they are of "
-            "different builds, use both from one FMU", MODEL_NAME, guid ? guid : "none", GUID);
-        tell(log, BAD, LOG_ERROR, &text);
-        return NULL;
-    }
     Instance *m = calloc(1, sizeof *m);
     if (!m) {
-        add(&text, "%s: %lu bytes of memory are wanted and not to be had", MODEL_NAME,
-            (unsigned long)sizeof *m);
+        Text text = {0};
+        add(&text, "%lu bytes of memory are wanted and not to be had", (unsigned long)sizeof *m);
         tell(log, BAD, LOG_ERROR, &text);
         return NULL;
     }
     m->log = *log;
-    take_resources(m, resources);
+    if (load_part(m, resources, guid)) {
+        free(m);
+        return NULL;
+    }
+    if (!m->log.name[0]) memcpy(m->log.name, m->part.name, sizeof m->part.name);
     reset(m);
     return m;
 }
@@ -51,6 +49,8 @@ void free_instance(void *instance) { free(instance); }
 
 /* The way out of a mode towards the modes a function is allowed in: onward, else a new start. */
 static const char *way(uint32_t mode, uint32_t allowed) {
+    if (mode == STEPPING && allowed == EVENTS) return "EnterEventMode";
+    if (mode == EVENTS && allowed & STEPPING) return "EnterStepMode";
     for (int i = 0; i < N_MODES; i++) {
         if (MODES[i].mode == mode && allowed > mode) return MODES[i].leave;
     }
@@ -73,8 +73,8 @@ Instance *enter(void *instance, int call) {
         return NULL;
     }
     if (!(c->modes & m->now.mode)) {
-        fail(m, "%s is not allowed in state %s; call %s first", c->name, mode_name(m->now.mode),
-             way(m->now.mode, c->modes));
+        fail(m, "%s is not allowed in state %s; call fmi%d%s first", c->name,
+             mode_name(m->now.mode), (int)m->log.fmi, way(m->now.mode, c->modes));
         return NULL;
     }
     return m;
@@ -162,8 +162,29 @@ static void note_switches(Instance *m) {
     }
 }
 
+/* Nothing goes on while a value of one of these causalities is missing, and the message is that of
+   the newest refusal. */
+static int is_complete(Instance *m, const char *what, double t, uint32_t causes) {
+    int newest = -1, any = -1;
+    for (int i = 0; m->now.n_refused && i < N_VARIABLES; i++) {
+        if (!m->now.refused[i] || !(VARIABLES[i].bits & causes)) continue;
+        any = i;
+        if (m->now.refused[i] == 1) newest = i;
+    }
+    if (any < 0) return 1;
+    m->now.latch = STATUS_BAD_INPUT;
+    if (newest >= 0) {
+        fail(m, "%s at t = %g s: %s", what, t, m->refusal);
+    } else {
+        fail(m, "%s at t = %g s: %s was refused before; set it again", what, t,
+             VARIABLES[any].name);
+    }
+    return 0;
+}
+
 /* After a failure the mode stays, so that the host may mend a value and try again. */
 int leave_initialization(Instance *m) {
+    if (!is_complete(m, "no start", m->now.time, CAUSE_BIT(CAUSE_PARAMETER))) return BAD;
     if (prepare(m) || refresh(m)) return BAD;
     m->now.mode = STEPPING;
     note_switches(m); /* how a run starts is no event */
@@ -183,25 +204,9 @@ static int is_step(Instance *m, double t, double h) {
     return 0;
 }
 
-/* No step runs while a value is missing, and the message is that of the newest refusal. */
-static int is_complete(Instance *m, double t) {
-    if (!m->now.n_refused) return 1;
-    m->now.latch = STATUS_BAD_INPUT;
-    int newest = 0, any = 0;
-    while (newest < N_VARIABLES && m->now.refused[newest] != 1) newest++;
-    while (!m->now.refused[any]) any++;
-    if (newest < N_VARIABLES) {
-        fail(m, "no step at t = %g s: %s", t, m->refusal);
-    } else {
-        fail(m, "no step at t = %g s: %s was refused before; set it again", t,
-             VARIABLES[any].name);
-    }
-    return 0;
-}
-
 /* Step from t to t + h, or leave everything as it was but for the status that tells why. */
 int advance(Instance *m, double t, double h) {
-    if (!is_step(m, t, h) || !is_complete(m, t) || prepare(m)) return BAD;
+    if (!is_step(m, t, h) || !is_complete(m, "no step", t, ~0u) || prepare(m)) return BAD;
     double expected = m->now.time;
     int rc = solve(m, t, h);
     if (rc) {

@@ -25,7 +25,7 @@ static void add_point(Text *t, const Instance *m, int with_outputs) {
 
 void tell_failure(const Instance *m, int32_t status, double t, double h) {
     Text text = {0};
-    add(&text, "%s at t = ", MODEL_NAME);
+    add(&text, "%s at t = ", m->part.name);
     add_number(&text, t);
     add(&text, " s, ");
     if (h > 0.0) {
@@ -107,9 +107,9 @@ void tell_refusal(Instance *m, const Variable *v, double value) {
     if (v->cause != CAUSE_INPUT && v->cause != CAUSE_PARAMETER) {
         add(&text, "%s is an %s variable; it cannot be set", v->name,
             v->cause == CAUSE_OUTPUT ? "output" : "independent");
-    } else if (!(ACCESS[v->cause].set & m->now.mode)) {
-        add(&text, "%s is a fixed parameter; it can be set before the initialization ends",
-            v->name);
+    } else if (!may_set(m, v)) {
+        add(&text, "%s is a fixed parameter%s; it can be set before the initialization ends",
+            v->name, v->tunable ? " with fidelity 'map' or after the end" : "");
     } else {
         add_reason(&text, v, value);
     }
@@ -128,7 +128,7 @@ void tell_late_step(const Instance *m, double t, double expected) {
 }
 
 static void begin_text(Text *t, const Instance *m) {
-    add(t, "%s at t = ", MODEL_NAME);
+    add(t, "%s at t = ", m->part.name);
     add_number(t, m->now.time);
 }
 

@@ -1,4 +1,4 @@
-/* A table of numbers that a model reads from the folder resources: the washer's maps.
+/* What an FMU reads from its folder resources: part.bin, and for some models a table of numbers.
 
    A file map-<k>.bin, k from 0 without gaps, has a header of TABLE_HEADER doubles, little-endian as
    on every platform built for: a magic number, how many numbers there are, then the parameters that
@@ -12,8 +12,6 @@
 
 #include "shell.h"
 
-#if TABLE_ROOM > 0
-
 static int hex(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -21,7 +19,7 @@ static int hex(char c) {
 }
 
 /* The path in file:///x, file:/x, file://localhost/x or in a plain path. */
-void take_resources(Instance *m, const char *location) {
+static void take_resources(Instance *m, const char *location) {
     const char *from = location ? location : "";
     int uri = !strncmp(from, "file:", 5);
     if (uri) from += 5;
@@ -64,6 +62,49 @@ static FILE *open_file(const char *path) {
 static FILE *open_file(const char *path) { return fopen(path, "rb"); }
 #endif
 
+/* Is what follows in a file its CRC-32, and then nothing? */
+static int is_whole(FILE *file, uint32_t crc) {
+    unsigned char end[4];
+    if (fread(end, 1, sizeof end, file) != sizeof end || fgetc(file) != EOF) return 0;
+    for (int i = 0; i < 4; i++) {
+        if (end[i] != (unsigned char)(crc >> 8 * i)) return 0;
+    }
+    return 1;
+}
+
+/* 1: read, 0: damaged or not for this library, -1: there is no such file. */
+static int read_part(Instance *m) {
+    char path[sizeof m->resources + 32];
+    Part *part = &m->part;
+    snprintf(path, sizeof path, "%s/part.bin", m->resources);
+    FILE *file = m->resources[0] ? open_file(path) : NULL;
+    if (!file) return -1;
+    int good = fread(part, sizeof *part, 1, file) == 1
+        && is_whole(file, checksum(0, (const unsigned char *)part, sizeof *part))
+        && !memcmp(part->magic, "twpart1", sizeof part->magic)
+        && !memcmp(part->build, BUILD, sizeof part->build);
+    fclose(file);
+    part->guid[WORD_LENGTH - 1] = part->name[WORD_LENGTH - 1] = '\0';
+    return good;
+}
+
+int load_part(Instance *m, const char *location, const char *guid) {
+    const Part *part = &m->part;
+    take_resources(m, location);
+    int found = read_part(m);
+    if (found <= 0) {
+        return fail(m, "part.bin in the folder %s is %s; unpack the FMU again",
+                    m->resources[0] ? m->resources : "(none is given)",
+                    found ? "missing" : "damaged, or of another build than this library");
+    }
+    if (guid && !strcmp(guid, part->guid)) return GOOD;
+    return fail(m, "%s: the description has the identifier %s, part.bin in %s has %s; they are of "
+                "different builds, use both from one FMU", part->name, guid ? guid : "none",
+                m->resources, part->guid);
+}
+
+#if TABLE_ROOM > 0
+
 static int made_for(const double *table, const double *par) {
     return table[0] == TABLE_MAGIC
         && memcmp(table + TABLE_PARAMS, par, TABLE_N_PARAMS * sizeof *par) == 0;
@@ -75,7 +116,6 @@ static int read_numbers(FILE *file, double *table) {
     if (!(size > TABLE_HEADER && size <= TABLE_ROOM)) return 0;
     float part[512];
     uint32_t crc = checksum(0, (const unsigned char *)table, TABLE_HEADER * sizeof *table);
-    unsigned char end[4];
     for (size_t at = TABLE_HEADER, all = (size_t)size; at < all;) {
         size_t n = all - at < 512 ? all - at : 512;
         if (fread(part, sizeof *part, n, file) != n) return 0;
@@ -86,11 +126,7 @@ static int read_numbers(FILE *file, double *table) {
         }
         at += n;
     }
-    if (fread(end, 1, sizeof end, file) != sizeof end || fgetc(file) != EOF) return 0;
-    for (int i = 0; i < 4; i++) {
-        if (end[i] != (unsigned char)(crc >> 8 * i)) return 0;
-    }
-    return 1;
+    return is_whole(file, crc);
 }
 
 /* 1: the file had the table, 0: it had another one, -1: there is no such file, -2: damaged. */
@@ -126,8 +162,6 @@ int load_table(Instance *m) {
 }
 
 #else
-
-void take_resources(Instance *m, const char *location) { (void)m, (void)location; }
 
 int load_table(Instance *m) {
     (void)m;

@@ -11,6 +11,7 @@
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* C has no empty arrays */
 #define TEXT_LENGTH 1024
 #define NAME_LENGTH 128
+#define WORD_LENGTH 64
 
 /* What functions return: the numbers are those of fmi2Status and fmi3Status. */
 enum { GOOD = 0, WARNING = 1, BAD = 3 };
@@ -39,18 +40,28 @@ typedef struct Log {
     void (*send)(const struct Log *log, int status, const char *category, const char *text);
     void (*logger)(void); /* the host's, whatever its type; may be NULL */
     void *environment;
+    int32_t fmi; /* the version: 2 or 3 */
     char name[NAME_LENGTH];
     uint8_t on[N_CATEGORIES];
 } Log;
+
+/* What an FMU says of its own, beside the library that all of its model share: the file part.bin,
+   little-endian as every platform built for, with a CRC-32 behind it. */
+typedef struct {
+    char magic[8], build[16], guid[WORD_LENGTH], name[WORD_LENGTH];
+    double starts[N_VARIABLES];
+} Part;
 
 typedef struct {
     Snap now;
     Solution undo;
     Log log;
+    Part part;
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
     int32_t warned;    /* the status the host was last told */
     int32_t work_fits; /* `work` belongs to the present solution */
     int32_t last_step; /* what the last step returned */
+    int32_t has_events; /* the host goes through event mode; FMI 3 only */
     int32_t table_ready; /* the table in `work` is that of the present parameters, or not wanted */
     char resources[TEXT_LENGTH]; /* the folder, in UTF-8 */
     char refusal[TEXT_LENGTH];
@@ -62,7 +73,8 @@ typedef struct { const char *name; uint32_t takes; int form; } Kind;
 enum { FORM_DOUBLE, FORM_INT32, FORM_INT64, FORM_BYTE, FORM_NONE };
 
 /* lifecycle.c */
-void name_log(Log *log, const char *name, int on); /* switched on: every category */
+/* Switched on: every category. */
+void name_log(Log *log, const char *name, int on, int fmi);
 Instance *instantiate(const Log *log, const char *guid, const char *resources);
 void free_instance(void *instance);
 Instance *enter(void *instance, int call); /* NULL: not allowed now, and said so */
@@ -83,7 +95,7 @@ static inline int is_finite(double x) {
 }
 
 /* resource.c */
-void take_resources(Instance *m, const char *location);
+int load_part(Instance *m, const char *location, const char *guid); /* BAD: and said so */
 int load_table(Instance *m); /* BAD: the fidelity wants a table that is not there, and said so */
 
 /* values.c */
@@ -106,6 +118,21 @@ static inline double value_of(const Instance *m, const Variable *v) {
     }
 }
 
+/* A table is for one set of parameters: with it none of them can be tuned. */
+static inline int has_table_for(const Instance *m, const Variable *v) {
+#if TABLE_ROOM > 0
+    return m->now.par[TABLE_SWITCH] == TABLE_ON && v->slot < TABLE_N_PARAMS;
+#else
+    (void)m, (void)v;
+    return 0;
+#endif
+}
+
+static inline int may_set(const Instance *m, const Variable *v) {
+    return (ACCESS[v->cause].set & m->now.mode)
+        || (v->tunable && m->now.mode & (STEPPING | EVENTS) && !has_table_for(m, v));
+}
+
 static inline int is_inside(const Variable *v, double value) {
     return is_finite(value) && v->low <= value && value <= v->high;
 }
@@ -120,7 +147,7 @@ int state_size(Instance *m, void *state, size_t *size);
 int write_state(Instance *m, void *state, unsigned char *bytes, size_t size);
 int read_state(Instance *m, const unsigned char *bytes, size_t size, void **state);
 
-/* derivative.c; knowns are inputs, unknowns Real outputs */
+/* derivative.c; knowns are inputs (or parameters, see there), unknowns Real outputs */
 typedef struct {
     const uint32_t *unknowns, *knowns;
     size_t n_unknowns, n_knowns;

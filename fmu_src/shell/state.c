@@ -1,4 +1,8 @@
-/* FMU states: copies of all that decides what comes next, and their bytes. */
+/* FMU states: copies of all that decides what comes next, and their bytes.
+
+   A host's pointer is looked for among the states there are, and followed only if it is one: what
+   was freed, or the address of a pointer in its place, is refused unread. Instances in any thread
+   share these lists. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +13,7 @@
 
 /* Written in front of the numbers; every field is compared before anything is taken over. */
 typedef struct {
-    char magic[8], guid[64];
+    char magic[8], guid[WORD_LENGTH];
     uint32_t order, format, check, sizes[9];
 } Head;
 
@@ -18,12 +22,42 @@ struct State {
     Snap snap;
 };
 
-static void write_head(Head *head) {
+#define N_LISTS 64 /* by address: a host may keep many states */
+
+typedef struct Living {
+    State state; /* in front: the host's pointer */
+    struct Living *next;
+} Living;
+
+static Living *lists[N_LISTS];
+static char locked; /* only while a list is walked */
+
+static void lock(void) {
+    while (__atomic_test_and_set(&locked, __ATOMIC_ACQUIRE)) continue;
+}
+
+static void unlock(void) { __atomic_clear(&locked, __ATOMIC_RELEASE); }
+
+/* The place of the pointer to a state in its list; the last one, NULL, if there is no such state. */
+static Living **place_of(const void *state) {
+    Living **p = &lists[(uintptr_t)state / 64 % N_LISTS];
+    while (*p && *p != state) p = &(*p)->next;
+    return p;
+}
+
+static int is_living(const void *state) {
+    lock();
+    int found = *place_of(state) != NULL;
+    unlock();
+    return found;
+}
+
+static void write_head(Head *head, const Instance *m) {
     const uint32_t sizes[9] = {NPAR, NINP, NSTATE, NOUT, NIOUT, N_VARIABLES, N_SWITCHES,
                                (uint32_t)sizeof(Snap), (uint32_t)sizeof(State)};
     memset(head, 0, sizeof *head);
     memcpy(head->magic, "thrustw3", sizeof head->magic);
-    memcpy(head->guid, GUID, sizeof GUID < sizeof head->guid ? sizeof GUID : sizeof head->guid);
+    memcpy(head->guid, m->part.guid, sizeof head->guid);
     head->order = ORDER;
     head->format = FORMAT;
     memcpy(head->sizes, sizes, sizeof sizes);
@@ -51,18 +85,15 @@ static uint32_t check_of(const State *s) {
     return checksum(crc, (const unsigned char *)&s->snap, sizeof s->snap);
 }
 
-/* The state, if the host's pointer is one of this model and build; else said, and NULL. */
+/* The state, if the host's pointer is one; else said, and NULL. */
 static State *known(Instance *m, void *state) {
     State *s = state;
-    Head mine;
-    write_head(&mine);
-    if (!s) {
-        fail(m, "FMU state = none, allowed: one that was got before");
-    } else if (memcmp(s->head.magic, mine.magic, sizeof mine.magic) != 0) {
-        fail(m, "FMU state = a pointer that this FMU has not given");
-    } else if (memcmp(s->head.guid, mine.guid, sizeof mine.guid) != 0) {
+    if (!s || !is_living(s)) {
+        fail(m, "FMU state = %s, allowed: one that was got before",
+             s ? "a pointer that this FMU has not given or has freed" : "none");
+    } else if (strcmp(s->head.guid, m->part.guid) != 0) {
         fail(m, "FMU state of another model or version (%.64s), allowed: %s %s", s->head.guid,
-             MODEL_NAME, GUID);
+             m->part.name, m->part.guid);
     } else {
         return s;
     }
@@ -70,10 +101,28 @@ static State *known(Instance *m, void *state) {
 }
 
 static State *new_state(Instance *m) {
-    State *s = calloc(1, sizeof *s);
-    if (s) write_head(&s->head);
-    else fail(m, "%lu bytes of memory are wanted and not to be had", (unsigned long)sizeof *s);
-    return s;
+    Living *s = calloc(1, sizeof *s);
+    if (!s) {
+        fail(m, "%lu bytes of memory are wanted and not to be had", (unsigned long)sizeof *s);
+        return NULL;
+    }
+    write_head(&s->state.head, m);
+    lock();
+    Living **list = &lists[(uintptr_t)s / 64 % N_LISTS];
+    s->next = *list;
+    *list = s;
+    unlock();
+    return &s->state;
+}
+
+/* Out of its list, then gone: the first of two threads that free it does so. */
+static int drop_state(void *state) {
+    lock();
+    Living **place = place_of(state), *s = *place;
+    if (s) *place = s->next;
+    unlock();
+    free(s);
+    return s != NULL;
 }
 
 /* A state that is there already is written over. */
@@ -97,9 +146,10 @@ int set_state(Instance *m, void *state) {
 
 int free_state(Instance *m, void **state) {
     if (!*state) return GOOD;
-    State *s = known(m, *state);
-    if (!s) return BAD;
-    free(s);
+    if (!drop_state(*state)) {
+        known(m, *state); /* says so */
+        return BAD;
+    }
     *state = NULL;
     return GOOD;
 }
@@ -126,7 +176,7 @@ int write_state(Instance *m, void *state, unsigned char *bytes, size_t size) {
 static int is_sound(const Snap *s) {
     int refused = 0, good = is_finite(s->time);
     good &= s->mode == INSTANTIATED || s->mode == INITIALIZING || s->mode == STEPPING
-            || s->mode == TERMINATED;
+            || s->mode == TERMINATED || s->mode == EVENTS;
     good &= (s->dirty == 0 || s->dirty == 1) && (s->prepared == 0 || s->prepared == 1);
     good &= s->latch >= 0 && s->latch <= STATUS_BAD_INPUT;
     for (int i = 0; i < N_VARIABLES; i++) {
@@ -159,7 +209,7 @@ static const char *reason(const State *s, const Head *mine) {
 
 int read_state(Instance *m, const unsigned char *bytes, size_t size, void **state) {
     Head mine;
-    write_head(&mine);
+    write_head(&mine, m);
     if (size != sizeof(State)) {
         return fail(m, "FMU state = %lu bytes, allowed: %lu; truncated, or of another FMU",
                     (unsigned long)size, (unsigned long)sizeof(State));
@@ -169,8 +219,8 @@ int read_state(Instance *m, const unsigned char *bytes, size_t size, void **stat
     memcpy(s, bytes, sizeof *s);
     const char *why = reason(s, &mine);
     if (why) {
-        free(s);
-        return fail(m, "FMU state = %s; allowed: those of %s %s", why, MODEL_NAME, GUID);
+        drop_state(s);
+        return fail(m, "FMU state = %s; allowed: those of %s %s", why, m->part.name, m->part.guid);
     }
     s->head.check = 0;
     *state = s;

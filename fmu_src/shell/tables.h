@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 /* Where an instance is in its life; the bits of Call.modes and Access. */
-enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, ALWAYS = 15 };
+enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, EVENTS = 16 };
 
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };
 enum { CAUSE_INDEPENDENT, CAUSE_INPUT, CAUSE_PARAMETER, CAUSE_OUTPUT, N_CAUSES };
@@ -17,12 +17,12 @@ enum { STORE_TIME, STORE_PAR, STORE_INP, STORE_OUT, STORE_IOUT };
 typedef struct {
     const char *name, *unit; /* unit "1": a pure number */
     double low, high;        /* the allowed range, both ends belong to it */
-    double start;            /* of inputs and parameters */
     uint32_t depends;        /* outputs: bit i set: input i acts at once, at the same time point */
     int16_t slot;            /* place in its store */
     int16_t enumeration;     /* place in ENUMERATIONS, or -1 */
     uint8_t type, cause, store;
     uint8_t relative; /* a temperature difference, no temperature */
+    uint8_t tunable;  /* a parameter that may be set between steps too */
     uint8_t bits;     /* TYPE_BIT of the type and CAUSE_BIT of the causality */
 } Variable;
 
@@ -51,10 +51,10 @@ typedef struct { const char *name; uint32_t modes; const char *declined; } Call;
 /* In which modes the values of a causality may be set, and read. */
 typedef struct { uint32_t set, get; } Access;
 
-/* What a type is called in messages; the place is that of the enum. */
-typedef struct { const char *name; } TypeText;
+/* What a type is called in messages, by FMI 2 and 3; the place is that of the enum. */
+typedef struct { const char *fmi2, *fmi3; } TypeText;
 
-/* What a mode is called, and the function that leads out of it. */
+/* What a mode is called, and the function that leads out of it, without "fmi2", "fmi3". */
 typedef struct { uint32_t mode; const char *name, *leave; } ModeText;
 
 #endif

@@ -98,7 +98,7 @@ int choose_categories(Instance *m, int on, size_t n, const char *const names[]) 
     for (size_t i = 0; i < n; i++) {
         if (category(names[i]) < 0) {
             return fail(m, "there is no category %.64s of messages in %s",
-                        names[i] ? names[i] : "NULL", MODEL_NAME);
+                        names[i] ? names[i] : "NULL", m->part.name);
         }
     }
     uint8_t *switched = m->log.on;

@@ -29,13 +29,16 @@ int is_missing(Instance *m, int call, const void *array, size_t n) {
 
 const Variable *find(Instance *m, uint32_t reference) {
     if (reference < N_VARIABLES) return &VARIABLES[reference];
-    fail(m, "value reference %lu is unknown in %s", (unsigned long)reference, MODEL_NAME);
+    fail(m, "value reference %lu is unknown in %s", (unsigned long)reference, m->part.name);
     return NULL;
 }
 
 static int misfit(Instance *m, uint32_t reference, const Kind *kind) {
     const Variable *v = find(m, reference);
-    if (v) fail(m, "%s is of type %s, not %s", v->name, TYPES[v->type].name, kind->name);
+    if (!v) return 0;
+    const TypeText *type = &TYPES[v->type];
+    fail(m, "%s is of type %s, not %s", v->name, m->log.fmi == 2 ? type->fmi2 : type->fmi3,
+         kind->name);
     return 0;
 }
 
@@ -60,8 +63,7 @@ static void refuse(Instance *m, const uint32_t *references, size_t n) {
         if (m->now.refused[i]) m->now.refused[i] = 2; /* by an earlier call */
     }
     for (size_t i = 0; i < n; i++) {
-        uint8_t cause = VARIABLES[references[i]].cause;
-        if (!(ACCESS[cause].set & m->now.mode)) continue;
+        if (!may_set(m, &VARIABLES[references[i]])) continue;
         m->now.n_refused += !m->now.refused[references[i]];
         m->now.refused[references[i]] = 1;
     }
@@ -90,7 +92,7 @@ int set_values(Instance *m, int call, const uint32_t *references, size_t n, cons
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &VARIABLES[references[i]];
         double value = read_value(kind->form, values, i);
-        if ((ACCESS[v->cause].set & m->now.mode) && is_inside(v, value)) continue;
+        if (may_set(m, v) && is_inside(v, value)) continue;
         tell_refusal(m, v, value);
         m->now.latch = STATUS_BAD_INPUT;
         refuse(m, references, n);
@@ -114,8 +116,8 @@ static int are_solved(Instance *m, const uint32_t *references, size_t n) {
     if (!(ACCESS[CAUSE_OUTPUT].get & m->now.mode)) {
         size_t i = 0;
         while (VARIABLES[references[i]].cause != CAUSE_OUTPUT) i++;
-        fail(m, "%s has no value in state %s; call %s first", VARIABLES[references[i]].name,
-             MODES[0].name, MODES[0].leave);
+        fail(m, "%s has no value in state %s; call fmi%d%s first", VARIABLES[references[i]].name,
+             MODES[0].name, (int)m->log.fmi, MODES[0].leave);
         return 0;
     }
     if (!m->now.dirty || (m->now.latch && are_status(references, n))) return 1;

@@ -1,10 +1,13 @@
 """The calibrate command: tables as people write them, one line for what is wrong in them."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from thrustwasher import GearMeshParams, load_part, run_sweep
+from thrustwasher import calibrate as calibrate_model
 from thrustwasher.cli import main
 from thrustwasher.clutch.calibration.calibration import calibrate
 from thrustwasher.clutch.calibration.friction_law import (
@@ -163,3 +166,88 @@ def test_a_file_that_is_no_text_is_named(tmp_path, capsys):
     (tmp_path / "rig.csv").write_bytes(b"\xff\xfe\x00speed")
     assert main(["calibrate", str(tmp_path / "rig.csv")]) == 2
     assert "not UTF-8" in capsys.readouterr().err
+
+
+# Any model
+
+POWER, SPEED = np.array([2e3, 5e3, 9e3, 4e3]), np.array([180.0, 180.0, 180.0, 90.0])
+MESH = GearMeshParams(friction_law="constant", constant_friction=0.06)
+LOSS = run_sweep("gearmesh", points={"power": POWER, "speed": SPEED}, params=MESH)[
+    "friction_torque"
+]
+WORDS = ["gearmesh", "{}", "--fit", "constant_friction", "--set", "friction_law=constant"]
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    return write(tmp_path / "mesh.csv", "power,speed [rad/s],friction_torque,_time [s]", POWER,
+                 SPEED, LOSS, SPEED)  # fmt: skip
+
+
+def of(mesh, *more):
+    return [word.format(mesh) for word in (*WORDS, *more)]
+
+
+def test_a_model_s_parameters_are_fitted_as_by_the_api(mesh, capsys):
+    record = json.loads(run(capsys, *of(mesh, "--error", "friction_torque=2%", "--json")).out)
+    data = {"power": POWER, "speed": SPEED, "friction_torque": LOSS}
+    found = calibrate_model(GearMeshParams(friction_law="constant"), data, fit="constant_friction",
+                            errors={"friction_torque": "2 %"})  # fmt: skip
+    assert record["fitted"] == {"constant_friction": found.params.constant_friction}
+    assert record["error"] == pytest.approx(0.02 * LOSS)
+    assert record["estimates"][0]["interval"] == list(found.estimates[0].interval)
+
+
+def test_the_fitted_part_is_a_part_file(mesh, tmp_path, capsys):
+    out = tmp_path / "fitted.toml"
+    _, err = run(capsys, *of(mesh, "--out", str(out), "--plot", str(tmp_path / "fit.png")))
+    part = load_part(out)
+    assert part.params.constant_friction == pytest.approx(0.06, rel=1e-9)
+    assert "mesh.csv" in part.notes and f"wrote {out}" in err
+    assert (tmp_path / "fit.png").read_bytes()[:4] == b"\x89PNG"
+    again = json.loads(run(capsys, str(out), mesh, "--fit", "constant_friction", "--json").out)
+    assert again["fitted"]["constant_friction"] == pytest.approx(0.06, rel=1e-9)
+
+
+def test_an_empty_cell_was_not_measured(mesh, tmp_path, capsys):
+    text = Path(mesh).read_text("utf-8").splitlines()
+    cells = text[1].split(",")
+    (tmp_path / "less.csv").write_text(
+        "\n".join([text[0], ",".join([*cells[:2], "", ""]), *text[2:]])
+    )
+    record = json.loads(run(capsys, *of(str(tmp_path / "less.csv"), "--json")).out)
+    assert record["point"] == [2, 3, 4] and len(record["residuals"]) == 3
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["gearmesh"], "DATA.csv"),
+        (["mesh.toml", "{}", "--fit", "f0"], "mesh.toml"),
+        (["nothing", "{}", "--fit", "f0"], "model = 'nothing'"),
+        (["gearmesh", "{}"], "fit names nothing"),
+        ([*WORDS, "--error", "friction_torque"], "--error friction_torque: allowed: NAME="),
+        ([*WORDS, "--bounds", "constant_friction=0.1"], "allowed: NAME=LOW:HIGH"),
+        ([*WORDS, "--bounds", "constant_friction=0.1:2"], "constant_friction = 2.0"),
+        ([*WORDS, "--set", "speed=1", "--json"], "speed: is given twice"),
+        (["{}", "--error", "friction=1"], "beside PART"),
+        (["clutch", "{}", "--fit", "steel_density"], "column 'power' is not known"),
+        ([*WORDS, "--out", "there.toml"], "exists, and a part file is never overwritten"),
+    ],
+)
+def test_wrong_words_for_a_model_are_one_line(words, named, mesh, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "there.toml").write_text("kept")
+    before = set(tmp_path.iterdir())
+    assert main(["calibrate", *(word.format(mesh) for word in words)]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1 and named in err
+    assert (tmp_path / "there.toml").read_text() == "kept" and set(tmp_path.iterdir()) == before
+
+
+def test_a_failed_fit_leaves_no_file(tmp_path, capsys):
+    data = write(tmp_path / "slow.csv", "speed,tilt,film_loss_load", [136.0], [2e-3], [900.0])
+    out = tmp_path / "out.toml"
+    words = ["washer", data, "--fit", "heat_split", "--fidelity", "coarse", "--out", str(out)]
+    assert main(["calibrate", *words]) == 3
+    assert "point 1" in capsys.readouterr().err and not out.exists()

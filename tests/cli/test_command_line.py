@@ -126,12 +126,10 @@ def test_help_of_a_mesh_says_what_each_preset_changes(capsys):
     main(["gearmesh", "--help"])
     text = " ".join(capsys.readouterr().out.split())
     assert "[W]; -1e+09 .. 1e+09 W, default 7500" in text
-    paper = "film_heat = atan, thermal_mode = quasi_steady, friction_law = li-seireg"
-    assert f"bounded: {paper}, steel = AISI4340; literal: {paper}" in text
-    assert "face_width = 1.0, viscosity_at = inlet" in text
+    assert "literal: Atan (2005) at its word, per metre of face width" in text
     main(["curve", "--help"])
     text = " ".join(capsys.readouterr().out.split())
-    assert "paper: conduction = all, oil_cooling = False" in text
+    assert "paper: Washer of Jackson & Green (2006)" in text
 
 
 @pytest.mark.parametrize(("command", "spec"), [("washer", WASHER), ("clutch", CLUTCH)])

@@ -5,9 +5,8 @@ import zipfile
 import pytest
 
 from thrustwasher.cli import _fmu_cache, main
-from thrustwasher.cli.build import chosen_target
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.native import link
+from thrustwasher.native import link, shipped
 
 PART = "CommandSource"
 
@@ -17,6 +16,12 @@ def cache(tmp_path, monkeypatch):
     """Give an empty cache for FMUs; compiled kernels stay where they are."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     return tmp_path / "thrustwasher" / "built"
+
+
+@pytest.fixture
+def edited(monkeypatch):
+    """What the FMUs' libraries are made of was edited: none is shipped."""
+    monkeypatch.setattr(shipped, "is_linked", lambda kernel, digest: False)
 
 
 @pytest.fixture
@@ -46,6 +51,13 @@ def test_the_second_call_builds_nothing(cache, linker, capsys):
     assert capsys.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize("fmi", ["2", "3"])
+def test_no_compiler_is_needed(no_linker, tmp_path, capsys, fmi):
+    assert main(["build", PART, "--fmi", fmi, "--out", str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    assert f"native-fmi{fmi}" in out and "compiler" not in err and "links" not in err
+
+
 def test_it_holds_this_machine_only_and_no_reference_results(cache, linker):
     path = _fmu_cache.fmu_paths([PART], "native")[PART]
     with zipfile.ZipFile(path) as fmu:
@@ -55,26 +67,15 @@ def test_it_holds_this_machine_only_and_no_reference_results(cache, linker):
     assert [n for n in names if n.endswith("_out.csv")] == []
 
 
-def test_without_a_compiler_it_says_what_to_install_and_goes_on(cache, no_linker, capsys):
-    assert chosen_target(None) == "python"
-    assert capsys.readouterr().err == "pip install something; going on with Python FMUs\n"
-    path = _fmu_cache.fmu_paths([PART], "python")[PART]
-    assert path.parent.name == "python-fmi2" and path.is_file()
+def test_what_was_edited_takes_a_compiler_and_that_is_said(edited, no_linker, tmp_path, capsys):
+    assert main(["build", PART, "--out", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.endswith("pip install something\n")
     with pytest.raises(EnvironmentProblem, match="pip install"):
         _fmu_cache.fmu_paths([PART], "native")
 
 
-def test_build_without_a_compiler_says_so_too(no_linker, tmp_path, capsys):
-    assert main(["build", PART, "--out", str(tmp_path)]) == 0
-    out, err = capsys.readouterr()
-    assert "python-fmi2" in out and "going on with Python FMUs" in err
-    for words in (["--target", "native"], ["--fmi", "3"]):
-        assert main(["build", PART, *words, "--out", str(tmp_path)]) == 2
-        assert "pip install something" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("changed", ["tools", "local_level"])
-def test_another_compiler_or_processor_is_another_version(changed, linker, monkeypatch):
+def test_another_compiler_or_processor_is_another_version(changed, edited, linker, monkeypatch):
     before = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
     monkeypatch.setattr(
         f"thrustwasher.fmu.shell.platform_libraries.{changed}", lambda given: "other"

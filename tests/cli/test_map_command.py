@@ -44,6 +44,27 @@ def test_list_names_maps_with_box_and_errors(built, capsys, monkeypatch):
     assert "small.twm" in said and "200 .. 400 N" in said and "torque within" in said
 
 
+def test_a_part_of_another_model_has_no_map(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "pack.toml").write_text('model = "clutch"\nname = "Pack"\n')
+    assert main(["map", "build", "pack.toml"]) == 2
+    assert "WetClutch, allowed: ThrustWasher" in capsys.readouterr().err
+    assert [p.name for p in tmp_path.iterdir()] == ["pack.toml"]
+
+
+def test_a_part_files_box_is_the_maps_and_options_override_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(
+        'model = "washer"\nname = "Mine"\n[parameters]\nroughness = "0.5 um"\n[box]\n'
+        'load = ["200 N", "400 N"]\nspeed = 530\ntilt = 0.002\noil_temperature = "50 degC"\n'
+    )
+    options = ["--tol", "0.02", "--workers", "1", "--points", "4", "--oil-temperature", "24 degC"]
+    assert main(["map", "build", "mine.toml", *options]) == 0
+    washer = WasherMap(WasherParams(roughness=5e-7), tmp_path / "mine.twm")
+    assert washer.box["load"] == (200.0, 400.0)
+    assert washer.box["oil_temperature"] == pytest.approx((297.15, 297.15))
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -54,6 +75,10 @@ def test_list_names_maps_with_box_and_errors(built, capsys, monkeypatch):
         (["map", "build", "--points", "0"], "--points"),
         (["map", "build", "--out", "map.txt"], ".twm"),
         (["map", "build", "more.twm"], "--out"),
+        (["map", "build", "none.toml"], "none.toml"),
+        (["map", "build", "--tol", "0.5"], "tolerance"),
+        (["map", "build", "--load", "1:20000"], "load"),
+        (["map", "build", "--oil-temperature", "100:300"], "oil_temperature"),
         (["map", "check"], "map file"),
         (["map", "check", "none.twm"], "none.twm"),
     ],

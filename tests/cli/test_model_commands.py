@@ -18,7 +18,8 @@ from thrustwasher import (
     solve_washer,
 )
 from thrustwasher.cli import MODELS, engage, main
-from thrustwasher.gearmesh.parameters import PRESETS
+from thrustwasher.gearmesh.parameters import SPEC as MESH_SPEC
+from thrustwasher.model.part_file import preset_parts
 
 WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
 PACK = {"load": 9000.0, "speed": -50.0}
@@ -94,7 +95,7 @@ def test_units_grids_and_settings_reach_the_model(capsys):
     assert record["grid"] == [9, 24]
 
 
-@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("preset", preset_parts(MESH_SPEC))
 def test_settings_change_a_preset(preset, capsys):
     words = [*words_of("gearmesh", MESH), "--preset", preset, "--set", "steel=AISI1020"]
     record = told([*words, "--set", "pinion_teeth=30", "--fidelity", "closed"], capsys)

@@ -11,14 +11,13 @@ import pytest
 from built import built_fmu
 
 from thrustwasher.cli import main
-from thrustwasher.cli.build import chosen_target
 
 
 @pytest.fixture(scope="module")
 def msl(tmp_path_factory):
     """Run the scene with a known answer once, with FMUs that are there already."""
     for model in ("ShiftTransmission", "WetClutch"):
-        built_fmu(model, target=chosen_target(None), local=True)
+        built_fmu(model, local=True)
     folder = tmp_path_factory.mktemp("shift") / "report"
     words = ["shift", "--scene", "msl", "--out", str(folder), "--json"]
     done = subprocess.run(
@@ -80,7 +79,7 @@ def test_summary_names_lock_and_report(tmp_path, capsys):
 
 def test_numbers_alone_leave_no_file_and_load_no_tables(tmp_path):
     for model in ("ShiftTransmission", "WetClutch"):
-        built_fmu(model, target=chosen_target(None), local=True)
+        built_fmu(model, local=True)
     words = ["shift", "--scene", "msl", "--step", "10 ms", "--no-report", "--json"]
     code = (
         "import sys; from thrustwasher.cli import main; "

@@ -31,7 +31,7 @@ def test_what_the_tests_run_on_works():
     for name in ("Python", "numpy", "numba", "fmpy", "pythonfmu", "slave files"):
         assert checks[name].ok, checks[name].text
     assert "nothing has to be compiled" in checks["compiled kernels"].text
-    assert "builds for linux64" in checks["native FMUs, compiler"].text
+    assert "libraries of all FMUs are shipped" in checks["native FMUs, compiler"].text
 
 
 @pytest.mark.parametrize("installed", ["0.0.9", None, __version__])
@@ -64,7 +64,8 @@ def test_a_platform_without_library_is_a_finding(monkeypatch):
         diagnosis._binary()
 
 
-def test_no_compiler_is_a_finding_with_what_to_install(monkeypatch):
+def test_no_compiler_where_one_is_needed_is_a_finding_with_what_to_install(monkeypatch):
+    monkeypatch.setattr(diagnosis, "is_shipped", lambda spec: False)
     monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
     monkeypatch.setattr(link.shutil, "which", lambda name: None)
     look_for_linkers_again()

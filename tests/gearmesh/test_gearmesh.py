@@ -12,7 +12,7 @@ from closed_forms import flash_temperature, involute_mesh, thermal_fatigue
 from thrustwasher import GearMeshParams, ParameterError, SolveError, solve_gearmesh
 from thrustwasher.errors import Status
 from thrustwasher.gearmesh.parameters import SPEC
-from thrustwasher.gearmesh.solve import PRESETS
+from thrustwasher.model.part_file import preset_parts
 
 paper = partial(GearMeshParams.preset, "paper")
 POINT = {"power": 7500.0, "speed": 180.0}
@@ -262,8 +262,8 @@ def test_presets_are_named_sets_of_changes():
     assert paper() == GearMeshParams.preset("bounded")
     literal = GearMeshParams.preset("literal", pinion_teeth=25)
     assert (literal.face_width, literal.area_law, literal.pinion_teeth) == (1.0, "constant", 25)
-    assert set(PRESETS) == {"paper", "bounded", "literal", "iso"}
-    with pytest.raises(ParameterError, match="preset = 'atan', allowed: 'paper' or 'bounded'"):
+    assert set(preset_parts(SPEC)) == {"paper", "bounded", "literal", "iso", "planet"}
+    with pytest.raises(ParameterError, match="preset = 'atan', allowed: 'bounded' or 'iso'"):
         GearMeshParams.preset("atan")
 
 
@@ -322,7 +322,7 @@ def test_a_flank_that_is_not_found_is_a_solve_error(monkeypatch):
     assert r.status == Status.MAX_ITERATIONS
 
 
-@pytest.mark.parametrize("preset", list(PRESETS))
+@pytest.mark.parametrize("preset", preset_parts(SPEC))
 def test_without_load_nothing_is_heated_and_no_stress_is_modified(preset):
     r = solve_gearmesh(GearMeshParams.preset(preset), power=0.0, speed=180.0)
     assert (r.flash_rise, r.friction_torque) == (0.0, 0.0)

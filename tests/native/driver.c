@@ -79,7 +79,7 @@ static void run(void *library, const char *guid, const char *name, FILE *in, FIL
     take(outputs, sizeof outputs[0], n[1], in);
     take(&dt, sizeof dt, 1, in);
     fmi2Component c =
-        fmi2Instantiate(name, fmi2CoSimulation, guid, "file:///nowhere", &callbacks, 0, 0);
+        fmi2Instantiate(name, fmi2CoSimulation, guid, ".", &callbacks, 0, 0);
     if (!c)
         stop("fmi2Instantiate");
     CHECK(fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0));

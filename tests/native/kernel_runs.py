@@ -28,7 +28,7 @@ def probe(model: str, level: str) -> ctypes.CDLL:
     spec = find_spec(model)
     linux = PLATFORMS["linux64"]
     platform = replace(linux, levels=tuple(one for one in linux.levels if one.name == level))
-    files = {**c_tables.sources(spec, fmi=2, guid="0"), "probe.c": (HERE / "probe.c").read_bytes()}
+    files = {**c_tables.sources(spec), "probe.c": (HERE / "probe.c").read_bytes()}
     name = f"{model}_{level}"
     files |= platform_libraries.dispatch()
     made = linked_objects(files, objects(spec.kernel, [platform]), platform, name, EXPORTS)

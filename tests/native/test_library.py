@@ -19,11 +19,10 @@ from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.package.model_sources import PACKAGE
 from thrustwasher.fmu.shell import call_table, platform_libraries
 from thrustwasher.model.registry import find_spec
-from thrustwasher.native import binaries, callbacks, digest, emit, gate, lean, link
+from thrustwasher.native import binaries, callbacks, digest, emit, gate, lean, link, shipped
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
 
-GUID = "0123456789abcdef0123456789abcdef"
 TOY = Path(__file__).parents[1] / "fmu" / "toy"
 
 
@@ -32,24 +31,25 @@ OTHERS = [pytest.param(p, marks=pytest.mark.platforms) for p in list(PLATFORMS)[
 each_platform = pytest.mark.parametrize("platform", ["linux64", *OTHERS])
 
 
-def made(platform, fmi=2, model="gearmesh", guid=GUID):
-    if platform not in link.find_linker().platforms:
-        pytest.skip(f"{link.find_linker().name} does not build for {platform}: pip install ziglang")
-    return platform_libraries.library(find_spec(model), fmi=fmi, guid=guid, platform=platform)
+def made(platform, model="gearmesh"):
+    linker = link.find_linker()
+    if platform not in linker.platforms:
+        pytest.skip(f"{linker.name} does not build for {platform}: pip install ziglang")
+    return platform_libraries.linked(find_spec(model), PLATFORMS[platform], linker)
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
 @each_platform
-def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else(platform, fmi):
-    found = binaries.read(made(platform, fmi))
+def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else(platform):
+    found = binaries.read(made(platform))
     assert found.format == PLATFORMS[platform].format
-    assert set(call_table.functions(fmi)) == found.exports - {"__dso_handle", "_mh_dylib_header"}
+    exports = found.exports - {"__dso_handle", "_mh_dylib_header"}
+    assert exports == {*call_table.functions(2), *call_table.functions(3)}
     names = {name.lower() for name in found.needed}
     assert names <= {"libc.so.6", "libm.so.6", "kernel32.dll", "/usr/lib/libsystem.b.dylib"} | {
         name for name in names if name.startswith("api-ms-win-crt-")
     }
     if link.find_linker().is_cross:
-        asked = re.findall(rb"GLIBC_(\d+)\.(\d+)", made(platform, fmi))
+        asked = re.findall(rb"GLIBC_(\d+)\.(\d+)", made(platform))
         assert all((int(major), int(minor)) <= GLIBC for major, minor in asked)
         assert bool(asked) == (found.format == "ELF")
 
@@ -59,8 +59,32 @@ def test_building_again_elsewhere_gives_the_same_bytes(platform):
     assert made(platform) == made(platform)  # each time in a fresh folder
 
 
-def test_the_identity_is_inside():
-    assert GUID.encode() in made("linux64") and b"f" * 32 in made("linux64", guid="f" * 32)
+@pytest.mark.parametrize("model", [*MODELS, "command"])
+def test_the_shipped_libraries_are_those_of_the_sources(model):
+    spec = find_spec(model)
+    found = shipped.fmu_libraries(spec.kernel, platform_libraries.library_digest(spec))
+    assert found.keys() == PLATFORMS.keys(), "first: python -m thrustwasher.fmu.shell.ship_all"
+
+
+def test_what_is_not_shipped_is_linked_once_and_said(monkeypatch, tmp_path):
+    monkeypatch.setattr(shipped, "is_linked", lambda kernel, digest: False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    said = []
+    found = [
+        platform_libraries.library(find_spec("command"), platform="linux64", note=said.append)
+        for _ in range(2)
+    ]
+    assert found[0] == found[1]
+    assert len([line for line in said if line.startswith("CommandSource: its library for")]) == 1
+
+
+def test_a_damaged_archive_is_as_if_nothing_were_shipped(monkeypatch, tmp_path):
+    spec = find_spec("command")
+    about = shipped.record(spec.kernel)
+    data = (shipped.FOLDER / about["objects"]["file"]).read_bytes()
+    (tmp_path / about["objects"]["file"]).write_bytes(data[:-100])
+    monkeypatch.setattr(shipped, "FOLDER", tmp_path)
+    assert not platform_libraries.is_shipped(spec)
 
 
 @each_platform
@@ -71,7 +95,7 @@ def test_no_path_of_this_machine_is_inside(platform):
 
 
 def test_what_is_too_much_in_a_library_is_named():
-    code, names = made("linux64"), call_table.functions(2)
+    code, names = made("linux64"), [*call_table.functions(2), *call_table.functions(3)]
     with pytest.raises(EnvironmentProblem, match="it exports fmi2"):
         binaries.check(code, exports=names[1:])
     with pytest.raises(EnvironmentProblem, match="it does not export fmi2Dream"):
@@ -80,7 +104,7 @@ def test_what_is_too_much_in_a_library_is_named():
 
 def test_another_platform_is_refused_by_name():
     with pytest.raises(ParameterError, match="platform = 'dos', allowed: linux64 or win64"):
-        platform_libraries.library(find_spec("gearmesh"), fmi=2, guid=GUID, platform="dos")
+        platform_libraries.library(find_spec("gearmesh"), platform="dos")
 
 
 @pytest.fixture

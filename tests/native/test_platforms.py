@@ -12,7 +12,7 @@ import pytest
 from kernel_runs import HERE, MODELS, Python, Run, course, parameters
 
 from thrustwasher.fmu.description.interface import variables
-from thrustwasher.fmu.shell import platform_libraries
+from thrustwasher.fmu.shell import c_tables, platform_libraries
 from thrustwasher.model.registry import find_spec
 from thrustwasher.native import link
 from thrustwasher.native.targets import PLATFORMS
@@ -62,7 +62,7 @@ def built(platform: str) -> tuple[bytes, str]:
     target = PLATFORMS[platform]
     windows = target.format == "PE"
     name = "driver.exe" if windows else "driver"
-    files = {"driver.c": (HERE / "driver.c").read_bytes(), **platform_libraries.headers(2)}
+    files = {"driver.c": (HERE / "driver.c").read_bytes(), **platform_libraries.headers()}
     return link.build(files, name, [] if windows else ["-ldl"], target), name
 
 
@@ -79,8 +79,9 @@ def stepped(model: str, platform: str, before, folder) -> np.ndarray:
     references = np.array([*inputs, *outputs], "<u4").tobytes()
     (folder / "in.bin").write_bytes(head + references + struct.pack("<d", dt) + rows.tobytes())
     file = f"{spec.name}.{target.extension}"
-    made = platform_libraries.library(spec, fmi=2, guid=GUID, platform=platform)
+    made = platform_libraries.library(spec, platform=platform)
     (folder / file).write_bytes(made)
+    (folder / c_tables.PART).write_bytes(c_tables.part_file(spec, GUID))
     program, name = built(platform)
     (folder / name).write_bytes(program)
     (folder / name).chmod(0o755)

@@ -12,10 +12,11 @@ from sampling import sizes
 from scipy.interpolate import CubicSpline
 
 from thrustwasher import BranchError, ParameterError, Status, WasherParams, solve_washer
+from thrustwasher.model.part_file import preset_part
 from thrustwasher.tribology.asperities import contact_pressure
 from thrustwasher.tribology.viscosity import viscosity
 from thrustwasher.washer.kernels.constants import washer_model
-from thrustwasher.washer.parameters import CONDUCTION, PRESETS
+from thrustwasher.washer.parameters import CONDUCTION, SPEC
 from thrustwasher.washer.solve import constants
 from thrustwasher.washer.washer_result import hold_warning
 
@@ -34,7 +35,7 @@ POINTS = {
     "carrier turns": ({"load": 300.0, "speed": 545.0}, {"conduction": "rotating"}),
     "hot supply": ({"load": 300.0, "speed": 953.0}, {"oil_supply_temperature": 340.0}),
     "liquid alone shears": ({"load": 300.0, "speed": 953.0}, {"cavity_shear": "liquid"}),
-    "the paper's": ({"load": 900.0, "speed": 545.0}, PRESETS["paper"]),
+    "the paper's": ({"load": 900.0, "speed": 545.0}, preset_part(SPEC, "paper").parameters),
 }
 
 

@@ -2,13 +2,22 @@
 
 import argparse
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
-from ..model.parameters import allowed, made_of
+from ..model.parameters import allowed
+from ..model.part_file import (
+    PartFile,
+    find_part,
+    is_part,
+    load_part,
+    preset_part,
+    preset_parts,
+)
 from ..model.record import Option, resolve
+from ..model.registry import spec_of
 from ..sweep.axes import Place
 from ..units import parse_quantity
 
@@ -36,18 +45,9 @@ def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> di
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
-    """Add ``--set`` and ``--parameters``, and ``--preset`` if the model has presets."""
+    """Add ``--part``, ``--set`` and ``--parameters``, and ``--preset`` if the model has presets."""
     group = parser.add_argument_group("parameters")
-    if spec.presets:
-        changes = "; ".join(
-            f"{name}: {', '.join(f'{k} = {v}' for k, v in changed.items()) or 'the defaults'}"
-            for name, changed in spec.presets.items()
-        )
-        usual = next((name for name, changed in spec.presets.items() if not changed), None)
-        group.add_argument(
-            "--preset", choices=list(spec.presets), default=usual,
-            help=f"what --set starts from; {changes}; default {usual or 'none of them'}",
-        )  # fmt: skip
+    add_start(group, preset_parts(spec))
     names = {f.name: _default(f) for f in fields(spec.params)}
     first = next(iter(names))
     example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]}"
@@ -61,6 +61,44 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
     )  # fmt: skip
 
 
+def add_start(group: Any, presets: Mapping[str, PartFile]) -> None:
+    """Add what ``--set`` starts from: a part file, or one of the presets."""
+    either = group.add_mutually_exclusive_group()
+    either.add_argument("--part", metavar="FILE.toml", help="part file that --set starts from")
+    if presets:
+        words = "; ".join(f"{name}: {part.description}" for name, part in presets.items())
+        help = f"preset that --set starts from; {words}".replace("%", "%%")
+        either.add_argument("--preset", choices=list(presets), help=help)
+
+
+def read_start(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, Any]:
+    """Return the parameters that a part file or a preset gives."""
+    file, preset = arguments.part, getattr(arguments, "preset", None)
+    if file is None:
+        return {} if preset is None else dict(preset_part(spec, preset).parameters)
+    part = load_part(file)
+    if part.spec.key != spec.key:
+        raise ParameterError(f"--part {file}: is one of {part.spec.name}, allowed: {spec.name}")
+    return dict(part.parameters)
+
+
+def solvable(name: str, preset: str | None = None) -> PartFile:
+    """Return the part of a part file, or that of a model with its defaults or those of a preset.
+
+    ParameterError unless its model is solved at operating points.
+    """
+    if not is_part(name):
+        spec = spec_of(name)
+        return find_part(spec.key) if preset is None else preset_part(spec, preset)
+    if preset is not None:
+        raise ParameterError(
+            f"--preset {preset}: beside the part file {name}, allowed: one of them"
+        )
+    part = load_part(name)
+    spec_of(part.spec.key)
+    return part
+
+
 class _ListParameters(argparse.Action):
     """Print the parameters and leave, as ``--help`` does."""
 
@@ -70,10 +108,15 @@ class _ListParameters(argparse.Action):
 
 
 def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
-    """Return the preset or the defaults with every ``--set`` applied; their own checks included."""
+    """Return part, preset or defaults with every ``--set`` applied; their own checks included."""
+    return spec.params(**(read_start(arguments, spec) | read_settings(arguments.settings, spec)))
+
+
+def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
+    """Return the values that ``--set NAME=VALUE`` gives, by name."""
     metadata = {f.name: f.metadata for f in fields(spec.params)}
     values: dict[str, Any] = {}
-    for setting in arguments.settings:
+    for setting in settings:
         name, equals, text = (part.strip() for part in setting.partition("="))
         if not equals or not text:
             raise ParameterError(f"--set {setting}: allowed: NAME=VALUE, e.g. roughness=4e-7")
@@ -84,7 +127,7 @@ def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
                 f"thrustwasher {spec.key} --parameters lists them"
             )
         values[name] = Place(name, False, metadata[name]).check(text)
-    return made_of(spec, getattr(arguments, "preset", None), values)
+    return values
 
 
 def parameter_table(spec: "ModelSpec") -> str:

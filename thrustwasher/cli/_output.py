@@ -185,6 +185,14 @@ def check_file(path: str, option: str, suffixes: tuple[str, ...] = ()) -> Path:
     return target
 
 
+def new_part(path: str) -> Path:
+    """Return the path of a part file to write, checked; one that exists is refused."""
+    target = check_file(path, "--out", (".toml",))
+    if target.exists():
+        raise ParameterError(f"--out {target}: exists, and a part file is never overwritten")
+    return target
+
+
 def check_folder(path: str, option: str) -> Path:
     """Return the folder if files can be written there; leave no trace of the test."""
     folder = Path(path).absolute()

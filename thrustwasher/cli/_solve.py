@@ -35,7 +35,7 @@ class PointCommand:
         inputs = _inputs(model, spec)
         point = _options.read_inputs(arguments, inputs)
         params = _options.read_parameters(arguments, spec)
-        given = {"preset": arguments.preset} if spec.presets else {}
+        given = {"preset": getattr(arguments, "preset", None), "part": arguments.part}
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
 

@@ -4,8 +4,9 @@ import csv
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, suggestion
 from ..units import parse_quantity
 
 LONGEST = 1_000_000  # lines; a larger file is not a table of measured points
@@ -13,14 +14,16 @@ COMMAS = "; if these are decimal commas they shift the columns: the decimal sign
 
 
 def read_columns(
-    path: str, units: Mapping[str, str], optional: tuple[str, ...] = ()
-) -> dict[str, list[float]]:
+    path: str, units: Mapping[str, str], optional: tuple[str, ...] = (), *, strict: bool = False
+) -> dict[str, list[Any]]:
     """Return the columns wanted, each a list of numbers in SI units.
 
     The head names the columns, with the unit of the numbers in brackets: ``speed [rpm]``; without
     it they are SI. Other columns, empty lines and lines that begin with # are passed over. Comma,
     semicolon or tab separate; the decimal sign is a point. ``units`` holds the SI unit of every
-    column by its name, ``optional`` the names that may be missing. Errors name line and column.
+    column by its name, ``optional`` the names that may be missing. ``strict``: other columns are
+    refused unless their names begin with _, and a cell may be empty: None. Errors name line and
+    column.
     """
     lines = _lines(path)
     if not lines:
@@ -28,8 +31,8 @@ def read_columns(
     head = lines[0][1]
     separator = max(",;\t", key=head.count)
     names = _cells(head, separator)
-    where = _find(path, names, units, optional)
-    columns: dict[str, list[float]] = {name: [] for name in where}
+    where = _find(path, names, units, optional, strict)
+    columns: dict[str, list[Any]] = {name: [] for name in where}
     for number, line in lines[1:]:
         cells = _cells(line, separator)
         if len(cells) > len(names):
@@ -38,6 +41,9 @@ def read_columns(
         for name, (index, written) in where.items():
             place = f"{path}, line {number}: {name}"
             if index >= len(cells) or not cells[index].strip():
+                if strict:
+                    columns[name].append(None)
+                    continue
                 raise ParameterError(f"{place} is missing")
             columns[name].append(_number(place, cells[index].strip(), written, units[name]))
     if len(lines) == 1:
@@ -74,7 +80,7 @@ def _cells(line: str, separator: str) -> list[str]:
 
 
 def _find(
-    path: str, head: list[str], units: Mapping[str, str], optional: tuple[str, ...]
+    path: str, head: list[str], units: Mapping[str, str], optional: tuple[str, ...], strict: bool
 ) -> dict[str, tuple[int, str]]:
     """Return the place and the written unit of every column wanted."""
     found: dict[str, tuple[int, str]] = {}
@@ -82,6 +88,10 @@ def _find(
         match = re.fullmatch(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", cell)
         name = match[1].lower().replace(" ", "_") if match else ""
         if match is None or name not in units:
+            if strict and cell and not cell.startswith("_"):
+                hint = suggestion(name, units, "did you mean {}? ")
+                raise ParameterError(f"{path}: column {cell!r} is not known; {hint}begin its name "
+                                     "with _ to pass it over")  # fmt: skip
             continue
         if name in found:
             raise ParameterError(f"{path}: has two columns {name}")

@@ -2,7 +2,7 @@
 
 import argparse
 
-from ..errors import EnvironmentProblem, ParameterError
+from ..errors import ParameterError
 from ..model.registry import all_models
 from . import _output
 
@@ -13,14 +13,14 @@ TARGETS = ("native", "python")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
-        "models", nargs="*", metavar="MODEL",
-        help="names of FMUs; default: all above. CommandSource, a ramp for a shift command, "
-        "is built when named",
+        "models", nargs="*", metavar="MODEL|FILE.toml",
+        help="names of FMUs, or part files (mine.toml: an FMU with the part's name and values); "
+        "default: all above. CommandSource, a ramp for a shift command, is built when named",
     )  # fmt: skip
     parser.add_argument(
-        "--target", choices=TARGETS,
-        help="native: compiled, needs nothing where it runs (default, if there is a compiler "
-        "here); python: needs this package on the machine that runs it",
+        "--target", choices=TARGETS, default="native",
+        help="native: compiled, needs nothing where it runs (default); python: needs this package "
+        "on the machine that runs it",
     )  # fmt: skip
     parser.add_argument(
         "--fmi", type=int, choices=[2, 3], default=2,
@@ -29,7 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--platforms", metavar="LIST",
         help="native only: names with commas (linux64, win64, aarch64-linux, darwin-x86_64, "
-        "darwin-arm64), all, or local; default: all that the compiler found here can link",
+        "darwin-arm64), all, or local; default: all (of what was edited: those that "
+        "can be linked here)",
     )  # fmt: skip
     parser.add_argument(
         "--out", metavar="DIR", default="dist",
@@ -40,6 +41,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
         "refused then",
     )  # fmt: skip
+    parser.add_argument(
+        "--terminals", action="store_true",
+        help="put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
+    )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object with the paths")
 
 
@@ -48,15 +53,11 @@ def run(arguments: argparse.Namespace) -> int:
     folder = _output.check_folder(arguments.out, "--out")
 
     from ..fmu.build import build, validate
-    from ..model.registry import find_spec
 
-    for model in arguments.models:
-        find_spec(model)
-    target = chosen_target(arguments.target, arguments.fmi)
-    platforms = chosen_platforms(arguments.platforms, target)
     paths = build(
-        arguments.models or None, target=target, fmi=arguments.fmi, out=folder,
-        platforms=platforms, note=_output.note, maps=not arguments.no_maps,
+        arguments.models or None, target=arguments.target, fmi=arguments.fmi, out=folder,
+        platforms=chosen_platforms(arguments.platforms, arguments.target), note=_output.note,
+        maps=not arguments.no_maps, terminals=arguments.terminals,
     )  # fmt: skip
     findings = [f"{path}: {finding}" for path in paths for finding in validate(path)]
     if arguments.json:
@@ -67,22 +68,6 @@ def run(arguments: argparse.Namespace) -> int:
     for finding in findings:
         _output.note(finding)
     return 3 if findings else 0
-
-
-def chosen_target(target: str | None, fmi: int = 2) -> str:
-    """Return the target asked for, else native, else what needs no compiler."""
-    if target:
-        return target
-    from ..native.link import find_linker
-
-    try:
-        find_linker()
-    except EnvironmentProblem as problem:
-        if fmi != 2:
-            raise
-        _output.note(f"{problem}; going on with Python FMUs")
-        return "python"
-    return "native"
 
 
 def chosen_platforms(words: str | None, target: str) -> list[str] | None:

@@ -1,72 +1,138 @@
-"""``thrustwasher calibrate``: fit the clutch's friction law to measured friction."""
+"""``thrustwasher calibrate``: fit parameters of a model to measured outputs, or a friction law."""
 
 import argparse
 import time
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
-from ..clutch.parameters import SPEC
 from ..errors import ParameterError
+from ..model.part_file import PartFile, part_text
+from ..model.registry import models_with_points
+from ..sweep.axes import find_place, places, split_setting
 from ..units import parse_quantity
 from . import _options, _output, _table
 
-HELP = "fit the clutch's friction law to measured friction (CSV: speed, load, friction)"
-UNITS = {
+HELP = "fit parameters of a model to measured outputs, or the clutch's friction law to friction"
+LAW_UNITS = {
     "speed": "rad/s", "load": "N", "friction": "1", "friction_error": "1", "oil_temperature": "K",
 }  # fmt: skip
-EXAMPLES = "plough_weight, shear_floor, stick_speed, decay_speed, hardness_ratio, indentation"
+LAW_OPTIONAL = ("friction_error", "oil_temperature")
+FIGURE = "thrustwasher.report.model_plots.fit_plot:calibration_figure"
+SETTINGS = {
+    "set": ("NAME=VALUE", "what is held, and where the fit starts; an input that all points share"),
+    "error": ("NAME=VALUE", "standard deviation of an output: friction_torque=2%%, of its value"),
+    "bounds": ("NAME=LOW:HIGH", "narrower range of a parameter"),
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
-        "data", metavar="DATA.csv", nargs="?",
-        help="columns speed, load, friction and, if known, friction_error (standard deviation) and "
-        "oil_temperature (for --set friction_data=boundary); "
-        'a unit may follow in brackets, as in "speed [rpm]"',
+        "files", metavar="[PART] DATA.csv", nargs="*",
+        help=f"PART: {', '.join(models_with_points())} or a part file (.toml); DATA.csv: columns "
+        "named as inputs, parameters, measured outputs and <output>_error (standard deviation). "
+        "Without PART friction of a clutch: speed, load, friction and, if known, friction_error "
+        'and oil_temperature. A unit may follow in brackets, as in "speed [rpm]"',
     )  # fmt: skip
     parser.add_argument(
         "--fit", metavar="NAMES",
-        help=f"constants to fit, separated by commas, of {EXAMPLES}; default the first four "
-        "(constant_friction under --set friction_law=constant)",
+        help="parameters to fit, separated by commas; without PART constants of the friction law, "
+        "default plough_weight,shear_floor,stick_speed,decay_speed",
     )  # fmt: skip
+    for name, (metavar, words) in SETTINGS.items():
+        parser.add_argument(f"--{name}", metavar=metavar, action="append", default=[],
+                            help=f"{words}; may be repeated")  # fmt: skip
     parser.add_argument(
         "--confidence", metavar="P", default="0.95",
         help="probability of the intervals; above 0, below 1, default 0.95",
     )  # fmt: skip
-    _options.add_parameters(parser, SPEC)
-    _output.add_targets(parser, plot="draw points, fitted curve and residuals", instead="sentences")
+    parser.add_argument("--preset", metavar="NAME", help="preset to start from, e.g. paper")
+    parser.add_argument("--fidelity", metavar="RUNG", help="rung of the model, default the part's")
+    _output.add_targets(
+        parser, plot="draw points, fit and residuals", instead="sentences",
+        out="part file to write with the fitted values (.toml); never over one",
+    )  # fmt: skip
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Read, fit, then print or draw."""
-    if arguments.data is None:
+    """Read, fit, then print, draw or write."""
+    *given, data = arguments.files or [""]
+    if len(given) > 1 or not data or data in models_with_points() or data.endswith(".toml"):
         raise ParameterError("the file with the measured points is missing (DATA.csv)")
-    params = _options.read_parameters(arguments, SPEC)
-    confidence = parse_quantity(arguments.confidence, "1", "confidence")
+    with_law = next(key for key, model in models_with_points().items() if model.fits.law)
+    part = _options.solvable(given[0] if given else with_law, arguments.preset)
+    target, arguments.out = arguments.out and _output.new_part(arguments.out), None
     targets = _output.targets(arguments)
-    columns: dict[str, Any] = dict(
-        _table.read_columns(arguments.data, UNITS, optional=("friction_error", "oil_temperature"))
-    )
-
-    from ..clutch.calibration.calibration import DEFAULT_FIT, calibrate
-
-    names = DEFAULT_FIT if params.friction_law != "constant" else ("constant_friction",)
+    options: dict[str, Any] = {
+        "confidence": parse_quantity(arguments.confidence, "1", "confidence")
+    }
     if arguments.fit is not None:
-        names = tuple(name.strip() for name in arguments.fit.split(",") if name.strip())
+        options["fit"] = tuple(filter(None, map(str.strip, arguments.fit.split(","))))
+    if given:
+        options |= _of_model(arguments, part, data)
+        columns = options["data"]
+    else:
+        if arguments.error or arguments.bounds or arguments.fidelity:
+            raise ParameterError("--error, --bounds, --fidelity: allowed: beside PART")
+        changes = _options.read_settings(arguments.set, part.spec)
+        part = replace(part, parameters=part.parameters | changes)
+        columns = _table.read_columns(data, LAW_UNITS, optional=LAW_OPTIONAL)
+        options |= columns
+
+    from ..calibration.model_fit import calibrate
+
     began = time.perf_counter()
-    found = calibrate(params, **columns, fit=names, confidence=confidence)
+    found = calibrate(part.params, **options)
     wall_time = time.perf_counter() - began
     for text in found.warnings:
         _output.note(f"warning: {text.partition(': ')[0]}")
-    targets.draw("thrustwasher.report.model_plots.fit_plot:calibration_figure", found, columns)
+    targets.draw(FIGURE, found)
+    if target:
+        _write(target, part, found, data)
     if arguments.json:
-        inputs = {"data": arguments.data, "fit": names, **columns}
         pack = {"parameters": _output.parameters_of(found.params)}
-        _output.print_json({**found.as_dict(), **pack, **inputs, "wall_time": wall_time})
+        inputs = {"data": data, "fit": [e.name for e in found.estimates], **columns}
+        _output.print_json({**inputs, **found.as_dict(), **pack, "wall_time": wall_time})
         return 0
     print(found)
-    print(f"Use it: thrustwasher clutch {_settings(found)}")
+    print(f"Use it: thrustwasher {part.spec.key} {_settings(found)}")
     return 0
+
+
+def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[str, Any]:
+    """Return what ``calibrate`` takes for a model."""
+    from ..calibration.measured import column_units
+
+    units = column_units(part.spec)
+    columns = _table.read_columns(data, units, optional=tuple(units), strict=True)
+    bounds, known = {}, places(part.spec)
+    for name, text in (split_setting(setting, "--bounds") for setting in arguments.bounds):
+        ends = text.split(":")
+        if len(ends) != 2:
+            raise ParameterError(f"--bounds {name}={text}: allowed: NAME=LOW:HIGH")
+        place = find_place(name, known, part.spec)
+        bounds[name] = tuple(place.check(end) for end in ends)
+    return {
+        "data": columns, "bounds": bounds, "fidelity": arguments.fidelity or part.fidelity,
+        "errors": dict(split_setting(setting, "--error") for setting in arguments.error),
+        "at": dict(split_setting(setting, "--set") for setting in arguments.set),
+    }  # fmt: skip
+
+
+def _write(target: Path, part: PartFile, found: Any, data: str) -> None:
+    """Write the part with the fitted values and a note on them."""
+    told = (
+        f"{e.name} {e.value:.6g} {e.unit} ({e.interval[0]:.4g} .. {e.interval[1]:.4g}"
+        f"{'' if e.identifiable else ', not told by the points'})"
+        for e in found.estimates
+    )
+    note = f"calibrated on {Path(data).name}, {100 * found.confidence:g} %: {', '.join(told)}"
+    notes = "; ".join(filter(None, (part.notes, note)))
+    fitted = replace(part, parameters=_output.parameters_of(found.params), notes=notes)
+    with _output.whole_file(target) as draft:
+        draft.write_text(part_text(fitted), encoding="utf-8")
+    _output.note(f"wrote {target}")
 
 
 def _settings(found: Any) -> str:

@@ -1,20 +1,31 @@
-"""``thrustwasher cards``: what is known of each rung's error, where, and what it costs."""
+"""``thrustwasher cards``: each rung's verified error, where, its cost; of one's own part too."""
 
 import argparse
 from typing import Any
 
+from ..errors import ParameterError
 from ..ladder.card import VERIFY
-from ..model.registry import models_with_cards, spec_of
+from ..model.part_file import is_part, load_part
+from ..model.registry import ladder_of, models_with_cards, spec_of
+from ..units import parse_quantity
 from . import _output
 
-HELP = "list the verified errors of all rungs, where they hold and what a call costs"
+HELP = "list the verified errors of all rungs, or verify those of a part file"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
-        "model", nargs="?", choices=list(models_with_cards()), help="only this model"
-    )
+        "model", nargs="?", metavar="MODEL|FILE",
+        help=f"list only {', '.join(models_with_cards())}; a part file (.toml): verify its rungs "
+        "in its box, about a minute",
+    )  # fmt: skip
+    group = parser.add_argument_group("of a part file")
+    group.add_argument("--tol", metavar="X", default="0.01",
+                       help="relative error of the map's torque allowed, default 0.01")  # fmt: skip
+    group.add_argument("--points", type=int, default=60, metavar="N",
+                       help="held-out points, default 60")  # fmt: skip
+    group.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 
 
@@ -22,6 +33,10 @@ def run(arguments: argparse.Namespace) -> int:
     """List the cards, fresh or not; files that are no cards come last."""
     from ..ladder.card import load_cards, refused_files
 
+    if arguments.model and is_part(arguments.model):
+        return _verify(arguments)
+    if arguments.model and arguments.model not in models_with_cards():
+        ladder_of(arguments.model)  # says which there are
     wanted = [arguments.model] if arguments.model else list(models_with_cards())
     found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
     begin = f"{arguments.model}-" if arguments.model else ""
@@ -34,6 +49,27 @@ def run(arguments: argparse.Namespace) -> int:
         _print_model(model, cards)
     for name, why in refused.items():
         print(f"{name}: refused: {why}")
+    return 0
+
+
+def _verify(arguments: argparse.Namespace) -> int:
+    """Verify the rungs of a part file and list what was found."""
+    part = load_part(arguments.model)
+    ladder_of(part.spec.key)  # ParameterError where no rung has a card
+    if arguments.workers is not None and arguments.workers < 1:
+        raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
+    tol = parse_quantity(arguments.tol, "1", "tol")
+
+    from ..study.own_cards import make_own_cards
+
+    cards = make_own_cards(part.spec, part.params, part.box, tol=tol, points=arguments.points,
+                           workers=arguments.workers, progress=_output.time_left)  # fmt: skip
+    if arguments.json:
+        _output.print_json({"cards": [_record(card) for card in cards], "refused": {}})
+        return 0
+    _print_model(part.spec.key, cards)
+    print(f"  {arguments.points} points and none beyond: with 95 % confidence at most "
+          f"{3.0 / arguments.points:.0%} of the box is worse")  # fmt: skip
     return 0
 
 

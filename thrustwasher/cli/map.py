@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
+from ..model.part_file import is_part, load_part
 from ..units import parse_quantity
 from ..washer.parameters import SPEC
 from . import _options, _output
@@ -16,8 +17,8 @@ DEEDS = ("build", "list", "check")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument("deed", choices=DEEDS, help="what to do; build takes minutes")
-    parser.add_argument("file", nargs="?", help="check: the map file")
+    parser.add_argument("deed", choices=DEEDS, help="what to do")
+    parser.add_argument("file", nargs="?", help="build: a part file (.toml); check: the map file")
     group = parser.add_argument_group("box of a map to build: LOW:HIGH, or one value to fix")
     for signal in SPEC.inputs:
         group.add_argument(
@@ -25,11 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             help=f"{signal.help} [{signal.unit}]",
         )  # fmt: skip
     _options.add_parameters(parser, SPEC)
-    parser.add_argument("--tolerance", metavar="X",
+    parser.add_argument("--tol", "--tolerance", dest="tolerance", metavar="X",
                         help="relative error of the torque allowed, default 0.005")  # fmt: skip
     parser.add_argument("--fidelity", help="mesh to chart: fine, field; default: as the tolerance "
                         "needs")  # fmt: skip
-    parser.add_argument("--out", default="washer.twm", metavar="FILE", help="default washer.twm")
+    parser.add_argument("--out", metavar="FILE", help="default washer.twm, PART.twm of a part file")
     parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     parser.add_argument("--points", type=int, default=200, metavar="N",
                         help="held-out points of the check, default 200")  # fmt: skip
@@ -47,11 +48,17 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _build(arguments: argparse.Namespace) -> int:
     if arguments.file:
-        raise ParameterError("build: the file to write is named with --out")
-    out = _output.check_file(arguments.out, "--out", (".twm",))
+        if not is_part(arguments.file):
+            raise ParameterError("build: a part file (.toml) is wanted; the map to write: --out")
+        if arguments.part or getattr(arguments, "preset", None):
+            raise ParameterError(f"build {arguments.file}: allowed: without --part and --preset")
+        arguments.part = arguments.file
+    usual = f"{Path(arguments.file).stem if arguments.file else 'washer'}.twm"
+    out = _output.check_file(arguments.out or usual, "--out", (".twm",))
     params = _options.read_parameters(arguments, SPEC)
-    box = {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
-           for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
+    box = dict(load_part(arguments.part).box) if arguments.part else {}
+    box |= {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
+            for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
 
     from ..washer.map.map_build import make_map
     from ..washer.map.map_plan import TOLERANCE

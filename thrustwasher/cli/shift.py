@@ -11,7 +11,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..units import parse_quantity
 from . import _output, _sequence
-from .build import chosen_platforms, chosen_target
+from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 REPORT, TABLE, OVERVIEW = "report.html", "shift.csv", "overview.png"
@@ -51,8 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="with auto: do not check the choice after the run, keep it",
     )  # fmt: skip
     parser.add_argument(
-        "--fmu", choices=["native", "python"],
-        help="kind of FMU; default native, or python if nothing here compiles",
+        "--fmu", choices=["native", "python"], default="native",
+        help="kind of FMU; default native",
     )  # fmt: skip
     parser.add_argument(
         "--ssp", metavar="FILE.ssp",
@@ -85,16 +85,16 @@ def run(arguments: argparse.Namespace) -> int:
         raise ParameterError("--platforms: for a package only (--ssp FILE.ssp)")
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
-    target = chosen_target(arguments.fmu)
     began = time.perf_counter()
     progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
     result: Any
-    with _fmu_instances(scene, target) as make:
+    with _fmu_instances(scene, arguments.fmu) as make:
         if scene.sequence:
             instances = {name: make(name, part) for name, part in scene.parts.items()}
             result = run_sequence(scene, instances, progress=progress)
         else:
-            result = run_auto(scene, make, guard=not arguments.no_guard, progress=progress)
+            result = run_auto(scene, make, guard=not arguments.no_guard, build_maps=True,
+                              progress=progress)  # fmt: skip
     if folder:
         with _output.whole_folder(folder) as draft:
             (_sequence.write if scene.sequence else _write)(result, draft)
@@ -141,14 +141,28 @@ def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any
     from ..fmu.stepper import Instance
     from ._fmu_cache import fmu_paths
 
-    paths = fmu_paths((part.spec.name for part in scene.parts.values()), target)
+    names = {part.spec.name for part in scene.parts.values()}
+    paths = fmu_paths(names, target)
+    known = _tables(scene)
     with ExitStack() as alive:
 
         def make(name: str, part: Any) -> Any:
+            nonlocal known
+            if _tables(scene) != known:  # a map was built: it goes into the FMU
+                known = _tables(scene)
+                paths.update(fmu_paths(names, target))
             path = paths[part.spec.name]
             return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
 
         yield make
+
+
+def _tables(scene: Any) -> list[Any]:
+    """Return the files in which parts look up, and when they were written."""
+    from ..model.prepare import tables_of
+
+    found = filter(None, (tables_of(part.spec) for part in scene.parts.values()))
+    return [(path, path.stat().st_mtime_ns) for tables in found for path in tables.paths()]
 
 
 def _write(result: Any, folder: Path) -> None:
@@ -181,9 +195,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
     from ..native.files import zipped
-    from ..native.link import find_linker
 
-    find_linker()
     platforms = chosen_platforms(arguments.platforms, "native")
     began = time.perf_counter()
     parts = _package(scene, platforms)

@@ -7,11 +7,10 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..model.parameters import made_of
 from ..model.registry import models_with_points, spec_of
 from ..model.spec import ModelSpec
 from ..sweep.axes import places, split_setting
-from . import _output
+from . import _options, _output
 from ._options import option_name
 from ._table import read_columns
 
@@ -20,7 +19,8 @@ HELP = "solve a model over ranges of inputs and parameters, on all cores or on a
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument("model", metavar="MODEL", help=", ".join(models_with_points()))
+    models = ", ".join(models_with_points())
+    parser.add_argument("model", metavar="MODEL|FILE", help=f"{models}, or a part file (.toml)")
     parser.add_argument(
         "--over", metavar="NAME=VALUES", action="append", default=[],
         help="vary an input or parameter: load=50:1850:50 (start:stop:step), load=20:1850:x40 (40 "
@@ -58,9 +58,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Sweep, then write the table and say how it went."""
-    spec = spec_of(arguments.model)
+    part = _options.solvable(arguments.model, arguments.preset)
+    spec, params = part.spec, part.params
     at = _held(arguments, spec)
-    params = made_of(spec, arguments.preset, {})
     out = None
     if arguments.out:
         out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     table = run_sweep(
         spec.key, _settings(arguments.over, "--over", {}), at=at, points=points, params=params,
-        fidelity=arguments.fidelity, out=out, workers=_workers(arguments.workers),
+        fidelity=arguments.fidelity or part.fidelity, out=out, workers=_workers(arguments.workers),
         cluster=arguments.cluster,
         progress=_progress(spec),
     )  # fmt: skip

@@ -1,6 +1,6 @@
 """The record of the wet clutch."""
 
-from ..model.record import Command, Ladder, Model, Sweep
+from ..model.record import Command, Fits, Ladder, Model, Sweep
 
 _PACK = tuple(
     f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "pack_outputs", "steady")
@@ -19,7 +19,7 @@ MODEL = Model(
         figure="thrustwasher.report.model_plots.clutch_plot:slip_figure",
         figure_help="draw shear ratio, coefficient and torque over slip",
         title="friction pack",
-        more=("engage", "calibrate"),
+        more=("engage",),
         extra={  # some are outputs that mean something else here
             "shear_ratio": ("1", "share of the full adhesive shear strength, s/s_m"),
             "friction_torque": (
@@ -40,6 +40,7 @@ MODEL = Model(
         # it slips for ever: its heat has no end
         not_shown=("energy", "heat_flux", "viscosity", "oil_heat", "stored_heat"),
     ),
+    fits=Fits(law="thrustwasher.clutch.calibration.calibration:calibrate"),
     wiring=(
         "Into a ShiftTransmission: wire torque_capacity to it with coupling = capacity, "
         "there stick and slip are decided inside the step and no step limit comes from "

@@ -13,9 +13,9 @@ from ..model.parameters import (
     choice,
     count,
     flag,
-    from_preset,
     quantity,
 )
+from ..model.part_file import made_of
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 FRICTION_LAWS = {
@@ -57,22 +57,6 @@ RULES = (
     Rule("groove_width = {groove_width} m, allowed: below pi (inner_radius + outer_radius)"
          "/groove_count, the distance of {groove_count} grooves at the mean radius"),
 )  # fmt: skip
-
-# The sample of Wang, Wei & Wu (2012): their friction law, a plain lining, oil as warm as the faces
-PRESETS: dict[str, dict[str, Any]] = {
-    "paper": {
-        "inner_radius": 0.0325,
-        "outer_radius": 0.0425,
-        "faces": 2,
-        "friction_law": "wang",
-        "permeability": 4e-12,
-        "land_share": 1.0,
-        "groove_count": 0,
-        "initial_film": 8.8e-5,
-        "shear_heating": False,
-        "oil_flow": 0.0,
-    },
-}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,7 +186,8 @@ class ClutchParams:
         ------
         ParameterError : no such preset, or a parameter out of range
         """
-        return from_preset(cls, PRESETS, name, changes)
+        made: ClutchParams = made_of(SPEC, name, changes)
+        return made
 
     @property
     def lining_area(self) -> float:
@@ -307,7 +292,6 @@ SPEC = ModelSpec(
                depends=_POINT, help="how the last solution was obtained"),
     ),
     kernel="thrustwasher.clutch.kernels.step",
-    presets=PRESETS,
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.PackFlange",

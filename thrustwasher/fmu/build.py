@@ -2,10 +2,13 @@
 
 import os
 from collections.abc import Sequence
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 
-from ..errors import ParameterError
+from ..errors import ParameterError, SolveError
+from ..model.part_file import is_part, load_part
+from ..model.prepare import check_together
 from ..model.registry import all_specs, find_spec
 from ..model.spec import ModelSpec
 from ..native.files import Note, write, zipped
@@ -33,35 +36,42 @@ def build(
     note: Note | None = None,
     local: bool = False,
     maps: bool = True,
+    terminals: bool = False,
 ) -> list[Path]:
     """Build FMUs and return their paths, ``out/<target>-fmi<N>/<Model>.fmu``.
 
     Parameters
     ----------
-    models : FMU names such as "ThrustWasher" (or keys such as "washer"); None: all
+    models : FMU names such as "ThrustWasher" (or keys such as "washer"), part files such as
+        "mine.toml", whose FMU has the part's name; None: all models
     target : "native": compiled, needs nothing where it runs; "python": needs this package of the
         same version there
     fmi : 2 or 3; the Python target knows 2 only
     out : folder of the results; existing files are replaced at once
     sources : folder with one folder per model (slave.py, readme.md); None: those of this package
     platforms : native only, what to build for ("linux64", "win64", "aarch64-linux",
-        "darwin-x86_64", "darwin-arm64"); None: all that the compiler found here can do
+        "darwin-x86_64", "darwin-arm64"); None: all that are shipped or can be linked here
     note : is called with one sentence before each step that takes time
     local : for use on this machine only: compiled for its processor, without reference results
     maps : native only, put in what fidelity "map" looks up; without, the washer's FMU is smaller by
         2.5 MB and refuses that fidelity
+    terminals : put the plugs into an FMI 2.0 FMU too; they are of FMI 3.0, where they always are,
+        and some tools for FMI 2.0 call the file an error
 
     Raises
     ------
-    ParameterError : unknown model, target, FMI version or platform
-    EnvironmentProblem : no C compiler for the native target; the message says what to install
+    ParameterError : unknown model, target, FMI version or platform; a part file that is not sound
+    EnvironmentProblem : libraries that are not shipped, and no C compiler; the message says what to
+        install
     """
     _check(target, fmi, platforms, maps)
-    specs = [find_spec(model) for model in models] if models else all_specs()
+    specs = asked(models)
     say = note or (lambda _: None)
+    if target == "python" and any(spec.kind for spec in specs):
+        raise ParameterError("a part file is for native FMUs only; use --target native")
     places: Sequence[str] = ()
     if target == "native":
-        places = [this_platform().name] if local else chosen(platforms, say)
+        places = [this_platform().name] if local else chosen(platforms, say, specs)
     paths = []
     for spec in specs:
         folder = model_folder(spec, sources or source_folder())
@@ -70,10 +80,38 @@ def build(
         )
         if not maps:
             files = {n: data for n, data in files.items() if not n.startswith("resources/map-")}
+        if terminals:
+            files |= _icons(spec, folder, 3)
         path = Path(out) / f"{target}-fmi{fmi}" / f"{spec.name}.fmu"
         write(path, zipped(files, first=DESCRIPTION))
         paths.append(path)
     return paths
+
+
+def asked(models: Sequence[str] | None) -> list[ModelSpec]:
+    """Return the models to build; a part file stands for its model with the part's values."""
+    found: dict[str, tuple[str, ModelSpec]] = {}
+    known = {spec.name: spec for spec in all_specs(helpers=True)}
+    for word in models or [spec.key for spec in all_specs()]:
+        spec = _part(word) if is_part(word) else find_spec(word)
+        other, _ = found.setdefault(spec.name, (word, spec))
+        if other != word and (is_part(word) or is_part(other)):
+            raise ParameterError(f"{other} and {word} have one name, {spec.name}; change it in one")
+        if known.get(spec.name, spec).key != spec.key:
+            raise ParameterError(
+                f"part {word!r}: name = {spec.name!r} is that of the model "
+                f"{known[spec.name].key!r}; choose another"
+            )
+    return [spec for _, spec in found.values()]
+
+
+def _part(path: str) -> ModelSpec:
+    part = load_part(path)
+    try:
+        check_together(part.spec, part.params, part.fidelity)
+    except ParameterError as problem:
+        raise ParameterError(f"part {path!r}: {problem}") from None
+    return part.model
 
 
 def pack_native(
@@ -85,7 +123,7 @@ def pack_native(
     ``platforms`` and ``note`` are those of ``build``.
     """
     say = note or (lambda _: None)
-    places = chosen(platforms, say)
+    places = chosen(platforms, say, [spec])
     folder = model_folder(spec, source_folder())
     files = contents(
         spec, folder, target="native", fmi=2, platforms=places, note=say, reference=False
@@ -122,27 +160,30 @@ def contents(
     note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     derivatives = native and has_derivatives(spec)
     described = description(spec, fmi=fmi, guid=guid, derivatives=derivatives)
-    told = page(spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms,
-                runs=reference)  # fmt: skip
+    told = partial(page, spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms)
+    try:
+        results, text = (reference_files(spec) if reference else {}), told(runs=reference)
+    except SolveError as problem:  # a part need not have a solution all over the usual inputs
+        note(f"{spec.name}: without reference results: {problem}")
+        results, text = {}, told(runs=False)
     return {
         DESCRIPTION: described,
-        "documentation/index.html": told.encode(),
+        "documentation/index.html": text.encode(),
         **_icons(spec, folder, fmi),
         **licences(target, platforms),
-        **(reference_files(spec) if reference else {}),
+        **results,
         **own,
     }
 
 
 def _icons(spec: ModelSpec, folder: Path, fmi: int) -> dict[str, bytes]:
-    """Return the terminals and the model's picture; only FMI 2 tools look for ``model.png``."""
+    """Return the model's picture at the place of this version, and the terminals of FMI 3."""
     file, place = folder / "icon.png", "terminalsAndIcons"
-    listed = terminals_and_icons(spec, icon=file.is_file())
-    found = {f"{place}/terminalsAndIcons.xml": listed}
-    if file.is_file():
-        names = (f"{place}/icon.png", "model.png")[: 2 if fmi == 2 else 1]
-        found |= dict.fromkeys(names, file.read_bytes())
-    return found
+    icon = file.read_bytes() if file.is_file() else b""
+    if fmi == 2:
+        return {"model.png": icon} if icon else {}
+    listed = {f"{place}/terminalsAndIcons.xml": terminals_and_icons(spec, icon=bool(icon))}
+    return listed | ({f"{place}/icon.png": icon} if icon else {})
 
 
 def _python_contents(spec: ModelSpec, folder: Path, guid: str) -> dict[str, bytes]:

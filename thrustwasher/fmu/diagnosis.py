@@ -16,6 +16,7 @@ from ..native.files import code_folder
 from ..native.link import find_linker
 from .model_kernels import is_compiled, package_version
 from .package.model_sources import source_folder
+from .shell.platform_libraries import is_shipped
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +115,8 @@ def _binary() -> str:
 
 
 def _compiler() -> str:
+    if all(map(is_shipped, all_specs())):
+        return "not needed: the libraries of all FMUs are shipped"
     linker = find_linker()
     text = f"{linker.name} {linker.version}, builds for {', '.join(linker.platforms)}"
     return text if linker.is_cross else f"{text}; for all platforms: pip install ziglang"

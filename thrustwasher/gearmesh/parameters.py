@@ -12,9 +12,9 @@ from ..model.parameters import (
     choice,
     count,
     flag,
-    from_preset,
     quantity,
 )
+from ..model.part_file import made_of
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 SURFACES = {
@@ -75,20 +75,6 @@ ASPERITY_BASES = {
     "surface": "the asperity's rise is added to the flank's temperature",
     "bulk": "the asperity's rise is added to the oil's; without contact it is as hot as the film",
 }
-# Named sets of changes to the defaults, for GearMeshParams.preset.
-_PAPER = {
-    "film_heat": "atan", "thermal_mode": "quasi_steady", "friction_law": "li-seireg",
-    "steel": "AISI4340",
-}  # fmt: skip
-PRESETS: dict[str, dict[str, Any]] = {
-    "paper": _PAPER,
-    "bounded": _PAPER,
-    "literal": {
-        **_PAPER, "face_width": 1.0, "viscosity_at": "inlet", "area_law": "constant",
-        "area_ratio": 30.0, "switch": "none", "asperity_base": "bulk",
-    },
-    "iso": {**_PAPER, "friction_law": "iso"},
-}  # fmt: skip
 
 
 _ALWAYS = "so large that a pair is always in contact"
@@ -182,7 +168,7 @@ class GearMeshParams:
 
     Dimensions and oil: Atan (2005), SAE 30 oil, 20 degrees; not in the paper and chosen here: face
     width, roughness values, f0, pressure viscosity, thermal expansion, the asperity group. The
-    sets in PRESETS are made by ``GearMeshParams.preset(name, **changes)``: "paper" (or "bounded")
+    sets are made by ``GearMeshParams.preset(name, **changes)``: "paper" (or "bounded")
     has the paper's friction, heat and steel, "literal" takes the paper at its word, per metre of
     face width, "iso" is "paper" with the standard's friction.
     """
@@ -221,7 +207,9 @@ class GearMeshParams:
     )
     friction_law: str = choice("iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
     f0: float = quantity(0.12, "1", 0.0, 1.0, "coefficient of friction without any film")
-    constant_friction: float = quantity(0.05, "1", 0.0, 1.0, "coefficient of the constant law")
+    constant_friction: float = quantity(
+        0.05, "1", 0.0, 1.0, "coefficient of the constant law", tunable=True
+    )
     eyring_stress: float = quantity(5e6, "Pa", 1e5, 1e8, "Eyring stress of the film, mixed law")
     film_heat: str = choice("loss", FILM_HEAT, "FilmHeat", "heat that warms the flanks")
     thermal_mode: str = choice(
@@ -312,7 +300,8 @@ class GearMeshParams:
         >>> GearMeshParams.preset("literal", pinion_teeth=30).face_width
         1.0
         """
-        return from_preset(cls, PRESETS, name, changes)
+        made: GearMeshParams = made_of(SPEC, name, changes)
+        return made
 
 
 LOAD = Signal(name="load", unit="N.m", help="torque on the pinion, its sign does not matter",
@@ -382,7 +371,6 @@ SPEC = ModelSpec(
     inputs=(LOAD, SPEED, OIL),
     outputs=OUTPUTS,
     kernel="thrustwasher.gearmesh.kernels.step",
-    presets=PRESETS,
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.MeshFlange",

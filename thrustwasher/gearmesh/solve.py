@@ -12,9 +12,9 @@ from ..model.prepare import filled
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.operating_point import solve_point
-from .parameters import LOAD, OIL, PRESETS, SPEC, SPEED, GearMeshParams
+from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams
 
-__all__ = ["PRESETS", "GearMeshParams", "GearMeshResult", "solve_gearmesh"]
+__all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 
 @dataclass(frozen=True, slots=True)

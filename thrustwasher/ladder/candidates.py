@@ -153,7 +153,7 @@ def _no_card(model: str, rung: str, others: bool) -> str:
     if broken:
         return f"its card is broken: {broken[0]}"
     if others:
-        return "no card for these parameters"
+        return "no card for these parameters; `thrustwasher cards PART.toml` makes some"
     return f"no card; make one: {VERIFY} {model} {rung}"
 
 

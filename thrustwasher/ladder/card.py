@@ -17,12 +17,14 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.registry import find_model
+from ..native.files import user_cache
 from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
 from . import card_parts as part
 from .formats import shown_error
 
 SCHEMA = 2
 SAFETY = 1.5  # between a cell's worst held-out point and what is promised
+OWN = "own-"  # begins the name of a parameter set whose cards lie in the user's cache
 FOLDER = "THRUSTWASHER_CARDS"  # environment: one more folder with cards, for own parameter sets
 VERIFY = "python -m thrustwasher.study.verify"  # makes cards
 
@@ -98,6 +100,8 @@ class Card:
         Without ``params`` only the kernels are looked at.
         """
         renew = f"renew it: {VERIFY} {self.model} {self.fidelity}"
+        if self.params.name.startswith(OWN):
+            renew = "renew it: thrustwasher cards PART.toml"
         if params is not None and params_digest(params) != self.params.sha256:
             return f"made for other parameters ({self.params.name}); {renew}"
         try:
@@ -151,10 +155,15 @@ def read_card(path: Path) -> Card:
     )
 
 
+def own_folder() -> Path:
+    """Return where the cards of the user's own parts lie; it need not exist."""
+    return user_cache() / "cards"
+
+
 def card_folders() -> list[Path]:
-    """Return the folders that are searched: the package's, then the one the environment names."""
-    own = os.environ.get(FOLDER)
-    return [DATA / "cards", *([Path(own)] if own else [])]
+    """Return the folders that are searched: the package's, the user's, the environment's."""
+    named = os.environ.get(FOLDER)
+    return [DATA / "cards", own_folder(), *([Path(named)] if named else [])]
 
 
 @cache

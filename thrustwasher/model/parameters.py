@@ -17,7 +17,10 @@ T = TypeVar("T")
 
 
 def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: Any) -> Any:
-    """Return a real-valued field; ``low`` and ``high`` belong to the allowed range."""
+    """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
+
+    ``tunable=True``: an FMU's host may change it between two steps.
+    """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
 
@@ -96,23 +99,6 @@ def params_of(spec: ModelSpec, given: Any) -> Any:
     if not isinstance(params, spec.params):
         raise ParameterError(f"params: {type(params).__name__}, allowed: {spec.params.__name__}")
     return params
-
-
-def from_preset(
-    params: type[T], presets: Mapping[str, Mapping[str, Any]], name: str, changes: Mapping[str, Any]
-) -> T:
-    """Return the parameters of a preset, some of them changed; ParameterError if there is none."""
-    if name not in presets:
-        names = " or ".join(map(repr, presets)) or f"none, {params.__name__} has no presets"
-        raise ParameterError(f"preset = {name!r}, allowed: {names}")
-    return params(**{**presets[name], **changes})
-
-
-def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> Any:
-    """Return a model's parameters: its defaults, or those of a preset, some of them changed."""
-    if preset is None:
-        return spec.params(**changes)
-    return from_preset(spec.params, spec.presets, preset, changes)
 
 
 def check_ranges(params: Any) -> None:

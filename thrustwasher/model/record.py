@@ -100,6 +100,17 @@ class Sweep:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Fits:
+    """What can be fitted to measurements beside the model's outputs at its points."""
+
+    curve: str = ""
+    """Dotted name: called with (parameters, point, fidelity), returns the outputs of ``more``."""
+    more: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # unit and meaning
+    without: str = ""  # the input that these do not depend on
+    law: str = ""  # dotted name of what fits a law of the model to columns of its own
+
+
+@dataclass(frozen=True, kw_only=True)
 class Model:
     """A model of the package."""
 
@@ -109,6 +120,7 @@ class Model:
     command: Command | None = None
     ladder: Ladder | None = None
     sweep: Sweep = Sweep()
+    fits: Fits = Fits()
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
     remark: str = ""
     """Dotted name of what says a sentence on each finished shift with a part of this model, called

@@ -85,9 +85,9 @@ def find_spec(name: str) -> "ModelSpec":
     return found
 
 
-def all_specs() -> "list[ModelSpec]":
-    """Return the interfaces of all models, in the order they are built."""
-    return [model.spec for model in all_models()]
+def all_specs(*, helpers: bool = False) -> "list[ModelSpec]":
+    """Return the interfaces of all models, in the order they are built; ``helpers``: those too."""
+    return [model.spec for model in (*all_models(), *map(find_model, HELPERS if helpers else ()))]
 
 
 def spec_of(name: str) -> "ModelSpec":

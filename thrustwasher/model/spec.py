@@ -102,6 +102,9 @@ class Tables(NamedTuple):
     find: Callable[[Any], Any]  # the file for parameters; ParameterError if there is none
     box: Callable[[Any], Mapping[str, tuple[float, float]]]  # that it covers, by input
     resource: Callable[[Any], bytes]  # a file as it lies in an FMU
+    build: Callable[..., None]  # (parameters, box, tolerance, mesh, workers, progress): keep one
+    lines: Callable[..., int]  # (parameters, box, tolerance): what building one has to solve
+    least: Callable[[str], float]  # value of an input that can be covered
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,8 +120,6 @@ class ModelSpec:
     inputs: tuple[Signal, ...]
     outputs: tuple[Signal, ...]  # real outputs fill `out` in order, all others `iout`
     kernel: str  # dotted name of the module with derive(), step() and so on
-    presets: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    """Named sets of parameters: name -> those that are not at their defaults."""
     rules: tuple[Rule, ...] = ()  # between parameters, in the order of the kernel's broken_rule()
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0
@@ -128,6 +129,10 @@ class ModelSpec:
     course: tuple[tuple[float, ...], ...] = ()
     # What the solver counts: (text, "module:NAME" of the place in work).
     counts: tuple[tuple[str, str], ...] = ()
+    # Of a part of one's own: the name of the model, the inputs it is meant for, what else is known.
+    kind: str = ""
+    box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    notes: str = ""
 
     @property
     def real_outputs(self) -> list[str]:
@@ -136,13 +141,13 @@ class ModelSpec:
 
 
 def tailored(
-    spec: ModelSpec, parameters: Mapping[str, Any], starts: Mapping[str, float], *,
-    stop_time: float, step_size: float,
-) -> ModelSpec:  # fmt: skip
+    spec: ModelSpec, parameters: Mapping[str, Any], starts: Mapping[str, float], **more: Any
+) -> ModelSpec:
     """Return the model with these values of parameters and inputs as its defaults: same kernels.
 
-    ``fidelity`` is among the parameters; what is not named stays as it is. ``stop_time`` and
-    ``step_size`` are those of its default experiment [s].
+    ``fidelity`` is among the parameters; what is not named stays as it is. ``more`` are other
+    fields of the model, such as ``name`` and, of its default experiment [s], ``stop_time``; its
+    inputs hold unless a ``course`` is among them.
     """
     kept = [
         (f.name, f.type, field(default=parameters.get(f.name, f.default), metadata=f.metadata))
@@ -153,12 +158,9 @@ def tailored(
         namespace={"__module__": spec.params.__module__, "__doc__": spec.params.__doc__},
     )  # fmt: skip
     params()  # raises what the model says about values that do not go together
-    return replace(
-        spec,
-        params=params,
-        default_fidelity=parameters.get("fidelity", spec.default_fidelity),
-        inputs=tuple(replace(s, start=starts.get(s.name, s.start)) for s in spec.inputs),
-        course=(),
-        stop_time=stop_time,
-        step_size=step_size,
-    )
+    own = {
+        "params": params, "kind": spec.kind or spec.name, "course": (),
+        "default_fidelity": parameters.get("fidelity", spec.default_fidelity),
+        "inputs": tuple(replace(s, start=starts.get(s.name, s.start)) for s in spec.inputs),
+    }  # fmt: skip
+    return replace(spec, **(own | more))

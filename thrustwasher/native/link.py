@@ -24,8 +24,8 @@ COMMON = ("-Os", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "
 FEATURES = {"v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")}
 SHORT, LONG = 6.0, 60.0  # seconds until something is said, at the first build and at later ones
 MISSING = (
-    "native FMUs need a C compiler to be built (not to be run): pip install 'thrustwasher[build]' "
-    "for all platforms, or gcc for this one"
+    "native FMUs whose sources were edited need a C compiler to be built (not to be run): "
+    "pip install 'thrustwasher[build]' for all platforms, or gcc for this one"
 )
 
 

@@ -1,6 +1,6 @@
 """Make the compiled files of the package: ``python -m thrustwasher.native.ship [--check]``.
 
-Writes ``data/native``: for each kernel module a zip with the objects of all platforms, and a
+Writes ``data/native``: for each kernel module an archive with the objects of all platforms, and a
 library for Python on Linux x86-64; ``index.json`` lists them. What has not changed stays. With
 ``--check`` nothing is written: everything is made anew and compared with what is there, byte by
 byte if the same versions made it.
@@ -57,14 +57,16 @@ def ship(kernels: Sequence[str]) -> None:
         if not (about and same_tools and shipped.objects_of(kernel)):
             about = _write(kernel, *made(kernel))
         index["kernels"][kernel] = about
-        _list(index)
+        list_all(index)
         keep |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
     for path in shipped.FOLDER.iterdir():
         if path.name not in keep:
             path.unlink()
+    shipped.read_again()
 
 
-def _list(index: dict[str, Any], folder: Path = shipped.FOLDER) -> None:
+def list_all(index: dict[str, Any], folder: Path = shipped.FOLDER) -> None:
+    """Write the list."""
     text = json.dumps(index, indent=1, sort_keys=True) + "\n"
     files.write(folder / shipped.INDEX, text.encode())
 
@@ -73,7 +75,7 @@ def _write(kernel: str, code: Objects, took: float) -> dict[str, Any]:
     name = f"{shipped.short(kernel)}-{digest(kernel)}"
     return {
         "digest": digest(kernel), "sources": sorted(sources(kernel)), "seconds": round(took, 1),
-        "objects": _put(shipped.FOLDER / f"{name}.zip", shipped.pack(code)),
+        "objects": put(shipped.FOLDER / f"{name}.tar.xz", shipped.pack(code)),
         "libraries": _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES),
     }  # fmt: skip
 
@@ -82,12 +84,12 @@ def _write_libraries(
     folder: Path, kernel: str, name: str, code: Objects, platforms: Sequence[str]
 ) -> dict[str, Any]:
     return {
-        platform: _put(folder / f"{name}-{platform}.{PLATFORMS[platform].extension}", data)
+        platform: put(folder / f"{name}-{platform}.{PLATFORMS[platform].extension}", data)
         for platform, data in libraries(kernel, code, platforms).items()
     }
 
 
-def _put(path: Path, data: bytes) -> dict[str, str]:
+def put(path: Path, data: bytes) -> dict[str, str]:
     """Write a file; return its line in the list."""
     files.write(path, data)
     return {"file": path.name, "sha256": files.checksum(data)}
@@ -99,10 +101,10 @@ def relist(folder: Path, platforms: Sequence[str]) -> None:
     for kernel, about in index["kernels"].items():
         for old in about["libraries"].values():
             (folder / old["file"]).unlink()
-        code = shipped.unpack((folder / about["objects"]["file"]).read_bytes())
-        name = about["objects"]["file"].removesuffix(".zip")
+        code = shipped.objects_in(shipped.unpack((folder / about["objects"]["file"]).read_bytes()))
+        name = about["objects"]["file"].removesuffix(".tar.xz")
         about["libraries"] = _write_libraries(folder, kernel, name, code, platforms)
-    _list(index, folder)
+    list_all(index, folder)
 
 
 def check(kernels: Sequence[str]) -> list[str]:

@@ -1,23 +1,25 @@
-"""The compiled files inside the package: objects of all platforms, libraries for some.
+"""The compiled files inside the package: objects of all platforms, libraries made of them.
 
 ``index.json`` lists for each kernel module the sources it was made from, their digest, and the
 files with their checksums. A source that differs, or a file that is not as listed, and it is as if
-nothing had been shipped: what is needed is compiled again.
+nothing had been shipped: what is needed is compiled again. An archive holds a module's objects and
+the libraries for FMUs that were linked with them: they have most in common, which is stored once.
 """
 
 import io
 import json
-import zipfile
+import tarfile
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from .digest import HERE, PACKAGE, digest, digest_of, read
-from .files import checksum, zipped
+from .files import checksum
 
 FOLDER = HERE.parent / "data" / "native"
 INDEX = "index.json"
+FMU = "fmu/"  # in an archive, before the platforms of libraries for FMUs
 
 
 @cache
@@ -79,25 +81,65 @@ def has_objects(kernel: str) -> bool:
 
 
 @cache
-def objects_of(kernel: str) -> Mapping[tuple[str, str], bytes]:
-    """Return (platform, level) -> object file of a kernel module; empty if none can be used."""
+def _archive(kernel: str) -> Mapping[str, bytes]:
     path = _listed(kernel, "objects")
-    return unpack(path.read_bytes()) if path else {}
+    try:
+        return unpack(path.read_bytes()) if path else {}
+    except (OSError, tarfile.TarError):  # also where this Python was built without lzma
+        return {}
 
 
-def pack(objects: Mapping[tuple[str, str], bytes]) -> bytes:
-    """Return a zip of objects."""
-    return zipped({f"{platform}-{level}.o": data for (platform, level), data in objects.items()})
+def objects_of(kernel: str) -> dict[tuple[str, str], bytes]:
+    """Return (platform, level) -> object file of a kernel module; empty if none can be used."""
+    return objects_in(_archive(kernel))
 
 
-def unpack(data: bytes) -> dict[tuple[str, str], bytes]:
-    """Return the objects in a zip of ``pack``."""
-    found = {}
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        for name in archive.namelist():
-            platform, _, level = name.removesuffix(".o").rpartition("-")
-            found[platform, level] = archive.read(name)
-    return found
+def is_linked(kernel: str, digest: str) -> bool:
+    """Tell if the libraries for FMUs of a kernel module are shipped, made of what ``digest`` is."""
+    return (record(kernel) or {}).get("fmu") == digest and has_objects(kernel)
+
+
+def fmu_libraries(kernel: str, digest: str) -> dict[str, bytes]:
+    """Return platform -> library for FMUs of a kernel module; empty if none can be used."""
+    found = _archive(kernel) if is_linked(kernel, digest) else {}
+    return {n.removeprefix(FMU): data for n, data in found.items() if n.startswith(FMU)}
+
+
+def pack(
+    objects: Mapping[tuple[str, str], bytes], libraries: Mapping[str, bytes] | None = None
+) -> bytes:
+    """Return an archive of objects, and of libraries for FMUs by platform."""
+    import lzma  # late: a Python may have been built without it
+
+    found = {f"{platform}-{level}.o": data for (platform, level), data in objects.items()}
+    found |= {f"{FMU}{platform}": data for platform, data in (libraries or {}).items()}
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w") as archive:
+        for name, data in sorted(found.items()):
+            about = tarfile.TarInfo(name)
+            about.size = len(data)
+            archive.addfile(about, io.BytesIO(data))
+    return lzma.compress(buffer.getvalue(), preset=9 | lzma.PRESET_EXTREME)
+
+
+def unpack(data: bytes) -> dict[str, bytes]:
+    """Return the files in an archive of ``pack``."""
+    with tarfile.open(fileobj=io.BytesIO(data)) as archive:
+        members = [(about.name, archive.extractfile(about)) for about in archive]
+        return {name: file.read() for name, file in members if file}
+
+
+def objects_in(archive: Mapping[str, bytes]) -> dict[tuple[str, str], bytes]:
+    """Return the objects in an unpacked archive."""
+    names = [name for name in archive if name.endswith(".o")]
+    parts = {name: name.removesuffix(".o").rpartition("-") for name in names}
+    return {(p[0], p[2]): archive[name] for name, p in parts.items()}
+
+
+def read_again() -> None:
+    """Forget what was read: the files have changed."""
+    for read_once in (index, record, _archive):
+        read_once.cache_clear()
 
 
 def short(kernel: str) -> str:

@@ -60,10 +60,14 @@ def kernel_digest(files: Iterable[str]) -> str:
     return whole.hexdigest()
 
 
-@cache
 def _file_digest(name: str) -> str:
-    if "/" in name:
+    if "/" in name:  # it may be written anew
         return hashlib.sha256((DATA / name).read_bytes()).hexdigest()
+    return _module_digest(name)
+
+
+@cache
+def _module_digest(name: str) -> str:
     path = digest.file_of(name)
     if path is None:
         raise FileNotFoundError(name)

@@ -9,6 +9,7 @@
 ``error_tables``        A card's tables: worst and rms error cell by cell
 ``failures``            Where methods fail, and the limits of co-simulation
 ``macro_steps``         Error of a shift against its cost, and where masters fail
+``own_cards``           Cards for a part of one's own, while one waits
 ``reference_cache``     Reference values at held-out points, kept in a file
 ``reference_clutch``    Reference values of the wet clutch: more rings, another integrator
 ``reference_gearmesh``  Reference values of the gear mesh: adaptive quadrature, search

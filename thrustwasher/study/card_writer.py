@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..ladder.card import SCHEMA, Card, files_of
+from ..ladder.card import OWN, SCHEMA, Card, files_of
 from ..ladder.card_parts import Cost, HeldOut, ParameterSet, Reference, Sources
 from ..model.prepare import tables_of
 from ..storage.digests import DATA, changed_fields, kernel_digest, params_digest
@@ -31,7 +31,7 @@ def make_card(
     source = source_of(case.spec.key)
     built = _built(case, rung)
     files = list(files_of(case.spec.key, rung))
-    files += [built.path.relative_to(DATA.resolve()).as_posix()] if built else []
+    files += [_name_of(built.path)] if built else []
     return Card(
         schema=SCHEMA, model=case.spec.key, fidelity=rung, chart=chart,
         branch=known[0].branch if known else None, fold=fold_part(pairs),
@@ -49,15 +49,21 @@ def make_card(
 
 
 def _built(case: Case, rung: str) -> Any:
-    """Return the shipped file that a rung's answers come from; None for rungs that need none."""
+    """Return the file that a rung's answers come from; None for rungs that need none."""
     tables = tables_of(case.spec, rung)
     found = tables and tables.find(case.params)
-    if found and not found.path.is_relative_to(DATA.resolve()):
+    if found and not (found.path.is_relative_to(DATA.resolve()) or case.name.startswith(OWN)):
         raise ParameterError(
             f"{rung} for the {case.name} parameters = {found.path}, allowed: one that is "
             "shipped; a card speaks for a file below thrustwasher/data"
         )
     return found
+
+
+def _name_of(file: Path) -> str:
+    """Return a file as a card names it: from ``data`` if it is shipped."""
+    home = DATA.resolve()
+    return (file.relative_to(home) if file.is_relative_to(home) else file).as_posix()
 
 
 def _seconds(timing: Timing, first: float) -> tuple[float, float, float]:

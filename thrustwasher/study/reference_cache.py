@@ -5,12 +5,14 @@ import json
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict
+from functools import partial
 from typing import Any
 
 from ..errors import SolveError
 from ..model.record import resolve
 from ..model.registry import ladder_of
 from ..native.files import user_cache
+from ..processes import Run, run_here
 from ..storage.digests import closure, kernel_digest, params_digest
 from ..storage.journal import Journal
 from .card_cases import Case
@@ -32,8 +34,9 @@ def answer(model: str, params: Any, fidelity: str, known: ReferencePoint) -> Ans
 
 
 def reference_points(
-    case: Case, source: Source, n: int, progress: Callable[[int], None] = lambda k: None
-) -> list[ReferencePoint]:
+    case: Case, source: Source, n: int, progress: Callable[[int], None] = lambda k: None,
+    run: Run = run_here,
+) -> list[ReferencePoint]:  # fmt: skip
     """Return the reference's answers at ``n`` points; what is kept is not solved again.
 
     A run that is stopped goes on where it was.
@@ -43,15 +46,15 @@ def reference_points(
             list(source.routes), list(source.grid or ()), MARGIN]  # fmt: skip
     digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
     path = user_cache() / "references" / f"{case.spec.key}-{case.name}-{digest}.journal"
-    found: list[ReferencePoint] = []
     with closing(Journal(path, {"source": digest}, "set of reference values")) as journal:
         known = {
             k: [ReferencePoint(**r) for r in json.loads(text)] for k, text in journal.entries()
         }
-        for done, k in enumerate(case.numbers(n), 1):
-            if k not in known:
-                known[k] = source.solve(case.params, case.point(k))
-                journal.put(k, json.dumps([asdict(r) for r in known[k]]).encode())
-            found += known[k]
-            progress(done)
-    return found
+        numbers = case.numbers(n)
+        left = [k for k in numbers if k not in known]
+        rows = run(partial(source.solve, case.params), [case.point(k) for k in left], 1)
+        for k, row in zip(left, rows, strict=True):
+            known[k] = row
+            journal.put(k, json.dumps([asdict(r) for r in row]).encode())
+            progress(len(known))
+        return [point for k in numbers for point in known[k]]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..errors import SolveError, Status
 from ..ladder.card_parts import QUANTITIES
-from ..model.parameters import made_of
+from ..model.part_file import made_of
 from ..washer.kernel_arguments import constants
 from ..washer.kernels.constants import WasherModel, washer_model
 from ..washer.kernels.layout import S_FACTOR_VALID, S_FIELDS

@@ -3,9 +3,10 @@
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Executor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ Progress = Callable[[int, int], None]
 WORTH = 2.0  # [s] of work left; for less it does not pay to start processes
 MOST_WORKERS = 256
 TASK_POINTS = 4096
+AHEAD = 2  # tasks that a worker has before it asks for more
 RESTARTS = 3
 ANSWER_TIME = "10s"  # a cluster that takes longer is taken for absent
 
@@ -133,8 +135,9 @@ class Run:
             if self.done.all():
                 return
             try:
-                with local_processes(min(n, len(self.plan.params_of))) as executor:
-                    self._hand_out(executor, n)
+                others = min(n, len(self.plan.params_of)) - 1  # this process works too
+                with local_processes(max(others, 1)) as executor:
+                    self._hand_out(executor, max(others, 1), here=True)
             except BrokenProcessPool:
                 continue
         if not self.done.all():
@@ -161,12 +164,22 @@ class Run:
             else:  # the first task has loaded or compiled the kernels: that is not the pace
                 warm, began = True, time.perf_counter()
 
-    def _hand_out(self, executor: Executor, n: int) -> None:
-        """Solve with workers."""
-        waiting = {executor.submit(solve_task, task): task for task in self._tasks(n)}
+    def _hand_out(self, executor: Executor, n: int, *, here: bool = False) -> None:
+        """Solve with ``n`` workers, some tasks ahead of each; with ``here`` in this process too."""
+        tasks = self._tasks(n + here)
+        waiting: dict[Future[Any], Task] = {}
         try:
-            for future in as_completed(list(waiting)):
-                self._take(waiting.pop(future), *future.result())
+            while True:
+                for task in islice(tasks, AHEAD * n - len(waiting)):
+                    waiting[executor.submit(solve_task, task)] = task
+                own = next(tasks, None) if here else None
+                if own is not None:
+                    self._take(own, *solve_task(own))
+                elif not waiting:
+                    return
+                done, _ = wait(waiting, 0.0 if own else None, FIRST_COMPLETED)
+                for future in done:
+                    self._take(waiting.pop(future), *future.result())
         except BaseException:
             for future in waiting:
                 future.cancel()

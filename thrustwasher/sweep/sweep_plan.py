@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..ladder import choose as chooser
+from ..ladder.own_tables import build_where_it_pays
 from ..model.parameters import params_of
 from ..model.registry import spec_of
 from ..model.spec import ModelSpec
@@ -79,11 +80,17 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
         )
     low, high = np.nanmin(plan.inputs, axis=0).tolist(), np.nanmax(plan.inputs, axis=0).tolist()
     box = {s.name: (a, b) for s, a, b in zip(plan.spec.inputs, low, high, strict=True)}
+    built = build_where_it_pays(plan.spec, plan.params[0], box, tol=tolerance, calls=plan.n_rows)
     choice = chooser.choose(
         plan.spec.key, box, tol=tolerance, n_calls=plan.n_rows, params=plan.params[0]
     )
     identity = {**plan.identity, "fidelity": choice.fidelity}
-    return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
+    return replace(
+        plan,
+        fidelity=choice.fidelity,
+        choice="\n".join(filter(None, [built, str(choice)])),
+        identity=identity,
+    )
 
 
 def _held(at: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec) -> list[Axis]:

@@ -17,7 +17,7 @@ from .sweep_plan import Plan
 
 SUFFIXES = (".csv", ".parquet")
 INSTALL = 'pip install "thrustwasher[sweep]"'
-CHUNK = 50_000  # rows made into text at a time
+CHUNK = 50_000  # rows made into text, or a group of Parquet, at a time
 
 
 @dataclass(frozen=True)
@@ -119,10 +119,21 @@ def _texts(column: NDArray[Any]) -> Sequence[str]:
 
 def _write_parquet(table: SweepTable, path: Path) -> None:
     """Write the table with its units in the columns' metadata; failed numbers are null."""
-    pa, parquet = _pyarrow()
+    parquet = _pyarrow()[1]
+    first = _batch(table, slice(0, CHUNK))
+    with parquet.ParquetWriter(path, first.schema) as writer:
+        writer.write_table(first)
+        for a in range(CHUNK, len(table), CHUNK):
+            writer.write_table(_batch(table, slice(a, a + CHUNK)).cast(first.schema))
+
+
+def _batch(table: SweepTable, rows: slice) -> Any:
+    """Return some rows as a table of pyarrow."""
+    pa, _ = _pyarrow()
     fields, arrays = [], []
-    bad = np.isin(table["status"], list(table.failures))
-    for title, column in table.columns.items():
+    bad = np.isin(table["status"][rows], [s.name for s in Status if s.is_failure])
+    for title, whole in table.columns.items():
+        column = whole[rows]
         if column.dtype == object:
             array = pa.array(column.tolist())
             if pa.types.is_string(array.type):
@@ -134,7 +145,7 @@ def _write_parquet(table: SweepTable, path: Path) -> None:
         unit = table.units.get(title, "")
         fields.append(pa.field(title, array.type, metadata={"unit": unit} if unit else None))
         arrays.append(array)
-    parquet.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), path)
+    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
 
 def _pyarrow() -> tuple[Any, Any]:

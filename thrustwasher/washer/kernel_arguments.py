@@ -75,3 +75,7 @@ class Recent(Generic[T]):
         made = self.make(params, *key)
         known[id(params), key] = params, made
         return made
+
+    def forget(self) -> None:
+        """Make all anew: files that something was made of have changed."""
+        self.local = threading.local()

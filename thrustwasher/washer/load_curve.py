@@ -1,7 +1,9 @@
 """The whole curve of a washer's solutions over load, with its folds: continuation in the film."""
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -112,6 +114,21 @@ def load_curve(
         elif gain > 0.0 if rising else gain < 0.0:
             top = len(points) - 1
     return LoadCurve(_labelled(points, folds), folds)
+
+
+def fold_loads(params: WasherParams, point: Mapping[str, float], fidelity: str) -> dict[str, float]:
+    """Return the loads [N] at which the film is lost and regained; no such fold: not in it."""
+    place: Any = {name: value for name, value in point.items() if name != "load"}
+    for load_max in (3e3, 1e4):
+        try:
+            folds = load_curve(params, **place, fidelity=fidelity, load_max=load_max).folds
+        except SolveError:
+            return {}
+        if folds:
+            break
+    found = {fold.kind: fold.load for fold in reversed(folds)}
+    names = {"film_lost": "film_loss_load", "film_regained": "film_regain_load"}
+    return {names[kind]: load for kind, load in found.items()}
 
 
 def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:

@@ -1,6 +1,6 @@
 """The record of the thrust washer."""
 
-from ..model.record import Command, Ladder, Model, Option, Sweep
+from ..model.record import Command, Fits, Ladder, Model, Option, Sweep
 
 _FIELD = tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants"))
 GRID = Option(
@@ -68,6 +68,14 @@ MODEL = Model(
         },
     ),
     sweep=Sweep(not_shown=("energy", "stored_heat")),
+    fits=Fits(
+        curve="thrustwasher.washer.load_curve:fold_loads",
+        more={
+            "film_loss_load": ("N", "load at which the film is lost"),
+            "film_regain_load": ("N", "load at which it is regained"),
+        },
+        without="load",
+    ),
     remark="thrustwasher.shift.thermal_need:thermal_need",
     wiring=(
         "The model is quasi-steady: the step only decides how finely the inputs are followed.",

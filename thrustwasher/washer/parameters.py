@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ..model.parameters import check_ranges, check_rules, choice, flag, from_preset, quantity
+from ..model.parameters import check_ranges, check_rules, choice, flag, quantity
+from ..model.part_file import made_of
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
@@ -105,16 +106,6 @@ RULES = (
          "no bodies that could store heat"),
 )  # fmt: skip
 
-# 0.5.0's equations: those of Jackson & Green (2006), with all that the paper leaves out left out
-PRESETS: dict[str, dict[str, Any]] = {
-    "paper": {
-        "conduction": "all",
-        "oil_cooling": False,
-        "pressure_flow_shear": False,
-        "body_storage": "lumped",
-    },
-}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WasherParams:
@@ -185,8 +176,12 @@ class WasherParams:
     friction_slope: float = quantity(0.05, "1", 0.0, 0.2, "slope of the dry friction law")
     friction_load_min: float = quantity(260.5, "N", 1.0, 1e5, "lower end of the law's range")
     friction_load_max: float = quantity(1725.6, "N", 1.0, 1e5, "upper end of the law's range")
-    heat_split: float = quantity(0.5, "1", 0.0, 1.0, "share of the heat that enters the carrier")
-    film_heat_fraction: float = quantity(1.0, "1", 0.0, 1.0, "share of film heat into the solids")
+    heat_split: float = quantity(
+        0.5, "1", 0.0, 1.0, "share of the heat that enters the carrier", tunable=True
+    )
+    film_heat_fraction: float = quantity(
+        1.0, "1", 0.0, 1.0, "share of film heat into the solids", tunable=True
+    )
     thermal_mode: str = choice(
         "quasi_steady", THERMAL_MODES, "ThermalMode", "how temperatures follow the inputs in time"
     )
@@ -216,7 +211,8 @@ class WasherParams:
         ------
         ParameterError : no such preset, or a parameter out of range
         """
-        return from_preset(cls, PRESETS, name, changes)
+        made: WasherParams = made_of(SPEC, name, changes)
+        return made
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -276,7 +272,6 @@ SPEC = ModelSpec(
                depends=_ALL, help="how the last solution was obtained"),
     ),
     kernel="thrustwasher.washer.kernels.step",
-    presets=PRESETS,
     rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.WasherFlange",

@@ -59,13 +59,10 @@ def packed(name, fmi):
 
 @pytest.fixture(scope="module", params=[2, 3])
 def whole(request, tmp_path_factory):
-    """A small model for every platform: FMI version, contents, sentences said while building."""
-    said = []
-    (path,) = build(
-        [SMALL], fmi=request.param, out=tmp_path_factory.mktemp("dist"), note=said.append
-    )
+    """A small model for every platform: FMI version, contents."""
+    (path,) = build([SMALL], fmi=request.param, out=tmp_path_factory.mktemp("dist"))
     with zipfile.ZipFile(path) as zipped:
-        return request.param, {n: zipped.read(n) for n in zipped.namelist()}, said
+        return request.param, {n: zipped.read(n) for n in zipped.namelist()}
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -107,7 +104,7 @@ def test_the_default_experiment_gives_the_reference_results(name, fmi, tmp_path)
 
 @everywhere
 def test_every_platform_has_its_library_at_its_place(whole):
-    fmi, files, said = whole
+    fmi, files = whole
     folders = {"linux64": "so", "win64": "dll", "aarch64-linux": "so", "darwin64": "dylib"}
     if fmi == 3:
         folders = {"x86_64-linux": "so", "x86_64-windows": "dll", "aarch64-linux": "so",
@@ -119,25 +116,25 @@ def test_every_platform_has_its_library_at_its_place(whole):
         starts["dylib"] = b"\xca\xfe\xba\xbe\0\0\0\2"  # both processors in one file
     for name in expected:
         assert files[name].startswith(starts[name.rpartition(".")[2]]), name
-    assert [s for s in said if s.startswith(SMALL) and s.split()[-1] in PLATFORMS]
 
 
 @everywhere
 def test_everything_a_user_looks_for_is_inside_and_nothing_else(whole):
-    fmi, files, _ = whole
+    fmi, files = whole
     tree = etree.fromstring(files["modelDescription.xml"])
     guid = tree.get("guid" if fmi == 2 else "instantiationToken")
     page = files["documentation/index.html"].decode()
+    assert guid.encode() in files["resources/part.bin"]
     assert guid in page and f"FMI {fmi}.0" in page and ", ".join(PLATFORMS) in page
     for name, content in files.items():
         if name.startswith("binaries/"):
-            assert guid.encode() in content, name
             assert b"/tmp/" not in content and b"/root/" not in content, name
         if name.startswith("documentation/licenses/"):
             assert len(content.strip()) > 200
     assert ("model.png" in files) == (fmi == 2)
-    assert {n.split("/")[0] for n in files} - {"model.png"} == {
-        "modelDescription.xml", "binaries", "documentation", "terminalsAndIcons", "extra",
+    plugs = {"terminalsAndIcons"} if fmi == 3 else set()
+    assert {n.split("/")[0] for n in files} - {"model.png"} == plugs | {
+        "modelDescription.xml", "binaries", "documentation", "extra", "resources",
     }  # fmt: skip
     assert not [n for n in files if n.endswith((".py", ".o", ".pdb", ".lib"))]
 
@@ -180,16 +177,17 @@ def test_building_for_every_platform_repeats(tmp_path):
     assert one == two
 
 
-def test_without_zig_there_is_this_platform_alone_and_it_is_said(monkeypatch):
+def test_without_zig_what_is_not_shipped_is_for_this_platform_alone_and_it_is_said(monkeypatch):
     alone = replace(find_linker(), name="gcc", platforms=("linux64",))
     monkeypatch.setattr(platform_libraries, "find_linker", lambda: alone)
-    said = []
-    assert platform_libraries.chosen(None, said.append) == ("linux64",)
+    monkeypatch.setattr(platform_libraries, "is_shipped", lambda spec: False)
+    said, specs = [], all_specs()
+    assert platform_libraries.chosen(None, said.append, specs) == ("linux64",)
     assert len(said) == 1 and "linux64 only" in said[0] and "pip install" in said[0]
     with pytest.raises(
         ParameterError, match=r"platform = 'win64', allowed here: linux64; for .* pip"
     ):
-        platform_libraries.chosen(["win64"], said.append)
+        platform_libraries.chosen(["win64"], said.append, specs)
 
 
 def test_an_unknown_platform_is_refused(tmp_path):

@@ -74,7 +74,9 @@ def test_everything_a_user_looks_for_is_inside(name, fmus):
     assert "<script" not in page and "http" not in page and "Equations" in page
     assert "@" not in files[f"resources/{module}.py"].decode()
     size = struct.unpack(">II", files["model.png"][16:24])
-    assert size == (200, 200) and files["model.png"] == files["terminalsAndIcons/icon.png"]
+    assert size == (200, 200)
+    # FMI Library 3 reads terminals of FMI 2.0 FMUs too, and calls a file of FMI 3.0 fatal.
+    assert not [n for n in files if n.startswith("terminalsAndIcons")]
 
 
 def test_the_icons_of_the_models_differ(fmus):

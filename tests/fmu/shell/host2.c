@@ -39,7 +39,7 @@ void *make(const char *name, const char *guid, int logging, const char *oddity)
     int is = oddity ? oddity[0] : 0; /* m: model exchange, l: no logger, c: no callbacks */
     if (is == 'l')
         callbacks.logger = NULL;
-    return Instantiate(name, is == 'm' ? fmi2ModelExchange : fmi2CoSimulation, guid, NULL,
+    return Instantiate(name, is == 'm' ? fmi2ModelExchange : fmi2CoSimulation, guid, resources,
                        is == 'c' ? NULL : &callbacks, fmi2False, logging);
 }
 

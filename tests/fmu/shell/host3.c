@@ -41,14 +41,14 @@ void *make(const char *name, const char *guid, int logging, const char *oddity)
         return InstantiateScheduledExecution(name, guid, NULL, 0, logging, title, log, NULL, NULL,
                                              NULL);
     case 'e':
-        return InstantiateCoSimulation(name, guid, NULL, 0, logging, 1, 0, NULL, 0, title, log,
-                                       NULL);
+        return InstantiateCoSimulation(name, guid, resources, 0, logging, 1, 0, NULL, 0, title,
+                                       log, NULL);
     case 'i':
         return InstantiateCoSimulation(name, guid, NULL, 0, logging, 0, 0, wanted, 1, title, log,
                                        NULL);
     default:
-        return InstantiateCoSimulation(name, guid, NULL, 0, logging, 0, 1, NULL, 0, title, log,
-                                       NULL);
+        return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 1, NULL, 0, title,
+                                       log, NULL);
     }
 }
 

@@ -12,6 +12,7 @@
 
 static void *library, *instances[SLOTS], *states[SLOTS];
 static int used;
+const char *resources;
 
 void hear(const char *name, int status, const char *category, const char *text)
 {
@@ -66,7 +67,15 @@ static int is_state_command(const char *name, void **m)
         answer(state_set(*m, states[(int)number()]), NULL, 0);
     else if (strcmp(name, "forget") == 0)
         answer(state_free(*m, &states[(int)number()]), NULL, 0);
-    else if (strcmp(name, "write") == 0) {
+    else if (strcmp(name, "restore-address") == 0) /* as hosts do that mix up the two */
+        answer(state_set(*m, &states[(int)number()]), NULL, 0);
+    else if (strcmp(name, "forget-pointer") == 0)
+        answer(state_free(*m, states[(int)number()]), NULL, 0);
+    else if (strcmp(name, "alias") == 0) {
+        int slot = (int)number();
+        states[slot] = states[(int)number()];
+        answer(0, NULL, 0);
+    } else if (strcmp(name, "write") == 0) {
         int slot = (int)number();
         answer(write_file(*m, states[slot], word()), NULL, 0);
     } else if (strcmp(name, "read") == 0) {
@@ -155,10 +164,11 @@ static void value_command(const char *name, void *m)
 int main(int argc, char **argv)
 {
     static char line[4096];
-    if (argc != 2 || !(library = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL))) {
-        puts(argc == 2 ? dlerror() : "usage: host LIBRARY < SCRIPT");
+    if (argc != 3 || !(library = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL))) {
+        puts(argc == 3 ? dlerror() : "usage: host LIBRARY RESOURCES < SCRIPT");
         return 2;
     }
+    resources = argv[2];
     open_library(library);
     while (fgets(line, sizeof line, stdin)) {
         char *name = strtok(line, " \n");

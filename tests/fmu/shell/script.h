@@ -9,6 +9,8 @@
 
 typedef enum { REAL, WHOLE, ENUMERATION, BOOLEAN } Type;
 
+extern const char *resources; /* the folder */
+
 void hear(const char *name, int status, const char *category, const char *text);
 
 void open_library(void *library);

@@ -43,13 +43,14 @@ def _compile(*arguments) -> None:
 
 
 @cache
-def toy_library(fmi: int, flags: tuple[str, ...] = ("-O2",), guid: str = GUID) -> Path:
-    """Return the shell linked with the toy's C functions."""
+def toy_library(flags: tuple[str, ...] = ("-O2",)) -> Path:
+    """Return the shell linked with the toy's C functions; its part.bin lies beside it."""
     folder = Path(tempfile.mkdtemp(dir=_folder.name))
-    for name, text in c_tables.sources(TOY, fmi=fmi, guid=guid).items():
+    for name, text in c_tables.sources(TOY).items():
         (folder / name).write_text(text)
+    (folder / c_tables.PART).write_bytes(c_tables.part_file(TOY, GUID))
     shell = source_folder() / "shell"
-    files = [shell / name for name in c_tables.shell_files(fmi)]
+    files = [shell / name for name in c_tables.SHELL_FILES]
     library = folder / "toy.so"
     _compile("-std=c99", *STRICT, *flags, "-shared", "-fPIC", "-fvisibility=hidden", "-I", folder,
              "-I", shell, "-I", headers(), folder / "model.c", *files, HERE / "shelltoy" / "toy.c",
@@ -67,11 +68,12 @@ def host(fmi: int, flags: tuple[str, ...] = ("-O1",)) -> Path:
 
 
 @cache
-def model_library(model: str, fmi: int) -> Path:
-    """Return the library of a model of this package for this machine."""
+def model_library(model: str) -> Path:
+    """Return the library of a model of this package for this machine, part.bin beside it."""
     spec = find_spec(model)
     library = Path(tempfile.mkdtemp(dir=_folder.name)) / f"{spec.name}.so"
-    library.write_bytes(native_library(spec, fmi=fmi, guid=GUID, platform="linux64"))
+    library.write_bytes(native_library(spec, platform="linux64"))
+    (library.parent / c_tables.PART).write_bytes(c_tables.part_file(spec, GUID))
     return library
 
 
@@ -93,12 +95,17 @@ class Reply:
     messages: list[str] = field(default_factory=list)
 
 
-def run(fmi: int, library: Path, script: str, *, flags=("-O1",), wrap=()) -> list[Reply]:
-    """Run a script in a fresh process without any environment; the process has to end well."""
+def run(
+    fmi: int, library: Path, script: str, *, flags=("-O1",), wrap=(), resources=None
+) -> list[Reply]:
+    """Run a script in a fresh process without any environment; the process has to end well.
+
+    The folder of the resources is that of the library unless another is given.
+    """
+    command = [*map(str, wrap), host(fmi, flags), library, resources or library.parent]
     done = subprocess.run(
-        [*map(str, wrap), host(fmi, flags), library], input=script, env={}, capture_output=True,
-        text=True, timeout=300,
-    )  # fmt: skip
+        command, input=script, env={}, capture_output=True, text=True, timeout=300
+    )
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-4000:]
     replies, messages = [], []
     for line in done.stdout.splitlines():
@@ -114,7 +121,7 @@ def run(fmi: int, library: Path, script: str, *, flags=("-O1",), wrap=()) -> lis
 
 def last(fmi: int, script: str) -> Reply:
     """Return what the last command answered, of a script on the toy."""
-    return run(fmi, toy_library(fmi), script)[-1]
+    return run(fmi, toy_library(), script)[-1]
 
 
 def ref(name: str) -> int:

@@ -84,7 +84,7 @@ def test_a_state_taken_to_another_instance_brings_the_map_with_it(washer):
 
 def test_without_maps_the_fmu_is_small_and_refuses_the_fidelity(tmp_path):
     fmu = build(["ThrustWasher"], out=tmp_path, local=True, maps=False)[0]
-    assert fmu.stat().st_size <= 310_000
+    assert fmu.stat().st_size <= 320_000
     with pytest.raises((ParameterError, SolveError), match=NONE):
         with Instance(fmu, parameters=MAP) as instance:
             instance.initialize(0.0, POINT)
@@ -113,7 +113,8 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_pat
     folder = moved(washer(2), "copy", tmp_path)
     file = folder / "resources" / "map-0.bin"
     if change == "gone":
-        shutil.rmtree(file.parent)
+        for map_file in file.parent.glob("map-*.bin"):
+            map_file.unlink()
     else:
         raw = file.read_bytes()
         bit = bytes([raw[-400] ^ 1]) + raw[-399:]

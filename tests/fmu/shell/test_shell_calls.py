@@ -1,9 +1,14 @@
 """Every function in every mode, walked through from the one table; and all that is no good call."""
 
-import pytest
-from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, ref, run, toy_library
+import struct
+import zlib
 
-from thrustwasher.fmu.shell import call_table
+import pytest
+from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
+from shelltoy.spec import SPEC as TOY
+
+from thrustwasher.fmu.shell import c_tables, call_table
+from thrustwasher.model.spec import tailored
 
 pytestmark = needs_gcc
 WAYS = {
@@ -11,22 +16,26 @@ WAYS = {
     call_table.INITIALIZING: "enter 0\n",
     call_table.STEPPING: "enter 0\nleave\n",
     call_table.TERMINATED: "enter 0\nleave\nend\n",
+    call_table.EVENTS: "enter 0\nleave\n",  # FMI 3, of an instance made for it
 }
+EVENTS = f"make toy {GUID} 1 e\nenter 0\nleave\n"
 FORBIDDEN = "is not allowed in state"
 both = pytest.mark.parametrize("fmi", [2, 3])
 
 
 def every_call(fmi):
     return [
-        (mode, name) for mode in WAYS for name in call_table.CALLS[fmi] if name != "FreeInstance"
-    ]
+        (mode, name) for mode in WAYS for name in call_table.CALLS[fmi]
+        if name != "FreeInstance" and (fmi == 3 or mode != call_table.EVENTS)
+    ]  # fmt: skip
 
 
 @both
 def test_every_function_is_allowed_in_the_modes_of_the_table_and_in_no_other(fmi):
-    script = "".join(f"{MADE}{WAYS[mode]}call fmi{fmi}{name}\ndrop\n"
+    made = {mode: f"make toy {GUID} 1 e\n" if mode == call_table.EVENTS else MADE for mode in WAYS}
+    script = "".join(f"{made[mode]}{WAYS[mode]}call fmi{fmi}{name}\ndrop\n"
                      for mode, name in every_call(fmi))  # fmt: skip
-    replies = iter(run(fmi, toy_library(fmi), script))
+    replies = iter(run(fmi, toy_library(), script))
     for mode, name in every_call(fmi):
         for _ in range(1 + WAYS[mode].count("\n")):
             assert next(replies).status == 0
@@ -53,7 +62,7 @@ def test_a_forbidden_call_changes_nothing(fmi, tmp_path):
     script = (
         f"{BEGUN}step 0 1e-3\nsave 0\nwrite 0 {tmp_path}/a\n{tries}save 1\nwrite 1 {tmp_path}/b\n"
     )
-    replies = run(fmi, toy_library(fmi), script)
+    replies = run(fmi, toy_library(), script)
     assert [r.status for r in replies[7 : 7 + len(wrong)]] == [3] * len(wrong)
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
 
@@ -74,7 +83,7 @@ def test_the_message_says_what_to_call_first(fmi, way, name, first):
 def test_no_function_needs_an_instance_to_answer(fmi):
     names = call_table.CALLS[fmi]
     replies = run(
-        fmi, toy_library(fmi), "".join(f"call fmi{fmi}{n}\n" for n in names if n != "FreeInstance")
+        fmi, toy_library(), "".join(f"call fmi{fmi}{n}\n" for n in names if n != "FreeInstance")
     )
     assert {r.status for r in replies} == {3}
     assert last(fmi, "drop\n").status == 0
@@ -103,7 +112,7 @@ def test_a_description_of_another_build_is_refused_and_both_are_named(fmi, guid)
 
 @pytest.mark.parametrize(("fmi", "oddity", "text"), [
     (2, "m", "not for model exchange"), (3, "m", "not for model exchange"),
-    (3, "s", "not for scheduled execution"), (3, "e", "eventModeUsed has to be false"),
+    (3, "s", "not for scheduled execution"),
     (3, "i", "nRequiredIntermediateVariables has to be 0"),
 ])  # fmt: skip
 def test_what_the_fmu_is_not_for_is_refused_at_once(fmi, oddity, text):
@@ -115,7 +124,7 @@ def test_what_the_fmu_is_not_for_is_refused_at_once(fmi, oddity, text):
 def test_without_a_logger_everything_works_and_nothing_is_said(fmi, oddity):
     script = f"make - {GUID} 1 {oddity}\nenter 0\nleave\nstep 0 1e-3\nput real 99 1\n"
     script += f"make toy x 1 {oddity}\n"
-    replies = run(fmi, toy_library(fmi), script)
+    replies = run(fmi, toy_library(), script)
     assert [r.status for r in replies] == [0, 0, 0, 0, 3, 3]
     assert not any(r.messages for r in replies)
 
@@ -157,6 +166,37 @@ def test_parameters_are_fixed_once_the_run_has_begun(fmi):
     assert reply.status == 3 and "discs is a fixed parameter" in reply.messages[-1]
 
 
+@both
+def test_a_tunable_parameter_is_set_between_steps_and_part_of_the_state(fmi):
+    warm = putting(speed=100.0) + "step 0 1e-3\n"
+    rise = f"take real {ref('temperature_rise')}\n"
+    slow, fast = (putting(heat_capacity=c) for c in (1e6, 1.0))
+    script = BEGUN + warm + "save 0\n" + slow + "step 1e-3 1e-3\n" + rise + "save 1\n"
+    script += "restore 0\n" + fast + "step 1e-3 1e-3\n" + rise + "restore 1\n"
+    replies = run(fmi, toy_library(), script + taking(["heat_capacity"]))
+    assert all(r.status == 0 for r in replies)
+    low, high, capacity = (r.values[0] for r in replies if r.values)
+    assert high > 10.0 * low and capacity == 1e6
+    assert last(fmi, BEGUN + "step 0 1e-3\nend\n" + fast).status == 3
+    assert last(fmi, BEGUN + putting(heat_capacity=-1.0) + "step 0 1e-3\n").status == 3
+
+
+def test_event_mode_is_the_place_for_tunable_parameters():
+    script = "call fmi3UpdateDiscreteStates\n" + putting(heat_capacity=50.0, load=7.0)
+    script += taking(["friction_torque"]) + "call fmi3EnterStepMode\nstep 0 1e-3\n"
+    script += "call fmi3EnterEventMode\nsave 0\ncall fmi3EnterStepMode\nstep 1e-3 1e-3\n"
+    replies = run(3, toy_library(), EVENTS + script + "restore 0\ncall fmi3EnterStepMode\nend\n")
+    assert all(r.status == 0 for r in replies)
+    for wrong, first in (("step 0 1e-3", "EnterStepMode"), ("call fmi3EnterEventMode", "EnterStep"),
+                         (putting(discs=3).strip(), "before the initialization")):  # fmt: skip
+        reply = last(3, EVENTS + wrong + "\n")
+        assert reply.status == 3 and first in reply.messages[-1]
+    reply = last(3, BEGUN + "call fmi3UpdateDiscreteStates\n")
+    assert reply.status == 3 and "call fmi3EnterEventMode first" in reply.messages[-1]
+    reply = last(3, BEGUN + "call fmi3EnterEventMode\n")
+    assert reply.status == 3 and "eventModeUsed = false" in reply.messages[-1]
+
+
 @pytest.mark.parametrize("start", ["nan", "inf"])
 def test_a_start_time_must_be_a_number(start):
     for fmi, command in ((2, f"setup {start}\n"), (3, f"enter {start}\n")):
@@ -183,3 +223,37 @@ def test_dependencies_of_fmi_3_are_those_of_the_list():
     assert torque.values == [ref("load"), ref("speed")]
     assert last(3, BEGUN + f"extra dependencies {ref('energy')}\n").values == []
     assert last(3, BEGUN + f"extra dependencies {ref('load')}\n").status == 3
+
+
+@both
+@pytest.mark.parametrize(("spoil", "said"), [
+    (lambda data: None, "missing"),
+    (lambda data: data[:-1], "damaged"),
+    (lambda data: data + b"0", "damaged"),
+    (lambda data: data.replace(b"ShellToy", b"ShellTop"), "damaged"),
+    (lambda data: b"twpart2" + data[7:], "damaged"),
+    (lambda data: summed(data[:8] + b"another build..." + data[24:-4]), "another build"),
+])  # fmt: skip
+def test_without_its_part_there_is_no_instance_and_the_folder_is_named(fmi, spoil, said, tmp_path):
+    data = spoil((toy_library().parent / c_tables.PART).read_bytes())
+    if data is not None:
+        (tmp_path / c_tables.PART).write_bytes(data)
+    script = f"make toy {GUID} 0\n"
+    (reply,) = run(fmi, toy_library(), script, resources=tmp_path)
+    assert reply.status == 3 and len(reply.messages) == 1
+    assert f"part.bin in the folder {tmp_path} is" in reply.messages[0]
+    assert said in reply.messages[0]
+
+
+def summed(data):
+    return data + struct.pack("<I", zlib.crc32(data))
+
+
+@both
+def test_a_part_of_ones_own_has_its_name_and_its_start_values(fmi, tmp_path):
+    part = tailored(TOY, {"discs": 5, "fidelity": "fine"}, {"load": 7.0}, name="Mine")
+    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(part, GUID))
+    script = MADE + taking(["load", "discs", "fidelity"], part) + "take real 99\n"
+    replies = run(fmi, toy_library(), script, resources=tmp_path)
+    assert sorted(x for r in replies for x in r.values) == [2.0, 5.0, 7.0]
+    assert "is unknown in Mine" in replies[-1].messages[0]

@@ -57,7 +57,7 @@ def test_asking_for_them_changes_nothing_that_follows(fmi):
             putting(load=100.0 * i) + extra + f"step {i * 1e-3!r} 1e-3\n" + extra + outputs
             for i in range(20)
         )
-        replies = run(fmi, toy_library(fmi), script)
+        replies = run(fmi, toy_library(), script)
         assert all(r.status == 0 for r in replies)
         found.append([r.values for r in replies if len(r.values) != 1 or r.values[0] % 1.0 == 0.0])
     assert [v for v in found[0] if len(v) == 3] == [v for v in found[1] if len(v) == 3]
@@ -97,3 +97,37 @@ def test_the_adjoint_ones_of_fmi_3_are_the_same_numbers_transposed():
     assert last(3, BEGUN + POINT + f"adjoint {SPEED} {TORQUE} 1\n").values[0] == pytest.approx(
         by_speed, rel=1e-14
     )
+
+
+RADIUS, DISCS = ref("outer_radius"), ref("discs")
+
+
+@both
+def test_until_the_initialization_ends_parameters_are_knowns_as_the_description_says(fmi):
+    """Every real pair of InitialUnknowns can be asked for; torque is as the mean radius."""
+    torque = 0.5 * 0.15 * 2.0 * 300.0 * (0.05 + 0.001 * 0.7) * math.tanh(0.7)
+    here = MADE + "enter 0\n" + POINT
+    found = last(fmi, here + f"derive {TORQUE} {RADIUS} 1\n").values[0]
+    assert found == pytest.approx(torque / 0.15, rel=1e-8)
+    both_kinds = last(fmi, here + f"derive {TORQUE} {RADIUS} 2 {LOAD} 3\n").values[0]
+    assert both_kinds == pytest.approx(2.0 * torque / 0.15 + 3.0 * slopes()[0], rel=1e-8)
+    asked = f"derive {TORQUE} {RADIUS} 1\n"
+    replies = [run(fmi, toy_library(), here + x + "leave\n" + taking(["friction_torque"]))
+               for x in ("", asked)]  # fmt: skip
+    assert replies[0][-1].values == replies[1][-1].values
+    assert last(fmi, BEGUN + asked).status == 3
+    assert last(fmi, here + f"derive {TORQUE} {DISCS} 1\n").status == 3
+
+
+@both
+def test_where_a_rule_is_near_the_difference_is_one_sided(fmi):
+    near = putting(inner_radius=0.05, outer_radius=0.05 * (1.0 + 1e-7))
+    reply = last(fmi, MADE + "enter 0\n" + POINT + near + f"derive {TORQUE} {RADIUS} 1\n")
+    torque = 0.5 * 0.1 * 2.0 * 300.0 * (0.05 + 0.001 * 0.7) * math.tanh(0.7)
+    assert reply.status == 0 and reply.values[0] == pytest.approx(torque / 0.1, rel=1e-5)
+
+
+def test_adjoint_derivatives_know_parameters_too():
+    here = MADE + "enter 0\n" + POINT
+    forward = last(3, here + f"derive {TORQUE} {RADIUS} 2\n").values
+    assert last(3, here + f"adjoint {RADIUS} {TORQUE} 2\n").values == pytest.approx(forward)

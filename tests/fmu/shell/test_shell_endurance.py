@@ -62,7 +62,7 @@ def test_valgrind_finds_nothing_in_the_shell(fmi):
     script = (
         everything(TOY) + BEGUN + putting(inner_radius=0.2) + "save 0\nfuzz 0\nforget 0\ndrop\n"
     )
-    replies = run(fmi, toy_library(fmi, ("-O1", "-g")), script, wrap=VALGRIND)
+    replies = run(fmi, toy_library(("-O1", "-g")), script, wrap=VALGRIND)
     assert replies[-1].status == 0
 
 
@@ -70,7 +70,7 @@ def test_valgrind_finds_nothing_in_the_shell(fmi):
 @needs_valgrind
 @pytest.mark.parametrize("model", ["clutch", pytest.param("gearmesh", marks=pytest.mark.slow)])
 def test_valgrind_finds_nothing_in_the_models(model):
-    replies = run(2, model_library(model, 2), everything(find_spec(model)), wrap=VALGRIND)
+    replies = run(2, model_library(model), everything(find_spec(model)), wrap=VALGRIND)
     assert [r.status for r in replies][-7:] == [3, 0, 0, 0, 0, 0, 0]
 
 
@@ -84,9 +84,9 @@ def job(spec, library, n):
 
 @needs_linux
 def test_threads_and_other_fmus_in_the_process_change_no_bit():
-    jobs = job(TOY, toy_library(2), 3000)
+    jobs = job(TOY, toy_library(), 3000)
     for model in ("clutch", "gearmesh", "transmission"):
-        jobs += job(find_spec(model), model_library(model, 2), 200)
+        jobs += job(find_spec(model), model_library(model), 200)
     done = subprocess.run([threads()], input=jobs, env={}, capture_output=True, text=True,
                           timeout=300, check=True)  # fmt: skip
     pairs = [line.split() for line in done.stdout.splitlines()]
@@ -106,7 +106,7 @@ def test_two_instances_in_turn_answer_as_two_alone(fmi):
     def step(slot, i):
         return f"use {slot}\nstep {i * 1e-3!r} 1e-3\n" + asked
 
-    library = toy_library(fmi)
+    library = toy_library()
     alone = {slot: [r.values for r in run(fmi, library, begin(slot) + "".join(
         step(slot, i) for i in range(20))) if r.values] for slot in loads}  # fmt: skip
     script = begin(0) + begin(1) + "".join(step(0, i) + step(1, i) for i in range(20))

@@ -75,20 +75,20 @@ def run_of(spec, seed, n):
 )  # fmt: skip
 def test_300_steps_are_the_cores_to_the_bit(model, fmi):
     twin = run_of(find_spec(model), 7, 300)
-    replies = run(fmi, model_library(model, fmi), twin.script)
+    replies = run(fmi, model_library(model), twin.script)
     twin.check(replies)
 
 
 @pytest.mark.slow
 def test_the_washers_steps_are_the_cores_to_the_bit():
     twin = run_of(find_spec("washer"), 7, 30)
-    twin.check(run(2, model_library("washer", 2), twin.script))
+    twin.check(run(2, model_library("washer"), twin.script))
 
 
 @pytest.mark.parametrize("model", CHEAP)
 def test_a_fresh_process_goes_on_to_the_bit(model, tmp_path):
     spec, rng = find_spec(model), random.Random(3)
-    library, file = model_library(model, 2), tmp_path / "state"
+    library, file = model_library(model), tmp_path / "state"
     twin = Twin(spec, GUID)
     for i in range(30):
         twin.put(**jump(spec, rng))
@@ -137,7 +137,7 @@ def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model
         ask()
         twin.step(i * H, H)
         ask()
-    twin.check(run(2, model_library(model, 2), twin.script), words=False)
+    twin.check(run(2, model_library(model), twin.script), words=False)
 
 
 @pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
@@ -154,7 +154,7 @@ def test_a_swinging_shaft_is_the_cores_to_the_bit_and_its_state_is_whole(fmi):
             twin.save(0)
         if i == 40:
             twin.restore(0)
-    twin.check(run(fmi, model_library("transmission", fmi), twin.script))
+    twin.check(run(fmi, model_library("transmission"), twin.script))
 
 
 def test_a_core_that_takes_a_state_over_goes_on_with_the_swing():

@@ -7,6 +7,8 @@ import pytest
 from shell_runs import BEGUN, MADE, SANITIZED, last, needs_gcc, putting, run, taking, toy_library
 from shelltoy.spec import SPEC as TOY
 
+from thrustwasher.fmu.shell import c_tables
+
 pytestmark = needs_gcc
 both = pytest.mark.parametrize("fmi", [2, 3])
 ALL = taking([s.name for s in (*TOY.inputs, *TOY.outputs)])
@@ -28,7 +30,7 @@ def values(replies):
 @both
 def test_going_back_repeats_the_run_to_the_bit(fmi):
     script = BEGUN + steps(0, 5) + "save 0\n" + steps(5, 20) + "restore 0\n" + steps(5, 20)
-    found = values(run(fmi, toy_library(fmi), script))[5 * 4 :]
+    found = values(run(fmi, toy_library(), script))[5 * 4 :]
     assert len(found) == 2 * 20 * 4
     assert found[: len(found) // 2] == found[len(found) // 2 :]
 
@@ -36,7 +38,7 @@ def test_going_back_repeats_the_run_to_the_bit(fmi):
 @both
 def test_a_fresh_process_goes_on_from_the_bytes_to_the_bit(fmi, tmp_path):
     file = tmp_path / "state"
-    library = toy_library(fmi)
+    library = toy_library()
     before = BEGUN + steps(0, 5) + putting(load=77.0) + f"save 0\nwrite 0 {file}\nforget 0\n"
     whole = values(run(fmi, library, before + ALL + steps(5, 20)))[5 * 4 :]
     fresh = run(fmi, library, MADE + f"read 0 {file}\nrestore 0\nforget 0\n" + ALL + steps(5, 20))
@@ -57,13 +59,13 @@ def test_a_refusal_stays_in_the_state_and_the_mode_too(fmi):
 @both
 def test_no_changed_byte_and_no_missing_one_is_taken_for_a_state(fmi):
     script = BEGUN + "step 0 1e-3\nsave 0\nfuzz 0\n"
-    refused, taken = run(fmi, toy_library(fmi, SANITIZED), script, flags=SANITIZED)[-1].values
+    refused, taken = run(fmi, toy_library(SANITIZED), script, flags=SANITIZED)[-1].values
     assert taken == 0 and refused > 1000
 
 
 @both
 def test_numbers_that_no_run_leaves_behind_do_no_harm_with_a_right_checksum(fmi, tmp_path):
-    library = toy_library(fmi, SANITIZED)
+    library = toy_library(SANITIZED)
     run(fmi, library, BEGUN + f"step 0 1e-3\nsave 0\nwrite 0 {tmp_path}/good\nforget 0\n",
         flags=SANITIZED)  # fmt: skip
     good = (tmp_path / "good").read_bytes()
@@ -88,7 +90,8 @@ def test_numbers_that_no_run_leaves_behind_do_no_harm_with_a_right_checksum(fmi,
 def test_states_of_other_builds_and_pointers_that_are_none_are_refused(fmi, tmp_path):
     other = "f" * 32
     script = f"make toy {other} 0\nenter 0\nleave\nsave 0\nwrite 0 {tmp_path}/other\n"
-    run(fmi, toy_library(fmi, guid=other), script)
+    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(TOY, other))
+    run(fmi, toy_library(), script, resources=tmp_path)
     reply = last(fmi, BEGUN + f"read 0 {tmp_path}/other\n")
     assert reply.status == 3 and "bytes of another model or version" in reply.messages[-1]
     reply = last(fmi, BEGUN + "restore 0\n")
@@ -101,3 +104,25 @@ def test_a_state_that_is_got_again_is_written_over_and_a_freed_one_is_gone(fmi):
     script = BEGUN + "save 0\n" + putting(load=7.0) + "step 0 1e-3\nsave 0\nreset\nrestore 0\n"
     assert last(fmi, script + taking(["load"])).values == [7.0]
     assert last(fmi, script + "forget 0\nforget 0\nrestore 0\n").status == 3
+
+
+@both
+@pytest.mark.parametrize(
+    "wrong",
+    ["forget-pointer 0", "restore-address 0", "alias 1 0\nforget 0\nforget 1",
+     "alias 1 0\nforget 0\nrestore 1", "alias 1 0\nforget 0\nsave 1"],
+)  # fmt: skip
+def test_a_pointer_that_is_no_living_state_is_refused_unread(fmi, wrong):
+    """A host hands over the state in place of its address, its address in its place, or one that
+    was freed: with the sanitizer a pointer that is followed would end the process."""
+    script = BEGUN + "step 0 1e-3\nsave 0\n" + wrong + "\n"
+    reply = run(fmi, toy_library(SANITIZED), script + "forget 0\n", flags=SANITIZED)[-2]
+    assert reply.status == 3
+    assert "a pointer that this FMU has not given or has freed" in reply.messages[-1]
+
+
+@both
+def test_a_state_of_one_instance_goes_into_another_also_after_many(fmi):
+    many = "".join(f"save {i % 8}\n" for i in range(40))
+    script = BEGUN + putting(load=7.0) + many + "use 1\n" + BEGUN + "restore 3\n"
+    assert last(fmi, script + taking(["load"])).values == [7.0]

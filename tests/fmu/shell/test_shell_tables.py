@@ -12,6 +12,7 @@ from thrustwasher.fmu.description.interface import variables
 from thrustwasher.fmu.package.model_sources import source_folder
 from thrustwasher.fmu.shell import c_tables, call_table
 from thrustwasher.model.registry import all_specs
+from thrustwasher.model.spec import tailored
 
 HEADERS = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
 EXCHANGE_ONLY = {  # functions of FMI 2.0 that co-simulation has not
@@ -30,10 +31,11 @@ def test_the_table_of_calls_has_every_function_of_the_standard(fmi, number):
     assert set(call_table.functions(fmi)) == standard and len(standard) == number
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-def test_the_same_model_gives_the_same_tables_and_another_guid_others(fmi):
-    made = [c_tables.sources(TOY, fmi=fmi, guid=guid) for guid in (GUID, GUID, "other")]
-    assert made[0] == made[1] != made[2]
+def test_a_part_has_the_tables_of_its_model_and_a_file_of_its_own():
+    part = tailored(TOY, {"discs": 5, "fidelity": "fine"}, {"load": 7.0}, name="Mine")
+    assert c_tables.sources(part) == c_tables.sources(TOY)
+    assert c_tables.part_file(part, GUID) != c_tables.part_file(TOY, GUID)
+    assert c_tables.part_file(TOY, GUID) != c_tables.part_file(TOY, "other")
 
 
 def test_every_name_in_a_rule_is_a_parameter_and_every_file_is_there():
@@ -42,8 +44,7 @@ def test_every_name_in_a_rule_is_a_parameter_and_every_file_is_there():
         for rule in spec.rules:
             assert set(re.findall(r"\{(\w+)\}", rule.text)) <= known, rule.text
     shell = source_folder() / "shell"
-    for fmi in (2, 3):
-        assert all((shell / name).is_file() for name in c_tables.shell_files(fmi))
+    assert all((shell / name).is_file() for name in c_tables.SHELL_FILES)
 
 
 def test_sentences_become_c_whatever_they_hold():
@@ -57,6 +58,6 @@ def test_sentences_become_c_whatever_they_hold():
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_numbers_reach_c_to_the_bit(fmi):
     found = [v for v in variables(TOY) if v.causality in ("input", "parameter")]
-    replies = run(fmi, toy_library(fmi), MADE + taking([v.name for v in found]))
+    replies = run(fmi, toy_library(), MADE + taking([v.name for v in found]))
     got = sorted(x for r in replies for x in r.values)
     assert got == sorted(v.start for v in found)

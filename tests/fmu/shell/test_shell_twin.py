@@ -11,7 +11,7 @@ from twin import Twin
 pytestmark = needs_gcc
 both = pytest.mark.parametrize("fmi", [2, 3])
 H = 1e-3
-GOOD = {"load": 500.0, "speed": 20.0, "oil_temperature": 310.0}
+GOOD = {"load": 500.0, "speed": 20.0, "oil_temperature": 310.0, "heat_capacity": 100.0}
 VALUES = {
     "load": [0.0, 1.0, 800.0, 4000.0, 9000.0, 9500.0, -1.0, math.nan, math.inf, -0.0],
     "speed": [0.0, 20.0, -300.0, 777.0, 1000.0, 1001.0, -math.inf],
@@ -66,6 +66,6 @@ def test_the_core_and_the_shell_answer_alike_to_whatever_is_asked(fmi, seed):
         twin.put(**GOOD, discs=2, law=1, dry=0, inner_radius=0.05, outer_radius=0.1)
         twin.leave()
     wander(twin, rng, 800)
-    replies = run(fmi, toy_library(fmi), twin.script)
+    replies = run(fmi, toy_library(), twin.script)
     twin.check(replies)
     assert sum(r.status == 0 for r in replies) > 100 and sum(r.status == 3 for r in replies) > 50

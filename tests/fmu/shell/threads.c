@@ -1,7 +1,8 @@
 /* Several FMUs of FMI 2.0, two instances of each: one after the other, then all at once in threads.
    Standard input: one line for each FMU, "LIBRARY GUID STEPS INPUTS [REFERENCE LOW HIGH]... OUTPUTS
-   [REFERENCE]...". Prints for each instance a hash of all its answers, alone and beside others. */
+   [REFERENCE]..."; the folder of the library is that of the resources. Prints for each instance a hash of all its answers, alone and beside others. */
 #include <dlfcn.h>
+#include <libgen.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -14,7 +15,7 @@
 
 typedef struct {
     void *library;
-    char guid[64];
+    char guid[64], resources[1024];
     int n_steps, n_inputs, n_outputs;
     fmi2ValueReference inputs[MOST], outputs[MOST];
     double low[MOST], high[MOST];
@@ -49,7 +50,7 @@ static void *simulate(void *argument)
     fmi2CallbackFunctions callbacks = {NULL, NULL, NULL, NULL, NULL};
     double in[MOST], out[MOST] = {0};
     run->hash = 14695981039346656037u;
-    void *m = Instantiate("thread", fmi2CoSimulation, job->guid, NULL, &callbacks, 0, 0);
+    void *m = Instantiate("thread", fmi2CoSimulation, job->guid, job->resources, &callbacks, 0, 0);
     if (!m)
         return NULL;
     EnterInitializationMode(m);
@@ -81,6 +82,7 @@ static int read_job(Job *job)
             return 0;
     }
     job->library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    snprintf(job->resources, sizeof job->resources, "%s", dirname(path));
     return job->library != NULL;
 }
 

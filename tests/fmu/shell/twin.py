@@ -60,9 +60,7 @@ class Twin:
 
     def leave(self):
         def start_point():
-            self.core.prepare()
-            self.core.refresh()
-            self.core.note_switches()
+            self.core.leave_initialization()
             self.core.mode = Mode.STEPPING
 
         self._ask("leave", start_point)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from thrustwasher.model.part_file import preset_part
 from thrustwasher.model.prepare import filled
 from thrustwasher.numerics.status import OK, SINGULAR
 from thrustwasher.washer.kernels import layout as L
@@ -10,7 +11,7 @@ from thrustwasher.washer.kernels import step as k
 from thrustwasher.washer.kernels.newton import LOAD, NO_FLOOR, newton
 from thrustwasher.washer.kernels.outputs import outputs_at
 from thrustwasher.washer.kernels.workspace import Point, fields_of, forget_factor, workspace_of
-from thrustwasher.washer.parameters import PRESETS, SPEC, WasherParams
+from thrustwasher.washer.parameters import SPEC, WasherParams
 
 STEPS = (1e-3, 1e-3, 2e-3)  # of load, speed, tilt, relative
 
@@ -100,7 +101,7 @@ def test_derivatives_agree_with_differences_of_converged_solutions(place, factor
         {"conduction": "rotating"},
         {"cavity_shear": "liquid"},
         {"oil_supply_temperature": 330.0},
-        PRESETS["paper"],
+        preset_part(SPEC, "paper").parameters,
     ],
     ids=str,
 )

@@ -4,20 +4,21 @@ import numpy as np
 import pytest
 from closed_forms.heated_ring import annulus_rise, stack_rise
 
+from thrustwasher.model.part_file import preset_part
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.gap import dry_friction, evaluate_gaps, evaluate_viscosity
 from thrustwasher.washer.kernels.heat import heat_change, heat_residual, let_film_follow
 from thrustwasher.washer.kernels.heat_factor import factor_heat, solve_heat
 from thrustwasher.washer.kernels.newton import evaluate
 from thrustwasher.washer.kernels.workspace import Point
-from thrustwasher.washer.parameters import CONDUCTION, PRESETS
+from thrustwasher.washer.parameters import CONDUCTION, SPEC
 
 from washer_setup import (  # isort: skip
     BASE, Bench, bench, bodies, full_gear, order, settle, tilted,
 )  # fmt: skip
 
 CONDUCTIVITY, OIL = 60.5, 0.145
-PAPER = PRESETS["paper"]
+PAPER = preset_part(SPEC, "paper").parameters
 DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
 LAWS = {
     "default": {},

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from thrustwasher.model.part_file import preset_part
 from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.continuation import cold_start
@@ -21,7 +22,7 @@ from thrustwasher.washer.kernels.newton import (
     smooth_film,
 )
 from thrustwasher.washer.kernels.workspace import Point, forget_factor, square, vector
-from thrustwasher.washer.parameters import PRESETS
+from thrustwasher.washer.parameters import SPEC
 
 from washer_setup import BASE, bench, full_gear, settle, tilted  # isort: skip
 
@@ -29,7 +30,7 @@ GRID = (6, 16)  # what is tested holds on any mesh; these kernels run as plain P
 DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
 STATES = {
     "film": ({"ratio": 9.0}, {}),
-    "film, the paper's": ({"ratio": 9.0}, PRESETS["paper"]),
+    "film, the paper's": ({"ratio": 9.0}, preset_part(SPEC, "paper").parameters),
     "mixed, carrier turns": (
         {"ratio": 2.3, "gy": 0.0019, "second": 2.6},
         {"conduction": "rotating"},
@@ -114,7 +115,9 @@ def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(
         np.testing.assert_allclose(column, differences, rtol=0, atol=close * np.abs(column).max())
 
 
-@pytest.mark.parametrize(("changes", "close"), [(PRESETS["paper"], 1e-4), ({}, 2e-3)])
+@pytest.mark.parametrize(
+    ("changes", "close"), [(preset_part(SPEC, "paper").parameters, 1e-4), ({}, 2e-3)]
+)
 def test_load_slope_is_the_slope_of_the_curve(changes, close):
     """dload/ds told at a converged film thickness against two neighbouring ones.
 
@@ -150,7 +153,7 @@ def residuals_from_near_by(**changes):
 
 
 def test_convergence_is_quadratic_with_a_fresh_factor():
-    residuals = residuals_from_near_by(**PRESETS["paper"])
+    residuals = residuals_from_near_by(**preset_part(SPEC, "paper").parameters)
     logs = np.log(residuals[:4])
     assert residuals[3] < 1e-9
     assert (logs[2] - logs[1]) / (logs[1] - logs[0]) > 1.5

@@ -1,11 +1,10 @@
-"""The friction law fitted to measurements, and what they tell of it.
+"""The friction law fitted to measurements: what it has beside every calibration.
 
-======================  ==================================================================
-``calibration``         what is asked, checked; the fit and what the points tell of it
-``calibration_result``  what comes out: numbers, sentences, plain data
-``friction_law``        the law as a function of its own constants, with exact derivatives
-``least_squares``       several starts, bounds, profiles of one constant
-``identifiability``     what the points tell about each constant, and whether load acts
-``data_warnings``       points that the law cannot follow, in plain sentences
-======================  ==================================================================
+===================  ==================================================================
+``calibration``      what is asked, checked; the fit and the coefficients at both ends
+``law_calibration``  what comes out beside what every calibration gives; whether load acts
+``friction_law``     the law as a function of its own constants, with exact derivatives
+``law_problem``      the law as a problem of least squares, with a coarse search for starts
+``data_warnings``    points that the law cannot follow, in plain sentences
+===================  ==================================================================
 """

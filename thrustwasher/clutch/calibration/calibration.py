@@ -7,17 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ParameterError, suggestion
+from ...calibration.estimates import Estimate
+from ...calibration.fit import chosen_names, fitted
+from ...calibration.identifiability import Information
+from ...errors import ParameterError
 from ...model.prepare import course_of
 from ...numerics.jit import Array
 from ..parameters import LOAD, OIL, SPEED, ClutchParams
 from . import friction_law as law
-from .calibration_result import Calibration, Estimate
 from .data_warnings import warnings
-from .identifiability import Information, Verdict, combination, information, load_test, verdicts
-from .least_squares import Problem, best_fit, bounds_of, profile_end, settled
-
-__all__ = ["Calibration", "Estimate", "calibrate"]
+from .law_calibration import LawCalibration, load_test
+from .law_problem import LawProblem, bounds_of
 
 LARGEST_FRICTION = 2.0
 SPEEDS = ("stick_speed", "decay_speed")
@@ -32,10 +32,10 @@ def calibrate(
     friction: ArrayLike,
     friction_error: ArrayLike | None = None,
     oil_temperature: ArrayLike | None = None,
-    fit: Sequence[str] = DEFAULT_FIT,
+    fit: Sequence[str] | None = None,
     confidence: float = 0.95,
     profile: bool = True,
-) -> Calibration:
+) -> LawCalibration:
     """Fit constants of the friction law to measured coefficients of friction.
 
     The law's curve over slip speed is mu_inf + (mu_0 - mu_inf) e(v; stick_speed, decay_speed), with
@@ -45,125 +45,51 @@ def calibrate(
 
     Parameters
     ----------
-    params : the pack: its friction radius, the constants that are not fitted, the first guess; its
+    params : the pack: its friction radius, what is not fitted, the first guess; its
         ``friction_data`` says what the law describes. "total": the points as they are. "boundary":
         the points less the shear of the settled film. A table gives way to the law
     speed : (points,) slip [rad/s]; the sign does not matter
     load : (points,) or one value [N], above 0; used to test that friction does not depend on it
     friction : (points,) measured coefficient of friction [-]
-    friction_error : (points,) or one value, standard deviation of ``friction``; without it the
-        scatter of the residuals is taken
+    friction_error : (points,) or one value, standard deviation of ``friction``
     oil_temperature : (points,) or one value [K]; wanted for friction_data "boundary" alone
-    fit : names of constants: plough_weight, shear_floor, stick_speed, decay_speed, hardness_ratio,
-        indentation; constant_friction alone under friction_law "constant"
-    confidence : probability of the intervals, above 0 and below 1
-    profile : also compute profile intervals (a tenth of a second or so)
+    fit : names of constants: plough_weight, shear_floor, stick_speed, decay_speed (the default),
+        hardness_ratio, indentation; constant_friction alone under friction_law "constant"
+    confidence, profile : as in thrustwasher.calibrate, which calls this; errors too
 
     Returns
     -------
-    Calibration : fitted ``params`` and, for every constant, value, interval and verdict; points
-        that the law cannot follow are no error but ``warnings``
-
-    Raises
-    ------
-    ParameterError : wrong shapes, numbers out of range, unknown names
-    SolveError : no starting point led to a fit
+    LawCalibration : points that the law cannot follow are no error but ``warnings``
 
     Notes
     -----
     Source of the law: Wang, Wei & Wu (2012), Eq 12; the speed law is this package's (see
-    docs/theory/calibration.md, also for the method). Intervals are from the linearised covariance:
-    Student's distribution on the scatter of the residuals, or the normal one on ``friction_error``.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from thrustwasher import solve_clutch
-    >>> slip = np.linspace(5.0, 150.0, 30)
-    >>> truth = ClutchParams(friction_law="wang", plough_weight=0.2, decay_speed=2.0)
-    >>> mu = [solve_clutch(truth, load=5e3, speed=w).friction_coefficient for w in slip]
-    >>> found = calibrate(ClutchParams(), speed=slip, load=5e3, friction=mu)
-    >>> round(found.params.plough_weight, 6), round(found.params.decay_speed, 6)
-    (0.2, 2.0)
+    docs/theory/calibration.md, also for the method).
     """
     if params.friction_law == "table":
         params = replace(params, friction_law="wang")
-    names = checked_names(params, fit)
+    if fit is None:
+        fit = law.CONSTANT_LAW if params.friction_law == "constant" else DEFAULT_FIT
+    acting = law.constants_of(params)
+    words = f"under friction_law {params.friction_law!r}, which does not depend on load: "
+    names = chosen_names(fit, acting, words + ", ".join(acting))
     problem = checked_problem(params, names, speed, load, friction, friction_error)
     if params.friction_data == "boundary":
         problem = _of_asperities(params, problem, speed, oil_temperature)
-    if not isinstance(confidence, int | float) or not 0.0 < confidence < 1.0:
-        raise ParameterError(f"confidence = {confidence!r}, allowed: above 0 and below 1")
     first = np.array([problem.base[name] for name in names])
-    best, told, judged = _settled(problem, first, confidence)
-    values = problem.values(best)
-    changes: dict[str, Any] = {name: values[name] for name in names}
-    residuals = problem.friction - problem.curve(best)
-    chi = problem.cost(best) / told.freedom if told.freedom > 0 else None
-    return Calibration(
+    found, judged = fitted(problem, first, confidence, profile)
+    best, told = found["_best"], found["_told"]
+    changes: dict[str, Any] = {e.name: e.value for e in found["estimates"]}
+    return LawCalibration(
         params=replace(params, **changes),
-        estimates=tuple(
-            _estimate(problem, best, told, i, verdict, profile)
-            for i, verdict in enumerate(judged)
-        ),
         end_frictions=() if names == law.CONSTANT_LAW else _end_estimates(problem, best, told),
-        correlation=_correlation(problem, told),
-        confounded=tuple(combination(problem, direction) for direction in told.blurred()),
-        residuals=residuals,
-        rms=float(np.sqrt(np.mean(residuals**2))),
-        degrees_of_freedom=told.freedom,
-        reduced_chi_square=chi if problem.known_errors else None,
         load_test=load_test(problem, best, told),
         warnings=warnings(problem, best, first, judged),
-        confidence=float(confidence),
-        _problem=problem, _best=best, _told=told,
-    )  # fmt: skip
+        **found,
+    )
 
 
-def _settled(
-    problem: Problem, first: Array, confidence: float
-) -> tuple[Array, Information, list[Verdict]]:
-    """Return the fit, what it tells, and the verdicts; constants not told stay near their first."""
-    best = best_fit(problem, first)
-    told = information(problem, best, confidence)
-    deviation = told.deviation
-    weak = np.zeros(len(best))
-    for _ in problem.names:
-        judged = verdicts(problem, best, told)
-        now = np.maximum(weak, [0.0 if verdict.identifiable else 1.0 for verdict in judged])
-        if np.array_equal(now, weak):
-            break
-        weak = now
-        best = settled(problem, best, first, weak, deviation)
-        told = information(problem, best, confidence)
-    return best, told, verdicts(problem, best, told, weak)
-
-
-def _estimate(
-    problem: Problem, best: Array, told: Information, i: int, verdict: Verdict, profile: bool
-) -> Estimate:
-    """Return value, error and intervals of one constant."""
-    name, value = problem.names[i], float(best[i])
-    low, high = float(problem.low[i]), float(problem.high[i])
-    unit = next(f.metadata["unit"] for f in fields(ClutchParams) if f.name == name)
-    error = verdict.half_width / told.quantile if np.isfinite(told.quantile) else np.inf
-    interval, ends = (low, high), None
-    if verdict.identifiable:
-        interval = (max(low, value - verdict.half_width), min(high, value + verdict.half_width))
-        if profile and told.deviation > 0.0 and verdict.half_width > 1e-9 * problem.scale[i]:
-            rise = (told.quantile * told.deviation) ** 2
-            lower, upper = (
-                profile_end(problem, best, i, value + side * verdict.half_width, rise)
-                for side in (-1.0, 1.0)
-            )
-            ends = (lower, upper)
-    return Estimate(
-        name, unit, value, float(error), interval, ends, verdict.identifiable,
-        verdict.at_bound, verdict.reason,
-    )  # fmt: skip
-
-
-def _end_estimates(problem: Problem, best: Array, told: Information) -> tuple[Estimate, ...]:
+def _end_estimates(problem: LawProblem, best: Array, told: Information) -> tuple[Estimate, ...]:
     """Return the coefficients at rest and at very high slip."""
     values = problem.values(best)
     rows = law.friction_slopes(
@@ -182,20 +108,9 @@ def _end_estimates(problem: Problem, best: Array, told: Information) -> tuple[Es
     return tuple(found)
 
 
-def _correlation(problem: Problem, told: Information) -> Array:
-    """Return the correlation of the constants that are told, NaN for the others."""
-    count = len(problem.names)
-    known = [np.isfinite(told.error_of(row)) for row in np.eye(count)]
-    covariance = told.covariance()
-    width = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
-    matrix = covariance / np.outer(width, width)
-    matrix[~np.outer(known, known)] = np.nan
-    return np.asarray(matrix)
-
-
 def _of_asperities(
-    params: ClutchParams, problem: Problem, speed: ArrayLike, oil_temperature: ArrayLike | None
-) -> Problem:
+    params: ClutchParams, problem: LawProblem, speed: ArrayLike, oil_temperature: ArrayLike | None
+) -> LawProblem:
     """Return the problem without the shear of the settled film."""
     if oil_temperature is None:
         raise ParameterError(
@@ -203,35 +118,15 @@ def _of_asperities(
             "is taken off the measured friction"
         )
     oil = course_of("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0,
-                    len(problem.friction))  # fmt: skip
+                    len(problem.measured))  # fmt: skip
     shear = law.settled_shear(params, np.asarray(speed, float), problem.load, oil)
-    return replace(problem, friction=law.without_shear(problem.friction, shear))
-
-
-def checked_names(params: ClutchParams, fit: Sequence[str]) -> tuple[str, ...]:
-    """Return the names to fit, or say which one cannot be."""
-    names = (fit,) if isinstance(fit, str) else tuple(fit)
-    acting = law.constants_of(params)
-    allowed = f"allowed under friction_law {params.friction_law!r}: {', '.join(acting)}"
-    if not names:
-        raise ParameterError(f"fit names nothing, {allowed}")
-    for name in names:
-        if name == "load":
-            raise ParameterError(
-                f"fit = 'load': the friction law does not depend on load; {allowed}"
-            )
-        if name not in acting:
-            hint = suggestion(str(name), acting, "did you mean {}? ")
-            raise ParameterError(f"fit = {name!r}, {hint}{allowed}")
-        if names.count(name) > 1:
-            raise ParameterError(f"fit names {name} twice")
-    return names
+    return replace(problem, measured=law.without_shear(problem.measured, shear))
 
 
 def checked_problem(
     params: ClutchParams, names: tuple[str, ...], speed: ArrayLike, load: ArrayLike,
     friction: ArrayLike, friction_error: ArrayLike | None,
-) -> Problem:  # fmt: skip
+) -> LawProblem:  # fmt: skip
     """Return what is to be solved, or name the first value that cannot be used."""
     mu = course_of("friction", friction, "1", -LARGEST_FRICTION, LARGEST_FRICTION)
     count = len(mu)
@@ -250,9 +145,12 @@ def checked_problem(
     scale = np.where(np.isin(names, SPEEDS), float(slip_speed.max()) or 1.0, 1.0)
     if names == law.CONSTANT_LAW:
         scale[0] = float(mu.mean())
-    return Problem(
-        law.law_values(params), names, slip_speed, mu, force, weight, *bounds_of(names), scale,
-        names == law.CONSTANT_LAW, friction_error is not None,
+    low, high = bounds_of(names)
+    units = {f.name: f.metadata["unit"] for f in fields(ClutchParams)}
+    return LawProblem(
+        base=law.law_values(params), names=names, speed=slip_speed, measured=mu, load=force,
+        weight=weight, low=low, high=high, scale=scale, units=units,
+        is_constant=names == law.CONSTANT_LAW, known_errors=friction_error is not None,
     )  # fmt: skip
 
 

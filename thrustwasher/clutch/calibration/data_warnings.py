@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from ...calibration.identifiability import Verdict, listed
 from ...numerics.jit import Array
 from .friction_law import end_frictions, friction_over
-from .identifiability import Verdict, listed
-from .least_squares import Problem, bounds_of
+from .law_problem import LawProblem, bounds_of
 
 POOR = 0.2  # of the mean friction: an rms residual above it is always worth a warning
 RISE = 0.05  # of the mean friction: a smaller rise with speed is not worth one
@@ -28,7 +28,9 @@ TABLE = (
 )
 
 
-def warnings(problem: Problem, best: Array, first: Array, judged: list[Verdict]) -> tuple[str, ...]:
+def warnings(
+    problem: LawProblem, best: Array, first: Array, judged: list[Verdict]
+) -> tuple[str, ...]:
     """Return what is wrong with the fit as a whole, the gravest first; each "headline: details".
 
     ``first`` are the values before the fit, ``judged`` is the verdict on every constant.
@@ -37,24 +39,24 @@ def warnings(problem: Problem, best: Array, first: Array, judged: list[Verdict])
     found = [_rising(problem)]
     if not problem.is_constant:
         found = [out_of_reach(problem, scatter, side) for side in (1, -1)] + found
-    rms = float(np.sqrt(np.mean((problem.curve(best) - problem.friction) ** 2)))
+    rms = float(np.sqrt(np.mean((problem.curve(best) - problem.measured) ** 2)))
     if not any(found):
         found.append(_missed(problem, rms, judged, scatter))
         if not problem.is_constant:
             found.append(hidden_fall(problem, best, first))
-    found.append(_poor(rms / float(problem.friction.mean()), alone=not any(found)))
+    found.append(_poor(rms / float(problem.measured.mean()), alone=not any(found)))
     return tuple(text for text in found if text)
 
 
-def _scatter(problem: Problem) -> Array:
+def _scatter(problem: LawProblem) -> Array:
     """Return the standard deviation of a point beside its neighbours in speed, (points,)."""
-    sorted_friction = problem.friction[np.argsort(problem.speed, kind="stable")]
+    sorted_friction = problem.measured[np.argsort(problem.speed, kind="stable")]
     bends = np.diff(sorted_friction, 2)
     size = float(np.sqrt(np.mean(bends**2) / 6.0)) if len(bends) else 0.0
     return np.full(len(sorted_friction), size)
 
 
-def _rising(problem: Problem) -> str:
+def _rising(problem: LawProblem) -> str:
     """Return a sentence if friction rises with speed in some range, clearly.
 
     The best curve that only falls is flat where the points rise; the flat piece that misses them
@@ -63,13 +65,13 @@ def _rising(problem: Problem) -> str:
     from scipy.optimize import isotonic_regression
     from scipy.stats import linregress
 
-    order = np.lexsort((-problem.friction, problem.speed))  # one speed's points are no rise
-    speed, friction = problem.speed[order], problem.friction[order]
+    order = np.lexsort((-problem.measured, problem.speed))  # one speed's points are no rise
+    speed, friction = problem.speed[order], problem.measured[order]
     falling = isotonic_regression(friction, weights=problem.weight[order] ** 2, increasing=False)
     cost = (problem.weight[order] * (friction - falling.x)) ** 2
     worst = int(np.argmax(np.add.reduceat(cost, falling.blocks[:-1])))
     piece = slice(*falling.blocks[worst : worst + 2])
-    speed, friction, mean = speed[piece], friction[piece], problem.friction.mean()
+    speed, friction, mean = speed[piece], friction[piece], problem.measured.mean()
     if len(speed) < FEWEST or np.ptp(speed) <= 0.0:
         return ""
     trend = linregress(speed, friction)
@@ -83,9 +85,9 @@ def _rising(problem: Problem) -> str:
     )
 
 
-def _missed(problem: Problem, rms: float, judged: list[Verdict], scatter: Array) -> str:
+def _missed(problem: LawProblem, rms: float, judged: list[Verdict], scatter: Array) -> str:
     """Return a sentence if the law misses the points by more than they scatter."""
-    mean, usual = float(problem.friction.mean()), float(np.sqrt(np.mean(scatter**2)))
+    mean, usual = float(problem.measured.mean()), float(np.sqrt(np.mean(scatter**2)))
     if rms <= max(SCATTERS * usual, MATERIAL * mean):
         return ""
     stops = [
@@ -114,12 +116,12 @@ def _poor(share: float, alone: bool) -> str:
     )
 
 
-def out_of_reach(problem: Problem, scatter: Array, side: int) -> str:
+def out_of_reach(problem: LawProblem, scatter: Array, side: int) -> str:
     """Return a sentence if points lie above (side 1) or below (-1) all the law can give, or "".
 
     ``scatter`` is the standard deviation of ``friction``, (points,).
     """
-    measured = problem.friction
+    measured = problem.measured
     edge = friction_over(_corner(problem, side), problem.speed)
     slack = np.maximum(SCATTERS * scatter, MATERIAL * measured.mean())
     beyond = side * (measured - edge) > slack
@@ -141,14 +143,14 @@ def out_of_reach(problem: Problem, scatter: Array, side: int) -> str:
     )
 
 
-def hidden_fall(problem: Problem, best: Array, first: Array) -> str:
+def hidden_fall(problem: LawProblem, best: Array, first: Array) -> str:
     """Return a sentence if the fit hides a fall it is forced to have below the slowest point.
 
     Points that all lie below the least possible friction at rest, and would be in the law's fall
     by the values before the fit, can be met by a fall that is over before the first of them.
     """
     lowest = end_frictions(_corner(problem, -1))[0]
-    highest = float(problem.friction.max())
+    highest = float(problem.measured.max())
     slowest = np.array([problem.speed.min()])
     left = [_fall_left(problem.values(guess), slowest) for guess in (first, best)]
     if highest >= lowest * (1.0 - MATERIAL) or left[0] < SEEN or left[1] > HIDDEN:
@@ -167,7 +169,7 @@ def hidden_fall(problem: Problem, best: Array, first: Array) -> str:
 
 
 def _corner(
-    problem: Problem, side: int, changes: Mapping[str, float] | None = None
+    problem: LawProblem, side: int, changes: Mapping[str, float] | None = None
 ) -> dict[str, float]:
     """Return the law's numbers for its most (1) or least (-1) friction within the ranges."""
     values = dict(problem.base)
@@ -182,7 +184,7 @@ def _fall_left(values: Mapping[str, float], speed: Array) -> float:
     return float(friction_over(unit, speed)[0] / end_frictions(unit)[0])
 
 
-def _stopped(problem: Problem, side: int, points: Array | None) -> str:
+def _stopped(problem: LawProblem, side: int, points: Array | None) -> str:
     """Name the bounds without which the law would give more, or less (at rest if no points)."""
     at = np.zeros(1) if points is None else problem.speed[points]
     edge = friction_over(_corner(problem, side), at)
@@ -196,7 +198,7 @@ def _stopped(problem: Problem, side: int, points: Array | None) -> str:
     return " and ".join(stopping) or "none of the fitted constants acts on that"
 
 
-def _cures(problem: Problem, side: int, reached: Callable[[Mapping[str, float]], bool]) -> str:
+def _cures(problem: LawProblem, side: int, reached: Callable[[Mapping[str, float]], bool]) -> str:
     """Say which constants that are not fitted would help, and from which value on alone."""
     words = []
     corner = _corner(problem, side)

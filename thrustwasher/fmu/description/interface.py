@@ -131,7 +131,8 @@ def _parameter(slot: int, f: "Field[Any]") -> dict[str, Any]:
     start = list(m["options"]).index(f.default) + 1 if "options" in m else f.default
     return {
         "name": f.name, "type": m["kind"].capitalize(), "causality": "parameter",
-        "variability": "fixed", "initial": "exact", "unit": m["unit"], "help": m["help"],
+        "variability": "tunable" if m.get("tunable") else "fixed", "initial": "exact",
+        "unit": m["unit"], "help": m["help"],
         "store": "par", "slot": slot, "type_name": m.get("type"), "low": m["min"],
         "high": m["max"], "nominal": m.get("nominal") or abs(float(start)) or None,
         "start": float(start), "relative": m.get("relative", False),

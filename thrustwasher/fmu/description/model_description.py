@@ -25,5 +25,5 @@ def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = Fal
 
 
 def terminals_and_icons(spec: ModelSpec, *, icon: bool = True) -> bytes:
-    """Return torque and speed as one plug; FMI 2 FMUs carry the file too, in the 3.0 format."""
+    """Return torque and speed as one plug; a file of FMI 3.0."""
     return parts.filled(HERE / "terminalsAndIcons.xml.jinja", terminals=spec.terminals, icon=icon)

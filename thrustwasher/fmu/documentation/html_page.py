@@ -7,7 +7,7 @@ from pathlib import Path
 from ...errors import Status
 from ...ladder.card import load_cards
 from ...ladder.card_parts import QUANTITIES
-from ...model.registry import MODELS, find_model
+from ...model.registry import MODELS, find_model, find_spec
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
 from ..description.xml_parts import filled
@@ -39,6 +39,7 @@ def page(
         spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
         version=package_version(), reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
+        usual=variables(find_spec(spec.key)) if spec.kind else (), found=found,
         inputs=_settable(found, "input"), parameters=_settable(found, "parameter"),
         outputs=[(v.name, _unit(v), v.help) for v in found if v.causality == "output"],
         enumerations=[(name, str(i.value), i.name, i.help)
@@ -57,7 +58,7 @@ def _settable(found: tuple[Variable, ...], causality: str) -> Rows:
     shown = [v for v in found if v.causality == causality]
     return [
         (v.name, _unit(v), "" if v.low is None or v.high is None else f"{v.low:g} .. {v.high:g}",
-         f"{v.start:g}", v.help) for v in shown
+         f"{v.start:g}", v.help + "; tunable" * (v.variability == "tunable")) for v in shown
     ]  # fmt: skip
 
 

@@ -3,13 +3,13 @@
 import re
 from collections.abc import Sequence
 from importlib import metadata
-from importlib.util import find_spec
 from pathlib import Path
 
 from ...errors import EnvironmentProblem
 from .model_sources import PACKAGE
 
 PLACE = "documentation/licenses"
+NOTICES = PACKAGE / "data" / "notices"  # of what linked the libraries
 SUMMARY = """Parts of this FMU and their licences; the full texts are beside this file.
 
 {parts}
@@ -23,8 +23,8 @@ NATIVE = {
     "code from LLVM and compiler-rt": (
         "llvm.txt", "Apache-2.0 WITH LLVM-exception", "in every library"),
     "FMI headers": ("fmi-headers.txt", "BSD-2-Clause", "declarations only"),
+    "start-up code of zig": ("zig.txt", "MIT", "in every library"),
 }  # fmt: skip
-ZIG = {"start-up code of zig": ("zig.txt", "MIT", "in every library")}
 MINGW = {"start-up code of mingw-w64": ("mingw-w64.txt", "ZPL-2.1 and others", "in win64")}
 PYTHON = {
     "slave": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
@@ -46,7 +46,7 @@ def listed_licences(target: str, platforms: Sequence[str] = ()) -> list[tuple[st
     parts = PYTHON
     if target == "native":
         mingw = MINGW if "win64" in platforms else {}
-        parts = NATIVE | (ZIG if find_spec("ziglang") else {}) | mingw
+        parts = NATIVE | mingw
     return [(name, part, licence, where) for part, (name, licence, where) in parts.items()]
 
 
@@ -67,9 +67,8 @@ def _text(name: str) -> bytes:
         return ("\n".join(lines) + "\n").encode()
     if name == "llvm.txt":
         return _distributed("llvmlite", "LICENSE.thirdparty")
-    inside = {"zig.txt": "LICENSE", "mingw-w64.txt": "lib/libc/mingw/COPYING"}
-    if name in inside:
-        return _read(_package("ziglang") / inside[name])
+    if name in ("zig.txt", "mingw-w64.txt"):
+        return _read(NOTICES / name)
     return _distributed(name.removesuffix(".txt"), "LICENSE")
 
 

@@ -37,7 +37,7 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
     record = None if home.partition(".")[0] == PACKAGE.name else file_of(f"{home}.model")
     if record:
         return record.parent
-    return sources / re.sub(r"(?<=[a-z])(?=[A-Z])", "_", spec.name).lower()
+    return sources / re.sub(r"(?<=[a-z])(?=[A-Z])", "_", spec.kind or spec.name).lower()
 
 
 def identifier(
@@ -51,7 +51,9 @@ def identifier(
     packing, target, FMI version, package version and ``tools``: the versions of the compilers, and
     whatever else goes in. No clock, no path, no chance.
     """
-    hashed = hashlib.sha256(repr((variables(spec), enumerations(spec), spec.terminals)).encode())
+    own = spec.name, spec.help, spec.box, spec.notes, spec.course, spec.stop_time, spec.step_size
+    shown = variables(spec), enumerations(spec), spec.terminals, own
+    hashed = hashlib.sha256(repr(shown).encode())
     hashed.update(f"{content_digest(spec)} {target} {fmi} {package_version()} {tools}".encode())
     beside = shared or source_folder()
     for root in (*OWN, folder, *(beside / name for name in SHARED)):

@@ -123,9 +123,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     def exit_initialization_mode(self) -> None:
         """Check the rules between parameters and solve the start point."""
         self.core.mode = Mode.STEPPING  # the host cannot be told of a failure and will go on
-        self.core.prepare()
-        self.core.refresh()
-        self.core.note_switches()  # how a run starts is no event
+        self.core.leave_initialization()
         self._warn()
 
     @_safe

@@ -57,7 +57,8 @@ class Core:
         self.dirty, self.prepared = True, False
         self.latch = 0  # the failure to be seen in solver_status until something changes
         self._unsolved = ""  # why the present outputs cannot be had
-        self.refused: dict[int, str] = {}  # variables whose last value was not taken over
+        # variables whose last value was not taken over, and why if the newest call refused it
+        self.refused: dict[int, str] = {}
         self.events: list[str] = []  # what happened in the last step
         events = {signal.name: signal.events for signal in spec.outputs if signal.events}
         self._switches = [(v.slot, events[v.name]) for v in self.variables if v.name in events]
@@ -84,15 +85,23 @@ class Core:
                 array[v.slot] = value
                 self.dirty, self.latch, self._unsolved = True, 0, ""
                 self.prepared = self.prepared and v.store != "par"
-            if self.refused and self.refused.pop(v.reference, "") and not self.refused:
+            if self.refused.pop(v.reference, None) is not None and not self.refused:
                 self.latch = 0
 
     def _refuse(self, references: Sequence[int], problem: str) -> None:
         """Remember that the values of this call are missing: no step until they are set."""
+        self.refused = dict.fromkeys(self.refused, "")
         for reference in references:
-            causality = self.variables[reference].causality
-            if causality == "input" or (causality == "parameter" and self.mode < Mode.STEPPING):
+            v = self.variables[reference]
+            if v.causality in ("input", "parameter") and self._may_set(v):
                 self.refused[reference] = problem
+
+    def _may_set(self, v: Variable) -> bool:
+        """Tell if an input or parameter may be set now; a map is for one set of parameters."""
+        if v.causality == "input" or self.mode < Mode.STEPPING:
+            return True
+        held = wants_table(self.spec, self.par)
+        return v.variability == "tunable" and self.mode == Mode.STEPPING and not held
 
     def get(self, references: Sequence[int], kind: str) -> list[float]:
         """Return present values; outputs that are out of date are solved first."""
@@ -127,8 +136,10 @@ class Core:
         """Say why a value cannot be taken over; empty if it can."""
         if v.causality not in ("input", "parameter"):
             return f"{v.name} is an {v.causality} variable; it cannot be set"
-        if v.causality == "parameter" and self.mode >= Mode.STEPPING:
-            return f"{v.name} is a fixed parameter; it can be set before the initialization ends"
+        if not self._may_set(v):
+            held = " with fidelity 'map' or after the end" if v.variability == "tunable" else ""
+            return (f"{v.name} is a fixed parameter{held}; "
+                    "it can be set before the initialization ends")  # fmt: skip
         low, high = v.bounds
         if low <= value <= high:  # False for NaN
             return ""
@@ -171,6 +182,22 @@ class Core:
             named[f.name] = value
         return self.spec.params(**named)
 
+    def leave_initialization(self) -> None:
+        """Check the parameters and solve the start point; the caller changes the mode."""
+        self._check_complete("start", self.time, "parameter")
+        self.prepare()
+        self.refresh()
+        self.note_switches()  # how a run starts is no event
+
+    def _check_complete(self, what: str, t: float, *causalities: str) -> None:
+        """Raise SolveError with the newest refusal while a value is missing."""
+        missing = [r for r in self.refused if self.variables[r].causality in causalities]
+        if missing:
+            self.latch = Status.BAD_INPUT
+            why = f"{self.variables[max(missing)].name} was refused before; set it again"
+            why = next((self.refused[r] for r in missing if self.refused[r]), why)
+            raise SolveError(f"no {what} at t = {t:g} s: {why}")
+
     def refresh(self) -> None:
         """Bring the outputs up to date, at most once per change; a failure is latched."""
         if not self.dirty:
@@ -193,9 +220,7 @@ class Core:
         if not (0.0 < h < np.inf and -np.inf < t + h < np.inf):
             self.latch = Status.BAD_INPUT
             raise ParameterError(f"step from t = {t!r} s by {h!r} s, allowed: finite, step > 0")
-        if self.refused:
-            self.latch = Status.BAD_INPUT
-            raise SolveError(f"no step at t = {t:g} s: {next(iter(self.refused.values()))}")
+        self._check_complete("step", t, "input", "parameter")
         if not self.prepared:
             self.prepare()
         before, self.time = self.time, t
@@ -278,16 +303,12 @@ class Core:
                 f"FMU state of another model or version ({snapshot.identity}), "
                 f"allowed: {self.spec.name} {mine}"
             )
-        refused = {
-            r: f"{self.variables[r].name} was refused before this state was saved; set it again"
-            for r in snapshot.refused.tolist()
-        }
         for name in names:
             getattr(self, name)[:] = getattr(snapshot, name)
         self.time, self.mode = snapshot.time, Mode(snapshot.mode)
         self.dirty, self.prepared = snapshot.dirty, snapshot.prepared
         self.latch, self._unsolved = snapshot.latch, ""
         self._seen, self.events = snapshot.seen.tolist(), []
-        self.refused = refused
+        self.refused = dict.fromkeys(snapshot.refused.tolist(), "")
         if self.prepared and wants_table(self.spec, self.par):  # it is no part of a snapshot
             fill_table(self.spec, self._parameters(), self.par, self.work)

@@ -60,10 +60,8 @@ class DirectInstance:
         self.core.time, self.core.mode = start_time, Mode.INITIALIZING
         for name, value in (inputs or {}).items():
             self.core.set([self._find(name, "input").reference], [float(value)], "Real")
-        self.core.prepare()
+        self.core.leave_initialization()
         self.core.mode = Mode.STEPPING
-        self.core.refresh()
-        self.core.note_switches()
         self.initialize_time = perf_counter() - start
 
     def set_inputs(self, values: Sequence[float]) -> None:

@@ -1,11 +1,18 @@
-"""The tables of a model as C source: everything the shell knows about it."""
+"""The tables of a model as C source, and what an FMU says of its own: all the shell knows of both.
 
+The tables are those of the model; they know no name, no start values and no version of FMI.
+"""
+
+import hashlib
+import struct
+import zlib
 from collections.abc import Sequence
 from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
+from ...native.shipped import digest_now
 from ..description.interface import Variable, enumerations, variables
 from ..description.model_description import TYPES
 from ..description.xml_parts import LOG_CATEGORIES, log_categories
@@ -15,29 +22,35 @@ from . import call_table
 SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
-COMMON = ("lifecycle.c", "resource.c", "values.c", "text.c", "messages.c", "state.c",
-          "derivative.c")  # fmt: skip
-PROTOCOL = {
-    2: ("fmi2.c", "fmi2_values.c"),
-    3: ("fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c"),
-}
+SHELL_FILES = (
+    "lifecycle.c", "resource.c", "values.c", "text.c", "messages.c", "state.c", "derivative.c",
+    "fmi2.c", "fmi2_values.c", "fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c",
+)  # fmt: skip
+VERSIONS = (2, 3)  # of FMI, both in one library
+PART, MAGIC, WORD = "part.bin", b"twpart1\0", 64  # as in shell.h
 
 
-def shell_files(fmi: int) -> tuple[str, ...]:
-    """Return the names of the C files in fmu_src/shell that make a native FMU, dispatch aside."""
-    return (*COMMON, *PROTOCOL[fmi])
+def sources(spec: ModelSpec) -> dict[str, str]:
+    """Return model.h and model.c, file name -> text."""
+    lists = _lists(spec)
+    header, tables = _header(spec, lists), _tables(lists)
+    build = hashlib.sha256(f"{digest_now(spec.kernel)}{header}{tables}".encode()).hexdigest()[:16]
+    return {"model.h": header.replace("@BUILD@", build), "model.c": tables}
 
 
-def sources(spec: ModelSpec, *, fmi: int, guid: str) -> dict[str, str]:
-    """Return model.h and model.c, file name -> text.
+def part_file(spec: ModelSpec, guid: str) -> bytes:
+    """Return resources/part.bin: build of the library, identifier, name and start values.
 
     ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
-    lists = _lists(spec, fmi)
-    return {"model.h": _header(spec, fmi, guid, lists), "model.c": _tables(lists)}
+    build = sources(spec)["model.h"].partition('#define BUILD "')[2][:16]
+    words = (text.encode().ljust(WORD, b"\0") for text in (guid, spec.name))
+    starts = [v.start or 0.0 for v in variables(spec)]
+    body = b"".join((MAGIC, build.encode(), *words, struct.pack(f"<{len(starts)}d", *starts)))
+    return body + struct.pack("<I", zlib.crc32(body))
 
 
-def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
+def _lists(spec: ModelSpec) -> dict[str, tuple[str, list[str]]]:
     """Return name of the table -> (C type, rows).
 
     Categories, types and causalities are in the order of the enums in tables.h.
@@ -47,7 +60,7 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
     assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
     found = variables(spec)
     events = {s.name: s.events for s in spec.outputs if s.events}
-    declared, types = log_categories(spec), TYPES if fmi == 2 else TYPES.values()
+    declared = log_categories(spec)
     return {
         "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in found]),
         "ENUMERATIONS": ("Enumeration", [
@@ -62,14 +75,14 @@ def _lists(spec: ModelSpec, fmi: int) -> dict[str, tuple[str, list[str]]]:
         "RULES": ("Rule", [_row(_text(rule.text)) for rule in spec.rules]),
         "CATEGORIES": ("Category", [
             _row(_text(name), int(name in declared)) for name in LOG_CATEGORIES]),
-        "TYPES": ("TypeText", [_row(_text(name)) for name in types]),
+        "TYPES": ("TypeText", [_row(*map(_text, names)) for names in TYPES.items()]),
         "ACCESS": ("Access", [_row(*modes) for modes in call_table.ACCESS.values()]),
         "MODES": ("ModeText", [
-            _row(mode, _text(name), _text(f"fmi{fmi}{leave}"))
+            _row(mode, _text(name), _text(leave))
             for mode, (name, leave) in call_table.MODES.items()]),
         "CALLS": ("Call", [
             _row(_text(f"fmi{fmi}{name}"), modes, _text(call_table.DECLINED[fmi].get(name)))
-            for name, modes in call_table.CALLS[fmi].items()]),
+            for fmi in VERSIONS for name, modes in call_table.CALLS[fmi].items()]),
         **{f"ITEMS_{name}": ("Item", [_row(item.value, _text(item.name)) for item in items])
            for name, items in enumerations(spec).items()},
     }  # fmt: skip
@@ -79,19 +92,20 @@ def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
     kind, cause = v.type.upper(), v.causality.upper()
     depends = sum(1 << inputs.index(name) for name in v.depends)
     return _row(
-        _text(v.name), _text(v.unit), *(float(x).hex() for x in (*v.bounds, v.start or 0.0)),
+        _text(v.name), _text(v.unit), *(float(x).hex() for x in v.bounds),
         f"0x{depends:x}u", v.slot, names.index(v.type_name) if v.type_name else -1,
         f"TYPE_{kind}", f"CAUSE_{cause}", f"STORE_{v.store.upper()}",
-        int(v.relative), f"TYPE_BIT(TYPE_{kind}) | CAUSE_BIT(CAUSE_{cause})",
+        int(v.relative), int(v.variability == "tunable"),
+        f"TYPE_BIT(TYPE_{kind}) | CAUSE_BIT(CAUSE_{cause})",
     )  # fmt: skip
 
 
-def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, list[str]]]) -> str:
+def _header(spec: ModelSpec, lists: dict[str, tuple[str, list[str]]]) -> str:
     kernel = kernel_of(spec)
     found = variables(spec)
     status = [v for v in found if v.type_name == "SolverStatus"]
     numbers = {
-        "FMI": fmi, **{name: getattr(kernel, name) for name in SIZES},
+        **{name: getattr(kernel, name) for name in SIZES},
         "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
@@ -104,12 +118,13 @@ def _header(spec: ModelSpec, fmi: int, guid: str, lists: dict[str, tuple[str, li
         "/* Generated: what the shell knows about this model. */",
         "#ifndef THRUSTWASHER_MODEL_H", "#define THRUSTWASHER_MODEL_H", "",
         '#include "tables.h"', "",
-        f"#define MODEL_NAME {_text(spec.name)}", f"#define GUID {_text(guid)}",
+        '#define BUILD "@BUILD@"',
         *(f"#define {name} {value}" for name, value in numbers.items()), "",
         f"/* The variables that say at which point an event happened. */\n"
         f"#define POINT {{{', '.join([*(str(v.reference) for v in shown), '-1'])}}}", "",
         "/* Places in CALLS. */", "enum {",
-        *(f"    CALL_fmi{fmi}{name}," for name in call_table.CALLS[fmi]), "};", "",
+        *(f"    CALL_fmi{fmi}{name}," for fmi in VERSIONS for name in call_table.CALLS[fmi]),
+        "};", "",
         *(f"extern const {kind} {name}[];" for name, (kind, _) in lists.items()), "",
         "#endif", "",
     ])  # fmt: skip

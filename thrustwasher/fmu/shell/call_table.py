@@ -4,16 +4,17 @@ The C tables of the native shell are written from it, and the tests walk through
 in every mode.
 """
 
-INSTANTIATED, INITIALIZING, STEPPING, TERMINATED = 1, 2, 4, 8
+INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, EVENTS = 1, 2, 4, 8, 16
 NEVER = 0
-ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED
-SOLVABLE = INITIALIZING | STEPPING
+ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED | EVENTS
+SOLVABLE = INITIALIZING | STEPPING | EVENTS  # events: FMI 3 only
 
 # What a mode is called in messages, and the function (without "fmi2", "fmi3") that leads out of it.
 MODES = {
     INSTANTIATED: ("instantiated", "EnterInitializationMode"),
     INITIALIZING: ("initialization mode", "ExitInitializationMode"),
     STEPPING: ("step mode", "Terminate"),
+    EVENTS: ("event mode", "EnterStepMode"),
     TERMINATED: ("terminated", "Reset"),
 }
 
@@ -46,7 +47,7 @@ _COMMON = {
     "FreeInstance": ALWAYS,
     "EnterInitializationMode": INSTANTIATED,
     "ExitInitializationMode": INITIALIZING,
-    "Terminate": STEPPING,
+    "Terminate": STEPPING | EVENTS,
     "Reset": ALWAYS,
     "GetDirectionalDerivative": SOLVABLE,
     "DoStep": STEPPING,
@@ -57,7 +58,7 @@ _STATUS_2 = ("GetStatus", "GetRealStatus", "GetIntegerStatus", "GetBooleanStatus
 # Functions that are there, as the standard demands, but only say why they do nothing.
 _INTERPOLATED = "inputs are not interpolated within a step (canInterpolateInputs is false)"
 _NO_OUTPUT_DERIVATIVE = "there are no time derivatives of outputs (maxOutputDerivativeOrder is 0)"
-_NO_EVENTS = "there is no event mode (hasEventMode is false)"
+_NO_PARTITIONS = "the discrete states are updated at once (providesEvaluateDiscreteStates is false)"
 _NO_CLOCKS = "this model has no clocks"
 _NO_STRUCTURE = "this model has no structural parameters"
 _NO_EXCHANGE = "this FMU is for co-simulation, not for model exchange"
@@ -68,8 +69,7 @@ DECLINED = {
         "CancelStep": "no step is ever pending (canRunAsynchronuously is false)",
     },
     3: {
-        **dict.fromkeys(("EnterEventMode", "EnterStepMode", "EvaluateDiscreteStates",
-                         "UpdateDiscreteStates"), _NO_EVENTS),
+        "EvaluateDiscreteStates": _NO_PARTITIONS,
         **dict.fromkeys(("EnterConfigurationMode", "ExitConfigurationMode"), _NO_STRUCTURE),
         **dict.fromkeys(("GetIntervalDecimal", "GetIntervalFraction", "GetShiftDecimal",
                          "GetShiftFraction", "SetIntervalDecimal", "SetIntervalFraction",
@@ -98,6 +98,9 @@ CALLS: dict[int, dict[str, int]] = {
         **_values(_TYPES_3),
         **dict.fromkeys(_STATE_3, ALWAYS),
         "GetAdjointDerivative": SOLVABLE,
+        "EnterEventMode": STEPPING,
+        "EnterStepMode": EVENTS,
+        "UpdateDiscreteStates": EVENTS,
         "GetNumberOfVariableDependencies": ALWAYS,
         "GetVariableDependencies": ALWAYS,
         **dict.fromkeys(DECLINED[3], ALWAYS),

@@ -1,7 +1,14 @@
-"""The shared libraries inside native FMUs: the C shell linked with kernels, one per platform."""
+"""The shared libraries inside native FMUs: the C shell linked with kernels, one per platform.
 
+A library serves every part of its model and both versions of FMI: what is an FMU's own lies in its
+resources. The libraries of the package's models are shipped; others are linked when they are
+wanted, and kept in the user's cache.
+"""
+
+import hashlib
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
@@ -9,12 +16,12 @@ from pathlib import Path
 from ...errors import ParameterError
 from ...model.prepare import tables_of
 from ...model.spec import ModelSpec
-from ...native import digest, shipped
+from ...native import digest, files, shipped
 from ...native.files import Note, to_stderr
 from ...native.library import linked_objects
-from ...native.link import Linker, find_linker, local_linker, this_level, this_platform
-from ...native.objects import objects
-from ...native.targets import PLATFORMS
+from ...native.link import COMMON, Linker, find_linker, local_linker, this_level, this_platform
+from ...native.objects import kept_folder, objects
+from ...native.targets import PLATFORMS, Platform
 from ..package.model_sources import source_folder
 from . import c_tables, call_table
 
@@ -24,9 +31,12 @@ FAT, FAT_HEADER, FAT_ENTRY = 0xCAFEBABE, ">II", ">IIIII"
 FAT_ALIGNMENT = 14  # as a power of two: the page of arm64
 
 
-def chosen(platforms: Sequence[str] | None, note: Note) -> tuple[str, ...]:
-    """Return the platforms to build for: those asked for, else all the compiler can do."""
-    possible = find_linker().platforms
+def chosen(
+    platforms: Sequence[str] | None, note: Note, specs: Iterable[ModelSpec]
+) -> tuple[str, ...]:
+    """Return the platforms to build for: those asked for, else all that can be had."""
+    shipped_all = all(is_shipped(spec) for spec in specs)
+    possible = tuple(PLATFORMS) if shipped_all else find_linker().platforms
     if platforms is None:
         if len(possible) < len(PLATFORMS):
             note(f"building for {', '.join(possible)} only; for all platforms: {CURE}")
@@ -58,79 +68,125 @@ def tools(linker: Linker) -> str:
 
 def made_of(spec: ModelSpec, *, local: bool) -> str:
     """Return what decides a model's libraries beside the FMU's own texts."""
-    kernel = spec.kernel
+    if is_shipped(spec):
+        return library_digest(spec)
     linker = local_linker() if local else find_linker()
-    return f"{shipped.digest_now(kernel)} {tools(linker)} {local_level(spec) if local else ''}"
+    return f"{library_digest(spec)} {tools(linker)} {local_level(spec) if local else ''}"
 
 
 def native_contents(
     spec: ModelSpec, *, fmi: int, guid: str, platforms: Sequence[str], note: Note,
     local: bool = False,
 ) -> dict[str, bytes]:  # fmt: skip
-    """Return the libraries, each at its place, and the tables that the model may read.
+    """Return the libraries, each at its place, and the resources that they read.
 
-    The two libraries of macOS share one file in FMI 2. ``local``: linked and compiled for use on
-    this machine only, the soonest way.
+    The two libraries of macOS share one file in FMI 2. ``local``: if they have to be linked and
+    compiled, then for use on this machine only, the soonest way.
     """
-    level, linker = (local_level(spec), local_linker()) if local else (None, None)
     found: dict[str, list[bytes]] = {}
     for name in platforms:
-        note(f"{spec.name}: {name}")
-        made = library(
-            spec, fmi=fmi, guid=guid, platform=name, level=level, linker=linker, note=note
-        )
+        made = library(spec, platform=name, local=local, note=note)
         target = PLATFORMS[name]
         folder = target.fmi2 if fmi == 2 else target.fmi3
         found.setdefault(f"binaries/{folder}/{spec.name}.{target.extension}", []).append(made)
-    tables = tables_of(spec)
-    files = map(tables.resource, tables.readable()) if tables else ()
-    resources = {f"resources/map-{k}.bin": file for k, file in enumerate(files)}
-    return resources | {
-        path: parts[0] if len(parts) == 1 else universal(parts) for path, parts in found.items()
+    return {
+        f"resources/{c_tables.PART}": c_tables.part_file(spec, guid),
+        **{f"resources/map-{k}.bin": data for k, data in enumerate(_maps(spec))},
+        **{p: parts[0] if len(parts) == 1 else universal(parts) for p, parts in found.items()},
     }
 
 
+def _maps(spec: ModelSpec) -> list[bytes]:
+    """Return the tables of a model: all there are, or that of a part of one's own if there is one.
+
+    Those of other parameters are of no use to a part.
+    """
+    tables = tables_of(spec)
+    if tables is None:
+        return []
+    if not spec.kind:
+        return [tables.resource(file) for file in tables.readable()]
+    with suppress(ParameterError):  # there is none for its parameters
+        return [tables.resource(tables.find(spec.params()))]
+    return []
+
+
+def is_shipped(spec: ModelSpec) -> bool:
+    """Tell if the model's libraries are in the package, for all platforms."""
+    return shipped.is_linked(spec.kernel, library_digest(spec))
+
+
 def library(
-    spec: ModelSpec, *, fmi: int, guid: str, platform: str, level: str | None = None,
-    linker: Linker | None = None, note: Note = to_stderr,
-) -> bytes:  # fmt: skip
+    spec: ModelSpec, *, platform: str, local: bool = False, note: Note = to_stderr
+) -> bytes:
     """Return the shared library of a model for one platform, a key of ``PLATFORMS``.
 
-    ``guid`` is compiled in: a description of another build is refused. ``level`` is the one CPU
-    level to compile for; None: all, chosen by the CPU at run time. ``note`` is called with a line
-    of progress before anything that takes long.
+    It is the one shipped, else one kept from an earlier run, else it is linked. ``local``: for this
+    machine alone. ``note`` is called with a line of progress before anything that takes long.
     """
     if platform not in PLATFORMS:
         raise ParameterError(f"platform = {platform!r}, allowed: {' or '.join(PLATFORMS)}")
-    target = PLATFORMS[platform]
+    made = library_digest(spec)
+    if own := shipped.fmu_libraries(spec.kernel, made).get(platform):
+        return own
+    target, linker = PLATFORMS[platform], local_linker() if local else find_linker()
+    level = local_level(spec) if local else None
     if level:
         target = replace(target, levels=tuple(x for x in target.levels if x.name == level))
-    files: dict[str, str | bytes] = {**shell(fmi), **headers(fmi), **dispatch()}
-    files |= c_tables.sources(spec, fmi=fmi, guid=guid)
+    by = f"{linker.name}-{linker.version}-{level or 'all'}"
+    place = kept_folder(spec.kernel) / f"fmu-{made}-{platform}-{by}.{target.extension}"
+    data = files.kept(place)
+    if data is None:
+        note(f"{spec.name}: its library for {platform} is not shipped: {linker.name} links it")
+        data = linked(spec, target, linker, note)
+        with suppress(OSError):  # it is linked again the next time
+            files.keep(place, data)
+    return data
+
+
+def linked(
+    spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_stderr
+) -> bytes:  # fmt: skip
+    """Link the shared library of a model for one platform; nothing that was made before is used."""
+    exports = [name for fmi in c_tables.VERSIONS for name in call_table.functions(fmi)]
     return linked_objects(
-        files, objects(spec.kernel, [target], note), target, spec.name, call_table.functions(fmi),
-        linker=linker, note=note,
+        {**sources(spec), **headers()}, objects(spec.kernel, [platform], note), platform,
+        shipped.short(spec.kernel), exports, linker=linker, note=note,
     )  # fmt: skip
 
 
-def shell(fmi: int) -> dict[str, bytes]:
-    """Return the C files of the shell for one version of FMI, and its headers."""
+def library_digest(spec: ModelSpec) -> str:
+    """Return 16 hex digits over all that a model's libraries are made of, compilers aside."""
+    hashed = hashlib.sha256(f"{shipped.digest_now(spec.kernel)} {COMMON}".encode())
+    for name, content in sorted(sources(spec).items()):
+        hashed.update(f"{name}\0{len(content)}\0".encode() + content)
+    return hashed.hexdigest()[:16]
+
+
+def sources(spec: ModelSpec) -> dict[str, bytes]:
+    """Return the C files of a model's libraries, but the standard's headers."""
+    tables = {name: text.encode() for name, text in c_tables.sources(spec).items()}
+    return {**shell(), **dispatch(), **tables}
+
+
+def shell() -> dict[str, bytes]:
+    """Return the C files of the shell and its headers."""
     folder = source_folder() / "shell"
-    names = [*c_tables.shell_files(fmi), *(f.name for f in sorted(folder.glob("*.h")))]
-    return {name: (folder / name).read_bytes() for name in names}
+    names = [*c_tables.SHELL_FILES, *(f.name for f in sorted(folder.glob("*.h")))]
+    return {name: digest.read(folder / name) for name in names}
 
 
 def dispatch() -> dict[str, bytes]:
     """Return the C files between plain C and the kernels; they include the generated model.h."""
     folder = source_folder() / "shell"
-    found = {name: (folder / name).read_bytes() for name in ("dispatch.c", "kernel.h", "tables.h")}
-    return {**found, "cpu.h": (digest.HERE / "c" / "cpu.h").read_bytes()}
+    found = {name: digest.read(folder / name) for name in ("dispatch.c", "kernel.h", "tables.h")}
+    return {**found, "cpu.h": digest.read(digest.HERE / "c" / "cpu.h")}
 
 
-def headers(fmi: int) -> dict[str, bytes]:
+def headers() -> dict[str, bytes]:
     """Return the standard's C headers, from the package FMPy."""
     folder = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
-    return {f.name: f.read_bytes() for f in sorted(folder.glob(f"fmi{fmi}*.h"))}
+    return {f.name: f.read_bytes() for f in sorted(folder.glob("fmi[23]*.h"))}
 
 
 def universal(parts: Sequence[bytes]) -> bytes:

@@ -4,7 +4,6 @@ A number may carry its unit, "24 degC" or "3000 rpm"; a bare number is SI. A sce
 takes everything from that scene and changes what it names.
 """
 
-import tomllib
 from dataclasses import fields, replace
 from importlib import resources
 from importlib.resources.abc import Traversable
@@ -13,8 +12,10 @@ from typing import Any
 
 from ...errors import ParameterError, suggestion
 from ...ladder.choose import rung_and_tolerance
-from ...model.parameters import made_of, other_names_of, plainly_named
+from ...model.parameters import other_names_of, plainly_named
+from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
+from ...model.toml_tables import number, parse, quantity, read_file, read_value, unknown
 from ..key_figures.figure_list import FIGURES
 from . import oil
 from .connections import PARTS, REQUIRED
@@ -26,7 +27,7 @@ from .scene import (
     Scene,
     shift_of_pressures,
 )  # fmt: skip
-from .scene_tables import driveline_table, number, oil_of, quantity, read_value, unknown, vehicle_of
+from .scene_tables import driveline_table, oil_of, vehicle_of
 from .sequence import checked_sequence, read_sequence
 
 # Key -> (unit, least, largest); texts have no unit.
@@ -87,26 +88,20 @@ def _read(name: str) -> dict[str, Any]:
 
 def _parse(name: str) -> dict[str, Any]:
     if name.endswith(".toml"):
-        try:
-            text = Path(name).read_text(encoding="utf-8")
-        except (OSError, ValueError) as problem:  # bytes that are no text, a path that is none
-            reason = getattr(problem, "strerror", None) or "not a text file"
-            raise ParameterError(f"scene = {name!r}: cannot be read ({reason})") from None
+        table = read_file("scene", name)
     elif name in builtin_scenes():
-        text = (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+        table = parse(f"scene = {name!r}", (_folder() / f"{name}.toml").read_text("utf-8"))
     else:
         known = builtin_scenes()
         hint = suggestion(name, known, "; did you mean {!r}?")
         raise ParameterError(
             f"scene = {name!r}, allowed: {', '.join(known)} or the path of a .toml file{hint}"
         )
-    try:
-        table = tomllib.loads(text)
-    except (ValueError, RecursionError) as problem:  # also numbers and nesting without end
-        raise ParameterError(f"scene = {name!r}: not valid TOML ({problem})") from None
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
-            table[part] = plainly_named(other_names_of(spec.params), table[part])
+            own = table[part] = plainly_named(other_names_of(spec.params), table[part])
+            if isinstance(own.get("part"), str) and name.endswith(".toml"):
+                own["part"] = str(Path(name).parent / own["part"])  # lies beside the scene
     return table
 
 
@@ -234,22 +229,31 @@ RESERVED = {
 
 def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
     known = {f.name: f.metadata for f in fields(spec.params)}
-    values: dict[str, Any] = {}
-    preset = None
-    fidelity, tolerance = spec.default_fidelity, None
-    for key, value in table.items():
-        if key == "fidelity":
-            fidelity, tolerance = rung_and_tolerance(where, spec, value)
-        elif key == "preset" and spec.presets:
-            preset = str(value)
-        elif key not in known:
-            raise unknown(where, key, ["fidelity", *known])
-        elif key in RESERVED:
-            raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")
-        else:
-            values[key] = read_value(where, key, value, known[key])
+    given = dict(table)
     try:
-        params = made_of(spec, preset, values)
-        return Part(spec=spec, fidelity=fidelity, params=params, tolerance=tolerance)
+        values, usual = _start(spec, given.pop("part", None), given.pop("preset", None))
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None
+    fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", usual))
+    for key, value in given.items():
+        if key not in known:
+            raise unknown(where, key, ["fidelity", "part", "preset", *known])
+        if key in RESERVED:
+            raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")
+        values[key] = read_value(where, key, value, known[key])
+    try:
+        return Part(spec=spec, fidelity=fidelity, params=spec.params(**values), tolerance=tolerance)
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+
+
+def _start(spec: ModelSpec, file: Any, preset: Any) -> tuple[dict[str, Any], str]:
+    """Return the parameters and the rung that a part file or a preset gives."""
+    if file is not None and preset is not None:
+        raise ParameterError(f"preset = {preset!r} beside part = {file!r}, allowed: one of them")
+    if file is None and preset is None:
+        return {}, spec.default_fidelity
+    own = preset_part(spec, str(preset)) if file is None else load_part(str(file))
+    if own.spec.key != spec.key:
+        raise ParameterError(f"part = {file!r} is one of {own.spec.name}, allowed: {spec.name}")
+    return {k: x for k, x in own.parameters.items() if k not in RESERVED}, own.fidelity

@@ -1,13 +1,12 @@
-"""Tables of a scene file: numbers with their units; engine, vehicle, pressures and oil."""
+"""Tables of a scene file: engine, vehicle, pressures and oil."""
 
 from dataclasses import fields
 from typing import Any
 
-from ...errors import ParameterError, suggestion
-from ...model.parameters import allowed
+from ...errors import ParameterError
+from ...model.toml_tables import nothing_else, number, quantity, read_value, unknown
 from ...transmission.parameters import COURSES, course_fields
 from ...transmission.vehicle import Vehicle
-from ...units import parse_quantity
 from . import oil
 from .connections import PACKS
 
@@ -22,40 +21,6 @@ TURNING = {
 }  # fmt: skip
 
 
-def unknown(where: str, key: str, known: list[str]) -> ParameterError:
-    """Return the error of a key that is not known."""
-    hint = suggestion(key, known, "; did you mean {!r}?", f", allowed: {', '.join(known)}")
-    return ParameterError(f"{where}: there is no {key!r} here{hint}")
-
-
-def nothing_else(where: str, rest: dict[str, Any], known: list[str]) -> None:
-    """Refuse whatever is left in a table."""
-    for key in rest:
-        raise unknown(where, key, known)
-
-
-def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:
-    """Return a number in SI units within its range; ``rule``: unit, least, largest."""
-    unit, low, high = rule
-    number = quantity(where, key, value, unit)
-    if not low <= number <= high:
-        tail = "" if unit == "1" else f" {unit}"
-        raise ParameterError(
-            f"{where}: {key} = {number!r}{tail}, allowed: {low:g} .. {high:g}{tail}"
-        )
-    return number
-
-
-def quantity(where: str, key: str, value: Any, unit: str) -> float:
-    """Return a number in SI units."""
-    if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
-    try:
-        return parse_quantity(value, unit, key)
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
-
-
 def pairs(
     where: str, key: str, points: Any, over: tuple[str, str], unit: str, what: str = ""
 ) -> list[tuple[float, float]]:
@@ -66,16 +31,6 @@ def pairs(
     return [
         (quantity(where, over[0], t, over[1]), quantity(where, what, x, unit)) for t, x in points
     ]
-
-
-def read_value(where: str, key: str, value: Any, meta: Any) -> Any:
-    """Return the value of a parameter, of the kind that its metadata say."""
-    if meta["kind"] == "real":
-        return quantity(where, key, value, meta["unit"])
-    wanted = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
-    if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
-        raise ParameterError(f"{where}: {key} = {value!r}, allowed: {allowed(meta)}")
-    return value
 
 
 def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) -> dict[str, Any]:
@@ -118,7 +73,7 @@ def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
     if table is None:
         return None
     known = {f.name: f.metadata for f in fields(Vehicle)}
-    nothing_else(where, {k: x for k, x in table.items() if k not in known}, list(known))
+    nothing_else(where, [k for k in table if k not in known], known)
     try:
         return Vehicle(**{k: read_value(where, k, x, known[k]) for k, x in table.items()})
     except ParameterError as problem:
@@ -139,7 +94,7 @@ def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[s
 def oil_of(where: str, table: dict[str, Any]) -> dict[str, Any]:
     """Return the scene's oil: numbers in SI units, the viscosity as points."""
     nothing_else(
-        where, {k: x for k, x in table.items() if k not in (*oil.NUMBERS, *oil.VISCOSITY)},
+        where, [k for k in table if k not in (*oil.NUMBERS, *oil.VISCOSITY)],
         [*oil.NUMBERS, *oil.VISCOSITY],
     )  # fmt: skip
     found: dict[str, Any] = {

@@ -7,9 +7,10 @@ from itertools import pairwise
 from typing import Any
 
 from ...errors import ParameterError
+from ...model.toml_tables import nothing_else, number, quantity, unknown
 from ...transmission.parameters import COURSES, course_fields, course_points
 from .scene import STEP_RANGE, Scene, ShiftSequence, shift_of_pressures
-from .scene_tables import nothing_else, number, points_of, quantity, unknown
+from .scene_tables import points_of
 
 DIRECTIONS = ("up", "down")
 KEYS = ("shifts", "repeat", "period", "window", "pause_step", "down")
@@ -121,7 +122,7 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
         raise ParameterError(f"{where}: [sequence.down] is missing, the courses of a shift down")
     own: dict[str, Any] = {}
     down = dict(table.get("down", {}))
-    nothing_else(f"{where[:-1]}.down]", {k: 0 for k in down if k not in DOWN}, list(DOWN))
+    nothing_else(f"{where[:-1]}.down]", [k for k in down if k not in DOWN], DOWN)
     for name, key in DOWN.items():
         own |= course_fields(key, points) if (points := course_points(params, key)) else {}
         if name in down:

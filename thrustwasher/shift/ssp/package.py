@@ -12,7 +12,7 @@ from typing import Any
 from ...model.spec import ModelSpec
 from ...units import exponents
 from ..scene.connections import PLACES
-from .system_structure import Component, Structure
+from .system_structure import PASSED_ON, Component, Structure
 
 
 def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
@@ -23,10 +23,9 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
     used = [_meta(part.spec) for part in system.components]
     units = {m["unit"] for found in used for m in found.values() if m["kind"] == "real"}
     units |= {s.unit for p in system.components for s in p.spec.outputs if s.kind == "real"}
-    options = {m["type"]: m["options"] for found in used for m in found.values() if "options" in m}
     told = {
         **system._asdict(), "tool": tool, "date": date, "places": PLACES, "values_of": values_of,
-        "enumerations": options, "units": {name: exponents(name) for name in units},
+        "units": {name: exponents(name) for name in units},
     }  # fmt: skip
     return {
         "SystemStructure.ssd": _filled("system.ssd.jinja", plain=False, **told),
@@ -48,14 +47,20 @@ def _filled(name: str, **told: Any) -> bytes:
 
 
 def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:
-    """Yield name, type and attributes of each parameter and start value of a part."""
+    """Yield name, type and attributes of each parameter and start value of a part.
+
+    Masters that read them (OMSimulator) pass values on until they agree: nothing arrives late.
+    Enumerations are left out: OMSimulator does not know them here, and the FMU has the value as its
+    default.
+    """
     known = _meta(part.spec)
     for name, value in {**part.parameters, **part.starts}.items():
+        value = PASSED_ON.get((part.name, name), value)
         meta = known.get(name, {"kind": "real", "unit": ""})
         kind, said = meta["kind"], {"value": str(value)}
         if kind == "enumeration":
-            said["name"] = meta["type"]
-        elif kind == "real":
+            continue
+        if kind == "real":
             said = {"value": repr(float(value)), "unit": meta["unit"]}
         else:
             said["value"] = str(bool(value)).lower() if kind == "boolean" else str(int(value))
@@ -63,12 +68,7 @@ def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:
 
 
 def _meta(spec: ModelSpec) -> dict[str, Mapping[str, Any]]:
-    """Return kind, unit and type of everything that can be given a value.
-
-    Each model has its own list of fidelities; in the system their names must differ.
-    """
+    """Return kind and unit of everything that can be given a value."""
     found: dict[str, Mapping[str, Any]] = {f.name: f.metadata for f in fields(spec.params)}
-    found["fidelity"] = {
-        "kind": "enumeration", "type": f"{spec.name}Fidelity", "options": spec.fidelities,
-    }  # fmt: skip
-    return found | {s.name: {"kind": s.kind, "unit": s.unit, "type": s.type} for s in spec.inputs}
+    found["fidelity"] = {"kind": "enumeration"}
+    return found | {s.name: {"kind": s.kind, "unit": s.unit} for s in spec.inputs}

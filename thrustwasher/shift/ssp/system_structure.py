@@ -6,7 +6,8 @@ does beyond that (looking ahead over the delay) is inside the transmission and s
 parameters.
 
 Every part has an FMU of its own, whose defaults are the scene's: masters differ much in what they
-do with the values in a package, and some do nothing.
+do with the values in a package, and some do nothing. Those that read them were found to read an
+output after they have set the inputs it depends on: ``PASSED_ON`` is for them.
 """
 
 from collections.abc import Mapping
@@ -20,6 +21,8 @@ from ..scene.connections import COMMAND, SHOWN, SOURCE, SOURCE_SPEC, Link, links
 from ..scene.scene import Part, Scene
 
 MASTER = "jacobi"
+# What the values in the package say instead, for masters that pass values on until they agree.
+PASSED_ON = {("transmission", "torque_age"): 0, (SOURCE, "lead"): 0.0}
 OIL = "oil_temperature"
 Starts = Mapping[str, Mapping[str, float]]
 
@@ -118,11 +121,14 @@ def _component(
 
 
 def _border(parts: Mapping[str, Part]) -> list[Border]:
-    """Return the outputs of the system; those of the transmission keep their plain names."""
+    """Return the outputs of the system; those of the transmission keep their plain names.
+
+    None has the name of a part: OMSimulator would look for it inside that part.
+    """
     found = []
     for part, names in SHOWN:
         if part in parts:
             known = {s.name: s for s in parts[part].spec.outputs}
-            plain = part in (SOURCE, "transmission")
-            found += [Border(n if plain else f"{part}_{n}", part, known[n]) for n in names]
+            shown = {"transmission": "", SOURCE: "shift_"}.get(part, f"{part}_")
+            found += [Border(f"{shown}{n}", part, known[n]) for n in names]
     return found

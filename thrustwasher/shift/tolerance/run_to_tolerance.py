@@ -4,14 +4,16 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ...errors import ParameterError, SolveError
+from ...ladder.own_tables import RUNS, build_where_it_pays
 from ..masters.master import MASTERS
 from ..run import Progress, run_shift
+from ..scene.connections import DIRECT
 from ..scene.scene import Scene
 from ..shift_result import ShiftResult
 from .rung_check import check_part
 from .selection import select
 from .selection_record import Check, CheckRecord, Selected, Selection
-from .trial_run import Make, Pool, step_share, trial_runs, with_rungs
+from .trial_run import Make, Pool, TrialRuns, step_share, trial_runs, with_rungs
 
 
 def run_auto(
@@ -19,6 +21,7 @@ def run_auto(
     make: Make,
     *,
     guard: bool = True,
+    build_maps: bool = False,
     progress: Progress | None = None,
     compiled: bool | None = None,
 ) -> ShiftResult:
@@ -30,6 +33,8 @@ def run_auto(
     make : returns an instance of a part, of the fidelity that stands in it; whoever makes it closes
         it. One that has ``reset`` is used again
     guard : check the choice after the run, and run again a rung higher where it does not hold
+    build_maps : build the map of a washer that no card speaks of where that pays, and keep it;
+        ``make`` has to find it
     progress, compiled : as in ``run_shift``
 
     Returns
@@ -57,6 +62,8 @@ def run_auto(
         )
     trials = trial_runs(scene, pool, compiled)
     steps = max(1, round((scene.stop_time - scene.start_time) / scene.step))
+    if build_maps:
+        remarks += _own_maps(scene, trials, steps)
     chosen = select(scene, trials, steps, guard)
     selection = Selection(chosen, step_share(trials, scene.step, min(wanted)), trials.seconds)
     result = run(with_rungs(scene, {c.part: c.rung for c in chosen}))
@@ -76,6 +83,22 @@ def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:
                 "thermal_mode is transient"
             )
     return replace(scene, parts=parts), remarks
+
+
+def _own_maps(scene: Scene, trials: TrialRuns, steps: int) -> list[str]:
+    """Build maps of parts that are judged by themselves, where that pays; return what was done."""
+    said = []
+    for name in DIRECT:
+        part = scene.parts.get(name)
+        if part is not None and part.tolerance:
+            box = trials.box(name, part.spec)
+            seen = {n: trials.seen(name, n) for n in box}
+            said.append(
+                build_where_it_pays(
+                    part.spec, part.params, box, tol=part.tolerance, calls=RUNS * steps, needed=seen
+                )
+            )
+    return [words for words in said if words]
 
 
 def _checked(

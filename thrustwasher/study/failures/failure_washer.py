@@ -10,7 +10,7 @@ from functools import cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from ...model.parameters import made_of
+from ...model.part_file import made_of
 from ...tribology.lumped_body import exponential_weights
 from ...washer.closed_forms import narrow_ring_load
 from ...washer.load_curve import load_curve

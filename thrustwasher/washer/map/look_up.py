@@ -3,6 +3,7 @@
 import math
 import os
 import threading
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -10,9 +11,11 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
+from ...model.record import resolve
 from ...model.spec import Tables
 from ...native.load import bound
 from ...numerics.jit import Array
+from ...storage.digests import params_digest
 from ..kernel_arguments import NO_MESH, Recent
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
@@ -23,9 +26,10 @@ from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import WasherParams
 from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
-from .map_file import MapFile, all_maps, find_map, map_paths, plain, read_map
-from .map_plan import INPUTS
+from .map_file import SUFFIX, MapFile, all_maps, find_map, map_paths, own_folder, plain, read_map
+from .map_plan import INPUTS, coverable, least_of, lines_about
 
+MAKER = "thrustwasher.washer.map.map_build:make_map"  # by name: it looks up too
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
 OUTPUTS = (
     "friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
@@ -222,4 +226,25 @@ def washer_map(params: WasherParams) -> WasherMap:
     return WasherMap(params)
 
 
-TABLES = Tables("map", map_paths, all_maps, map_for, lambda p: WasherMap(p).box, plain)
+def build_own(
+    params: WasherParams, box: Mapping[str, tuple[float, float]], tolerance: float,
+    fidelity: str | None, workers: int, progress: Any,
+) -> None:  # fmt: skip
+    """Build the map of one's own washer and keep it in the user's cache; as ``make_map``.
+
+    The box is cut at what a map can cover.
+    """
+    path = own_folder() / f"washer-{params_digest(params)[:16]}{SUFFIX}"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    resolve(MAKER)(
+        params, path, box=coverable(box), tolerance=tolerance, fidelity=fidelity, workers=workers,
+        progress=progress,
+    )  # fmt: skip
+    washer_map.cache_clear()
+    _solver.forget()
+
+
+TABLES = Tables(
+    "map", map_paths, all_maps, map_for, lambda p: WasherMap(p).box, plain, build_own,
+    lambda p, box, tol: lines_about(p, coverable(box), tol), least_of,
+)  # fmt: skip

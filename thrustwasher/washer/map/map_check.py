@@ -110,7 +110,7 @@ def _compare(
     load, speed, tilt, oil = point
     place: dict[str, Any] = {"speed": speed, "tilt": tilt, "oil_temperature": oil}
     mine = [f.load for f in washer.folds(**place)]
-    branch = twin if mine else None  # elsewhere the name only follows the film ratio
+    branch = twin if len(mine) == 2 else None  # elsewhere the name only follows the film ratio
     here = washer.look_up(load=load, **place, branch=branch)
     try:
         there = solve_washer(params, load=load, **place, fidelity=fidelity, branch=branch)

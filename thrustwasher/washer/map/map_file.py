@@ -1,7 +1,8 @@
 """Map files: a zip archive with the map's numbers (single precision) and its card (JSON).
 
 Shipped maps lie in ``thrustwasher/data/maps``; further folders are taken from the environment
-variable ``THRUSTWASHER_MAPS`` (separated as in ``PATH``) and are looked through first.
+variable ``THRUSTWASHER_MAPS`` (separated as in ``PATH``) and are looked through first, then those
+of the user's own washers in the user's cache, which belong to the kernels as they are.
 """
 
 import json
@@ -18,9 +19,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
-from ...native.files import zipped
+from ...native.files import user_cache, zipped
 from ...numerics.chebyshev import MOST_TERMS, lines_of
-from ...numerics.jit import Array
+from ...numerics.jit import Array, kernel_digest
 from ...storage.digests import DATA
 from ..kernels.layout import N_STEADY
 from ..kernels.map import map_layout as L
@@ -124,10 +125,15 @@ def read_map(path: str | os.PathLike[str]) -> MapFile:
     return _read(str(file.resolve()), status.st_mtime_ns, status.st_size)
 
 
+def own_folder() -> Path:
+    """Return where maps of the user's own washers lie; it need not exist."""
+    return user_cache() / "maps" / kernel_digest()
+
+
 def map_folders() -> list[Path]:
     """Return the folders that are looked through, the shipped one last."""
     named = os.environ.get(VARIABLE, "")
-    return [Path(p) for p in named.split(os.pathsep) if p] + [SHIPPED]
+    return [Path(p) for p in named.split(os.pathsep) if p] + [own_folder(), SHIPPED]
 
 
 def map_paths() -> list[Path]:

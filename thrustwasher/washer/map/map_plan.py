@@ -1,7 +1,7 @@
 """What a map covers and how finely: box, patches, pieces; and its header."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -27,10 +27,12 @@ TOLERANCE = 5e-3  # relative, of the torque
 TOLERANCES = (5e-4, 0.1)  # allowed
 FIELD_FROM = 6e-3  # a map of this tolerance stands for the mesh of "field", a finer one for "fine"
 BEND = 2.0  # [rad/s] below it nodes lie evenly in speed, above it evenly in its logarithm
-ONSET = 5.0  # film ratio; the contact load there is some mN
+ONSET = 5.7  # film ratio; the contact load there is below a mN
 LEAST_WIDTH = {"speed": 1e-3, "tilt": 1e-4, "oil_temperature": 0.05}  # less counts as fixed
 COARSE = (10, 32)  # grid of everything that needs no accuracy
 SPARE = 1.05  # how much of the load range lies beyond its ends
+WIDTHS = (1.1, 1.0, 1.6)  # of a patch on the scaled axes, typically, at ``TOLERANCE``
+SURVEYED = 56  # lines of a survey
 PLACES = (0.0, 0.25, 0.75)  # nodes of a patch, its last one excepted: -1, -1/2, 1/2
 
 Place = tuple[float, float, float]  # speed [rad/s], tilt [rad], oil temperature [K]
@@ -167,7 +169,7 @@ def plan_map(
 
 def _checked(name: str, pair: Any) -> tuple[float, float]:
     signal = next(s for s in SPEC.inputs if s.name == name)
-    least = {"load": 1.0, "speed": 0.0, "tilt": 1e-5}.get(name, float(signal.low or 0.0))
+    least = least_of(name)
     try:
         low, high = (float(x) for x in pair)
     except (TypeError, ValueError):
@@ -180,6 +182,26 @@ def _checked(name: str, pair: Any) -> tuple[float, float]:
     if name == "load" and high < 1.2 * low:
         raise ParameterError(f"box: load = {low:g} .. {high:g} N, allowed: high above 1.2 x low")
     return low, high
+
+
+def least_of(name: str) -> float:
+    """Return the least value of an input that a map can cover."""
+    signal = next(s for s in SPEC.inputs if s.name == name)
+    return {"load": 1.0, "speed": 0.0, "tilt": 1e-5}.get(name, float(signal.low or 0.0))
+
+
+def coverable(box: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    """Return a box cut at what a map can cover."""
+    return {name: (max(low, least_of(name)), high) for name, (low, high) in box.items()}
+
+
+def lines_about(params: WasherParams, box: dict[str, tuple[float, float]], tolerance: float) -> int:
+    """Return about how many lines a map takes, those of the survey included; errors as there."""
+    plan = plan_map(params, box, tolerance)
+    more = (TOLERANCE / tolerance) ** 0.25
+    wide = [abs(b - a) / width for (a, b), width in zip(plan.axes, WIDTHS, strict=True)]
+    patches = [math.ceil(more * w) if n else 0 for w, n in zip(wide, plan.patches, strict=True)]
+    return SURVEYED + lines_of(*patches)
 
 
 def _axis_nodes(low: float, high: float, patches: int) -> list[float]:

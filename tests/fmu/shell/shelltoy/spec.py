@@ -13,7 +13,9 @@ RULES = (
 class ShellToyParams:
     inner_radius: float = quantity(0.05, "m", 1e-6, 1e7, "inner radius of the toy disc")
     outer_radius: float = quantity(0.1, "m", 1e-6, 1e7, "outer radius of the toy disc")
-    heat_capacity: float = quantity(100.0, "J/K", 1.0, 1e6, "heat capacity of the toy disc")
+    heat_capacity: float = quantity(
+        100.0, "J/K", 1.0, 1e6, "heat capacity of the toy disc", tunable=True
+    )
     discs: int = count(2, 1, 20, "number of discs in the toy (13: cannot be used)")
     dry: bool = flag(False, "no oil between the toy discs")
     law: str = choice("viscous", {"viscous": "grows with the speed", "dry": "does not grow"},

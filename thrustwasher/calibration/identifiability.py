@@ -1,20 +1,15 @@
-"""What measured points can tell about the friction law: its constants, and whether load acts."""
+"""What measured points can tell about the constants of a fit."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.jit import Array
-from .friction_law import shares
+from ..numerics.jit import Array
 from .least_squares import Problem
 
-LOST = 1e-9  # a singular value this small beside the largest is rounding
-VANISHES = 1e-4  # ... and so is one this much smaller beside the friction itself
+VANISHES = 1e-4  # a singular value is rounding too if as much smaller beside the measured values
 LEAKS = 1e-6  # a larger share in a lost direction makes a constant unknown
 NAMED = 0.05  # constants with a smaller share in a direction are not worth a word
-
-SAME_LOAD = 1e-6  # relative spread of loads below which there is nothing to compare
-FOLLOWS = 1e-4  # share of the load's spread that the law's constants must leave free
 
 
 @dataclass(frozen=True)
@@ -68,9 +63,9 @@ def information(problem: Problem, best: Array, confidence: float) -> Information
     slopes = problem.slopes(best) * problem.scale
     n, p = slopes.shape
     singular, directions = np.linalg.svd(slopes, full_matrices=True)[1:]
-    size = float(np.linalg.norm(problem.friction * problem.weight))
+    size = float(np.linalg.norm(problem.measured * problem.weight))
     singular = np.concatenate([singular, np.zeros(p - len(singular))])
-    singular[singular <= max(LOST * singular[0], LOST * VANISHES * size)] = 0.0
+    singular[singular <= problem.resolution * max(singular[0], VANISHES * size)] = 0.0
     rank = int(np.count_nonzero(singular))
     freedom = n - rank
     tail = 0.5 + 0.5 * confidence
@@ -80,7 +75,7 @@ def information(problem: Problem, best: Array, confidence: float) -> Information
         deviation, quantile = np.sqrt(problem.cost(best) / freedom), float(t.ppf(tail, freedom))
     else:
         deviation, quantile = 0.0, np.inf
-    floor = 1e-16 * float(np.abs(problem.friction * problem.weight).max())
+    floor = 1e-16 * float(np.abs(problem.measured * problem.weight).max())
     strength = singular / max(float(deviation), floor, 1e-300)
     return Information(
         problem.scale, strength, directions, quantile, rank, freedom, float(deviation)
@@ -93,77 +88,19 @@ def members(problem: Problem, direction: Array) -> list[int]:
     return [int(i) for i in np.argsort(-share) if share[i] > NAMED * share.max()]
 
 
-def combination(problem: Problem, direction: Array) -> str:
+def combination(problem: Problem, best: Array, direction: Array) -> str:
     """Say in one sentence which constants the points cannot tell apart."""
     named, names = members(problem, direction), problem.names
     if len(named) == 1:
-        return f"no point says enough about {names[named[0]]}"
+        return f"no {problem.counted_as} says enough about {names[named[0]]}"
     change = direction / direction[named[0]] * 0.01 * problem.scale[named[0]]
+    change = change * problem.stretch(best)
     parts = [f"{names[i]} {change[i]:+.3g}" for i in named]
     return (
         f"the points cannot tell {listed([names[i] for i in named], 'and')} apart: changed "
-        f"together by {listed(parts, 'and')} they move the friction at no point beyond its scatter"
+        f"together by {listed(parts, 'and')} they move the {problem.subject} at no point beyond "
+        "its scatter"
     )
-
-
-@dataclass(frozen=True, slots=True)
-class LoadTest:
-    """Whether the residuals follow the load, the law's constants allowed to give way."""
-
-    change: float | None
-    """[-] change of friction over the range of loads, relative to its mean; None: no test."""
-    p_value: float | None
-    """Probability of a change as large if friction did not depend on load."""
-    text: str
-
-    @property
-    def is_significant(self) -> bool:
-        """True if a test at the 1 % level finds a dependence on load."""
-        return self.p_value is not None and self.p_value < 0.01
-
-
-def load_test(problem: Problem, best: Array, told: Information) -> LoadTest:
-    """Return the test of a term linear in load beside the law's own constants."""
-    load = problem.load
-    spread = float(np.ptp(load))
-    if spread <= SAME_LOAD * float(load.max()):
-        return LoadTest(None, None, "all points have one load: its influence cannot be tested")
-    if told.freedom < 2:
-        return LoadTest(None, None, "too few points to test the influence of load")
-    column = (load - load.mean()) / spread * problem.weight
-    basis = np.linalg.svd(problem.slopes(best) * problem.scale, full_matrices=False)[0]
-    basis = basis[:, : told.rank]
-    free = column - basis @ (basis.T @ column)
-    if free @ free < FOLLOWS * (column @ column):
-        text = "load changes only together with speed: its influence cannot be told from speed's"
-        return LoadTest(None, None, text)
-    return _tested(problem, best, free, told.freedom - 1)
-
-
-def _tested(problem: Problem, best: Array, free: Array, freedom: int) -> LoadTest:
-    """Return the size of the term and its significance."""
-    from scipy.stats import norm, t
-
-    misfit = -problem.misfit(best)
-    slope = float(free @ misfit / (free @ free))
-    left = max(problem.cost(best) - slope * slope * float(free @ free), 0.0)
-    floor = 1e-13 * float(np.abs(problem.friction * problem.weight).max())
-    deviation = max(1.0 if problem.known_errors else float(np.sqrt(left / freedom)), floor)
-    score = abs(slope) * float(np.sqrt(free @ free)) / deviation
-    p_value = 2.0 * float(norm.sf(score) if problem.known_errors else t.sf(score, freedom))
-    change = slope / float(problem.friction.mean())
-    where = f"from {problem.load.min():g} to {problem.load.max():g} N"
-    if p_value < 0.01:
-        text = (
-            f"friction changes by {100 * change:+.2g} % {where}, more than scatter explains "
-            f"(p = {p_value:.2g}); the law knows no load, fit narrower ranges of load one by one"
-        )
-    else:
-        text = (
-            f"no dependence on load beyond the scatter ({100 * change:+.2g} % {where}, "
-            f"p = {p_value:.2g})"
-        )
-    return LoadTest(change, p_value, text)
 
 
 @dataclass(frozen=True)
@@ -182,8 +119,8 @@ def verdicts(
     """Return the verdict on every constant.
 
     A constant counts as identifiable where the half width of its interval is below a change that
-    would certainly matter: 1 for weights and ratios, the fastest slip for speeds. Those marked in
-    ``weak`` do not, whatever the slopes at this place say.
+    would certainly matter (``scale`` of the problem). Those marked in ``weak`` do not, whatever the
+    slopes at this place say.
     """
     blurred = told.blurred()
     found = []
@@ -201,45 +138,33 @@ def verdicts(
 
 def _bound_text(problem: Problem, best: Array, i: int, side: str) -> str:
     """Say that a bound stops the fit, and what would free it."""
-    text = f"at its {side} bound {best[i]:g}"
+    text = f"at its {side} bound {problem.shown(best)[i]:g}"
     gradient = problem.slopes(best)[:, i] @ problem.misfit(best) * problem.scale[i]
     if gradient * (1.0 if side == "lower" else -1.0) <= 1e-9 * problem.cost(best):
         return text
-    text += ": the points pull beyond it"
-    if problem.names[i] == "plough_weight" and side == "lower":
-        adhesion = shares(problem.values(best))[1]
-        text += (
-            f" (friction at rest cannot be below the adhesive share alone, {adhesion:.4g}; "
-            "a larger hardness_ratio lowers that)"
-        )
-    return text
+    return f"{text}: the points pull beyond it{problem.why_bound(best, i, side)}"
 
 
 def _why_not(
     problem: Problem, best: Array, told: Information, i: int, half: float, blurred: list[Array]
 ) -> str:
     """Return the reason why the points do not tell a constant, the most tangible one first."""
-    name, speed = problem.names[i], problem.speed
-    stick, fastest, slowest = problem.values(best)["stick_speed"], speed.max(), speed.min()
-    few = f"{counted(len(speed), 'point')} for {counted(len(best), 'constant')}"
-    if name in ("shear_floor", "decay_speed", "stick_speed") and fastest <= stick:
-        return (
-            f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} m/s), "
-            "where friction does not change with speed"
-        )
-    lead = ""
-    if len(speed) < len(best):
-        lead = f"{few}; "
-    elif fastest == slowest:
-        lead = f"all points have one slip speed ({fastest:.4g} m/s); "
-    elif name == "stick_speed" and slowest >= stick:
-        lead = f"all points lie above it (slowest slip {slowest:.4g} m/s); "
+    count = len(problem.measured)
+    few = f"{counted(count, problem.counted_as)} for {counted(len(best), 'constant')}"
+    lead, is_all = problem.why_not(best, i)
+    if is_all:
+        return lead
+    if count < len(best):
+        lead = few
+    lead += "; " * bool(lead)
     about = [direction for direction in blurred if i in members(problem, direction)]
     if about:
-        return lead + combination(problem, about[0])
+        return lead + combination(problem, best, about[0])
     if not np.isfinite(told.quantile):
-        return f"{few}: no scatter is left to judge by, add points or give friction_error"
-    return f"{lead}at this scatter its interval would be +- {half:.2g}"
+        return f"{few}: no scatter is left to judge by, add points or give {problem.error_name}"
+    factor = bool(len(problem.logarithmic) and problem.logarithmic[i])
+    width = f"a factor of {np.exp(half):.2g}" if factor else f"{half:.2g}"
+    return f"{lead}at this scatter its interval would be +- {width}"
 
 
 def counted(number: int, noun: str) -> str:

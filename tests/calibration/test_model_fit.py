@@ -1,0 +1,245 @@
+"""Parameters of any model from measured outputs: found again, with honest intervals, or named."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sampling import sizes
+from scipy.stats import binom
+
+from thrustwasher import (
+    ClutchParams,
+    GearMeshParams,
+    ParameterError,
+    SolveError,
+    WasherParams,
+    calibrate,
+    load_part,
+    run_sweep,
+)
+from thrustwasher.calibration.measured import Measured
+from thrustwasher.washer.load_curve import fold_loads
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+from calibration import RIGS, held
+
+BY_MODEL = {rig.model: rig for rig in RIGS}
+MESH = BY_MODEL["gearmesh"]
+
+
+def data_of(rig):
+    return {**rig.points, **{name: x.tolist() for name, x in rig.exact().items()}}
+
+
+def told(found):
+    return {e.name for e in found.estimates if e.identifiable}
+
+
+@pytest.mark.parametrize("model", BY_MODEL)
+def test_exact_data_give_the_parameters_back(model):
+    rig = BY_MODEL[model]
+    found = calibrate(rig.start, data_of(rig), fit=tuple(rig.truth), fidelity=rig.fidelity,
+                      errors=dict.fromkeys(rig.outputs, "2 %"))  # fmt: skip
+    assert {n: getattr(found.params, n) for n in rig.truth} == pytest.approx(rig.truth, rel=1e-5)
+    assert told(found) == set(rig.truth)
+
+
+@pytest.mark.parametrize("model", ["clutch", "gearmesh"])
+@sizes(30, 200)
+def test_95_percent_intervals_hold_the_truth_in_95_percent_of_experiments(model, n):
+    """Between the 0.05 % and 99.95 % quantiles of the binomial distribution."""
+    low, high = binom.interval(0.999, n, 0.95)
+    counts = held(BY_MODEL[model], n)
+    assert all(low <= count <= high for count in counts.values()), counts
+
+
+@sizes(6, 200)
+def test_so_they_do_for_the_washer(n):
+    low, high = binom.interval(0.999, n, 0.95)
+    assert all(low <= count <= high for count in held(BY_MODEL["washer"], n).values())
+
+
+def test_what_does_not_act_on_the_measured_output_is_named():
+    data = {k: v for k, v in data_of(MESH).items() if k != "film_thickness"}
+    found = calibrate(MESH.start, data, fit=("f0", "oil_density", "mean_roughness"),
+                      errors={"friction_torque": "2 %"})  # fmt: skip
+    assert "oil_density" not in told(found)
+    assert found["oil_density"].reason == "no value says enough about oil_density"
+    assert found.params.oil_density == MESH.start.oil_density
+    assert found.singular_values[-1] == 0.0
+
+
+def test_a_product_is_named_as_the_combination_that_is_told():
+    """The ISO law knows viscosity and roughness by one product of powers alone."""
+    data = {k: v for k, v in data_of(MESH).items() if k != "film_thickness"}
+    found = calibrate(MESH.start, data, fit=tuple(MESH.truth), errors={"friction_torque": "2 %"})
+    assert told(found) == set() and len(found.confounded) == 1
+    for name in MESH.truth:
+        assert "apart: changed together by" in found[name].reason and name in found[name].reason
+
+
+def test_roughness_is_not_told_by_the_torque_of_a_full_film():
+    rig = BY_MODEL["washer"]
+    data = data_of(rig)
+    assert (run_sweep("washer", points=rig.points, fidelity="coarse")["film_ratio"] > 6.0).all()
+    found = calibrate(rig.start, data, fit=("viscosity_scale", "roughness"),
+                      errors={"friction_torque": "2 %"}, fidelity="coarse")  # fmt: skip
+    assert told(found) == {"viscosity_scale"}
+    assert "roughness" in found["roughness"].reason
+    limits = WasherParams.__dataclass_fields__["roughness"].metadata
+    assert found["roughness"].interval == pytest.approx((limits["min"], limits["max"]))
+
+
+def constant_mesh(friction=0.05):
+    return GearMeshParams(friction_law="constant", constant_friction=friction)
+
+
+POINTS = {"power": [2e3, 5e3, 9e3, 4e3], "speed": [180.0, 180.0, 180.0, -90.0]}
+
+
+def torque(params=None, **changes):
+    table = run_sweep("gearmesh", points=POINTS, params=params or constant_mesh(**changes))
+    return table["friction_torque"]
+
+
+def test_differences_of_solutions_are_the_derivatives():
+    found = calibrate(constant_mesh(), {**POINTS, "friction_torque": torque()},
+                      fit="constant_friction")  # fmt: skip
+    slopes = found._problem.slopes_of_curve(np.array([0.05]))[:, 0]
+    assert slopes == pytest.approx(torque() / 0.05, rel=1e-9)
+    edge = found._problem.slopes_of_curve(np.array([1.0]))[:, 0]
+    assert edge == pytest.approx(torque() / 0.05, rel=1e-9)  # one-sided at the bound
+
+
+def test_the_estimate_of_a_factor_is_the_weighted_mean():
+    """One factor on all values: least squares has a closed form."""
+    exact, shift = torque(), np.array([0.01, -0.02, 0.03, 0.01])
+    error = [0.01, 0.02, 0.01, 0.03]
+    found = calibrate(
+        constant_mesh(), {**POINTS, "friction_torque": exact * (1.0 + shift),
+                          "friction_torque_error": error}, fit="constant_friction",
+    )  # fmt: skip
+    weight = (exact / np.array(error)) ** 2
+    wanted = 0.05 * (1.0 + (weight * shift).sum() / weight.sum())
+    estimate = found["constant_friction"]
+    assert estimate.value == pytest.approx(wanted, rel=1e-7)
+    assert estimate.standard_error == pytest.approx(0.05 / np.sqrt(weight.sum()), rel=1e-5)
+    half = 1.959964 * estimate.standard_error
+    assert estimate.interval == pytest.approx((wanted - half, wanted + half), rel=1e-6)
+    again = calibrate(
+        constant_mesh(), {**POINTS, "friction_torque": exact * (1.0 + shift)},
+        errors={"friction_torque": "20 mN.m"}, fit="constant_friction", profile=True,
+    )["constant_friction"]  # fmt: skip
+    assert again.profile_interval == pytest.approx(again.interval, rel=1e-3)
+
+
+def test_a_narrower_bound_holds_and_is_named():
+    data = {**POINTS, "friction_torque": torque(friction=0.08)}
+    found = calibrate(constant_mesh(), data, fit="constant_friction",
+                      bounds={"constant_friction": (0.0, 0.06)})  # fmt: skip
+    assert found.params.constant_friction == 0.06
+    assert "upper bound 0.06: the points pull beyond it" in found["constant_friction"].reason
+
+
+def test_points_may_have_parameters_of_their_own():
+    """Two packs of different size, one friction."""
+    points = {"load": [1e3, 2e3, 1e3, 2e3], "speed": [50.0] * 4, "faces": [4, 4, 8, 8]}
+    truth = ClutchParams(friction_law="constant", constant_friction=0.1)
+    data = points | {
+        "friction_torque": run_sweep("clutch", points=points, params=truth)["friction_torque"]
+    }
+    start = ClutchParams(friction_law="constant")
+    found = calibrate(start, data, fit="constant_friction", at={"oil_temperature": 297.15})
+    assert found.params.constant_friction == pytest.approx(0.1, rel=1e-7)
+
+
+def test_folds_tell_how_well_the_far_faces_are_cooled():
+    truth = WasherParams(carrier_thickness=7e-3)
+    point = {"speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0}
+    loads = fold_loads(truth, point, "coarse")
+    data = {name: [value, value] for name, value in point.items()} | {
+        "load": [None, 200.0], "friction_torque": [None, 0.13],
+        "film_loss_load": [loads["film_loss_load"], None],
+        "film_regain_load": [loads["film_regain_load"], None],
+    }  # fmt: skip
+    errors = {"film_loss_load": 1.0, "film_regain_load": 1.0, "friction_torque": 1e3}
+    found = calibrate(WasherParams(), data, fit="carrier_thickness", errors=errors,
+                      fidelity="coarse")  # fmt: skip
+    assert found.params.carrier_thickness == pytest.approx(7e-3, rel=1e-4)
+    assert "1 film_loss_load" in str(found)
+
+
+def test_a_fit_is_plain_data_and_sentences():
+    found = MESH.fit(MESH.exact(), 1)
+    plain = json.loads(json.dumps(found.as_dict(), allow_nan=False))
+    assert set(plain["rms"]) == set(MESH.outputs) and len(plain["measured"]) == 12
+    assert plain["fitted"] == {n: getattr(found.params, n) for n in MESH.truth}
+    assert "(6 friction_torque, 6 film_thickness), rung field" in str(found)
+
+
+def test_a_part_is_where_the_fit_starts(tmp_path):
+    path = tmp_path / "mesh.toml"
+    path.write_text('model = "gearmesh"\nname = "Mine"\nfidelity = "closed"\n[parameters]\n'
+                    'friction_law = "constant"\nface_width = "30 mm"\n')  # fmt: skip
+    data = {**POINTS, "friction_torque": torque()}
+    found = calibrate(load_part(path), data, fit="constant_friction")
+    assert found.params.face_width == 0.03 and found.points.plan.fidelity == "closed"
+
+
+GOOD = {**POINTS, "friction_torque": [0.1, 0.2, 0.3, -0.2]}
+
+
+@pytest.mark.parametrize(
+    ("changes", "more", "message"),
+    [
+        ({"friction_torque": [0.1, np.nan, 0.3, 0.1]}, {}, "friction_torque: point 2 is nan"),
+        ({"speed": [1.0, 2.0, np.nan, 1.0]}, {}, "speed = nan"),
+        ({"speed": [1.0, None, 1.0, 1.0]}, {}, "speed: point 2 has none"),
+        ({"speed": [1.0]}, {}, "one length for all"),
+        ({"frction_torque": [1.0] * 4}, {}, "did you mean friction_torque"),
+        ({"friction_torque": [None] * 4}, {}, "no measured output"),
+        ({"friction_torque_error": [1.0, 0.0, 1.0, 1.0]}, {}, "point 2 is 0.0, allowed: above 0"),
+        ({"film_thickness": [1e-6] * 4}, {}, "friction_torque_error is missing"),
+        ({"friction_torque": [0.1, None, None, None]}, {"fit": ("constant_friction", "f0")},
+         "1 value for 2 parameters"),
+        ({}, {"fit": ()}, "fit names nothing"),
+        ({}, {"fit": "constant_fricton"}, "did you mean constant_friction"),
+        ({}, {"fit": "friction_law"}, "allowed: real parameters"),
+        ({}, {"fit": "pinion_teeth"}, "allowed: real parameters"),
+        ({}, {"fit": "bulk_conductance"}, "is 0, which stands for another value"),
+        ({"f0": [0.1] * 4}, {"fit": "f0"}, "fit = 'f0': is a column of the data"),
+        ({}, {"bounds": {"f0": (0.0, 1.0)}}, "bounds of f0: allowed: of constant_friction"),
+        ({}, {"bounds": {"constant_friction": (0.1, 1.5)}}, "allowed: low < high in 0 .. 1"),
+        ({}, {"errors": {"temperature": 1.0}}, "error of temperature: allowed: of a measured"),
+        ({}, {"errors": {"friction_torque": "2 s"}}, "error of friction_torque"),
+        ({}, {"confidence": 95}, "confidence = 95, allowed: above 0 and below 1"),
+        ({}, {"friction": 1.0}, "friction: allowed: without data"),
+        ({}, {"fidelity": "exact"}, "fidelity = 'exact'"),
+    ],
+)  # fmt: skip
+def test_wrong_input_is_named(changes, more, message):
+    with pytest.raises(ParameterError, match=message):
+        calibrate(constant_mesh(), {**GOOD, **changes}, **{"fit": "constant_friction", **more})
+
+
+def test_a_point_without_a_solution_is_named():
+    data = {"speed": [136.0], "tilt": [2e-3], "film_loss_load": [900.0]}  # no fold so slow
+    with pytest.raises(SolveError, match=r"point 1 \(load 300, speed 136.* has no solution"):
+        calibrate("washer", data, fit="heat_split", fidelity="coarse")
+
+
+def test_an_output_that_is_not_finite_is_named(monkeypatch):
+    """No point is known where a model has one; so the solution is replaced."""
+    monkeypatch.setattr(Measured, "computed", lambda self, changes: (np.array([1.0, np.inf]), {}))
+    data = {"power": [1e3, 2e3], "speed": [100.0] * 2, "friction_torque": [2.0, 2.0]}
+    with pytest.raises(ParameterError, match=r"point 2 .* is inf, allowed: finite outputs"):
+        calibrate("gearmesh", data, fit="f0")
+
+
+def test_without_data_there_must_be_a_law():
+    with pytest.raises(ParameterError, match="data is missing: measured points of ThrustWasher"):
+        calibrate(WasherParams(), fit="heat_split")
+    with pytest.raises(ParameterError, match="part: float"):
+        calibrate(1.0, GOOD, fit="f0")

@@ -1,0 +1,98 @@
+"""Part files: what is written is read back to the bit; what is wrong is named."""
+
+import pytest
+
+from thrustwasher import ParameterError, WasherParams, load_part
+from thrustwasher.model.part_file import part_text, preset_parts
+from thrustwasher.model.registry import all_models
+from thrustwasher.units import exact_quantity, parse_quantity
+
+MINE = """
+model = "washer"
+name = "Mine"
+
+[parameters]
+roughness = "0.4 um"
+thermal_mode = "transient"
+oil_cooling = false
+
+[box]
+load = ["20 N", "1.2 kN"]
+oil_temperature = "80 degC"
+"""
+
+
+@pytest.fixture
+def mine(tmp_path):
+    def write(*changes: tuple[str, str]):
+        path, text = tmp_path / "mine.toml", MINE
+        for old, new in changes:
+            assert old in text
+            text = text.replace(old, new)
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def test_a_part_is_its_parameters_its_box_and_its_name(mine):
+    part = load_part(mine())
+    changed = WasherParams(roughness=0.4e-6, thermal_mode="transient", oil_cooling=False)
+    assert (part.name, part.params, part.fidelity) == ("Mine", changed, "field")
+    assert part.box == {"load": (20.0, 1200.0), "oil_temperature": (353.15, 353.15)}
+
+
+@pytest.mark.parametrize("model", all_models(), ids=lambda m: m.key)
+def test_presets_written_and_read_again_are_the_same_to_the_bit(model, tmp_path):
+    for name, part in preset_parts(model.spec).items():
+        path = tmp_path / f"{name}.toml"
+        path.write_text(part_text(part))
+        again = load_part(path)
+        assert (again.params, again.box, again.notes) == (part.params, part.box, part.notes)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit"),
+    [
+        (5.15e-7, "m"),
+        (0.1, "m"),
+        (1 / 3, "rad"),
+        (297.15, "K"),
+        (6.8e9, "1/m2"),
+        (1e5 / 3, "Pa"),
+    ],
+)
+def test_a_number_with_a_readable_unit_is_the_same_number(value, unit):
+    assert parse_quantity(exact_quantity(value, unit), unit, "x") == value
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"0.4 um"', '"0.4 N"', ["[parameters]", "roughness", "0.4 N", "um"]),
+        ('"0.4 um"', '"4 m"', ["[parameters]", "roughness = 4.0 m", "1e-05 m"]),
+        ("roughness", "roughnes", ["[parameters]", "'roughnes'", "roughness"]),
+        ('"transient"', '"quick"', ["thermal_mode", "'quick'", "quasi_steady"]),
+        ("false", '"no"', ["oil_cooling", "'no'", "True or False"]),
+        ('name = "Mine"', 'name = "my washer"', ["name = 'my washer'", "letters, digits and _"]),
+        ('name = "Mine"', "", ["'name' is missing"]),
+        ('"washer"', '"whasher"', ["model = 'whasher'", "ThrustWasher"]),
+        ('"1.2 kN"', '"30 kN"', ["[box]", "load = 30000.0 N", "0 .. 10000 N"]),
+        ('["20 N", "1.2 kN"]', '["1.2 kN", "20 N"]', ["[box]", "load", "low <= high"]),
+        ('["20 N", "1.2 kN"]', '["1 N", "2 N", "3 N"]', ["[box]", "load", "[low, high]"]),
+        ("oil_temperature =", "oil =", ["[box]", "'oil'"]),
+        ("[box]", "[boxes]", ["'boxes'", "box"]),
+        ("[box]", "[box", ["not valid TOML"]),
+    ],
+)
+def test_what_is_wrong_in_a_part_file_is_named(mine, old, new, words):
+    path = mine((old, new))
+    with pytest.raises(ParameterError) as caught:
+        load_part(path)
+    for word in ["mine.toml", *words]:
+        assert word in str(caught.value)
+
+
+def test_a_file_that_is_none_is_named(tmp_path):
+    with pytest.raises(ParameterError, match=r"nowhere.toml.*cannot be read"):
+        load_part(tmp_path / "nowhere.toml")

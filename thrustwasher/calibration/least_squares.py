@@ -1,0 +1,243 @@
+"""Weighted least squares within bounds: what is fitted to what, several starts, profiles."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Self
+
+import numpy as np
+
+from ..errors import SolveError
+from ..numerics.jit import Array
+
+AS_GOOD = 1e-4  # relative excess of the sum of squares of a start that is refined further
+AT_BOUND = 1e-5  # of a constant's scale: nearer than this the bound itself is tried
+SAME = 1e-3  # of a constant's scale: two starts that end as near count once
+PRESSES = 1e-12  # fall of the misfit, beside the points' squares, that puts a constant on its bound
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """Measured values and the constants that may be changed to meet them.
+
+    A guess holds one number per constant: its value, or the logarithm of it. A fit of something
+    else is a class with ``curve`` and ``slopes_of_curve``.
+    """
+
+    base: Mapping[str, Any]  # values that are held
+    names: tuple[str, ...]  # constants that are fitted
+    measured: Array  # (n,)
+    weight: Array  # (n,) one over the standard deviation, or what makes values comparable
+    low: Array  # (constants,) ranges, of the guess
+    high: Array
+    scale: Array  # (constants,) a change of the guess that would certainly matter
+    logarithmic: Array = field(default_factory=lambda: np.zeros(0, bool))  # (constants,)
+    units: Mapping[str, str] = field(default_factory=dict)  # of the constants
+    known_errors: bool = False
+    """The weights are one over known standard deviations; else the residuals' scatter counts."""
+
+    rough, fine = 1e-7, 1e-14  # tolerances while starts compete, and for those that are as good
+    evaluations = 250  # most of them in one search
+    resolution = 1e-9  # a singular value this small beside the largest is rounding
+    subject, counted_as, error_name = "friction", "point", "friction_error"
+
+    def curve(self, guess: Array) -> Array:
+        """Return the computed values, (n,); NaN where there is none."""
+        raise NotImplementedError
+
+    def slopes_of_curve(self, guess: Array) -> Array:
+        """Return the derivatives of the curve over the guess, (n, constants)."""
+        raise NotImplementedError
+
+    def starts(self, first: Array) -> list[Array]:
+        """Return further places to start from beside the values before the fit."""
+        return []
+
+    def why_not(self, best: Array, i: int) -> tuple[str, bool]:
+        """Return what is special about a constant that is not told, and whether it says it all."""
+        return "", False
+
+    def why_bound(self, best: Array, i: int, side: str) -> str:
+        """Return what would free a constant from its bound."""
+        return ""
+
+    def shown(self, guess: Array) -> Array:
+        """Return the values that a guess stands for."""
+        if not self.logarithmic.any():
+            return guess
+        return np.where(self.logarithmic, np.exp(np.minimum(guess, 700.0)), guess)
+
+    def stretch(self, guess: Array) -> Array:
+        """Return the derivatives of the values over the guess."""
+        if not self.logarithmic.any():
+            return np.ones(len(guess))
+        return np.where(self.logarithmic, self.shown(guess), 1.0)
+
+    def values(self, guess: Array) -> dict[str, Any]:
+        """Return all values with the guess put in."""
+        return {**self.base, **dict(zip(self.names, self.shown(guess).tolist(), strict=True))}
+
+    def misfit(self, guess: Array) -> Array:
+        """Return (computed - measured) x weight."""
+        return (self.curve(guess) - self.measured) * self.weight
+
+    def slopes(self, guess: Array) -> Array:
+        """Return the derivatives of the misfit, (n, constants)."""
+        return self.slopes_of_curve(guess) * self.weight[:, None]
+
+    def cost(self, guess: Array) -> float:
+        """Return the sum of squares of the misfit."""
+        misfit = self.misfit(guess)
+        return float(misfit @ misfit)
+
+    def holding(self, i: int, place: float) -> Self:
+        """Return the same problem with one constant fixed."""
+        keep = np.arange(len(self.names)) != i
+        values = np.where(keep, self.low, place)
+        return replace(
+            self, base={**self.base, self.names[i]: float(self.shown(values)[i])},
+            names=tuple(n for n, kept in zip(self.names, keep, strict=True) if kept),
+            low=self.low[keep], high=self.high[keep], scale=self.scale[keep],
+            logarithmic=self.logarithmic[keep] if len(self.logarithmic) else self.logarithmic,
+        )  # fmt: skip
+
+
+def best_fit(problem: Problem, first: Array) -> Array:
+    """Return the constants with the least sum of squares that any start leads to.
+
+    Where several fit equally well, the nearest to ``first``, the values before the fit, is taken;
+    SolveError if no start converged.
+    """
+    starts = [first, *problem.starts(first)]
+    count = len(problem.measured)
+    noise = (1e-13 * np.abs(problem.measured * problem.weight).max()) ** 2 * count
+    rough = [f for f in (_refine(problem, s, problem.rough) for s in starts) if f is not None]
+    least = min((problem.cost(f) for f in rough), default=0.0)
+    good: list[Array] = []
+    for guess in rough:
+        is_new = all(np.abs((guess - g) / problem.scale).max() > SAME for g in good)
+        if is_new and problem.cost(guess) <= least * (1.0 + AS_GOOD) + 1e6 * noise:
+            good.append(guess)
+    fine = [_refine(problem, guess) for guess in good]  # a valley may be too flat for it
+    found = [
+        _on_bounds(problem, g if f is None or problem.cost(f) > problem.cost(g) else f)
+        for g, f in zip(good, fine, strict=True)
+    ]
+    if not found:
+        raise SolveError(
+            f"the {problem.subject} could not be fitted from {len(starts)} starting "
+            f"point{'s' * (len(starts) > 1)}; fit fewer constants or start nearer with "
+            "--set NAME=VALUE"
+        )
+    costs = np.array([problem.cost(guess) for guess in found])
+    equal = costs <= costs.min() * (1.0 + 1e-9) + noise
+    near = [float(np.linalg.norm((guess - first) / problem.scale)) for guess in found]
+    return found[int(np.argmin(np.where(equal, near, np.inf)))]
+
+
+def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation: float) -> Array:
+    """Return the fit with its weak constants drawn to their first values.
+
+    Constants that the points do not tell may end anywhere without fitting worse; beside the misfit
+    their distance from the first values, in scales, counts like one point's standard deviation.
+    """
+    floor = 1e-6 * float(np.abs(problem.measured * problem.weight).max())
+    pull = weak * max(deviation, floor) / problem.scale
+    found = [_refine(problem, s, problem.fine, pull, first) for s in (best, first)]
+    reached = [f for f in found if f is not None]
+    pulled = [problem.cost(f) + float(np.sum((pull * (f - first)) ** 2)) for f in reached]
+    if not reached:
+        return best
+    return _pressed(problem, _on_bounds_exactly(problem, reached[int(np.argmin(pulled))]))
+
+
+def profile_end(problem: Problem, best: Array, index: int, end: float, wanted: float) -> float:
+    """Return where one constant alone costs ``wanted`` more, the others refitted.
+
+    ``end`` is a first guess of the place, on the wanted side of ``best``. Where the sum of squares
+    rises less up to the constant's bound, it is that bound.
+    """
+    from scipy.optimize import brentq
+
+    centre, least, rest = best[index], problem.cost(best), np.delete(best, index)
+    bound = problem.high[index] if end > centre else problem.low[index]
+
+    def excess(place: float) -> float:
+        held = problem.holding(index, place)
+        found = _refine(held, rest, problem.rough) if held.names else rest
+        rise = held.cost(rest if found is None else found) - least
+        return float(np.sqrt(max(rise, 0.0) / wanted)) - 1.0
+
+    near, place = centre, float(np.clip(end, problem.low[index], problem.high[index]))
+    while excess(place) < 0.0:
+        if place == bound:
+            return float(bound)
+        step = 2.0 * (place - centre)
+        near, place = place, float(np.clip(centre + step, problem.low[index], problem.high[index]))
+    width = 2.5e-3 * abs(end - centre)
+    return float(brentq(excess, near, place, xtol=width))
+
+
+def _refine(
+    problem: Problem,
+    start: Array,
+    tolerance: float | None = None,
+    pull: Array | None = None,
+    anchor: Array | float = 0.0,
+) -> Array | None:
+    """Return the local optimum beside a start, or None if it was not reached.
+
+    With ``pull`` the differences from ``anchor``, weighted by it, count as further points.
+    """
+    from scipy.optimize import least_squares
+
+    tolerance = problem.fine if tolerance is None else tolerance
+
+    def misfit(guess: Array) -> Array:
+        own = problem.misfit(guess)
+        return own if pull is None else np.concatenate([own, pull * (guess - anchor)])
+
+    def slopes(guess: Array) -> Array:
+        own = problem.slopes(guess)
+        return own if pull is None else np.vstack([own, np.diag(pull)])
+
+    begin = np.clip(start, problem.low, problem.high)
+    if not np.isfinite(misfit(begin)).all():
+        return None
+    found = least_squares(
+        misfit, begin, jac=slopes,
+        bounds=(problem.low, problem.high), x_scale=problem.scale, max_nfev=problem.evaluations,
+        ftol=tolerance, xtol=tolerance, gtol=tolerance,
+    )  # fmt: skip
+    return np.asarray(found.x) if found.status > 0 and np.isfinite(found.cost) else None
+
+
+def _on_bounds(problem: Problem, guess: Array) -> Array:
+    """Return the guess with constants close to a bound put on it, where that fits no worse."""
+    for i in range(len(problem.names)):
+        for bound in (problem.low[i], problem.high[i]):
+            if 0.0 < abs(guess[i] - bound) < AT_BOUND * problem.scale[i]:
+                held = problem.holding(i, float(bound))
+                rest = _refine(held, np.delete(guess, i)) if held.names else np.zeros(0)
+                if rest is not None and held.cost(rest) <= problem.cost(guess) * (1.0 + 1e-12):
+                    guess = np.insert(rest, i, bound)
+    return _on_bounds_exactly(problem, guess)
+
+
+def _pressed(problem: Problem, guess: Array) -> Array:
+    """Return the guess with constants put on a bound that only the pull keeps them from."""
+    gain = PRESSES * float(np.sum((problem.measured * problem.weight) ** 2))
+    for i in range(len(guess)):
+        for bound in (problem.low[i], problem.high[i]):
+            on = guess.copy()
+            on[i] = bound
+            near = 0.0 < abs(guess[i] - bound) < SAME * problem.scale[i]
+            if near and problem.cost(on) < problem.cost(guess) - gain:
+                guess = on
+    return guess
+
+
+def _on_bounds_exactly(problem: Problem, guess: Array) -> Array:
+    """Return the guess without the hair's breadth that the search keeps from its bounds."""
+    hair = 1e-12 * problem.scale
+    guess = np.where(guess - problem.low <= hair, problem.low, guess)
+    return np.where(problem.high - guess <= hair, problem.high, guess)

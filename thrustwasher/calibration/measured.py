@@ -1,0 +1,161 @@
+"""Measured points of a model, checked: operating points, measured outputs, their errors."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import FIRST_FAILURE, ParameterError, Status, suggestion
+from ..model.record import resolve
+from ..model.registry import find_model
+from ..model.spec import ModelSpec
+from ..numerics.jit import Array
+from ..sweep.axes import places
+from ..sweep.solve_rows import Task, output_signals, solve_task
+from ..sweep.sweep_plan import Plan, make_plan
+from ..units import parse_quantity
+
+ERROR = "_error"  # ending of the column with an output's standard deviation
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Measured values of outputs, one after the other, and the points they belong to."""
+
+    plan: Plan
+    row: NDArray[np.int64]  # (n,) place of each value's point, from 0
+    output: tuple[str, ...]  # (n,)
+    value: Array
+    error: Array | None  # (n,) standard deviations, if known
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The measured outputs."""
+        return tuple(dict.fromkeys(self.output))
+
+    def computed(self, changes: Mapping[str, float]) -> tuple[Array, dict[int, Status]]:
+        """Return the outputs [SI] with changed parameters, (n,), and the rows that failed, why."""
+        plan, starts = self.plan, self.plan.starts
+        fits, inputs = find_model(plan.spec.key).fits, [s.name for s in plan.spec.inputs]
+        sets = [_changed(params, changes) for params in plan.params]
+        params = [sets[i] for i in plan.params_of]
+        numbers, flags = solve_task(
+            Task(plan.spec.key, plan.fidelity, 0, plan.inputs, tuple(starts.tolist()),
+                 tuple(params))
+        )  # fmt: skip
+        known = [s.name for s in output_signals(plan.spec)[0]]
+        failed = {i: Status(int(s)) for i, s in enumerate(flags[:, -1]) if s >= FIRST_FAILURE}
+        curves: dict[int, Mapping[str, float]] = {}
+        found = np.full(len(self.value), np.nan)
+        for k, (row, name) in enumerate(zip(self.row.tolist(), self.output, strict=True)):
+            if name in known:
+                found[k] = numbers[row, known.index(name)]
+                continue
+            if row not in curves:
+                point = dict(zip(inputs, plan.inputs[row].tolist(), strict=True))
+                own = params[int(np.searchsorted(starts, row, "right")) - 1]
+                curves[row] = resolve(fits.curve)(own, point, plan.fidelity) if own else {}
+            found[k] = curves[row].get(name, np.nan)
+        failed |= {row: Status.NO_BRANCH for row in curves}  # if there is no number
+        return found, failed
+
+
+def _changed(params: Any, changes: Mapping[str, float]) -> Any:
+    """Return changed parameters, or None if they break a rule."""
+    try:
+        return None if params is None else replace(params, **changes)
+    except ParameterError:
+        return None
+
+
+def output_units(spec: ModelSpec) -> dict[str, str]:
+    """Return the unit of every output that can be measured."""
+    more = {name: unit for name, (unit, _) in find_model(spec.key).fits.more.items()}
+    return {s.name: s.unit for s in output_signals(spec)[0]} | more
+
+
+def column_units(spec: ModelSpec) -> dict[str, str]:
+    """Return the unit of every column that measured points may have."""
+    outputs = output_units(spec)
+    errors = {name + ERROR: unit for name, unit in outputs.items()}
+    numbers = {p.name: p.unit for p in places(spec).values() if p.kind in ("real", "integer")}
+    return {**numbers, **outputs, **errors, "line": "1"}
+
+
+def measured(
+    spec: ModelSpec, params: Any, data: Mapping[str, Sequence[Any]], at: Mapping[str, Any],
+    errors: Mapping[str, float | str], fidelity: str,
+) -> Measured:  # fmt: skip
+    """Return measured points, or name the first thing that cannot be used."""
+    units, known, fits = output_units(spec), column_units(spec), find_model(spec.key).fits
+    columns = {name: list(column) for name, column in data.items()}
+    for name in columns:
+        if name not in known:
+            hint = suggestion(name, known, "did you mean {}? ")
+            raise ParameterError(f"column {name}: is no input, parameter or output of {spec.name}; "
+                                 f"{hint}outputs: {', '.join(units)}")  # fmt: skip
+    lengths = {name: len(column) for name, column in columns.items()}
+    if len(set(lengths.values())) > 1:
+        raise ParameterError(f"data: columns of {lengths}, allowed: one length for all")
+    found = [(row, name, _number(name, row, x)) for name, column in columns.items()
+             if name in units for row, x in enumerate(column) if x is not None]  # fmt: skip
+    points = {n: c for n, c in columns.items() if n.removesuffix(ERROR) not in units}
+    if not found or not set(points) - {"line"}:
+        what = "input or parameter" if found else f"measured output, allowed: {', '.join(units)}"
+        raise ParameterError(f"data: no {what}")
+    row, output, value = zip(*found, strict=True)
+    wanted = {i for i, name in zip(row, output, strict=True) if name not in fits.more}
+    usual = {s.name: s.usual for s in spec.inputs}
+    for name, column in points.items():
+        for i, x in enumerate(column):
+            if x is None and (name != fits.without or i in wanted):
+                raise ParameterError(f"{name}: point {i + 1} has none")
+        points[name] = [usual[name] if x is None else x for x in column]
+    plan = make_plan(spec.key, {}, at, points, params, fidelity)
+    if plan.params[0] is None:
+        raise ParameterError("data: the parameters of point 1 break a rule of the model")
+    spread = _deviations(units, columns, errors, found)
+    return Measured(plan, np.array(row), output, np.array(value), spread)
+
+
+def _number(name: str, row: int, value: Any) -> float:
+    """Return a measured number, or say which one is none."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = np.nan
+    if not np.isfinite(number) or (name.endswith(ERROR) and number <= 0.0):
+        what = "above 0" if name.endswith(ERROR) else "a finite number, or None if not measured"
+        raise ParameterError(f"{name}: point {row + 1} is {value!r}, allowed: {what}")
+    return number
+
+
+def _deviations(
+    units: Mapping[str, str], columns: Mapping[str, list[Any]],
+    errors: Mapping[str, float | str], found: Sequence[tuple[int, str, float]],
+) -> Array | None:  # fmt: skip
+    """Return the standard deviation of every value; None if none is given."""
+    names = tuple(dict.fromkeys(name for _, name, _ in found))
+    for name in errors:
+        if name not in names or name + ERROR in columns:
+            raise ParameterError(f"error of {name}: allowed: of a measured output, and given once")
+    lost = [name for name in names if name not in errors and name + ERROR not in columns]
+    if lost and len(names) > 1:
+        raise ParameterError(
+            f"{lost[0]}{ERROR} is missing: several outputs count by their errors, each in a column "
+            f"or by --error {lost[0]}=VALUE (errors = {{...}} in Python)"
+        )
+    if lost:
+        return None
+    spread = []
+    for row, name, value in found:
+        if name + ERROR in columns:
+            given = columns[name + ERROR][row]
+        elif str(errors[name]).strip().endswith("%"):  # of the measured value
+            given = parse_quantity(errors[name], "1", f"error of {name}") * abs(value)
+        else:
+            given = parse_quantity(errors[name], units[name], f"error of {name}", difference=True)
+        spread.append(_number(name + ERROR, row, given))
+    return np.array(spread)

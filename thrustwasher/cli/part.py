@@ -1,0 +1,106 @@
+"""``thrustwasher part``: write a part file, check one, list the presets."""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+from ..errors import ParameterError
+from ..model.part_file import (
+    PartFile,
+    checked_name,
+    find_part,
+    load_part,
+    part_text,
+    preset_part,
+    preset_parts,
+)
+from ..model.registry import all_models, find_model
+from ..storage.whole_files import whole_file
+from . import _options, _output
+
+HELP = "write a part file of one's own (new), check one, list the presets"
+DEEDS = ("new", "check", "list")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    models = all_models()
+    parser.add_argument("deed", choices=DEEDS, help="what to do")
+    parser.add_argument(
+        "subject", nargs="?", metavar="MODEL|FILE",
+        help=f"new: the model, {', '.join(m.key for m in models)}; check: the part file; list: the "
+        "model, default all",
+    )  # fmt: skip
+    parser.add_argument("--name", help="new: name of the part and of its FMU, default MyMODEL")
+    parser.add_argument("--preset", help="new: preset to start from, `part list` names them")
+    parser.add_argument(
+        "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
+        help="new: change a parameter; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
+        "--out", metavar="FILE.toml", help="new: file to write, default MODEL.toml; never over one"
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do what is asked."""
+    if arguments.deed != "list" and not arguments.subject:
+        wanted = "a model, e.g. washer" if arguments.deed == "new" else "a part file"
+        raise ParameterError(f"part {arguments.deed}: {wanted} is wanted")
+    {"new": _new, "check": _check, "list": _list}[arguments.deed](arguments)
+    return 0
+
+
+def _new(arguments: argparse.Namespace) -> None:
+    model = find_model(arguments.subject)
+    spec = model.spec
+    start = find_part(spec.key) if arguments.preset is None else preset_part(spec, arguments.preset)
+    changes = _options.read_settings(arguments.settings, spec)
+    name = checked_name(arguments.name or f"My{spec.key.capitalize()}")
+    box = start.box or _usual_box(model)
+    out = _output.new_part(arguments.out or f"{spec.key}.toml")
+    text = part_text(replace(start, name=name, parameters=start.parameters | changes, box=box))
+    with whole_file(out) as draft:
+        draft.write_text(text, encoding="utf-8")
+    _told(arguments, out, load_part(out), f"wrote {out}")
+
+
+def _usual_box(model: object) -> dict[str, tuple[float, float]]:
+    """Return the box of the default parameters' cards; without cards there is none."""
+    ladder = getattr(model, "ladder", None)
+    boxes = ladder.boxes.get("default", {}) if ladder else {}
+    return {name: (low, high) for name, (low, high, _) in boxes.items()}
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    path = Path(arguments.subject)
+    _told(arguments, path, load_part(path), f"{path}: sound")
+
+
+def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
+    """Say what a part file holds."""
+    if arguments.json:
+        _output.print_json({
+            "file": str(path), "model": part.spec.key, "name": part.name, "box": part.box,
+            "fidelity": part.fidelity, "parameters": _output.parameters_of(part.params),
+        })  # fmt: skip
+        return
+    plain, own = part.spec.params(), part.params
+    changed = [n for n in part.parameters if getattr(plain, n) != getattr(own, n)]
+    given = f"{len(changed)} parameters not at their defaults" if changed else "all at the defaults"
+    print(f"{words}: {part.name}, {part.spec.name}, {given}{': ' * bool(changed)}"
+          + ", ".join(changed))  # fmt: skip
+
+
+def _list(arguments: argparse.Namespace) -> None:
+    models = [find_model(arguments.subject)] if arguments.subject else all_models()
+    found = {m.key: preset_parts(m.spec) for m in models}
+    if arguments.json:
+        _output.print_json(
+            {k: {n: p.description for n, p in own.items()} for k, own in found.items()}
+        )
+        return
+    for key, own in found.items():
+        for name, part in own.items():
+            print(f"{key:10} {name:10} {part.description}")

@@ -1,0 +1,242 @@
+"""Part files: a part of one's own as TOML, and the presets that come with the package.
+
+A part file names its model and holds parameters with units, the box of inputs it is meant for and
+notes::
+
+    model = "washer"
+    name = "MyWasher"
+
+    [parameters]
+    roughness = "0.5 um"
+
+    [box]
+    load = ["20 N", "1850 N"]
+
+Presets are such files, in ``data/parts/MODEL/NAME.toml``. What a file leaves out is at its default.
+"""
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from ..units import exact_quantity
+from .parameters import allowed, other_names_of, plainly_named
+from .registry import find_model
+from .spec import ModelSpec, tailored
+from .toml_tables import nothing_else, number, parse, read_file, read_value, unknown
+
+TEXTS = ("model", "name", "description", "fidelity", "notes")
+TABLES = ("parameters", "box")
+LONGEST_NAME = 60  # characters, of a name that becomes that of files
+SUFFIX = ".toml"
+Box = dict[str, tuple[float, float]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PartFile:
+    """A part of one's own: its model, its parameters and the inputs it is meant for."""
+
+    spec: ModelSpec
+    """The model."""
+    name: str
+    """Name of its FMU."""
+    parameters: dict[str, Any] = field(default_factory=dict)
+    """Values [SI] of the parameters that are given; all others are at their defaults."""
+    fidelity: str
+    """The rung that it is solved with where no other is asked for."""
+    box: Box = field(default_factory=dict)
+    """Range [SI] of each input that it is meant for; an input that is not there has no bounds."""
+    description: str = ""
+    notes: str = ""
+
+    @property
+    def params(self) -> Any:
+        """All parameters: ``WasherParams``, ``ClutchParams`` and so on."""
+        return self.spec.params(**self.parameters)
+
+    @property
+    def model(self) -> ModelSpec:
+        """The model as its FMU shows it: this part's name and values, inputs inside its box."""
+        names = [s.name for s in self.spec.inputs]
+        starts = {s.name: self._inside(s.name, s.start or 0.0) for s in self.spec.inputs}
+        course = tuple((t, *map(self._inside, names, row)) for t, *row in self.spec.course)
+        return tailored(
+            self.spec, {**self.parameters, "fidelity": self.fidelity}, starts, course=course,
+            name=self.name, help=self.description.rstrip(".") or self.spec.help, box=self.box,
+            notes=self.notes,
+        )  # fmt: skip
+
+    def _inside(self, name: str, value: float) -> float:
+        """Return the value of an input, moved into the box."""
+        low, high = self.box.get(name, (-math.inf, math.inf))
+        return min(max(value, low), high)
+
+
+def load_part(path: str | Path) -> PartFile:
+    """Return the part of a part file.
+
+    Raises
+    ------
+    ParameterError : the file cannot be read, or something in it is not allowed
+
+    Examples
+    --------
+    >>> part = load_part("washer.toml")  # doctest: +SKIP
+    >>> solve_washer(part.params, load=300.0, speed=953.0, tilt=0.002)  # doctest: +SKIP
+    """
+    where = f"part {str(path)!r}"
+    part = _part(where, read_file("part", path))
+    try:
+        part.params  # noqa: B018  (raises what the model says about them)
+    except ParameterError as problem:
+        raise ParameterError(f"{where} [parameters]: {problem}") from None
+    return part
+
+
+def is_part(name: str) -> bool:
+    """Return whether a word names a part file, not a model."""
+    return name.endswith(SUFFIX)
+
+
+def find_part(name: str) -> PartFile:
+    """Return the part of a part file, or the part of that model with all defaults."""
+    if is_part(name):
+        return load_part(name)
+    spec = find_model(name).spec
+    return PartFile(spec=spec, name=spec.name, fidelity=spec.default_fidelity)
+
+
+@cache
+def _preset_files(key: str) -> dict[str, PartFile]:
+    folder = resources.files(__package__.rpartition(".")[0]) / "data" / "parts" / key
+    if not folder.is_dir():
+        return {}
+    files = [f for f in folder.iterdir() if f.name.endswith(SUFFIX)]
+    return {
+        f.name.removesuffix(SUFFIX): _part(
+            f"preset {f.name!r}", parse(f.name, f.read_text("utf-8"))
+        )
+        for f in sorted(files, key=lambda f: f.name)
+    }
+
+
+def preset_parts(spec: ModelSpec) -> dict[str, PartFile]:
+    """Return the presets of a model by name."""
+    return _preset_files(spec.key)
+
+
+def preset_part(spec: ModelSpec, name: str) -> PartFile:
+    """Return a preset; ParameterError if there is none of that name."""
+    known = preset_parts(spec)
+    if name not in known:
+        names = " or ".join(map(repr, known)) or f"none, {spec.name} has no presets"
+        raise ParameterError(f"preset = {name!r}, allowed: {names}")
+    return known[name]
+
+
+def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> Any:
+    """Return a model's parameters: its defaults, or those of a preset, some of them changed."""
+    start = {} if preset is None else preset_part(spec, preset).parameters
+    return spec.params(**{**start, **changes})
+
+
+def _part(where: str, table: dict[str, Any]) -> PartFile:
+    nothing_else(where, [k for k in table if k not in TEXTS + TABLES], TEXTS + TABLES)
+    for key in TEXTS:
+        if not isinstance(table.get(key, ""), str):
+            raise ParameterError(f"{where}: {key} = {table[key]!r}, allowed: a text")
+    for key in TABLES:
+        if not isinstance(table.get(key, {}), dict):
+            raise ParameterError(f"{where}: {key} = {table[key]!r}, allowed: a table [{key}]")
+    for key in ("model", "name"):
+        if key not in table:
+            raise ParameterError(f"{where}: {key!r} is missing")
+    try:
+        spec = find_model(table["model"]).spec
+        name = checked_name(table["name"])
+        fidelity = table.get("fidelity", spec.default_fidelity)
+        if fidelity not in spec.fidelities:
+            rungs = " or ".join(map(repr, spec.fidelities))
+            raise ParameterError(f"fidelity = {fidelity!r}, allowed: {rungs}")
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+    parameters = read_parameters(f"{where} [parameters]", spec, table.get("parameters", {}))
+    return PartFile(
+        spec=spec, name=name, parameters=parameters, fidelity=fidelity,
+        box=_box(f"{where} [box]", spec, table.get("box", {})),
+        description=table.get("description", ""), notes=table.get("notes", ""),
+    )  # fmt: skip
+
+
+def checked_name(name: str) -> str:
+    """Return the name of a part if it can be that of an FMU and its files."""
+    if name.isidentifier() and name.isascii() and len(name) <= LONGEST_NAME:
+        return name
+    raise ParameterError(
+        f"name = {name!r}, allowed: letters, digits and _, no digit in front, at most "
+        f"{LONGEST_NAME} characters"
+    )
+
+
+def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values [SI] of a table of parameters by their names."""
+    known = {f.name: f.metadata for f in fields(spec.params)}
+    given = plainly_named(other_names_of(spec.params), table)
+    nothing_else(where, [key for key in given if key not in known], known)
+    return {key: read_value(where, key, value, known[key]) for key, value in given.items()}
+
+
+def _box(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> Box:
+    """Return the ranges of inputs: two quantities, or one that is fixed."""
+    inputs = {s.name: s for s in spec.inputs}
+    found = {}
+    for key, given in table.items():
+        if key not in inputs:
+            raise unknown(where, key, inputs)
+        ends = given if isinstance(given, list) else [given]
+        if len(ends) not in (1, 2):
+            raise ParameterError(f"{where}: {key} = {given!r}, allowed: [low, high] or one value")
+        s = inputs[key]
+        rule = s.unit, -math.inf if s.low is None else s.low, math.inf if s.high is None else s.high
+        low, high = (number(where, key, x, rule) for x in (ends[0], ends[-1]))
+        if low > high:
+            raise ParameterError(f"{where}: {key} = {given!r}, allowed: low <= high")
+        found[key] = low, high
+    return found
+
+
+def part_text(part: PartFile) -> str:
+    """Return a part as the text of its file: every parameter on a line of its own, with its range.
+
+    Read back, it gives the same numbers to the bit.
+    """
+    return "\n".join(_lines(part)) + "\n"
+
+
+def _lines(part: PartFile) -> Iterator[str]:
+    yield f"model = {json.dumps(part.spec.key)}"
+    yield f"name = {json.dumps(part.name)}  # of its FMU: letters, digits and _"
+    for key in ("description", "notes"):
+        yield f"{key} = {json.dumps(getattr(part, key), ensure_ascii=False)}"
+    rungs = " or ".join(part.spec.fidelities)
+    yield f"fidelity = {json.dumps(part.fidelity)}  # {rungs}"
+    yield ""
+    yield "[parameters]"
+    params = part.params
+    for f in fields(params):
+        m, value = f.metadata, getattr(params, f.name)
+        if m["kind"] == "real":
+            value = exact_quantity(value, m["unit"], difference=bool(m.get("relative")))
+        yield f"{f.name} = {json.dumps(value)}  # {m['help']}; {allowed(m)}"
+    yield ""
+    yield "[box]  # the inputs that it is meant for: [low, high], or one value"
+    for s in part.spec.inputs:
+        if s.name in part.box:
+            ends = [exact_quantity(x, s.unit, difference=s.relative) for x in part.box[s.name]]
+            yield f"{s.name} = {json.dumps(ends if ends[0] != ends[1] else ends[0])}  # {s.help}"

@@ -1,0 +1,73 @@
+"""TOML files and their tables: read, with quantities in SI units, or an error that says where."""
+
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError, suggestion
+from ..units import parse_quantity
+from .parameters import allowed
+
+
+def read_file(what: str, path: str | Path) -> dict[str, Any]:
+    """Return the tables of a TOML file; ``what`` it is ("scene") begins the message of an error."""
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, ValueError) as problem:  # bytes that are no text, a path that is none
+        reason = getattr(problem, "strerror", None) or "not a text file"
+        raise ParameterError(f"{what} = {str(path)!r}: cannot be read ({reason})") from None
+    return parse(f"{what} = {str(path)!r}", text)
+
+
+def parse(where: str, text: str) -> dict[str, Any]:
+    """Return the tables of a TOML text."""
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as problem:  # also numbers and nesting without end
+        raise ParameterError(f"{where}: not valid TOML ({problem})") from None
+
+
+def unknown(where: str, key: str, known: Iterable[str]) -> ParameterError:
+    """Return the error of a key that is not known."""
+    known = list(known)
+    hint = suggestion(key, known, "; did you mean {!r}?", f", allowed: {', '.join(known)}")
+    return ParameterError(f"{where}: there is no {key!r} here{hint}")
+
+
+def nothing_else(where: str, rest: Iterable[str], known: Iterable[str]) -> None:
+    """Refuse whatever is left in a table."""
+    for key in rest:
+        raise unknown(where, key, known)
+
+
+def quantity(where: str, key: str, value: Any, unit: str) -> float:
+    """Return a number in SI units."""
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
+    try:
+        return parse_quantity(value, unit, key)
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+
+
+def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:
+    """Return a number in SI units within its range; ``rule``: unit, least, largest."""
+    unit, low, high = rule
+    number = quantity(where, key, value, unit)
+    if not low <= number <= high:
+        tail = "" if unit == "1" else f" {unit}"
+        raise ParameterError(
+            f"{where}: {key} = {number!r}{tail}, allowed: {low:g} .. {high:g}{tail}"
+        )
+    return number
+
+
+def read_value(where: str, key: str, value: Any, meta: Any) -> Any:
+    """Return the value of a parameter, of the kind that its metadata say."""
+    if meta["kind"] == "real":
+        return quantity(where, key, value, meta["unit"])
+    wanted = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
+    if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
+        raise ParameterError(f"{where}: {key} = {value!r}, allowed: {allowed(meta)}")
+    return value

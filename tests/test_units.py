@@ -58,7 +58,12 @@ def test_what_is_no_load_is_refused_in_one_line(value):
 def test_every_unit_is_affine(number, pair):
     unit, written = pair
     factor, offset = UNITS[unit][written]
-    assert parse_quantity(f"{number!r} {written}", unit, "x") == factor * number + offset
+    value = parse_quantity(f"{number!r} {written}", unit, "x")
+    assert value == pytest.approx(factor * number + offset, rel=1e-15, abs=1e-13 * offset)
+
+
+def test_a_number_with_a_unit_is_rounded_once():
+    assert parse_quantity("635 um", "m", "washer_thickness") == 635e-6 != 1e-6 * 635
 
 
 @pytest.mark.parametrize(

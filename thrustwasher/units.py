@@ -5,6 +5,7 @@ For the command line and scene files. A bare number is in SI units already.
 
 import math
 import re
+from fractions import Fraction
 
 from .errors import ParameterError
 
@@ -58,7 +59,7 @@ _DISPLAY: dict[str, tuple[str, ...]] = {
     "m3/s": ("l/min",),
 }
 # More units that a number may be exact in.
-_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",)}
+_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",)}
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
@@ -83,12 +84,12 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
     if not isinstance(value, str):
-        number, written = _as_float(value), ""
+        digits, written = repr(_as_float(value)), ""
     else:
         match = _NUMBER.fullmatch(value)
         if match is None:
             raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
-        number, written = float(match[1]), _plain(match[2])
+        digits, written = match[1], _plain(match[2])
     if written in ("", _plain(unit)):
         factor, offset = 1.0, 0.0
     else:
@@ -96,10 +97,18 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
         if written not in known:
             raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
         factor, offset = known[written]
-    si = factor * number + (0.0 if difference else offset)
+    si = _scaled(digits, factor, 0.0 if difference else offset)
     if not math.isfinite(si):
         raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
     return si
+
+
+def _scaled(digits: str, factor: float, offset: float) -> float:
+    """Return ``factor * number + offset``, rounded once: "0.5 um" is 5e-07 to the bit."""
+    rough = factor * float(digits) + offset
+    if not math.isfinite(rough) or not 1e-200 < abs(rough) < 1e200:
+        return rough
+    return float(Fraction(digits) * Fraction(repr(factor)) + Fraction(repr(offset)))
 
 
 def _as_float(value: int | float) -> float:

@@ -42,6 +42,14 @@ def test_a_part_is_its_parameters_its_box_and_its_name(mine):
     assert part.box == {"load": (20.0, 1200.0), "oil_temperature": (353.15, 353.15)}
 
 
+def test_a_range_is_a_list_or_a_text_and_notes_may_be_a_table(mine):
+    path = mine(('["20 N", "1.2 kN"]', '"20 N:1.2 kN"'))
+    path.write_text(path.read_text() + '\n[notes]\ndrawing = "4711"\nrevision = 3\n')
+    part = load_part(path)
+    assert part.box["load"] == (20.0, 1200.0)
+    assert part.notes == "drawing: 4711; revision: 3"
+
+
 @pytest.mark.parametrize("model", all_models(), ids=lambda m: m.key)
 def test_presets_written_and_read_again_are_the_same_to_the_bit(model, tmp_path):
     for name, part in preset_parts(model.spec).items():

@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..units import exact_quantity
+from ..units import exact_quantity, format_quantity
 from .parameters import allowed, other_names_of, plainly_named
 from .registry import find_model
 from .spec import ModelSpec, tailored
@@ -148,6 +148,8 @@ def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> 
 
 def _part(where: str, table: dict[str, Any]) -> PartFile:
     nothing_else(where, [k for k in table if k not in TEXTS + TABLES], TEXTS + TABLES)
+    if isinstance(table.get("notes"), dict):
+        table = {**table, "notes": "; ".join(f"{k}: {v}" for k, v in table["notes"].items())}
     for key in TEXTS:
         if not isinstance(table.get(key, ""), str):
             raise ParameterError(f"{where}: {key} = {table[key]!r}, allowed: a text")
@@ -199,9 +201,12 @@ def _box(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> Box:
     for key, given in table.items():
         if key not in inputs:
             raise unknown(where, key, inputs)
-        ends = given if isinstance(given, list) else [given]
+        ends = given.split(":") if isinstance(given, str) else given
+        ends = ends if isinstance(ends, list) else [ends]
         if len(ends) not in (1, 2):
-            raise ParameterError(f"{where}: {key} = {given!r}, allowed: [low, high] or one value")
+            raise ParameterError(
+                f"{where}: {key} = {given!r}, allowed: [low, high], 'low:high' or one value"
+            )
         s = inputs[key]
         rule = s.unit, -math.inf if s.low is None else s.low, math.inf if s.high is None else s.high
         low, high = (number(where, key, x, rule) for x in (ends[0], ends[-1]))
@@ -219,6 +224,14 @@ def part_text(part: PartFile) -> str:
     return "\n".join(_lines(part)) + "\n"
 
 
+def _span(meta: Any) -> str:
+    """Return the allowed range, with the units that a person would write."""
+    if meta["kind"] != "real":
+        return allowed(meta)
+    ends = (format_quantity(meta[end], meta["unit"], difference=True) for end in ("min", "max"))
+    return " .. ".join(ends)
+
+
 def _lines(part: PartFile) -> Iterator[str]:
     yield f"model = {json.dumps(part.spec.key)}"
     yield f"name = {json.dumps(part.name)}  # of its FMU: letters, digits and _"
@@ -233,7 +246,7 @@ def _lines(part: PartFile) -> Iterator[str]:
         m, value = f.metadata, getattr(params, f.name)
         if m["kind"] == "real":
             value = exact_quantity(value, m["unit"], difference=bool(m.get("relative")))
-        yield f"{f.name} = {json.dumps(value)}  # {m['help']}; {allowed(m)}"
+        yield f"{f.name} = {json.dumps(value)}  # {m['help']}; {_span(m)}"
     yield ""
     yield "[box]  # the inputs that it is meant for: [low, high], or one value"
     for s in part.spec.inputs:

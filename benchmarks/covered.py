@@ -22,6 +22,8 @@ import os
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -86,6 +88,13 @@ def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str)
     return running.returncode == 0
 
 
+def run_plain(rc: Path, file: Path) -> bool:
+    """Run one file of tests with the kernels as plain Python."""
+    words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
+    words += ["-m", ""] if file.stem == "test_plain2006" else []  # all of them are slow
+    return run_tests(rc, words, LIMIT, NUMBA_DISABLE_JIT="1")
+
+
 def share(rc: Path, *words: str) -> str:
     """Return lines and branches walked through, in per cent, of some files."""
     command = [sys.executable, "-m", "coverage", "report", f"--rcfile={rc}", "--precision=1"]
@@ -136,11 +145,8 @@ def main() -> int:
         start(given.folder)
     good = True
     if given.part in ("kernels", "all"):
-        for file in plain_files():
-            words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
-            words += ["-m", ""] if file.stem == "test_plain2006" else []  # all of them are slow
-            cut = given.folder / "rc-cut-off"
-            good = run_tests(cut, words, LIMIT, NUMBA_DISABLE_JIT="1") and good
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            good = all([*pool.map(partial(run_plain, given.folder / "rc-cut-off"), plain_files())])
     if given.part == "all":
         good = run_tests(rc, [], None) and good
     low_share = report(given.folder, given.below) if given.part in ("report", "all") else 0

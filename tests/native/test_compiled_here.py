@@ -1,4 +1,4 @@
-"""Compiled here, by whatever numba is installed, the kernels give the shipped numbers."""
+"""Compiled here, by whatever numba is installed, the kernels are the shipped ones."""
 
 import os
 import subprocess
@@ -6,6 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from thrustwasher.native import ship, shipped
+from thrustwasher.native.entries import libraries
 
 ROOT = Path(__file__).parents[2]
 SOLVES = """
@@ -28,7 +31,17 @@ for rung in ("closed", "boundary", "stribeck", "field", "fine"):
 """
 
 
+SAME_TOOLS = shipped.index().get("toolchain") == ship.toolchain()
+
+
 @pytest.mark.slow
+@pytest.mark.skipif(not SAME_TOOLS, reason="other versions make other bytes")
+def test_made_again_everything_shipped_has_the_same_bytes():
+    assert ship.check(libraries()) == []
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(SAME_TOOLS, reason="the same bytes give the same numbers")
 def test_compiled_here_the_kernels_give_the_shipped_numbers(tmp_path):
     surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
     shown = []

@@ -241,10 +241,3 @@ def test_a_machine_nothing_is_made_for_lets_numba_compile(tmp_path):
     done = child(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
     assert done.stdout == "True\n", done.stderr
     assert done.stderr.count("\n") == 1 and "riscv64" in done.stderr
-
-
-@pytest.mark.slow
-def test_everything_shipped_is_made_again_with_the_same_bytes():
-    from thrustwasher.native import ship
-
-    assert ship.check(KERNELS) == []

@@ -12,13 +12,13 @@ Cure: Newton's method inside the bracket that always holds the root.
 import math
 
 import pytest
+from failures import heat_loop as h
 from hypothesis import given
 from hypothesis import strategies as st
 
 from thrustwasher import GearMeshParams, solve_gearmesh
 from thrustwasher.errors import Status
 from thrustwasher.gearmesh.kernels.flank_temperature import surface_temperature
-from thrustwasher.study.rivals import heat_loop as h
 
 FROZEN, THINNING = h.Loop(40.0, 100.0, 1.0), h.Loop(40.0, 100.0, 0.3)
 

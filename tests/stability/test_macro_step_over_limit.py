@@ -12,11 +12,12 @@ Cure: the default coupling hands over capacities, which know no c: ten times the
 import numpy as np
 import pytest
 from closed_forms.lock_up import reduced_inertia
+from failures.failure_cells import OK, SAYS, SLOW
+from failures.failure_masters import masters
 
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift.run import run_shift
-from thrustwasher.study.failures.failure_cells import OK, SAYS, SLOW
-from thrustwasher.study.macro_steps import Way, masters, scene_of
+from thrustwasher.study.macro_steps import Way, scene_of
 
 
 def instances(scene):
@@ -68,7 +69,7 @@ def test_torques_a_step_old_swing_slower_and_are_found_all_the_same(step):
 
 @pytest.mark.slow
 def test_every_master_is_right_below_its_limit_and_never_silent_above_it():
-    found = masters(instances, quick=True)
+    found = masters(quick=True)
     for row in found.cells:
         for hazard, cell in zip(found.hazards, row, strict=True):
             assert cell.verdict in (OK, SLOW) or (

@@ -1,14 +1,15 @@
 """What the corrections of the physics moved: the figures, and how the page shows them."""
 
 import pytest
-from scene_runs import instances, slow_without_jit
+from corrections import corrections
+from scene_runs import slow_without_jit
 
-from thrustwasher.study.charts.corrections import corrections, corrections_section
+from thrustwasher.study.charts.corrections_page import corrections_section
 
 
 @pytest.fixture(scope="module")
 def rows():
-    return corrections(instances)
+    return corrections()
 
 
 @slow_without_jit

@@ -3,7 +3,6 @@
 import math
 
 import pytest
-from scene_runs import instances
 
 from thrustwasher.study import macro_steps
 from thrustwasher.study.macro_steps import Way, complaint, figures, run
@@ -13,11 +12,11 @@ NAMES = ("lock_time", "slip_energy", "peak_temperature")
 
 @pytest.fixture(scope="module")
 def limit():
-    return macro_steps.small_step_limit(instances, quick=True)
+    return macro_steps.small_step_limit(quick=True)
 
 
 def errors(way, step, limit):
-    found = figures(run(way, step, instances))
+    found = figures(run(way, step))
     return [abs(found[name] - limit[0][name]) for name in NAMES]
 
 
@@ -46,16 +45,16 @@ def test_extrapolated_capacities_couple_with_order_two_nearly(limit):
 
 
 def test_a_handed_friction_torque_chatters_after_lock_up():
-    result = run(Way("gauss-seidel", "torque"), 1e-3, instances)
+    result = run(Way("gauss-seidel", "torque"), 1e-3)
     assert "turns round" in complaint(result, figures(result))
-    located = run(Way("gauss-seidel"), 1e-3, instances)
+    located = run(Way("gauss-seidel"), 1e-3)
     assert complaint(located, figures(located)) == ""
 
 
 def test_torques_that_look_ahead_hand_over_without_chatter(limit):
     """A quarter of the step, less than a tenth of the error in lock-up."""
     way = Way("linearly-implicit", "torque")
-    result = run(way, 2e-3, instances)
+    result = run(way, 2e-3)
     assert complaint(result, figures(result)) == ""
     found = [abs(errors(way, step, limit)[0]) for step in (8e-3, 2e-3)]
     assert found[1] < 0.1 * found[0] < 0.003
@@ -63,6 +62,6 @@ def test_torques_that_look_ahead_hand_over_without_chatter(limit):
 
 def test_a_way_with_a_tolerance_has_it_in_place_of_a_step(limit):
     truth, apart = limit
-    found = macro_steps.sample(Way("step-doubling"), 1e-3, instances, truth, apart, 1)
+    found = macro_steps.sample(Way("step-doubling"), 1e-3, truth, apart, 1)
     assert found["knob"] == "master_tolerance" and found["value"] == "0.001"
     assert not found["failures"] and found["errors"]["lock_time"]["worst"] < 5e-3

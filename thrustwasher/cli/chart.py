@@ -22,8 +22,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--only", choices=("stability",),
-        help="measure this part alone: where methods fail, and the limits of coupling, as "
-        "stability.md beside the chart's page; with --out FILE.md that page alone",
+        help="measure nothing, draw this part alone: where methods fail, and the limits of "
+        "coupling, as stability.md beside the chart's page; with --out FILE.md that page alone",
     )  # fmt: skip
     parser.add_argument(
         "--quick", action="store_true",
@@ -40,13 +40,16 @@ def run(arguments: argparse.Namespace) -> int:
         raise ParameterError("--only: not together with --draw, which draws what was measured")
     if arguments.only and Path(arguments.out).suffix.lower() == ".md":
         target = _output.check_file(arguments.out, "--out")
-        page = _page_of_failures(_measured(arguments))
+        page = _page_of_failures(_same_everywhere())
         with _output.whole_file(target) as draft:
             draft.write_text(page, "utf-8")
         _output.note(f"wrote {target}")
         return 0
     folder = _output.check_folder(arguments.out, "--out")
-    record = _read(arguments.draw) if arguments.draw else _measured(arguments)
+    if arguments.only:
+        record = _same_everywhere()
+    else:
+        record = _read(arguments.draw) if arguments.draw else _measured(arguments.quick)
     try:
         _write(record, folder, _page_of_failures(record) if arguments.only else "")
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
@@ -64,55 +67,39 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _page_of_failures(record: dict[str, Any]) -> str:
-    from ..study.failures.stability_page import stability_markdown
+    from ..study.charts.stability_page import stability_markdown
 
     return stability_markdown(record)
 
 
-def _measured(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return everything that is measured, or where methods fail alone, as JSON types."""
+def _same_everywhere() -> dict[str, Any]:
+    """Return what the package brings along since it is the same on every machine."""
+    from ..study.charts.stability_page import same_everywhere
+
+    return same_everywhere()
+
+
+def _measured(quick: bool) -> dict[str, Any]:
+    """Return everything that is measured, as JSON types."""
     from ..study.surroundings import pin_threads, surroundings
 
     pin_threads()  # before numpy is loaded
     from ..model.registry import models_with_cards
-    from ..study.charts.corrections import corrections
     from ..study.charts.work_precision import work_precision
-    from ..study.failures.coupling_limits import limits
-    from ..study.failures.failure_map import stability
-    from ..study.macro_steps import masters, study
+    from ..study.macro_steps import study
 
-    quick = arguments.quick
-    words = f" --only {arguments.only}" if arguments.only else ""
     began = time.perf_counter()
-    record = surroundings(f"thrustwasher chart{words}{' --quick' if quick else ''}")
+    record = surroundings(f"thrustwasher chart{' --quick' if quick else ''}")
     record |= {"quick": quick, "models": {}}
-    if not arguments.only:
-        load, cores = record["machine"]["load"], record["machine"]["cores"]
-        if load is not None and load > 0.5 * cores:
-            _output.note(
-                f"the machine is busy (load {load} on {cores} cores): ratios may be compared"
-            )
-        for model in models_with_cards():
-            record["models"][model] = work_precision(model, quick=quick, progress=_say)
-        record["macro_steps"] = study(_instances, quick=quick, progress=_say)
-        _say("what the corrections moved")
-        record["corrections"] = corrections(_instances)
-    more = (("masters of a shift", lambda: masters(_instances)),)
-    record["stability"] = stability(quick=quick, progress=_say, more=more)
-    _say("limits of coupling")
-    record["limits"] = limits()
+    load, cores = record["machine"]["load"], record["machine"]["cores"]
+    if load is not None and load > 0.5 * cores:
+        _output.note(f"the machine is busy (load {load} on {cores} cores): ratios may be compared")
+    for model in models_with_cards():
+        record["models"][model] = work_precision(model, quick=quick, progress=_say)
+    record["macro_steps"] = study(quick=quick, progress=_say)
+    record |= {n: _same_everywhere()[n] for n in ("corrections", "stability", "limits")}
     record["run_s"] = time.perf_counter() - began
     return record
-
-
-def _instances(scene: Any) -> dict[str, Any]:
-    """Return an instance in this process for each part of a scene."""
-    from ..fmu.running.direct_instance import DirectInstance
-
-    return {
-        name: DirectInstance(part.spec, parameters=part.parameters())
-        for name, part in scene.parts.items()
-    }
 
 
 def _say(what: str) -> None:

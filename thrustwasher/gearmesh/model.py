@@ -50,7 +50,6 @@ MODEL = Model(
         part="mesh",
         references="thrustwasher.study.reference_gearmesh:SOURCE",
         chart="thrustwasher.study.charts.gearmesh_chart:GEARMESH",
-        hazards={"a flank that its oil heats": "thrustwasher.study.rivals.heat_loop:heat_loop"},
     ),
     # A power in place of the torque is turned into one, row by row.
     sweep=Sweep(more_inputs=({

@@ -86,8 +86,6 @@ class Ladder:
     references: str  # dotted name: where reference values come from
     chart: str  # dotted name: what the chart shows, at which operating points
     rivals: tuple[str, ...] = ()  # dotted names: series of methods of others for the chart
-    hazards: Mapping[str, str] = field(default_factory=dict)
-    """Where methods may fail on the model's own equations: words -> dotted name of the judge."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,8 +7,7 @@
 ``charts``              Error against cost: what is measured, and the pages drawn from it
 ``costs``               What a call of a rung costs: its compiled step
 ``error_tables``        A card's tables: worst and rms error cell by cell
-``failures``            Where methods fail, and the limits of co-simulation
-``macro_steps``         Error of a shift against its cost, and where masters fail
+``macro_steps``         Error of a shift against its cost
 ``own_cards``           Cards for a part of one's own, while one waits
 ``reference_cache``     Reference values at held-out points, kept in a file
 ``reference_clutch``    Reference values of the wet clutch: more rings, another integrator

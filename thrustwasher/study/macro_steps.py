@@ -1,22 +1,22 @@
-"""Error of a shift against its cost, and where masters fail: over step, master, coupling and rung.
+"""Error of a shift against its cost: over step, master, coupling and rung.
 
 The shift is the built-in ``planetary-sun`` without washers and gear mesh: what is judged is how the
 packs and the driveline are coupled. ``study`` holds every way to couple them against its limit of
 small steps, in quantities that a shift does not forget: heat of the clutch, time of lock-up, peak
-temperature. ``masters`` judges the package's own masters as other methods are judged.
+temperature.
 """
 
 import math
 import statistics
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError
-from ..shift.cosim.instances import Stepping
+from ..fmu.running.direct_instance import DirectInstance
+from ..numerics.jit import Array
 from ..shift.masters.master import MASTERS
 from ..shift.run import run_shift
 from ..shift.scene.connections import PACKS
@@ -25,8 +25,6 @@ from ..shift.scene.scene_file import load_scene
 from ..shift.shift_result import ShiftResult
 from .charts.chart_series import Quantity
 from .charts.work_precision import Sample
-from .failures.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
-from .rivals.lockup import turns_of
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
@@ -42,15 +40,6 @@ QUANTITIES = (
     Quantity("lock_time", False, unit="s"),
     Quantity("peak_temperature", False, unit="K"),
 )
-# Of ``masters``: what is wrong, and what is tried.
-WRONG_HEAT = 0.02
-MANY_STEPS = 10  # of the master for each that was asked for
-SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
-STOP, LOCKED = 1.1, 0.70  # s
-TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4  # of masters
-TRIED = {"capacity": (1e-3, 5e-3, 1e-2), "torque": (2e-4, 2e-3, 1e-2)}  # s
-HAZARDS = {f"{c}, {1e3 * step:g} ms": (c, step) for c, steps in TRIED.items() for step in steps}
-Make = Callable[[Scene], Mapping[str, Stepping]]
 
 
 @dataclass(frozen=True)
@@ -106,6 +95,14 @@ def scene_of(way: Way, step: float) -> Scene:
     return replace(scene, parts=parts)
 
 
+def instances(scene: Scene) -> dict[str, DirectInstance]:
+    """Return an instance in this process for each part of a scene."""
+    return {
+        name: DirectInstance(part.spec, parameters=part.parameters())
+        for name, part in scene.parts.items()
+    }
+
+
 def figures(result: ShiftResult) -> dict[str, float]:
     """Return what the shift is judged by; NaN for a lock-up that was not reached."""
     signals, time = result.signals, result.time
@@ -140,30 +137,31 @@ def complaint(result: ShiftResult, found: Mapping[str, float]) -> str:
     return f"chatters: the slip turns round {turns} times" if turns > MOST_TURNS else ""
 
 
-def study(
-    make: Make, *, quick: bool = False, progress: Callable[[str], None] = print
-) -> dict[str, Any]:
+def turns_of(slip: Array, least: float) -> int:
+    """Return how often a slip changes its sign, sizes up to ``least`` left out."""
+    return int(np.count_nonzero(np.diff(np.sign(slip[np.abs(slip) > least]))))
+
+
+def study(*, quick: bool = False, progress: Callable[[str], None] = print) -> dict[str, Any]:
     """Return truth and samples of all ways and steps, as JSON types.
 
-    ``make`` gives an instance for each part of a scene; ``quick``: few steps, one repeat.
+    ``quick``: few steps, one repeat.
     """
     progress("shift: reference")
-    truth, uncertainty = small_step_limit(make, quick=quick)
+    truth, uncertainty = small_step_limit(quick=quick)
     samples = []
     for way in WAYS:
         progress(f"shift: {way.name}")
         steps, tolerances = (QUICK_STEPS, QUICK_TOLERANCES) if quick else (STEPS, TOLERANCES)
         for knob in tolerances if way.adaptive else steps:
-            samples.append(sample(way, knob, make, truth, uncertainty, 1 if quick else 3))
+            samples.append(sample(way, knob, truth, uncertainty, 1 if quick else 3))
     return {
         "scene": "planetary-sun without washers and gear mesh", "truth": truth, "samples": samples,
         "quantities": [q.as_dict() for q in QUANTITIES],
     }  # fmt: skip
 
 
-def small_step_limit(
-    make: Make, *, quick: bool = False
-) -> tuple[dict[str, float], dict[str, float]]:
+def small_step_limit(*, quick: bool = False) -> tuple[dict[str, float], dict[str, float]]:
     """Return the figures both masters tend to, and how far these limits are apart.
 
     Two steps of each master are extrapolated with first order; the mean of the limits counts.
@@ -171,24 +169,24 @@ def small_step_limit(
     coarse, fine = QUICK_TRUE_STEPS if quick else TRUE_STEPS
     limits = []
     for master in ("gauss-seidel", "jacobi"):
-        a, b = (figures(run(Way(master), step, make)) for step in (coarse, fine))
+        a, b = (figures(run(Way(master), step)) for step in (coarse, fine))
         limits.append({k: b[k] + (b[k] - a[k]) * fine / (coarse - fine) for k in b})
     truth = {k: 0.5 * (limits[0][k] + limits[1][k]) for k in limits[0]}
     apart = {k: abs(limits[0][k] - limits[1][k]) for k in truth}
     return truth, apart
 
 
-def run(way: Way, knob: float, make: Make) -> ShiftResult:
+def run(way: Way, knob: float) -> ShiftResult:
     """Run the shift once; ``knob``: the step [s], or the tolerance of an adaptive way."""
     scene = scene_of(way, FIRST_STEP if way.adaptive else knob)
     if way.adaptive:
         scene = scene.with_options(master_tolerance=knob)
-    return run_shift(scene, make(scene))
+    return run_shift(scene, instances(scene))
 
 
 def sample(
-    way: Way, knob: float, make: Make, truth: Mapping[str, float],
-    uncertainty: Mapping[str, float], repeats: int,
+    way: Way, knob: float, truth: Mapping[str, float], uncertainty: Mapping[str, float],
+    repeats: int,
 ) -> dict[str, Any]:  # fmt: skip
     """Return one sample in the layout of all charts; the cost is per simulated second."""
     wall: list[float] = []
@@ -196,7 +194,7 @@ def sample(
     count = 0
     try:
         for _ in range(repeats):
-            result = run(way, knob, make)
+            result = run(way, knob)
             span = float(result.time[-1] - result.time[0])
             wall.append(result.wall_time / span)
         count = sum(c.steps for c in result.cost)
@@ -219,51 +217,3 @@ def sample(
         min(wall, default=math.nan), len(wall), math.nan, 0.0, float(count), "steps of all parts",
         1, len(failures), failures,
     ).as_dict()  # fmt: skip
-
-
-def masters(make: Make, *, quick: bool = False) -> Group:
-    """Judge every master and coupling of a shift with cold oil by the clutch's heat and chatter.
-
-    ``make`` gives an instance for each part of a scene. Washers and gear mesh are left out. Each
-    coupling is held against its own limit of small steps: smoothed friction is another model.
-    ``quick``: that limit is taken from longer steps.
-    """
-
-    @cache
-    def true_heat(coupling: str) -> float:
-        step = QUICK_TRUE_STEP if quick else TRUE_STEP
-        return figures(_smooth_run(make, "gauss-seidel", coupling, step))["slip_energy"]
-
-    def judge(master: str, hazard: tuple[str, float]) -> Cell:
-        return _judged(_smooth_run(make, master, *hazard), true_heat(hazard[0]))
-
-    named = {f"master {name}": name for name in MASTERS}
-    judged = f"clutch's heat off by more than {100 * WRONG_HEAT:g} %, or chatter"
-    return table("the shift of the scene planetary-sun", judged, named, HAZARDS, judge)
-
-
-def _smooth_run(make: Make, master: str, coupling: str, step: float) -> ShiftResult:
-    scene = scene_of(Way(master, coupling), step)
-    parts = dict(scene.parts)
-    for pack in PACKS:
-        smooth = replace(parts[pack].params, speed_smoothing=SMOOTHING)
-        parts[pack] = replace(parts[pack], params=smooth)
-    scene = replace(scene, parts=parts).with_options(stop_time=STOP)
-    return run_shift(scene, make(scene))
-
-
-def _judged(result: ShiftResult, true: float) -> Cell:
-    """Look at the heat, at the slip after lock-up, and at what the run says itself."""
-    error = figures(result)["slip_energy"] / true - 1.0
-    slip = result.signals["transmission.clutch_speed"][result.time > LOCKED]
-    turns = turns_of(slip, STANDING)
-    right = abs(error) <= WRONG_HEAT
-    if right and turns <= MOST_TURNS:
-        taken = len(result.time) - 1
-        words = f"{taken} steps, heat off by {100 * abs(error):.2g} %"
-        if taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step:
-            return Cell(SLOW, f"{taken} steps", words)
-        return Cell(OK, f"{100 * abs(error):.2f} %", words)
-    words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)
-    figure = off(error) if not right else "chatters"
-    return Cell(SAYS if words else LIES, figure, words or f"{turns} turns after lock-up")

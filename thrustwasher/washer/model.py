@@ -62,10 +62,6 @@ MODEL = Model(
         references="thrustwasher.study.reference_washer:SOURCE",
         chart="thrustwasher.study.charts.washer_chart:WASHER",
         rivals=("thrustwasher.study.rivals.plain2006:charted",),
-        hazards={
-            "the washer's balance": "thrustwasher.study.failures.failure_washer:balance",
-            "closed forms": "thrustwasher.study.failures.failure_washer:closed_forms",
-        },
     ),
     sweep=Sweep(not_shown=("energy", "stored_heat")),
     fits=Fits(

@@ -12,8 +12,8 @@ Cure: the active set, corrected until it stays. Tested on the kernel itself, its
 
 import numpy as np
 import pytest
+from failures import cavitation as c
 
-from thrustwasher.study.rivals import cavitation as c
 from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap
 from thrustwasher.washer.kernel_arguments import constants
 from thrustwasher.washer.kernels.constants import washer_model

@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from ...report.html import Page, Plot, Section, Table, fill_template
-from ..failures.stability_page import stability_figure
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, steps_figure
-from .corrections import corrections_section
+from .corrections_page import corrections_section
+from .stability_page import stability_figure
 
 TITLE = "Speed against accuracy"
 HOW = (

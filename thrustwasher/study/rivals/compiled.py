@@ -17,7 +17,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 def _compiled(function: Callable[..., Any]) -> Any:
     settings: Any = config
     njit: Any = numba.njit
-    sources = sorted(Path(__file__).parent.glob("*.py"))
+    sources = sorted(Path(function.__code__.co_filename).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(f.read_bytes() for f in sources)).hexdigest()[:16]
     before = settings.CACHE_DIR
     settings.CACHE_DIR = os.path.join(cache_folder(), f"rivals-{digest}")

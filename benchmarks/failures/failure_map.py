@@ -1,24 +1,22 @@
 """The failure map: each method meets each hazard, and what comes out is judged.
 
-Here are a cavitating film, lock-up in co-simulation and a shaft that swings. Hazards of one model's
-own equations are named in its record.
+Here are a cavitating film, lock-up in co-simulation and a shaft that swings.
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
-from itertools import chain, zip_longest
 from typing import Any
 
-from ...model.record import resolve
-from ...model.registry import models_with_cards
-from ..rivals import cavitation as films
-from ..rivals import lockup
-from ..rivals import shaft as shafts
+from . import cavitation as films
+from . import lockup
+from . import shaft as shafts
 from .failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+from .failure_masters import masters
+from .failure_washer import balance, closed_forms
+from .heat_loop import heat_loop
 
-Measure = tuple[str, Callable[[], Group]]
 MANY_SWEEPS, MANY_SOLVES = 100, 10
 WRONG_LOAD = 0.02
 NO_LOAD = 1e-12  # of a film that has a load: nothing lifts
@@ -28,9 +26,8 @@ MANY_TORQUES = 10  # per step, and
 FEW_TORQUES = 5000  # in all: so many are no matter
 
 
-def cavitation(*, quick: bool = False) -> Group:
+def cavitation() -> Group:
     """Judge methods to solve a cavitating film by its load."""
-    fine = 47 if quick else 95
     hazards = {
         "thick film, no cavity": ("slider", 31, 1.0),
         "one cavity": ("one wave", 31, 1.0),
@@ -38,7 +35,7 @@ def cavitation(*, quick: bool = False) -> Group:
         "two cavities": ("two waves", 31, 1.0),
         "three, tilted": ("waves and tilt", 31, 1.0),
         "dimple": ("dimple", 31, 1.0),
-        "two cavities, fine mesh": ("two waves", fine, 1.0),
+        "two cavities, fine mesh": ("two waves", 95, 1.0),
         "standstill": ("one wave", 31, 0.0),
         "no wedge": ("level", 31, 1.0),
     }
@@ -130,9 +127,9 @@ def _judged(clutch: Any, step: float, run: Any) -> Cell:
     return Cell(OK, f"{100 * abs(error):.2f} %", words)
 
 
-def drift(*, quick: bool = False) -> Group:
+def drift() -> Group:
     """Judge methods to step an undamped shaft by the energy that is left."""
-    many = 10_000 if quick else 100_000
+    many = 100_000
     hazards = {
         f"{many} steps of 1/314 swing": shafts.Shaft(0.02, many),
         f"{many} steps of 1/31 swing": shafts.Shaft(0.2, many),
@@ -158,23 +155,19 @@ def drift(*, quick: bool = False) -> Group:
     return table("a shaft that swings", judged, methods, hazards, judge)
 
 
-def stability(
-    *, quick: bool = False, progress: Callable[[str], None] = print, more: tuple[Measure, ...] = ()
-) -> list[dict[str, Any]]:
-    """Return all groups, as JSON types; ``more`` are measured after the package's own.
-
-    Of the hazards of the models each one's first comes first.
-    """
-    named = (model.ladder.hazards.items() for model in models_with_cards().values() if model.ladder)
-    hazards = filter(None, chain.from_iterable(zip_longest(*named)))
-    own: tuple[Measure, ...] = (
-        ("a cavitating film", partial(cavitation, quick=quick)),
-        *((name, resolve(hazard)) for name, hazard in hazards),
-        ("lock-up in co-simulation", coupling),
-        ("a shaft that swings", partial(drift, quick=quick)),
-    )
+def stability(progress: Callable[[str], None] = print) -> list[dict[str, Any]]:
+    """Return all groups, as JSON types."""
+    measures: dict[str, Callable[[], Group]] = {
+        "a cavitating film": cavitation,
+        "the washer's balance": balance,
+        "a flank that its oil heats": heat_loop,
+        "closed forms": closed_forms,
+        "lock-up in co-simulation": coupling,
+        "a shaft that swings": drift,
+        "masters of a shift": masters,
+    }
     groups: list[Group] = []
-    for name, made in (*own, *more):
+    for name, measure in measures.items():
         progress("where methods fail: " + name)
-        groups.append(made())
+        groups.append(measure())
     return [asdict(g) for g in groups]

@@ -14,6 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from thrustwasher.study.macro_steps import turns_of
+
 Row = np.ndarray[tuple[int], np.dtype[np.float64]]
 FINE = 400_001  # times at which slip and heat are summed up where there is no closed form
 LEAST_SHARE = 1e-6  # of a macro step, the smallest step of step doubling
@@ -106,11 +108,6 @@ class Run:
         n = len(self.slip)
         first = min(n - 1, math.ceil(clutch.lock_time / clutch.span * (n - 1)))
         return turns_of(self.slip[first:], 0.2 * clutch.width)
-
-
-def turns_of(slip: Row, least: float) -> int:
-    """Return how often a slip changes its sign, sizes up to ``least`` left out."""
-    return int(np.count_nonzero(np.diff(np.sign(slip[np.abs(slip) > least]))))
 
 
 Advance = Callable[[Clutch, Now, float], Now]

@@ -1,5 +1,6 @@
 """Where methods fail, as a page of Markdown and as a map of coloured cells."""
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import fill
@@ -11,8 +12,10 @@ from matplotlib.patches import Rectangle
 
 from ...report.html import fill_template
 from ...report.style import legend_below, new_figure, styled
-from ..charts.chart_text import machine_sentence
+from ...storage.digests import DATA
+from .chart_text import machine_sentence
 
+SAME_EVERYWHERE = DATA / "same_everywhere.json"
 SHADES = {"ok": "#D5EFE3", "slow": "#FFF0CC", "says": "#D6E9F7", "LIES": "#F6C6AE", "-": "#EFEFEF"}
 LETTER = 0.06  # inch of a letter in a method's name
 LETTERS = 110  # that fit side by side into all cells of a row
@@ -20,6 +23,11 @@ WORDS = {
     "ok": "right", "slow": "right, but costs", "says": "fails and says so",
     "LIES": "wrong without a word",
 }  # fmt: skip
+
+
+def same_everywhere() -> dict[str, Any]:
+    """Return what ``benchmarks/same_everywhere.py`` measured: no machine changes it."""
+    return dict(json.loads(SAME_EVERYWHERE.read_text("utf-8")))
 
 
 def stability_markdown(record: Mapping[str, Any]) -> str:

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ...errors import ParameterError, SolveError
+from thrustwasher.errors import ParameterError, SolveError
 
 OK, SLOW, SAYS, LIES, NONE = "ok", "slow", "says", "LIES", "-"
 

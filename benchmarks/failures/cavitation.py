@@ -20,8 +20,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Status
-from .compiled import rival
+from thrustwasher.errors import Status
+from thrustwasher.study.rivals.compiled import rival
 
 Array = NDArray[np.float64]
 RELAXATION = 1.7

@@ -5,23 +5,20 @@ equations, the figure that version 0.5.0 gave stands here and is called recorded
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from ...clutch.parameters import ClutchParams
-from ...clutch.solve import solve_clutch
-from ...gearmesh.parameters import GearMeshParams
-from ...gearmesh.solve import solve_gearmesh
-from ...report.html import Plot, Section, Table
-from ...report.palette import BLUE, GREY
-from ...report.style import label, new_figure, styled
-from ...shift.run import run_shift
-from ...shift.scene.scene_file import load_scene
-from ...washer.parameters import WasherParams
-from ...washer.solve import solve_washer
+from thrustwasher.clutch.parameters import ClutchParams
+from thrustwasher.clutch.solve import solve_clutch
+from thrustwasher.gearmesh.parameters import GearMeshParams
+from thrustwasher.gearmesh.solve import solve_gearmesh
+from thrustwasher.shift.run import run_shift
+from thrustwasher.shift.scene.scene_file import load_scene
+from thrustwasher.study.macro_steps import instances
+from thrustwasher.washer.parameters import WasherParams
+from thrustwasher.washer.solve import solve_washer
 
 # Harmonic means of the sample's friction at 0.5 MPa in 0.5.0; the rig measured 0.053 at both.
 RECORDED = {353.15: 0.06753, 297.15: 0.12812}
@@ -41,9 +38,9 @@ SHOWN = {  # key figure -> words, unit shown, its factor; a temperature counts f
 Row = dict[str, Any]
 
 
-def corrections(make: Callable[[Any], Mapping[str, Any]]) -> list[Row]:
-    """Return a row for each figure, as JSON types; ``make``: instances for a scene's parts."""
-    return [*_clutch(), *_teeth(), *_washer(), *_scene(make)]
+def corrections() -> list[Row]:
+    """Return a row for each figure, as JSON types."""
+    return [*_clutch(), *_teeth(), *_washer(), *_scene()]
 
 
 def _row(part: str, figure: str, unit: str, values: Sequence[float], recorded: bool = False) -> Row:
@@ -99,9 +96,9 @@ def _washer() -> list[Row]:
     return found
 
 
-def _scene(make: Callable[[Any], Mapping[str, Any]]) -> list[Row]:
+def _scene() -> list[Row]:
     """Return key figures of the former default shift and of the present one."""
-    runs = [run_shift(s, make(s)) for s in map(load_scene, ("planetary-sun", "planetary"))]
+    runs = [run_shift(s, instances(s)) for s in map(load_scene, ("planetary-sun", "planetary"))]
     found = []
     for name, (words, unit, factor) in SHOWN.items():
         zero = [r.scene.oil_temperature if unit == "K" else 0.0 for r in runs]
@@ -110,38 +107,3 @@ def _scene(make: Callable[[Any], Mapping[str, Any]]) -> list[Row]:
         ]
         found.append(_row(SHIFT, words, unit, values))
     return found
-
-
-def corrections_section(rows: Sequence[Row]) -> Section:
-    """Return the chapter: a table and what each figure was multiplied by."""
-    table = [
-        [r["part"], r["figure"], r["unit"], f"{r['before']:.3g}{'*' if r['recorded'] else ''}",
-         f"{r['after']:.3g}", f"{r['after'] / r['before']:.2g}"] for r in rows
-    ]  # fmt: skip
-    heads = ["correction", "figure", "unit", "before", "after", "times"]
-    words = (
-        'Before is the preset "paper" of a model or the former scene, computed now; * is what '
-        "version 0.5.0 gave. The two scenes are two shifts: their figures differ by design."
-    )
-    caption = "After over before: bars to the right grew, bars to the left shrank."
-    return Section(
-        "corrections", "What the corrections moved", texts=[words],
-        plots=[Plot("chart-corrections", corrections_figure(rows), caption)],
-        tables=[Table(heads, table, numbers=(3, 4, 5))],
-    )  # fmt: skip
-
-
-@styled
-def corrections_figure(rows: Sequence[Row]) -> Figure:
-    """Return a bar for each figure: after over before, on a logarithmic axis."""
-    figure, (axes,) = new_figure(9.0, 1.4 + 0.25 * len(rows), left=3.3)
-    times = [r["after"] / r["before"] for r in rows]
-    colours = [GREY if r["part"] == SHIFT else BLUE for r in rows]
-    places = list(range(len(rows)))
-    axes.barh(places, [t - 1.0 for t in times], left=1.0, color=colours, height=0.7)
-    axes.set(xscale="log")
-    axes.set_yticks(places, [f"{r['part'].partition(':')[0]}: {r['figure']}" for r in rows])
-    axes.invert_yaxis()
-    axes.axvline(1.0, color="black", lw=0.8)
-    label(axes, "", "after over before", "")
-    return figure

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ...errors import Status
-from ...gearmesh.kernels.flank_temperature import surface_temperature
-from ..failures.failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, table
+from thrustwasher.errors import Status
+from thrustwasher.gearmesh.kernels.flank_temperature import surface_temperature
+
+from .failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, table
 
 B, C = 755.0, 70.0  # degC
 WRONG_KELVIN = 0.1

@@ -32,8 +32,6 @@ KERNELS = [
     "thrustwasher/tribology/*.py",
     "thrustwasher/*/kernels/*",
     "thrustwasher/shift/cosim/compiled_loop.py",
-    "thrustwasher/study/rivals/plain2006*",
-    "thrustwasher/study/rivals/compiled.py",
 ]
 # Minutes as plain Python, each; the tests on small meshes and of rungs in short walk the same ways.
 SLOW = {
@@ -42,7 +40,7 @@ SLOW = {
 }  # fmt: skip
 MORE = (
     "tests/model/test_rules.py", "tests/model/test_rungs_in_short.py",
-    "tests/model/test_status_numbers.py", "tests/study/test_plain2006.py",
+    "tests/model/test_status_numbers.py",
 )  # fmt: skip
 LIMIT = 60  # s
 SETTINGS = """[run]
@@ -91,7 +89,6 @@ def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str)
 def run_plain(rc: Path, file: Path) -> bool:
     """Run one file of tests with the kernels as plain Python."""
     words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
-    words += ["-m", ""] if file.stem == "test_plain2006" else []  # all of them are slow
     return run_tests(rc, words, LIMIT, NUMBA_DISABLE_JIT="1")
 
 

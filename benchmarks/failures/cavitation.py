@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thrustwasher.errors import Status
-from thrustwasher.study.rivals.compiled import rival
+
+from .compiled import rival
 
 Array = NDArray[np.float64]
 RELAXATION = 1.7

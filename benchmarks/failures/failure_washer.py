@@ -11,7 +11,6 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from thrustwasher.model.part_file import made_of
-from thrustwasher.study.rivals.plain2006 import Plain2006
 from thrustwasher.tribology.lumped_body import exponential_weights
 from thrustwasher.washer.closed_forms import narrow_ring_load
 from thrustwasher.washer.load_curve import load_curve
@@ -19,6 +18,7 @@ from thrustwasher.washer.parameters import SPEC, WasherParams
 from thrustwasher.washer.solve import solve_washer
 
 from .failure_cells import LIES, NONE, OK, SAYS, Cell, Group, off, table
+from .plain2006 import Plain2006
 
 WRONG_RATIO = 1.0  # of the film: another branch, not another mesh
 MESH = (17, 67)

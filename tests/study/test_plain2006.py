@@ -4,10 +4,10 @@ So what it is off by on its own mesh is its mesh and its method, not a mistake i
 """
 
 import pytest
+from failures.plain2006 import Plain2006
 
 from thrustwasher import load_curve, solve_washer
 from thrustwasher.errors import Status
-from thrustwasher.study.rivals.plain2006 import Plain2006
 from thrustwasher.washer.parameters import WasherParams
 
 pytestmark = pytest.mark.slow  # a minute of compiling, which no user ever waits for

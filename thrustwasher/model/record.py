@@ -85,7 +85,6 @@ class Ladder:
     part: str  # of a scene, where a parameter set names none
     references: str  # dotted name: where reference values come from
     chart: str  # dotted name: what the chart shows, at which operating points
-    rivals: tuple[str, ...] = ()  # dotted names: series of methods of others for the chart
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -61,7 +61,6 @@ MODEL = Model(
         part="washer",
         references="thrustwasher.study.reference_washer:SOURCE",
         chart="thrustwasher.study.charts.washer_chart:WASHER",
-        rivals=("thrustwasher.study.rivals.plain2006:charted",),
     ),
     sweep=Sweep(not_shown=("energy", "stored_heat")),
     fits=Fits(

@@ -49,7 +49,7 @@ def test_up_to_the_fold_a_cold_solve_calls_no_distress(speed, share):
 @pytest.mark.slow
 def test_substituted_whole_the_film_is_lost_where_ours_and_the_relaxed_one_keep_it():
     """The method of 2006 on the paper's equations; its loops compile for half a minute."""
-    from thrustwasher.study.rivals.plain2006 import Plain2006
+    from failures.plain2006 import Plain2006
 
     paper, ratios = WasherParams.preset("paper"), {}
     for share in (0.3, 1.0):

@@ -1,14 +1,14 @@
 """What a chart is: fixed operating points, hard corners included, and the series of ways to solve.
 
-A series goes over every rung, over meshes and tolerances, or over rivals at their best setting.
-Each model's own are named in its record. A changed list of points is another list (``digest``).
+A series goes over every rung, or over meshes and tolerances; it is named in the model's record. A
+method of somebody else is charted if it is put into ``RIVALS``. A changed list of points is another
+list (``digest``).
 """
 
 import hashlib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
-from itertools import chain
 from typing import Any
 
 from ...model.record import resolve
@@ -85,6 +85,7 @@ class Chart:
     few: tuple[int, ...]  # of the cases, for a quick look
 
 
+RIVALS: dict[str, Callable[..., list[Configuration]]] = {}  # model -> its rival's series
 WARM = "warm call, 1 % away [s]"
 KELVIN = Quantity("temperature", False, unit="K")
 
@@ -108,6 +109,6 @@ def digest(cases: tuple[ChartCase, ...]) -> str:
 
 
 def series_of(model: str, *, quick: bool = False) -> list[Configuration]:
-    """Return everything that is measured for a model: its own series, then those of its rivals."""
-    rivals = (resolve(name)(quick=quick) for name in ladder_of(model).rivals)
-    return [*chart_of(model).series(spec_of(model), quick=quick), *chain.from_iterable(rivals)]
+    """Return everything that is measured for a model: its own series, then those of a rival."""
+    rival = RIVALS[model](quick=quick) if model in RIVALS else []
+    return [*chart_of(model).series(spec_of(model), quick=quick), *rival]

@@ -9,11 +9,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...tribology.asperities import contact_pressure
-from ...tribology.flow_factors import flow_conductance, mean_gap, shear_flow
-from ...washer.kernels.constants import WasherModel
-from ...washer.kernels.gap import dry_friction
-from ...washer.kernels.layout import P_GEAR_INNER_RADIUS
+from thrustwasher.tribology.asperities import contact_pressure
+from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap, shear_flow
+from thrustwasher.washer.kernels.constants import WasherModel
+from thrustwasher.washer.kernels.gap import dry_friction
+from thrustwasher.washer.kernels.layout import P_GEAR_INNER_RADIUS
+
 from .compiled import rival
 
 Array = NDArray[np.float64]

@@ -22,17 +22,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Status
-from ...numerics.dense import dense_solve
-from ...tribology.asperities import contact_pressure
-from ...tribology.flow_factors import mean_gap
-from ...washer.kernel_arguments import constants
-from ...washer.kernels.constants import WasherModel, washer_model
-from ...washer.kernels.gap import dry_friction, oil_viscosity
-from ...washer.kernels.layout import D_SIGMA1
-from ...washer.parameters import WasherParams
-from ..charts.chart_series import Configuration, series
-from ..charts.methods import ChartCase, MethodAnswer, neighbours, path_to
+from thrustwasher.errors import Status
+from thrustwasher.numerics.dense import dense_solve
+from thrustwasher.study.charts.chart_series import Configuration, series
+from thrustwasher.study.charts.methods import ChartCase, MethodAnswer, neighbours, path_to
+from thrustwasher.tribology.asperities import contact_pressure
+from thrustwasher.tribology.flow_factors import mean_gap
+from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels.constants import WasherModel, washer_model
+from thrustwasher.washer.kernels.gap import dry_friction, oil_viscosity
+from thrustwasher.washer.kernels.layout import D_SIGMA1
+from thrustwasher.washer.parameters import WasherParams
+
 from .compiled import rival
 from .plain2006_fields import Mesh, Settings, conductances, gap_at, heat, make_mesh, relax_pressure
 

@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 import numba
 from numba.core import config
 
-from ...numerics.jit import cache_folder
+from thrustwasher.numerics.jit import cache_folder
 
 F = TypeVar("F", bound=Callable[..., Any])
 

@@ -31,3 +31,9 @@ def pytest_configure(config):
     paths = [*TESTS.rglob("*.py"), *(TESTS.parent / "examples").glob("*.py")]
     names = {path.stem for path in paths} | {path.parent.name for path in paths}
     config.addinivalue_line("filterwarnings", rf"error:::({'|'.join(sorted(names))})(\.|$)")
+
+
+def pytest_collection_modifyitems(items):
+    """Begin with what compiles for minutes, so that the processes end at about the same time."""
+    compiling = {"test_compiled_here", "test_emission"}
+    items.sort(key=lambda item: item.path.stem not in compiling)

@@ -21,11 +21,16 @@ each_level = pytest.mark.parametrize(
     "level", [level if level == HERE else pytest.param(level, marks=pytest.mark.platforms)
               for level in ("v2", "v3")],
 )  # fmt: skip
-# To compile the others takes the JIT half a minute to minutes.
-every = pytest.mark.parametrize(
-    "model", [m if m == "gearmesh" else pytest.param(m, marks=pytest.mark.slow) for m in MODELS]
-)
 STEPS, TRIES = 300, 60
+
+
+# To compile the others takes the JIT half a minute to minutes.
+@pytest.fixture(
+    scope="module",  # all tests of a model one after the other: one process compiles it
+    params=[m if m == "gearmesh" else pytest.param(m, marks=pytest.mark.slow) for m in MODELS],
+)
+def model(request):
+    return request.param
 
 
 def has_v3() -> bool:
@@ -42,7 +47,6 @@ def pair(model, level):
 
 
 @each_level
-@every
 def test_a_reference_run_is_equal_to_the_bit(model, level):
     jit, native = pair(model, level)
     rows, dt = course(model, STEPS)
@@ -53,7 +57,6 @@ def test_a_reference_run_is_equal_to_the_bit(model, level):
 
 
 @each_level
-@every
 def test_inputs_from_all_over_are_equal_to_the_bit_failures_too(model, level):
     jit, native = pair(model, level)
     t, (_, dt) = 0.0, course(model, STEPS)
@@ -65,7 +68,6 @@ def test_inputs_from_all_over_are_equal_to_the_bit_failures_too(model, level):
         t += dt
 
 
-@every
 def test_a_contradiction_between_parameters_has_the_same_number(model):
     if not find_spec(model).rules:
         pytest.skip("this model's parameters do not contradict each other")
@@ -83,7 +85,6 @@ def test_a_contradiction_between_parameters_has_the_same_number(model):
 
 
 @each_level
-@every
 def test_derivatives_are_equal_to_the_bit(model, level):
     jit, native = pair(model, level)
     if not hasattr(jit.entries.module, "sens"):

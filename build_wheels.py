@@ -14,7 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from thrustwasher.native import link, ship, shipped
+import ship
+from thrustwasher.native import link, shipped
 from thrustwasher.native.entries import libraries
 from thrustwasher.native.targets import PLATFORMS
 
@@ -64,7 +65,7 @@ def main() -> None:
     assert TAGS.keys() == PLATFORMS.keys()
     stale = [name for name in libraries() if not shipped.has_objects(name)]
     if stale:
-        sys.exit(f"stale: {', '.join(stale)}; first: python -m thrustwasher.fmu.shell.ship_all")
+        sys.exit(f"stale: {', '.join(stale)}; first: python ship_all.py")
     if not link.find_linker().is_cross:
         sys.exit("wheels are linked by the package ziglang: pip install ziglang")
     for platform in given.platforms or [*TAGS, ANY]:

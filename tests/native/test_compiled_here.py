@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from thrustwasher.native import ship, shipped
+import ship
+from thrustwasher.native import shipped
 from thrustwasher.native.entries import libraries
 
 ROOT = Path(__file__).parents[2]

@@ -63,7 +63,7 @@ def test_building_again_elsewhere_gives_the_same_bytes(platform):
 def test_the_shipped_libraries_are_those_of_the_sources(model):
     spec = find_spec(model)
     found = shipped.fmu_libraries(spec.kernel, platform_libraries.library_digest(spec))
-    assert found.keys() == PLATFORMS.keys(), "first: python -m thrustwasher.fmu.shell.ship_all"
+    assert found.keys() == PLATFORMS.keys(), "first: python ship_all.py"
 
 
 def test_what_is_not_shipped_is_linked_once_and_said(monkeypatch, tmp_path):

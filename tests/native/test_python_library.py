@@ -36,7 +36,7 @@ def child(code, cache, **environment):
 
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_what_is_shipped_is_made_from_these_sources_for_every_platform(kernel):
-    assert shipped.record(kernel) is not None, "renew it: python -m thrustwasher.fmu.shell.ship_all"
+    assert shipped.record(kernel) is not None, "renew it: python ship_all.py"
     wanted = {(p.name, level.name) for p in PLATFORMS.values() for level in p.levels}
     assert shipped.objects_of(kernel).keys() == wanted
     assert shipped.library_file(kernel, "linux64")

@@ -10,7 +10,7 @@
 ``binaries``   what objects and libraries need and show; a finished library is checked
 ``targets``    the platforms and levels
 ``objects``    an object: shipped with the package, kept from an earlier run, or compiled
-``shipped``    the compiled files inside the package; ``ship`` makes them
+``shipped``    the compiled files inside the package; ``ship.py`` in the checkout makes them
 ``link``       C files and objects to a shared library; which platform this machine is
 ``files``      files written at once, in folders that are the user's alone
 ``library``    the library of this machine that Python loads

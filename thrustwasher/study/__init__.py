@@ -14,7 +14,6 @@
 ``reference_gearmesh``  Reference values of the gear mesh: adaptive quadrature, search
 ``reference_values``    Reference values: what they are, and what a rung says beside them
 ``reference_washer``    Reference values of the washer: three fine meshes, extrapolated
-``stamp``               Tie cards to the kernels as they are now
 ``surroundings``        What a chart or a card says about its making: the machine, versions
 ``verify``              Write cards: each rung's error at held-out points, and its cost
 ======================  ==========================================================================

@@ -4,6 +4,5 @@
 ``c_tables``            the tables of a model as C source, and part.bin
 ``call_table``          which FMI function may be called when
 ``platform_libraries``  the C shell linked with kernels, one library per platform
-``ship_all``            the command that makes all compiled files of the package
 ======================  =========================================================
 """

@@ -1,4 +1,4 @@
-"""Tie cards to the kernels as they are now: ``python -m thrustwasher.study.stamp``.
+"""Tie cards to the kernels as they are now: ``python benchmarks/stamp.py``.
 
 For a change of the kernels' sources that moves no number: files renamed or split, comments, a
 function beside the others. The errors in the cards stay as they were measured; the tests of the
@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..ladder.card import Card, files_of, read_card
-from ..ladder.card_parts import Sources
-from ..storage.digests import DATA, kernel_digest
-from .card_writer import write_card
+from thrustwasher.ladder.card import Card, files_of, read_card
+from thrustwasher.ladder.card_parts import Sources
+from thrustwasher.storage.digests import DATA, kernel_digest
+from thrustwasher.study.card_writer import write_card
 
 
 def stamped(card: Card) -> Card:
@@ -26,7 +26,7 @@ def stamped(card: Card) -> Card:
 def main(arguments: Sequence[str]) -> int:
     """Stamp the stale cards of a folder, the package's if none is named."""
     if len(arguments) > 1:
-        print("usage: python -m thrustwasher.study.stamp [FOLDER]", file=sys.stderr)
+        print("usage: python benchmarks/stamp.py [FOLDER]", file=sys.stderr)
         return 2
     folder = Path(arguments[0]) if arguments else DATA / "cards"
     cards = [read_card(path) for path in sorted(folder.rglob("*.json"))]

@@ -1,10 +1,9 @@
-"""Make all compiled files of the package: ``python -m thrustwasher.fmu.shell.ship_all [--check]``.
+"""Make all compiled files of the package: ``python ship_all.py [--check]``.
 
-First those of the kernels (``thrustwasher.native.ship``). Then each model's libraries for FMUs,
-linked for every platform, go into its archive in ``data/native``, and the notices of what the
-linker puts in into ``data/notices``. What has not changed stays. With ``--check`` nothing is
-written: everything is made anew and compared with what is there, byte by byte if the same versions
-made it.
+First those of the kernels (``ship.py``). Then each model's libraries for FMUs, linked for every
+platform, go into its archive in ``data/native``, and the notices of what the linker puts in into
+``data/notices``. What has not changed stays. With ``--check`` nothing is written: everything is
+made anew and compared with what is there, byte by byte if the same versions made it.
 """
 
 import json
@@ -14,15 +13,15 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from ...model.registry import all_specs
-from ...model.spec import ModelSpec
-from ...native import files, shipped
-from ...native import ship as kernels
-from ...native.files import to_stderr
-from ...native.link import find_linker
-from ...native.targets import PLATFORMS
-from ..package.licences import NOTICES
-from .platform_libraries import library_digest, linked
+import ship as kernels
+from thrustwasher.fmu.package.licences import NOTICES
+from thrustwasher.fmu.shell.platform_libraries import library_digest, linked
+from thrustwasher.model.registry import all_specs
+from thrustwasher.model.spec import ModelSpec
+from thrustwasher.native import files, shipped
+from thrustwasher.native.files import to_stderr
+from thrustwasher.native.link import find_linker
+from thrustwasher.native.targets import PLATFORMS
 
 FROM_ZIG = {"zig.txt": "LICENSE", "mingw-w64.txt": "lib/libc/mingw/COPYING"}
 

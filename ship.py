@@ -1,4 +1,4 @@
-"""Make the compiled files of the package: ``python -m thrustwasher.native.ship [--check]``.
+"""Make the compiled files of the package: ``python ship.py [--check]``.
 
 Writes ``data/native``: for each kernel module an archive with the objects of all platforms, and a
 library for Python on Linux x86-64; ``index.json`` lists them. What has not changed stays. With
@@ -16,13 +16,13 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from . import files, shipped
-from .digest import digest, sources
-from .entries import libraries as all_libraries
-from .files import to_stderr
-from .library import linked_library
-from .objects import Objects, compile_objects, wanted_for
-from .targets import PLATFORMS
+from thrustwasher.native import files, shipped
+from thrustwasher.native.digest import digest, sources
+from thrustwasher.native.entries import libraries as all_libraries
+from thrustwasher.native.files import to_stderr
+from thrustwasher.native.library import linked_library
+from thrustwasher.native.objects import Objects, compile_objects, wanted_for
+from thrustwasher.native.targets import PLATFORMS
 
 LIBRARIES = ("linux64",)  # platforms whose libraries for Python lie in the checkout
 
@@ -140,7 +140,7 @@ def main(arguments: Sequence[str]) -> int:
         print("\n".join(wrong) or "the compiled files are those of the sources")
         return 1 if wrong else 0
     if arguments:
-        print("usage: python -m thrustwasher.native.ship [--check]", file=sys.stderr)
+        print("usage: python ship.py [--check]", file=sys.stderr)
         return 2
     ship(kernels)
     return 0

@@ -6,12 +6,14 @@
 #include "kernel.h"
 #include "shell.h"
 
-/* Real outputs; real inputs and, while the parameters still count as values, real parameters. */
-static int are_known(Instance *m, const uint32_t *references, size_t n, uint32_t causes) {
+/* Real outputs; real inputs and, while the parameters still count as values, real parameters.
+   Hosts name all that an output depends on and give what they do not ask for the seed 0. */
+static int are_known(Instance *m, const uint32_t *references, size_t n, uint32_t causes,
+                     const double *seed) {
     for (size_t i = 0; i < n; i++) {
         const Variable *v = find(m, references[i]);
         if (!v) return 0;
-        if (v->bits & causes && v->type == TYPE_REAL) continue;
+        if (v->bits & causes && (v->type == TYPE_REAL || (seed && seed[i] == 0.0))) continue;
         fail(m, "%s: derivatives are of real outputs, with respect to inputs and, in "
              "initialization mode, real parameters", v->name);
         return 0;
@@ -19,14 +21,16 @@ static int are_known(Instance *m, const uint32_t *references, size_t n, uint32_t
     return 1;
 }
 
-static int is_possible(Instance *m, const Direction *d, size_t n_seed) {
+static int is_possible(Instance *m, const Direction *d, int forward) {
+    size_t n_seed = forward ? d->n_knowns : d->n_unknowns;
     uint32_t parameters = m->now.mode == INITIALIZING ? CAUSE_BIT(CAUSE_PARAMETER) : 0;
     if (!HAS_SENS) {
         fail(m, "%s has no derivatives", m->part.name);
         return 0;
     }
-    if (!are_known(m, d->unknowns, d->n_unknowns, CAUSE_BIT(CAUSE_OUTPUT))) return 0;
-    if (!are_known(m, d->knowns, d->n_knowns, CAUSE_BIT(CAUSE_INPUT) | parameters)) return 0;
+    if (!are_known(m, d->unknowns, d->n_unknowns, CAUSE_BIT(CAUSE_OUTPUT), NULL)) return 0;
+    if (!are_known(m, d->knowns, d->n_knowns, CAUSE_BIT(CAUSE_INPUT) | parameters,
+                   forward ? d->seed : NULL)) return 0;
     for (size_t i = 0; i < n_seed; i++) {
         if (is_finite(d->seed[i])) continue;
         fail(m, "a seed of the derivative is not finite");
@@ -112,17 +116,17 @@ int directional(Instance *m, const Direction *d, double *sensitivity) {
     double seed[AT_LEAST_ONE(NINP)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
     double by_parameters[AT_LEAST_ONE(NOUT)] = {0};
     uint32_t moved = 0;
-    if (!is_possible(m, d, d->n_knowns) || refresh_work(m)) return BAD;
+    if (!is_possible(m, d, 1) || refresh_work(m)) return BAD;
     for (size_t i = 0; i < d->n_knowns; i++) {
         const Variable *v = &VARIABLES[d->knowns[i]];
-        if (v->cause != CAUSE_INPUT) continue;
+        if (v->cause != CAUSE_INPUT || d->seed[i] == 0.0) continue;
         seed[v->slot] += d->seed[i];
         moved |= 1u << v->slot;
     }
     if (moved && differentiate(m, seed, dout)) return BAD;
     for (size_t i = 0; i < d->n_knowns; i++) {
         const Variable *v = &VARIABLES[d->knowns[i]];
-        if (v->cause == CAUSE_INPUT) continue;
+        if (v->cause == CAUSE_INPUT || d->seed[i] == 0.0) continue;
         if (add_difference(m, v, d->seed[i], by_parameters)) return BAD;
     }
     for (size_t i = 0; i < d->n_unknowns; i++) {
@@ -134,7 +138,7 @@ int directional(Instance *m, const Direction *d, double *sensitivity) {
 
 /* For each known the sum over the unknowns, weighted by the seed. */
 int adjoint(Instance *m, const Direction *d, double *sensitivity) {
-    if (!is_possible(m, d, d->n_unknowns)) return BAD;
+    if (!is_possible(m, d, 0)) return BAD;
     for (size_t k = 0; k < d->n_knowns; k++) {
         const Variable *v = &VARIABLES[d->knowns[k]];
         double seed[AT_LEAST_ONE(NINP)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};

@@ -109,7 +109,7 @@ void tell_refusal(Instance *m, const Variable *v, double value) {
             v->cause == CAUSE_OUTPUT ? "output" : "independent");
     } else if (!may_set(m, v)) {
         add(&text, "%s is a fixed parameter%s; it can be set before the initialization ends",
-            v->name, v->tunable ? " with fidelity 'map' or after the end" : "");
+            v->name, v->tunable ? " with fidelity 'map', made for one value" : "");
     } else {
         add_reason(&text, v, value);
     }

@@ -82,6 +82,9 @@ class ClutchParams:
     friction_data: str = choice(
         "total", FRICTION_DATA, "FrictionData", "what the law of friction was measured on"
     )
+    friction_scale: float = quantity(
+        1.0, "1", 0.1, 2.0, "factor on the coefficient of the law of friction", tunable=True
+    )
     constant_friction: float = quantity(0.12, "1", 0.0, 2.0, "coefficient of the constant law")
     table_friction_0: float = _coefficient(0.112, "at standstill")
     table_speed_1: float = _table_speed(0.1, 1)

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 from built import built_fmu
+from shell_runs import needs_linux, putting, run
 
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.build import build
+from thrustwasher.fmu.running import loading
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.fmu.running.loading import unpack
 from thrustwasher.fmu.stepper import Instance
@@ -99,6 +101,26 @@ def test_other_parameters_have_no_map(washer):
     with pytest.raises((ParameterError, SolveError), match=NONE):
         with Instance(washer(2), parameters={**MAP, "roughness": 4e-7}) as instance:
             instance.initialize(0.0, POINT)
+
+
+@needs_linux
+@each_fmi
+def test_with_a_map_the_parameters_it_was_made_for_cannot_be_tuned(washer, fmi):
+    folder = unpack(washer(fmi))
+    guid = loading.description(folder).guid
+    library = next((folder / "binaries").rglob("*.so"))
+    rung = 1 + list(SPEC.fidelities).index("map")
+    for fidelity, refused in ((rung, True), (rung % len(SPEC.fidelities) + 1, False)):
+        script = f"make tuned {guid} 1\n" + putting(SPEC, fidelity=fidelity)
+        script += ("setup 0\n" if fmi == 2 else "") + "enter 0\n" + putting(SPEC, **POINT)
+        script += "leave\nstep 0 1e-3\n" + putting(SPEC, heat_split=0.8) + "step 1e-3 1e-3\n"
+        replies = run(fmi, library, script, resources=folder / "resources")
+        problems = [m for r in replies if r.status for m in r.messages]
+        assert bool(problems) == refused
+        if refused:
+            assert problems[0].endswith("heat_split is a fixed parameter with fidelity 'map', made "
+                                        "for one value; it can be set before the initialization "
+                                        "ends")  # fmt: skip
 
 
 def moved(fmu, name, tmp_path):

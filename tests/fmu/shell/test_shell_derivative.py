@@ -4,6 +4,9 @@ import math
 
 import pytest
 from shell_runs import BEGUN, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
+from shelltoy.spec import SPEC as TOY
+
+from thrustwasher.fmu.description.interface import variables
 
 pytestmark = needs_gcc
 both = pytest.mark.parametrize("fmi", [2, 3])
@@ -117,6 +120,19 @@ def test_until_the_initialization_ends_parameters_are_knowns_as_the_description_
     assert replies[0][-1].values == replies[1][-1].values
     assert last(fmi, BEGUN + asked).status == 3
     assert last(fmi, here + f"derive {TORQUE} {DISCS} 1\n").status == 3
+
+
+@both
+def test_a_host_may_name_all_that_an_output_depends_on_and_seed_one_of_them(fmi):
+    """So hosts solve loops at the start: what counts nothing may be of any type."""
+    here = MADE + "enter 0\n" + POINT
+    parameters = [v.reference for v in variables(TOY) if v.causality == "parameter"]
+    named = " ".join(f"{r} {int(r == RADIUS)}" for r in parameters)
+    alone = last(fmi, here + f"derive {TORQUE} {RADIUS} 1 {SPEED} 0\n")
+    found = last(fmi, here + f"derive {TORQUE} {named} {SPEED} 0\n")
+    assert found.status == 0 and found.values == alone.values
+    reply = last(fmi, here + f"derive {TORQUE} {RADIUS} 0 {DISCS} 1\n")
+    assert reply.status == 3 and "discs: derivatives are of real outputs" in reply.messages[-1]
 
 
 @both

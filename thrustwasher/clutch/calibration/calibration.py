@@ -47,7 +47,8 @@ def calibrate(
     ----------
     params : the pack: its friction radius, what is not fitted, the first guess; its
         ``friction_data`` says what the law describes. "total": the points as they are. "boundary":
-        the points less the shear of the settled film. A table gives way to the law
+        the points less the shear of the settled film. A table gives way to the law,
+        ``friction_scale`` to 1: the law is that of the points
     speed : (points,) slip [rad/s]; the sign does not matter
     load : (points,) or one value [N], above 0; used to test that friction does not depend on it
     friction : (points,) measured coefficient of friction [-]
@@ -66,8 +67,8 @@ def calibrate(
     Source of the law: Wang, Wei & Wu (2012), Eq 12; the speed law is this package's (see
     docs/theory/calibration.md, also for the method).
     """
-    if params.friction_law == "table":
-        params = replace(params, friction_law="wang")
+    law_of = "wang" if params.friction_law == "table" else params.friction_law
+    params = replace(params, friction_law=law_of, friction_scale=1.0)
     if fit is None:
         fit = law.CONSTANT_LAW if params.friction_law == "constant" else DEFAULT_FIT
     acting = law.constants_of(params)

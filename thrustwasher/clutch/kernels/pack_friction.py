@@ -63,14 +63,15 @@ def tabled(par: Array, speed: float) -> tuple[float, float]:
 @kernel
 def coefficient_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
     """Return the coefficient of boundary friction [-], its slopes over temperature and |slip|."""
+    scale = par[L.P_FRICTION_SCALE]
     if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == L.CONSTANT_LAW:
-        return par[L.P_CONSTANT_FRICTION], 0.0, 0.0
+        return scale * par[L.P_CONSTANT_FRICTION], 0.0, 0.0
     if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
         mu, steepness = tabled(par, abs(slip) * par[L.D_RADIUS])
-        return mu, 0.0, steepness * par[L.D_RADIUS]
+        return scale * mu, 0.0, scale * steepness * par[L.D_RADIUS]
     ratio, slope, steepness = shear_slopes(par, slip, temperature)
-    adhesion = par[L.D_ADHESION]
-    return par[L.D_PLOUGH] + adhesion * ratio, adhesion * slope, adhesion * steepness
+    adhesion = scale * par[L.D_ADHESION]
+    return scale * par[L.D_PLOUGH] + adhesion * ratio, adhesion * slope, adhesion * steepness
 
 
 @kernel

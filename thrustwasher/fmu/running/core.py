@@ -137,7 +137,8 @@ class Core:
         if v.causality not in ("input", "parameter"):
             return f"{v.name} is an {v.causality} variable; it cannot be set"
         if not self._may_set(v):
-            held = " with fidelity 'map' or after the end" if v.variability == "tunable" else ""
+            tuned = v.variability == "tunable" and self.mode == Mode.STEPPING
+            held = " with fidelity 'map', made for one value" if tuned else ""
             return (f"{v.name} is a fixed parameter{held}; "
                     "it can be set before the initialization ends")  # fmt: skip
         low, high = v.bounds

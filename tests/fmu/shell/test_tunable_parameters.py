@@ -1,0 +1,193 @@
+"""Parameters that a host changes in a run, in the models' own libraries."""
+
+from typing import Any, NamedTuple
+
+import pytest
+from shell_runs import GUID, model_library, needs_linux, putting, run, taking
+
+from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.model.registry import all_specs, find_spec
+
+pytestmark = needs_linux
+H = 1e-3
+WASHER = {"load": 400.0, "speed": 300.0, "tilt": 2e-3, "oil_temperature": 353.15}
+MESH = {"load": 60.0, "speed": 200.0, "oil_temperature": 350.0}
+PACK = {"load": 3000.0, "speed": 50.0, "oil_temperature": 350.0}
+WAYS = ["fmi2", "fmi3", "event mode"]
+each_way = pytest.mark.parametrize("way", WAYS)
+
+
+class Case(NamedTuple):
+    model: str
+    name: str
+    new: float
+    inputs: dict[str, float]
+    fixed: dict[str, Any]  # other parameters; enumerations by number
+    output: str
+
+
+CASES = [
+    Case("washer", "heat_split", 0.8, WASHER, {}, "temperature"),
+    Case("washer", "film_heat_fraction", 0.5, WASHER, {"oil_cooling": 0}, "temperature"),
+    Case("gearmesh", "constant_friction", 0.1, MESH, {"friction_law": "constant"},
+         "friction_torque"),
+    Case("clutch", "friction_scale", 0.5, PACK, {"starts_pressed": 1}, "friction_torque"),
+]  # fmt: skip
+each_case = pytest.mark.parametrize("case", CASES, ids=[c.name for c in CASES])
+CLUTCH = CASES[-1]
+
+
+def numbers(case):
+    """Return the fixed parameters as numbers."""
+    laws = {f.name: list(f.metadata.get("options", [])) for f in fields_of(case)}
+    return {k: laws[k].index(v) + 1 if isinstance(v, str) else v for k, v in case.fixed.items()}
+
+
+def fields_of(case):
+    return find_spec(case.model).params.__dataclass_fields__.values()
+
+
+class Host:
+    """Writes the script of a run, in one of three ways to call an FMU."""
+
+    def __init__(self, case, way):
+        self.spec, self.fmi = find_spec(case.model), 2 if way == "fmi2" else 3
+        self.events = way == "event mode"
+        self.names = [s.name for s in self.spec.outputs]
+        self.script = f"make tuned {GUID} 1{' e' if self.events else ''}\n"
+        self.put(**numbers(case))
+        self.script += ("setup 0\n" if self.fmi == 2 else "") + "enter 0\n"
+        self.put(**case.inputs)
+        self.script += "leave\n" + self.back()
+        self.n = 0
+
+    def back(self):
+        return "call fmi3EnterStepMode\n" if self.events else ""
+
+    def put(self, **values):
+        self.script += putting(self.spec, **values)
+        return self
+
+    def tune(self, **values):
+        self.script += "call fmi3EnterEventMode\n" if self.events else ""
+        self.put(**values)
+        self.script += self.back()
+        return self
+
+    def steps(self, n):
+        for _ in range(n):
+            self.script += f"step {self.n * H!r} {H!r}\n" + taking(self.names, self.spec)
+            self.n += 1
+        return self
+
+    def say(self, line):
+        self.script += line + "\n"
+        return self
+
+    def answers(self):
+        replies = run(self.fmi, model_library(self.spec.key), self.script)
+        assert all(r.status == 0 for r in replies), [r for r in replies if r.status]
+        return [r.values for r in replies if r.values]
+
+
+def test_these_are_all_of_them():
+    found = {(s.key, v.name) for s in all_specs() for v in variables(s)
+             if v.variability == "tunable"}  # fmt: skip
+    assert found == {(c.model, c.name) for c in CASES}
+
+
+@each_case
+@each_way
+def test_a_change_counts_from_the_next_step_on(case, way):
+    plain, tuned = Host(case, way), Host(case, way)
+    kept = plain.steps(3).steps(2).answers()
+    found = tuned.steps(3).tune(**{case.name: case.new}).steps(2).answers()
+    of_a_step = len(kept) // 5
+    assert found[: 3 * of_a_step] == kept[: 3 * of_a_step]
+    assert found[3 * of_a_step :] != kept[3 * of_a_step :]
+    place = [s.name for s in Host(case, way).spec.outputs].index(case.output)
+    before, after = kept[3 * of_a_step][place], found[3 * of_a_step][place]
+    assert abs(after - before) > 1e-4 * abs(before)
+
+
+@each_case
+def test_the_shell_tunes_as_the_core_does_to_the_bit(case):
+    spec = find_spec(case.model)
+    core = DirectInstance(spec, parameters=case.fixed)
+    core.initialize(0.0, case.inputs)
+    reference = next(v.reference for v in variables(spec) if v.name == case.name)
+    for i in range(5):
+        if i == 3:
+            core.core.set([reference], [case.new], "Real")
+        core.step(i * H, H)
+    found = Host(case, "fmi2").steps(3).tune(**{case.name: case.new}).steps(2).answers()
+    real = sum(s.kind == "real" for s in spec.outputs)
+    last = [v for v in found if len(v) == real][-1]
+    assert last == core.outputs()[:real]
+
+
+@each_case
+@each_way
+def test_the_state_carries_the_value_also_as_bytes(case, way, tmp_path):
+    file, new = tmp_path / "state", {case.name: case.new}
+    one = Host(case, way).steps(2).tune(**new).say("save 0").say(f"write 0 {file}")
+    first = one.steps(2).answers()
+    kept = one.names
+    other = Host(case, way).say(f"read 1 {file}").say("restore 1")
+    other.script += taking([case.name], other.spec)
+    other.n = 2
+    second = other.steps(2).answers()
+    assert second[0] == [case.new]
+    n = len(second) - 1
+    assert kept and second[1:] == first[-n:]
+    back = Host(case, way).say("save 0").tune(**new).steps(1).say("restore 0")
+    back.script += taking([case.name], back.spec)
+    start = next(v.start for v in variables(back.spec) if v.name == case.name)
+    assert back.answers()[-1] == [start]
+
+
+@each_way
+def test_torque_times_slip_is_the_heat_on_both_sides_of_a_change(way):
+    """Every step's heat is that of the friction it had, and lies in steel and oil."""
+    host = Host(CLUTCH, way).steps(20).tune(friction_scale=0.5).steps(20)
+    host.tune(friction_scale=1.5).steps(20)
+    names = [s.name for s in host.spec.outputs if s.kind == "real"]
+    rows = [dict(zip(names, v, strict=True)) for v in host.answers() if len(v) == len(names)]
+    oil = made = 0.0
+    for row in rows:
+        assert row["friction_power"] == pytest.approx(row["friction_torque"] * 50.0, rel=1e-12)
+        oil += H * row["oil_heat"]
+        made += H * row["friction_power"]
+        assert row["energy"] == pytest.approx(row["stored_heat"] + oil, rel=1e-9)
+    assert rows[-1]["energy"] == pytest.approx(made, rel=1e-3)
+    law = [row["friction_coefficient"] for row in rows]
+    assert law[20] == pytest.approx(0.5 * law[19], rel=1e-6)
+    assert law[40] == pytest.approx(3.0 * law[39], rel=1e-6)
+
+
+@each_way
+def test_a_value_out_of_range_or_against_a_rule_is_refused(way):
+    def refused(case, value, after=""):
+        host = Host(case, way).steps(1).tune(**{case.name: value})
+        host.script += after
+        return run(host.fmi, model_library(host.spec.key), host.script)
+
+    said = [r.messages[-1] for r in refused(CLUTCH, 3.0) if r.status]
+    assert len(said) == 1 and "friction_scale = 3 is outside 0.1 .. 2" in said[0]
+    cooled = CASES[1]._replace(fixed={"oil_cooling": 1})
+    said = [r.messages[-1] for r in refused(cooled, 0.5, "step 1e-3 1e-3\n") if r.status]
+    assert len(said) == 1 and "film_heat_fraction = 0.5, allowed: 1 with oil_cooling" in said[0]
+
+
+@each_way
+def test_fixed_and_ended_are_refused_by_name(way):
+    spec = find_spec("clutch")
+    for change, words in (
+        (putting(spec, faces=6), "faces is a fixed parameter; it can be set before"),
+        ("end\n" + putting(spec, friction_scale=0.5), "not allowed in state terminated"),
+    ):
+        host = Host(CLUTCH, way).steps(1)
+        host.script += change
+        reply = run(host.fmi, model_library("clutch"), host.script)[-1]
+        assert reply.status == 3 and words in reply.messages[-1]

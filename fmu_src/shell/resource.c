@@ -77,7 +77,7 @@ static int read_part(Instance *m) {
     char path[sizeof m->resources + 32];
     Part *part = &m->part;
     snprintf(path, sizeof path, "%s/part.bin", m->resources);
-    FILE *file = m->resources[0] ? open_file(path) : NULL;
+    FILE *file = open_file(path);
     if (!file) return -1;
     int good = fread(part, sizeof *part, 1, file) == 1
         && is_whole(file, checksum(0, (const unsigned char *)part, sizeof *part))
@@ -91,10 +91,13 @@ static int read_part(Instance *m) {
 int load_part(Instance *m, const char *location, const char *guid) {
     const Part *part = &m->part;
     take_resources(m, location);
+    if (!m->resources[0]) {
+        return fail(m, "the host names no folder of resources (up to %d letters), from which "
+                    "part.bin is read: the FMU's name and start values", TEXT_LENGTH - 1);
+    }
     int found = read_part(m);
     if (found <= 0) {
-        return fail(m, "part.bin in the folder %s is %s; unpack the FMU again",
-                    m->resources[0] ? m->resources : "(none is given)",
+        return fail(m, "part.bin in the folder %s is %s; unpack the FMU again", m->resources,
                     found ? "missing" : "damaged, or of another build than this library");
     }
     if (guid && !strcmp(guid, part->guid)) return GOOD;
@@ -134,7 +137,7 @@ static int try_file(Instance *m, int k) {
     char path[sizeof m->resources + 32];
     double *table = m->work + TABLE_AT;
     snprintf(path, sizeof path, "%s/map-%d.bin", m->resources, k);
-    FILE *file = m->resources[0] ? open_file(path) : NULL;
+    FILE *file = open_file(path);
     if (!file) return -1;
     int found = -2;
     if (fread(table, sizeof *table, TABLE_HEADER, file) == TABLE_HEADER) {
@@ -158,7 +161,7 @@ int load_table(Instance *m) {
     m->now.latch = STATUS_BAD_INPUT;
     if (found == -2) return fail(m, "a map in %s is damaged; unpack the FMU again", m->resources);
     return fail(m, "fidelity = 'map': no map was made for these parameters; make one with "
-                "`thrustwasher map build`, or use fidelity 'field'");
+                "`thrustwasher map build`, or use fidelity 'field' (looked in %s)", m->resources);
 }
 
 #else

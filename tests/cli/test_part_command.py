@@ -109,15 +109,21 @@ def test_build_writes_the_fmu_of_the_part(mine, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    ("line", "words", "said"),
+    ("name", "line", "words", "said"),
     [
-        ('[parameters]\nroughness = "1 N"\n', [], "roughness = '1 N'"),
-        ("", ["--target", "python"], "for native FMUs only"),
+        ("Bad", '[parameters]\nroughness = "1 N"\n', [], "roughness = '1 N'"),
+        ("Bad", "[parameters]\nroughness = nan\n", [], "roughness = nan, allowed: a finite number"),
+        ("Bad", '[parameters]\nroughnes = "1 um"\n', [], "did you mean 'roughness'?"),
+        ("Bad", 'colour = "red"\n', [], "there is no 'colour' here"),
+        ("Bad", '[box]\nload = ["1 N", "9 MN"]\n', [], "load = 9000000.0 N, allowed: 0 .."),
+        *((name, "", [], f"name = {name!r}, allowed: letters, digits and _")
+          for name in ("2nd", "my part", "M\u00e4rz", "", "../up", "a" * 61)),
+        ("Bad", "", ["--target", "python"], "for native FMUs only"),
     ],
-)
-def test_build_refuses_a_bad_part_in_one_line(line, words, said, tmp_path, capsys):
+)  # fmt: skip
+def test_build_refuses_a_bad_part_in_one_line(name, line, words, said, tmp_path, capsys):
     file = tmp_path / "bad.toml"
-    file.write_text(f'model = "washer"\nname = "Bad"\n{line}')
+    file.write_text(f'model = "washer"\nname = "{name}"\n{line}', "utf-8")
     assert main(["build", str(file), *words, "--out", str(tmp_path / "dist")]) == 2
     error = capsys.readouterr().err
     assert said in error and error.count("\n") == 1

@@ -1,5 +1,6 @@
 """A package from the command line, run by FMPy's own SSP simulator."""
 
+import io
 import json
 import zipfile
 from functools import cache
@@ -72,6 +73,28 @@ def test_a_shift_from_rest_is_the_same_in_fmpy(package, tmp_path, capsys):
     assert heat == pytest.approx(told["energy"]["clutch"], rel=1e-11)
     peak = rows["clutch_temperature"].max()
     assert peak == pytest.approx(told["peak_clutch_temperature"], rel=1e-11)
+
+
+def test_a_part_of_ones_own_is_in_the_package_by_its_name_and_runs(tmp_path, capsys):
+    (tmp_path / "pack.toml").write_text(
+        'model = "clutch"\nname = "MyPack"\ndescription = "Worn pack"\nnotes = "drawing 12"\n'
+        "[parameters]\nfriction_scale = 0.9\n"
+    )
+    scene, path = tmp_path / "scene.toml", tmp_path / "own.ssp"
+    scene.write_text('base = "msl"\n[clutch]\npart = "pack.toml"\n')
+    words = ["shift", "--scene", str(scene), "--ssp", str(path), "--platforms", "local"]
+    assert main(words) == 0
+    with zipfile.ZipFile(path) as archive:
+        inside = zipfile.ZipFile(io.BytesIO(archive.read("resources/clutch.fmu")))
+        assert 'description="Worn pack"' in archive.read("SystemStructure.ssd").decode()
+        assert "<td>MyPack</td>" in archive.read("documentation/index.html").decode()
+    told = inside.read("modelDescription.xml").decode()
+    assert 'modelName="MyPack"' in told and 'modelIdentifier="MyPack"' in told
+    assert "drawing 12" in inside.read("documentation/index.html").decode()
+    rows, ours = simulated(path, load_scene(scene)), own(str(scene), tmp_path, capsys)
+    assert rows["lock_time"][-1] == pytest.approx(ours["lock_time"], rel=1e-12)
+    assert rows["lock_time"][-1] > 2.115  # 2.111 s with all of its friction
+    assert rows["clutch_heat"][-1] == pytest.approx(ours["energy"]["clutch"], rel=1e-11)
 
 
 def test_the_package_is_whole(package):

@@ -68,9 +68,14 @@ class PartFile:
         course = tuple((t, *map(self._inside, names, row)) for t, *row in self.spec.course)
         return tailored(
             self.spec, {**self.parameters, "fidelity": self.fidelity}, starts, course=course,
-            name=self.name, help=self.description.rstrip(".") or self.spec.help, box=self.box,
-            notes=self.notes,
+            **self.told,
         )  # fmt: skip
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """What the FMU says of this part, beside its values: fields of the model's record."""
+        text = self.description.rstrip(".") or self.spec.help
+        return {"name": self.name, "help": text, "box": self.box, "notes": self.notes}
 
     def _inside(self, name: str, value: float) -> float:
         """Return the value of an input, moved into the box."""

@@ -13,6 +13,7 @@ from fmpy import simulate_fmu
 from fmpy.util import read_csv
 from lxml import etree
 
+from thrustwasher.cli import main
 from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.build import build, validate
 from thrustwasher.fmu.documentation.reference_results import FOLDER
@@ -137,6 +138,19 @@ def test_everything_a_user_looks_for_is_inside_and_nothing_else(whole):
         "modelDescription.xml", "binaries", "documentation", "extra", "resources",
     }  # fmt: skip
     assert not [n for n in files if n.endswith((".py", ".o", ".pdb", ".lib"))]
+
+
+def test_plugs_lie_in_fmi_2_files_only_where_they_are_asked_for(tmp_path):
+    """FMI Library 3 calls them fatal there; in FMI 3.0 files they always lie."""
+    for words, version, wanted in (([], 2, False), (["--terminals"], 2, True), ([], 3, True)):
+        out = tmp_path / f"{version}-{wanted}"
+        asked = ["build", SMALL, "--platforms", "linux64", "--fmi", str(version), *words]
+        assert main([*asked, "--out", str(out)]) == 0
+        (path,) = out.rglob("*.fmu")
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+        assert ("terminalsAndIcons/terminalsAndIcons.xml" in names) == wanted
+        assert validate(path) == []
 
 
 def description_of(path):

@@ -134,7 +134,8 @@ def moved(fmu, name, tmp_path):
 def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_path, change):
     folder = moved(washer(2), "copy", tmp_path)
     file = folder / "resources" / "map-0.bin"
-    if change == "gone":
+    gone = change == "gone"
+    if gone:
         for map_file in file.parent.glob("map-*.bin"):
             map_file.unlink()
     else:
@@ -145,7 +146,8 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_pat
         }[change])  # fmt: skip
     packed = shutil.make_archive(str(tmp_path / "again"), "zip", folder)
     fmu = shutil.move(packed, tmp_path / "ThrustWasher.fmu")
-    with pytest.raises((ParameterError, SolveError), match=NONE if change == "gone" else "damaged"):
+    said = f"{NONE}.*looked in .*/resources" if gone else "damaged"
+    with pytest.raises((ParameterError, SolveError), match=said):
         with Instance(fmu, parameters=MAP) as instance:
             instance.initialize(0.0, POINT)
 

@@ -245,6 +245,15 @@ def test_without_its_part_there_is_no_instance_and_the_folder_is_named(fmi, spoi
     assert said in reply.messages[0]
 
 
+@both
+@pytest.mark.parametrize("folder", ["file://", "file:", "/" * 2000])
+def test_a_host_that_names_no_folder_is_refused_and_told_what_is_read_there(fmi, folder):
+    (reply,) = run(fmi, toy_library(), f"make toy {GUID} 0\n", resources=folder)
+    assert reply.status == 3 and len(reply.messages) == 1
+    assert "names no folder of resources" in reply.messages[0]
+    assert "the FMU's name and start values" in reply.messages[0]
+
+
 def summed(data):
     return data + struct.pack("<I", zlib.crc32(data))
 

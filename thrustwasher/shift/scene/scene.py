@@ -1,7 +1,7 @@
 """What is simulated: the parts of a shift with their parameters, times, oil and master."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from typing import Any
 
@@ -27,6 +27,8 @@ class Part:
     params: Any
     tolerance: float | None = None
     """Asked for with fidelity "auto": the rung is still to be chosen; None: it is as it stands."""
+    told: dict[str, Any] = field(default_factory=dict, compare=False)
+    """What a package says of it: name and notes of its part file, if it has one."""
 
     def parameters(self) -> dict[str, Any]:
         """Return all parameters by name, the fidelity among them, as an FMU takes them."""

@@ -231,7 +231,7 @@ def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
     known = {f.name: f.metadata for f in fields(spec.params)}
     given = dict(table)
     try:
-        values, usual = _start(spec, given.pop("part", None), given.pop("preset", None))
+        values, usual, told = _start(spec, given.pop("part", None), given.pop("preset", None))
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None
     fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", usual))
@@ -242,18 +242,22 @@ def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
             raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")
         values[key] = read_value(where, key, value, known[key])
     try:
-        return Part(spec=spec, fidelity=fidelity, params=spec.params(**values), tolerance=tolerance)
+        return Part(
+            spec=spec, fidelity=fidelity, params=spec.params(**values), tolerance=tolerance,
+            told=told,
+        )  # fmt: skip
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None
 
 
-def _start(spec: ModelSpec, file: Any, preset: Any) -> tuple[dict[str, Any], str]:
-    """Return the parameters and the rung that a part file or a preset gives."""
+def _start(spec: ModelSpec, file: Any, preset: Any) -> tuple[dict[str, Any], str, dict[str, Any]]:
+    """Return parameters and rung that a part file or a preset gives; what a file's FMU says."""
     if file is not None and preset is not None:
         raise ParameterError(f"preset = {preset!r} beside part = {file!r}, allowed: one of them")
     if file is None and preset is None:
-        return {}, spec.default_fidelity
+        return {}, spec.default_fidelity, {}
     own = preset_part(spec, str(preset)) if file is None else load_part(str(file))
     if own.spec.key != spec.key:
         raise ParameterError(f"part = {file!r} is one of {own.spec.name}, allowed: {spec.name}")
-    return {k: x for k, x in own.parameters.items() if k not in RESERVED}, own.fidelity
+    values = {k: x for k, x in own.parameters.items() if k not in RESERVED}
+    return values, own.fidelity, own.told if file else {}

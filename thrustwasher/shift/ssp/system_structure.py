@@ -113,7 +113,7 @@ def _component(
     span = scene.stop_time - scene.start_time
     return Component(
         name=name,
-        spec=tailored(part.spec, given, values, stop_time=span, step_size=scene.step),
+        spec=tailored(part.spec, given, values, stop_time=span, step_size=scene.step, **part.told),
         parameters=given,
         starts=values,
         inputs=tuple(s for s in part.spec.inputs if s.name in fed),

@@ -83,6 +83,34 @@ def test_a_scene_takes_a_part_that_lies_beside_it(mine):
     assert (params.roughness, params.heat_split) == (0.4e-6, 0.4)
 
 
+def test_a_part_in_a_scene_is_the_whole_part_of_its_base(mine):
+    """The base has washers of 5.55 .. 11.35 mm and a brake that starts pressed."""
+    scene = mine.parent / "mine_too.toml"
+    assert main(["part", "new", "clutch", "--set", "faces=6"]) == 0
+    scene.write_text(
+        'base = "planetary"\n[washer]\npart = "washer.toml"\n[brake]\npart = "clutch.toml"'
+    )
+    parts = load_scene(scene).parts
+    assert parts["washer"].params.outer_radius == load_part(mine).params.outer_radius == 0.0227
+    assert (parts["brake"].params.faces, parts["brake"].params.starts_pressed) == (6, True)
+    top = mine.parent / "top.toml"
+    top.write_text('base = "mine_too.toml"\n[washer]\npreset = "paper"\n')
+    assert load_scene(top).parts["washer"].params.roughness == WasherParams().roughness
+
+
+def test_a_scene_s_oil_is_that_of_a_part_file_too_and_that_is_said(mine):
+    text = mine.read_text().replace('viscosity_scale = "0.0631 mPa.s"', "viscosity_scale = 7e-5")
+    mine.write_text(text)
+    scene = mine.parent / "mine_too.toml"
+    scene.write_text('base = "planetary"\n[washer]\npart = "washer.toml"\n')
+    oil = load_scene("planetary").parts["washer"].params.viscosity_scale
+    found = load_scene(scene)
+    assert found.parts["washer"].params.viscosity_scale == oil
+    assert [note for note in found.notes if "washer: viscosity_scale of its part" in note]
+    scene.write_text(scene.read_text() + "viscosity_scale = 7e-5\n")
+    assert load_scene(scene).parts["washer"].params.viscosity_scale == 7e-5
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

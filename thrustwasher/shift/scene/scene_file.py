@@ -39,6 +39,7 @@ NUMBERS = {
     "master_tolerance": ("1", *TOLERANCE_RANGE),
     "oil_temperature": ("K", 233.15, 473.15),
 }
+ROLE = ("starts_pressed",)  # what a scene, not a part file, says of a part
 SHIFT = {
     "start": ("s", -1e6, 1e6),
     "duration": ("s", 0.0, 1e3),
@@ -79,7 +80,7 @@ def _read(name: str) -> dict[str, Any]:
         base = table.pop("base", "")
         if not isinstance(base, str):
             raise ParameterError(f"scene {name!r}: base = {base!r}, allowed: a scene's name")
-        merged = _overlay(table, merged)
+        merged = _overlay(_without_parts(table, merged), merged)
         if base.endswith(".toml") and name.endswith(".toml"):
             base = str(Path(name).parent / base)
         name = base
@@ -103,6 +104,19 @@ def _parse(name: str) -> dict[str, Any]:
             if isinstance(own.get("part"), str) and name.endswith(".toml"):
                 own["part"] = str(Path(name).parent / own["part"])  # lies beside the scene
     return table
+
+
+def _without_parts(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
+    """Return the tables of a base without what it says of parts that have a file on top of it."""
+    result = dict(base)
+    for key, said in base.items():
+        new = top.get(key)
+        if key in PARTS and isinstance(said, dict) and isinstance(new, dict):
+            if "part" in new:
+                result[key] = {k: x for k, x in said.items() if k in ROLE}
+            elif "preset" in new:
+                result[key] = {k: x for k, x in said.items() if k != "part"}
+    return result
 
 
 def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
@@ -173,11 +187,13 @@ def _parts(
             common = _of_oil(f"{where} [oil]", the_oil, PARTS[key])
             if own := [name for name in common if name in given]:
                 notes.append(f"{key}: {', '.join(own)} of its own, not of the scene's oil")
-            given = common | given
             if key == "sump":
                 gearbox = replace(parts["transmission"].params, ring_mesh="ring_mesh" in table)
                 given = _sump(given, gearbox, temperature)
-            parts[key] = _part(f"{where} [{key}]", PARTS[key], given)
+            parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common)
+            if lost:
+                notes.append(f"{key}: {', '.join(lost)} of its part or preset give way to "
+                             "the scene's oil; named in the scene they stay")  # fmt: skip
     return parts, notes
 
 
@@ -227,13 +243,19 @@ RESERVED = {
 }
 
 
-def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
+def _part(
+    where: str, spec: ModelSpec, table: dict[str, Any], common: dict[str, Any]
+) -> tuple[Part, list[str]]:
+    """Return a part, and what its file says of the oil in vain; ``common``: the scene's."""
     known = {f.name: f.metadata for f in fields(spec.params)}
     given = dict(table)
     try:
         values, usual, told = _start(spec, given.pop("part", None), given.pop("preset", None))
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None
+    own = {k: x for k, x in values.items() if x != getattr(spec.params(), k)}
+    lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
+    values |= common
     fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", usual))
     for key, value in given.items():
         if key not in known:
@@ -242,12 +264,11 @@ def _part(where: str, spec: ModelSpec, table: dict[str, Any]) -> Part:
             raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")
         values[key] = read_value(where, key, value, known[key])
     try:
-        return Part(
-            spec=spec, fidelity=fidelity, params=spec.params(**values), tolerance=tolerance,
-            told=told,
-        )  # fmt: skip
+        params = spec.params(**values)
     except ParameterError as problem:
         raise ParameterError(f"{where}: {problem}") from None
+    part = Part(spec=spec, fidelity=fidelity, params=params, tolerance=tolerance, told=told)
+    return part, lost
 
 
 def _start(spec: ModelSpec, file: Any, preset: Any) -> tuple[dict[str, Any], str, dict[str, Any]]:

@@ -203,7 +203,7 @@ def test_the_fitted_part_is_a_part_file(mesh, tmp_path, capsys):
     _, err = run(capsys, *of(mesh, "--out", str(out), "--plot", str(tmp_path / "fit.png")))
     part = load_part(out)
     assert part.params.constant_friction == pytest.approx(0.06, rel=1e-9)
-    assert "mesh.csv" in part.notes and f"wrote {out}" in err
+    assert "mesh.csv, 95 %: constant_friction 0.06 (0.0" in part.notes and f"wrote {out}" in err
     assert (tmp_path / "fit.png").read_bytes()[:4] == b"\x89PNG"
     again = json.loads(run(capsys, str(out), mesh, "--fit", "constant_friction", "--json").out)
     assert again["fitted"]["constant_friction"] == pytest.approx(0.06, rel=1e-9)
@@ -228,6 +228,9 @@ def test_an_empty_cell_was_not_measured(mesh, tmp_path, capsys):
         (["gearmesh", "{}"], "fit names nothing"),
         ([*WORDS, "--error", "friction_torque"], "--error friction_torque: allowed: NAME="),
         ([*WORDS, "--bounds", "constant_friction=0.1"], "allowed: NAME=LOW:HIGH"),
+        ([*WORDS, "--bounds", "constant_friction"], "allowed: NAME=LOW:HIGH"),
+        ([*WORDS, "--error", "friction_torque=1", "--error", "friction_torque=2"], "given twice"),
+        (["gearmesh", "{}", "more.csv"], "more.csv: allowed: [PART] DATA.csv"),
         ([*WORDS, "--bounds", "constant_friction=0.1:2"], "constant_friction = 2.0"),
         ([*WORDS, "--set", "speed=1", "--json"], "speed: is given twice"),
         (["{}", "--error", "friction=1"], "beside PART"),

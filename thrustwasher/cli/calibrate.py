@@ -9,7 +9,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.part_file import PartFile, part_text
 from ..model.registry import models_with_points
-from ..sweep.axes import find_place, places, split_setting
+from ..sweep.axes import find_place, places, split_settings
 from ..units import parse_quantity
 from . import _options, _output, _table
 
@@ -58,7 +58,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Read, fit, then print, draw or write."""
     *given, data = arguments.files or [""]
-    if len(given) > 1 or not data or data in models_with_points() or data.endswith(".toml"):
+    if len(given) > 1:
+        raise ParameterError(f"{data}: allowed: [PART] DATA.csv, one part and one file")
+    if not data or data in models_with_points() or data.endswith(".toml"):
         raise ParameterError("the file with the measured points is missing (DATA.csv)")
     with_law = next(key for key, model in models_with_points().items() if model.fits.law)
     part = _options.solvable(given[0] if given else with_law, arguments.preset)
@@ -107,7 +109,11 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
     units = column_units(part.spec)
     columns = _table.read_columns(data, units, optional=tuple(units), strict=True)
     bounds, known = {}, places(part.spec)
-    for name, text in (split_setting(setting, "--bounds") for setting in arguments.bounds):
+    given = {
+        option: split_settings(getattr(arguments, option), f"--{option}", metavar)
+        for option, (metavar, _) in SETTINGS.items()
+    }
+    for name, text in given["bounds"].items():
         ends = text.split(":")
         if len(ends) != 2:
             raise ParameterError(f"--bounds {name}={text}: allowed: NAME=LOW:HIGH")
@@ -115,15 +121,15 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
         bounds[name] = tuple(place.check(end) for end in ends)
     return {
         "data": columns, "bounds": bounds, "fidelity": arguments.fidelity or part.fidelity,
-        "errors": dict(split_setting(setting, "--error") for setting in arguments.error),
-        "at": dict(split_setting(setting, "--set") for setting in arguments.set),
+        "errors": given["error"], "at": given["set"],
     }  # fmt: skip
 
 
 def _write(target: Path, part: PartFile, found: Any, data: str) -> None:
     """Write the part with the fitted values and a note on them."""
     told = (
-        f"{e.name} {e.value:.6g} {e.unit} ({e.interval[0]:.4g} .. {e.interval[1]:.4g}"
+        f"{e.name} {e.value:.6g} {e.unit}".removesuffix(" 1")
+        + f" ({e.interval[0]:.4g} .. {e.interval[1]:.4g}"
         f"{'' if e.identifiable else ', not told by the points'})"
         for e in found.estimates
     )

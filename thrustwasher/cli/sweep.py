@@ -9,11 +9,12 @@ from typing import Any
 from ..errors import ParameterError, SolveError
 from ..model.registry import models_with_points, spec_of
 from ..model.spec import ModelSpec
-from ..sweep.axes import places, split_setting
+from ..sweep.axes import places, split_settings
 from . import _options, _output
 from ._options import option_name
 from ._table import read_columns
 
+VALUES = "NAME=VALUES, e.g. load=50:1850:50 or speed=136,545"
 HELP = "solve a model over ranges of inputs and parameters, on all cores or on a cluster"
 
 
@@ -70,8 +71,9 @@ def run(arguments: argparse.Namespace) -> int:
     from ..sweep.sweep_table import write_csv
 
     began = time.perf_counter()
+    over = split_settings(arguments.over, "--over", VALUES)
     table = run_sweep(
-        spec.key, _settings(arguments.over, "--over", {}), at=at, points=points, params=params,
+        spec.key, over, at=at, points=points, params=params,
         fidelity=arguments.fidelity or part.fidelity, out=out, workers=_workers(arguments.workers),
         cluster=arguments.cluster,
         progress=_progress(spec),
@@ -91,27 +93,18 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _settings(texts: list[str], option: str, found: dict[str, str]) -> dict[str, str]:
-    """Add the values of every option NAME=VALUES by name, each once."""
-    for text in texts:
-        name, values = split_setting(text, option)
-        if name in found:
-            raise ParameterError(f"{option} {text}: {name} is given twice")
-        found[name] = values
-    return found
-
-
 def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
     """Return what ``--set`` and the inputs' options hold, by name."""
-    held: dict[str, str] = {}
+    held = split_settings(arguments.settings, "--set", VALUES)
     known = places(spec)
     for name in _inputs():
         value = getattr(arguments, name)
         if value is not None:
-            if name not in known:
-                raise ParameterError(f"{option_name(name)}: is no input of {spec.name}")
+            if name not in known or name in held:
+                why = "is given twice" if name in known else f"is no input of {spec.name}"
+                raise ParameterError(f"{option_name(name)}: {why}")
             held[name] = value
-    return _settings(arguments.settings, "--set", held)
+    return held
 
 
 def _points(path: str, spec: ModelSpec) -> dict[str, Any]:

@@ -80,14 +80,17 @@ def find_place(name: str, known: dict[str, Place], spec: ModelSpec) -> Place:
     return known[name]
 
 
-def split_setting(text: str, option: str) -> tuple[str, str]:
-    """Return name and values of ``NAME=VALUES`` or ``NAME [UNIT]=VALUES``."""
-    name, equals, values = (part.strip() for part in text.partition("="))
-    if not name or not equals or not values:
-        raise ParameterError(
-            f"{option} {text}: allowed: NAME=VALUES, e.g. load=50:1850:50 or speed=136,545"
-        )
-    return name, values
+def split_settings(texts: Iterable[str], option: str, wanted: str) -> dict[str, str]:
+    """Return the values of every ``NAME=VALUES`` or ``NAME [UNIT]=VALUES`` by name, each once."""
+    found: dict[str, str] = {}
+    for text in texts:
+        name, equals, values = (part.strip() for part in text.partition("="))
+        if not name or not equals or not values:
+            raise ParameterError(f"{option} {text}: allowed: {wanted}")
+        if name in found:
+            raise ParameterError(f"{option} {text}: {name} is given twice")
+        found[name] = values
+    return found
 
 
 def read_axis(

@@ -137,7 +137,7 @@ def _listed(
             continue
         place = find_place(name, known, spec)
         kind = float if place.kind == "real" else object
-        columns[name] = np.array([place.check(v) for v in values], kind)
+        columns[name] = np.array([_checked(place, i, v) for i, v in enumerate(values)], kind)
     lengths = {name: len(values) for name, values in points.items()}
     if not columns or len(set(lengths.values())) != 1 or not 0 < min(lengths.values()):
         raise ParameterError(f"points: columns of {lengths}, allowed: one length for all, above 0")
@@ -152,6 +152,14 @@ def _listed(
             if not known[name].is_input:
                 first[1:] |= column[1:] != column[:-1]
     return columns, np.append(np.flatnonzero(first), n), list(columns)
+
+
+def _checked(place: Place, i: int, value: Any) -> Any:
+    """Return one value of a column, or say at which point it is not allowed."""
+    try:
+        return place.check(value)
+    except ParameterError as problem:
+        raise ParameterError(f"point {i + 1}: {problem}") from None
 
 
 def _assemble(
@@ -169,8 +177,7 @@ def _assemble(
             raise ParameterError("power: allowed: instead of load, not beside it")
         shown["power"] = _column("power", rows, held, n, 0.0)
     for signal in spec.inputs:
-        usual = signal.start or signal.nominal or 0.0
-        shown[signal.name] = _column(signal.name, rows, held, n, usual)
+        shown[signal.name] = _column(signal.name, rows, held, n, signal.usual)
     if "power" in shown:
         largest = next(s.high for s in spec.inputs if s.name == "load") or 0.0
         with np.errstate(divide="ignore", invalid="ignore"):

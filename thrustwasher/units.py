@@ -131,17 +131,25 @@ def format_quantity(value: float, unit: str, *, difference: bool = False, digits
     """
     if unit == "K" and not difference:
         return f"{_rounded(value - 273.15, digits)} {_PRETTY['degC']}"
+    shown, factor = display_unit(value, unit)
+    text = _rounded(value / factor, digits)
+    return text if shown == "1" else f"{text} {shown}"
+
+
+def display_unit(value: float, unit: str) -> tuple[str, float]:
+    """Return the unit in which a person reads numbers as large as this, and its size [SI ``unit``].
+
+    >>> display_unit(1.12e-6, "m")
+    ('µm', 1e-06)
+    """
     shown = _readable(value, unit, _DISPLAY.get(unit, (unit,)))
-    factor = UNITS[unit][shown][0] if shown in UNITS.get(unit, {}) else 1.0
-    number = value / factor
-    text = _rounded(number, digits)
-    return text if shown == "1" else f"{text} {_pretty(shown)}"
+    return _pretty(shown), UNITS.get(unit, {}).get(shown, (1.0, 0.0))[0]
 
 
 def exact_quantity(value: float, unit: str, *, difference: bool = False) -> str | float:
     """Return a text that ``parse_quantity`` reads as the same number to the bit.
 
-    Its unit is the readable one that needs the fewest digits; a bare number has none.
+    Its unit is the one that needs the fewest digits and is shortest; a bare number has none.
 
     Examples
     --------
@@ -151,14 +159,16 @@ def exact_quantity(value: float, unit: str, *, difference: bool = False) -> str 
     if unit == "1":
         return value
     shown = (_readable(value, unit, _DISPLAY.get(unit, (unit,))), *_EXACT.get(unit, ()), unit)
-    texts = (
-        f"{_plain_number((value - (0.0 if difference else offset)) / factor, digits)} {other}"
-        for digits in range(1, 18)
-        for other in shown
-        for factor, offset in (UNITS.get(unit, {}).get(other, (1.0, 0.0)),)
-    )
-    same = (t for t in texts if parse_quantity(t, unit, "", difference=difference) == value)
-    return next(same, f"{value!r} {unit}")
+    for digits in range(1, 18):
+        texts = (
+            f"{_plain_number((value - (0.0 if difference else offset)) / factor, digits)} {other}"
+            for other in shown
+            for factor, offset in (UNITS.get(unit, {}).get(other, (1.0, 0.0)),)
+        )
+        same = [t for t in texts if parse_quantity(t, unit, "", difference=difference) == value]
+        if same:
+            return min(same, key=len)
+    return f"{value!r} {unit}"
 
 
 def _plain_number(number: float, digits: int) -> str:

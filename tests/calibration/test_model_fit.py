@@ -2,6 +2,7 @@
 
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -59,6 +60,14 @@ def test_95_percent_intervals_hold_the_truth_in_95_percent_of_experiments(model,
 def test_so_they_do_for_the_washer(n):
     low, high = binom.interval(0.999, n, 0.95)
     assert all(low <= count <= high for count in held(BY_MODEL["washer"], n).values())
+
+
+def test_a_start_where_nothing_depends_on_a_parameter_is_left():
+    """So small a decay speed has passed before the slowest of the points."""
+    rig = BY_MODEL["clutch"]
+    found = calibrate(replace(rig.start, decay_speed=1.4e-3), data_of(rig), fit=tuple(rig.truth),
+                      errors={"friction_torque": "2 %"})  # fmt: skip
+    assert {n: getattr(found.params, n) for n in rig.truth} == pytest.approx(rig.truth, rel=1e-5)
 
 
 def test_what_does_not_act_on_the_measured_output_is_named():
@@ -226,7 +235,7 @@ def test_wrong_input_is_named(changes, more, message):
 
 def test_a_point_without_a_solution_is_named():
     data = {"speed": [136.0], "tilt": [2e-3], "film_loss_load": [900.0]}  # no fold so slow
-    with pytest.raises(SolveError, match=r"point 1 \(load 300, speed 136.* has no solution"):
+    with pytest.raises(SolveError, match=r"point 1 \(load 300, speed 136.* no such fold"):
         calibrate("washer", data, fit="heat_split", fidelity="coarse")
 
 

@@ -57,7 +57,7 @@ def one_line(capsys):
         (["washer", "--set", "roughness=3 mm"], ["roughness", "0.003", "m"]),
         (["washer", "--set", "friction_law=magic"], ["friction_law", "magic", "'load'"]),
         (["clutch", "--set", "faces=2.5"], ["faces", "2.5"]),
-        (["clutch", "--set", "film_dynamics=perhaps"], ["film_dynamics", "True or False"]),
+        (["clutch", "--set", "film_dynamics=perhaps"], ["film_dynamics", "true or false"]),
         (["washer", "--set", "outer_radius=0.012"], ["gear_inner_radius", "outer_radius"]),
         (["gearmesh", "--set", "pinion_teeth=14"], ["pinion_teeth = 14", "15 and more"]),
         (["washer", "--plot", "x.gif"], ["--plot", "x.gif", ".png"]),

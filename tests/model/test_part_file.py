@@ -74,6 +74,11 @@ def test_a_number_with_a_readable_unit_is_the_same_number(value, unit):
     assert parse_quantity(exact_quantity(value, unit), unit, "x") == value
 
 
+def test_lengths_are_written_in_mm_where_um_are_inexact():
+    """635e-6 and 10e-6 as products are not the floats 6.35e-4 and 1e-5."""
+    assert [exact_quantity(x, "m") for x in (6.35e-4, 1e-5)] == ["0.635 mm", "0.01 mm"]
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
@@ -81,10 +86,10 @@ def test_a_number_with_a_readable_unit_is_the_same_number(value, unit):
         ('"0.4 um"', '"4 m"', ["[parameters]", "roughness = 4.0 m", "1e-05 m"]),
         ("roughness", "roughnes", ["[parameters]", "'roughnes'", "roughness"]),
         ('"transient"', '"quick"', ["thermal_mode", "'quick'", "quasi_steady"]),
-        ("false", '"no"', ["oil_cooling", "'no'", "True or False"]),
+        ("false", '"no"', ["oil_cooling", "'no'", "true or false"]),
         ('name = "Mine"', 'name = "my washer"', ["name = 'my washer'", "letters, digits and _"]),
         ('name = "Mine"', "", ["'name' is missing"]),
-        ('"washer"', '"whasher"', ["model = 'whasher'", "ThrustWasher"]),
+        ('"washer"', '"whasher"', ["model = 'whasher'", "ThrustWasher", "did you mean 'washer'?"]),
         ('"1.2 kN"', '"30 kN"', ["[box]", "load = 30000.0 N", "0 .. 10000 N"]),
         ('["20 N", "1.2 kN"]', '["1.2 kN", "20 N"]', ["[box]", "load", "low <= high"]),
         ('["20 N", "1.2 kN"]', '["1 N", "2 N", "3 N"]', ["[box]", "load", "[low, high]"]),
@@ -99,6 +104,15 @@ def test_what_is_wrong_in_a_part_file_is_named(mine, old, new, words):
         load_part(path)
     for word in ["mine.toml", *words]:
         assert word in str(caught.value)
+
+
+def test_a_byte_order_mark_as_of_windows_editors_is_no_part_of_the_text(mine):
+    path = mine()
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
+    assert load_part(path).name == "Mine"
+    path.write_bytes(MINE.encode("utf-16"))
+    with pytest.raises(ParameterError, match="not UTF-8 text"):
+        load_part(path)
 
 
 def test_a_file_that_is_none_is_named(tmp_path):

@@ -8,6 +8,7 @@ import pytest
 import washer_stand_in
 
 from thrustwasher import GearMeshParams, solve_gearmesh
+from thrustwasher import calibrate as calibrate_model
 from thrustwasher.clutch.calibration.calibration import calibrate
 from thrustwasher.clutch.solve import ClutchParams, boundary_friction, solve_clutch
 from thrustwasher.report.model_plots.clutch_plot import clutch_figure
@@ -134,6 +135,18 @@ def test_every_panel_of_a_fit_names_what_it_is_over():
     columns["load"] = np.linspace(1e3, 5e3, 30)
     axes = calibration_figure(calibrate(ClutchParams(), **columns)).axes
     assert axes[2].get_xlabel() == "load [N]" and axes[0].get_legend() is not None
+
+
+def test_a_calibration_s_films_are_drawn_in_micrometres():
+    points = {
+        "power": [2e3, 5e3, 9e3],
+        "speed": [180.0] * 3,
+        "film_thickness": [3e-7, 2.5e-7, 2e-7],
+    }
+    found = calibrate_model("gearmesh", points, fit="viscosity_scale")
+    axes = calibration_figure(found).axes
+    assert axes[0].get_ylabel() == "[µm]" and "[µm]" in axes[1].get_ylabel()
+    assert axes[0].lines[0].get_ydata() == pytest.approx([0.3, 0.25, 0.2])
 
 
 def test_branches_of_the_curve_differ_in_more_than_colour():

@@ -61,6 +61,11 @@ def _settled(
     """Return the fit, what it tells, and the verdicts; constants not told stay near their first."""
     best = best_fit(problem, first)
     told = information(problem, best, confidence)
+    lost = [not verdict.identifiable for verdict in verdicts(problem, best, told)]
+    if any(lost):  # it may have started where nothing depends on it
+        middle = np.where(lost, 0.5 * (problem.low + problem.high), best)
+        best = best_fit(problem, first, [middle])
+        told = information(problem, best, confidence)
     deviation = told.deviation
     weak = np.zeros(len(best))
     for _ in problem.names:

@@ -1,6 +1,6 @@
 """Weighted least squares within bounds: what is fitted to what, several starts, profiles."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
@@ -101,13 +101,13 @@ class Problem:
         )  # fmt: skip
 
 
-def best_fit(problem: Problem, first: Array) -> Array:
+def best_fit(problem: Problem, first: Array, more: Sequence[Array] = ()) -> Array:
     """Return the constants with the least sum of squares that any start leads to.
 
-    Where several fit equally well, the nearest to ``first``, the values before the fit, is taken;
-    SolveError if no start converged.
+    Starts are ``first``, those of the problem and ``more``. Where several fit equally well, the
+    nearest to ``first``, the values before the fit, is taken; SolveError if no start converged.
     """
-    starts = [first, *problem.starts(first)]
+    starts = [first, *problem.starts(first), *more]
     count = len(problem.measured)
     noise = (1e-13 * np.abs(problem.measured * problem.weight).max()) ** 2 * count
     rough = [f for f in (_refine(problem, s, problem.rough) for s in starts) if f is not None]

@@ -58,7 +58,6 @@ class Measured:
                 own = params[int(np.searchsorted(starts, row, "right")) - 1]
                 curves[row] = resolve(fits.curve)(own, point, plan.fidelity) if own else {}
             found[k] = curves[row].get(name, np.nan)
-        failed |= {row: Status.NO_BRANCH for row in curves}  # if there is no number
         return found, failed
 
 

@@ -267,6 +267,9 @@ def _check_first(points: Measured, values: Mapping[str, float]) -> None:
     row, name, plan = int(points.row[i]), points.output[i], points.plan
     inputs = (f"{key} {plan.shown[key][row]:g}" for key in plan.shown if key in plan.units)
     where = f"point {row + 1} ({', '.join(inputs)}): {name}"
+    if name in find_model(plan.spec.key).fits.more:
+        raise SolveError(f"{where} has no solution: no such fold on the load curve; leave it "
+                         "out, or start nearer with --set NAME=VALUE")  # fmt: skip
     if row in failed:
         raise SolveError(f"{where} has no solution: {failed[row].advice}")
     raise ParameterError(f"{where} is {computed[i]}, allowed: finite outputs")

@@ -51,7 +51,7 @@ def allowed(meta: Any) -> str:
     if meta["kind"] == "enumeration":
         return " or ".join(repr(name) for name in meta["options"])
     if meta["kind"] == "boolean":
-        return "True or False"
+        return "true or false"
     unit = "" if meta["unit"] == "1" else f" {meta['unit']}"
     whole = ", a whole number" if meta["kind"] == "integer" else ""
     return f"{meta['min']:g} .. {meta['max']:g}{unit}{whole}"

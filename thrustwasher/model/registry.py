@@ -9,7 +9,7 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, suggestion
 from .record import Ladder, Model, resolve
 
 if TYPE_CHECKING:
@@ -66,8 +66,10 @@ def find_model(name: str) -> Model:
 
 
 def _unknown(name: str, why: str = "") -> ParameterError:
-    known = ", ".join(_model_in(home).name for home in (MODELS | HELPERS).values())
-    return ParameterError(f"model = {name!r}{why}, allowed: {known}")
+    models = [_model_in(home) for home in (MODELS | HELPERS).values()]
+    known = ", ".join(m.name for m in models)
+    hint = suggestion(name, [n for m in models for n in (m.key, m.name)], "; did you mean {!r}?")
+    return ParameterError(f"model = {name!r}{why}, allowed: {known}{hint}")
 
 
 def find_spec(name: str) -> "ModelSpec":

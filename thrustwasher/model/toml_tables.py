@@ -13,9 +13,9 @@ from .parameters import allowed
 def read_file(what: str, path: str | Path) -> dict[str, Any]:
     """Return the tables of a TOML file; ``what`` it is ("scene") begins the message of an error."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as problem:  # bytes that are no text, a path that is none
-        reason = getattr(problem, "strerror", None) or "not a text file"
+        reason = getattr(problem, "strerror", None) or "not UTF-8 text"
         raise ParameterError(f"{what} = {str(path)!r}: cannot be read ({reason})") from None
     return parse(f"{what} = {str(path)!r}", text)
 

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from ...units import display_unit
 from ..palette import BLACK, BLUE, GREY, ORANGE, RED, SKY
 from ..style import heading, label, new_figure, styled
 
@@ -16,7 +17,7 @@ N_RESIDUALS = 2  # panels of residuals per output: over the inputs that vary mos
 @styled
 def calibration_figure(found: Any) -> Figure:
     """Return for each measured output points and fit, and residuals over inputs that vary most."""
-    shown = found.shown()
+    shown = [_readable(series) for series in found.shown()]
     figure, panels = new_figure(11.0, 1.2 + 3.0 * len(shown), len(shown), 1 + N_RESIDUALS, head=2)
     rows = [panels[i : i + 1 + N_RESIDUALS] for i in range(0, len(panels), 1 + N_RESIDUALS)]
     for series, (left, *others) in zip(shown, rows, strict=True):
@@ -33,6 +34,15 @@ def calibration_figure(found: Any) -> Figure:
             axis.set_visible(False)
     heading(figure, _heading(found), fontsize=10)
     return figure
+
+
+def _readable(series: Any) -> Any:
+    """Return an output in the unit that a person reads."""
+    unit, factor = display_unit(float(np.abs(series.measured).max()), series.unit)
+    columns = ("measured", "error", "computed", "half")
+    values = {name: getattr(series, name) for name in columns}
+    shown = {name: None if x is None else x / factor for name, x in values.items()}
+    return series._replace(unit=unit, **shown)
 
 
 def _draw_fit(

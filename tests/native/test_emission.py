@@ -1,5 +1,10 @@
-"""Compiled ahead of time, the kernels give the numbers of the JIT to the last bit."""
+"""Compiled ahead of time, the kernels give the numbers of the JIT to the last bit.
 
+The JIT would compile the washer's kernels for minutes: they give the numbers of their source, run
+as plain Python, and at every level of processors the same ones to the last bit.
+"""
+
+import os
 import platform
 import subprocess
 import sys
@@ -21,13 +26,14 @@ each_level = pytest.mark.parametrize(
     "level", [level if level == HERE else pytest.param(level, marks=pytest.mark.platforms)
               for level in ("v2", "v3")],
 )  # fmt: skip
+JITTED = [model for model in MODELS if model != "washer"]
 STEPS, TRIES = 300, 60
 
 
-# To compile the others takes the JIT half a minute to minutes.
+# To compile the others takes the JIT half a minute.
 @pytest.fixture(
     scope="module",  # all tests of a model one after the other: one process compiles it
-    params=[m if m == "gearmesh" else pytest.param(m, marks=pytest.mark.slow) for m in MODELS],
+    params=[m if m == "gearmesh" else pytest.param(m, marks=pytest.mark.slow) for m in JITTED],
 )
 def model(request):
     return request.param
@@ -38,34 +44,83 @@ def has_v3() -> bool:
         return " avx2 " in file.read()
 
 
-def pair(model, level):
-    if level == "v3" and not has_v3():
+def pair(model, level, other=None):
+    """Return runs by the JIT, or by another level, and by a level."""
+    if "v3" in (level, other) and not has_v3():
         pytest.skip("this CPU has no AVX2")
-    runs = Run(Jit(model)), Run(Native(model, level))
+    runs = Run(Native(model, other) if other else Jit(model)), Run(Native(model, level))
     assert [run.start(parameters(model)) for run in runs] == [0, 0]
     return runs
 
 
-@each_level
-def test_a_reference_run_is_equal_to_the_bit(model, level):
-    jit, native = pair(model, level)
+def follow_the_course(model, runs):
     rows, dt = course(model, STEPS)
     for i, row in enumerate(rows):
-        status = [run.step(row, i * dt, dt) for run in (jit, native)]
-        assert status[0] == status[1] == 0
-        assert jit.memory() == native.memory(), i
+        status = [run.step(row, i * dt, dt) for run in runs]
+        assert status == [0, 0]
+        assert runs[0].memory() == runs[1].memory(), i
+
+
+def go_anywhere(model, runs):
+    t, (_, dt) = 0.0, course(model, STEPS)
+    for i, row in enumerate(anything(model, TRIES)):
+        for h in (0.0, dt):
+            status = [run.step(row, t, h) for run in runs]
+            assert status[0] == status[1] >= 0
+            assert runs[0].memory() == runs[1].memory(), (i, h)
+        t += dt
+
+
+@each_level
+def test_a_reference_run_is_equal_to_the_bit(model, level):
+    follow_the_course(model, pair(model, level))
 
 
 @each_level
 def test_inputs_from_all_over_are_equal_to_the_bit_failures_too(model, level):
-    jit, native = pair(model, level)
-    t, (_, dt) = 0.0, course(model, STEPS)
-    for i, row in enumerate(anything(model, TRIES)):
-        for h in (0.0, dt):
-            status = [run.step(row, t, h) for run in (jit, native)]
-            assert status[0] == status[1] >= 0
-            assert jit.memory() == native.memory(), (i, h)
-        t += dt
+    go_anywhere(model, pair(model, level))
+
+
+@pytest.mark.platforms
+def test_the_washer_is_the_same_at_both_levels_to_the_bit():
+    follow_the_course("washer", pair("washer", "v2", "v3"))
+    go_anywhere("washer", pair("washer", "v2", "v3"))
+
+
+SOURCE = """
+import sys
+sys.path[:0] = {path!r}
+import numpy as np
+from kernel_runs import Native, Python, Run, course, parameters
+from thrustwasher.numerics.jit import way
+assert way() == "python"
+runs = Run(Python("washer")), Run(Native("washer", {level!r}))
+assert [run.start(parameters("washer")) for run in runs] == [0, 0]
+rows, dt = course("washer", 10)
+def same(what):
+    a, b = (getattr(run, what) for run in runs)
+    return np.allclose(a, b, rtol=1e-10, atol=0.0, equal_nan=True)
+for i, row in enumerate(rows):
+    status = [run.step(row, i * dt, dt) for run in runs]
+    assert status == [0, 0], i
+    assert same("par") and same("out") and (runs[0].iout == runs[1].iout).all(), i
+    if i == 3:
+        for k in range(len(row)):
+            seed, found = np.eye(len(row))[k], [np.zeros(len(run.out)) for run in runs]
+            for run, dout in zip(runs, found):
+                assert run.entries.call(
+                    "sens", run.par, row.copy(), run.state, run.work, seed, dout) == 0
+            assert np.allclose(*found, rtol=1e-7, atol=1e-9 * np.abs(found[1]).max()), k
+print("same")
+"""
+
+
+@pytest.mark.slow
+def test_the_washers_numbers_are_those_of_its_source():
+    code = SOURCE.format(path=sys.path, level=HERE)
+    plain = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=plain)
+    assert done.stdout == "same\n", done.stderr
 
 
 def test_a_contradiction_between_parameters_has_the_same_number(model):

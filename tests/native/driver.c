@@ -1,6 +1,7 @@
 /* Runs a native FMI 2.0 library as a co-simulation host does, on whatever platform:
    driver LIBRARY GUID NAME IN OUT. IN: int32 inputs, outputs, steps; uint32 references of inputs and
-   outputs; doubles: step size, then the inputs of each step. OUT: the outputs after each step. */
+   outputs; doubles: step size, then the inputs of each step. OUT: the outputs after each step.
+   Every step is made twice, from a state that is set again, freed, and refused from then on. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,6 +67,9 @@ static void run(void *library, const char *guid, const char *name, FILE *in, FIL
     USE(fmi2SetReal);
     USE(fmi2GetReal);
     USE(fmi2DoStep);
+    USE(fmi2GetFMUstate);
+    USE(fmi2SetFMUstate);
+    USE(fmi2FreeFMUstate);
     USE(fmi2Terminate);
     USE(fmi2FreeInstance);
     const fmi2CallbackFunctions callbacks = {say, calloc, free, NULL, NULL};
@@ -86,8 +90,16 @@ static void run(void *library, const char *guid, const char *name, FILE *in, FIL
     CHECK(fmi2EnterInitializationMode(c));
     CHECK(fmi2ExitInitializationMode(c));
     for (int i = 0; i < n[2]; i++) {
+        fmi2FMUstate state = NULL, freed;
         take(given, sizeof given[0], n[0], in);
         CHECK(fmi2SetReal(c, inputs, n[0], given));
+        CHECK(fmi2GetFMUstate(c, &state));
+        CHECK(fmi2DoStep(c, i * dt, dt, 1));
+        freed = state;
+        CHECK(fmi2SetFMUstate(c, state));
+        CHECK(fmi2FreeFMUstate(c, &state));
+        if (fmi2SetFMUstate(c, freed) != fmi2Error)
+            stop("a freed state was taken for a living one");
         CHECK(fmi2DoStep(c, i * dt, dt, 1));
         CHECK(fmi2GetReal(c, outputs, n[1], found));
         fwrite(found, sizeof found[0], n[1], out);

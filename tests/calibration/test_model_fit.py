@@ -239,6 +239,13 @@ def test_a_point_without_a_solution_is_named():
         calibrate("washer", data, fit="heat_split", fidelity="coarse")
 
 
+def test_a_rung_that_solves_one_value_alone_is_named():
+    """Its map is for one roughness: that a changed one has no solution tells nothing of it."""
+    data = {"load": [200.0, 300.0], "speed": [953.0] * 2, "friction_torque": [0.2, 0.25]}
+    with pytest.raises(SolveError, match=r"fit = 'roughness': beside 5.15e-07 .* rung 'map'"):
+        calibrate("washer", data, fit="roughness", fidelity="map")
+
+
 def test_an_output_that_is_not_finite_is_named(monkeypatch):
     """No point is known where a model has one; so the solution is replaced."""
     monkeypatch.setattr(Measured, "computed", lambda self, changes: (np.array([1.0, np.inf]), {}))

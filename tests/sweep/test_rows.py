@@ -1,5 +1,7 @@
 """Each row is what a single solve gives; the order of rows; points that fail."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
+from thrustwasher.sweep import sweep_table
 from thrustwasher.washer.parameters import SPEC
 
 UP = "200:1200:200"
@@ -161,3 +164,28 @@ def test_auto_without_an_allowed_point_is_named():
     over = {"power": [1e3, 2e3]}
     with pytest.raises(ParameterError, match="no point has allowed inputs"):
         run_sweep("gearmesh", over, at={"speed": 0.0}, fidelity="auto:0.05")
+
+
+def test_columns_that_are_not_kept_are_in_the_file_alone(tmp_path):
+    over = {"power": "1 kW:40 kW:1 kW", "speed": [0.0, 100.0, 200.0]}
+    kept = run_sweep("gearmesh", over, out=tmp_path / "kept.csv", workers=1)
+    table = run_sweep("gearmesh", over, out=tmp_path / "not.csv", workers=1, keep=False)
+    assert (tmp_path / "not.csv").read_bytes() == (tmp_path / "kept.csv").read_bytes()
+    assert (len(table), table.columns, table.failures) == (120, {}, {"BAD_INPUT": 40})
+    assert (len(kept), kept.failures) == (120, table.failures)
+    assert "status" in run_sweep("gearmesh", over, workers=1, keep=False).columns  # no file
+
+
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, monkeypatch, suffix):
+    """30 outputs are 240 bytes a point; inputs and what is done stay, on lines of 100 points."""
+    monkeypatch.setattr(sweep_table, "CHUNK", 1000)
+    peaks = []
+    for n in (40, 40, 400):  # the first one loads what is needed
+        over = {"power": "1 kW:30 kW:n100", "speed": f"100:300:n{n}"}
+        tracemalloc.start()
+        run_sweep("gearmesh", over, fidelity="closed", out=tmp_path / f"{len(peaks)}.{suffix}",
+                  workers=1, keep=False)  # fmt: skip
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[2] - peaks[1] < 100 * (40_000 - 4_000)

@@ -60,6 +60,12 @@ class ModelProblem(Problem):
                 values.append(np.where(np.isfinite(there), there, here))
                 places.append(np.where(np.isfinite(there), end, guess[i]))
             width = places[1] - places[0]
+            if not width.any():
+                name, rung = self.names[i], self.points.plan.fidelity
+                raise SolveError(
+                    f"fit = {name!r}: beside {self.shown(guess)[i]:g} no point has a solution with "
+                    f"rung {rung!r}; choose another rung or start"
+                )
             columns.append(np.where(width > 0.0, values[1] - values[0], 0.0)
                            / np.where(width > 0.0, width, 1.0))  # fmt: skip
         return np.column_stack(columns)

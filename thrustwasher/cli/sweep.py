@@ -76,7 +76,7 @@ def run(arguments: argparse.Namespace) -> int:
         spec.key, over, at=at, points=points, params=params,
         fidelity=arguments.fidelity or part.fidelity, out=out, workers=_workers(arguments.workers),
         cluster=arguments.cluster,
-        progress=_progress(spec),
+        progress=_progress(spec), keep=False,
     )  # fmt: skip
     if table.choice:
         _output.note(table.choice)

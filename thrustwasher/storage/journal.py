@@ -26,6 +26,7 @@ CREATE TABLE work(name TEXT, value TEXT);
 CREATE TABLE done(entry INTEGER PRIMARY KEY, value BLOB, checksum INTEGER);
 """
 PUT = "INSERT OR REPLACE INTO done VALUES (?, ?, ?)"
+Block = tuple[int, NDArray[np.float64], NDArray[np.int32]]  # first row, (n, ...), (n, ...)
 BUSY = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 DISK = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
 
@@ -93,9 +94,9 @@ class Journal:
             ) from None
 
     def entries(self) -> Iterator[tuple[int, bytes]]:
-        """Yield what is done: number and content of each entry."""
+        """Yield what is done: number and content of each entry, by their numbers."""
         with self._named():
-            for entry, value, checksum in self._db.execute("SELECT * FROM done"):
+            for entry, value, checksum in self._db.execute("SELECT * FROM done ORDER BY entry"):
                 if not isinstance(value, bytes) or checksum != _checksum(entry, value):
                     raise sqlite3.DatabaseError(f"entry {entry} was changed")
                 yield entry, value
@@ -128,16 +129,21 @@ class Journal:
             raise
         del self._waiting[:n]
 
+    def blocks(self, n_numbers: int, n_flags: int) -> Iterator[Block]:
+        """Yield the rows that are done, in their order: first row, numbers, flags."""
+        self.flush()
+        for first, value in self.entries():
+            n = len(value) // (8 * n_numbers + 4 * n_flags)
+            split = 8 * n_numbers * n
+            numbers = np.frombuffer(value[:split], np.float64).reshape(n, -1)
+            yield first, numbers, np.frombuffer(value[split:], np.int32).reshape(n, -1)
+
     def load(self, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> NDArray[np.bool_]:
         """Fill in the rows that are done; return which (n_rows,)."""
         done = np.zeros(len(numbers), bool)
-        width = 8 * numbers.shape[1], 4 * flags.shape[1]
-        for first, value in self.entries():
-            n = len(value) // sum(width)
-            rows, split = slice(first, first + n), n * width[0]
-            numbers[rows] = np.frombuffer(value[:split], np.float64).reshape(n, -1)
-            flags[rows] = np.frombuffer(value[split:], np.int32).reshape(n, -1)
-            done[rows] = True
+        for first, values, marks in self.blocks(numbers.shape[1], flags.shape[1]):
+            rows = slice(first, first + len(marks))
+            numbers[rows], flags[rows], done[rows] = values, marks, True
         return done
 
     def append(self, first: int, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:

@@ -12,7 +12,7 @@ from ..model.registry import find_model
 from ..model.spec import ModelSpec, Signal
 from ..units import parse_quantity
 
-MOST_POINTS = 2_000_000
+MOST_POINTS = 4_000_000
 BOOLEANS = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from ..processes import local_processes, refuse_import_by_worker, usable_cores
 from ..storage.journal import Journal
 from .solve_rows import Task, check_rung, output_signals, solve_task
 from .sweep_plan import Plan, make_plan
-from .sweep_table import INSTALL, SweepTable, check_output, make_table, write_table
+from .sweep_table import INSTALL, SweepTable, check_output, make_table, pieces, write_table
 
 Progress = Callable[[int, int], None]
 WORTH = 2.0  # [s] of work left; for less it does not pay to start processes
@@ -34,7 +35,7 @@ def run_sweep(
     model: str, over: Mapping[str, Any] | None = None, *, at: Mapping[str, Any] | None = None,
     points: Mapping[str, Any] | None = None, params: Any = None, fidelity: str | None = None,
     out: str | Path | None = None, workers: int | None = None, cluster: str | None = None,
-    progress: Progress | None = None,
+    progress: Progress | None = None, keep: bool = True,
 ) -> SweepTable:  # fmt: skip
     """Return the outputs of a model over all combinations of some inputs and parameters.
 
@@ -53,6 +54,7 @@ def run_sweep(
     workers : processes on this machine; None: as many as there are cores where that pays, 1: none
     cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", instead
     progress : called as progress(points done, points in all)
+    keep : False: with ``out``, the columns are there alone, and memory does not grow with them
 
     Returns
     -------
@@ -88,16 +90,16 @@ def run_sweep(
     if len(plan.params) == 1:
         check_rung(plan.spec, plan.fidelity, plan.params[0])
     real, whole = output_signals(plan.spec)
-    numbers = np.full((plan.n_rows, len(real)), np.nan)
-    flags = np.zeros((plan.n_rows, len(whole)), np.int32)
+    n = plan.n_rows if keep or not target else 0
+    kept = np.full((n, len(real)), np.nan), np.zeros((n, len(whole)), np.int32)
     journal = Journal(journal_of(target), plan.identity) if target else None
     finished = False
     try:
-        done = journal.load(numbers, flags) if journal else np.zeros(plan.n_rows, bool)
-        Run(plan, numbers, flags, done, journal, progress).solve(workers, cluster)
-        table = make_table(plan, numbers, flags)
-        if target:
-            write_table(table, target)
+        Run(plan, *kept, journal, progress).solve(workers, cluster)
+        table = make_table(plan, *kept)
+        if target and journal:
+            counts = write_table(pieces(plan, journal.blocks(len(real), len(whole))), target)
+            table = table if n else replace(table, columns={}, counts=counts)
         finished = True
     finally:
         if journal:
@@ -115,11 +117,13 @@ class Run:
 
     def __init__(
         self, plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32],
-        done: NDArray[np.bool_], journal: Journal | None, progress: Progress | None,
+        journal: Journal | None, progress: Progress | None,
     ) -> None:  # fmt: skip
-        self.plan, self.numbers, self.flags, self.done = plan, numbers, flags, done
+        self.plan, self.numbers, self.flags = plan, numbers, flags  # without rows: not kept
         self.journal, self.progress = journal, progress
-        self.n_done = int(done.sum())
+        self.done, self.n_done = np.zeros(plan.n_rows, bool), 0
+        for block in journal.blocks(numbers.shape[1], flags.shape[1]) if journal else ():
+            self._keep(*block)
 
     def solve(self, workers: int | None, cluster: str | None) -> None:
         """Solve what is not done yet."""
@@ -187,12 +191,17 @@ class Run:
 
     def _take(self, task: Task, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:
         """Take the rows of a task in; the journal writes them within a second or at its end."""
-        rows = slice(task.first_row, task.first_row + len(numbers))
         if self.journal:
             self.journal.append(task.first_row, numbers, flags)
-        self.numbers[rows], self.flags[rows], self.done[rows] = numbers, flags, True
-        self.n_done += len(numbers)
+        self._keep(task.first_row, numbers, flags)
         self._show()
+
+    def _keep(self, first: int, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:
+        rows = slice(first, first + len(numbers))
+        if len(self.numbers):
+            self.numbers[rows], self.flags[rows] = numbers, flags
+        self.done[rows] = True
+        self.n_done += len(numbers)
 
     def _show(self) -> None:
         if self.progress:

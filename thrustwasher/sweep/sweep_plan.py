@@ -17,6 +17,7 @@ from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
 
 Array = NDArray[np.float64]
+PIECE = 100_000  # rows of a column that are made into text at a time
 
 
 @dataclass(frozen=True)
@@ -175,16 +176,17 @@ def _assemble(
     if "power" in rows or "power" in held:
         if "load" in rows or "load" in held:
             raise ParameterError("power: allowed: instead of load, not beside it")
-        shown["power"] = _column("power", rows, held, n, 0.0)
-    for signal in spec.inputs:
-        shown[signal.name] = _column(signal.name, rows, held, n, signal.usual)
+        shown["power"] = rows["power"] if "power" in rows else np.full(n, float(held["power"]))
+    inputs = np.empty((n, len(spec.inputs)))
+    for i, s in enumerate(spec.inputs):
+        inputs[:, i] = rows[s.name] if s.name in rows else held.get(s.name, s.usual)
+        shown[s.name] = inputs[:, i]
     if "power" in shown:
         largest = next(s.high for s in spec.inputs if s.name == "load") or 0.0
         with np.errstate(divide="ignore", invalid="ignore"):
             torque = np.where(shown["power"] == 0.0, 0.0, np.abs(shown["power"] / shown["speed"]))
         # NaN where the power asks for more than is allowed
-        shown["load"] = np.where(torque <= largest, torque, np.nan)
-    inputs = np.ascontiguousarray(np.stack([shown[s.name] for s in spec.inputs], axis=1))
+        shown["load"][:] = np.where(torque <= largest, torque, np.nan)
     units = {s.name: s.unit for s in spec.inputs} | ({"power": "W"} if "power" in shown else {})
     for name in varied:
         shown[name] = rows[name]
@@ -192,11 +194,6 @@ def _assemble(
     plan = Plan(spec, fidelity, inputs, shown, units, starts, params, params_of)
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
-
-
-def _column(name: str, rows: dict[str, Any], held: dict[str, Any], n: int, usual: float) -> Array:
-    column: Array = rows[name] if name in rows else np.full(n, float(held.get(name, usual)))
-    return column
 
 
 def _parameters(
@@ -230,9 +227,18 @@ def _identity(
     from ..numerics.jit import kernel_digest
 
     held = {k: v for k, v in {**asdict(base), **fixed}.items() if k not in set(varied)}
-    parts = {"model": plan.spec.key, "fidelity": plan.fidelity, "parameters": repr(held)}
-    for name, column in plan.shown.items():
-        parts[name] = repr(column.tolist()) if column.dtype == object else column.tobytes().hex()
-    parts["lines"] = plan.starts.tobytes().hex()
+    parts: dict[str, Any] = {"model": plan.spec.key, "fidelity": plan.fidelity}
+    parts |= {"parameters": repr(held), **plan.shown, "lines": plan.starts}
     parts["version of thrustwasher"] = kernel_digest() + digest_now(plan.spec.kernel)
-    return {k: hashlib.sha256(v.encode()).hexdigest()[:16] for k, v in parts.items()}
+    return {name: _digest(part) for name, part in parts.items()}
+
+
+def _digest(part: Any) -> str:
+    """Return the digest of a text or of a column."""
+    digest = hashlib.sha256()
+    if isinstance(part, str) or part.dtype == object:
+        digest.update((part if isinstance(part, str) else repr(part.tolist())).encode())
+        return digest.hexdigest()[:16]
+    for a in range(0, len(part), PIECE):
+        digest.update(part[a : a + PIECE].tobytes().hex().encode())
+    return digest.hexdigest()[:16]

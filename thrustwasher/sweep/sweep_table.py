@@ -1,8 +1,10 @@
 """The rows of a sweep as columns, and as a file."""
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from typing import IO, Any
 
@@ -11,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
 from ..model.spec import REGIMES
+from ..storage.journal import Block
 from ..storage.whole_files import whole_file
 from .solve_rows import output_signals
 from .sweep_plan import Plan
@@ -26,16 +29,18 @@ class SweepTable:
 
     ``columns`` maps names to arrays in the order of the rows, as ``pandas.DataFrame`` takes them.
     ``choice`` says why the rung ``fidelity`` was chosen, if it was not asked for by name.
-    Outputs of a failed point are NaN, "" or False; ``status`` says why.
+    Outputs of a failed point are NaN, "" or False; ``status`` says why;
+    ``counts`` are the points by status.
     """
 
     columns: dict[str, NDArray[Any]]
     units: dict[str, str]
     fidelity: str = ""
     choice: str = ""
+    counts: Mapping[str, int] = field(default_factory=dict)
 
     def __len__(self) -> int:
-        return len(self.columns["status"])
+        return sum(self.counts.values())
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.columns[name]
@@ -44,14 +49,16 @@ class SweepTable:
     def failures(self) -> dict[str, int]:
         """How many points failed with which status."""
         failed = {s.name for s in Status if s.is_failure}
-        counts = Counter(self.columns["status"].tolist())
-        return {name: n for name, n in sorted(counts.items()) if name in failed}
+        return {name: n for name, n in sorted(self.counts.items()) if name in failed}
 
 
-def make_table(plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> SweepTable:
-    """Return the table of a plan's outputs, as ``solve_task`` gives them."""
+def make_table(
+    plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32], first: int = 0
+) -> SweepTable:
+    """Return the table of outputs as ``solve_task`` gives them, of the plan's rows from one on."""
     real, whole = output_signals(plan.spec)
-    columns, units = dict(plan.shown), dict(plan.units)
+    rows = slice(first, first + len(flags))
+    columns, units = {name: column[rows] for name, column in plan.shown.items()}, dict(plan.units)
     for i, signal in enumerate(real):
         columns[signal.name], units[signal.name] = numbers[:, i], signal.unit
     failed = flags[:, -1] >= FIRST_FAILURE
@@ -66,7 +73,20 @@ def make_table(plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32
     for status in Status:
         names[status] = status.name
     columns["status"] = names[flags[:, -1]]
-    return SweepTable(columns, units, plan.fidelity, plan.choice)
+    counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
+    return SweepTable(columns, units, plan.fidelity, plan.choice, counts)
+
+
+def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:
+    """Yield the table of consecutive blocks of rows in pieces."""
+    waiting: list[Block] = []
+    for block in blocks:
+        waiting.append(block)
+        first, end = waiting[0][0], block[0] + len(block[2])
+        if end - first >= CHUNK or end == plan.n_rows:
+            numbers, flags = (np.concatenate(part) for part in list(zip(*waiting, strict=True))[1:])
+            yield make_table(plan, numbers, flags, first)
+            waiting = []
 
 
 def check_output(path: str | Path) -> Path:
@@ -81,21 +101,33 @@ def check_output(path: str | Path) -> Path:
     return target
 
 
-def write_table(table: SweepTable, path: Path) -> None:
-    """Write CSV or Parquet, as the name ends; the file appears complete or not at all."""
-    with whole_file(path) as draft:
-        if path.suffix.lower() == ".parquet":
-            _write_parquet(table, draft)
+def write_table(tables: Iterator[SweepTable], path: Path) -> Counter[str]:
+    """Write CSV or Parquet, as the name ends, from pieces of a table; return points by status.
+
+    The file appears complete or not at all.
+    """
+    counts, first = Counter[str](), next(tables)
+    with whole_file(path) as draft, ExitStack() as stack:
+        if is_parquet := path.suffix.lower() == ".parquet":
+            group = _batch(first)
+            writer = stack.enter_context(_pyarrow()[1].ParquetWriter(draft, group.schema))
         else:
-            with draft.open("w", encoding="utf-8", newline="") as stream:
-                write_csv(table, stream)
+            stream = stack.enter_context(draft.open("w", encoding="utf-8", newline=""))
+        for table in chain([first], tables):
+            counts.update(table.counts)
+            if is_parquet:
+                writer.write_table(_batch(table).cast(group.schema))
+            else:
+                write_csv(table, stream, head=table is first)
+    return counts
 
 
-def write_csv(table: SweepTable, stream: IO[str]) -> None:
+def write_csv(table: SweepTable, stream: IO[str], *, head: bool = True) -> None:
     """Write the table as CSV: units in the head, numbers in full, empty where a point failed."""
     heads = [f"{name} [{table.units[name]}]" if table.units.get(name, "1") != "1" else name
              for name in table.columns]  # fmt: skip
-    stream.write(",".join(heads) + "\n")
+    if head:
+        stream.write(",".join(heads) + "\n")
     n = len(table)
     for a in range(0, n, CHUNK):
         texts = [_texts(column[a : a + CHUNK]) for column in table.columns.values()]
@@ -117,23 +149,12 @@ def _texts(column: NDArray[Any]) -> Sequence[str]:
     return found
 
 
-def _write_parquet(table: SweepTable, path: Path) -> None:
-    """Write the table with its units in the columns' metadata; failed numbers are null."""
-    parquet = _pyarrow()[1]
-    first = _batch(table, slice(0, CHUNK))
-    with parquet.ParquetWriter(path, first.schema) as writer:
-        writer.write_table(first)
-        for a in range(CHUNK, len(table), CHUNK):
-            writer.write_table(_batch(table, slice(a, a + CHUNK)).cast(first.schema))
-
-
-def _batch(table: SweepTable, rows: slice) -> Any:
-    """Return some rows as a table of pyarrow."""
+def _batch(table: SweepTable) -> Any:
+    """Return a table of pyarrow with units in the columns' metadata; failed numbers are null."""
     pa, _ = _pyarrow()
     fields, arrays = [], []
-    bad = np.isin(table["status"][rows], [s.name for s in Status if s.is_failure])
-    for title, whole in table.columns.items():
-        column = whole[rows]
+    bad = np.isin(table["status"], [s.name for s in Status if s.is_failure])
+    for title, column in table.columns.items():
         if column.dtype == object:
             array = pa.array(column.tolist())
             if pa.types.is_string(array.type):

@@ -3,7 +3,9 @@
 import argparse
 
 from ..errors import ParameterError
+from ..model.part_file import is_part, load_part
 from ..model.registry import all_models
+from ..units import parse_quantity
 from . import _output
 
 HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"
@@ -42,6 +44,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "refused then",
     )  # fmt: skip
     parser.add_argument(
+        "--tol", metavar="X", default="0.01",
+        help="relative error of the torque allowed in the map of a part file's washer, which is "
+        "built and kept if there is none; default 0.01",
+    )  # fmt: skip
+    parser.add_argument(
         "--terminals", action="store_true",
         help="put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
     )  # fmt: skip
@@ -53,7 +60,13 @@ def run(arguments: argparse.Namespace) -> int:
     folder = _output.check_folder(arguments.out, "--out")
 
     from ..fmu.build import build, validate
+    from ..ladder.own_tables import build_missing
 
+    tolerance = parse_quantity(arguments.tol, "1", "tol")
+    if arguments.target == "native" and not arguments.no_maps:
+        for part in map(load_part, filter(is_part, arguments.models)):
+            if problem := build_missing(part, tolerance, _output.time_left):
+                _output.note(problem)
     paths = build(
         arguments.models or None, target=arguments.target, fmi=arguments.fmi, out=folder,
         platforms=chosen_platforms(arguments.platforms, arguments.target), note=_output.note,

@@ -32,8 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         "needs")  # fmt: skip
     parser.add_argument("--out", metavar="FILE", help="default washer.twm, PART.twm of a part file")
     parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
-    parser.add_argument("--points", type=int, default=200, metavar="N",
-                        help="held-out points of the check, default 200")  # fmt: skip
+    parser.add_argument("--points", type=int, default=60, metavar="N",
+                        help="held-out points of the check, default 60")  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
 
 
@@ -101,7 +101,7 @@ def _check(arguments: argparse.Namespace) -> int:
     if not arguments.file:
         raise ParameterError("check: the map file is wanted, `thrustwasher map check FILE`")
     from ..processes import runner
-    from ..washer.map.map_check import check_map
+    from ..washer.map.map_check import check_map, mesh_of
     from ..washer.map.map_file import read_map
     from ..washer.parameters import WasherParams
 
@@ -112,8 +112,8 @@ def _check(arguments: argparse.Namespace) -> int:
         raise ParameterError(f"map = {arguments.file!r}: its card names no parameters") from None
     with runner(arguments.workers or 1) as run:
         verdict = check_map(
-            params, arguments.file, points=arguments.points, fidelity=str(file.card["built_from"]),
-            run=run, progress=_output.time_left("held-out points"),
+            params, arguments.file, points=arguments.points, grid=mesh_of(file.card), run=run,
+            progress=_output.time_left("held-out points"),
         )  # fmt: skip
     card = {**file.card, "held_out": asdict(verdict)}
     _show(card, arguments.file, arguments.json)
@@ -125,18 +125,26 @@ def _show(card: dict[str, Any], path: str, as_json: bool) -> None:
     if as_json:
         _output.print_json({"file": path, **card})
         return
+    from ..washer.map.map_check import mesh_of
+
     units = {s.name: s.unit for s in SPEC.inputs}
     box = ", ".join(
         f"{name} {ends[0]:g} .. {ends[1]:g} {units[name]}" for name, ends in card["box"].items()
     )
     print(f"{path}: {box}")
+    finer = ""
+    if card.get("finer_lines"):
+        finer = (f", {card['finer_lines']} on a finer one (the torque was up to "
+                 f"{card['mesh_made_good']:.1%} off without them)")  # fmt: skip
     print(f"  tolerance {card['tolerance']:g}: {card['lines']} curves on the {card['built_from']} "
-          f"mesh, {card['build_s']:g} s with {card['workers']} processes")  # fmt: skip
+          f"mesh{finer}, {card['build_s']:g} s with {card['workers']} processes")  # fmt: skip
     held = card["held_out"]
     if held:
+        nodes = "{} x {} nodes".format(*mesh_of(card))
         print(
-            f"  held out ({held['points']:g} points): torque within {held['torque']:.2g} (rms "
-            f"{held['torque_rms']:.2g}), {held['torque_near_fold']:.2g} within 3 % of a fold; film "
+            f"  held out ({held['points']:g} points on {nodes}): torque within "
+            f"{held['torque']:.2g} (rms {held['torque_rms']:.2g}), "
+            f"{held['torque_near_fold']:.2g} within 3 % of a fold; film "
             f"ratio {held['film_ratio']:.2g}; temperature {held['temperature']:.2g} K; oil within "
             f"{held['oil']:.2g}; loads of {held['folds']:g} folds {held['fold_load']:.2g}"
         )

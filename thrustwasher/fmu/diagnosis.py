@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from importlib import metadata
 
 from ..errors import ParameterError
+from ..model.prepare import tables_of
 from ..model.registry import all_specs, kernel_of
 from ..native.files import code_folder
 from ..native.link import find_linker
@@ -37,6 +38,7 @@ def diagnose() -> list[Check]:
         *((name, _importable(name)) for name in ("numpy", "numba", "fmpy", "pythonfmu")),
         ("models", _models),
         ("compiled kernels", _kernels),
+        ("kept maps", _kept),
         ("temporary folder", lambda: _writable(tempfile.gettempdir())),
         ("slave files", lambda: str(source_folder())),
         ("Python FMU", _binary),
@@ -88,6 +90,10 @@ def _kernels() -> str:
         return "all are those of the sources; nothing has to be compiled"
     folder = code_folder()  # says it if it is a temporary one
     return f"the first run compiles {missing}, seconds to a minute, and keeps them in {folder}"
+
+
+def _kept() -> str:
+    return "; ".join(tables.kept() for tables in filter(None, map(tables_of, all_specs())))
 
 
 def _writable(folder: str) -> str:

@@ -1,4 +1,4 @@
-"""A map of one's own parameters, built with its cards where that pays.
+"""A map of one's own parameters: built when asked for, or with its cards where that pays.
 
 What building costs is estimated from the box: lines and held-out points times the seconds that one
 takes. What it saves are calls of the rung that solves.
@@ -8,11 +8,12 @@ from collections.abc import Callable
 from time import perf_counter
 from typing import Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, SolveError
+from ..model.part_file import PartFile
 from ..model.prepare import tables_of
 from ..model.record import resolve
 from ..model.registry import ladder_of
-from ..model.spec import ModelSpec
+from ..model.spec import ModelSpec, Tables
 from ..native.files import to_stderr
 from ..processes import usable_cores
 from .boxes import Box
@@ -42,10 +43,7 @@ def build_where_it_pays(
     try:
         if any(c.fidelity == tables.rung for c in cards):
             known = tables.box(params)
-            if tables.find(params).card["tolerance"] <= tol and all(
-                known[n][0] <= max(low, tables.least(n)) and high <= known[n][1]
-                for n, (low, high) in (needed or box).items()
-            ):
+            if _serves(tables, params, needed or box, tol):
                 return ""
             box = {n: (min(a, known[n][0]), max(b, known[n][1])) for n, (a, b) in box.items()}
         lines = tables.lines(params, box, tol / SAFETY)
@@ -55,9 +53,37 @@ def build_where_it_pays(
         say(f"{spec.key}: builds a map of its own, once, about {takes:.0f} s")
         began = perf_counter()
         resolve(MAKER)(spec, params, box, tol=tol / SAFETY, points=POINTS)
-    except ParameterError as problem:
+    except (ParameterError, SolveError) as problem:
         return f"{spec.key}: no map of its own: {problem}"
     return (
         f"{spec.key}: a map of its own and cards from {POINTS} held-out points were made in "
         f"{perf_counter() - began:.0f} s and are kept"
+    )
+
+
+def build_missing(part: PartFile, tol: float, progress: Any) -> str:
+    """Build a part's map unless one of this tolerance is kept that covers its box.
+
+    Returns why there is none, in one line, empty if there is one or its model has no maps.
+    """
+    tables = tables_of(part.spec)
+    if tables is None:
+        return ""
+    try:
+        if not _serves(tables, part.params, part.box, tol):
+            tables.build(part.params, part.box, tol, usable_cores(), progress)
+    except (ParameterError, SolveError) as problem:
+        return f"{part.name}: no map of its own: {problem}"
+    return ""
+
+
+def _serves(tables: Tables, params: Any, box: Box, tol: float) -> bool:
+    """Tell if there is a map of this tolerance that covers a box."""
+    try:
+        known = tables.box(params)
+    except ParameterError:
+        return False
+    return tables.find(params).card["tolerance"] <= tol and all(
+        known[n][0] <= max(low, tables.least(n)) and high <= known[n][1]
+        for n, (low, high) in box.items()
     )

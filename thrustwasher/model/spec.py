@@ -102,9 +102,10 @@ class Tables(NamedTuple):
     find: Callable[[Any], Any]  # the file for parameters; ParameterError if there is none
     box: Callable[[Any], Mapping[str, tuple[float, float]]]  # that it covers, by input
     resource: Callable[[Any], bytes]  # a file as it lies in an FMU
-    build: Callable[..., None]  # (parameters, box, tolerance, mesh, workers, progress): keep one
+    build: Callable[..., None]  # (parameters, box, tolerance, workers, progress): keep one
     lines: Callable[..., int]  # (parameters, box, tolerance): what building one has to solve
     least: Callable[[str], float]  # value of an input that can be covered
+    kept: Callable[[], str]  # in words: what is kept in the user's cache, and where
 
 
 @dataclass(frozen=True, kw_only=True)

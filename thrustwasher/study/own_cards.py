@@ -71,7 +71,7 @@ def make_own_cards(
     count = workers or usable_cores()
     show = progress or (lambda _label: lambda _done, _total: None)
     if tables:
-        tables.build(params, box, tol, None, count, show)
+        tables.build(params, box, tol, count, show)
     found = []
     with runner(count) as run:
         reference = show("held-out points")
@@ -81,18 +81,11 @@ def make_own_cards(
         if not holds(spec, rung, params):
             continue
         found += _cards(case, rung, known)
-        if tables and rung == tables.rung and _off(found) > tol:  # as its mesh is: on a finer one
-            tables.build(params, box, tol, "fine", count, show)
-            found = _cards(case, rung, known)
     shutil.rmtree(own_folder() / f"{spec.key}-{case.name}", ignore_errors=True)
     for card in found:
         write_card(card, own_folder())
     forget()
     return found
-
-
-def _off(cards: list[Card]) -> float:
-    return max((card.worst("friction_torque") or 0.0 for card in cards), default=0.0)
 
 
 def _cards(case: Case, rung: str, known: list[Any]) -> list[Card]:

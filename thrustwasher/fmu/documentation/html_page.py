@@ -3,10 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
-from ...errors import Status
+from ...errors import ParameterError, Status
 from ...ladder.card import load_cards
 from ...ladder.card_parts import QUANTITIES
+from ...ladder.formats import shown_error
+from ...model.prepare import tables_of
 from ...model.registry import MODELS, find_model, find_spec
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, enumerations, variables
@@ -67,12 +70,12 @@ def _unit(v: Variable) -> str:
 
 
 def accuracy(spec: ModelSpec) -> Rows:
-    """Return what the model's cards say of the default parameters: a row for each card."""
-    rungs = list(spec.fidelities)
-    found = [card for card in load_cards(spec.key)
-             if card.params.name == "default" and card.fidelity in rungs]  # fmt: skip
+    """Return what cards say of the parameters it starts with, and its map's own check: rows."""
+    rungs, params = list(spec.fidelities), spec.params()
+    found = [card for card in load_cards(spec.key, params)
+             if card.fidelity in rungs and not card.stale(params)]  # fmt: skip
     found.sort(key=lambda card: (rungs.index(card.fidelity), card.chart or ""))
-    return [
+    return _of_map(spec) + [
         (
             f"{card.fidelity} {card.chart or ''}".strip(),
             ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in card.envelope.items()),
@@ -82,6 +85,24 @@ def accuracy(spec: ModelSpec) -> Rows:
         )
         for card in found
     ]
+
+
+def _of_map(spec: ModelSpec) -> Rows:
+    """Return what the check of a part's map has found, as a row; none if it has no map."""
+    tables = tables_of(spec)
+    if tables is None or not spec.kind:
+        return []
+    try:
+        card: dict[str, Any] = tables.find(spec.params()).card
+    except ParameterError:  # no map was made for it
+        return []
+    held, units = card["held_out"], {s.name: s.unit for s in spec.inputs}
+    box = ", ".join(f"{n} {low:g} .. {high:g} {units[n]}" for n, (low, high) in card["box"].items())
+    return [(f"{tables.rung}, when built", box, str(held["points"]),
+             shown_error(held["torque"], "relative", None),
+             shown_error(held["temperature"], "absolute", "K"), "-",
+             shown_error(held["film_ratio"], "absolute", None),
+             "x".join(map(str, card.get("checked_on", ()))) + " nodes")]  # fmt: skip
 
 
 def _equations(folder: Path) -> str:

@@ -26,7 +26,18 @@ from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import WasherParams
 from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
-from .map_file import SUFFIX, MapFile, all_maps, find_map, map_paths, own_folder, plain, read_map
+from .map_file import (
+    MOST_KEPT,
+    SUFFIX,
+    MapFile,
+    all_maps,
+    find_map,
+    forget_unused,
+    map_paths,
+    own_folder,
+    plain,
+    read_map,
+)
 from .map_plan import INPUTS, coverable, least_of, lines_about
 
 MAKER = "thrustwasher.washer.map.map_build:make_map"  # by name: it looks up too
@@ -228,7 +239,7 @@ def washer_map(params: WasherParams) -> WasherMap:
 
 def build_own(
     params: WasherParams, box: Mapping[str, tuple[float, float]], tolerance: float,
-    fidelity: str | None, workers: int, progress: Any,
+    workers: int, progress: Any,
 ) -> None:  # fmt: skip
     """Build the map of one's own washer and keep it in the user's cache; as ``make_map``.
 
@@ -237,14 +248,21 @@ def build_own(
     path = own_folder() / f"washer-{params_digest(params)[:16]}{SUFFIX}"
     path.parent.mkdir(parents=True, exist_ok=True)
     resolve(MAKER)(
-        params, path, box=coverable(box), tolerance=tolerance, fidelity=fidelity, workers=workers,
-        progress=progress,
+        params, path, box=coverable(box), tolerance=tolerance, workers=workers, progress=progress
     )  # fmt: skip
+    forget_unused()
     washer_map.cache_clear()
     _solver.forget()
+
+
+def kept_maps() -> str:
+    """Return in words what is kept of one's own washers."""
+    kept = [path for path in map_paths() if path.is_relative_to(own_folder())]
+    return f"{len(kept)} maps of one's own washers, of at most {MOST_KEPT}, in {own_folder()}"
 
 
 TABLES = Tables(
     "map", map_paths, all_maps, map_for, lambda p: WasherMap(p).box, plain, build_own,
     lambda p, box, tol: lines_about(p, coverable(box), tol), least_of,
+    kept_maps,
 )  # fmt: skip

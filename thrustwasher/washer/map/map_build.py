@@ -5,7 +5,8 @@ import os
 import platform
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,15 +20,17 @@ from ...storage.digests import params_digest
 from ...storage.journal import Journal
 from ..kernels.layout import O_FLUID_LOAD
 from ..kernels.map import map_layout as L
-from ..parameters import WasherParams
+from ..parameters import SPEC, WasherParams
 from ..solve import GRIDS
-from .map_check import check_map
+from .map_check import check_map, mesh_of
 from .map_file import SUFFIX, identity_of, pack
 from .map_line import Curve, Line, LineTask, packed, solve_lines
+from .map_mesh import Change, change_of_mesh
 from .map_plan import COARSE, FIELD_FROM, SPARE, TOLERANCE, MapPlan, Place, plan_map
 from .map_survey import surveyed
 
 Progress = Callable[[int, int], None]
+POINTS = 60  # held out
 FIDELITIES = ("field", "fine")  # meshes to build from
 DIGIT = 2.0**-20  # of the logarithms; what is finer only makes the file large
 BATCH = 19  # lines that a worker takes at a time, each from where the one before was
@@ -36,7 +39,7 @@ BATCH = 19  # lines that a worker takes at a time, each from where the one befor
 def make_map(
     params: WasherParams, out: Path, *, box: dict[str, tuple[float, float]] | None = None,
     tolerance: float = TOLERANCE, fidelity: str | None = None, workers: int | None = None,
-    points: int = 200, progress: Callable[[str], Progress] | None = None,
+    points: int = POINTS, progress: Callable[[str], Progress] | None = None,
 ) -> dict[str, Any]:  # fmt: skip
     """Build a map, check it and write it; return its card.
 
@@ -45,8 +48,9 @@ def make_map(
     params : the washer
     out : file to write, ``*.twm``; what is solved is kept beside it until the map is done
     box : (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]
-    tolerance : of the torque, relative: of mesh and map together, a third of it for the map
-    fidelity : "fine" or "field", the mesh that is mapped; None: as the tolerance needs
+    tolerance : of the torque, relative: of mesh and map together
+    fidelity : "fine" or "field", the mesh that is mapped; None: "field" with what a finer mesh
+        changes, and if that misses the tolerance "fine"
     workers : processes; None: one per core
     points : held-out points of the check
     progress : called with a label, returns ``show(done, total)``
@@ -55,30 +59,61 @@ def make_map(
     ------
     ParameterError : a wrong box, tolerance or fidelity, an oil supply of its own temperature, or
         another run makes this file
-    SolveError : a node has no solution
+    SolveError : a node has no solution, or a held-out point misses the tolerance
     """
-    if fidelity is None:
-        fidelity = "field" if tolerance >= FIELD_FROM else "fine"
-    if fidelity not in FIDELITIES:
+    if fidelity not in (None, *FIDELITIES):
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
     plan = plan_map(params, box, tolerance)
-    count = workers or os.cpu_count() or 1
-    show = progress or (lambda _label: lambda _done, _total: None)
+    job = _Job(plan, out, workers or os.cpu_count() or 1, points,
+               progress or (lambda _label: lambda _done, _total: None))  # fmt: skip
+    usual = "field" if tolerance >= FIELD_FROM else "fine"
+    card = _made(job, fidelity or usual, raised=fidelity is None and usual == "field")
+    if fidelity is None and usual == "field" and _missed(card):
+        card = _made(job, "fine", raised=False)
+    if fidelity is None and _missed(card):
+        out.unlink()
+        raise SolveError(_too_coarse(card))
+    return card
+
+
+@dataclass(frozen=True)
+class _Job:
+    plan: MapPlan
+    out: Path
+    workers: int
+    points: int
+    show: Callable[[str], Progress]
+
+
+def _made(job: _Job, fidelity: str, *, raised: bool) -> dict[str, Any]:
+    """Build a map on a mesh, check and write it; return its card."""
+    plan, out, show = job.plan, job.out, job.show
     draft = out.with_name(f".{out.name}.{os.getpid()}.draft{SUFFIX}")
     # Held to the end: another run that writes this map is refused before it has worked for nothing.
     journal = journal_for(out.with_name(f"{out.name}.journal"), plan, fidelity)
     finished = False
     try:
         began = time.perf_counter()
-        with runner(count) as run:
+        with runner(job.workers) as run:
             reach = find_reach(plan)
             plan = survey(plan, reach, run=run, progress=show("survey"))
             data = build_lines(plan, reach, fidelity=fidelity, run=run, progress=show("lines"),
                                journal=journal)  # fmt: skip
-            card = _card(plan, fidelity, time.perf_counter() - began, count)
+            change = None
+            if raised:
+                change = change_of_mesh(
+                    plan, GRIDS[fidelity], GRIDS["fine"],
+                    partial(_solved, plan, reach, plan.terms, run, show("finer mesh")),
+                )  # fmt: skip
+                lines = data[L.DATA :].reshape(-1, plan.line)
+                lines += np.round(change.lines / DIGIT) * DIGIT
+                data[L.IDENTITY] = identity_of(data)
+            card = _card(plan, fidelity, change, time.perf_counter() - began, job.workers)
             _write(draft, data, card)
-            verdict = check_map(params, str(draft), points=points, fidelity=fidelity, run=run,
-                                progress=show("held-out points"))  # fmt: skip
+            verdict = check_map(
+                plan.params, str(draft), grid=mesh_of(card), run=run,
+                points=job.points, progress=show("held-out points"),
+            )  # fmt: skip
         card["held_out"] = asdict(verdict)
         _write(draft, data, card)
         draft.replace(out)
@@ -89,21 +124,40 @@ def make_map(
     return card
 
 
+def _missed(card: dict[str, Any]) -> bool:
+    return bool(card["held_out"]["torque"] > card["tolerance"])
+
+
+def _too_coarse(card: dict[str, Any]) -> str:
+    held, units = card["held_out"], {s.name: s.unit for s in SPEC.inputs}
+    where = ", ".join(f"{n} = {x:.4g} {units[n]}" for n, x in held["worst"].items())
+    return (
+        f"map: its torque is {held['torque']:.2%} off at {where}; wanted: {card['tolerance']:.2%}. "
+        f"Leave that out of the box, or ask for {1.1 * held['torque']:.1g} (--tol)"
+    )
+
+
 def survey(
     plan: MapPlan, reach: float, *, run: Run = run_here, progress: Progress | None = None
 ) -> MapPlan:
     """Return the plan with what its tolerance needs, measured on the coarse mesh."""
+    return surveyed(
+        plan, lambda rows, terms: _solved(plan, reach, terms, run, progress, rows, COARSE)
+    )
 
-    def solve(rows: Sequence[Sequence[Place]], terms: tuple[int, ...]) -> list[list[Curve]]:
-        tasks = [[_task(plan, reach, COARSE, terms, *place) for place in row] for row in rows]
-        curves: list[list[Curve]] = []
-        for row in run(solve_lines, tasks, 1):
-            curves.append(row)
-            if progress is not None:
-                progress(len(curves), len(tasks))
-        return curves
 
-    return surveyed(plan, solve)
+def _solved(
+    plan: MapPlan, reach: float, terms: tuple[int, ...], run: Run, progress: Progress | None,
+    rows: Sequence[Sequence[Place]], grid: tuple[int, int],
+) -> list[list[Curve]]:  # fmt: skip
+    """Return the curves of rows of neighbours on a grid."""
+    tasks = [[_task(plan, reach, grid, terms, *place) for place in row] for row in rows]
+    curves: list[list[Curve]] = []
+    for row in run(solve_lines, tasks, 1):
+        curves.append(row)
+        if progress is not None:
+            progress(len(curves), len(tasks))
+    return curves
 
 
 def build_lines(
@@ -196,7 +250,7 @@ def _task(
     return LineTask(
         params=plan.params, speed=speed, tilt=tilt, oil_temperature=oil, scale=scale,
         thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale), marks=plan.marks, terms=terms,
-        grid=grid, accuracy=max(1e-7, 5e-3 * plan.tolerance),
+        grid=grid, accuracy=max(1e-7, 1e-2 * plan.tolerance),
     )  # fmt: skip
 
 
@@ -205,12 +259,18 @@ def _write(path: Path, data: Any, card: dict[str, Any]) -> None:
         path.write_bytes(pack(data, card))
 
 
-def _card(plan: MapPlan, fidelity: str, took: float, workers: int) -> dict[str, Any]:
+def _card(
+    plan: MapPlan, fidelity: str, change: Change | None, took: float, workers: int
+) -> dict[str, Any]:
+    """Return a map's card; ``change`` is what a finer mesh added."""
+    mesh = {} if change is None else {
+        "finer_lines": change.solved, "mesh_made_good": change.raised, "mesh_left": change.left
+    }  # fmt: skip
     return {
         "kind": "washer map", "params": asdict(plan.params), "box": plan.box,
         "tolerance": plan.tolerance, "patches": plan.patches, "lines": lines_of(*plan.patches),
         "terms": plan.terms, "more_terms": plan.more_terms, "marks": plan.marks,
-        "built_from": fidelity,
+        "built_from": fidelity, "checked_on": change.grid if change else GRIDS[fidelity], **mesh,
         "kernels": kernel_digest(), "build_s": round(took, 1), "workers": workers,
         "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
         "held_out": None,

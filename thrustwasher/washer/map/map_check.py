@@ -31,6 +31,7 @@ class Held:
     rise: float  # K, of the mean temperature
     oil: float  # relative, largest of oil flow, its heat and the film's rise
     near_fold: bool
+    point: tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,20 +48,21 @@ class Verdict:
     fold_load: float  # relative
     folds: int
     unanswered: int  # points at which one of the two had no answer
+    worst: dict[str, float]  # the point of the largest difference in torque
 
 
 def check_map(
-    params: WasherParams, path: str, *, points: int = 200, fidelity: str = "fine",
+    params: WasherParams, path: str, *, points: int = 200, grid: tuple[int, int] = GRIDS["fine"],
     run: Run = run_here, progress: Callable[[int, int], None] | None = None,
 ) -> Verdict:  # fmt: skip
     """Compare a map file with solutions on a mesh at random points of its box, on both branches.
 
     ``points`` of them are spread evenly over the logarithms of load, speed and tilt; the map is
-    built from none of them. ``fidelity`` is the mesh of the solutions.
+    built from none of them. ``grid`` is the mesh of the solutions.
     """
     washer = WasherMap(params, path)
-    tasks = [(TWINS[k % 2], point) for k, point in enumerate(_points(washer, points))]
-    compare = partial(_compare, params, path, fidelity)
+    tasks = [(TWINS[k % 2], point, k % 4 < 2) for k, point in enumerate(_points(washer, points))]
+    compare = partial(_compare, params, path, grid)
     held: list[Held] = []
     folds: list[float] = []
     unanswered = 0
@@ -79,7 +81,15 @@ def check_map(
         film_ratio=_largest(h.ratio for h in away), temperature=_largest(h.rise for h in away),
         oil=_largest(h.oil for h in away), fold_load=_largest(folds), folds=len(folds),
         unanswered=unanswered,
+        worst=dict(zip(INPUTS, max(away, key=lambda h: abs(h.torque)).point, strict=True))
+        if away else {},
     )  # fmt: skip
+
+
+def mesh_of(card: dict[str, Any]) -> tuple[int, int]:
+    """Return the mesh that a map with this card stands for."""
+    n_r, n_t = card.get("checked_on") or GRIDS[card["built_from"]]
+    return int(n_r), int(n_t)
 
 
 def _points(washer: WasherMap, n: int) -> list[tuple[float, float, float, float]]:
@@ -102,31 +112,31 @@ def _points(washer: WasherMap, n: int) -> list[tuple[float, float, float, float]
 
 
 def _compare(
-    params: WasherParams, path: str, fidelity: str,
-    task: tuple[str, tuple[float, float, float, float]],
+    params: WasherParams, path: str, grid: tuple[int, int],
+    task: tuple[str, tuple[float, float, float, float], bool],
 ) -> tuple[Held | None, list[float], int]:  # fmt: skip
     """Return the held-out point (None: no such branch), differences of folds, odd answers."""
-    washer, (twin, point) = WasherMap(params, path), task
+    washer, (twin, point, with_folds) = WasherMap(params, path), task
     load, speed, tilt, oil = point
     place: dict[str, Any] = {"speed": speed, "tilt": tilt, "oil_temperature": oil}
     mine = [f.load for f in washer.folds(**place)]
     branch = twin if len(mine) == 2 else None  # elsewhere the name only follows the film ratio
     here = washer.look_up(load=load, **place, branch=branch)
     try:
-        there = solve_washer(params, load=load, **place, fidelity=fidelity, branch=branch)
+        there = solve_washer(params, load=load, **place, grid=grid, branch=branch)
     except BranchError:
         there = None
     except SolveError:
         return None, [], 1
     differences: list[float] = []
     near = any(abs(load / f - 1.0) < NEAR for f in mine)
-    if len(mine) == 2 and mine[1] < 0.97 * mine[0]:
-        differences = _off_folds(params, washer, place, GRIDS[fidelity])
+    if with_folds and len(mine) == 2 and mine[1] < 0.97 * mine[0]:
+        differences = _off_folds(params, washer, place, grid)
     there_is = float(here["branch"]) > 0.0
     if there is None or not there_is:
         return None, differences, int((there is not None or there_is) and not near)
     row = Held(
-        near_fold=near,
+        near_fold=near, point=point,
         torque=float(here["friction_torque"]) / there.friction_torque - 1.0,
         ratio=float(here["film_ratio"]) - there.film_ratio,
         rise=float(here["temperature"]) - there.temperature,

@@ -8,9 +8,11 @@ of the user's own washers in the user's cache, which belong to the kernels as th
 import json
 import os
 import struct
+import time
 import zipfile
 import zlib
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -31,6 +33,7 @@ SHIPPED = DATA / "maps"
 SUFFIX = ".twm"
 NUMBERS, CARD = "map.f32", "card.json"
 VARIABLE = "THRUSTWASHER_MAPS"
+MOST_KEPT = 50  # maps of one's own, about half a megabyte each
 LARGEST = 64e6  # bytes of numbers; more is no map of ours
 
 
@@ -154,4 +157,15 @@ def all_maps() -> list[MapFile]:
 
 def find_map(numbers: Sequence[float]) -> MapFile | None:
     """Return the first map made for these parameters (numbers in the dataclass's order)."""
-    return next((m for m in all_maps() if m.made_for(numbers)), None)
+    found = next((m for m in all_maps() if m.made_for(numbers)), None)
+    if found and found.path.is_relative_to(own_folder()):
+        with suppress(OSError):  # it was of use just now
+            os.utime(found.path, ns=(time.time_ns(), found.path.stat().st_mtime_ns))
+    return found
+
+
+def forget_unused() -> None:
+    """Remove the maps in the user's cache, of any kernels, that were not used longest."""
+    files = sorted(own_folder().parent.rglob(f"*{SUFFIX}"), key=lambda p: -p.stat().st_atime_ns)
+    for file in files[MOST_KEPT:]:
+        file.unlink(missing_ok=True)

@@ -19,7 +19,7 @@ TINY = 1e-290
 ENTRY = 6.0  # film ratio at which a walk begins
 LARGEST_STEP = 0.35  # [sigma] near contact
 NUDGE = 2e-3  # film ratio: how far a solution is moved to be solved at another point
-MARK = 1e-4  # relative, of the contact load where a piece ends
+MARK = 1e-3  # relative, of the contact load where a piece ends
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,6 +56,7 @@ class Line:
         )
         self.at.w.curve[L.ACCURACY] = task.accuracy
         self.at.start(ENTRY)
+        self.slope = -2.5  # of ln(contact load) over the film ratio, where it was last sought
 
     def take_over(self, task: LineTask, kept: list[Array]) -> None:
         """Go to another line, where a solution of this one was."""
@@ -95,15 +96,16 @@ class Line:
         x, y = self.ratio, math.log(self.contact / load)
         if abs(y) < MARK:
             return x
-        following = x + (0.05 if guess is None else 0.4 * y)
+        following = x + 0.05 if guess is None else x - y / self.slope
         for _ in range(20):
             self.to(following)
             before, value = (x, y), math.log(self.contact / load)
             x, y = self.ratio, value
+            if y != before[1]:
+                self.slope = (y - before[1]) / (x - before[0])
             if abs(y) < MARK or y == before[1]:
                 return x
-            step = -y * (x - before[0]) / (y - before[1])
-            following = x + min(max(step, -LARGEST_STEP), LARGEST_STEP)
+            following = x + min(max(-y / self.slope, -LARGEST_STEP), LARGEST_STEP)
         raise SolveError(f"map: no film ratio with a contact load of {load:g} N was found")
 
     def values(self) -> list[float]:
@@ -218,6 +220,13 @@ def fit_of(n: int) -> Array:
     """Return the matrix from values at the nodes of a piece to its coefficients."""
     vander = np.polynomial.chebyshev.chebvander(nodes_of(n), n - 1)
     return np.linalg.inv(vander).astype(np.float64)
+
+
+def slope_of(n: int) -> Array:
+    """Return the matrix from values at the nodes of a piece to slopes there, over -1 .. 1."""
+    sums = np.polynomial.chebyshev.chebder(fit_of(n))
+    vander = np.polynomial.chebyshev.chebvander(nodes_of(n), n - 2)
+    return np.asarray(vander @ sums)
 
 
 def _ratios(edges: list[float], piece: int, n: int) -> list[float]:

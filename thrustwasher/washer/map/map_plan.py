@@ -76,6 +76,11 @@ class MapPlan:
         """Return the inputs at a place on the scaled axes."""
         return self.bend * math.sinh(speed), math.exp(tilt), self.oil_of(-oil)
 
+    def scaled(self, place: Place) -> tuple[float, float, float]:
+        """Return where a place lies on the scaled axes."""
+        speed, tilt, oil = place
+        return math.asinh(speed / self.bend), math.log(tilt), -math.log(self.viscosity(oil))
+
     def places(self) -> list[Place]:
         """Return where the lines lie, in the map's order."""
         nodes = [_axis_nodes(*ends, n) for ends, n in zip(self.axes, self.patches, strict=True)]

@@ -17,20 +17,21 @@ from numpy.typing import NDArray
 from ...numerics.chebyshev import lines_of
 from ...numerics.jit import Array
 from ..kernels.map import map_layout as M
-from .map_line import Curve, fit_of
+from .map_line import Curve, fit_of, slope_of
 from .map_line import nodes_of as ends_of
 from .map_plan import FIELD_FROM, PLACES, MapPlan, Place
 
-SHARE = 1.0 / 3.0  # of the tolerance: how far a map may be off its mesh
+SHARE = 0.7  # of the tolerance: how far a map may be off its mesh
 LIGHT = 0.8  # of the least load: what carries less is of no interest
 TERMS_SHARE = 0.3  # of that: what the coefficients left out may come to
 LOOSER = 3.0  # the tolerance of temperatures and flows over that of the torque
-NODES = (12, 5, 5)  # solved along speed, tilt and oil temperature
+NODES = (10, 5, 5)  # solved along speed, tilt and oil temperature
 MOST_PATCHES = (10, 4, 4)
 BENDS = (0.7, 1.2, 2.5, 6.0)  # [rad/s]
 FINE_TERMS, FEW_TERMS = 10, 7  # coefficients of the lines of a survey
 LEAST_TERMS = 4
 MIDDLE, LOW, HIGH = 0.0, -1.0, 1.0  # places across an axis
+STEEPEST = 6.0  # relative change of the torque over that of the load that counts at most
 DENSE = np.linspace(-1.0, 1.0, 81)
 # across the other two axes; the first three are one tilt after the other along speed and oil
 ACROSS = (
@@ -39,6 +40,7 @@ ACROSS = (
     ((MIDDLE, LOW), (MIDDLE, MIDDLE), (MIDDLE, HIGH)),
 )
 
+Weights = tuple[NDArray[np.bool_], Array, Array, Array]
 Solve = Callable[[Sequence[Sequence[Place]], tuple[int, ...]], list[list[Curve]]]
 
 
@@ -63,8 +65,31 @@ def _place(plan: MapPlan, axis: int, x: float, rest: tuple[float, float]) -> Pla
     """Return a place from -1 .. 1 along an axis and across the two others."""
     shares = list(rest)
     shares.insert(axis, x)
+    return across(plan, shares)
+
+
+def across(plan: MapPlan, shares: Sequence[float]) -> Place:
+    """Return a place from -1 .. 1 on the three scaled axes."""
     ends = zip(plan.axes, shares, strict=True)
     return plan.at(*(0.5 * (low + high + s * (high - low)) for (low, high), s in ends))
+
+
+def torque_difference(plan: MapPlan, one: Curve, other: Curve) -> float:
+    """Return how far two curves of one line are apart in torque at a load, relative, at most."""
+    here, there, change = (
+        np.stack([_dense(piece, slope) for piece in curve.pieces], 1)[None]
+        for curve, slope in ((one, False), (other, False), (one, True))
+    )
+    scale = np.log([one.task.scale])[:, None, None]
+    weights = _weights(here, change, scale, LIGHT * plan.box["load"][0])
+    return _worst(there - here, weights)[0]
+
+
+def _dense(piece: Array, slope: bool) -> Array:
+    """Return the curves of a piece, or their slopes, all along it."""
+    n = len(piece)
+    matrix = np.polynomial.chebyshev.chebvander(DENSE, n - 1) @ fit_of(n)
+    return np.asarray(matrix @ (slope_of(n) @ piece if slope else piece))
 
 
 def _terms(plan: MapPlan, rows: Sequence[Sequence[Curve]]) -> tuple[tuple[int, ...], ...]:
@@ -76,7 +101,9 @@ def _terms(plan: MapPlan, rows: Sequence[Sequence[Curve]]) -> tuple[tuple[int, .
     vander = np.polynomial.chebyshev.chebvander
     here = np.einsum("di,lpiq->ldpq", vander(DENSE, n - 1), sums)
     scale = np.log([c.task.scale for c in curves])[:, None, None]
-    weights = _weights(here, scale, LIGHT * plan.box["load"][0])
+    slope = vander(DENSE, n - 1) @ fit_of(n) @ slope_of(n)
+    change = np.einsum("di,lpiq->ldpq", slope, values)
+    weights = _weights(here, change, scale, LIGHT * plan.box["load"][0])
     allowed = TERMS_SHARE * SHARE * plan.tolerance
     terms, more = [n] * M.N_PIECES, [n] * M.N_PIECES
     for few in range(n - 1, LEAST_TERMS - 1, -1):
@@ -90,20 +117,31 @@ def _terms(plan: MapPlan, rows: Sequence[Sequence[Curve]]) -> tuple[tuple[int, .
     return tuple(terms), tuple(map(min, terms, more))
 
 
-def _weights(here: Array, scale: Array, least: float) -> tuple[NDArray[np.bool_], Array, Array]:
-    """Return what carries more than ``least`` [N], and the film's shares of load and torque.
+def _weights(here: Array, change: Array, scale: Array, least: float) -> Weights:
+    """Return what counts, the film's shares of load and torque, and d ln(torque)/d ln(load).
 
-    ``here`` are the curves, pieces on the third axis, ``scale`` the logarithm of viscosity x speed.
+    ``here`` are the curves, pieces on the third axis, ``change`` their slopes along a piece;
+    ``scale`` is the logarithm of viscosity x speed. What carries less than ``least`` [N] or lies
+    between folds does not count.
     """
     lift = scale + here[..., M.GF] - here[..., M.GC]
     drag = scale + here[..., M.VISCOUS] - here[..., M.GC] - here[..., M.DRY]
-    shares = [1.0 / (1.0 + np.exp(np.clip(-x, -500.0, 500.0))) for x in (lift, drag)]
-    for share in shares:
+    lift, drag = (1.0 / (1.0 + np.exp(np.clip(-x, -500.0, 500.0))) for x in (lift, drag))
+    for share in (lift, drag):
         share[:, :, M.THICK] = 1.0
     contact = here[..., M.GC].copy()
     contact[:, :, M.THICK] = -np.inf
     load = np.logaddexp(scale + here[..., M.GF], contact)
-    return load > math.log(least), shares[0], shares[1]
+    grows, rubs = _of_both(change, lift, drag)
+    steep = np.clip(rubs / np.minimum(grows, -1e-9), -STEEPEST, STEEPEST)
+    return (load > math.log(least)) & (grows < 0.0), lift, drag, steep
+
+
+def _of_both(part: Array, lift: Array, drag: Array) -> tuple[Array, Array]:
+    """Return changes of ln(load) and ln(torque) of those of the curves."""
+    dry = part[..., M.GC] + part[..., M.DRY]
+    return (np.asarray(lift * part[..., M.GF] + (1.0 - lift) * part[..., M.GC]),
+            np.asarray(drag * part[..., M.VISCOUS] + (1.0 - drag) * dry))  # fmt: skip
 
 
 def _off(patches: int, cubic: bool, warp: Callable[[Array], Array], n: int) -> Array:
@@ -150,7 +188,8 @@ def _errors(
     if speed is not None:
         scale += np.log(speed(DENSE))
     here = np.einsum("di,lipnq->ldpnq", there, sums)
-    weights = _weights(here, scale[:, :, None, None], least)
+    change = np.einsum("nm,ldpmq->ldpnq", slope_of(here.shape[3]), here)
+    weights = _weights(here, change, scale[:, :, None, None], least)
     middle = slice(1, 2) if len(lines) == 3 else slice(None)
     along, mixed = [], []
     for patches in range(1, most + 1):
@@ -162,14 +201,12 @@ def _errors(
 
 
 def _worst(off: Array, weights: Sequence[Any]) -> tuple[float, float]:
-    """Return the largest errors of load and torque, by what film and contact contribute; others."""
-    counts, lift, drag = weights
-    load = lift * off[..., M.GF] + (1.0 - lift) * off[..., M.GC]
-    dry = off[..., M.GC] + off[..., M.DRY]
-    torque = drag * off[..., M.VISCOUS] + (1.0 - drag) * dry
+    """Return the largest error of the torque at a given load, and of the other curves."""
+    counts, lift, drag, steep = weights
+    load, torque = _of_both(off, lift, drag)
     rest = [off[..., k] for k in (M.MEAN, M.FILM, M.FLOW, M.CARRIED, M.GRIP)]
     main, others = (max(np.abs(x[counts]).max(initial=0.0) for x in part)
-                    for part in ((load, torque), rest))  # fmt: skip
+                    for part in ((torque - steep * load,), rest))  # fmt: skip
     return float(main), float(others)
 
 

@@ -1,0 +1,93 @@
+"""What a finer mesh changes on the lines of a map, told by a few lines solved on both.
+
+Where asperities begin to touch near a rim, their load is a layer of the roughness over the tilt,
+which a coarse mesh may miss by half. At given contact loads the curves of two meshes differ little,
+and smoothly over speed, tilt and oil temperature: polynomials through some lines give all.
+"""
+
+from collections.abc import Callable, Sequence
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from ...numerics.jit import Array
+from .map_line import Curve, fit_of, nodes_of, packed
+from .map_plan import MapPlan, Place
+from .map_survey import across, torque_difference
+
+FEW, MANY = (3, 3, 3), (5, 3, 5)  # lines along speed, tilt and oil temperature
+STRONG = 7.0  # difference of the meshes over the tolerance from which many lines are solved
+HARD = (-0.5, 1.0, 0.5)  # where on the axes, each from -1 to 1, meshes differ most
+FINEST = (37, 128)
+MESH_SHARE = 0.25  # of the tolerance: what may be left between mesh and the finest one
+
+Grid = tuple[int, int]
+Solve = Callable[[Sequence[Sequence[Place]], Grid], list[list[Curve]]]
+Where = tuple[float, float, float]
+
+
+class Change(NamedTuple):
+    """What to add to a map's lines to have those of ``grid``."""
+
+    lines: Array  # (lines, numbers of a line), as packed
+    grid: Grid
+    solved: int  # lines on it
+    raised: float  # largest difference of the torque that was made good, relative
+    left: float | None  # to the finest mesh, at one line; None: not measured
+
+
+def change_of_mesh(plan: MapPlan, coarse: Grid, fine: Grid, solve: Solve) -> Change:
+    """Return what a finer mesh adds; ``solve`` returns the curves of rows of places on a grid."""
+    few = _both(plan, FEW, coarse, fine, solve, {})
+    raised = max(torque_difference(plan, *pair) for pair in few.values())
+    if raised <= STRONG * plan.tolerance:
+        return Change(_between(plan, FEW, few), fine, len(few), raised, None)
+    many = _both(plan, MANY, coarse, fine, solve, few)
+    lines = _between(plan, MANY, many)
+    place = [[across(plan, HARD)]]
+    here, best = solve(place, fine)[0][0], solve(place, FINEST)[0][0]
+    left = torque_difference(plan, here, best)
+    if left <= MESH_SHARE * plan.tolerance:
+        return Change(lines, fine, len(many), raised, left)
+    more = packed(best, plan.more_terms) - packed(here, plan.more_terms)
+    return Change(lines + more, FINEST, len(many), raised, left)
+
+
+def _nodes(plan: MapPlan, counts: tuple[int, ...]) -> list[list[float]]:
+    return [[float(x) for x in np.round(nodes_of(n), 9)] if patches else [0.0]
+            for n, patches in zip(counts, plan.patches, strict=True)]  # fmt: skip
+
+
+def _both(
+    plan: MapPlan, counts: tuple[int, ...], coarse: Grid, fine: Grid, solve: Solve,
+    known: dict[Where, tuple[Curve, Curve]],
+) -> dict[Where, tuple[Curve, Curve]]:  # fmt: skip
+    """Return the curves on both meshes at all nodes; those known are not solved again."""
+    speeds, tilts, oils = _nodes(plan, counts)
+    rows = [[(x, y, z) for x in speeds if (x, y, z) not in known] for y, z in product(tilts, oils)]
+    rows = [row for row in rows if row]
+    places = [[across(plan, where) for where in row] for row in rows]
+    solved = [[c for row in solve(places, grid) for c in row] for grid in (fine, coarse)]
+    flat = [where for row in rows for where in row]
+    return {**known, **dict(zip(flat, zip(solved[1], solved[0], strict=True), strict=True))}
+
+
+def _between(
+    plan: MapPlan, counts: tuple[int, ...], found: dict[Where, tuple[Curve, Curve]]
+) -> Array:
+    """Return the differences at all lines of the map: polynomials through those found."""
+    nodes = _nodes(plan, counts)
+    values = np.array([packed(b, plan.more_terms) - packed(a, plan.more_terms)
+                       for a, b in (found[x, y, z] for x, y, z in product(*nodes))])  # fmt: skip
+    ends = np.array(plan.axes)
+    at = np.array([plan.scaled(place) for place in plan.places()])
+    width = np.where(ends[:, 1] > ends[:, 0], ends[:, 1] - ends[:, 0], 1.0)
+    at = np.clip((2.0 * at - ends[:, 0] - ends[:, 1]) / width, -1.0, 1.0)
+    vander = np.polynomial.chebyshev.chebvander
+    first, second, third = (
+        vander(x, len(n) - 1) @ fit_of(len(n)) if len(n) > 1 else np.ones((len(x), 1))
+        for x, n in zip(at.T, nodes, strict=True)
+    )
+    shares = np.einsum("pi,pj,pk->pijk", first, second, third).reshape(len(at), -1)
+    return np.asarray(shares @ values)

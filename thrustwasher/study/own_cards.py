@@ -37,7 +37,7 @@ def own_case(spec: ModelSpec, params: Any, box: Box, n: int) -> Case:
     """
     if not POINTS[0] <= n <= POINTS[1]:
         raise ParameterError(f"points = {n}, allowed: {POINTS[0]} .. {POINTS[1]}")
-    usual = ladder_of(spec.key).boxes["default"]
+    usual, tables = ladder_of(spec.key).boxes["default"], tables_of(spec)
     axes = {}
     for s in spec.inputs:
         if s.name not in usual:
@@ -50,7 +50,7 @@ def own_case(spec: ModelSpec, params: Any, box: Box, n: int) -> Case:
             )
         scale = usual[s.name][2]
         if scale == "log":
-            low = max(low, LEAST_SHARE * high)
+            low = max(low, LEAST_SHARE * high, tables.least(s.name) if tables else 0.0)
             scale = "log" if low > 0.0 else "linear"
         axes[s.name] = Axis(low, high, s.unit, scale)
     name = f"{OWN}{params_digest(params)[:8]}"

@@ -72,8 +72,9 @@ def _unit(v: Variable) -> str:
 def accuracy(spec: ModelSpec) -> Rows:
     """Return what cards say of the parameters it starts with, and its map's own check: rows."""
     rungs, params = list(spec.fidelities), spec.params()
-    found = [card for card in load_cards(spec.key, params)
-             if card.fidelity in rungs and not card.stale(params)]  # fmt: skip
+    own = spec.kind != ""
+    found = [card for card in load_cards(spec.key, params) if card.fidelity in rungs
+             and (card.params.name == "default" or (own and not card.stale(params)))]  # fmt: skip
     found.sort(key=lambda card: (rungs.index(card.fidelity), card.chart or ""))
     return _of_map(spec) + [
         (

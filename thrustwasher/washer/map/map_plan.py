@@ -32,7 +32,7 @@ LEAST_WIDTH = {"speed": 1e-3, "tilt": 1e-4, "oil_temperature": 0.05}  # less cou
 COARSE = (10, 32)  # grid of everything that needs no accuracy
 SPARE = 1.05  # how much of the load range lies beyond its ends
 WIDTHS = (1.1, 1.0, 1.6)  # of a patch on the scaled axes, typically, at ``TOLERANCE``
-SURVEYED = 56  # lines of a survey
+BESIDE = 350  # lines: what survey, lines on a finer mesh and check cost
 PLACES = (0.0, 0.25, 0.75)  # nodes of a patch, its last one excepted: -1, -1/2, 1/2
 
 Place = tuple[float, float, float]  # speed [rad/s], tilt [rad], oil temperature [K]
@@ -151,9 +151,7 @@ def plan_map(
             f"oil_supply_temperature = {params.oil_supply_temperature:g} K, allowed for a map: 0 "
             "(as oil_temperature)"
         )
-    if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
-        low, high = TOLERANCES
-        raise ParameterError(f"tolerance = {tolerance:g}, allowed: {low:g} .. {high:g}")
+    check_tolerance(tolerance)
     ends = dict(DEFAULT_BOX)
     for name, pair in (box or {}).items():
         if name not in ends:
@@ -170,6 +168,13 @@ def plan_map(
     )
     return MapPlan(params=params, box=ends, marks=marks, tolerance=tolerance,
                    patches=(first, second, third))  # fmt: skip
+
+
+def check_tolerance(tolerance: float) -> None:
+    """Raise ParameterError if no map is made for this tolerance of the torque."""
+    low, high = TOLERANCES
+    if not low <= tolerance <= high:
+        raise ParameterError(f"tolerance = {tolerance:g}, allowed: {low:g} .. {high:g}")
 
 
 def _checked(name: str, pair: Any) -> tuple[float, float]:
@@ -201,12 +206,12 @@ def coverable(box: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, 
 
 
 def lines_about(params: WasherParams, box: dict[str, tuple[float, float]], tolerance: float) -> int:
-    """Return about how many lines a map takes, those of the survey included; errors as there."""
+    """Return about how many lines a map costs, with all else; errors as there."""
     plan = plan_map(params, box, tolerance)
     more = (TOLERANCE / tolerance) ** 0.25
     wide = [abs(b - a) / width for (a, b), width in zip(plan.axes, WIDTHS, strict=True)]
     patches = [math.ceil(more * w) if n else 0 for w, n in zip(wide, plan.patches, strict=True)]
-    return SURVEYED + lines_of(*patches)
+    return BESIDE + lines_of(*patches)
 
 
 def _axis_nodes(low: float, high: float, patches: int) -> list[float]:

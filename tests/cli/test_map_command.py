@@ -1,6 +1,7 @@
 """The command map: build, list, check; wrong input in one line."""
 
 import json
+import zipfile
 
 import pytest
 
@@ -65,6 +66,27 @@ def test_a_part_files_box_is_the_maps_and_options_override_it(tmp_path, monkeypa
     assert washer.box["oil_temperature"] == pytest.approx((297.15, 297.15))
 
 
+def test_build_makes_the_map_of_a_part_once_and_puts_it_inside(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    (tmp_path / "mine.toml").write_text(
+        'model = "washer"\nname = "Mine"\n[parameters]\nroughness = "0.5 um"\n[box]\n'
+        'load = ["200 N", "400 N"]\nspeed = 530\ntilt = 0.002\noil_temperature = "50 degC"\n'
+    )
+    words = ["build", "mine.toml", "--platforms", "linux64"]
+    for tolerance in ("0", "-0.01", "1e-9"):
+        assert main([*words, "--tol", tolerance]) == 2
+        assert capsys.readouterr().err.count("\n") == 1
+        assert [p.name for p in tmp_path.iterdir()] == ["mine.toml"]
+    assert main(words) == 0
+    with zipfile.ZipFile("dist/native-fmi2/Mine.fmu") as fmu:
+        assert "resources/map-0.bin" in fmu.namelist()
+        assert "map, when built" in fmu.read("documentation/index.html").decode()
+    monkeypatch.setattr("thrustwasher.washer.map.look_up.MAKER", "none.such:maker")
+    assert main(words) == 0
+    assert "no map" not in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -77,6 +99,11 @@ def test_a_part_files_box_is_the_maps_and_options_override_it(tmp_path, monkeypa
         (["map", "build", "more.twm"], "--out"),
         (["map", "build", "none.toml"], "none.toml"),
         (["map", "build", "--tol", "0.5"], "tolerance"),
+        (["map", "build", "--tol", "0"], "tolerance"),
+        (["map", "build", "--tol", "-0.01"], "tolerance"),
+        (["map", "build", "--tol", "1e-7"], "tolerance"),
+        (["map", "build", "--speed", "1:5000"], "speed"),
+        (["map", "build", "--tilt", "0:0.002"], "tilt"),
         (["map", "build", "--load", "1:20000"], "load"),
         (["map", "build", "--oil-temperature", "100:300"], "oil_temperature"),
         (["map", "check"], "map file"),

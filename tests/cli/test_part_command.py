@@ -128,7 +128,16 @@ def test_a_scene_says_what_is_wrong_with_its_part(mine, text, said, capsys):
 
 def test_build_writes_the_fmu_of_the_part(mine, tmp_path, capsys):
     capsys.readouterr()
-    words = ["build", str(mine), "CommandSource", "--platforms", "local", "--out", str(tmp_path)]
+    words = [
+        "build",
+        str(mine),
+        "CommandSource",
+        "--no-maps",
+        "--platforms",
+        "local",
+        "--out",
+        str(tmp_path),
+    ]
     assert main(words) == 0
     folder = tmp_path / "native-fmi2"
     assert capsys.readouterr().out.splitlines() == [

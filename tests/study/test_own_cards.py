@@ -69,6 +69,10 @@ def test_a_box_outside_the_models_range_is_refused(box, points, said):
         own_case(SPEC, OWN, box, points)
 
 
+def test_a_box_of_light_loads_begins_where_the_model_does():
+    assert own_case(SPEC, OWN, {"load": (0.0, 140.0)}, 60).envelope["load"].min == 1.0
+
+
 def test_a_part_without_rungs_has_no_cards(tmp_path, capsys):
     file = tmp_path / "sump.toml"
     file.write_text('model = "sump"\nname = "Sump"\n')

@@ -61,10 +61,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..fmu.build import build, validate
     from ..ladder.own_tables import build_missing
-    from ..washer.map.map_plan import check_tolerance
 
     tolerance = parse_quantity(arguments.tol, "1", "tol")
-    check_tolerance(tolerance)
     if arguments.target == "native" and not arguments.no_maps:
         for part in map(load_part, filter(is_part, arguments.models)):
             if problem := build_missing(part, tolerance, _output.time_left):

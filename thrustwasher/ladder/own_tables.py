@@ -9,6 +9,7 @@ from time import perf_counter
 from typing import Any
 
 from ..errors import ParameterError, SolveError
+from ..model.parameters import check_number
 from ..model.part_file import PartFile
 from ..model.prepare import tables_of
 from ..model.record import resolve
@@ -61,16 +62,22 @@ def build_where_it_pays(
     )
 
 
-def build_missing(part: PartFile, tol: float, progress: Any) -> str:
+def build_missing(
+    part: PartFile, tol: float, progress: Any, say: Callable[[str], None] = to_stderr
+) -> str:
     """Build a part's map unless one of this tolerance is kept that covers its box.
 
     Returns why there is none, in one line, empty if there is one or its model has no maps.
+    ParameterError: the tolerance is not allowed.
     """
     tables = tables_of(part.spec)
     if tables is None:
         return ""
+    check_number("tolerance", tol, "1", *tables.tolerances)
     try:
         if not _serves(tables, part.params, part.box, tol):
+            takes = tables.lines(part.params, part.box, tol) * LINE / usable_cores()
+            say(f"{part.name}: builds a map of its own, once, about {takes:.0f} s")
             tables.build(part.params, part.box, tol, usable_cores(), progress)
     except (ParameterError, SolveError) as problem:
         return f"{part.name}: no map of its own: {problem}"

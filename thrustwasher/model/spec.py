@@ -105,6 +105,7 @@ class Tables(NamedTuple):
     build: Callable[..., None]  # (parameters, box, tolerance, workers, progress): keep one
     lines: Callable[..., int]  # (parameters, box, tolerance): what building one has to solve
     least: Callable[[str], float]  # value of an input that can be covered
+    tolerances: tuple[float, float]  # relative, allowed
     kept: Callable[[], str]  # in words: what is kept in the user's cache, and where
 
 

@@ -38,7 +38,7 @@ from .map_file import (
     plain,
     read_map,
 )
-from .map_plan import INPUTS, coverable, least_of, lines_about
+from .map_plan import INPUTS, TOLERANCES, coverable, least_of, lines_about
 
 MAKER = "thrustwasher.washer.map.map_build:make_map"  # by name: it looks up too
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
@@ -264,5 +264,5 @@ def kept_maps() -> str:
 TABLES = Tables(
     "map", map_paths, all_maps, map_for, lambda p: WasherMap(p).box, plain, build_own,
     lambda p, box, tol: lines_about(p, coverable(box), tol), least_of,
-    kept_maps,
+    TOLERANCES, kept_maps,
 )  # fmt: skip

@@ -118,6 +118,9 @@ def _made(job: _Job, fidelity: str, *, raised: bool) -> dict[str, Any]:
         _write(draft, data, card)
         draft.replace(out)
         finished = True
+    except SolveError:
+        finished = True  # the same again would end here again
+        raise
     finally:
         draft.unlink(missing_ok=True)
         journal.close(finished=finished)

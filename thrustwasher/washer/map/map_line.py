@@ -154,8 +154,14 @@ def solve_lines(tasks: Sequence[LineTask]) -> list[Curve]:
             else:
                 curve, kept = _solved(line, guesses, kept, task)
         except SolveError:
-            line, guesses = _entered(task)
-            curve, kept = _solved(line, guesses)
+            try:
+                line, guesses = _entered(task)
+                curve, kept = _solved(line, guesses)
+            except SolveError:
+                raise SolveError(
+                    f"map: no curve of solutions {_where(task)} up to {task.marks[-1]:.4g} N of "
+                    "contact load; leave that out of the box, by load first"
+                ) from None
         curves.append(curve)
         guesses = curve.edges[3:]
     return curves
@@ -240,16 +246,19 @@ def _ratios(edges: list[float], piece: int, n: int) -> list[float]:
 
 def _check(curve: Curve) -> None:
     """Refuse what a look-up could not search."""
-    task = curve.task
-    where = (
-        f"speed = {task.speed:g} rad/s, tilt = {task.tilt:g} rad, "
-        f"oil_temperature = {task.oil_temperature:g} K"
-    )
+    where = _where(curve.task)
     if not all(np.all(np.isfinite(piece)) for piece in curve.pieces):
-        raise SolveError(f"map: a solution is not finite at {where}")
+        raise SolveError(f"map: a solution is not finite {where}")
     thick = curve.pieces[M.THICK][:, M.GF]
     if np.any(np.diff(thick) <= 0.0):  # it has to rise towards the thin end
-        raise SolveError(f"map: the load does not rise as a thick film gets thinner at {where}")
+        raise SolveError(f"map: the load does not rise as a thick film gets thinner {where}")
+
+
+def _where(task: LineTask) -> str:
+    return (
+        f"at speed = {task.speed:.4g} rad/s, tilt = {task.tilt:.4g} rad, "
+        f"oil_temperature = {task.oil_temperature:.4g} K"
+    )
 
 
 def packed(curve: Curve, more_terms: Sequence[int]) -> Array:

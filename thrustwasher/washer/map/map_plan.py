@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
-from ...model.parameters import as_numbers
+from ...model.parameters import as_numbers, check_number
 from ...numerics.chebyshev import lines_of
 from ...numerics.jit import Array
 from ...tribology.viscosity import viscosity
@@ -151,7 +151,7 @@ def plan_map(
             f"oil_supply_temperature = {params.oil_supply_temperature:g} K, allowed for a map: 0 "
             "(as oil_temperature)"
         )
-    check_tolerance(tolerance)
+    check_number("tolerance", tolerance, "1", *TOLERANCES)
     ends = dict(DEFAULT_BOX)
     for name, pair in (box or {}).items():
         if name not in ends:
@@ -168,13 +168,6 @@ def plan_map(
     )
     return MapPlan(params=params, box=ends, marks=marks, tolerance=tolerance,
                    patches=(first, second, third))  # fmt: skip
-
-
-def check_tolerance(tolerance: float) -> None:
-    """Raise ParameterError if no map is made for this tolerance of the torque."""
-    low, high = TOLERANCES
-    if not low <= tolerance <= high:
-        raise ParameterError(f"tolerance = {tolerance:g}, allowed: {low:g} .. {high:g}")
 
 
 def _checked(name: str, pair: Any) -> tuple[float, float]:

@@ -170,3 +170,12 @@ def test_rows_do_not_depend_on_how_they_are_cut_into_tasks(monkeypatch):
 def test_nan_never_comes_with_ok():
     table = run_sweep("gearmesh", {"load": [0.0, 1e-9, 1e5], "speed": [0.0, 1e-9, 5000.0]})
     assert not any(math.isnan(t) for t in table["friction_torque"][table["status"] == "OK"])
+
+
+def test_a_run_that_was_killed_when_all_was_solved_leaves_no_file_of_the_journal(tmp_path):
+    """SQLite leaves its own journal behind then; a run with nothing to add does not open it."""
+    out = tmp_path / "map.csv"
+    stopped(out, after=120)
+    (tmp_path / "map.csv.journal-journal").write_bytes(bytes(512))
+    run_sweep("gearmesh", OVER, out=out, workers=1)
+    assert [p.name for p in tmp_path.iterdir()] == ["map.csv"]

@@ -160,6 +160,7 @@ class Journal:
                 self._db.close()
         if finished or self._is_blank:
             with naming(self.path):
+                self.path.with_name(f"{self.path.name}-journal").unlink(missing_ok=True)
                 self.path.unlink(missing_ok=True)
 
 

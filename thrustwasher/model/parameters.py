@@ -132,7 +132,8 @@ def check_number(name: str, value: float, unit: str, low: float, high: float) ->
     except OverflowError:
         number = math.inf
     if not low <= number <= high:
-        raise ParameterError(f"{name} = {number!r} {unit}, allowed: {low:g} .. {high:g} {unit}")
+        unit = "" if unit == "1" else f" {unit}"
+        raise ParameterError(f"{name} = {number!r}{unit}, allowed: {low:g} .. {high:g}{unit}")
     return number
 
 

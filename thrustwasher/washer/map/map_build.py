@@ -253,7 +253,7 @@ def _task(
     return LineTask(
         params=plan.params, speed=speed, tilt=tilt, oil_temperature=oil, scale=scale,
         thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale), marks=plan.marks, terms=terms,
-        grid=grid, accuracy=max(1e-7, 1e-2 * plan.tolerance),
+        grid=grid, accuracy=max(1e-7, 2e-2 * plan.tolerance),
     )  # fmt: skip
 
 

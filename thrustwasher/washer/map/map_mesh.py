@@ -65,12 +65,10 @@ def _both(
 ) -> dict[Where, tuple[Curve, Curve]]:  # fmt: skip
     """Return the curves on both meshes at all nodes; those known are not solved again."""
     speeds, tilts, oils = _nodes(plan, counts)
-    rows = [[(x, y, z) for x in speeds if (x, y, z) not in known] for y, z in product(tilts, oils)]
-    rows = [row for row in rows if row]
-    places = [[across(plan, where) for where in row] for row in rows]
-    solved = [[c for row in solve(places, grid) for c in row] for grid in (fine, coarse)]
-    flat = [where for row in rows for where in row]
-    return {**known, **dict(zip(flat, zip(solved[1], solved[0], strict=True), strict=True))}
+    rest = [where for where in product(speeds, tilts, oils) if where not in known]
+    rows = [[across(plan, where)] for where in rest]  # too far apart to begin from one another
+    lines = [[row[0] for row in solve(rows, grid)] for grid in (coarse, fine)]
+    return {**known, **dict(zip(rest, zip(*lines, strict=True), strict=True))}
 
 
 def _between(

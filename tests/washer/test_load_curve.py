@@ -134,7 +134,10 @@ FAR = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", FAR)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow) if n == "much oil on a large disc" else n
+             for n in FAR],
+)  # fmt: skip
 def test_curves_of_washers_far_from_the_default_reach_their_ends(name):
     changes, place, low, high = FAR[name]
     curve = load_curve(WasherParams(**changes), **place, load_min=low, load_max=high)

@@ -143,7 +143,10 @@ def passed(unit, point, sizes, seed):
 
 
 @pytest.mark.parametrize("rung", ["field", "fine"])
-@pytest.mark.parametrize("sizes", [(1.0,), (0.5, 0.5), (0.02, 0.12, 0.3, 0.56), (0.1,) * 10])
+@pytest.mark.parametrize(
+    "sizes", [(1.0,), (0.5, 0.5), (0.02, 0.12, 0.3, 0.56),
+              pytest.param((0.1,) * 10, marks=pytest.mark.slow)],
+)  # fmt: skip
 def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
     rng = np.random.default_rng(13)
     for _ in range(5):

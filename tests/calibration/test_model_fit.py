@@ -246,6 +246,12 @@ def test_a_rung_that_solves_one_value_alone_is_named():
         calibrate("washer", data, fit="roughness", fidelity="map")
 
 
+def test_a_rung_without_its_map_is_named():
+    data = {"load": [200.0], "friction_torque": [0.2]}
+    with pytest.raises(ParameterError, match="no map was made for these parameters"):
+        calibrate(WasherParams(roughness=4.321e-7), data, fit="heat_split", fidelity="map")
+
+
 def test_an_output_that_is_not_finite_is_named(monkeypatch):
     """No point is known where a model has one; so the solution is replaced."""
     monkeypatch.setattr(Measured, "computed", lambda self, changes: (np.array([1.0, np.inf]), {}))

@@ -64,6 +64,14 @@ def test_a_command_solves_the_part(mine, capsys):
     assert "ThrustWasher, allowed: WetClutch" in capsys.readouterr().err
 
 
+def test_a_command_solves_it_with_the_part_s_rung_unless_another_is_asked_for(mine, capsys):
+    mine.write_text(mine.read_text().replace('fidelity = "field"', 'fidelity = "coarse"'))
+    for words, rung in (([], "coarse"), (["--fidelity", "field"], "field")):
+        capsys.readouterr()
+        assert main(["washer", "--part", str(mine), *words, "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["fidelity"] == rung
+
+
 def test_a_sweep_takes_the_part_and_its_rung(mine, capsys):
     mine.write_text(mine.read_text().replace('fidelity = "field"', 'fidelity = "coarse"'))
     capsys.readouterr()

@@ -13,6 +13,7 @@ from ..model.record import resolve
 from ..model.registry import find_model, models_with_points
 from ..model.spec import ModelSpec
 from ..numerics.jit import Array
+from ..sweep.solve_rows import check_rung
 from .estimates import Calibration, Series, size_text
 from .fit import chosen_names, fitted
 from .identifiability import counted
@@ -199,6 +200,7 @@ def calibrate(
     if len(points.value) < len(names):
         told = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
         raise ParameterError(f"data: {told}, allowed: as many values as parameters, or more")
+    check_rung(spec, points.plan.fidelity, points.plan.params[0])
     problem, first = _problem(points, names, bounds or {})
     _check_first(points, problem.values(first))
     found, _ = fitted(problem, first, confidence, bool(profile))

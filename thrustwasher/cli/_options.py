@@ -160,8 +160,14 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bo
         words.append("auto:0.01: the cheapest rung whose torque is verified to 1 % at this point")
         allowed = {"type": _rung_or_auto(spec), "metavar": "RUNG"}
     usual = spec.default_fidelity
-    help = "; ".join([*words, f"default {usual}"]).replace("%", "%%")
-    parser.add_argument("--fidelity", default=usual, help=help, **allowed)
+    help = "; ".join([*words, f"default {usual} or the part file's"]).replace("%", "%%")
+    parser.add_argument("--fidelity", help=help, **allowed)
+
+
+def read_fidelity(arguments: argparse.Namespace, spec: "ModelSpec") -> str:
+    """Return the rung asked for, else the part file's, else the model's default."""
+    usual = load_part(arguments.part).fidelity if arguments.part else spec.default_fidelity
+    return arguments.fidelity or usual
 
 
 def _rung_or_auto(spec: "ModelSpec") -> Callable[[str], str]:

@@ -41,7 +41,7 @@ class PointCommand:
 
         solve = resolve(model.solve)
         place = resolve(model.place)(point) if model.place else point
-        fidelity = _rung(arguments.fidelity, spec, params, place)
+        fidelity = _rung(_options.read_fidelity(arguments, spec), spec, params, place)
         began = time.perf_counter()
         result = solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began

@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
     targets = _output.targets(arguments)
 
     began = time.perf_counter()
-    result = _engage(params, point, times, arguments.fidelity)
+    result = _engage(params, point, times, _options.read_fidelity(arguments, SPEC))
     wall_time = time.perf_counter() - began
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)

@@ -78,7 +78,8 @@ def test_a_shift_from_rest_is_the_same_in_fmpy(package, tmp_path, capsys):
 def test_a_part_of_ones_own_is_in_the_package_by_its_name_and_runs(tmp_path, capsys):
     (tmp_path / "pack.toml").write_text(
         'model = "clutch"\nname = "MyPack"\ndescription = "Worn pack"\nnotes = "drawing 12"\n'
-        "[parameters]\nfriction_scale = 0.9\n"
+        'fidelity = "closed"\n[parameters]\nconstant_friction = 0.5\nfriction_scale = 0.9\n'
+        "faces = 1\neffective_radius = 2.0\nfilm_dynamics = false\n"
     )
     scene, path = tmp_path / "scene.toml", tmp_path / "own.ssp"
     scene.write_text('base = "msl"\n[clutch]\npart = "pack.toml"\n')

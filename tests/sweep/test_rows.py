@@ -148,7 +148,7 @@ def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypat
         ({"model": "washer", "over": {"load": [1.0]}, "params": ClutchParams()}, "WasherParams"),
         ({"model": "washer", "over": {"load": [1.0]}, "workers": 0}, "workers = 0"),
         ({"model": "washer", "over": {"load": [1.0]}, "workers": 2, "cluster": "x"}, "one of them"),
-        ({"model": "washer", "over": {"load": "0:1e4:n2000", "speed": "0:2000:n2000"}}, "up to"),
+        ({"model": "washer", "over": {"load": "0:1e4:n2001", "speed": "0:2000:n2000"}}, "up to"),
         ({"model": "gearmesh", "over": {"power": [1.0]}, "at": {"load": 1.0}}, "instead of load"),
         ({"model": "washer", "over": {"power": [1.0]}}, "'power'"),
         ({"model": "washer", "over": {"load": [1.0]}, "out": "x.txt"}, ".csv or .parquet"),

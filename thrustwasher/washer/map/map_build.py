@@ -25,7 +25,7 @@ from ..solve import GRIDS
 from .map_check import check_map, mesh_of
 from .map_file import SUFFIX, identity_of, pack
 from .map_line import Curve, Line, LineTask, packed, solve_lines
-from .map_mesh import Change, change_of_mesh
+from .map_mesh import Change, NotSmooth, change_of_mesh
 from .map_plan import COARSE, FIELD_FROM, SPARE, TOLERANCE, MapPlan, Place, plan_map
 from .map_survey import surveyed
 
@@ -67,8 +67,12 @@ def make_map(
     job = _Job(plan, out, workers or os.cpu_count() or 1, points,
                progress or (lambda _label: lambda _done, _total: None))  # fmt: skip
     usual = "field" if tolerance >= FIELD_FROM else "fine"
-    card = _made(job, fidelity or usual, raised=fidelity is None and usual == "field")
-    if fidelity is None and usual == "field" and _missed(card):
+    raised = fidelity is None and usual == "field"
+    try:
+        card = _made(job, fidelity or usual, raised=raised)
+    except NotSmooth:
+        card = None
+    if card is None or (raised and _missed(card)):
         card = _made(job, "fine", raised=False)
     if fidelity is None and _missed(card):
         out.unlink()

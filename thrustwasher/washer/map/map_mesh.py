@@ -6,11 +6,13 @@ and smoothly over speed, tilt and oil temperature: polynomials through some line
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
+from ...errors import SolveError
 from ...numerics.jit import Array
 from .map_line import Curve, fit_of, nodes_of, packed
 from .map_plan import MapPlan, Place
@@ -20,11 +22,17 @@ FEW, MANY = (3, 3, 3), (5, 3, 5)  # lines along speed, tilt and oil temperature
 STRONG = 7.0  # difference of the meshes over the tolerance from which many lines are solved
 HARD = (-0.5, 1.0, 0.5)  # where on the axes, each from -1 to 1, meshes differ most
 FINEST = (37, 128)
+HELD_OUT = 12  # lines that tell if many are enough
+MISSED_SHARE = 0.6  # of the tolerance: what may be left on them
 MESH_SHARE = 0.25  # of the tolerance: what may be left between mesh and the finest one
 
 Grid = tuple[int, int]
 Solve = Callable[[Sequence[Sequence[Place]], Grid], list[list[Curve]]]
 Where = tuple[float, float, float]
+
+
+class NotSmooth(SolveError):
+    """What a finer mesh changes is not told by few lines."""
 
 
 class Change(NamedTuple):
@@ -38,12 +46,19 @@ class Change(NamedTuple):
 
 
 def change_of_mesh(plan: MapPlan, coarse: Grid, fine: Grid, solve: Solve) -> Change:
-    """Return what a finer mesh adds; ``solve`` returns the curves of rows of places on a grid."""
+    """Return what a finer mesh adds; ``solve`` returns the curves of rows of places on a grid.
+
+    NotSmooth: between the lines solved on both meshes the differences are something else.
+    """
     few = _both(plan, FEW, coarse, fine, solve, {})
     raised = max(torque_difference(plan, *pair) for pair in few.values())
     if raised <= STRONG * plan.tolerance:
         return Change(_between(plan, FEW, few), fine, len(few), raised, None)
     many = _both(plan, MANY, coarse, fine, solve, few)
+    others = _solved(plan, _held_out(plan), coarse, fine, solve)
+    missed = max(_missed(plan, many, where, *pair) for where, pair in others.items())
+    if missed > MISSED_SHARE * plan.tolerance:
+        raise NotSmooth(f"map: the mesh's error is no polynomial: {missed:.1%} are left")
     lines = _between(plan, MANY, many)
     place = [[across(plan, HARD)]]
     here, best = solve(place, fine)[0][0], solve(place, FINEST)[0][0]
@@ -66,9 +81,34 @@ def _both(
     """Return the curves on both meshes at all nodes; those known are not solved again."""
     speeds, tilts, oils = _nodes(plan, counts)
     rest = [where for where in product(speeds, tilts, oils) if where not in known]
+    return {**known, **_solved(plan, rest, coarse, fine, solve)}
+
+
+def _solved(
+    plan: MapPlan, rest: Sequence[Where], coarse: Grid, fine: Grid, solve: Solve
+) -> dict[Where, tuple[Curve, Curve]]:
     rows = [[across(plan, where)] for where in rest]  # too far apart to begin from one another
     lines = [[row[0] for row in solve(rows, grid)] for grid in (coarse, fine)]
-    return {**known, **dict(zip(rest, zip(*lines, strict=True), strict=True))}
+    return dict(zip(rest, zip(*lines, strict=True), strict=True))
+
+
+def _held_out(plan: MapPlan) -> list[Where]:
+    """Return random places on the axes that are not fixed."""
+    places = np.random.default_rng(7).uniform(-1.0, 1.0, (HELD_OUT, 3)) * np.sign(plan.patches)
+    return [(float(x), float(y), float(z)) for x, y, z in places]
+
+
+def _missed(
+    plan: MapPlan, found: dict[Where, tuple[Curve, Curve]], where: Where, coarse: Curve, fine: Curve
+) -> float:
+    """Return how far the torque on a line is off after the differences found are added."""
+    shares = _shares(_nodes(plan, MANY), np.array([where]))[0]
+    pairs = [found[x, y, z] for x, y, z in product(*_nodes(plan, MANY))]
+    pieces = [
+        piece + np.tensordot(shares, [b.pieces[k] - a.pieces[k] for a, b in pairs], 1)
+        for k, piece in enumerate(coarse.pieces)
+    ]
+    return torque_difference(plan, replace(coarse, pieces=pieces), fine)
 
 
 def _between(
@@ -82,10 +122,14 @@ def _between(
     at = np.array([plan.scaled(place) for place in plan.places()])
     width = np.where(ends[:, 1] > ends[:, 0], ends[:, 1] - ends[:, 0], 1.0)
     at = np.clip((2.0 * at - ends[:, 0] - ends[:, 1]) / width, -1.0, 1.0)
+    return np.asarray(_shares(nodes, at) @ values)
+
+
+def _shares(nodes: list[list[float]], at: Array) -> Array:
+    """Return what each node's line counts at places on the axes, each from -1 to 1."""
     vander = np.polynomial.chebyshev.chebvander
     first, second, third = (
         vander(x, len(n) - 1) @ fit_of(len(n)) if len(n) > 1 else np.ones((len(x), 1))
         for x, n in zip(at.T, nodes, strict=True)
     )
-    shares = np.einsum("pi,pj,pk->pijk", first, second, third).reshape(len(at), -1)
-    return np.asarray(shares @ values)
+    return np.asarray(np.einsum("pi,pj,pk->pijk", first, second, third).reshape(len(at), -1))

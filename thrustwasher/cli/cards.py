@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "model", nargs="?", metavar="MODEL|FILE",
         help=f"list only {', '.join(models_with_cards())}; a part file (.toml): verify its rungs "
-        "in its box, about a minute",
+        "in its box, half a minute or less",
     )  # fmt: skip
     group = parser.add_argument_group("of a part file")
     group.add_argument("--tol", metavar="X", default="0.01",

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.part_file import PartFile, part_text
+from ..model.part_file import PartFile, part_text, usual_name
 from ..model.registry import models_with_points
 from ..sweep.axes import find_place, places, split_settings
 from ..units import parse_quantity
@@ -135,7 +135,9 @@ def _write(target: Path, part: PartFile, found: Any, data: str) -> None:
     )
     note = f"calibrated on {Path(data).name}, {100 * found.confidence:g} %: {', '.join(told)}"
     notes = "; ".join(filter(None, (part.notes, note)))
-    fitted = replace(part, parameters=_output.parameters_of(found.params), notes=notes)
+    name = part.name if part.name != part.spec.name else usual_name(part.spec)
+    values = _output.parameters_of(found.params)
+    fitted = replace(part, name=name, parameters=values, notes=notes)
     with _output.whole_file(target) as draft:
         draft.write_text(part_text(fitted), encoding="utf-8")
     _output.note(f"wrote {target}")

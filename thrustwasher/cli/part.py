@@ -13,6 +13,7 @@ from ..model.part_file import (
     part_text,
     preset_part,
     preset_parts,
+    usual_name,
 )
 from ..model.registry import all_models, find_model
 from ..storage.whole_files import whole_file
@@ -57,7 +58,7 @@ def _new(arguments: argparse.Namespace) -> None:
     spec = model.spec
     start = find_part(spec.key) if arguments.preset is None else preset_part(spec, arguments.preset)
     changes = _options.read_settings(arguments.settings, spec)
-    name = checked_name(arguments.name or f"My{spec.key.capitalize()}")
+    name = checked_name(arguments.name or usual_name(spec))
     box = start.box or _usual_box(model)
     out = _output.new_part(arguments.out or f"{spec.key}.toml")
     text = part_text(replace(start, name=name, parameters=start.parameters | changes, box=box))

@@ -17,6 +17,7 @@ Presets are such files, in ``data/parts/MODEL/NAME.toml``. What a file leaves ou
 
 import json
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cache
@@ -181,13 +182,19 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
     )  # fmt: skip
 
 
+def usual_name(spec: ModelSpec) -> str:
+    """Return the name of a part that has been given none."""
+    return f"My{spec.key.capitalize()}"
+
+
 def checked_name(name: str) -> str:
     """Return the name of a part if it can be that of an FMU and its files."""
-    if name.isidentifier() and name.isascii() and len(name) <= LONGEST_NAME:
+    device = re.fullmatch(r"con|prn|aux|nul|(com|lpt)\d", name.lower())  # no file on Windows
+    if name.isidentifier() and name.isascii() and len(name) <= LONGEST_NAME and not device:
         return name
     raise ParameterError(
         f"name = {name!r}, allowed: letters, digits and _, no digit in front, at most "
-        f"{LONGEST_NAME} characters"
+        f"{LONGEST_NAME} characters; no name of a device of Windows (CON, NUL)"
     )
 
 

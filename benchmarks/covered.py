@@ -42,7 +42,7 @@ MORE = (
     "tests/model/test_rules.py", "tests/model/test_rungs_in_short.py",
     "tests/model/test_status_numbers.py",
 )  # fmt: skip
-LIMIT = 60  # s
+LIMIT, LAST_WORDS = 60, 10  # s
 SETTINGS = """[run]
 branch = True
 source_pkgs = thrustwasher
@@ -80,7 +80,11 @@ def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str)
         said = whole.strip().splitlines()[-1:] if running.returncode == 0 else [whole]
     except subprocess.TimeoutExpired:
         running.terminate()
-        running.communicate()
+        try:
+            running.communicate(timeout=LAST_WORDS)
+        except subprocess.TimeoutExpired:  # coverage may wait for a lock that it holds itself
+            running.kill()
+            running.communicate()
         said, running.returncode = ["cut off"], 0
     print(f"{' '.join(words) or 'suite'}: {time.perf_counter() - began:.0f} s", *said, flush=True)
     return running.returncode == 0

@@ -116,7 +116,8 @@ def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, tmp_path, monkeypatc
     assert 0 < len(kept) < lines
     assert command(*MAP, file)[0] == 0
     assert sorted(kept) == list(range(lines)) and [p.name for p in out.iterdir()] == ["x.twm"]
-    assert np.allclose(read_map(file).data[L.DATA :], whole.data[L.DATA :], atol=1e-4)
+    # a line begins from its neighbour where that is known: equal to what solutions converge to
+    assert np.allclose(read_map(file).data[L.DATA :], whole.data[L.DATA :], atol=5e-3)
 
 
 def test_a_chart_that_does_not_fit_is_not_half_written(out, tmp_path):

@@ -98,7 +98,7 @@ class Tables(NamedTuple):
 
     rung: str
     paths: Callable[[], list[Path]]  # of all files there are
-    readable: Callable[[], Sequence[Any]]  # the files that are sound
+    readable: Callable[[bool], Sequence[Any]]  # sound files: those of the package alone, or all
     find: Callable[[Any], Any]  # the file for parameters; ParameterError if there is none
     box: Callable[[Any], Mapping[str, tuple[float, float]]]  # that it covers, by input
     resource: Callable[[Any], bytes]  # a file as it lies in an FMU

@@ -1,5 +1,6 @@
 """The FMU of a part of one's own: its name, its values, its box; the model's libraries."""
 
+import shutil
 import zipfile
 from types import SimpleNamespace
 
@@ -15,6 +16,7 @@ from thrustwasher.fmu.documentation.reference_results import FOLDER
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.model.registry import find_spec
+from thrustwasher.washer.map.map_file import SHIPPED, own_folder
 
 TEXT = """
 model = "gearmesh"
@@ -143,8 +145,9 @@ MESH = 'model = "gearmesh"\nname = "{}"\n'
     ],
 )  # fmt: skip
 def test_what_cannot_be_built_is_one_line_and_writes_nothing(
-    texts, models, options, said, tmp_path
+    texts, models, options, said, tmp_path, monkeypatch
 ):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))  # no map of an earlier run
     files = [file_in(tmp_path, text, f"part{k}.toml") for k, text in enumerate(texts)]
     with pytest.raises(ParameterError) as caught:
         build([*files, *models], out=tmp_path / "dist", **options)
@@ -157,7 +160,20 @@ def maps_in(fmu):
         return [name for name in archive.namelist() if name.startswith("resources/map-")]
 
 
-def test_a_part_carries_the_map_of_its_parameters_and_no_other(tmp_path):
+def test_a_model_carries_the_maps_of_the_package_whatever_this_machine_has(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    before = build(["ThrustWasher"], out=tmp_path / "before", **LINUX)[0].read_bytes()
+    for folder in (own_folder(), tmp_path / "named"):
+        folder.mkdir(parents=True)
+        shutil.copy(SHIPPED / "washer-planetary.twm", folder / "another.twm")
+    monkeypatch.setenv("THRUSTWASHER_MAPS", str(tmp_path / "named"))
+    after = build(["ThrustWasher"], out=tmp_path / "after", **LINUX)[0]
+    assert after.read_bytes() == before
+    assert len(maps_in(after)) == len(list(SHIPPED.glob("*.twm")))
+
+
+def test_a_part_carries_the_map_of_its_parameters_and_no_other(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     if not maps_in(build(["ThrustWasher"], out=tmp_path, **LINUX)[0]):
         pytest.skip("no map of the default washer is shipped")
     same = file_in(tmp_path, 'model = "washer"\nname = "Same"\n', "same.toml")

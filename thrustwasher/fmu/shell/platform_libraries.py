@@ -91,21 +91,21 @@ def native_contents(
         found.setdefault(f"binaries/{folder}/{spec.name}.{target.extension}", []).append(made)
     return {
         f"resources/{c_tables.PART}": c_tables.part_file(spec, guid),
-        **{f"resources/map-{k}.bin": data for k, data in enumerate(_maps(spec))},
+        **{f"resources/map-{k}.bin": data for k, data in enumerate(_maps(spec, local))},
         **{p: parts[0] if len(parts) == 1 else universal(parts) for p, parts in found.items()},
     }
 
 
-def _maps(spec: ModelSpec) -> list[bytes]:
-    """Return the tables of a model: all there are, or that of a part of one's own if there is one.
+def _maps(spec: ModelSpec, local: bool) -> list[bytes]:
+    """Return a model's tables that are shipped, or that of a part of one's own if there is one.
 
-    Those of other parameters are of no use to a part.
+    Those of other parameters are of no use to a part. ``local``: all that this machine has.
     """
     tables = tables_of(spec)
     if tables is None:
         return []
     if not spec.kind:
-        return [tables.resource(file) for file in tables.readable()]
+        return [tables.resource(file) for file in tables.readable(not local)]
     with suppress(ParameterError):  # there is none for its parameters
         return [tables.resource(tables.find(spec.params()))]
     return []

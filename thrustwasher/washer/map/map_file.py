@@ -139,15 +139,16 @@ def map_folders() -> list[Path]:
     return [Path(p) for p in named.split(os.pathsep) if p] + [own_folder(), SHIPPED]
 
 
-def map_paths() -> list[Path]:
-    """Return all files that have the name of a map."""
-    return [path for folder in map_folders() for path in sorted(folder.glob(f"*{SUFFIX}"))]
+def map_paths(shipped: bool = False) -> list[Path]:
+    """Return all files that have the name of a map; ``shipped``: those of the package alone."""
+    folders = [SHIPPED] if shipped else map_folders()
+    return [path for folder in folders for path in sorted(folder.glob(f"*{SUFFIX}"))]
 
 
-def all_maps() -> list[MapFile]:
-    """Return every readable map; files that are none are passed over."""
+def all_maps(shipped: bool = False) -> list[MapFile]:
+    """Return every readable map, as ``map_paths``; files that are none are passed over."""
     found = []
-    for path in map_paths():
+    for path in map_paths(shipped):
         try:
             found.append(read_map(path))
         except ParameterError:

@@ -7,11 +7,16 @@ import pytest
 
 from thrustwasher.cli import main
 from thrustwasher.washer.map.look_up import WasherMap
+from thrustwasher.washer.map.map_file import plain, read_map
 from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
 
 BOX = ["--load", "200:400", "--speed", "5000 rpm:5200 rpm", "--tilt", "0.002",
        "--oil-temperature", "24 degC"]  # fmt: skip
+MINE = (
+    'model = "washer"\nname = "Mine"\n[parameters]\nroughness = "0.5 um"\n[box]\n'
+    'load = ["200 N", "400 N"]\nspeed = 530\ntilt = 0.002\noil_temperature = "50 degC"\n'
+)
 BUILD = ["map", "build", *BOX, "--fidelity", "field", "--workers", "1", "--points", "4"]
 
 
@@ -55,10 +60,7 @@ def test_a_part_of_another_model_has_no_map(tmp_path, capsys, monkeypatch):
 
 def test_a_part_files_box_is_the_maps_and_options_override_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "mine.toml").write_text(
-        'model = "washer"\nname = "Mine"\n[parameters]\nroughness = "0.5 um"\n[box]\n'
-        'load = ["200 N", "400 N"]\nspeed = 530\ntilt = 0.002\noil_temperature = "50 degC"\n'
-    )
+    (tmp_path / "mine.toml").write_text(MINE)
     options = ["--tol", "0.02", "--workers", "1", "--points", "4", "--oil-temperature", "24 degC"]
     assert main(["map", "build", "mine.toml", *options]) == 0
     washer = WasherMap(WasherParams(roughness=5e-7), tmp_path / "mine.twm")
@@ -69,10 +71,7 @@ def test_a_part_files_box_is_the_maps_and_options_override_it(tmp_path, monkeypa
 def test_build_makes_the_map_of_a_part_once_and_puts_it_inside(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    (tmp_path / "mine.toml").write_text(
-        'model = "washer"\nname = "Mine"\n[parameters]\nroughness = "0.5 um"\n[box]\n'
-        'load = ["200 N", "400 N"]\nspeed = 530\ntilt = 0.002\noil_temperature = "50 degC"\n'
-    )
+    (tmp_path / "mine.toml").write_text(MINE)
     words = ["build", "mine.toml", "--platforms", "linux64"]
     for tolerance in ("0", "-0.01", "1e-9"):
         assert main([*words, "--tol", tolerance]) == 2
@@ -85,6 +84,19 @@ def test_build_makes_the_map_of_a_part_once_and_puts_it_inside(tmp_path, monkeyp
     monkeypatch.setattr("thrustwasher.washer.map.look_up.MAKER", "none.such:maker")
     assert main(words) == 0
     assert "no map" not in capsys.readouterr().err
+
+
+def test_build_takes_the_map_that_was_built_for_the_part_file(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr("thrustwasher.washer.map.look_up.MAKER", "none.such:maker")
+    (tmp_path / "mine.toml").write_text(MINE)
+    few = ["--tol", "0.02", "--workers", "1", "--points", "4"]
+    assert main(["map", "build", "mine.toml", *few]) == 0
+    assert main(["build", "mine.toml", "--platforms", "linux64", "--tol", "0.02"]) == 0
+    assert "builds a map" not in capsys.readouterr().err
+    with zipfile.ZipFile("dist/native-fmi2/Mine.fmu") as fmu:
+        assert fmu.read("resources/map-0.bin") == plain(read_map("mine.twm"))
 
 
 @pytest.mark.parametrize(

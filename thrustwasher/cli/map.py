@@ -60,6 +60,9 @@ def _build(arguments: argparse.Namespace) -> int:
     box |= {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
             for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
 
+    from ..ladder.own_tables import serves
+    from ..native.files import write
+    from ..washer.map.look_up import TABLES, keep_own
     from ..washer.map.map_build import make_map
     from ..washer.map.map_plan import TOLERANCE
 
@@ -69,6 +72,9 @@ def _build(arguments: argparse.Namespace) -> int:
     card = make_map(params, Path(out), box=box, tolerance=tolerance, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
                     progress=_output.time_left)  # fmt: skip
+    plain = not arguments.fidelity and not any(getattr(arguments, s.name) for s in SPEC.inputs)
+    if arguments.file and plain and not serves(TABLES, params, box, tolerance):
+        keep_own(params, lambda path: write(path, Path(out).read_bytes()))
     _show(card, str(out), arguments.json)
     return 0
 

@@ -44,7 +44,7 @@ def build_where_it_pays(
     try:
         if any(c.fidelity == tables.rung for c in cards):
             known = tables.box(params)
-            if _serves(tables, params, needed or box, tol):
+            if serves(tables, params, needed or box, tol):
                 return ""
             box = {n: (min(a, known[n][0]), max(b, known[n][1])) for n, (a, b) in box.items()}
         lines = tables.lines(params, box, tol / SAFETY)
@@ -75,7 +75,7 @@ def build_missing(
         return ""
     check_number("tolerance", tol, "1", *tables.tolerances)
     try:
-        if not _serves(tables, part.params, part.box, tol):
+        if not serves(tables, part.params, part.box, tol):
             takes = tables.lines(part.params, part.box, tol) * LINE / usable_cores()
             say(f"{part.name}: builds a map of its own, once, about {takes:.0f} s")
             tables.build(part.params, part.box, tol, usable_cores(), progress)
@@ -84,7 +84,7 @@ def build_missing(
     return ""
 
 
-def _serves(tables: Tables, params: Any, box: Box, tol: float) -> bool:
+def serves(tables: Tables, params: Any, box: Box, tol: float) -> bool:
     """Tell if there is a map of this tolerance that covers a box."""
     try:
         known = tables.box(params)

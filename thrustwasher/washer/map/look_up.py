@@ -3,8 +3,9 @@
 import math
 import os
 import threading
-from collections.abc import Mapping
-from functools import lru_cache
+from collections.abc import Callable, Mapping
+from functools import lru_cache, partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -245,11 +246,15 @@ def build_own(
 
     The box is cut at what a map can cover.
     """
+    keep_own(params, partial(resolve(MAKER), params, box=coverable(box), tolerance=tolerance,
+                             workers=workers, progress=progress))  # fmt: skip
+
+
+def keep_own(params: WasherParams, make: Callable[[Path], Any]) -> None:
+    """Keep the map that ``make`` writes to a path where all find it: in the user's cache."""
     path = own_folder() / f"washer-{params_digest(params)[:16]}{SUFFIX}"
     path.parent.mkdir(parents=True, exist_ok=True)
-    resolve(MAKER)(
-        params, path, box=coverable(box), tolerance=tolerance, workers=workers, progress=progress
-    )  # fmt: skip
+    make(path)
     forget_unused()
     washer_map.cache_clear()
     _solver.forget()

@@ -186,7 +186,8 @@ def build_lines(
     tasks = [_task(plan, reach, GRIDS[fidelity], plan.terms, *places[i]) for i in rest]
     count = len(places) - len(rest)
     numbers = iter(rest)
-    for part in run(solve_lines, _batches(tasks), 1):
+    batches = [tasks[k : k + BATCH] for k in range(0, len(tasks), BATCH)]
+    for part in run(solve_lines, batches, 1):
         for curve in part:
             i = next(numbers)
             lines[i] = np.round(packed(curve, plan.more_terms) / DIGIT) * DIGIT
@@ -205,10 +206,6 @@ def _neighbours(places: Sequence[Place], wanted: Sequence[int]) -> list[int]:
     for i in sorted(wanted, key=lambda i: (places[i][1:], places[i][0])):
         rows.setdefault(places[i][1:], []).append(i)
     return [i for k, row in enumerate(rows.values()) for i in (row[::-1] if k % 2 else row)]
-
-
-def _batches(tasks: Sequence[LineTask]) -> list[Sequence[LineTask]]:
-    return [tasks[k : k + BATCH] for k in range(0, len(tasks), BATCH)]
 
 
 def journal_for(path: Path, plan: MapPlan, fidelity: str) -> Journal:

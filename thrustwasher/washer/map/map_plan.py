@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -166,8 +166,7 @@ def plan_map(
         int(width >= LEAST_WIDTH[name])
         for name, width in zip(INPUTS[1:], (high - low, *moved), strict=True)
     )
-    return MapPlan(params=params, box=ends, marks=marks, tolerance=tolerance,
-                   patches=(first, second, third))  # fmt: skip
+    return replace(plan, patches=(first, second, third))
 
 
 def _checked(name: str, pair: Any) -> tuple[float, float]:

@@ -25,6 +25,7 @@ POINTS = 30  # held out, for who waits for a run
 # Seconds on one core: a line of a map, a held-out point with its reference, a call of "field"; what
 # starting and timing take. Only their ratios count.
 LINE, POINT, CALL, ONCE = 0.021, 0.25, 6e-4, 4.0
+LONGER = "up to ten times that if all its lines need a finer mesh"
 RUNS = 20  # so often a scene is run, or one like it with the same part; chosen here
 
 
@@ -51,7 +52,7 @@ def build_where_it_pays(
         takes = (lines * LINE + POINTS * POINT) / usable_cores() + ONCE
         if calls * CALL < takes:
             return ""
-        say(f"{spec.key}: builds a map of its own, once, about {takes:.0f} s")
+        say(f"{spec.key}: builds a map of its own, once, about {takes:.0f} s; {LONGER}")
         began = perf_counter()
         resolve(MAKER)(spec, params, box, tol=tol / SAFETY, points=POINTS)
     except (ParameterError, SolveError) as problem:
@@ -77,7 +78,7 @@ def build_missing(
     try:
         if not serves(tables, part.params, part.box, tol):
             takes = tables.lines(part.params, part.box, tol) * LINE / usable_cores()
-            say(f"{part.name}: builds a map of its own, once, about {takes:.0f} s")
+            say(f"{part.name}: builds a map of its own, once, about {takes:.0f} s; {LONGER}")
             tables.build(part.params, part.box, tol, usable_cores(), progress)
     except (ParameterError, SolveError) as problem:
         return f"{part.name}: no map of its own: {problem}"

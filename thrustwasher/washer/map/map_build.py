@@ -70,10 +70,11 @@ def make_map(
     raised = fidelity is None and usual == "field"
     try:
         card = _made(job, fidelity or usual, raised=raised)
-    except NotSmooth:
-        card = None
-    if card is None or (raised and _missed(card)):
-        card = _made(job, "fine", raised=False)
+        why = f"the map is {card['held_out']['torque']:.1%} off" if raised and _missed(card) else ""
+    except NotSmooth as problem:
+        why = str(problem)
+    if why:
+        card = _made(job, "fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
     if fidelity is None and _missed(card):
         out.unlink()
         raise SolveError(_too_coarse(card))
@@ -89,7 +90,7 @@ class _Job:
     show: Callable[[str], Progress]
 
 
-def _made(job: _Job, fidelity: str, *, raised: bool) -> dict[str, Any]:
+def _made(job: _Job, fidelity: str, *, raised: bool, lines: str = "lines") -> dict[str, Any]:
     """Build a map on a mesh, check and write it; return its card."""
     plan, out, show = job.plan, job.out, job.show
     draft = out.with_name(f".{out.name}.{os.getpid()}.draft{SUFFIX}")
@@ -101,7 +102,7 @@ def _made(job: _Job, fidelity: str, *, raised: bool) -> dict[str, Any]:
         with runner(job.workers) as run:
             reach = find_reach(plan)
             plan = survey(plan, reach, run=run, progress=show("survey"))
-            data = build_lines(plan, reach, fidelity=fidelity, run=run, progress=show("lines"),
+            data = build_lines(plan, reach, fidelity=fidelity, run=run, progress=show(lines),
                                journal=journal)  # fmt: skip
             change = None
             if raised:
@@ -109,8 +110,8 @@ def _made(job: _Job, fidelity: str, *, raised: bool) -> dict[str, Any]:
                     plan, GRIDS[fidelity], GRIDS["fine"],
                     partial(_solved, plan, reach, plan.terms, run, show("finer mesh")),
                 )  # fmt: skip
-                lines = data[L.DATA :].reshape(-1, plan.line)
-                lines += np.round(change.lines / DIGIT) * DIGIT
+                numbers = data[L.DATA :].reshape(-1, plan.line)
+                numbers += np.round(change.lines / DIGIT) * DIGIT
                 data[L.IDENTITY] = identity_of(data)
             card = _card(plan, fidelity, change, time.perf_counter() - began, job.workers)
             _write(draft, data, card)

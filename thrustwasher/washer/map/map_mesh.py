@@ -58,7 +58,7 @@ def change_of_mesh(plan: MapPlan, coarse: Grid, fine: Grid, solve: Solve) -> Cha
     others = _solved(plan, _held_out(plan), coarse, fine, solve)
     missed = max(_missed(plan, many, where, *pair) for where, pair in others.items())
     if missed > MISSED_SHARE * plan.tolerance:
-        raise NotSmooth(f"map: the mesh's error is no polynomial: {missed:.1%} are left")
+        raise NotSmooth(f"the coarser mesh is {raised:.1%} off")
     lines = _between(plan, MANY, many)
     place = [[across(plan, HARD)]]
     here, best = solve(place, fine)[0][0], solve(place, FINEST)[0][0]

@@ -18,7 +18,7 @@ from ..errors import EnvironmentProblem, ParameterError
 from ..numerics.jit import kernel_digest
 from ..processes import local_processes, refuse_import_by_worker, usable_cores
 from ..storage.journal import Journal
-from .solve_rows import Task, check_rung, output_signals, solve_task
+from .solve_rows import Task, begin, check_rung, output_signals, solve_task
 from .sweep_plan import Plan, make_plan
 from .sweep_table import INSTALL, SweepTable, check_output, make_table, pieces, write_table
 
@@ -133,15 +133,22 @@ class Run:
                 self._hand_out(executor, n)
             return
         n = usable_cores() if workers is None else workers
+        others = max(min(n, len(self.plan.params_of)) - 1, 1)  # this process works too
         # The first lines here: that compiles the kernels once, for all, and tells the pace.
-        self._solve_here(patient=n == 1, asked=workers is not None)
+        asked = workers is not None and n > 1 and self.plan.n_rows > TASK_POINTS
+        if not asked:
+            self._solve_here(patient=n == 1, asked=workers is not None)
         for _ in range(RESTARTS):
             if self.done.all():
                 return
             try:
-                others = min(n, len(self.plan.params_of)) - 1  # this process works too
-                with local_processes(max(others, 1)) as executor:
-                    self._hand_out(executor, max(others, 1), here=True)
+                with local_processes(others) as executor:
+                    if asked:  # processes that are wanted anyway start meanwhile
+                        for _ in range(others):
+                            executor.submit(begin)
+                        self._solve_here(patient=False, asked=True)
+                        asked = False
+                    self._hand_out(executor, others, here=True)
             except BrokenProcessPool:
                 continue
         if not self.done.all():

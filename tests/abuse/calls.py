@@ -72,7 +72,8 @@ def solve_once(model, rng, rungs=None):
         return named(error, known)
     say_if_wrong([] if legal else ["taken though outside its range"], where)
     say_if_wrong(judged(model, params, point, result), where, result)
-    mirror = solve(params, **{**point, "speed": -point["speed"]}, fidelity=rung)
+    turned = {name: -point[name] for name in ("speed", "drum_speed") if name in point}
+    mirror = solve(params, **{**point, **turned}, fidelity=rung)
     share = 1e-8 if model == "washer" else 0.0  # a mesh is walked through the other way round
     odd = claims.close(mirror.friction_torque, -result.friction_torque, share)
     say_if_wrong([] if odd else ["not odd in speed"], where, result, mirror)

@@ -15,6 +15,7 @@ from ..model.part_file import (
     preset_parts,
     usual_name,
 )
+from ..model.record import Model
 from ..model.registry import all_models, find_model
 from ..storage.whole_files import whole_file
 from . import _options, _output
@@ -67,10 +68,9 @@ def _new(arguments: argparse.Namespace) -> None:
     _told(arguments, out, load_part(out), f"wrote {out}")
 
 
-def _usual_box(model: object) -> dict[str, tuple[float, float]]:
+def _usual_box(model: Model) -> dict[str, tuple[float, float]]:
     """Return the box of the default parameters' cards; without cards there is none."""
-    ladder = getattr(model, "ladder", None)
-    boxes = ladder.boxes.get("default", {}) if ladder else {}
+    boxes = model.ladder.boxes.get("default", {}) if model.ladder else {}
     return {name: (low, high) for name, (low, high, _) in boxes.items()}
 
 

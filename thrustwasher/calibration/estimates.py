@@ -63,8 +63,9 @@ class Calibration:
     singular_values: tuple[float, ...]
     """Of the scaled derivatives over the scatter, falling; 0: nothing is known of a direction."""
     residuals: Array
-    """(n,) measured less fitted value."""
+    """(n,) measured less fitted value [SI unit of its output]."""
     rms: float
+    """Of the residuals [SI]; it has a unit where one output is fitted, ``rms_of`` tells each."""
     degrees_of_freedom: int
     reduced_chi_square: float | None
     """None without given errors."""

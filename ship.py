@@ -1,9 +1,9 @@
 """Make the compiled files of the package: ``python ship.py [--check]``.
 
-Writes ``data/native``: for each kernel module an archive with the objects of all platforms, and a
-library for Python on Linux x86-64; ``index.json`` lists them. What has not changed stays. With
-``--check`` nothing is written: everything is made anew and compared with what is there, byte by
-byte if the same versions made it.
+Writes ``data/native``: for each kernel module an archive with the objects of all platforms, a
+library for Python on Linux x86-64, and one for browsers; ``index.json`` lists them. What has not
+changed stays. With ``--check`` nothing is written: everything is made anew and compared with what
+is there, byte by byte if the same versions made it.
 """
 
 import json
@@ -16,13 +16,14 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from thrustwasher.model.registry import MODELS
 from thrustwasher.native import files, shipped
 from thrustwasher.native.digest import digest, sources
 from thrustwasher.native.entries import libraries as all_libraries
 from thrustwasher.native.files import to_stderr
 from thrustwasher.native.library import linked_library
 from thrustwasher.native.objects import Objects, compile_objects, wanted_for
-from thrustwasher.native.targets import PLATFORMS
+from thrustwasher.native.targets import TARGETS, WEB
 
 LIBRARIES = ("linux64",)  # platforms whose libraries for Python lie in the checkout
 
@@ -35,16 +36,18 @@ def toolchain() -> dict[str, str]:
 
 def made(kernel: str) -> tuple[Objects, float]:
     """Return a kernel module's objects for all platforms, compiled now, and the seconds it took."""
-    start, wanted = time.perf_counter(), wanted_for(PLATFORMS.values())
+    start, wanted = time.perf_counter(), wanted_for(TARGETS.values())
     with tempfile.TemporaryDirectory() as folder:
         code = compile_objects(kernel, Path(folder) / "made", wanted)
     return code, time.perf_counter() - start
 
 
 def libraries(kernel: str, code: Objects, platforms: Sequence[str] = LIBRARIES) -> dict[str, bytes]:
-    """Return the libraries for Python that go with the objects: platform -> content."""
+    """Return the libraries that go with the objects, of a model one for browsers too."""
+    if kernel.startswith(tuple(f"{home}." for home in MODELS.values())):
+        platforms = [*platforms, WEB.name]
     own = {name: {w: data for w, data in code.items() if w[0] == name} for name in platforms}
-    return {name: linked_library(kernel, PLATFORMS[name], own[name]) for name in platforms}
+    return {name: linked_library(kernel, TARGETS[name], own[name]) for name in platforms}
 
 
 def ship(kernels: Sequence[str]) -> None:
@@ -84,7 +87,7 @@ def _write_libraries(
     folder: Path, kernel: str, name: str, code: Objects, platforms: Sequence[str]
 ) -> dict[str, Any]:
     return {
-        platform: put(folder / f"{name}-{platform}.{PLATFORMS[platform].extension}", data)
+        platform: put(folder / f"{name}-{platform}.{TARGETS[platform].extension}", data)
         for platform, data in libraries(kernel, code, platforms).items()
     }
 
@@ -96,7 +99,7 @@ def put(path: Path, data: bytes) -> dict[str, str]:
 
 
 def relist(folder: Path, platforms: Sequence[str]) -> None:
-    """Leave only the libraries for some platforms in a copy of the compiled files."""
+    """Leave the libraries for some platforms and for browsers in a copy of the compiled files."""
     index = json.loads((folder / shipped.INDEX).read_text("utf-8"))
     for kernel, about in index["kernels"].items():
         for old in about["libraries"].values():

@@ -143,7 +143,18 @@ def display_unit(value: float, unit: str) -> tuple[str, float]:
     ('µm', 1e-06)
     """
     shown = _readable(value, unit, _DISPLAY.get(unit, (unit,)))
-    return _pretty(shown), UNITS.get(unit, {}).get(shown, (1.0, 0.0))[0]
+    return pretty_unit(shown), UNITS.get(unit, {}).get(shown, (1.0, 0.0))[0]
+
+
+def readable_units() -> dict[str, list[tuple[str, float]]]:
+    """Return SI unit -> units as people read them with their factors, in the order they are tried.
+
+    Temperatures, which people read in °C, are not among them.
+    """
+    return {
+        unit: [(_PRETTY.get(name, name), UNITS[unit][name][0]) for name in names]
+        for unit, names in _DISPLAY.items()
+    }
 
 
 def exact_quantity(value: float, unit: str, *, difference: bool = False) -> str | float:
@@ -204,7 +215,7 @@ def _plain(unit: str) -> str:
     return re.sub(r"\s+", ".", text)
 
 
-def _pretty(unit: str) -> str:
+def pretty_unit(unit: str) -> str:
     """Return the unit in typography, e.g. N·m, MJ/m²."""
     text = _PRETTY.get(unit, unit)
     for plain, raised in (("m2", "m²"), ("m3", "m³"), ("s2", "s²"), ("s3", "s³")):

@@ -37,11 +37,10 @@ def test_json_is_one_object_and_nothing_else(msl):
     assert abs(record["energy_residual"]) < 1e-6 * record["energy"]["engine_work"]
 
 
-def test_folder_holds_page_plots_and_series(msl):
+def test_folder_holds_page_picture_and_series(msl):
     folder, _ = msl
     names = {path.name for path in folder.iterdir()}
-    assert {"report.html", "shift.csv", "overview.png", "speeds.svg", "energy.svg"} <= names
-    assert [name for name in names if name.startswith(".")] == []
+    assert names == {"report.html", "shift.csv", "overview.png"}
     with (folder / "shift.csv").open(encoding="utf-8") as stream:
         rows = csv.reader(stream)
         head = next(rows)
@@ -203,3 +202,33 @@ def test_a_package_takes_rungs_by_name_only(tmp_path, capsys):
     words = ["shift", "--scene", "msl", "--ssp", str(tmp_path / "s.ssp")]
     assert main([*words, "--fidelity", "auto"]) == 2
     assert "a rung by name" in capsys.readouterr().err
+
+
+def test_two_shifts_are_compared_a_report_and_a_scene(msl, tmp_path, capsys):
+    folder, _ = msl
+    out = tmp_path / "both"
+    words = ["shift", "--compare", str(folder), "msl", "--step", "4 ms", "--out", str(out)]
+    assert main(words) == 0
+    text, err = capsys.readouterr()
+    assert err == "" and [path.name for path in out.iterdir()] == ["compare.html"]
+    locks = next(line for line in text.splitlines() if line.startswith("clutch locks: "))
+    assert locks.startswith("clutch locks: A 2.11") and ", B 2.11" in locks
+    page = (out / "compare.html").read_text("utf-8")
+    assert page.count("<img") == 2 and str(out / "compare.html") in text
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (["{tmp}", "msl"], "report.html: is no report of one shift by this version, run it again"),
+        (["msl", "duty-cycle"], "--compare duty-cycle: has several shifts, allowed: one each"),
+        (["msl", "msl", "--no-report"], "--compare: not together with --no-report"),
+        (["msl", "msl", "--ssp", "a.ssp"], "--compare: not together with --ssp"),
+    ],
+)
+def test_what_cannot_be_compared_is_said_before_anything_is_written(given, words, tmp_path, capsys):
+    given = [word.format(tmp=tmp_path) for word in given]
+    out = tmp_path / "out"
+    assert main(["shift", "--compare", *given, "--out", str(out)]) == 2
+    assert words in capsys.readouterr().err
+    assert not out.exists()

@@ -7,8 +7,6 @@ import pytest
 import shift_stand_in
 
 from thrustwasher.model.registry import find_spec
-from thrustwasher.report.html import render
-from thrustwasher.report.panels import shift_plots
 from thrustwasher.report.shift import shift_tables, summary
 from thrustwasher.report.shift.heat_split import heat_split
 from thrustwasher.report.shift.shift_record import KeyFigure, Part
@@ -114,27 +112,3 @@ def test_a_part_without_an_account_of_its_heat_has_made_what_its_steps_did():
     signals = record.signals | {f"mesh.{name}": values for name, values in heats.items()}
     split = heat_split(replace(record, signals=signals), "mesh")
     assert split.made[-1] > 100.0 and np.max(np.abs(split.rest)) < 1e-12 * split.made[-1]
-
-
-def test_each_panel_appears_only_where_the_scene_has_its_part():
-    anchors = {"comfort", "actuation", "heat"}
-    page = shift_page(full())
-    assert anchors <= {section.anchor for section in page.sections} and render(page)
-    bare = shift_page(shift_stand_in.record(washer=False))
-    assert not anchors & {section.anchor for section in bare.sections}
-    assert [a.get_title(loc="left") for a in shift_plots.heat_figure(full()).axes][1] == "Oil sump"
-
-
-def test_a_film_without_a_limit_is_drawn_as_no_safety():
-    def drawn(record):
-        return {line.get_label() for line in shift_plots.stress_figure(record).axes[0].lines}
-
-    assert "against micropitting" not in drawn(full())
-    mesh = Part("mesh", find_spec("gearmesh"), {"permissible_film_ratio": 0.3})
-    assert "against micropitting" in drawn(replace(full(), parts=[*full().parts[:-1], mesh]))
-
-
-def test_jerk_is_drawn_as_the_change_over_ten_milliseconds():
-    axis = shift_plots.comfort_figure(full()).axes[1]
-    drawn = axis.lines[0].get_ydata()
-    assert np.min(drawn) == pytest.approx(-0.1 / 0.01) and drawn[-1] == 0.0

@@ -128,6 +128,19 @@ def test_the_plot_shows_oil_plates_and_speeds(run):
     assert labels == ["oil [°C]", "plates [°C]", "speed [rad/s]"]
 
 
+def test_the_page_holds_all_signals_and_a_row_for_each_shift(run):
+    from thrustwasher.report.html import render
+    from thrustwasher.report.shift.sequence_report import sequence_page
+
+    page = sequence_page(run)
+    data = page.data["runs"][0]
+    assert [p.name for p in data["phases"]] == ["1 up", "2 down"]
+    assert [text for _, text in data["events"]] == ["1 up locks", "2 down locks"]
+    assert len(data["moving"]) + len(data["steady"]) >= len(run.signals)
+    assert [row[0] for row in page.sections[0].tables[0].rows] == ["1 up", "2 down"]
+    assert len(render(page).encode()) < 2_000_000
+
+
 def test_a_shift_down_by_pistons_needs_its_courses(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(BODY.partition("[sequence.down]")[0].format(shifts=TWO, stop=9, window=1.3))

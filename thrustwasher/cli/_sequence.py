@@ -1,4 +1,4 @@
-"""``thrustwasher shift`` with a scene of several shifts: one line per shift, a plot of the oil."""
+"""``thrustwasher shift`` with a scene of several shifts: one line per shift, a page of the run."""
 
 import argparse
 from pathlib import Path
@@ -6,7 +6,7 @@ from typing import Any
 
 from ..errors import ParameterError
 
-PLOT, TABLE = "sequence.png", "shift.csv"
+REPORT, TABLE = "report.html", "shift.csv"
 
 
 def check(arguments: argparse.Namespace, scene: Any) -> None:
@@ -33,9 +33,11 @@ def say(result: Any) -> None:
 
 
 def write(result: Any, folder: Path) -> None:
-    """Write plot and time series into a folder that is still a draft."""
-    from ..report.html import picture
-    from ..report.panels.sequence_plot import sequence_figure
+    """Write page, plot and time series into a folder that is still a draft."""
+    from ..report.html import render, save_plots
+    from ..report.shift.sequence_report import sequence_page
 
-    (folder / PLOT).write_bytes(picture(sequence_figure(result), dpi=110))
+    page = sequence_page(result)
+    (folder / REPORT).write_text(render(page), encoding="utf-8")
+    save_plots(page, folder)
     result.write_csv(folder / TABLE)

@@ -5,16 +5,18 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from importlib import import_module
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 from ..errors import ParameterError
 from ..units import parse_quantity
-from . import _output, _sequence
+from . import _compare, _output, _sequence
 from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
-REPORT, TABLE, OVERVIEW = "report.html", "shift.csv", "overview.png"
+REPORT, TABLE = "report.html", "shift.csv"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +27,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--out", metavar="DIR", default="shift-report",
-        help=f"folder for {REPORT}, the plots and {TABLE}; default shift-report",
+        help=f"folder for {REPORT}, overview.png and {TABLE}; default shift-report",
+    )  # fmt: skip
+    parser.add_argument(
+        "--compare", nargs=2, metavar=("A", "B"),
+        help="two shifts on one page, compare.html: each a report's folder, or a scene, which runs",
     )  # fmt: skip
     parser.add_argument(
         "--no-report", action="store_true", help="write no files, only say what came out"
@@ -68,15 +74,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
-    from ..shift import load_scene, run_auto, run_sequence, with_fidelities
-
-    step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
-    tolerance = arguments.master_tolerance
-    scene = load_scene(arguments.scene).with_options(
-        step=step, master=arguments.master,
-        master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
-    )  # fmt: skip
-    scene = with_fidelities(scene, arguments.fidelity)
+    if arguments.compare:
+        return _compare.run(arguments, _scene, _one_shift)
+    scene = _scene(arguments, arguments.scene)
     if scene.sequence:
         _sequence.check(arguments, scene)
     if arguments.ssp:
@@ -86,15 +86,9 @@ def run(arguments: argparse.Namespace) -> int:
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
     began = time.perf_counter()
-    progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
-    result: Any
-    with _fmu_instances(scene, arguments.fmu) as make:
-        if scene.sequence:
-            instances = {name: make(name, part) for name, part in scene.parts.items()}
-            result = run_sequence(scene, instances, progress=progress)
-        else:
-            result = run_auto(scene, make, guard=not arguments.no_guard, build_maps=True,
-                              progress=progress)  # fmt: skip
+    if folder:  # what draws is loaded while the shift runs: compiled steps leave Python free
+        Thread(target=import_module, args=("thrustwasher.report.shift.shift_report",)).start()
+    result = (_shifts if scene.sequence else _one_shift)(arguments, scene)
     if folder:
         with _output.whole_folder(folder) as draft:
             (_sequence.write if scene.sequence else _write)(result, draft)
@@ -107,6 +101,41 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _say(result, folder)
     return 0
+
+
+def _scene(arguments: argparse.Namespace, name: str) -> Any:
+    """Return the scene of that name with what the options change."""
+    from ..shift import load_scene, with_fidelities
+
+    step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
+    tolerance = arguments.master_tolerance
+    scene = load_scene(name).with_options(
+        step=step, master=arguments.master,
+        master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
+    )  # fmt: skip
+    return with_fidelities(scene, arguments.fidelity)
+
+
+def _one_shift(arguments: argparse.Namespace, scene: Any) -> Any:
+    """Return the result of a scene of one shift."""
+    from ..shift import run_auto
+
+    with _fmu_instances(scene, arguments.fmu) as make:
+        return run_auto(scene, make, guard=not arguments.no_guard, build_maps=True,
+                        progress=_progress(scene))  # fmt: skip
+
+
+def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
+    """Return the result of a scene of several shifts."""
+    from ..shift import run_sequence
+
+    with _fmu_instances(scene, arguments.fmu) as make:
+        instances = {name: make(name, part) for name, part in scene.parts.items()}
+        return run_sequence(scene, instances, progress=_progress(scene))
+
+
+def _progress(scene: Any) -> Callable[[int, int], None] | None:
+    return _output.time_left(scene.name) if sys.stderr.isatty() else None
 
 
 def _warnings(result: Any) -> list[str]:
@@ -166,17 +195,14 @@ def _tables(scene: Any) -> list[Any]:
 
 
 def _write(result: Any, folder: Path) -> None:
-    """Write page, plots and time series into a folder that is still a draft."""
-    from ..report.html import picture, render, save_plots
-    from ..report.panels.shift_plots import overview_figure
+    """Write page, overview and time series into a folder that is still a draft."""
+    from ..report.html import render, save_plots
     from ..report.shift.shift_record import record_of
     from ..report.shift.shift_report import shift_page
 
-    record = record_of(result)
-    page = shift_page(record)
+    page = shift_page(record_of(result))
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)
-    (folder / OVERVIEW).write_bytes(picture(overview_figure(record), dpi=110))
     result.write_csv(folder / TABLE)
 
 

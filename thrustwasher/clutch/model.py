@@ -41,6 +41,7 @@ MODEL = Model(
         not_shown=("energy", "heat_flux", "viscosity", "oil_heat", "stored_heat"),
     ),
     fits=Fits(law="thrustwasher.clutch.calibration.calibration:calibrate"),
+    explore="thrustwasher.explore.clutch_page:VIEW",
     wiring=(
         "Into a ShiftTransmission: wire torque_capacity to it with coupling = capacity, "
         "there stick and slip are decided inside the step and no step limit comes from "

@@ -56,6 +56,7 @@ MODEL = Model(
         "name": "power", "unit": "W", "help": "transmitted power instead of the torque",
         "low": -1e9, "high": 1e9,
     },)),
+    explore="thrustwasher.explore.gearmesh_page:VIEW",
     wiring=(
         "Subtract friction_torque from the torque that the mesh transmits, at the pinion.",
         "In a ShiftTransmission plug it into the terminal mesh: one pair stands for one "

@@ -1,6 +1,6 @@
 """Object files and shared libraries: what they need and what they show.
 
-ELF, PE (COFF) and Mach-O, 64 bit, little endian.
+ELF, PE (COFF) and Mach-O, 64 bit, little endian; WebAssembly, 32 bit.
 """
 
 import re
@@ -14,14 +14,20 @@ ALLOWED = {
     "ELF": r"(libc\.so\.6|libm\.so\.6|ld-linux-.*)",
     "PE": r"(kernel32|api-ms-win-crt-[a-z]+-l1-1-0|ucrtbase)\.dll",
     "MachO": r"/usr/lib/libSystem\.B\.dylib",
+    "WASM": r"",  # a module for browsers needs nothing
 }
-_OWN = {"__dso_handle", "_mh_dylib_header"}  # places that zig's linker for macOS always shows
+# What linkers show beside what is asked for: zig's for macOS; the memory, its free part and the
+# table of functions of WebAssembly, and what sets up its C library.
+_OWN = {"__dso_handle", "_mh_dylib_header", "memory", "__heap_base", "__indirect_function_table",
+        "_initialize"}  # fmt: skip
 _NEEDED = 1  # tag in ELF's dynamic section
 _DYNAMIC, _DYNSYM = 6, 11  # section types of ELF
 _SYMTAB = 2  # section type in ELF and load command in Mach-O
 _COFF = (0x8664, 0xAA64)
 _EXPORT, _IMPORT = 0, 1  # directories of PE
 _MACHO = 0xFEEDFACF
+_WASM = b"\0asm"
+_IMPORTS, _EXPORTS, _FUNCTION = 2, 7, 0  # sections of WebAssembly; a kind of import
 _LOAD = (0xC, 0x80000018)  # commands of Mach-O: LOAD_DYLIB and the weak one
 _TRIE = {0x80000022: 40, 0x80000033: 8}  # DYLD_INFO_ONLY, DYLD_EXPORTS_TRIE: where the tree lies
 
@@ -50,13 +56,15 @@ def undefined(code: bytes) -> set[str]:
     """Return the symbols that an object file refers to and does not define."""
     if code[:4] == b"\x7fELF":
         return {name for name, _, home in _elf_symbols(code, _SYMTAB) if name and home == 0}
+    if code[:4] == _WASM:
+        return {name for name, kind in _wasm_imports(code) if kind == _FUNCTION}
     number = _word(code, 0)
     if number == _MACHO:
         return _macho_undefined(code)
     if number & 0xFFFF in _COFF:
         return _coff_undefined(code)
     raise EnvironmentProblem(
-        f"an object file starts with {code[:4]!r}: neither ELF, COFF nor MachO"
+        f"an object file starts with {code[:4]!r}: neither ELF, COFF, MachO nor WASM"
     )
 
 
@@ -64,6 +72,9 @@ def read(data: bytes) -> Linked:
     """Return what a shared library of any of the formats needs and exports."""
     if data[:4] == b"\x7fELF":
         return _elf(data)
+    if data[:4] == _WASM:
+        needed = frozenset(name for name, _ in _wasm_imports(data))
+        return Linked("WASM", needed, frozenset(_wasm_exports(data)))
     return _pe(data) if data[:2] == b"MZ" else _macho(data)
 
 
@@ -200,3 +211,44 @@ def _uleb(data: bytes, place: int) -> tuple[int, int]:
         value, shift, place = value | (byte & 0x7F) << shift, shift + 7, place + 1
         if byte < 0x80:
             return value, place
+
+
+def _wasm_sections(data: bytes) -> Iterator[tuple[int, int]]:
+    """Give the number and the place of each section of WebAssembly."""
+    place = 8
+    while place < len(data):
+        number = data[place]
+        size, place = _uleb(data, place + 1)
+        yield number, place
+        place += size
+
+
+def _wasm_name(data: bytes, place: int) -> tuple[str, int]:
+    size, place = _uleb(data, place)
+    return data[place : place + size].decode(), place + size
+
+
+def _wasm_imports(data: bytes) -> Iterator[tuple[str, int]]:
+    """Give name and kind of what a module or an object file of WebAssembly takes from outside."""
+    for place in (place for number, place in _wasm_sections(data) if number == _IMPORTS):
+        n, place = _uleb(data, place)
+        for _ in range(n):
+            _, place = _wasm_name(data, place)
+            name, place = _wasm_name(data, place)
+            kind, place = data[place], place + 1
+            yield name, kind
+            if kind in (1, 3, 4):  # a table, a global, a tag: one byte of its type comes first
+                place += 1
+            limits = data[place] if kind in (1, 2) else 0
+            place += 1 if kind in (1, 2, 3) else 0
+            for _ in range({0: 1, 1: 1 + limits % 2, 2: 1 + limits % 2, 3: 0}.get(kind, 1)):
+                _, place = _uleb(data, place)
+
+
+def _wasm_exports(data: bytes) -> Iterator[str]:
+    for place in (place for number, place in _wasm_sections(data) if number == _EXPORTS):
+        n, place = _uleb(data, place)
+        for _ in range(n):
+            name, place = _wasm_name(data, place)
+            _, place = _uleb(data, place + 1)
+            yield name

@@ -11,11 +11,11 @@ from typing import Any
 from ..errors import EnvironmentProblem
 from . import binaries, files, link, shipped
 from .digest import HERE
-from .entries import symbols
+from .entries import Kind, entries, symbols
 from .files import Note, to_stderr
 from .link import this_level, this_platform
 from .objects import Objects, kept_folder, objects
-from .targets import Platform
+from .targets import WEB, Platform
 
 TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order
 Addresses = dict[str, int]  # symbol -> address
@@ -83,6 +83,29 @@ def linked_library(
     for name in ("cpu.h", "library.c"):
         parts[name] = (HERE / "c" / name).read_bytes()
     return linked_objects(parts, code, platform, shipped.short(kernel), [TABLE], linker=linker)
+
+
+def web_module(kernel: str) -> bytes:
+    """Return the module of a kernel module for browsers: the one shipped, else linked now."""
+    shown = shipped.library_file(kernel, WEB.name)
+    return shown.read_bytes() if shown else linked_library(kernel, WEB, objects(kernel, [WEB]))
+
+
+def web_functions(kernel: str, names: Iterable[str]) -> dict[str, dict[str, Any]]:
+    """Return for JavaScript: name -> place in the table, words it takes, numbers that come back."""
+    order, found = symbols(kernel), {}
+    for entry in entries(kernel):
+        name = getattr(entry.function, "py_func", entry.function).__name__
+        if name in names:
+            takes = [word for kind in entry.takes for word in _flat(kind)]
+            found[name] = {"place": order.index(entry.symbol), "takes": takes,
+                           "returns": len(entry.returns), "tuple": entry.is_tuple}  # fmt: skip
+    return found
+
+
+def _flat(kind: Kind) -> list[str]:
+    """Return the kinds of an argument's parts: "array", "float", "int" or "bool"."""
+    return [w for part in kind.parts for w in _flat(part)] if kind.parts else [kind.name]
 
 
 def linked_objects(

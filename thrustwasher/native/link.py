@@ -113,7 +113,7 @@ def shared_library(
     note : called with a line of progress before anything that takes long
     """
     output = f"{name}.{platform.extension}"
-    flags = ["-shared", *platform.flags]
+    flags = [*(["-shared"] if platform.format != "WASM" else []), *platform.flags]
     if platform.format == "MachO":
         flags.append(f"-Wl,-install_name,@rpath/{output}")
     return build(files, output, [*flags, *(f"-D{d}" for d in defines)], platform, linker, note)
@@ -125,7 +125,7 @@ def build(
 ) -> bytes:  # fmt: skip
     """Run the compiler in a fresh folder with relative paths only; return the file ``output``."""
     linker = linker or find_linker()
-    if platform.name not in linker.platforms:
+    if not linker.is_cross and platform.name not in linker.platforms:
         raise EnvironmentProblem(
             f"{linker.name} builds for {', '.join(linker.platforms)} only; for {platform.name}: "
             "pip install 'thrustwasher[build]'"

@@ -13,7 +13,7 @@ from typing import Any
 
 from ..errors import EnvironmentProblem
 from . import emit, gate
-from .targets import PLATFORMS, Level, Platform
+from .targets import TARGETS, Level, Platform
 
 
 def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -> bytes:
@@ -26,7 +26,11 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
     if not _takes_attributes():
         level = replace(level, attribute="")
     machine = llvm.Target.from_triple(platform.triple).create_target_machine(
-        cpu=level.cpu, features="", opt=3, reloc="pic", codemodel="default"
+        cpu=level.cpu,
+        features="",
+        opt=3,
+        codemodel="default",
+        reloc="static" if platform.format == "WASM" else "pic",
     )
     module.triple, module.data_layout = platform.triple, str(machine.target_data)
     for function in module.functions:
@@ -94,7 +98,7 @@ def main(arguments: list[str]) -> int:
     bitcode, platform, level, kernel, file = arguments
     settings = Level(**json.loads(level))
     try:
-        code = object_code(Path(bitcode).read_bytes(), PLATFORMS[platform], settings, kernel)
+        code = object_code(Path(bitcode).read_bytes(), TARGETS[platform], settings, kernel)
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
         return emit.SAID

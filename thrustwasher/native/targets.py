@@ -1,4 +1,4 @@
-"""The platforms an FMU is built for, and how hard the compiler works for each: data only.
+"""The platforms an FMU is built for, the browser, and how hard the compiler works: data only.
 
 x86-64 binaries hold the kernels twice and choose by the CPU when they run: "v3" (AVX2, 2013 and
 later) and "v2" (SSE4.2, 2009 and later). The other platforms have one level.
@@ -40,7 +40,7 @@ class Platform:
     triple: str  # for LLVM
     zig: str  # for ziglang
     machine: tuple[str, str]  # platform.system(), platform.machine() where it runs
-    format: str  # ELF, PE or MachO
+    format: str  # ELF, PE, MachO or WASM
     flags: tuple[str, ...]
     libraries: tuple[str, ...]
     levels: tuple[Level, ...]
@@ -89,3 +89,13 @@ PLATFORMS = {
         ),
     )
 }  # fmt: skip
+# Browsers run the same kernels; no FMU does. What JavaScript needs to call them is exported: the
+# table of functions, and where the memory begins that is free.
+WEB = Platform(
+    name="wasm32", fmi2="", fmi3="", extension="wasm", format="WASM",
+    triple="wasm32-unknown-unknown", zig="wasm32-wasi", machine=("Browser", "wasm32"),
+    flags=("-mexec-model=reactor", "-Wl,--export=tw_table", "-Wl,--export=__heap_base",
+           "-Wl,--export-table"),
+    libraries=("-lm",), levels=(_GENERIC,),
+)  # fmt: skip
+TARGETS = {**PLATFORMS, WEB.name: WEB}

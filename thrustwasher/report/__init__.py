@@ -7,5 +7,6 @@
 ``panels``       pictures of a shift over time
 ``shift``        the report of a shift, chapter by chapter
 ``style``        one look for all plots
+``web``          styles and scripts of the pages, and the library they plot with
 ===============  ============================================================
 """

@@ -1,7 +1,9 @@
 """One self-contained page: text, tables and plots in a single file that works offline."""
 
 import base64
+import hashlib
 import io
+import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,16 +14,22 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # who wants the words alone waits for no drawing
     from matplotlib.figure import Figure
 
+WEB = Path(__file__).with_name("web")
+
 
 @dataclass(frozen=True)
 class Plot:
-    """A figure with the sentence below it; ``file`` is the stem of its file beside the page."""
+    """A figure with the sentence below it; ``file`` is the stem of its file beside the page.
+
+    One that is ``still`` stands for what scripts show: it is seen where none run. A bitmap may be
+    given as the content of its file.
+    """
 
     file: str
-    figure: "Figure"
+    figure: "Figure | bytes"
     caption: str
-    square: bool = False
-    bitmap: bool = False  # shaded maps are smaller as pictures than as drawings
+    bitmap: bool = False  # many long lines are smaller as a picture than as a drawing
+    still: bool = False
 
     @property
     def name(self) -> str:
@@ -31,7 +39,11 @@ class Plot:
     @cached_property
     def content(self) -> bytes:
         """The content of the file, which is also what the page shows: drawn once."""
-        return picture(self.figure) if self.bitmap else _drawing(self.figure, self.file).encode()
+        if isinstance(self.figure, bytes):
+            return self.figure
+        if self.bitmap:
+            return picture(self.figure, dpi=110)
+        return _drawing(self.figure, self.file).encode()
 
     @property
     def markup(self) -> Any:
@@ -40,7 +52,9 @@ class Plot:
 
         if self.bitmap:
             data = base64.b64encode(self.content).decode("ascii")
-            return Markup(f'<img alt="" src="data:image/png;base64,{data}">')
+            return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(
+                self.caption, data
+            )
         return Markup(self.content.decode())
 
 
@@ -57,10 +71,11 @@ class Table:
 
 @dataclass(frozen=True)
 class Section:
-    """A chapter of the page."""
+    """A chapter of the page; ``widgets`` are the places that scripts fill."""
 
     anchor: str
     title: str
+    widgets: Sequence[str] = ()
     texts: Sequence[str] = ()
     plots: Sequence[Plot] = ()
     tables: Sequence[Table] = ()
@@ -77,7 +92,7 @@ class Card:
 
 @dataclass(frozen=True, kw_only=True)
 class Page:
-    """Everything the page shows."""
+    """Everything the page shows; ``scripts`` are files of ``web`` that work on ``data``."""
 
     title: str
     subtitle: str
@@ -86,11 +101,33 @@ class Page:
     cards: Sequence[Card]
     sections: Sequence[Section]
     footer: str
+    scripts: Sequence[str] = ()
+    data: Any = None
 
 
 def render(page: Page) -> str:
-    """Return the page as HTML; text is escaped, plots are inside."""
-    return fill_template(Path(__file__).with_name("page.html.jinja"), **vars(page))
+    """Return the page as HTML; text is escaped; plots, scripts and their data are inside.
+
+    Its content policy lets these scripts run, and kernels in a worker of theirs, and lets nothing
+    be fetched from anywhere.
+    """
+    from markupsafe import Markup
+
+    names = ("page.css", *(name for name in page.scripts if name.endswith(".css")))
+    codes = [_web(name) for name in ("page.js", *page.scripts) if name.endswith(".js")]
+    sums = [base64.b64encode(hashlib.sha256(code.encode()).digest()).decode() for code in codes]
+    return fill_template(
+        Path(__file__).with_name("page.html.jinja"),
+        **{**vars(page), "scripts": [Markup(code) for code in codes]},
+        policy=" ".join(f"'sha256-{one}'" for one in sums),
+        styles=[Markup(_web(name)) for name in names],
+        notice=_web("vendor/LICENSE-uPlot.txt") if any("uPlot" in n for n in page.scripts) else "",
+        json=Markup(json.dumps(page.data, separators=(",", ":")).replace("<", r"\u003c")),
+    )
+
+
+def _web(name: str) -> str:
+    return (WEB / name).read_text("utf-8")
 
 
 def fill_template(path: Path, **values: Any) -> str:

@@ -71,6 +71,7 @@ MODEL = Model(
         },
         without="load",
     ),
+    explore="thrustwasher.explore.washer_page:VIEW",
     remark="thrustwasher.shift.thermal_need:thermal_need",
     wiring=(
         "The model is quasi-steady: the step only decides how finely the inputs are followed.",

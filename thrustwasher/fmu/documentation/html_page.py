@@ -52,7 +52,7 @@ def page(
         statuses=[(str(int(s)), s.name, "failure" if s.is_failure else "advice" if s else "-",
                    s.advice) for s in sorted(Status)],
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
-        accuracy=accuracy(spec), equations=_equations(folder),
+        accuracy=accuracy(spec), equations=equations(folder),
         licences=listed_licences(target, platforms),
     ).decode()  # fmt: skip
 
@@ -106,7 +106,8 @@ def _of_map(spec: ModelSpec) -> Rows:
              "x".join(map(str, card.get("checked_on", ()))) + " nodes")]  # fmt: skip
 
 
-def _equations(folder: Path) -> str:
+def equations(folder: Path) -> str:
+    """Return what the model's own page says, without its title, as HTML."""
     file = folder / "readme.md"
     readme = file.read_text("utf-8") if file.is_file() else ""
     title, _, rest = readme.partition("\n")

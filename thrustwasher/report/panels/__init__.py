@@ -1,10 +1,7 @@
-"""Pictures of a shift over time.
+"""Pictures of shifts over time.
 
-==================  ===============================================================
-``contact_panels``  what happens in the contacts: oil films, friction, tooth stress
-``motion_panels``   speeds, torques, pressures, jerk, temperatures, energy
-``panel_base``      what all panels share: lines, phases, events
-``sequence_plot``   several shifts: temperatures of oil and packs, speeds
-``shift_plots``     one figure per question, made of panels
-==================  ===============================================================
+=================  =======================================================
+``overview_plot``  a shift in one picture: speeds, torques, film ratios
+``sequence_plot``  several shifts: temperatures of oil and packs, speeds
+=================  =======================================================
 """

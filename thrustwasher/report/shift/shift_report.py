@@ -1,44 +1,52 @@
 """The report of a shift: what was simulated, what came out, how far to trust it."""
 
-from typing import Any
-
-from matplotlib.figure import Figure
-
 from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
-from ..model_plots.washer_plots import field_figure
-from ..panels import shift_plots
+from ..panels.overview_plot import overview_figure
 from . import shift_tables, summary
+from .live_washer import live_washer
+from .shift_data import page_data, run_data, slip_of
 from .shift_record import Record
 from .summary import paragraphs
 from .usual import beside, usual_table
 from .worst_moments import Moment, highest, solve_moment, worst_film
 
-SHORT = 0.25  # a shift that takes less of the run than this is drawn enlarged as well
+SCRIPTS = (
+    "vendor/uPlot.min.css", "vendor/uPlot.iife.min.js", "shift/shift.css",
+    *(f"shift/{name}.js" for name in
+      ("decode", "page_parts", "controls", "plots", "flow", "live", "discs", "slip", "start")),
+)  # fmt: skip
+OVERVIEW_CAPTION = (
+    "Speeds, torques and film ratios of the shift. Shaded: its phases; dotted and numbered: what "
+    "happened when. Above a film ratio of 3 the oil carries, below 1 the asperities do."
+)
+ENERGY_TEXT = "Integrated by the driveline itself inside its steps."
+FRICTION_TEXT = (
+    "The mean is torque over time by load, mean radius and faces over time: under constant load "
+    "the harmonic mean over speed, which a braking time measures."
+)
+HEAT_TEXT = (
+    "Where the heat went: what is made is stored or given to the oil. What was stored is below "
+    "zero where a part ends cooler than it began. The rest is what a part without account stores, "
+    "and the error of adding up over steps."
+)
 
 
 def shift_page(record: Record) -> Page:
     """Return the whole report of a finished shift."""
     sections = [
         *_usual_sections(record),
-        *_course_sections(record),
-        *_drawn("comfort", "What passengers feel", shift_plots.comfort_figure(record),
-                COMFORT_CAPTION),
-        *_drawn("actuation", "What presses the packs", shift_plots.actuation_figure(record),
-                ACTUATION_CAPTION),
-        *_drawn("temperatures", "Temperatures", shift_plots.temperature_figure(record),
-                *paragraphs("temperatures", record)),
-        *_drawn("films", "Film ratios", shift_plots.film_figure(record), FILM_CAPTION,
-                "film_ratios"),
+        Section(
+            "course", "The shift over time", texts=paragraphs("temperatures", record),
+            widgets=["plots"], tables=[shift_tables.phase_table(record)],
+            plots=[Plot("overview", overview_figure(record), OVERVIEW_CAPTION, bitmap=True,
+                        still=True)],
+        ),
         *_friction_sections(record),
         *_judder_sections(record),
         *_washer_sections(record),
-        *_drawn("stress", "The gear teeth", shift_plots.stress_figure(record),
-                SAFETY_CAPTION if record.rated_teeth else STRESS_CAPTION, "tooth_stress"),
-        *_drawn("energy", "Energy", shift_plots.energy_figure(record), ENERGY_CAPTION,
-                tables=[shift_tables.energy_table(record)]),
-        *_drawn("heat", "Where the heat went", shift_plots.heat_figure(record), HEAT_CAPTION,
-                tables=[shift_tables.heat_table(record)]),
+        Section("energy", "Energy", texts=[ENERGY_TEXT, HEAT_TEXT], widgets=["flow"],
+                tables=[shift_tables.energy_table(record), shift_tables.heat_table(record)]),
         Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
         *rung_sections(record),
         Section("cost", "Time spent", texts=paragraphs("cost", record),
@@ -60,74 +68,17 @@ def shift_page(record: Record) -> Page:
         sections=sections,
         footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
         "thrustwasher shift --json.",
+        scripts=SCRIPTS,
+        data={**page_data([run_data(record, _moments(record))]), "washer": live_washer(record)},
     )
 
 
-SPEED_CAPTION = "Shaded: the phases of the shift. Dotted and numbered: what happened when."
-TORQUE_CAPTION = (
-    "A pack that is stuck transmits what the balance needs, which is less than it could hold."
-)
-ENERGY_CAPTION = "Integrated by the driveline itself inside its steps."
-FRICTION_CAPTION = (
-    "The mean is torque over time by load, mean radius and faces over time: under constant load "
-    "the harmonic mean over speed, which a braking time measures."
-)
-LOAD_CAPTION = (
-    "The helical planets' tilting couple presses the washers; where the red area begins, "
-    "asperities touch."
-)
-FILM_CAPTION = (
-    "Film thickness over the combined roughness. Above 3 the oil carries, below 1 the "
-    "asperities do. Values below the axis are drawn on its lower end."
-)
-STRESS_CAPTION = (
-    "Contact stress and thermal stress together, each over what the steel endures; at 1 its "
-    "endurance limit is reached."
-)
-SAFETY_CAPTION = (
-    "While the teeth turn. At 1 the limit of the calculation is reached. How much film keeps off "
-    "micropitting is the user's to give: permissible_film_ratio."
-)
-COMFORT_CAPTION = "Positive: the vehicle speeds up. Every step of acceleration is felt as jerk."
-ACTUATION_CAPTION = "A piston presses above its spring. Slip is the difference of a pack's lines."
-HEAT_CAPTION = (
-    "Both areas together reach the dashed line if no joule is lost. What was stored is below zero "
-    "where a part ends cooler than it began. The rest is what a part without account stores, and "
-    "the error of adding up over steps."
-)
 TITLES = {
     "physical": "Judder",
     "decaying": "A swing of the shaft that decays",
     "numerical": "A swing of the shaft made by the communication step",
     "unexplained": "A swing of the shaft",
 }
-
-
-def _drawn(
-    anchor: str, title: str, figure: Figure | None, caption: str, file: str = "", **more: Any
-) -> list[Section]:
-    """Return a section of one figure, if there is something to draw."""
-    if figure is None:
-        return []
-    return [Section(anchor, title, plots=[Plot(file or anchor, figure, caption)], **more)]
-
-
-def _course_sections(record: Record) -> list[Section]:
-    """Return speeds and torques; a shift that is short within the run also enlarged."""
-    speeds = [Plot("speeds", shift_plots.speed_figure(record), SPEED_CAPTION)]
-    torques = [Plot("torques", shift_plots.torque_figure(record), TORQUE_CAPTION)]
-    lock, first, last = record.figures["lock_time"], record.time[0], record.time[-1]
-    if lock is not None and lock - record.ramp_start < SHORT * (last - first):
-        taken = lock - record.ramp_start
-        part = record.window(record.ramp_start - 0.3 * taken, lock + 0.6 * taken)
-        caption = "The shift itself, enlarged."
-        speeds.append(Plot("speeds_enlarged", shift_plots.speed_figure(part), caption))
-        torques.append(Plot("torques_enlarged", shift_plots.torque_figure(part), caption))
-    phases = shift_tables.phase_table(record)
-    return [
-        Section("speeds", "Speeds", plots=speeds, tables=[phases]),
-        Section("torques", "Torques", plots=torques),
-    ]
 
 
 def _usual_sections(record: Record) -> list[Section]:
@@ -166,13 +117,13 @@ def _cards(record: Record) -> list[Card]:
 
 
 def _friction_sections(record: Record) -> list[Section]:
-    """Return friction against slip, and what the scene's source says beside this run."""
-    figure, title = shift_plots.friction_figure(record), f"Friction of the {record.engaging}"
+    """Return friction over slip where it changes, and what the scene's source says beside it."""
+    title, widgets = f"Friction of the {record.engaging}", ["slip"] if slip_of(record) else []
     if not record.published:
-        return _drawn("friction", title, figure, FRICTION_CAPTION)
+        return [Section("friction", title, widgets, [FRICTION_TEXT])] if widgets else []
     return [Section(
-        "friction", f"{title}, published and computed", texts=[f"Published: {record.source}."],
-        plots=[] if figure is None else [Plot("friction", figure, FRICTION_CAPTION)],
+        "friction", f"{title}, published and computed", widgets,
+        texts=[f"Published: {record.source}.", FRICTION_TEXT],
         tables=[shift_tables.published_table(record)],
     )]  # fmt: skip
 
@@ -181,11 +132,8 @@ def _judder_sections(record: Record) -> list[Section]:
     """Return how the output shaft swings while a pack slips, and why."""
     if record.judder is None:
         return []
-    caption = "Between the dashed lines the swing was small enough to judge its growth."
-    return _drawn(
-        "judder", TITLES[record.judder.kind], shift_plots.judder_figure(record), caption,
-        texts=paragraphs("judder", record), tables=[shift_tables.judder_table(record)],
-    )  # fmt: skip
+    texts, tables = paragraphs("judder", record), [shift_tables.judder_table(record)]
+    return [Section("judder", TITLES[record.judder.kind], texts=texts, tables=tables)]
 
 
 def rung_sections(record: Record) -> list[Section]:
@@ -199,29 +147,18 @@ def rung_sections(record: Record) -> list[Section]:
     return [Section("rungs", "Rungs and their check", texts=texts, tables=tables)]
 
 
+def _moments(record: Record) -> dict[str, Moment | None]:
+    """Return the washer solved again at its worst and at its hottest moment."""
+    found = {
+        "worst moment, least film ratio while turning": worst_film(record),
+        "hottest moment": highest(record, "washer.temperature_max"),
+    }
+    return {words: solve_moment(record, one.time) for words, one in found.items() if one}
+
+
 def _washer_sections(record: Record) -> list[Section]:
-    """Return the washer's load and its fields at the worst and at the hottest moment."""
-    figure = shift_plots.washer_figure(record)
-    if figure is None:
-        return []
-    plots = [Plot("washer_load", figure, LOAD_CAPTION)]
-    for stem, words, extreme in (
-        ("washer_worst", "Worst moment: least film ratio while turning", worst_film(record)),
-        ("washer_hottest", "Hottest moment", highest(record, "washer.temperature_max")),
-    ):
-        moment = None if extreme is None else solve_moment(record, extreme.time)
-        if moment is not None:
-            plots.append(_moment_plot(stem, words, moment))
+    """Return the washer's fields, and the range of its heat, oil and hold."""
     table = shift_tables.washer_table(record)
-    return [Section("washer", "The thrust washer", plots=plots, tables=[table] if table else [])]
-
-
-def _moment_plot(stem: str, words: str, moment: Moment) -> Plot:
-    """Return the fields at one moment; the caption says they were solved again."""
-    heading = f"{words.partition(':')[0]}, t = {moment.time:.4g} s"
-    caption = (
-        f"{words}. Solved again at the inputs recorded at {moment.time:.4g} s: film ratio "
-        f"{moment.result.film_ratio:.4g}, in the run it was {moment.recorded_film_ratio:.4g}."
+    return (
+        [Section("washer", "The thrust washer", widgets=["discs"], tables=[table])] if table else []
     )
-    figure = field_figure(moment.result, moment.point, words=heading)
-    return Plot(stem, figure, caption, square=True, bitmap=True)

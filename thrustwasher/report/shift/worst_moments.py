@@ -7,7 +7,7 @@ import numpy as np
 from ...errors import ParameterError, SolveError
 from ...model.record import resolve
 from ...model.registry import models_with_points
-from .shift_record import Array, Record
+from .shift_record import Array, Part, Record
 
 TURNING = 1.0  # [rad/s] a washer slower than this needs no film
 FILM_SPEED = 10.0  # [rad/s] below, film vanishes with speed and its least value says nothing
@@ -72,6 +72,12 @@ class Moment(NamedTuple):
     recorded_film_ratio: float
 
 
+def rung_with_fields(part: Part) -> str:
+    """Return the washer's rung if it leaves maps, else its usual one."""
+    rung = part.parameters.get("fidelity")
+    return str(rung) if rung in WITH_FIELDS else part.spec.default_fidelity
+
+
 def solve_moment(record: Record, time: float) -> Moment | None:
     """Return the washer at ``time``; None if the scene has none or no solution is found.
 
@@ -82,9 +88,8 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     model = models_with_points().get(part.spec.key) if part else None
     if part is None or recorded is None or model is None or model.command is None:
         return None
-    rung = part.parameters.get("fidelity")
-    fidelity = rung if rung in WITH_FIELDS else part.spec.default_fidelity
-    solve, params = resolve(model.command.solve), part.params()
+    fidelity, params = rung_with_fields(part), part.params()
+    solve = resolve(model.command.solve)
     point = {s.name: record.at(f"washer.{s.name}", time) or 0.0 for s in part.spec.inputs}
     point["load"] = max(point["load"], LEAST_LOAD)
     found = []

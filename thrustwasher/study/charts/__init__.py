@@ -9,7 +9,7 @@
 ``corrections_page``  What the corrections of the physics moved: figures before and after
 ``gearmesh_chart``    The chart of the gear mesh: its operating points
 ``methods``           Methods to solve a model that can be measured
-``stability_page``    Where methods fail, as a page of Markdown and as a map of coloured cells
+``stability_page``    Where methods fail, as a page of Markdown
 ``washer_chart``      The chart of the washer: points on both branches, meshes
 ``work_precision``    Work-precision: error and cost of methods on the same cases, by the same clock
 ====================  ============================================================================

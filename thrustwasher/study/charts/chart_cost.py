@@ -1,12 +1,15 @@
 """Error against cost: every way a model can be solved, on logarithmic axes."""
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from ...report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
 from ...report.style import label, legend_below, new_figure, note_at_right, styled
@@ -20,7 +23,21 @@ WORDS = {
     "end_temperature": "interface temperature at the end",
 }  # fmt: skip
 SIDE_BY_SIDE = 3  # names in a row of the legend
+# Names of marks, in points:
+SIZE = 7.5  # points
+WIDE, TALL = 0.62 * SIZE, 1.2 * SIZE  # of a letter and of a line, in points
+MARK = 3.5  # half of a mark, in points
+FAR = (4.0, 12.0, 22.0, 34.0)  # from the mark, in points; from the second on a line leads to it
 Sampled = Mapping[str, Any]
+
+
+class Label(NamedTuple):
+    """A name, its place in data, its colour."""
+
+    x: float
+    y: float
+    text: str
+    colour: str
 
 
 @styled
@@ -68,6 +85,10 @@ def draw_samples(
     more = 0.5 * (wide - decades)  # and room for words beside the marks
     axes.set_xlim(min(costs) / 10.0 ** (more + 0.06 * wide),
                   max(costs) * 10.0 ** (more + 0.12 * wide))  # fmt: skip
+    labels: list[Label] = []
+    if 0.8 < wide < 2.0:  # as many numbers as there is room for
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+        axes.xaxis.set_minor_formatter(NullFormatter())
     families = list(dict.fromkeys(s["family"] for s in samples))
     free = RIVALS if set(families) & set(COLOURS) else (BLUE, SKY, *RIVALS)
     rivals = iter(free * 4)
@@ -75,13 +96,17 @@ def draw_samples(
         members = [s for s in known if s["family"] == family]
         colour = COLOURS.get(family) or next(rivals)
         if members:
-            _draw_family(axes, family, members, name, cost, spread, colour, low)
+            labels += _draw_family(axes, family, members, name, cost, spread, colour, low)
     best = staircase(samples, front, name)
     axes.step([s[cost] for s in best], [max(s["errors"][name]["worst"], low) for s in best],
               where="post", color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
               zorder=1)  # fmt: skip
     if crosses:
         _draw_failures(axes, samples, cost)
+    kinds = ("worst", "rms")
+    place_labels(
+        axes, labels, [(s[cost], max(s["errors"][name][k], low)) for s in known for k in kinds]
+    )
 
 
 def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -> float:
@@ -99,8 +124,11 @@ def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -
 def _draw_family(
     axes: Axes, family: str, members: Sequence[Sampled], name: str, cost: str, spread: str | None,
     colour: str, low: float,
-) -> None:  # fmt: skip
-    """Draw one line in the order of its knob; rungs are no line, they are named."""
+) -> list[Label]:  # fmt: skip
+    """Draw one line in the order of its knob; return what is to be named.
+
+    Rungs are no line. The marks of the worst case are found in the drawing by ``mark_of``.
+    """
     x = np.array([s[cost] for s in members])
     joined = "" if family == "rungs" else "-"
     single = all(s["errors"][name]["rms"] == s["errors"][name]["worst"] for s in members)
@@ -108,15 +136,18 @@ def _draw_family(
         y = np.maximum([s["errors"][name][kind] for s in members], low)
         axes.plot(x, y, ls=joined, marker="o" if family != "rungs" else "D", ms=5, color=colour,
                   mfc=fill, lw=1.2 if kind == "worst" else 0.7, zorder=3,
-                  label=f"{family}: worst, hollow rms" if kind == "worst" else None)  # fmt: skip
+                  label=f"{family}: worst, hollow rms" if kind == "worst" else None,
+                  gid=mark_of(name, family) if kind == "worst" else None)  # fmt: skip
         if spread and kind == "worst":
             axes.errorbar(x, y, xerr=[0.5 * (s[spread] or 0.0) for s in members], fmt="none",
                           ecolor=colour, elinewidth=0.9, zorder=2)  # fmt: skip
     shown = members if len(members) < 5 or not single else (members[0], members[-1])
-    for s in shown:
-        text = s["value"]
-        axes.annotate(text, (s[cost], max(s["errors"][name]["worst"], low)), (4, 4), fontsize=7.5,
-                      textcoords="offset points", color=colour)  # fmt: skip
+    return [Label(s[cost], max(s["errors"][name]["worst"], low), s["value"], colour) for s in shown]
+
+
+def mark_of(quantity: str, family: str) -> str:
+    """Return the identifier of a family's marks in the panel of a quantity."""
+    return re.sub(r"\W+", "-", f"{quantity} {family}")
 
 
 def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
@@ -160,3 +191,41 @@ def count_figure(model: str, survey: Mapping[str, Any]) -> Figure:
         words = WORDS.get(quantity["name"], quantity["name"])
         label(axes, f"{model}: {words}", f"{group} per case", "error")
     return figure
+
+
+def place_labels(axes: Axes, labels: Sequence[Label], marks: Sequence[tuple[float, float]]) -> None:
+    """Write the labels where they cover neither each other nor marks; limits must be final.
+
+    One that finds no place is left out: the page tells it of the point.
+    """
+    scale = 72.0 / axes.figure.dpi
+    at = axes.transData.transform
+    frame = scale * np.array(axes.get_window_extent().extents)
+    around = np.array([-MARK, -MARK, MARK, MARK])
+    taken = [np.tile(scale * at(mark), 2) + around for mark in marks]
+    for one in labels:
+        spot = scale * at((one.x, one.y))
+        size = np.array([WIDE * len(one.text), TALL])
+        for far, corner in _corners(size):
+            box = np.concatenate((spot + corner, spot + corner + size))
+            inside = np.all(box[:2] >= frame[:2]) and np.all(box[2:] <= frame[2:])
+            if inside and not any(_overlap(box, other) for other in taken):
+                taken.append(box)
+                line: Any = {"arrowstyle": "-", "lw": 0.5, "color": one.colour, "shrinkB": 3.0}
+                axes.annotate(
+                    one.text, (one.x, one.y), corner, textcoords="offset points",
+                    fontsize=SIZE, color=one.colour, arrowprops=line if far > FAR[0] else None,
+                )  # fmt: skip
+                break
+
+
+def _corners(size: Any) -> Iterator[tuple[float, Any]]:
+    """Yield distances and where a label's lower left corner may lie, near places first."""
+    wide, tall = size
+    for far, (right, up) in product(FAR, ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1))):
+        across = far if right > 0 else -0.5 * wide if right == 0 else -far - wide
+        yield far, np.array([across, far if up > 0 else -far - tall])
+
+
+def _overlap(a: Any, b: Any) -> bool:
+    return bool(np.all(a[:2] < b[2:]) and np.all(b[:2] < a[2:]))

@@ -4,13 +4,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ...model.registry import find_spec
 from ...report.html import Page, Plot, Section, Table, fill_template
 from . import chart_text as text
-from .chart_cost import cost_figure, count_figure, steps_figure
+from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
 from .corrections_page import corrections_section
-from .stability_page import stability_figure
+from .stability_page import WORDS
 
 TITLE = "Speed against accuracy"
+SCRIPTS = ("chart/chart.css", "chart/chart.js")
 HOW = (
     "Errors are measured against converged values on a fixed list of operating points with the "
     "hard corners in it, times on warm calls one per cent away; filled marks are the worst case, "
@@ -44,12 +46,51 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
         f"Each cell was run: {lies} of {len(rows)} answers are wrong and come without a word. "
         "Most methods are small ones written for this map; the package's own are named so."
     )
-    caption = "A method that says that it failed is worth more than one that does not know."
-    return Section(
-        "stability", "Where methods fail", texts=[words],
-        plots=[Plot("chart-stability", stability_figure(groups), caption)],
-        tables=[Table(heads, rows, title="All cells", folded=True)],
-    )  # fmt: skip
+    return Section("stability", "Where methods fail", widgets=["map"], texts=[words],
+                   tables=[Table(heads, rows, title="All cells", folded=True)])  # fmt: skip
+
+
+def _points(study: Mapping[str, Any], model: str = "") -> dict[str, list[list[str]]]:
+    """Return the words of every mark in a study's drawing: way, errors, worst case, command."""
+    found: dict[str, list[list[str]]] = {}
+    for q in study["quantities"]:
+        for s in study["samples"]:
+            errors = s["errors"].get(q["name"], {})
+            if s["call_median"] and errors.get("worst") is not None:
+                words = [
+                    f"{s['family']}: {s['label']}",
+                    f"{q['name']}: worst {text.error_text(errors['worst'], q)}, rms "
+                    f"{text.error_text(errors['rms'], q)}",
+                    f"{text.seconds(s['call_median'])} a call, fails in {s['n_failed']} of "
+                    f"{s['n_cases']} cases",
+                ]
+                words += [f"worst case: {errors['case']}"] if errors["case"] else []
+                words += [_command(study, model, s, errors["case"])] if model else []
+                found.setdefault(mark_of(q["name"], s["family"]), []).append(words)
+    return found
+
+
+def _command(study: Mapping[str, Any], model: str, sample: Mapping[str, Any], worst: str) -> str:
+    """Return the command that solves the worst case this way; else the one that measured it."""
+    spec, option = find_spec(model), {"rung": "--fidelity", "grid": "--grid"}.get(sample["knob"])
+    case = next((c for c in study["cases"] if c["name"] == worst), None)
+    if case is None or option is None or len(case["point"]) != len(spec.inputs) or case["before"]:
+        return "command: thrustwasher chart"
+    point = " ".join(
+        f"--{signal.name.replace('_', '-')} {value:g}"
+        for signal, value in zip(spec.inputs, case["point"], strict=True)
+    )
+    return f"command: thrustwasher {model} {point} {option} {sample['value']}"
+
+
+def _data(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the page's script tells of marks and cells."""
+    points: dict[str, Any] = {}
+    for model, survey in record["models"].items():
+        points[f"chart-{model}"] = points[f"chart-{model}-count"] = _points(survey, model)
+    if "macro_steps" in record:
+        points["chart-shift"] = _points(record["macro_steps"])
+    return {"points": points, "stability": record.get("stability", []), "verdicts": WORDS}
 
 
 def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Section:
@@ -119,6 +160,8 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
         cards=[],
         sections=sections(record, fronts),
         footer=text.machine_sentence(record),
+        scripts=SCRIPTS,
+        data=_data(record),
     )
 
 

@@ -1,0 +1,155 @@
+"""The pages as a reader meets them: size, time to write, to open, to follow what is moved.
+
+``python benchmarks/pages.py [--step "0.13 ms"]`` runs the default scene, by this step 10 000 of
+them, and drives its report and the pages to explore in Chromium. With ``--pictures docs/images``
+it only writes the documentation's pictures of them.
+"""
+
+import argparse
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+MODELS = ("washer", "gearmesh", "clutch")
+RUNS, FRAMES, UPDATES = 5, 120, 200
+SIZE = {"width": 1200, "height": 900}
+REPORT, EXPLORE = "#now:not(:empty)", "html[data-settled]"  # there is something to explore
+# The time from one painted frame to the next while something moves in each.
+PACE = """async ([what, frames]) => {
+  const { time } = Plots.state;
+  const [first, last] = [time[0], time[time.length - 1]];
+  const act = {
+    cursor: (k) => Plots.moveTo(Math.floor((time.length - 1) * k)),
+    zoom: (k) => Plots.zoom(first, last - 0.8 * k * (last - first)),
+  }[what];
+  const taken = [];
+  let before = performance.now();
+  for (let k = 0; k < frames; k++) {
+    act(k / frames);
+    await new Promise(requestAnimationFrame);
+    const now = performance.now();
+    taken.push(now - before);
+    before = now;
+  }
+  return taken;
+}"""
+# The time from the question of the page to the worker's answer, the point moved a little each time.
+UPDATE = """async ([task, updates]) => {
+  const taken = [];
+  const point = ABOUT.inputs.map((s) => s.value);
+  for (let k = 0; k < updates; k++) {
+    const moved = [point[0] * (1 + 1e-3 * k), ...point.slice(1)];
+    const given = task === "solve" ? { point: moved, fresh: false, branch: "", extra: state.extra }
+      : { given: [moved, 20, 3000] };
+    const began = performance.now();
+    await new Promise((done) => ask(task, given, done));
+    taken.push(performance.now() - began);
+  }
+  return taken;
+}"""
+
+
+def called(*words: str) -> float:
+    """Return the seconds of wall clock of a whole command."""
+    began = time.perf_counter()
+    subprocess.run([sys.executable, "-m", "thrustwasher", *words], check=True, capture_output=True)
+    return time.perf_counter() - began
+
+
+def opened(browser: Browser, path: Path, ready: str) -> tuple[Page, float]:
+    """Return a page and the seconds until it can be explored."""
+    page = browser.new_page(viewport=SIZE)
+    began = time.perf_counter()
+    page.goto(path.as_uri())
+    page.wait_for_selector(ready, state="attached")
+    return page, time.perf_counter() - began
+
+
+def settled(browser: Browser, path: Path, ready: str) -> tuple[Page, float]:
+    """Return a page and the seconds it takes to open, the median of several."""
+    taken = []
+    for k in range(RUNS):
+        page, seconds = opened(browser, path, ready)
+        taken.append(seconds)
+        if k < RUNS - 1:
+            page.close()
+    return page, statistics.median(taken)
+
+
+def measure_report(browser: Browser, folder: Path, step: str) -> None:
+    words = ["shift", "--out", str(folder), *(["--step", step] if step else [])]
+    taken = [called(*words) for _ in range(RUNS + 1)][1:]
+    report = folder / "report.html"
+    print(f"report: written in {statistics.median(taken):.2f} s (least {min(taken):.2f} s) with "
+          f"its run, {report.stat().st_size / 1e6:.2f} MB")  # fmt: skip
+    page, seconds = settled(browser, report, REPORT)
+    print(f"  open and interactive after {seconds:.2f} s")
+    page.evaluate("() => document.getElementById('plots').scrollIntoView()")
+    page.wait_for_selector(".u-over")
+    print(f"  {page.evaluate('Plots.state.time.length')} points")
+    for what in ("cursor", "zoom"):
+        pace = sorted(page.evaluate(PACE, [what, FRAMES]))
+        print(f"  {what}: {1e3 / statistics.median(pace):.0f} frames a second, "
+              f"{1e3 / pace[int(0.95 * FRAMES)]:.0f} in the slowest twentieth")  # fmt: skip
+
+
+def measure_explore(browser: Browser, folder: Path, model: str) -> None:
+    path = folder / f"{model}.html"
+    called("explore", model, "--out", str(path))
+    page, seconds = settled(browser, path, EXPLORE)
+    page.wait_for_timeout(1000)  # until its curves are drawn
+    print(f"{model}: {path.stat().st_size / 1e6:.2f} MB, first result "
+          f"{seconds:.2f} s after opening")  # fmt: skip
+    taken = sorted(page.evaluate(UPDATE, ["solve", UPDATES]))
+    print(f"  an update takes {statistics.median(taken):.2f} ms, one of twenty over "
+          f"{taken[int(0.95 * UPDATES)]:.2f} ms")  # fmt: skip
+    if model == "washer":
+        curves = page.evaluate(UPDATE, ["curve", RUNS])
+        print(f"  its load curve {statistics.median(curves) / 1e3:.2f} s")
+    page.close()
+
+
+def draw(browser: Browser, folder: Path, images: Path) -> None:
+    """Write the documentation's pictures."""
+    called("shift", "--out", str(folder / "report"))
+    page, _ = opened(browser, folder / "report" / "report.html", REPORT)
+    page.evaluate("() => document.getElementById('plots').scrollIntoView()")
+    page.wait_for_selector(".u-over")
+    page.evaluate("Plots.moveTo(Math.floor(0.4 * Plots.state.time.length))")
+    page.wait_for_timeout(500)
+    page.screenshot(path=images / "report.png")
+    path = folder / "washer.html"
+    called("explore", "washer", "--out", str(path))
+    page, _ = opened(browser, path, EXPLORE)
+    page.wait_for_timeout(1500)
+    page.screenshot(path=images / "explore.png")
+
+
+def main() -> None:
+    """Measure and print, or draw."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--step", default="", help="communication step, if not the scene's")
+    parser.add_argument("--pictures", metavar="FOLDER", type=Path, help="write pictures there")
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name, sync_playwright() as play:
+        path = shutil.which("chromium")
+        browser = play.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        folder = Path(name) / "pages"
+        folder.mkdir()
+        if given.pictures:
+            draw(browser, folder, given.pictures)
+        else:
+            for model in MODELS:
+                measure_explore(browser, folder, model)
+            measure_report(browser, Path(name) / "report", given.step)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

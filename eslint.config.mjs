@@ -1,0 +1,36 @@
+// The JavaScript of the pages: plain scripts that share a page or, of explore, are joined to one; no build step.
+import js from "@eslint/js";
+
+const browser = ["window", "document", "addEventListener", "matchMedia", "getComputedStyle", "devicePixelRatio",
+  "requestAnimationFrame", "setTimeout", "clearTimeout", "IntersectionObserver", "DecompressionStream", "Blob",
+  "Response", "atob", "innerWidth", "Worker", "URL", "WebAssembly"];
+const here = ["performance", "MessageChannel", "postMessage", "navigator", "location", "history",
+  "ResizeObserver", "getSelection"];
+// explore: what one script declares and another one uses
+const joined = ["ABOUT", "Disc", "Kernel", "Model", "Plot", "VIEW", "allowed", "ask", "axisUnit", "digits", "el", "escaped",
+  "fields", "inputChanged", "last", "pixelsOf", "shown", "state"];
+const shared = ["uPlot", "Runs", "Parts", "Plots", "Controls", "Flow", "Live", "Discs", "Slip"];
+
+const globals = (names, may = "readonly") => Object.fromEntries(names.map((name) => [name, may]));
+const rules = {
+  ...js.configs.recommended.rules,
+  "no-redeclare": ["error", { builtinGlobals: false }],
+  "prefer-const": "error", "no-var": "error", eqeqeq: "error", "no-eval": "error",
+};
+
+export default [
+  { ignores: ["**/vendor/**"] },
+  {
+    files: ["thrustwasher/report/web/{*,shift/*,chart/*}.js"],
+    languageOptions: { sourceType: "script", globals: globals([...browser, ...shared]) },
+    rules: {
+      ...rules, "no-shadow": "error",
+      "no-unused-vars": ["error", { varsIgnorePattern: `^(${shared.join("|")})$` }],
+    },
+  },
+  {
+    files: ["thrustwasher/report/web/explore/*.js"],
+    languageOptions: { sourceType: "script", globals: { ...globals([...browser, ...here]), ...globals([...joined, "onmessage"], "writable") } },
+    rules: { ...rules, "no-unused-vars": ["error", { vars: "local" }] },
+  },
+];

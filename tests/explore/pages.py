@@ -1,0 +1,67 @@
+"""Pages made once for all tests, and their workers run by node."""
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from thrustwasher.explore.description import describe, inputs_of
+from thrustwasher.explore.page import page
+from thrustwasher.explore.view import WEB
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.model.part_file import find_part
+from thrustwasher.model.record import resolve
+from thrustwasher.model.registry import find_model
+from thrustwasher.native.library import web_module
+
+HERE = Path(__file__).parent
+MODELS = ("washer", "gearmesh", "clutch")
+node = pytest.mark.skipif(
+    not (shutil.which("node") or os.environ.get("CI")), reason="install the Debian package nodejs"
+)
+
+
+@cache
+def html(model):
+    return page(find_part(model))
+
+
+@cache
+def about(model):
+    """What the page's scripts read."""
+    found = find_model(model)
+    view = resolve(found.explore)
+    point = {s.name: view.usual.get(s.name, s.usual) for s in inputs_of(found, view)}
+    return describe(found, view, find_part(model), point)
+
+
+@cache
+def wasm_file(kernel):
+    file = Path(tempfile.mkdtemp(prefix="wasm")) / "module.wasm"
+    file.write_bytes(web_module(kernel))
+    return file
+
+
+def answers(model, tasks, *, params=None, rung=None):
+    """Return what the worker answers to its tasks, the parameters set first, and the seconds."""
+    spec, view = find_model(model).spec, resolve(find_model(model).explore)
+    module = wasm_file(spec.kernel)
+    numbers = as_numbers(params or spec.params())
+    given = {
+        "scripts": [str(WEB / f"{stem}.js") for stem in ("kernel", view.worker)],
+        "about": about(model)["worker"], "module": str(module),
+        "tasks": [["set", numbers, rung or spec.default_fidelity], *tasks],
+    }  # fmt: skip
+    done = subprocess.run(
+        ["node", str(HERE / "worker_run.js")], input=json.dumps(given), text=True,
+        capture_output=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found[0]["result"] == 0
+    return [a["result"] for a in found[1:]], [a["seconds"] for a in found[1:]]

@@ -1,0 +1,261 @@
+"""The pages in Chromium, opened from the disk: no errors, no requests, the numbers of Python."""
+
+import pytest
+from browser_pages import chromium as launched
+from browser_pages import faults
+from pages import MODELS, html
+
+from thrustwasher import WasherParams, load_curve, solve_gearmesh, solve_washer
+from thrustwasher.gearmesh.parameters import GearMeshParams
+
+pytestmark = pytest.mark.browser
+SAME = 1e-10
+LOOKS = {
+    "light": {},
+    "dark": {"color_scheme": "dark"},
+    "narrow": {"viewport": {"width": 390, "height": 800}},
+}
+POINT = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with launched() as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pages")
+
+    def file(model):
+        path = folder / f"{model}.html"
+        if not path.exists():
+            path.write_text(html(model), "utf-8")
+        return path
+
+    return file
+
+
+class Opened:
+    """A page with all that it said and asked for."""
+
+    def __init__(self, browser, path, address="", **look):
+        self.context = browser.new_context(**look)
+        self.page = self.context.new_page()
+        self.said, self.asked = [], []
+        self.page.on("console", lambda m: self.said.append(m.text))
+        self.page.on("pageerror", lambda e: self.said.append(str(e)))
+        self.page.on("request", lambda r: self.asked.append(r.url))
+        self.page.goto(f"file://{path}{address}")
+        self.page.wait_for_selector("html[data-settled]")
+
+    def settled(self):
+        """Wait until the numbers are those of a fresh solve again."""
+        self.page.wait_for_timeout(250)
+        count = self.number("html", "data-solved")
+        for _ in range(100):
+            self.page.wait_for_timeout(60)
+            now = self.number("html", "data-solved")
+            if now == count:
+                return self
+            count = now
+        raise AssertionError("it never settles")
+
+    def number(self, where, attribute="value"):
+        return float(self.page.get_attribute(where, attribute))
+
+    def figure(self, name):
+        return self.number(f"#{name}")
+
+    def put(self, name, value):
+        self.page.fill(f"#in-{name}", str(value))
+        return self.settled()
+
+
+@pytest.fixture
+def opened(chromium, files):
+    made = []
+
+    def open_(model="washer", address="", **look):
+        made.append(Opened(chromium, files(model), address, **look))
+        return made[-1]
+
+    yield open_
+    for page in made:
+        assert page.said == []
+        assert all(url.startswith(("file:", "blob:")) for url in page.asked)
+        page.context.close()
+
+
+def test_a_page_opens_with_the_numbers_of_python_and_fields_change_them(opened):
+    page = opened()
+    for point in (POINT, POINT | {"load": 500.0}, POINT | {"load": 500.0, "speed": 1200.0}):
+        for name, value in point.items():
+            if float(page.page.input_value(f"#in-{name}")) != value:
+                page.put(name, value)
+        wanted = solve_washer(WasherParams(), **point)
+        for name in ("friction_torque", "temperature", "film_thickness", "oil_flow"):
+            assert page.figure(name) == pytest.approx(getattr(wanted, name), rel=SAME)
+        assert page.page.text_content("#branch") == wanted.branch
+
+
+def test_the_address_is_the_state_and_comes_back(opened):
+    page = opened(address="#load=400&speed=953&tilt=0.002&oil_temperature=310&roughness=4e-7")
+    wanted = solve_washer(
+        WasherParams(roughness=4e-7), load=400.0, speed=953.0, tilt=2e-3, oil_temperature=310.0
+    )
+    assert page.figure("friction_torque") == pytest.approx(wanted.friction_torque, rel=SAME)
+    page.put("load", 450)
+    assert "load=450&" in page.page.url and "roughness=4e-7" in page.page.url
+    again = opened(address=page.page.url[page.page.url.index("#") :])
+    assert again.figure("friction_torque") == page.figure("friction_torque")
+    command = page.page.text_content("#as-command")
+    assert command.startswith("thrustwasher washer --load 450 --speed 953 --tilt 0.002")
+    assert "--set roughness=4e-7" in command
+
+
+def test_the_lines_to_reproduce_it_reproduce_it(opened):
+    page = opened(address="#load=800&speed=545&tilt=0.002&oil_temperature=297.15&branch=contact")
+    space = {"print": lambda *_: None}
+    exec(page.page.text_content("#as-python"), space)
+    assert space["result"].branch == "contact"
+    assert page.figure("friction_torque") == pytest.approx(
+        space["result"].friction_torque, rel=1e-8
+    )
+
+
+def test_the_point_is_dragged_over_the_fold_and_comes_back_on_the_other_branch(opened):
+    page = opened()
+    page.page.wait_for_selector("#film_lost_load")
+    folds = {f.kind: f.load for f in load_curve(WasherParams(), speed=545.0, tilt=2e-3).folds}
+    for kind, load in folds.items():
+        assert page.figure(f"{kind}_load") == pytest.approx(load, rel=1e-8)
+    plot = page.page.locator("svg").first
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    handle = plot.locator(".handle").bounding_box()
+    y = handle["y"] + handle["height"] / 2
+    page.page.mouse.move(handle["x"] + 8, y)
+    page.page.mouse.down()
+    branches = []
+    for share in (0.6, 0.7, 0.8, 0.9, 0.8, 0.75, 0.7):
+        page.page.mouse.move(box["x"] + 62 + share * (box["width"] - 74), y, steps=8)
+        page.page.wait_for_timeout(150)
+        load = float(page.page.input_value("#in-load"))
+        branches.append((load, page.page.text_content("#branch")))
+    page.page.mouse.up()
+    page.settled()
+    seen = dict(branches)
+    assert all(b == "contact" for load, b in branches if load > folds["film_lost"] * 1.02)
+    assert all(b == "film" for load, b in branches[:2] if load < folds["film_lost"])
+    assert page.page.get_attribute("#state", "class") != "problem"
+    between = [b for load, b in branches[4:] if folds["film_regained"] < load < folds["film_lost"]]
+    assert between and set(between) == {"contact"}, seen
+    assert "branch=contact" in page.page.url
+
+
+def test_arrow_keys_move_the_point(opened):
+    page = opened()
+    before = float(page.page.input_value("#in-load"))
+    page.page.locator("svg .handle").first.focus()
+    for _ in range(3):
+        page.page.keyboard.press("ArrowRight")
+    page.settled()
+    assert float(page.page.input_value("#in-load")) > before
+
+
+@pytest.mark.parametrize("bad", ["20000", "-5", "", "abc", "1e400", "NaN"])
+def test_a_bad_value_is_marked_with_its_range_and_the_last_good_result_stays(opened, bad):
+    page = opened()
+    before = page.figure("friction_torque")
+    page.put("load", bad)
+    assert page.page.get_attribute("#in-load", "aria-invalid") == "true"
+    assert page.page.text_content("#in-load-error").endswith("allowed: 1 .. 10000 N")
+    assert page.figure("friction_torque") == before
+    page.put("load", 310)
+    assert page.page.get_attribute("#in-load", "aria-invalid") == "false"
+    assert page.figure("friction_torque") != before
+
+
+def test_parameters_that_contradict_each_other_are_told(opened):
+    page = opened()
+    before = page.figure("friction_torque")
+    page.page.click("text=All other parameters")
+    page.put("gear_inner_radius", 0.03)
+    said = page.page.text_content("#state")
+    assert said.startswith("gear_inner_radius = 0.03 m, allowed: between inner_radius 0.0111")
+    assert page.figure("friction_torque") == before
+    page.put("gear_inner_radius", 0.015)
+    assert page.figure("friction_torque") != before
+
+
+def test_a_branch_that_is_not_there_is_told_in_words(opened):
+    page = opened(address="#load=300&branch=contact")
+    assert "The contact branch has no solution here" in page.page.text_content("#state")
+
+
+def test_without_webassembly_values_and_pictures_of_the_start_are_shown(chromium, files):
+    page = chromium.new_page()
+    page.add_init_script("delete globalThis.WebAssembly")
+    page.goto(f"file://{files('washer')}")
+    assert "no WebAssembly" in page.text_content("#state")
+    assert page.locator("#still img").count() == 2 and page.locator("#still img").first.is_visible()
+    assert not page.is_visible("#controls")
+    wanted = solve_washer(WasherParams(), **POINT)
+    shown = float(page.get_attribute("#friction_torque", "value"))
+    assert shown == wanted.friction_torque
+
+
+def test_the_gear_mesh_follows_its_inputs(opened):
+    page = opened("gearmesh")
+    page.put("power", 20000)
+    wanted = solve_gearmesh(GearMeshParams(), power=20e3, speed=180.0)
+    for name in ("friction_torque", "scuffing_safety", "surface_temperature"):
+        assert page.figure(name) == pytest.approx(getattr(wanted, name), rel=SAME)
+
+
+def test_a_ramp_is_drawn_and_the_engagement_follows(opened):
+    page = opened("clutch")
+    before = page.figure("energy")
+    command = page.page.text_content("#as-command")
+    assert command.startswith("thrustwasher engage --load 5000 --ramp 0.125 --duration 0.5")
+    handle = page.page.locator("svg .handle").nth(8)
+    handle.focus()
+    for _ in range(5):
+        page.page.keyboard.press("ArrowDown")
+    page.settled()
+    assert "ramp=" in page.page.url
+    assert page.page.text_content("#as-command").startswith("The command knows straight ramps")
+    space = {"print": lambda *_: None}
+    exec(page.page.text_content("#as-python"), space)
+    most = max(space["result"].friction_torque, key=abs)
+    assert page.figure("friction_torque_max") == pytest.approx(most, rel=1e-9)
+    assert before != page.figure("energy")
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
+def test_an_automated_check_of_access_finds_nothing_serious(opened, model, look):
+    assert faults(opened(model, **look).page) == []
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
+def test_nothing_is_wider_than_the_screen_and_all_fields_have_names(opened, model, look):
+    page = opened(model, **look)
+    wide = page.page.evaluate_handle("document.documentElement").get_property("scrollWidth")
+    assert wide.json_value() <= page.page.viewport_size["width"]
+    for field in page.page.locator("input, select, button").all():
+        named = field.get_attribute("aria-label") or field.get_attribute("id")
+        label = page.page.locator(f"label[for='{field.get_attribute('id')}']").count()
+        assert field.get_attribute("aria-label") or label or field.text_content(), named
+
+
+def test_back_to_the_start_takes_everything_back(opened):
+    page = opened("clutch", "#speed=50&duration=1&faces=6&ramp=[0,1,2,3,4,5,6,7,8]")
+    assert page.page.input_value("#in-faces") == "6" and "ramp=%5B0%2C1" in page.page.url
+    page.page.click("#reset")
+    page.settled()
+    assert page.page.input_value("#in-faces") == "4" and page.page.input_value("#in-speed") == "100"
+    assert "ramp=%5B0%2C2500" in page.page.url

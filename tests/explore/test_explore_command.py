@@ -1,0 +1,122 @@
+"""``thrustwasher explore`` and the file it writes."""
+
+import base64
+import hashlib
+import json
+import re
+from dataclasses import fields
+
+import pytest
+from pages import MODELS, WEB, about, html
+
+from thrustwasher import WasherParams, cli, solve_washer
+from thrustwasher.errors import ParameterError
+from thrustwasher.explore.page import page
+from thrustwasher.model.part_file import find_part
+from thrustwasher.model.record import resolve
+from thrustwasher.model.registry import all_models, find_model
+
+LARGEST = 1_500_000  # bytes of a page
+OUR_LINES = 2500  # of JavaScript in the package
+each = pytest.mark.parametrize("model", MODELS)
+
+
+def test_the_command_writes_a_page(tmp_path, capsys):
+    out = tmp_path / "gears.html"
+    assert cli.main(["explore", "gearmesh", "--out", str(out)]) == 0
+    assert capsys.readouterr().out.startswith(f"{out}: 0.2")
+    assert out.read_text("utf-8").startswith("<!DOCTYPE html>")
+    assert [p.name for p in tmp_path.iterdir()] == ["gears.html"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["washer", "--out", "page.pdf"], "--out page.pdf: allowed: a file that ends in .html"),
+        (["wheel"], "'wheel'"),
+        (["missing.toml"], "missing.toml"),
+        (["washer", "--preset", "gold"], "preset = 'gold', allowed: 'bronze' or 'paper'"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(words, said, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["explore", *words]) == 2
+    err = capsys.readouterr().err
+    assert said in err and err.count("\n") == 1 and list(tmp_path.iterdir()) == []
+
+
+def test_a_model_without_a_page_is_refused():
+    with pytest.raises(ParameterError, match="'sump' has no page to explore"):
+        page(find_part("sump"))
+
+
+@each
+def test_a_page_is_small_and_takes_nothing_from_outside(model):
+    text = html(model)
+    assert len(text.encode()) <= LARGEST
+    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', text)[1].replace("&#39;", "'")
+    assert policy.startswith("default-src 'none';") and "http" not in policy
+    assert "unsafe-inline" not in policy and "'unsafe-eval'" not in policy
+    script, style = (
+        re.search(r"(?s)<script>(.*?)</script>", text),
+        re.search(r"(?s)<style>(.*?)</style>", text),
+    )
+    for found in (script, style):
+        digest = base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode()
+        assert f"'sha256-{digest}'" in policy
+    assert (
+        re.findall(r"""(?:src|href)=["'](?!data:|[\w./-]+\.md)""", text.split("<script")[0]) == []
+    )
+
+
+@each
+def test_units_ranges_and_texts_are_those_of_the_interface(model):
+    spec, told = find_model(model).spec, about(model)
+    listed = [(f["name"], f["unit"], f["min"], f["max"], f["help"]) for f in told["parameters"]]
+    assert listed == [
+        (f.name, *(f.metadata[k] for k in ("unit", "min", "max", "help")))
+        for f in fields(spec.params)
+    ]
+    names = {s.name: s for s in spec.inputs}
+    for given in told["inputs"]:
+        if given["name"] in names:
+            s = names[given["name"]]
+            assert (given["unit"], given["help"], given["max"]) == (s.unit, s.help, s.high)
+    view = resolve(find_model(model).explore)
+    assert {*view.main} <= {f.name for f in fields(spec.params)}
+    assert {*view.figures} <= told["outputs"].keys()
+    assert told["worker"]["functions"].keys() == {*view.calls}
+    assert all((WEB / f"{stem}.js").exists() for stem in (view.worker, view.page))
+
+
+def test_a_page_of_a_part_begins_with_its_values_inside_its_box(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        'model = "washer"\nname = "Mine"\n[parameters]\nroughness = "0.4 um"\n'
+        '[box]\nload = ["50 N", "200 N"]\n'
+    )
+    text = page(find_part(str(file)))
+    told = json.loads(re.search(r'(?s)id="about">(.*?)</script>', text)[1])
+    assert told["given"]["roughness"] == 4e-7 and told["inputs"][0]["value"] == 200.0
+    wanted = solve_washer(WasherParams(roughness=4e-7), load=200.0, speed=545.0, tilt=2e-3)
+    assert f'<data id="friction_torque" value="{wanted.friction_torque!r}">' in text
+
+
+def test_a_page_is_made_the_same_way_twice():
+    assert html("gearmesh") == page(find_part("gearmesh"))
+
+
+def test_a_page_holds_its_equations_and_names_the_other_pages():
+    text = html("washer")
+    assert "<h3>Film</h3>" in text and "average Reynolds equation" in text
+    assert "thrustwasher explore gearmesh" in text and "thrustwasher explore clutch" in text
+    assert "<a " not in text
+
+
+def test_models_with_a_page_are_those_with_a_command():
+    assert {m.key for m in all_models() if m.explore} == {m.key for m in all_models() if m.command}
+
+
+def test_our_javascript_stays_short():
+    files = WEB.parent.rglob("*.js")
+    assert sum(len(f.read_text("utf-8").splitlines()) for f in files) <= OUR_LINES

@@ -1,0 +1,163 @@
+"""The page's worker in node: the numbers of the Python API, to rounding."""
+
+import numpy as np
+import pytest
+from pages import about, answers, node
+
+from thrustwasher import (
+    BranchError,
+    ClutchParams,
+    GearMeshParams,
+    WasherParams,
+    engage_clutch,
+    load_curve,
+    solve_gearmesh,
+    solve_washer,
+)
+from thrustwasher.ladder.card import error_estimate
+
+SAME = 1e-10  # the C libraries differ in the last bit
+BESIDE_FOLDS = 1e-8
+RESULTS = ("friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
+           "friction_coefficient", "oil_flow", "contact_load", "fluid_load")  # fmt: skip
+pytestmark = node
+
+
+def washer_points(n):
+    """Return load, speed, tilt, oil temperature at random."""
+    low, high = np.array([20.0, 50.0, 1e-3, 290.0]), np.array([1850.0, 1400.0, 3e-3, 400.0])
+    share = np.random.default_rng(17).random((n, 4))
+    return (low * (high / low) ** share).tolist()
+
+
+def apart(found, wanted):
+    """Return the largest relative difference of the results."""
+    pairs = [(found[n], getattr(wanted, n)) for n in RESULTS]
+    return max(abs(a - b) / max(abs(b), 1e-6 * wanted.load if b < 1.0 else 1e-12) for a, b in pairs)
+
+
+def test_a_hundred_points_of_the_washer_are_those_of_python():
+    points = washer_points(100)
+    found, _ = answers("washer", [["solve", p, True, ""] for p in points])
+    for point, got in zip(points, found, strict=True):
+        wanted = solve_washer(WasherParams(), **dict(zip(NAMES, point, strict=True)))
+        assert got["code"] == 0 and got["outputs"]["branch"] == wanted.branch
+        beside = got["outputs"]["film_ratio"] < 3.0
+        assert apart(got["outputs"], wanted) <= (BESIDE_FOLDS if beside else SAME), point
+
+
+NAMES = ("load", "speed", "tilt", "oil_temperature")
+
+
+def test_both_folds_are_those_of_load_curve():
+    point = [300.0, 545.0, 2e-3, 297.15]
+    (curve,), _ = answers("washer", [["curve", point, 20.0, 3000.0]])
+    wanted = load_curve(WasherParams(), speed=545.0, tilt=2e-3)
+    assert [f["kind"] for f in curve["folds"]] == ["film_lost", "film_regained"]
+    for got, fold in zip(curve["folds"], wanted.folds, strict=True):
+        for name in ("load", "friction_torque", "temperature", "film_ratio"):
+            assert got[name] == pytest.approx(getattr(fold, name), rel=BESIDE_FOLDS)
+    assert len(curve["points"]) == len(wanted.points)
+    for got, p in zip(curve["points"], wanted.points, strict=True):
+        assert got["branch"] == p.branch
+        assert got["load"] == pytest.approx(p.load, rel=BESIDE_FOLDS)
+
+
+def test_loaded_up_and_down_again_the_washer_takes_the_other_branch():
+    speed = [545.0, 2e-3, 297.15]
+    loads = [*np.linspace(300.0, 1100.0, 9), *np.linspace(1100.0, 500.0, 7)]
+    found, _ = answers("washer", [["solve", [load, *speed], False, ""] for load in loads])
+    seen = {}
+    for load, got in zip(loads, found, strict=True):
+        seen.setdefault(round(load), []).append(got["outputs"]["branch"])
+    assert seen[800] == ["film", "contact"] and seen[500] == ["film", "film"]
+
+
+def test_a_branch_that_is_asked_for_is_kept_fresh_and_its_absence_is_told():
+    point, light = [800.0, 545.0, 2e-3, 297.15], [300.0, 545.0, 2e-3, 297.15]
+    (held, lost), _ = answers(
+        "washer", [["solve", point, True, "contact"], ["solve", light, True, "contact"]]
+    )
+    wanted = solve_washer(WasherParams(), **dict(zip(NAMES, point, strict=True)), branch="contact")
+    assert held["asked"] and apart(held["outputs"], wanted) <= BESIDE_FOLDS
+    with pytest.raises(BranchError):
+        solve_washer(WasherParams(), **dict(zip(NAMES, light, strict=True)), branch="contact")
+    assert lost["missing"] and lost["outputs"]["branch"] == "film"
+
+
+@pytest.mark.parametrize("rung", ["coarse", "field"])
+@pytest.mark.parametrize("conduction", ["carrier", "all", "rotating"])
+@pytest.mark.parametrize("oil_cooling", [True, False])
+def test_fields_are_those_of_python(rung, conduction, oil_cooling):
+    params = WasherParams(conduction=conduction, oil_cooling=oil_cooling)
+    point = [600.0, 700.0, 2e-3, 320.0]
+    (got,), _ = answers("washer", [["solve", point, True, ""]], params=params, rung=rung)
+    wanted = solve_washer(params, **dict(zip(NAMES, point, strict=True)), fidelity=rung).fields()
+    for name in ("radius", "angle"):
+        np.testing.assert_allclose(got["fields"][name], getattr(wanted, name), rtol=1e-12)
+    for name in (
+        "film_thickness",
+        "pressure",
+        "contact_pressure",
+        "carrier_temperature",
+        "washer_temperature",
+    ):
+        there = getattr(wanted, name)
+        here = np.array(got["fields"][name]).reshape(there.T.shape).T
+        np.testing.assert_allclose(here, there, atol=1e-8 * np.abs(there).max(), err_msg=name)
+
+
+def test_the_gear_mesh_is_that_of_python():
+    rng, tasks = np.random.default_rng(3), []
+    for _ in range(100):
+        tasks.append(["solve", [float(10 ** rng.uniform(1, 4.5)), float(10 ** rng.uniform(1, 2.8)),
+                                float(rng.uniform(250.0, 400.0))]])  # fmt: skip
+    found, _ = answers("gearmesh", tasks)
+    for (_, (power, speed, oil)), got in zip(tasks, found, strict=True):
+        wanted = solve_gearmesh(GearMeshParams(), power=power, speed=speed, oil_temperature=oil)
+        for name, value in got["outputs"].items():
+            if name != "regime":
+                assert value == pytest.approx(getattr(wanted, name), rel=SAME, abs=1e-300), name
+        path = got["path"]
+        assert max(path["flank"]) == pytest.approx(wanted.surface_temperature, rel=1e-12)
+        assert min(path["safety"]) == pytest.approx(wanted.scuffing_safety, rel=1e-9)
+        assert min(path["micropitting"]) == pytest.approx(wanted.micropitting_safety, rel=1e-3)
+        assert path["film"][path["hot"]] == pytest.approx(wanted.film_thickness)
+
+
+def test_a_power_without_speed_is_refused_in_words():
+    (got,), _ = answers("gearmesh", [["solve", [1e4, 0.0, 300.0]]])
+    assert "speed = 0 rad/s, allowed: from 0.1 rad/s on" in got["problem"]
+
+
+@pytest.mark.parametrize("rung", ["field", "fine", "closed"])
+def test_an_engagement_under_a_drawn_ramp_is_that_of_python(rung):
+    ramp = [0.0, 1000.0, 4000.0, 3000.0, 5000.0, 5000.0, 5500.0, 5000.0, 5000.0]
+    task = ["solve", [120.0, 340.0, 0.0, 0.6], True, "", {"ramp": ramp}]
+    (got,), _ = answers("clutch", [task], rung=rung)
+    time = np.linspace(0.0, 0.6, about("clutch")["points"] + 1)
+    wanted = engage_clutch(
+        ClutchParams(), time=time, load=np.interp(time, np.linspace(0.0, 0.6, 9), ramp),
+        speed=120.0 * (1.0 - time / 0.6), oil_temperature=340.0, fidelity=rung,
+    )  # fmt: skip
+    for name in ("friction_torque", "temperature", "film_ratio", "energy", "oil_heat"):
+        there = getattr(wanted, name)
+        np.testing.assert_allclose(
+            got["series"][name], there, atol=1e-9 * np.abs(there).max(), err_msg=name
+        )
+    assert got["outputs"]["temperature_max"] == pytest.approx(wanted.temperature.max(), rel=1e-9)
+
+
+def test_a_rule_between_parameters_is_told_by_its_number():
+    bad = WasherParams()
+    object.__setattr__(bad, "gear_inner_radius", 0.03)
+    with pytest.raises(AssertionError):
+        answers("washer", [], params=bad)
+    assert about("washer")["rules"][0].startswith("gear_inner_radius = {gear_inner_radius}")
+
+
+def test_what_a_card_promises_is_in_the_page():
+    card = next(c for c in about("washer")["cards"] if c["fidelity"] == "field")
+    assert set(card["envelope"]) == set(NAMES) and len(card["worst"]) == len(card["n"])
+    point = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
+    assert error_estimate("washer", "field", WasherParams(), point) is not None

@@ -1,0 +1,138 @@
+"""What the scripts of a page are given: every signal, packed without loss."""
+
+import base64
+import json
+import zlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shift_stand_in
+from test_usual import full
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.model.registry import find_spec
+from thrustwasher.report.html import render
+from thrustwasher.report.shift import shift_data
+from thrustwasher.report.shift.shift_data import pack, panels, read_run, run_data
+from thrustwasher.report.shift.shift_record import Part
+from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.shift.scene.connections import PARTS
+
+
+def unpacked(run):
+    """Return the rows of a run: time, then the signals that move."""
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(run["packed"])), dtype=np.uint8)
+    bits = planes.reshape(-1, 4, run["points"]).transpose(0, 2, 1).copy().view("<i4")[..., 0]
+    for _ in range(2):
+        bits = np.cumsum(bits, axis=1, dtype=np.int32)
+    return bits.view("<f4")
+
+
+def row(run, name):
+    names = [signal["name"] for signal in run["moving"]]
+    return unpacked(run)[1 + names.index(name)]
+
+
+def test_packed_signals_come_back_to_the_bit():
+    rng = np.random.default_rng(1)
+    rows = np.array([np.linspace(0.0, 9.0, 400), rng.normal(size=400), np.full(400, np.nan)], "<f4")
+    rows[1, 7] = np.inf
+    back = unpacked({"packed": pack(rows), "points": 400})
+    assert back.tobytes() == rows.tobytes()
+
+
+def test_every_signal_of_a_run_is_in_its_page_once():
+    record = shift_stand_in.record(mesh=True)
+    run = run_data(record, {})
+    names = [s["name"] for s in (*run["moving"], *run["steady"])]
+    assert sorted(names) == sorted(record.signals)
+    speed = record.signals["transmission.engine_speed"].astype(np.float32)
+    assert np.array_equal(row(run, "transmission.engine_speed"), speed)
+
+
+def test_words_and_units_are_those_of_the_models():
+    run = run_data(shift_stand_in.record(), {})
+    shown = {s["name"]: s for s in (*run["moving"], *run["steady"])}
+    hot = shown["clutch.temperature"]
+    told = next(s for s in find_spec("clutch").outputs if s.name == "temperature")
+    assert hot["help"] == f"clutch: {told.help}" and (hot["unit"], hot["zero"]) == ("°C", 273.15)
+    assert hot["limit"] > 400.0 and "limit" not in shown["washer.temperature"]
+    assert shown["transmission.engine_work"]["unit"] == "kJ"
+    assert shown["transmission.engine_work"]["scale"] == 1e3
+
+
+def test_every_signal_that_a_panel_or_a_flow_names_is_one_of_a_model():
+    known = {f"{p}.{s.name}" for p, spec in PARTS.items() for s in (*spec.inputs, *spec.outputs)}
+    known |= set(shift_data.OF_THE_VEHICLE)
+    named = [name for panel in panels()["panel"] for name in panel["signals"]]
+    named += [flow[k] for flow in panels()["flow"] for k in ("signal", "kept") if k in flow]
+    assert [name for name in named if name not in known] == []
+
+
+def test_a_long_run_is_thinned_but_not_beside_events(monkeypatch):
+    record = shift_stand_in.record()
+    whole = run_data(record, {})
+    monkeypatch.setattr(shift_data, "ROOM", len(whole["packed"]) // 3)
+    thin = run_data(record, {})
+    assert len(thin["packed"]) <= shift_data.ROOM and thin["recorded"] == 2501
+    time = row(thin, "transmission.engine_work").shape[0]
+    assert time == thin["points"] < 2501 / 3
+    times = unpacked(thin)[0]
+    assert times[-1] == np.float32(2.5)
+    for event in record.events:
+        assert np.sum(np.abs(times - event.time) <= 1.01e-3) >= 3
+
+
+def test_jerk_is_the_change_over_ten_milliseconds():
+    jerk = row(run_data(full(), {}), "vehicle.jerk")
+    assert np.min(jerk) == pytest.approx(-0.1 / 0.01, rel=1e-6) and jerk[-1] == 0.0
+    names = [s["name"] for s in run_data(shift_stand_in.record(), {})["moving"]]
+    assert not [name for name in names if name.startswith("vehicle")]
+
+
+def test_a_film_without_a_limit_is_no_safety_to_look_at():
+    assert "mesh.micropitting_safety" in run_data(full(), {})["aside"]
+    mesh = Part("mesh", find_spec("gearmesh"), {"permissible_film_ratio": 0.3})
+    given = replace(full(), parts=[*full().parts[:-1], mesh])
+    assert "mesh.micropitting_safety" not in run_data(given, {})["aside"]
+
+
+def test_a_report_is_read_back_and_what_is_none_is_refused(tmp_path, monkeypatch):
+    page = shift_page(shift_stand_in.record(washer=False))
+    path = tmp_path / "report.html"
+    path.write_text(render(replace(page, title="</script>")), "utf-8")
+    assert read_run(path) == json.loads(json.dumps(page.data["runs"][0]))
+    for text in (
+        "",
+        f"{shift_data.MARKER}{{</script>",
+        f'{shift_data.MARKER}{{"version":0}}</script>',
+    ):
+        path.write_text(text, "utf-8")
+        with pytest.raises(ParameterError, match="no report of one shift"):
+            read_run(path)
+
+
+def test_friction_over_slip_is_shown_where_it_changes():
+    record = shift_stand_in.record()
+    told = run_data(record, {})["slip"]
+    assert (told["pack"], told["from"], told["to"]) == ("clutch", 0.1, 1.75)
+    assert told["levels"] == [(0.06, "mean of this run 0.06")]
+    flat = {**record.signals, "clutch.friction_coefficient": np.full(2501, 0.1)}
+    assert run_data(replace(record, signals=flat), {})["slip"] is None
+
+
+def test_friction_with_the_oil_is_torque_over_load_where_that_is_large():
+    record = shift_stand_in.record()
+    load = np.where(record.time < 0.2, 10.0, 4000.0)
+    pack = find_spec("clutch").params()
+    torque = 0.2 * load * pack.friction_radius * pack.faces
+    given = {
+        "clutch.load": load,
+        "clutch.friction_torque": -torque,
+        "clutch.viscous_torque": torque,
+    }
+    run = run_data(replace(record, signals=record.signals | given), {})
+    shown = row(run, "clutch.friction_with_oil")
+    assert np.all(np.isnan(shown[record.time < 0.2]))
+    assert shown[record.time >= 0.2] == pytest.approx(0.2)

@@ -1,0 +1,300 @@
+"""The report of a shift in a browser: one cursor, one zoom, every signal, nothing from outside."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shift_stand_in
+import washer_stand_in
+from browser_pages import chromium, faults, opened
+
+from thrustwasher import solve_washer
+from thrustwasher.report.html import render
+from thrustwasher.report.panels.overview_plot import overview_figure
+from thrustwasher.report.shift import shift_report
+from thrustwasher.report.shift.comparison import comparison_page
+from thrustwasher.report.shift.shift_data import FIELDS, run_data
+from thrustwasher.report.shift.worst_moments import Moment, rung_with_fields
+
+pytestmark = pytest.mark.browser
+RECORD = shift_stand_in.record(mesh=True)
+POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15}
+SHOWN = "document.querySelectorAll('.panel:not(.more)')"
+SCALES = "() => Plots.state.panels.filter((p) => p.visible && p.plot).map((p) => p.plot.scales.x)"
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    def solve(record, time):
+        return Moment(time, POINT, washer_stand_in.Washer(), 1.5)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(shift_report, "solve_moment", solve)
+        page = shift_report.shift_page(RECORD)
+    path = tmp_path_factory.mktemp("page") / "report.html"
+    path.write_text(render(page), "utf-8")
+    return path
+
+
+@pytest.fixture
+def page(browser, report):
+    with opened(browser, report) as found:
+        found.evaluate("() => document.getElementById('plots').scrollIntoView()")
+        found.wait_for_selector(".u-over")
+        yield found
+
+
+def settle(page):
+    """Wait until what was asked for is painted."""
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 30)))")
+
+
+def value_of(page, signal):
+    """Return what stands beside a signal, as a number."""
+    cell = page.locator(f'th[title="{signal}"] + td').first
+    return float(cell.text_content().replace("\N{MINUS SIGN}", "-"))
+
+
+def test_the_cursor_is_the_same_in_all_plots_and_tells_the_values_there(page):
+    plot = page.locator(".u-over").first
+    plot.hover(position={"x": 200, "y": 60})
+    settle(page)
+    index = page.evaluate("Plots.state.index")
+    assert 0 < index < 2500
+    lines = page.evaluate(
+        "() => Plots.state.panels.filter((p) => p.visible).map((p) => p.plot.cursor.left)"
+    )
+    assert len(lines) >= 2 and np.ptp(lines) < 1.0
+    for name in ("transmission.engine_speed", "transmission.clutch_reaction"):
+        assert value_of(page, name) == pytest.approx(RECORD.signals[name][index], rel=1e-4)
+    assert page.locator("#now").text_content().startswith(f"{RECORD.time[index]:g} s, ")
+
+
+def test_a_zoom_in_one_plot_zooms_all(page):
+    plot = page.locator(".u-over").nth(1)
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    middle = box["y"] + 0.5 * box["height"]
+    page.mouse.move(box["x"] + 0.25 * box["width"], middle)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.5 * box["width"], middle, steps=5)
+    page.mouse.up()
+    settle(page)
+    scales = page.evaluate(SCALES)
+    assert len(scales) >= 2
+    for scale in scales:
+        assert scale["min"] == pytest.approx(0.625, abs=0.01)
+        assert scale["max"] == pytest.approx(1.25, abs=0.01)
+    plot.dblclick(position={"x": 10, "y": 80})
+    settle(page)
+    assert {(s["min"], s["max"]) for s in page.evaluate(SCALES)} == {(0.0, 2.5)}
+
+
+def test_a_plot_that_was_out_of_sight_has_the_zoom_when_it_comes(page):
+    page.evaluate("Plots.zoom(1, 2)")
+    last = page.locator(".panel:not(.more) .u-over").last
+    page.locator(".panel:not(.more)").last.scroll_into_view_if_needed()
+    last.wait_for()
+    settle(page)
+    assert {(s["min"], s["max"]) for s in page.evaluate(SCALES)} == {(1.0, 2.0)}
+
+
+def test_signals_are_switched_on_and_off(page):
+    drawn = (
+        "() => Plots.state.panels[0].plot.series.slice(1).filter((s) => s.show).map((s) => s.label)"
+    )
+    assert "transmission.engine_speed" in page.evaluate(drawn)
+    page.get_by_label("speed of engine and driven gear").first.uncheck()
+    assert "transmission.engine_speed" not in page.evaluate(drawn)
+    page.locator(".panel summary").first.click()
+    page.get_by_label("clutch: slip speed").first.check()
+    assert "clutch.speed" in page.evaluate(drawn)
+
+
+def test_every_signal_of_the_run_has_its_value_at_the_cursor(page):
+    page.evaluate("() => document.querySelectorAll('#plots details').forEach((d) => d.open = true)")
+    settle(page)
+    page.evaluate("Plots.moveTo(900)")
+    page.evaluate("() => dispatchEvent(new Event('beforeprint'))")  # those out of sight as well
+    rows = page.locator("#plots th[title]").evaluate_all("(all) => all.map((one) => one.title)")
+    assert sorted(rows) == sorted(RECORD.signals)
+    assert value_of(page, "clutch.temperature") == pytest.approx(
+        RECORD.signals["clutch.temperature"][900] - 273.15, rel=1e-4
+    )
+
+
+def test_events_and_phases_are_buttons(page):
+    page.get_by_role("button", name="2 0.25 s brake lets go of the ring").click()
+    settle(page)
+    assert page.evaluate("Plots.state.time[Plots.state.index]") == pytest.approx(0.25, abs=1e-6)
+    assert page.locator('[aria-current="true"]').count() == 1
+    page.get_by_role("button", name="torque phase").click()
+    settle(page)
+    view = page.evaluate("Plots.state.view")
+    assert (view["min"], view["max"]) == pytest.approx((0.1, 0.25))
+    line = page.evaluate("Plots.state.panels[0].plot.valToPos(0.25, 'x')")
+    page.get_by_role("button", name="show all").click()
+    settle(page)
+    line = page.evaluate("Plots.state.panels[0].plot.valToPos(1.75, 'x')")
+    page.locator(".u-over").first.click(position={"x": line + 3, "y": 90})
+    settle(page)
+    assert page.evaluate("Plots.state.time[Plots.state.index]") == pytest.approx(1.75, abs=1e-6)
+
+
+def test_all_of_it_works_from_the_keyboard(page):
+    page.locator("#time").focus()
+    for key in ("ArrowRight", "ArrowRight", "+"):
+        page.keyboard.press(key)
+    settle(page)
+    view = page.evaluate("Plots.state.view")
+    assert page.evaluate("Plots.state.index") == 2
+    assert view["max"] - view["min"] == pytest.approx(1.25)
+    assert page.locator("#time").get_attribute("aria-valuetext") == "0.002 s, first gear"
+    page.keyboard.press("0")
+    settle(page)
+    assert page.evaluate("Plots.state.view") == {"min": 0, "max": 2.5}
+
+
+def test_the_flow_picture_holds_the_energy_book(page):
+    page.evaluate("Plots.moveTo(2500)")
+    settle(page)
+    told = page.locator("#flow svg").get_attribute("aria-label")
+    heat = f"{RECORD.energy['clutch'] / 1e3:.2f} kJ"
+    assert told.startswith("Energy: work of the engine") and heat in told
+
+
+def test_the_cursor_runs_over_the_friction_curve_as_over_all_plots(page):
+    curve = page.locator("#slip .u-over")
+    curve.scroll_into_view_if_needed()
+    wide = curve.bounding_box()["width"]
+    curve.hover(position={"x": 0.5 * wide, "y": 50})
+    settle(page)
+    index = page.evaluate("Plots.state.index")
+    slip = RECORD.signals["clutch.speed"]
+    assert slip[index] == pytest.approx(0.5 * slip[0], rel=0.02)
+
+
+SOLVE = """window.asked = [];
+window.solveAt = async (inputs) => {
+  window.asked.push(inputs);
+  if (inputs.speed < 1) throw new Error("it stands still");
+  const angle = Array.from({ length: 8 }, (_, j) => (j * Math.PI) / 4);
+  const field = (f) => [1, 2].map((r) => angle.map((a) => f(r, a)));
+  const gap = field((r, a) => r + Math.cos(a));
+  return { film_ratio: 7.25, radius: [1, 2], angle, film_thickness: gap };
+};"""
+
+
+def test_another_script_solves_the_washer_at_the_cursor(browser, report):
+    with opened(browser, report, init=SOLVE) as page:
+        page.get_by_role("button", name="at the cursor").click()
+        page.evaluate("Plots.moveTo(700)")
+        page.wait_for_selector("text=Solved here at 0.7 s: film ratio 7.25, in the run it was")
+        asked = page.evaluate("window.asked.at(-1)")
+        for name in ("load", "speed", "tilt", "oil_temperature"):
+            assert asked[name] == pytest.approx(RECORD.signals[f"washer.{name}"][700], rel=1e-6)
+        assert page.locator("#discs canvas").count() == 1
+        page.evaluate("Plots.moveTo(2500)")
+        page.wait_for_selector("text=No solution at 2.5 s: it stands still. The last one stays.")
+        assert page.locator("#discs canvas").count() == 1
+
+
+def test_the_page_solves_the_washer_as_python_does(page):
+    washer = RECORD.part("washer")
+    wanted = solve_washer(washer.params(), **POINT, fidelity=rung_with_fields(washer))
+    got = page.evaluate("(point) => solveAt(point, 5)", POINT)
+    assert got["film_ratio"] == pytest.approx(wanted.film_ratio, rel=1e-10)
+    for name in FIELDS:
+        there = getattr(wanted.fields(), name)
+        np.testing.assert_allclose(got[name], there, atol=1e-8 * np.abs(there).max())
+
+
+def test_the_washer_stays_on_the_branch_that_the_run_was_on(page):
+    params, point = RECORD.part("washer").params(), POINT | {"load": 225.0}
+    found = {b: solve_washer(params, **point, branch=b).film_ratio for b in ("film", "contact")}
+    for ratio in found.values():
+        got = page.evaluate("([point, ratio]) => solveAt(point, ratio)", [point, ratio])
+        assert got["film_ratio"] == pytest.approx(ratio, rel=1e-8)
+    assert found["film"] > 1.2 * found["contact"]
+
+
+def test_the_washers_worst_moment_is_drawn_as_discs(page):
+    page.locator("#discs").scroll_into_view_if_needed()
+    page.wait_for_selector("#discs canvas")
+    assert page.locator("#discs canvas").count() == 4
+    page.get_by_role("button", name="hottest moment").click()
+    page.wait_for_selector("text=film ratio 15.389, in the run it was 1.5.")
+
+
+def test_without_scripts_there_are_the_tables_and_one_picture(browser, report):
+    with opened(browser, report, ready="", java_script_enabled=False) as page:
+        assert page.locator("img").count() == 1 and page.locator("img").is_visible()
+        assert page.get_by_text("heat in the clutch", exact=True).is_visible()
+        assert not page.locator(".widget").first.is_visible()
+
+
+def test_on_paper_all_plots_are_drawn_and_all_tables_open(page):
+    page.emulate_media(media="print", color_scheme="dark")
+    page.evaluate("() => dispatchEvent(new Event('beforeprint'))")
+    drawn = page.locator(".panel:not(.more) .u-wrap").count()
+    assert drawn == page.evaluate(f"() => {SHOWN}.length")
+    assert not page.locator(".bar").is_visible()
+    assert page.locator("#parameters td").first.is_visible()
+    assert (
+        page.evaluate("() => getComputedStyle(document.body).backgroundColor")
+        == "rgb(255, 255, 255)"
+    )
+
+
+def test_the_policy_lets_nothing_be_fetched(browser, report):
+    context = browser.new_context()
+    page = context.new_page()
+    page.goto(report.as_uri())
+    refused = page.evaluate(
+        """() => new Promise((done) => {
+          addEventListener("securitypolicyviolation", (e) => done(e.violatedDirective));
+          fetch("http://127.0.0.1:9/").catch(() => 0);
+        })"""
+    )
+    context.close()
+    assert refused == "connect-src"
+
+
+@pytest.mark.parametrize(("wide", "scheme"), [(1200, "light"), (1200, "dark"), (360, "light")])
+def test_nothing_serious_bars_access_and_nothing_is_wider_than_the_screen(
+    browser, report, wide, scheme
+):
+    with opened(browser, report, wide=wide, scheme=scheme) as page:
+        page.evaluate("() => document.getElementById('plots').scrollIntoView()")
+        page.wait_for_selector(".u-over")
+        assert page.evaluate("document.documentElement.scrollWidth") <= wide
+        assert faults(page) == []
+
+
+def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path):
+    late = replace(RECORD, title="late", time=RECORD.time + 0.5005)
+    runs = [run_data(record, {}) for record in (RECORD, late)]
+    path = tmp_path / "compare.html"
+    path.write_text(render(comparison_page(runs, [overview_figure(RECORD)] * 2)), "utf-8")
+    with opened(browser, path) as page:
+        page.evaluate("() => document.getElementById('plots').scrollIntoView()")
+        page.wait_for_selector(".u-over")
+        assert page.evaluate("Plots.state.time.length") == 5002
+        page.evaluate("Plots.moveTo(Plots.nearest(1.5))")
+        settle(page)
+        cells = page.locator('th[title="transmission.engine_speed"] ~ td').all_text_contents()
+        speed = RECORD.signals["transmission.engine_speed"]
+        assert float(cells[0]) == pytest.approx(np.interp(1.5, RECORD.time, speed), rel=1e-4)
+        assert float(cells[1]) == pytest.approx(np.interp(0.9995, RECORD.time, speed), rel=1e-4)
+        page.evaluate("Plots.moveTo(0)")
+        settle(page)
+        cells = page.locator('th[title="transmission.engine_speed"] ~ td').all_text_contents()
+        assert cells[1] == "\N{EN DASH}"
+        assert page.locator("#flow svg").count() == 2
+        assert faults(page) == []

@@ -1,0 +1,40 @@
+"""``thrustwasher explore``: one file in which a model is tried in a browser."""
+
+import argparse
+from pathlib import Path
+
+from ..errors import ParameterError
+from ..model.registry import all_models
+from . import _options, _output
+
+HELP = "write one page in which a part is tried in any browser, without Python"
+USUAL = "washer"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    models = ", ".join(m.key for m in all_models() if m.explore)
+    parser.add_argument(
+        "subject", nargs="?", default=USUAL, metavar="PART.toml|MODEL",
+        help=f"part file, or model with its defaults: {models}; default {USUAL}",
+    )  # fmt: skip
+    parser.add_argument("--preset", help="preset of the model, `thrustwasher part list` names them")
+    parser.add_argument(
+        "--out", metavar="PAGE.html", help="file to write, default explore-NAME.html"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the page."""
+    part = _options.solvable(arguments.subject, arguments.preset)
+    out = Path(arguments.out or f"explore-{part.name}.html")
+    if out.suffix not in (".html", ".htm"):
+        raise ParameterError(f"--out {out}: allowed: a file that ends in .html")
+
+    from ..explore.page import page
+
+    text = page(part)
+    with _output.whole_file(out) as draft:
+        draft.write_text(text, "utf-8")
+    print(f"{out}: {len(text.encode()) / 1e6:.2f} MB; open it in a browser")
+    return 0

@@ -1,0 +1,84 @@
+"""The wet clutch's page: an engagement under a ramp of load that one draws."""
+
+from collections.abc import Mapping
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from ..clutch.engagement import Engagement, engage_clutch
+from ..clutch.kernels import layout
+from ..clutch.parameters import DRUM, LOAD, OIL, SPEC, SPEED
+from ..errors import Status
+from ..model.record import resolve
+from ..model.spec import Signal
+from .view import Picture, View, numbers_of
+
+POINTS, HANDLES = 250, 9
+LARGEST, RISING = 5000.0, 0.25  # N; share of the time in which the load rises to it at the start
+RAMP = [LARGEST * min(i / (HANDLES - 1) / RISING, 1.0) for i in range(HANDLES)]
+DURATION = Signal(name="duration", unit="s", help="time from the start to zero slip",
+                  low=1e-3, high=3600.0, start=0.5)  # fmt: skip
+USUAL = {SPEED.name: 100.0, OIL.name: 353.15}
+
+
+def _course(params: Any, point: Mapping[str, float], rung: str) -> Engagement:
+    end, rest = point["duration"], {n: point[n] for n in (OIL.name, DRUM.name)}
+    time = np.linspace(0.0, end, POINTS + 1)
+    return engage_clutch(
+        params, time=time, load=np.interp(time, np.linspace(0.0, end, HANDLES), RAMP),
+        speed=point["speed"] * (1.0 - time / end), fidelity=rung, **rest,
+    )  # fmt: skip
+
+
+def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
+    c = _course(params, point, rung)
+    thin = np.flatnonzero(c.film_ratio < 1.0)
+    return SimpleNamespace(
+        course=c, friction_torque_max=_most(c.friction_torque), power_max=_most(c.friction_power),
+        temperature_max=float(c.temperature.max()), film_ratio_min=float(c.film_ratio.min()),
+        heat_flux_max=float(c.heat_flux.max()), energy=float(c.energy[-1]),
+        stored_heat=float(c.stored_heat[-1]),
+        boundary_from=float(c.time[thin[0]]) if thin.size else float("nan"),
+    )  # fmt: skip
+
+
+def _most(values: Any) -> float:
+    return float(values[np.abs(values).argmax()])
+
+
+def _pictures(_params: Any, result: Any, _point: Mapping[str, float]) -> list[Picture]:
+    draw = resolve("thrustwasher.report.model_plots.clutch_plot:engagement_figure")
+    return [("The engagement of the start.", draw(result.course))]
+
+
+VIEW = View(
+    worker="clutch_worker",
+    page="clutch_view",
+    calls=("broken_rule", "derive", "load_memory", "settle_film", "advance", "fill_outputs",
+           "mean_surface", "stored_heat"),
+    layout=numbers_of(layout, HOT=Status.HOT),
+    rungs={name: {"code": code} for code, name in enumerate(SPEC.fidelities, 1)},
+    main=("faces", "roughness", "initial_film", "permeability", "steel_thickness"),
+    figures=("friction_torque_max", "temperature_max", "energy", "power_max", "film_ratio_min",
+             "boundary_from"),
+    solve="engage_clutch",
+    params="ClutchParams",
+    pictures=_pictures,
+    result=_result,
+    inputs=(SPEED, OIL, DRUM, DURATION),
+    usual=USUAL,
+    outputs={
+        "friction_torque_max": ("N.m", "largest friction torque"),
+        "temperature_max": ("K", "highest temperature of the interface"),
+        "energy": ("J", "heat made in the engagement"),
+        "power_max": ("W", "largest friction power"),
+        "film_ratio_min": ("1", "least film thickness over roughness"),
+        "boundary_from": ("s", "when the asperities carry (film ratio below 1)"),
+        "heat_flux_max": ("W/m2", "largest heat flux into a face"),
+        "stored_heat": ("J", "heat in the steel at the end"),
+    },
+    more={"ramp": RAMP, "largest_load": LOAD.high, "points": POINTS},
+    spans={"speed": (0.0, 600.0), "drum_speed": (-600.0, 600.0), "duration": (0.05, 5.0),
+           "oil_temperature": (253.15, 423.15)},
+)  # fmt: skip

@@ -1,0 +1,90 @@
+"""A model as the page's scripts read it: everything from its interface, cards and kernels."""
+
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any
+
+from ..ladder.card import SAFETY, Card, fresh_cards
+from ..ladder.card_parts import FEW
+from ..model.part_file import PartFile
+from ..model.record import Model
+from ..model.spec import REGIMES, Signal
+from ..units import readable_units
+from .view import View
+
+QUANTITY = "friction_torque"
+
+
+def inputs_of(model: Model, view: View) -> list[Signal]:
+    """Return the inputs of what the page solves."""
+    if view.inputs:
+        return list(view.inputs)
+    instead = model.command.instead if model.command else {}
+    return [Signal(**instead[s.name]) if s.name in instead else s for s in model.spec.inputs]
+
+
+def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
+    """Return what is known of each result: unit, meaning, names of an enumeration's values."""
+    found: dict[str, dict[str, Any]] = {}
+    if view.outputs:
+        return {name: {"kind": "real", "relative": False, "unit": unit, "help": words}
+                for name, (unit, words) in view.outputs.items()}  # fmt: skip
+    for s in model.spec.outputs:
+        if s.type == "SolverStatus":
+            continue
+        found[s.name] = {"unit": s.unit, "help": s.help, "kind": s.kind, "relative": s.relative}
+        if s.type == "Regime":
+            found[s.name]["options"] = list(REGIMES)
+    for name, (unit, words) in (model.command.extra if model.command else {}).items():
+        before = found.get(name, {"relative": False})
+        found[name] = {"kind": "real", **before, "unit": unit, "help": words}
+    return found
+
+
+def describe(
+    model: Model, view: View, part: PartFile, point: Mapping[str, float]
+) -> dict[str, Any]:
+    """Return the JSON object of a model's page; ``point``: value of each input at the start."""
+    spec = model.spec
+    rung = part.fidelity if part.fidelity in view.rungs else spec.default_fidelity
+    params = part.params
+    return {
+        "key": spec.key, "name": part.name if part.name != spec.name else f"My{spec.name}",
+        "main": view.main,
+        "inputs": [_input(s, view, point[s.name]) for s in inputs_of(model, view)],
+        "parameters": [_parameter(f) for f in fields(spec.params)],
+        "defaults": {f.name: f.default for f in fields(spec.params)},
+        "given": {f.name: getattr(params, f.name) for f in fields(spec.params)},
+        "outputs": outputs_of(model, view), "units": readable_units(),
+        "rungs": spec.fidelities, "rung": rung, "usual_rung": spec.default_fidelity,
+        "rules": [rule.text for rule in spec.rules],
+        "cards": [_card(c) for name in view.rungs for c in fresh_cards(spec.key, name, params)],
+        "few": FEW, "safety": SAFETY,
+        **view.more, "python": {"params": view.params, "solve": view.solve},
+        "worker": view.worker_data(spec),
+    }  # fmt: skip
+
+
+def _input(s: Signal, view: View, value: float) -> dict[str, Any]:
+    low, high = view.least.get(s.name, s.low), s.high
+    first, last = view.spans.get(s.name, (low, high))
+    return {"name": s.name, "unit": s.unit, "help": s.help, "kind": "real", "min": low, "max": high,
+            "from": first, "to": last, "relative": s.relative, "value": value}  # fmt: skip
+
+
+def _parameter(f: Any) -> dict[str, Any]:
+    m = f.metadata
+    keys = ("unit", "help", "kind", "min", "max", "options")
+    return {"name": f.name, "relative": m.get("relative", False), "from": m["min"], "to": m["max"],
+            **{key: m[key] for key in keys if key in m}}  # fmt: skip
+
+
+def _card(card: Card) -> dict[str, Any]:
+    errors, by = card.errors[QUANTITY], card.by_film_ratio
+    return {
+        "fidelity": card.fidelity, "branch": card.branch,
+        "envelope": {n: {"min": a.min, "max": a.max} for n, a in card.envelope.items()},
+        "axes": card.cells.axes, "edges": card.cells.edges, "worst": errors.worst, "n": errors.n,
+        "by": by and {"edges": by.edges, "worst": by.worst[QUANTITY]},
+        "uncertainty": card.reference.uncertainty.get(QUANTITY, 0.0),
+    }  # fmt: skip

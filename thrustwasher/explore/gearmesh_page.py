@@ -1,0 +1,33 @@
+"""The gear mesh's page: temperatures, safety and film along the path of contact."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..gearmesh.kernels import layout
+from ..gearmesh.model import MODEL
+from ..gearmesh.parameters import SPEC
+from ..model.record import resolve
+from .view import Picture, View, numbers_of
+
+
+def _pictures(params: Any, result: Any, point: Mapping[str, float]) -> list[Picture]:
+    assert MODEL.command is not None
+    figure = resolve(MODEL.command.figure)(result, point, params)
+    return [("Over the number of the pinion's teeth at the start's point.", figure)]
+
+
+VIEW = View(
+    worker="gearmesh_worker",
+    page="gearmesh_view",
+    calls=("broken_rule", "derive", "solve_point"),
+    layout=numbers_of(layout),
+    rungs={name: {"code": code} for code, name in enumerate(SPEC.fidelities, 1)},
+    main=("pinion_teeth", "gear_ratio", "normal_module", "face_width", "helix_angle",
+          "friction_law"),
+    figures=("friction_torque", "friction_power", "film_ratio", "bulk_temperature", "flash_max",
+             "scuffing_safety", "pitting_safety", "micropitting_safety"),
+    solve="solve_gearmesh",
+    params="GearMeshParams",
+    pictures=_pictures,
+    spans={"power": (100.0, 1e5), "speed": (1.0, 1000.0), "oil_temperature": (253.15, 423.15)},
+)  # fmt: skip

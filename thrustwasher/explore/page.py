@@ -1,0 +1,113 @@
+"""The file: template, styles, scripts, the module of kernels, values and pictures of the start."""
+
+import base64
+import hashlib
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+from .. import __version__
+from ..errors import ParameterError
+from ..model.part_file import PartFile
+from ..model.record import resolve
+from ..model.registry import all_models, find_model
+from ..native.library import web_module
+from ..units import format_quantity
+from .description import describe, inputs_of, outputs_of
+from .view import WEB, View
+
+ROOT = Path(__file__).parents[1]
+TEMPLATE = "explore.html.jinja"
+SOURCES = "thrustwasher.fmu.package.model_sources"
+PAGE = ("dom", "plot", "discs")  # scripts that every page has
+DPI = 66
+
+
+def page(part: PartFile) -> str:
+    """Return the page of a part as HTML.
+
+    ParameterError: there is no page for its model, or its parameters have no solution at the start.
+    """
+    import jinja2
+
+    model = find_model(part.spec.key)
+    if not model.explore or model.command is None:
+        raise ParameterError(f"model = {model.key!r} has no page to explore")
+    view: View = resolve(model.explore)
+    inputs = inputs_of(model, view)
+    point = {s.name: _start(view.usual.get(s.name, s.usual), part.box.get(s.name)) for s in inputs}
+    about = describe(model, view, part, point)
+    if view.result is not None:
+        result = view.result(part.params, point, about["rung"])
+    else:
+        result = resolve(model.command.solve)(part.params, **point, fidelity=about["rung"])
+    folder = resolve(f"{SOURCES}:model_folder")(model.spec, resolve(f"{SOURCES}:source_folder")())
+    equations = resolve("thrustwasher.fmu.documentation.html_page:equations")
+    pictures = view.pictures(part.params, result, point)
+    script = "\n".join(_text(f"{stem}.js") for stem in (*PAGE, view.page, "page"))
+    style = _text("explore.css")
+    env = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return env.from_string(_text(TEMPLATE)).render(
+        title=f"{part.name}: try it",
+        name=part.name,
+        help=part.description or model.spec.help,
+        version=__version__,
+        policy=_policy(script, style),
+        style=style,
+        script=script,
+        about=json.dumps(about, allow_nan=False, ensure_ascii=False).replace("<", "\\u003c"),
+        worker=view.worker_script(),
+        module=base64.b64encode(web_module(model.spec.kernel)).decode("ascii"),
+        figures=_figures(outputs_of(model, view), view.figures, result),
+        large=view.figures,
+        pictures=[(words, _drawn(figure)) for words, figure in pictures],
+        start=", ".join(f"{s.name} {format_quantity(point[s.name], s.unit)}" for s in inputs),
+        equations=equations(folder).replace("<pre>", '<pre tabindex="0">'),
+        others=[m.key for m in all_models() if m.explore and m.key != model.key],
+    )
+
+
+def _start(value: float, box: tuple[float, float] | None) -> float:
+    return value if box is None else min(max(value, box[0]), box[1])
+
+
+def _text(name: str) -> str:
+    return (WEB / name).read_text("utf-8")
+
+
+def _policy(script: str, style: str) -> str:
+    """Return the content policy: nothing from outside, this script, this style, the kernels."""
+
+    def sha(text: str) -> str:
+        return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+    return (
+        f"default-src 'none'; script-src {sha(script)} 'wasm-unsafe-eval'; worker-src blob:; "
+        f"style-src {sha(style)}; img-src data:; base-uri 'none'; form-action 'none'"
+    )
+
+
+def _figures(
+    known: dict[str, dict[str, Any]], large: tuple[str, ...], result: Any
+) -> list[dict[str, Any]]:
+    """Return the results of the start, ``large`` ones first: name, value in full, text, meaning."""
+    found = []
+    for name in (*large, *(n for n in known if n not in large)):
+        value, about = getattr(result, name, None), known[name]
+        if isinstance(value, bool):
+            text = "yes" if value else "no"
+        elif isinstance(value, int | float):
+            text = format_quantity(value, about["unit"], difference=about["relative"])
+        else:
+            text = "" if value is None else str(value)
+        full = "" if value is None else repr(value) if isinstance(value, float) else str(value)
+        found.append({"name": name, "value": full, "text": text, "help": about["help"]})
+    return found
+
+
+def _drawn(figure: Any) -> str:
+    """Return a figure as the address of a picture."""
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=DPI)
+    return f"data:image/png;base64,{base64.b64encode(data.getvalue()).decode('ascii')}"

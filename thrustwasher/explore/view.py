@@ -1,0 +1,63 @@
+"""What a model's page shows beside its interface: data."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..errors import FIRST_FAILURE, Status
+from ..model.spec import ModelSpec, Signal
+from ..native.library import web_functions
+
+WEB = Path(__file__).parents[1] / "report" / "web" / "explore"
+Picture = tuple[str, Any]  # caption, matplotlib's figure
+
+
+@dataclass(frozen=True, kw_only=True)
+class View:
+    """A model's page.
+
+    Scripts are stems of files in ``report/web/explore``: what the worker runs, what the page runs.
+    """
+
+    worker: str
+    page: str
+    calls: tuple[str, ...]  # kernels that the worker calls
+    layout: Mapping[str, float]  # numbers of the kernels' layout
+    rungs: Mapping[str, Mapping[str, Any]]  # that can be chosen, with what the worker needs
+    main: tuple[str, ...]  # parameters with sliders
+    figures: tuple[str, ...]  # results shown large
+    solve: str  # public name of what solves, and of its parameters
+    params: str
+    pictures: Callable[
+        [Any, Any, Mapping[str, float]], list[Picture]
+    ]  # (parameters, result, point)
+    spans: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Range of a slider where it is not the input's whole range."""
+    more: Mapping[str, Any] = field(default_factory=dict)  # that the page's own script reads
+    result: Callable[[Any, Mapping[str, float], str], Any] | None = None
+    """What (parameters, point, rung) come to, where it is not what the model's command solves."""
+    inputs: tuple[Signal, ...] = ()  # in place of the command's
+    usual: Mapping[str, float] = field(default_factory=dict)  # their values at the start
+    outputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # in place: unit, meaning
+    least: Mapping[str, float] = field(default_factory=dict)
+    """Least value of an input where the solve wants more than the FMU."""
+
+    def worker_data(self, spec: ModelSpec) -> dict[str, Any]:
+        """Return what the worker's scripts read, as JSON types."""
+        return {
+            "functions": web_functions(spec.kernel, self.calls), "layout": self.layout,
+            "rungs": self.rungs, "real_outputs": spec.real_outputs,
+            "statuses": {int(s): s.advice for s in Status}, "first_failure": FIRST_FAILURE,
+        }  # fmt: skip
+
+    def worker_script(self) -> str:
+        """Return the worker: the kernels' functions, the model, what answers the page."""
+        stems = ("kernel", self.worker, "worker")
+        return "\n".join((WEB / f"{stem}.js").read_text("utf-8") for stem in stems)
+
+
+def numbers_of(*modules: Any, **more: float) -> dict[str, float]:
+    """Return all public numbers of layout modules by name."""
+    found = {n: v for m in modules for n, v in vars(m).items() if n.isupper()}
+    return {n: v for n, v in found.items() if isinstance(v, int | float)} | more

@@ -1,0 +1,81 @@
+"""The report of several shifts in one run: a row per shift, all signals over the whole time."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from ...units import format_quantity as say
+from ..html import Page, Plot, Section, Table
+from ..panels.sequence_plot import sequence_figure
+from .live_washer import live_washer
+from .shift_data import page_data, run_data
+from .shift_record import Event, Phase, Record, record_of
+from .shift_report import ENERGY_TEXT, SCRIPTS
+
+CAPTION = "Temperature of oil and plates, speeds; thin lines: where a shift begins."
+
+
+def sequence_page(result: Any) -> Page:
+    """Return the page of a ``SequenceResult``."""
+    records = [record_of(shift) for shift in result.shifts]
+    whole, oil = _whole(result, records), result.oil_temperature
+    said = (
+        f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
+        f"{say(oil[-1], 'K', digits=3)}."
+    )
+    run = run_data(whole, {}, [said]) | {"slip": None}
+    sections = [
+        Section("course", "The shifts over time", widgets=["plots"], tables=[_table(records)],
+                plots=[Plot("sequence", sequence_figure(result), CAPTION, bitmap=True,
+                            still=True)]),
+        Section("energy", "Energy", texts=[ENERGY_TEXT], widgets=["flow"]),
+    ]  # fmt: skip
+    washer = live_washer(whole)
+    if washer:
+        sections.insert(1, Section("washer", "The thrust washer", widgets=["discs"]))
+    return Page(
+        title=whole.title,
+        subtitle=f"Scene {whole.name}, {result.time[-1] - result.time[0]:.4g} s simulated in "
+        f"{say(result.wall_time, 's', digits=3)}, {len(whole.parts)} FMUs, made by thrustwasher",
+        summary=[said],
+        warnings=result.messages,
+        cards=[],
+        sections=sections,
+        footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
+        "thrustwasher shift --json.",
+        scripts=SCRIPTS,
+        data={**page_data([run]), "washer": washer},
+    )
+
+
+def _whole(result: Any, records: Sequence[Record]) -> Record:
+    """Return the run as a record; its phases are the shifts, its events their locks."""
+    shifts = result.scene.sequence.shifts
+    named = [(f"{i} {way}", record) for i, ((_, way), record) in
+             enumerate(zip(shifts, records, strict=True), 1)]  # fmt: skip
+    locks = [(name, record.figures.get("lock_time")) for name, record in named]
+    return replace(
+        record_of(result.shifts[0]), time=result.time, signals=result.signals, judder=None,
+        phases=[Phase(name, float(r.time[0]), float(r.time[-1])) for name, r in named],
+        events=[Event(time, f"{name} locks") for name, time in locks if time is not None],
+        key_figures=[], published=[], messages=result.messages, wall_time=result.wall_time,
+    )  # fmt: skip
+
+
+def _table(records: Sequence[Record]) -> Table:
+    """Return key figures, a row for each shift."""
+    names = ("lock_after_ramp_start", "slip_energy", "peak_clutch_temperature",
+             "peak_brake_temperature", "peak_jerk", "least_washer_film_ratio")  # fmt: skip
+    found = [[record.figure(name) for name in names] for record in records]
+    shown = [k for k in range(len(names)) if any(row[k] for row in found)]
+    heads = [next(row[k].text for row in found if row[k]) for k in shown]  # type: ignore[union-attr]
+    return Table(
+        heads=("shift", "begins", *heads),
+        rows=[
+            (f"{i} {'up' if record.engaging == 'clutch' else 'down'}", f"{record.time[0]:.5g} s",
+             *("" if (f := row[k]) is None or f.value is None
+               else say(f.value, f.unit, digits=4, difference=f.difference) for k in shown))
+            for i, (record, row) in enumerate(zip(records, found, strict=True), 1)
+        ],
+        numbers=range(1, len(shown) + 2),
+    )  # fmt: skip

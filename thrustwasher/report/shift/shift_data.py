@@ -1,0 +1,227 @@
+"""A shift as the scripts of its page take it: every signal, in words and units of the models."""
+
+import base64
+import json
+import re
+import tomllib
+import zlib
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import ParameterError
+from ...model.record import resolve
+from ...units import UNITS, pretty_unit
+from . import summary
+from .shift_record import PACKS, Array, Record
+from .worst_moments import Moment
+
+VERSION = 1  # of this form
+ROOM = 1_000_000  # characters of packed signals: the page stays below 2 MB
+JERK_TIME = 0.01  # s over which a change of acceleration counts
+READABLE = {"Pa": "kPa", "J": "kJ", "W": "kW", "m": "um", "m3/s": "l/min", "rad": "mrad"}
+NO_LIMIT = 1.0  # permissible film ratio of flanks without one: safety and ratio are the same
+FIELDS = {
+    "film_thickness": ("film thickness", "m"), "pressure": ("pressure in the film", "Pa"),
+    "contact_pressure": ("pressure on asperities", "Pa"),
+    "washer_temperature": ("temperature of the washer", "K"),
+}  # fmt: skip
+OF_THE_VEHICLE = {
+    "vehicle.acceleration": ("acceleration of the vehicle", "m/s2"),
+    "vehicle.jerk": ("its change over the next 10 ms", "m/s3"),
+}
+WITH_OIL = "torque over load, oil's shear included"
+LOADED = 0.1  # of the greatest load: below it the load is only beginning
+MARKER = '<script type="application/json" id="data">'
+
+
+@cache
+def panels() -> dict[str, Any]:
+    """Return which signals stand together, as ``panels.toml`` says."""
+    return tomllib.loads(Path(__file__).with_name("panels.toml").read_text("utf-8"))
+
+
+def page_data(runs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return all that the scripts of a page need for one run or two."""
+    fields = {n: {"words": w, **_shown(u)} for n, (w, u) in FIELDS.items()}
+    return {"version": VERSION, "runs": runs, "fields": fields, **panels()}
+
+
+def run_data(
+    record: Record, moments: Mapping[str, Moment | None], said: Sequence[str] | None = None
+) -> dict[str, Any]:
+    """Return a run as JSON types; ``moments``: the washer solved again, by the moment's words.
+
+    ``said`` is its summary, if it is not that of one shift; the run's messages are its warnings.
+
+    Signals that change are packed, all others are a number each.
+    """
+    signals = dict(record.signals) | _of_the_vehicle(record) | _with_oil(record)
+    moving = [name for name, values in signals.items() if np.ptp(values) != 0.0]
+    rows = np.array([record.time, *(signals[name] for name in moving)], dtype="<f4")
+    kept, packed = _packed_to_fit(rows, record)
+    swing = record.judder
+    judged = [] if swing is None else [
+        (swing.start, "the swing's growth is judged from here"), (swing.end, "to here"),
+    ]  # fmt: skip
+    return {
+        "name": record.name,
+        "title": record.title,
+        "summary": summary.sentences(record) if said is None else said,
+        "warnings": summary.warnings(record) if said is None else record.messages,
+        "figures": [figure._asdict() for figure in record.key_figures],
+        "phases": record.phases,
+        "events": sorted([*((e.time, e.text) for e in record.events), *judged]),
+        "recorded": len(record.time),
+        "points": kept,
+        "packed": packed,
+        "moving": [_signal(record, name) for name in moving],
+        "steady": [
+            {**_signal(record, name), "value": float(values[0])}
+            for name, values in signals.items() if name not in moving and np.isfinite(values[0])
+        ],
+        "slip": slip_of(record),
+        "aside": _set_aside(record),
+        "inputs": [s.name for s in part.spec.inputs] if (part := record.part("washer")) else [],
+        "moments": {words: _moment(m) for words, m in moments.items() if m is not None},
+    }  # fmt: skip
+
+
+def _set_aside(record: Record) -> list[str]:
+    """Return the signals that say nothing in this run: they are not drawn until asked for."""
+    idle = [pack for pack in PACKS if not record.presses(pack)]
+    found = [f"{pack}.{own}" for pack in idle for own in ("temperature", "film_ratio")]
+    if not np.any(record.series("transmission.shaft_twist")):  # rigid: repeats carrier and load
+        found += ["transmission.vehicle_speed", "transmission.shaft_torque"]
+    if record.rated_teeth:
+        found += [f"mesh.stress_utilization_{steel}" for steel in ("aisi1020", "aisi4340")]
+    for part in map(record.part, ("mesh", "ring_mesh")):
+        if part and part.params().permissible_film_ratio == NO_LIMIT:
+            found.append(f"{part.name}.micropitting_safety")
+    return found
+
+
+def slip_of(record: Record) -> dict[str, Any] | None:
+    """Return when the pack that engages slips and levels to compare its friction with.
+
+    None if its coefficient of friction stays the same.
+    """
+    pack, start = record.engaging, record.ramp_start
+    end = record.figures.get("lock_time") or float(record.time[-1]) + 1.0
+    slip, friction = record.series(f"{pack}.speed"), record.series(f"{pack}.friction_coefficient")
+    if slip is None or friction is None:
+        return None
+    where = (record.time >= start) & (record.time < end) & (slip != 0.0)
+    if np.sum(where) < 2 or np.ptp(friction[where]) < 1e-9:
+        return None
+    found = [(p.published, f"published mean {p.published:.4g}") for p in record.published
+             if p.name == "friction_mean"]  # fmt: skip
+    mean = record.figures.get("friction_mean")
+    found += [] if mean is None else [(mean, f"mean of this run {mean:.4g}")]
+    return {"pack": pack, "from": start, "to": end, "levels": found}
+
+
+def _with_oil(record: Record) -> dict[str, Array]:
+    """Return torque over load, radius and faces where the load is large, if oil adds to it."""
+    part, pack = record.part(record.engaging), record.engaging
+    names = ("friction_torque", "viscous_torque", "load")
+    torque, oil, load = (record.series(f"{pack}.{name}") for name in names)
+    if part is None or torque is None or oil is None or load is None or not np.any(oil):
+        return {}
+    params, pressed = part.params(), load > LOADED * np.max(load)
+    able = np.where(pressed, load, np.nan) * params.friction_radius * params.faces
+    return {f"{pack}.friction_with_oil": np.abs(torque) / able}
+
+
+def _of_the_vehicle(record: Record) -> dict[str, Array]:
+    """Return acceleration [m/s2] and jerk [m/s3] of the vehicle, if there is one."""
+    turning = record.series("transmission.output_acceleration")
+    if record.reach is None or turning is None:
+        return {}
+    felt = record.reach * turning
+    change = np.interp(record.time + JERK_TIME, record.time, felt) - felt
+    return dict(zip(OF_THE_VEHICLE, (felt, change / JERK_TIME), strict=True))
+
+
+def _shown(unit: str, relative: bool = False) -> dict[str, Any]:
+    """Return the unit that is shown: where its zero lies and how large it is, in SI units."""
+    shown = "degC" if unit == "K" and not relative else READABLE.get(unit, unit)
+    scale, zero = UNITS.get(unit, {}).get(shown, (1.0, 0.0))
+    return {"unit": pretty_unit(shown), "zero": zero, "scale": scale}
+
+
+def _signal(record: Record, name: str) -> dict[str, Any]:
+    """Return a signal's words, unit and limit as its model gives them."""
+    if name in OF_THE_VEHICLE:
+        words, unit = OF_THE_VEHICLE[name]
+        return {"name": name, "help": words, **_shown(unit)}
+    of, _, own = name.partition(".")
+    part = record.part(of)
+    known = (*part.spec.inputs, *part.spec.outputs) if part else ()
+    found = next((s for s in known if s.name == own), None)
+    if found is None:
+        words = f"{of}: {WITH_OIL}" if own == "friction_with_oil" else own.replace("_", " ")
+        return {"name": name, "help": words, **_shown("1")}
+    words = found.help if of == "transmission" else f"{of.replace('_', ' ')}: {found.help}"
+    limit = {"limit": float(resolve(found.limit))} if found.limit else {}
+    return {"name": name, "help": words, **_shown(found.unit, found.relative), **limit}
+
+
+def _packed_to_fit(rows: Array, record: Record) -> tuple[int, str]:
+    """Return how many points are kept and the packed rows; of a long run every second, third ...
+
+    Points beside events stay, and so does the last one.
+    """
+    packed = pack(rows)
+    every = 1
+    while len(packed) > ROOM and every < rows.shape[1]:
+        every = max(every + 1, every * len(packed) // ROOM)
+        keep = np.zeros(rows.shape[1], dtype=bool)
+        keep[::every] = keep[-1] = True
+        beside = np.searchsorted(record.time, [e.time for e in record.events])
+        for shift in (-1, 0, 1):
+            keep[np.clip(beside + shift, 0, len(keep) - 1)] = True
+        thin = rows[:, keep]
+        packed, kept = pack(thin), thin.shape[1]
+    return rows.shape[1] if every == 1 else kept, packed
+
+
+def pack(rows: Array) -> str:
+    """Return single precision rows as text: second differences of their bits, by bytes, deflated.
+
+    Courses are smooth: what is left of them is mostly zeros.
+    """
+    bits = np.ascontiguousarray(rows, dtype="<f4").view("<i4")
+    for _ in range(2):
+        bits = np.diff(bits, axis=1, prepend=np.int32(0))
+    planes = bits.astype("<i4").view(np.uint8).reshape(*rows.shape, 4).transpose(0, 2, 1)
+    return base64.b64encode(zlib.compress(planes.tobytes(), 6)).decode("ascii")
+
+
+def _moment(moment: Moment) -> dict[str, Any]:
+    """Return the washer's fields, and where they were solved."""
+    fields = moment.result.fields()
+    return {
+        "time": moment.time,
+        "inputs": moment.point,
+        "film_ratio": float(moment.result.film_ratio),
+        "recorded_film_ratio": moment.recorded_film_ratio,
+        "radius": fields.radius.tolist(),
+        "angle": fields.angle.tolist(),
+        **{n: [[float(f"{x:.5g}") for x in r] for r in getattr(fields, n)] for n in FIELDS},
+    }
+
+
+def read_run(page: Path) -> dict[str, Any]:
+    """Return the run that a report holds; ParameterError if it holds none of this version."""
+    try:
+        found = re.search(f"{re.escape(MARKER)}(.*?)</script>", page.read_text("utf-8"), re.DOTALL)
+        data = json.loads(found[1]) if found else {}
+    except (OSError, ValueError):
+        data = {}
+    if data.get("version") != VERSION or len(data.get("runs", ())) != 1:
+        raise ParameterError(f"{page}: is no report of one shift by this version, run it again")
+    return dict(data["runs"][0])

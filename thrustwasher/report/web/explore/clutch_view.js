@@ -1,0 +1,80 @@
+"use strict";
+/* The wet clutch: a ramp to draw, and the engagement it makes. */
+
+const VIEW = {
+  build(host) {
+    const panel = (wide) => host.appendChild(el("section", { class: wide ? "panel wide" : "panel" })), x = { label: "time", unit: "s" };
+    this.reset();
+    const drawn = panel(true);
+    this.most = fieldsMost();
+    this.ramp = new Plot(drawn, { title: "Load over time: drag the points to draw the ramp", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
+    this.torque = new Plot(panel(), { title: "Torque", x, y: { label: "torque", unit: "N.m", zero: true } });
+    this.warm = new Plot(panel(), { title: "Interface temperature", x, y: { label: "temperature", unit: "K" } });
+    this.film = new Plot(panel(), { title: "Film ratio", x, y: { label: "film over roughness", unit: "1", zero: true } });
+    this.heat = new Plot(panel(), { title: "Friction power", x, y: { label: "power", unit: "W", zero: true } });
+    this.drawRamp();
+  },
+
+  reset() {
+    state.extra.ramp = ABOUT.ramp.slice();
+  },
+
+  checked(_, given) {
+    const good = Array.isArray(given) && given.length === ABOUT.ramp.length && given.every((f) => f >= 0 && f <= ABOUT.largest_load);
+    if (!good) throw new Error("ramp");
+    return given.map(Number);
+  },
+
+  draw(load, i) {
+    state.extra.ramp[i] = Number(Math.min(Math.max(load, 0), this.most).toPrecision(4));
+    this.drawRamp();
+    inputChanged();
+  },
+
+  drawRamp() {
+    const { ramp } = state.extra, n = ramp.length - 1, at = (i) => (state.inputs.duration * i) / n;
+    const points = ramp.map((load, i) => [at(i), load]);
+    this.ramp.show({
+      series: [{ name: "", look: "", points }], span: { y: [0, this.most] },
+      handles: points.map(([t, load]) => ({ x: t, y: load, label: `load at ${shown(t, "s")}, arrow keys move it`, text: shown(load, "N") })),
+    });
+  },
+
+  solved({ series }) {
+    this.drawRamp();
+    const line = (name, key, look, f = (v) => v) => ({ name, look, points: series.time.slice(0, series[key].length).map((t, i) => [t, f(series[key][i])]) });
+    this.torque.show({ series: [line("friction", "friction_torque", ""), line("of contact", "contact_torque", "second"), line("of the oil's shear", "viscous_torque", "third"), line("capacity", "torque_capacity", "fourth")] });
+    this.warm.show({ series: [line("", "temperature", "second")] });
+    this.film.show({ series: [line("", "film_ratio", "")] });
+    this.heat.show({ series: [line("", "friction_power", "second")] });
+  },
+
+  unverified: "the cards verify steady slip, no engagement",
+
+  /** Return the command's options for what was drawn, "" if that is no straight ramp to a level. */
+  straight() {
+    const { ramp } = state.extra, { duration } = state.inputs, level = ramp.at(-1), n = ramp.length - 1, k = ramp.indexOf(level);
+    const good = ramp.every((load, i) => Math.abs(load - level * Math.min(k ? i / k : 1, 1)) <= 1e-9 * level);
+    return good ? `--load ${level} --ramp ${(duration * k) / n} --duration ${duration} --step ${duration / ABOUT.points}` : "";
+  },
+
+  /** The command knows straight ramps only; the Python lines know what was drawn. */
+  reproduced(params, inputs, sets) {
+    const { ramp } = state.extra, { duration, speed, ...rest } = inputs, rung = state.rung === ABOUT.usual_rung ? "" : `, fidelity="${state.rung}"`;
+    return {
+      command: this.straight() ? `thrustwasher engage ${this.straight()} --speed ${speed} ${Object.entries(rest).map(([n, v]) => `--${n.replaceAll("_", "-")} ${v}`).join(" ")}${state.rung === ABOUT.usual_rung ? "" : ` --fidelity ${state.rung}`} ${sets}`.trim()
+        : "The command knows straight ramps only: take the Python lines.",
+      python: [
+        "import numpy as np", "from thrustwasher import ClutchParams, engage_clutch", "",
+        `time = np.linspace(0.0, ${duration}, ${ABOUT.points + 1})`,
+        `load = np.interp(time, np.linspace(0.0, ${duration}, ${ramp.length}), [${ramp.join(", ")}])`,
+        `result = engage_clutch(ClutchParams(${params}), time=time, load=load, speed=${speed} * (1 - time / ${duration}),`,
+        `    ${Object.entries(rest).map(([n, v]) => `${n}=${v}`).join(", ")}${rung})`, "print(abs(result.friction_torque).max(), result.temperature.max())",
+      ].join("\n"),
+    };
+  },
+};
+
+function fieldsMost() {
+  return Math.max(...ABOUT.ramp) * 2 || 1e4;
+}

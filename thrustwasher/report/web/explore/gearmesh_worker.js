@@ -1,0 +1,69 @@
+"use strict";
+/* The gear mesh: a point, and what comes with it along the path of contact. */
+
+const MOST_TORQUE = 1e5; // N m of the pinion
+
+class Model {
+  constructor(kernel, about) {
+    Object.assign(this, { kernel, about, L: about.layout });
+    const { L } = this;
+    this.par = kernel.array(L.NPAR);
+    this.state = kernel.array(L.NSTATE);
+    this.work = kernel.array(L.NWORK);
+  }
+
+  set(parameters, rung) {
+    const par = this.par.view, { L } = this;
+    par.fill(0);
+    par.set([...parameters, this.about.rungs[rung].code]);
+    par[L.P_THERMAL_MODE] = L.QUASI_STEADY;
+    const broken = this.kernel.call("broken_rule", this.par);
+    return broken || (this.kernel.call("derive", this.par) ? -1 : 0);
+  }
+
+  /** Solve at (power, speed, oil temperature), as solve_gearmesh. */
+  solve([power, speed, oil]) {
+    const { L, kernel } = this;
+    if (Math.abs(power) > MOST_TORQUE * Math.abs(speed)) {
+      throw new Error(`speed = ${speed} rad/s, allowed: from ${Math.abs(power) / MOST_TORQUE} rad/s on for power = ${power} W`);
+    }
+    const torque = power === 0 ? 0 : Math.abs(power / speed);
+    this.state.view.fill(0);
+    const code = kernel.call("solve_point", this.par, torque, speed, oil, torque * Math.abs(speed), this.state, 0, this.work);
+    const f = this.work.view, par = this.par.view, found = {};
+    this.about.real_outputs.forEach((name, i) => (found[name] = f[i]));
+    const loss = f[L.F_MEAN_FRICTION] * par[L.D_LOSS] * torque, ratio = f[L.F_RATIO];
+    found.asperity_temperature = found.temperature;
+    delete found.temperature;
+    Object.assign(found, {
+      friction_torque: Math.sign(speed) * loss, friction_power: loss * Math.abs(speed),
+      hertz_pressure: (4 / Math.PI) * f[L.F_PRESSURE], hertz_width: f[L.F_WIDTH], viscosity: f[L.F_VISCOSITY],
+      area_ratio: f[L.F_AREA], sliding_speed: f[L.F_SLIDING], start_of_contact: par[L.D_START],
+      contact_ratio: par[L.D_CONTACT_RATIO], slide_roll_ratio: par[L.D_SLIDE_ROLL],
+      regime: ratio > 3 ? 1 : ratio >= 1 ? 2 : 3,
+    });
+    return { code, outputs: found, path: this.path(oil) };
+  }
+
+  /** Flash, film, pressure and friction along the path, in proportion to the hottest position's. */
+  path(oil) {
+    const { L } = this, par = this.par.view, f = this.work.view, n = par[L.D_PLACES];
+    if (par[L.P_FILM_HEAT] !== L.LOSS || !n) return null;
+    const row = (first) => Array.from(par.slice(first, first + n)), law = par[L.P_FRICTION_LAW], hot = f[L.W_PLACE];
+    const varies = par[L.P_FIDELITY] !== L.CLOSED && (law === L.LI_SEIREG || law === L.MIXED_FRICTION);
+    const friction = varies ? Array.from(f.slice(L.W_FRICTION, L.W_FRICTION + n)) : new Array(n).fill(f[L.F_MEAN_FRICTION]);
+    const along = (values, at, size) => values.map((v) => (v / values[at]) * size);
+    const pressure = row(L.D_PATH_PRESSURE), most = pressure.indexOf(Math.max(...pressure));
+    const flash = along(row(L.D_PATH_FLASH).map((v, k) => v * friction[k]), hot, f[L.F_FLASH_MAX]);
+    const scuffing = f[L.F_SCUFFING_MARGIN] + f[L.F_BULK] + f[L.F_FLASH_MAX];
+    const counted = (rise) => Math.max(rise, 1);
+    const film = along(row(L.D_PATH_FILM), hot, f[L.F_FILM]);
+    return {
+      position: row(L.D_POSITION), friction, film, hot, scuffing, flank: flash.map((v) => v + f[L.F_BULK]),
+      bulk: f[L.F_BULK], pressure: along(pressure, most, f[L.F_PRESSURE_MAX]), share: row(L.D_PATH_SHARE),
+      // in proportion, so that the least is the mesh's own, which is rounded below a rise of 1 K
+      safety: flash.map((v) => (f[L.F_SCUFFING_SAFETY] * counted(f[L.F_BULK] + f[L.F_FLASH_MAX] - oil)) / counted(v + f[L.F_BULK] - oil)),
+      micropitting: film.map((v) => v / par[L.D_MEAN] / par[L.P_PERMISSIBLE_FILM_RATIO]),
+    };
+  }
+}

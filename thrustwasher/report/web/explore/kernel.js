@@ -1,0 +1,79 @@
+"use strict";
+/* The compiled kernels as functions: the same entries that Python calls, with the same blocks. */
+
+/** An array in the kernels' memory; its view is made anew when the memory has grown. */
+class Numbers {
+  constructor(kernel, at, length, type = Float64Array) {
+    Object.assign(this, { kernel, at, length, type });
+  }
+
+  get view() {
+    const buffer = this.kernel.memory.buffer;
+    if (!this.kept || this.kept.buffer !== buffer) {
+      this.kept = new this.type(buffer, this.at, this.length);
+    }
+    return this.kept;
+  }
+
+  /** Return the part from `first` up to `end` as an array of its own, in the same place. */
+  part(first, end = this.length) {
+    return new Numbers(this.kernel, this.at + first * this.type.BYTES_PER_ELEMENT, end - first, this.type);
+  }
+}
+
+/** A module of kernels; `functions`: name -> place in the module's table, kinds of what it takes, how much comes back. */
+class Kernel {
+  constructor(bytes, functions) {
+    const { exports } = new WebAssembly.Instance(new WebAssembly.Module(bytes), {});
+    this.memory = exports.memory;
+    if (exports._initialize) exports._initialize();
+    this.free = Math.ceil(exports.__heap_base.value / 16) * 16;
+    this.raised = this.array(2).at;
+    this.block = this.array(256);
+    this.wholes = new Numbers(this, this.block.at, 512, Int32Array);
+    const places = new Uint32Array(this.memory.buffer, exports.tw_table());
+    this.functions = {};
+    for (const [name, about] of Object.entries(functions)) {
+      this.functions[name] = { ...about, run: exports.__indirect_function_table.get(places[about.place]) };
+    }
+  }
+
+  /** Return an array of zeros that is never given back. */
+  array(length, type = Float64Array) {
+    const made = new Numbers(this, this.free, length, type);
+    this.free += Math.ceil((length * type.BYTES_PER_ELEMENT) / 16) * 16;
+    const missing = this.free - this.memory.buffer.byteLength;
+    if (missing > 0) this.memory.grow(Math.ceil(missing / 65536));
+    return made;
+  }
+
+  /**
+   * Call a kernel: arrays and numbers in the order of its arguments, tuples part by part.
+   * Return the number that comes back, of a tuple the list of them.
+   */
+  call(name, ...given) {
+    const { run, takes, returns, tuple } = this.functions[name];
+    const numbers = this.block.view, wholes = this.wholes.view;
+    let word = 0;
+    const whole = (value) => {
+      wholes[2 * word] = value;
+      wholes[2 * word + 1] = value < 0 ? -1 : 0;
+      word += 1;
+    };
+    if (given.length !== takes.length) throw new Error(`${name} takes ${takes.length} arguments`);
+    for (let i = 0; i < takes.length; i += 1) {
+      if (takes[i] === "array") {
+        whole(given[i].at);
+        whole(given[i].length);
+      } else if (takes[i] === "float") {
+        numbers[word] = given[i];
+        word += 1;
+      } else whole(Number(given[i]));
+    }
+    if (run(this.raised, this.raised + 8, this.block.at, this.block.at)) {
+      throw new Error(`${name} raised an exception, which it never should`);
+    }
+    const back = Array.from(this.block.view.subarray(word, word + returns));
+    return tuple ? back : back[0];
+  }
+}

@@ -1,0 +1,152 @@
+"use strict";
+/* A plot as SVG: lines over linear or logarithmic axes, marks, a point to drag, values under the pointer. */
+
+const LEFT = 62, RIGHT = 12, TOP = 10, BOTTOM = 44;
+
+function niceTicks(low, high, n) {
+  const raw = (high - low) / Math.max(n, 1), power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].find((m) => m * power >= raw) * power, found = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(k * step);
+  return found;
+}
+
+function logTicks(low, high) {
+  const found = [];
+  for (let p = Math.floor(Math.log10(low)); 10 ** p <= high; p += 1) {
+    for (const m of Math.log10(high / low) > 3.2 ? [1] : [1, 2, 5]) {
+      if (m * 10 ** p >= low * 0.999 && m * 10 ** p <= high * 1.001) found.push(m * 10 ** p);
+    }
+  }
+  return found;
+}
+
+class Plot {
+  /** `x`, `y`: {label, unit, log}; `drag(x, y)`: called with data while the point is moved. */
+  constructor(host, { title, x, y, drag, keys, height = 300 }) {
+    Object.assign(this, { x, y, drag, keys, height, series: [], marks: [], handles: [] });
+    this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    this.svg.setAttribute("role", "img");
+    this.svg.setAttribute("aria-label", title);
+    this.legend = el("div", { class: "legend" });
+    this.readout = el("div", { class: "readout", "aria-hidden": "true" });
+    host.append(el("h3", {}, title), this.legend, el("div", { class: "plot" }, this.svg, this.readout));
+    new ResizeObserver(() => this.render()).observe(this.svg.parentNode);
+    this.svg.addEventListener("pointermove", (e) => this.hover(e));
+    this.svg.addEventListener("pointerleave", () => (this.readout.textContent = ""));
+    if (drag) {
+      this.svg.addEventListener("pointerdown", (e) => this.grab(e));
+      this.svg.addEventListener("pointerup", () => (this.held = null));
+      this.svg.addEventListener("pointercancel", () => (this.held = null));
+      this.svg.addEventListener("keydown", (e) => this.key(e));
+    }
+  }
+
+  /** Show `series` [{name, points, look}], `marks` [{x, y, text, look}], `handles` [{x, y, label}]. */
+  show({ series = [], marks = [], handles = [], span }) {
+    Object.assign(this, { series, marks, handles, span });
+    this.render();
+  }
+
+  range(axis, values) {
+    const good = values.filter((v) => Number.isFinite(v) && (!axis.log || v > 0));
+    if (!good.length) return axis.log ? [1, 10] : [0, 1];
+    let low = Math.min(...good), high = Math.max(...good);
+    if (axis.log) return high > low ? [low / (high / low) ** 0.05, high * (high / low) ** 0.05] : [low / 2, high * 2];
+    if (axis.zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
+    const pad = (high - low || Math.abs(high) || 1) * 0.06;
+    return [axis.zero && low === 0 ? 0 : low - pad, high + pad];
+  }
+
+  scale(axis, [low, high], from, to) {
+    const f = axis.log ? Math.log : (v) => v, back = axis.log ? Math.exp : (v) => v, a = f(low), b = f(high);
+    const there = (v) => from + ((f(v) - a) / (b - a)) * (to - from);
+    there.back = (pixel) => back(a + ((pixel - from) / (to - from)) * (b - a));
+    return there;
+  }
+
+  render() {
+    const width = this.svg.parentNode.clientWidth || 600, { height, x, y } = this;
+    const all = [...this.series.flatMap((s) => s.points), ...[...this.marks, ...this.handles].map((m) => [m.x, m.y])];
+    const xs = this.span?.x ?? this.range(x, all.map((p) => p[0])), ys = this.span?.y ?? this.range(y, all.map((p) => p[1]));
+    const sx = (this.sx = this.scale(x, xs, LEFT, width - RIGHT)), sy = (this.sy = this.scale(y, ys, height - BOTTOM, TOP));
+    const [xName, xFactor, xZero] = axisUnit(xs, x.unit), [yName, yFactor, yZero] = axisUnit(ys, y.unit);
+    const parts = [];
+    const ticks = (axis, [low, high], factor, zero, n) => (axis.log ? logTicks(low, high)
+      : niceTicks((low - zero) / factor, (high - zero) / factor, n).map((v) => v * factor + zero));
+    for (const v of ticks(x, xs, xFactor, xZero, width / 90)) {
+      parts.push(`<line class="grid" x1="${sx(v)}" x2="${sx(v)}" y1="${TOP}" y2="${height - BOTTOM}"/>`,
+        `<text class="tick" x="${sx(v)}" y="${height - BOTTOM + 16}" text-anchor="middle">${digits((v - xZero) / xFactor, 3)}</text>`);
+    }
+    for (const v of ticks(y, ys, yFactor, yZero, height / 55)) {
+      parts.push(`<line class="grid" x1="${LEFT}" x2="${width - RIGHT}" y1="${sy(v)}" y2="${sy(v)}"/>`,
+        `<text class="tick" x="${LEFT - 6}" y="${sy(v) + 4}" text-anchor="end">${digits((v - yZero) / yFactor, 3)}</text>`);
+    }
+    const named = (axis, name) => escaped(`${axis.label}${name ? ` [${name}]` : ""}`);
+    parts.push(`<text class="name" x="${(LEFT + width - RIGHT) / 2}" y="${height - 8}" text-anchor="middle">${named(x, xName)}</text>`,
+      `<text class="name" transform="translate(14 ${(TOP + height - BOTTOM) / 2}) rotate(-90)" text-anchor="middle">${named(y, yName)}</text>`,
+      `<clipPath id="clip-${this.id ??= (Plot.count = (Plot.count ?? 0) + 1)}"><rect x="${LEFT}" y="${TOP}" width="${width - LEFT - RIGHT}" height="${height - TOP - BOTTOM}"/></clipPath><g clip-path="url(#clip-${this.id})">`);
+    for (const { points, look } of this.series) {
+      const good = points.filter((p) => Number.isFinite(p[1]) && (!y.log || p[1] > 0) && (!x.log || p[0] > 0));
+      parts.push(`<polyline class="line ${look}" points="${good.map((p) => `${sx(p[0]).toFixed(1)},${sy(p[1]).toFixed(1)}`).join(" ")}"/>`);
+    }
+    parts.push("</g>");
+    for (const m of this.marks) {
+      const end = m.left || sx(m.x) > width - 150;
+      parts.push(`<circle class="mark ${m.look ?? ""}" cx="${sx(m.x)}" cy="${sy(m.y)}" r="4"/>`,
+        m.text ? `<text class="note" x="${sx(m.x) + (end ? -8 : 8)}" y="${sy(m.y) + (m.below ? 18 : -8)}" text-anchor="${end ? "end" : "start"}">${escaped(m.text)}</text>` : "");
+    }
+    this.handles.forEach((h, i) => parts.push(
+      `<circle class="handle" tabindex="0" role="slider" data-i="${i}" aria-label="${escaped(h.label)}" aria-valuenow="${digits(h.x, 6)}" aria-valuetext="${escaped(h.text ?? h.label)}" cx="${sx(h.x)}" cy="${sy(h.y)}" r="8"/>`));
+    const focused = this.svg.contains(document.activeElement) ? document.activeElement.dataset.i : null;
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.svg.setAttribute("role", this.handles.length ? "group" : "img");
+    this.svg.innerHTML = parts.join("");
+    if (focused) this.svg.querySelector(`[data-i="${focused}"]`)?.focus();
+    const listed = this.series.filter((s) => s.name).map((s) => `${s.name}|${s.look}`).join();
+    if (listed !== this.listed) {
+      this.listed = listed;
+      this.legend.replaceChildren(...this.series.filter((s) => s.name).map((s) => el("span", { class: `key ${s.look}` }, s.name)));
+    }
+  }
+
+  place(event) {
+    const box = this.svg.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  hover(event) {
+    const [px, py] = this.place(event);
+    if (this.held !== null && this.held !== undefined && this.drag) this.move(px, py);
+    let best = null, least = 30;
+    for (const { name, points } of this.series) {
+      for (const [a, b] of points) {
+        const far = Math.hypot(this.sx(a) - px, this.sy(b) - py);
+        if (far < least) [best, least] = [[a, b, name], far];
+      }
+    }
+    this.readout.textContent = best ? `${shown(best[0], this.x.unit)}: ${shown(best[1], this.y.unit)}${best[2] ? `, ${best[2]}` : ""}` : "";
+  }
+
+  grab(event) {
+    const [px, py] = this.place(event);
+    if (!this.handles.length) return;
+    const far = this.handles.map((h) => Math.hypot(this.sx(h.x) - px, this.sy(h.y) - py));
+    if (event.pointerType === "touch" && Math.min(...far) > 40) return;
+    this.held = far.indexOf(Math.min(...far));
+    this.svg.setPointerCapture(event.pointerId);
+    event.preventDefault();
+    this.move(px, py);
+  }
+
+  move(px, py) {
+    this.drag(this.sx.back(px), this.sy.back(py), this.held);
+  }
+
+  key(event) {
+    const i = event.target.dataset?.i, way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (i === undefined || !way) return;
+    event.preventDefault();
+    const h = this.handles[i], pixels = event.shiftKey ? 2 : 8;
+    this.drag(this.sx.back(this.sx(h.x) + way[0] * pixels), this.sy.back(this.sy(h.y) - way[1] * pixels), Number(i));
+  }
+}

@@ -1,0 +1,110 @@
+"use strict";
+/* The washer: load curve with a point to drag, discs, Stribeck curve. */
+
+const BRANCHES = { film: "film branch", unstable: "unstable: never stays here", contact: "contact branch" };
+const FOLDS = { film_lost: "film lost", film_regained: "film regained" };
+const SPEEDS = Array.from({ length: 36 }, (_, i) => Number((2 * 1000 ** (i / 35)).toPrecision(6)));
+
+const VIEW = {
+  quantity: "friction_torque", curve: null, stribeck: null, trail: [], known: "", knownLoad: "",
+
+  build(host) {
+    const about = (name) => ABOUT.outputs[name], names = ["friction_torque", "friction_coefficient", "temperature", "temperature_max", "film_ratio", "film_thickness"];
+    const choose = el("select", { id: "curve-quantity", "aria-label": "quantity over the load" }, ...names.map((n) => el("option", { value: n }, about(n).help)));
+    choose.addEventListener("change", () => { this.quantity = choose.value; this.drawCurve(); });
+    const curve = el("section", { class: "panel wide" }, el("div", { class: "choose" }, choose)), discs = el("section", { class: "panel" }, el("h3", {}, "Over the washer")), other = el("section", { class: "panel" });
+    const all = el("div", { class: "discs" });
+    discs.append(all);
+    host.append(curve, discs, other);
+    const drag = (load) => fields.load.take(Number(Math.min(Math.max(load, ABOUT.inputs[0].min), ABOUT.inputs[0].max).toPrecision(5)), null);
+    this.plot = new Plot(curve, { title: "Load curve: drag the point over the fold", drag, x: { label: "load", unit: "N", log: true }, y: { label: "", unit: "N.m" }, height: 340 });
+    curve.append(this.folds = el("p", { class: "folds" }));
+    this.discs = {
+      film_thickness: new Disc(all, { title: "film thickness", unit: "m", shades: "film" }),
+      pressure: new Disc(all, { title: "film pressure", unit: "Pa", shades: "pressure" }),
+      contact_pressure: new Disc(all, { title: "asperity pressure", unit: "Pa", shades: "pressure", least: 1 }),
+      carrier_temperature: new Disc(all, { title: "temperature of the carrier", unit: "K", shades: "warm" }),
+    };
+    this.other = new Plot(other, { title: "Stribeck curve at this load", x: { label: "speed", unit: "rad/s", log: true }, y: { label: "coefficient of friction", unit: "1", zero: true } });
+  },
+
+  solved(result, fresh) {
+    const { outputs, fields: at } = result;
+    this.trail.push([last.point[0], { ...outputs }]);
+    if (this.trail.length > 400) this.trail.shift();
+    const mesh = `${at.radius.join()} ${at.angle.length}`;
+    if (mesh !== this.mesh) [this.mesh, this.pixels] = [mesh, pixelsOf(at.radius, at.angle, 200)];
+    if (!this.drawing) {
+      this.drawing = requestAnimationFrame(() => {
+        this.drawing = 0;
+        for (const [name, disc] of Object.entries(this.discs)) disc.show(this.fields[name], this.pixels);
+        this.drawCurve();
+      });
+    }
+    this.fields = at;
+    if (fresh) this.askCurves();
+  },
+
+  askCurves() {
+    const own = JSON.stringify([last.point.slice(1), state.parameters, state.rung]);
+    if (own !== this.known) {
+      this.known = own;
+      this.trail = [];
+      const began = performance.now();
+      ask("curve", { given: [last.point, 20, 3000] }, (found, problem) => {
+        this.curve = found ?? null;
+        this.took = performance.now() - began;
+        this.folds.replaceChildren(...this.foldWords(problem));
+        this.drawCurve();
+      });
+    }
+    const load = JSON.stringify([last.point[0], own]);
+    if (load !== this.knownLoad) {
+      this.knownLoad = load;
+      ask("stribeck", { given: [last.point, SPEEDS] }, (found) => {
+        this.stribeck = found ?? null;
+        this.drawStribeck();
+      });
+    }
+  },
+
+  foldWords(problem) {
+    if (problem) return [`The load curve is not known here: ${problem}.`];
+    if (!this.curve.folds.length) return ["No fold between 20 and 3000 N: one solution at every load."];
+    const found = [];
+    for (const fold of this.curve.folds) {
+      found.push(found.length ? "; " : "", `${FOLDS[fold.kind]} at `, el("data", { id: `${fold.kind}_load`, value: fold.load }, shown(fold.load, "N")));
+    }
+    return [...found, `. Load up: the film holds to the first; load down: it comes back at the second. Curve in ${digits(this.took / 1000, 2)} s.`];
+  },
+
+  drawCurve() {
+    const { quantity } = this, about = ABOUT.outputs[quantity], series = [], marks = [];
+    this.plot.y = { label: quantity.replaceAll("_", " "), unit: about.unit, log: about.unit !== "K" };
+    const size = (v) => (quantity === "friction_torque" ? Math.abs(v) : v);
+    if (this.curve) {
+      let run = [];
+      this.curve.points.forEach((p, i, all) => {
+        run.push([p.load, size(p[quantity])]);
+        const following = all[i + 1];
+        if (!following || following.branch !== p.branch) {
+          const fold = following && this.curve.folds.find((f) => f.film_ratio <= p.film_ratio && f.film_ratio > following.film_ratio);
+          if (fold) run.push([fold.load, size(fold[quantity])]);
+          series.push({ name: BRANCHES[p.branch], points: run, look: `branch-${p.branch}` });
+          run = fold ? [[fold.load, size(fold[quantity])]] : [];
+        }
+      });
+      for (const f of this.curve.folds) marks.push({ x: f.load, y: size(f[quantity]), text: `${FOLDS[f.kind]}, ${shown(f.load, "N")}`, left: f.kind === "film_regained", below: about.unit !== "K" === (f.kind === "film_lost") });
+    }
+    if (this.trail.length > 1) series.push({ name: "where it has been", points: this.trail.map(([load, o]) => [load, size(o[quantity])]), look: "trail" });
+    const y = size(last.outputs[quantity]);
+    this.plot.show({ series, marks, handles: [{ x: last.point[0], y, label: "load, arrow keys move it", text: `${shown(last.point[0], "N")}, ${shown(y, about.unit)}, ${BRANCHES[last.outputs.branch]}` }] });
+  },
+
+  drawStribeck() {
+    if (!this.stribeck) return;
+    const { rows } = this.stribeck, line = (up) => rows.filter((r) => r.up === up).map((r) => [r.speed, r.friction_coefficient]);
+    const here = Math.abs(last.point[1]), marks = here >= SPEEDS[0] ? [{ x: here, y: last.outputs.friction_coefficient, look: "here" }] : [];
+    this.other.show({ series: [{ name: "slowing down", points: line(false), look: "branch-film" }, { name: "speeding up", points: line(true), look: "trail" }], marks });
+  },
+};

@@ -1,0 +1,269 @@
+"use strict";
+/* The thrust washer: points, fields, load curve and Stribeck curve, as the Python API solves them. */
+
+const GOLDEN = 0.618, MOST_LOADS = 100, FINEST = 0.1, ALONE = 0.9, STEEP = 1.1, SHALLOW = 3e-4;
+
+class Model {
+  constructor(kernel, about) {
+    Object.assign(this, { kernel, about, L: about.layout, meshes: {} });
+    const { L } = this;
+    this.inp = kernel.array(5);
+    this.out = kernel.array(L.NOUT);
+    this.iout = kernel.array(L.NIOUT, Int32Array);
+  }
+
+  /** Take parameters [numbers in their order] and a rung; return the number of a broken rule. */
+  set(parameters, rung) {
+    const { kernel, L } = this, { grid, code, sizes } = this.about.rungs[rung];
+    this.mesh = this.meshes[rung] ??= {
+      par: kernel.array(sizes.par), state: kernel.array(sizes.state),
+      work: kernel.array(sizes.work), curve: kernel.array(sizes.work),
+    };
+    const { par, state } = this.mesh;
+    par.view.fill(0);
+    par.view.set([...parameters, code]);
+    par.view[L.P_THERMAL_MODE] = L.QUASI_STEADY;
+    state.view.fill(0);
+    const broken = kernel.call("broken_rule", par);
+    if (!broken && kernel.call("derive_grid", par, ...grid)) return -1;
+    this.grid = grid;
+    return broken;
+  }
+
+  /** Solve at (load, speed, tilt, oil); `state` remembers. */
+  step(point, wanted, state) {
+    this.inp.view.set([...point, wanted]);
+    const { par, work } = this.mesh;
+    return this.kernel.call("step", par, this.inp, state, work, this.out, this.iout, 0, 1);
+  }
+
+  /**
+   * Solve on from the last solution, or, `fresh`, from nothing: then the numbers are those of
+   * solve_washer. A fresh solution stays on the branch that is named.
+   */
+  solve(point, fresh, branch) {
+    const { L } = this, { state, work } = this.mesh;
+    const wanted = L[{ film: "FILM_BRANCH", contact: "CONTACT_BRANCH" }[branch]] ?? L.ANY;
+    const afresh = (on) => (state.view.fill(0), this.step(point, on, state));
+    const found = () => work.view[L.AT_FOUND + L.BRANCH];
+    let code = fresh ? afresh(L.ANY) : this.step(point, L.ANY, state), asked = false, missing = false;
+    if (fresh && wanted !== L.ANY && code < this.about.first_failure && found() !== wanted) {
+      asked = afresh(wanted) === 0 && found() === wanted;
+      missing = !asked;
+      code = asked ? 0 : afresh(L.ANY);
+    }
+    return { code, outputs: this.outputs(), asked, missing, fields: this.fields(point) };
+  }
+
+  outputs() {
+    const { L, about } = this, head = this.mesh.work.view, iout = this.iout.view, found = {};
+    about.real_outputs.forEach((name, i) => (found[name] = this.out.view[i]));
+    found.fluid_load = head[L.AT_OUTPUTS + L.O_FLUID_LOAD];
+    found.contact_load = head[L.AT_OUTPUTS + L.O_CONTACT_LOAD];
+    found.washer_tilt_x = head[L.AT_POSITIONS + L.TILT_X];
+    found.washer_tilt_y = head[L.AT_POSITIONS + L.TILT_Y];
+    found.iterations = head[L.ITERATIONS];
+    const branch = head[L.AT_FOUND + L.BRANCH];
+    found.branch = branch === L.CONTACT_BRANCH ? "contact" : branch === L.UNSTABLE ? "unstable" : "film";
+    return { ...found, regime: iout[L.IO_REGIME], distress: iout[L.IO_DISTRESS], solver_status: iout[L.IO_STATUS] };
+  }
+
+  /** Where the fields lie in work: as the kernels' ``fields_of`` and ``washer_model`` divide it. */
+  places() {
+    const { L } = this, par = this.mesh.par.view, [nR, nT] = this.grid, n = nR * nT;
+    const column = par[L.D_PER_COLUMN], rings = par[L.D_RINGS], band = column * nT, temps = band + rings;
+    const sides = Math.ceil(rings / L.N_SIDES) * L.N_SIDES, factor = L.N_TAG + 1 + temps;
+    const following = factor + band * (4 * (2 * column + 1) + 2 * sides) + sides * (sides + 1);
+    const nodal = L.N_HEAD + following + 4 * temps + L.N_SMALL;
+    const temp = nodal + L.N_NODAL * n + nT + (2 * nR + 1) * n + 3 * L.N_SIDES * n;
+    const cooled = par[L.P_OIL_COOLING] !== 0;
+    let carrier = [cooled ? nR : 0, column], washer = [carrier[0] + nR, column];
+    if (par[L.P_CONDUCTION] === L.ONLY_CARRIER) washer = [band, 0];
+    else if (par[L.P_CONDUCTION] === L.ONLY_ROTATING) [carrier, washer] = [[band, 0], carrier];
+    return { contact: nodal + 2 * n, temp, pressure: temp + temps, carrier, washer, film: cooled ? [0, column] : null };
+  }
+
+  /** Film, pressures and temperatures of carrier and washer over the nodes, angle by angle. */
+  fields(point) {
+    const { L } = this, [nR, nT] = this.grid, n = nR * nT, at = this.places();
+    const par = this.mesh.par.view, work = this.mesh.work.view, mesh = L.D_MESH + L.N_RADIAL * nR;
+    const radius = par.slice(L.D_MESH + L.RADIUS * nR, L.D_MESH + (L.RADIUS + 1) * nR);
+    const cos = par.slice(mesh + L.COS * nT, mesh + (L.COS + 1) * nT);
+    const sin = par.slice(mesh + L.SIN * nT, mesh + (L.SIN + 1) * nT);
+    const q = work.slice(L.AT_POSITIONS, L.N_HEAD), film = new Float64Array(n), warm = new Float64Array(n), own = new Float64Array(n);
+    for (let j = 0; j < nT; j += 1) {
+      for (let i = 0; i < nR; i += 1) {
+        const k = j * nR + i;
+        film[k] = q[L.Z_WASHER] + radius[i] * (sin[j] * q[L.TILT_X] - cos[j] * q[L.TILT_Y]);
+        warm[k] = point[L.I_OIL] + work[at.temp + at.carrier[0] + i + j * at.carrier[1]];
+        own[k] = point[L.I_OIL] + work[at.temp + at.washer[0] + i + j * at.washer[1]];
+      }
+    }
+    return {
+      radius, angle: Float64Array.from(sin, (s, j) => (Math.atan2(s, cos[j]) + 2 * Math.PI) % (2 * Math.PI)),
+      film_thickness: film, pressure: work.slice(at.pressure, at.pressure + n),
+      contact_pressure: work.slice(at.contact, at.contact + n), carrier_temperature: warm, washer_temperature: own,
+    };
+  }
+
+  /** Go along speeds at one load, down from the fastest, then up again: rows of outputs. */
+  *stribeck(point, speeds) {
+    const { L } = this, rows = [], state = (this.other ??= {})[this.grid] ??= this.kernel.array(this.mesh.state.length);
+    const kept = this.mesh.work;
+    state.view.fill(0);
+    const order = speeds.map((_, i) => speeds.length - 1 - i);
+    for (const i of [...order, ...order.slice().reverse()]) {
+      const inputs = point.slice();
+      inputs[L.I_SPEED] = speeds[i];
+      this.mesh = { ...this.mesh, work: this.mesh.curve };
+      const code = this.step(inputs, L.ANY, state), o = this.outputs();
+      this.mesh = { ...this.mesh, work: kept };
+      if (code < this.about.first_failure) rows.push({ up: rows.length >= speeds.length, speed: speeds[i], ...o });
+      yield rows;
+    }
+    return { rows };
+  }
+
+  /** All solutions between two loads: the walk of Python's load_curve, point by point. */
+  *curve(point, loadMin, loadMax) {
+    const here = new Walker(this, point, loadMin), points = [], folds = [], places = [];
+    here.start(6.0);
+    while (here.load > loadMin && here.film < 1e3 * here.sigma) here.to(1.25 * here.film);
+    const add = () => (places.push(here.film), points.push(here.result()));
+    add();
+    let top = 0, rising = true, byLoad = false;
+    while (points.at(-1).load < loadMax || !rising) {
+      const last = points.at(-1), steep = points.length > 1 && last.load > STEEP * points.at(-2).load;
+      byLoad = rising && (byLoad || (steep && here.share > ALONE));
+      if (!byLoad) {
+        try {
+          here.to(here.film - Math.max(FINEST * here.sigma, 0.12 * (here.film - 2.5 * here.sigma)));
+        } catch (stuck) {
+          byLoad = rising && (folds.length > 0 || here.film < 0);
+          if (!byLoad) throw stuck;
+        }
+      }
+      if (byLoad) here.toLoad(STEEP * here.load);
+      add();
+      const gain = points.at(-1).load - points[top].load, noise = SHALLOW * points[top].load + 1e-3;
+      if (rising ? gain < -noise : gain > noise) {
+        rising = !rising;
+        folds.push(here.fold(rising ? "film_regained" : "film_lost", places[Math.max(0, top - 1)], places.at(-1)));
+        top = points.length - 1;
+      } else if (rising ? gain > 0 : gain < 0) top = points.length - 1;
+      yield points;
+    }
+    for (const p of points) {
+      const passed = folds.filter((fold) => p.film_ratio < fold.film_ratio).length;
+      p.branch = !folds.length ? (p.film_ratio >= 3 ? "film" : "contact") : passed % 2 ? "unstable" : passed ? "contact" : "film";
+    }
+    return { points, folds };
+  }
+}
+
+/** A place on the curve of solutions, which moves as its film thickness is prescribed. */
+class Walker {
+  constructor(washer, point, load) {
+    const { kernel, L } = washer, { par, curve: work, state } = washer.mesh;
+    Object.assign(this, { kernel, L, washer, work, point: [load, ...point.slice(1)], sigma: par.view[L.D_SIGMA1] });
+    // A step sets how heat leaves the bodies; what it found is not used.
+    const own = (washer.other ??= {})[washer.grid] ??= kernel.array(state.length);
+    own.view.fill(0);
+    const mesh = washer.mesh;
+    washer.mesh = { ...mesh, work };
+    washer.step(this.point, L.ANY, own);
+    washer.mesh = mesh;
+    this.w = [
+      par, work.part(L.N_HEAD), work.part(0, L.N_INFO), work.part(L.AT_FOUND, L.AT_CURVE),
+      work.part(L.AT_CURVE, L.AT_OUTPUTS), work.part(L.AT_OUTPUTS, L.AT_POSITIONS), work.part(L.AT_POSITIONS, L.N_HEAD),
+    ];
+    this.at(L.ACCURACY, 1e-8);
+  }
+
+  at(place, value) {
+    const view = this.work.view, k = this.L.AT_CURVE + place;
+    if (value !== undefined) view[k] = value;
+    return view[k];
+  }
+
+  get film() { return this.at(this.L.AT_FILM); }
+
+  get load() { return this.at(this.L.AT_LOAD); }
+
+  get share() { return this.at(this.L.AT_SHARE); }
+
+  check(code) {
+    if (code) throw new Error(this.washer.about.statuses[code] ?? `status ${code}`);
+  }
+
+  start(ratio) { this.check(this.kernel.call("enter_curve", ...this.w, ...this.point, ratio)); }
+
+  forget() { this.work.view[this.L.N_HEAD + this.L.TAG_VALID] = 0; }
+
+  to(film) {
+    const walk = () => this.kernel.call("walk_to", ...this.w, ...this.point, film), { L } = this;
+    let code = walk();
+    if (code) {
+      this.at(L.ACCURACY, this.at(L.ACCURACY) * 100);
+      code = walk();
+      this.at(L.ACCURACY, this.at(L.ACCURACY) * 0.01);
+    }
+    if (code && film < this.film && this.share > ALONE) {
+      for (let i = 0; i < MOST_LOADS && this.film > film; i += 1) this.toLoad(1.02 * this.load);
+      code = walk();
+    }
+    this.check(code);
+  }
+
+  toLoad(load) {
+    const { kernel, L } = this;
+    while (this.load < load * (1 - 1e-9)) {
+      let step = load - this.load, code = 0;
+      kernel.call("remember", ...this.w, 0);
+      for (let i = 0; i < 12; i += 1) {
+        code = kernel.call("newton", ...this.w, ...this.point, L.MODE_LOAD, this.load + step, L.NO_FLOOR, this.at(L.ACCURACY), 20);
+        if (!code) break;
+        kernel.call("recall", ...this.w, 0);
+        this.forget();
+        step *= 0.4;
+      }
+      this.check(code);
+      this.note();
+    }
+  }
+
+  /** Write where on the curve the present solution is, as the kernels' ``note``. */
+  note() {
+    const { L } = this, view = this.work.view, par = this.washer.mesh.par.view, q = view.subarray(L.AT_POSITIONS);
+    const reached = view[L.REACHED_LOAD], e = 0.05 * this.sigma, r = par[L.P_OUTER_RADIUS];
+    this.at(L.AT_FILM, q[L.Z_WASHER] - Math.sqrt(r * r * (q[L.TILT_X] ** 2 + q[L.TILT_Y] ** 2) + e * e));
+    this.at(L.AT_LOAD, reached);
+    this.at(L.AT_SLOPE, view[L.LOAD_SLOPE]);
+    const [nR, nT] = this.washer.grid, small = this.washer.places().contact - 2 * nR * nT - L.N_SMALL;
+    this.at(L.AT_SHARE, view[small + L.CONTACT] / Math.max(reached, 1e-12));
+  }
+
+  fold(kind, upper, lower) {
+    const kept = this.work.view.slice(), sign = kind === "film_lost" ? 1 : -1;
+    const back = () => (this.work.view.set(kept), this.forget());
+    if (this.kernel.call("find_fold", ...this.w, ...this.point, upper, lower)) {
+      back();
+      while (upper - lower > 1e-3 * this.sigma) {
+        const loads = [GOLDEN, 1 - GOLDEN].map((part) => (this.to(lower + part * (upper - lower)), sign * this.load));
+        if (loads[0] > loads[1]) lower += (1 - GOLDEN) * (upper - lower);
+        else upper -= (1 - GOLDEN) * (upper - lower);
+      }
+    }
+    const found = { kind, ...this.result() };
+    back();
+    return found;
+  }
+
+  result() {
+    const { L } = this, load = this.load;
+    this.kernel.call("outputs_at", ...this.w, load, ...this.point.slice(1));
+    const out = this.work.view.slice(L.AT_OUTPUTS, L.AT_POSITIONS), found = { load };
+    this.washer.about.real_outputs.forEach((name, i) => (found[name] = out[i]));
+    return found;
+  }
+}

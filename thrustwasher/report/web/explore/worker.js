@@ -1,0 +1,47 @@
+"use strict";
+/* The worker: answers "solve" at once; curves are made in slices between, the newest of each kind. */
+
+const SLICE = 12; // ms between two looks for messages
+const jobs = new Map(), next = new MessageChannel();
+let solver = null;
+
+function describe(problem) {
+  return String((problem && problem.message) || problem);
+}
+
+function work() {
+  const until = performance.now() + SLICE;
+  for (const [name, job] of jobs) {
+    try {
+      let step;
+      do step = job.steps.next(); while (!step.done && performance.now() < until);
+      if (!step.done) break;
+      jobs.delete(name);
+      postMessage({ id: job.id, task: name, result: step.value });
+    } catch (problem) {
+      jobs.delete(name);
+      postMessage({ id: job.id, task: name, problem: describe(problem) });
+    }
+    if (performance.now() >= until) break;
+  }
+  if (jobs.size) next.port2.postMessage(0);
+}
+next.port1.onmessage = work;
+
+onmessage = ({ data }) => {
+  const { id, task } = data;
+  try {
+    if (task === "begin") solver = new Model(new Kernel(data.bytes, data.about.functions), data.about);
+    else if (task === "set") {
+      jobs.clear();
+      postMessage({ id, task, result: solver.set(data.parameters, data.rung) });
+    } else if (task === "solve") postMessage({ id, task, result: solver.solve(data.point, data.fresh, data.branch, data.extra) });
+    else {
+      const idle = jobs.size === 0;
+      jobs.set(task, { id, steps: solver[task](...data.given) });
+      if (idle) next.port2.postMessage(0);
+    }
+  } catch (problem) {
+    postMessage({ id, task, problem: describe(problem) });
+  }
+};

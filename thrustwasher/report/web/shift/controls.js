@@ -1,0 +1,65 @@
+/* The bar above the plots: time, zoom, events and phases; all of it works from the keyboard. */
+"use strict";
+const Controls = (() => {
+  const { el, number } = Parts;
+
+  function build(state, place) {
+    const points = state.time.length;
+    const slider = el("input", { type: "range", min: 0, max: points - 1, step: 1, value: 0, id: "time",
+      "aria-label": "time of the cursor", oninput: () => Plots.moveTo(Number(slider.value)), onkeydown: keys });
+    const said = el("output", { id: "now", for: "time" });
+    const all = () => Plots.zoom(state.time[0], state.time[points - 1]);
+    const bar = el("div", { class: "bar", role: "group", "aria-label": "cursor and zoom of all plots" }, slider, said,
+      button("zoom in", "+", () => Plots.zoomBy(0.5)), button("zoom out", "−", () => Plots.zoomBy(2)),
+      button("earlier", "◀", () => Plots.pan(-0.25)), button("later", "▶", () => Plots.pan(0.25)),
+      button("the whole run", "show all", all));
+    const happened = el("ul", { class: "happened", "aria-label": "events and phases" });
+    const marks = state.events.map((event) => mark(state, event, happened));
+    state.runs[0].phases.forEach(([name, start, end]) => {
+      if (end > start) happened.append(el("li", {}, button(`zoom to ${name}`, `${name} ${number(start)}–${number(end)} s`,
+        () => { Plots.zoom(start, end); Plots.moveTo(Plots.nearest(start)); })));
+    });
+    const thin = state.runs.filter((run) => run.points < run.recorded).map((run) =>
+      `${run.points} of ${run.recorded} recorded points of ${run.title} are in this page; shift.csv has all.`);
+    place.append(el("p", { class: "small" }, "Drag over a plot to zoom all of them, double-click to see all; with ",
+      "Ctrl the wheel zooms, with Shift it moves. On the slider + and − zoom, 0 shows all. ", ...thin), happened, bar);
+
+    state.select = (event) => {
+      Plots.moveTo(Plots.nearest(event.time));
+      const { min, max } = state.view;
+      if (event.time < min || event.time > max) Plots.zoom(event.time - 0.5 * (max - min), event.time + 0.5 * (max - min));
+    };
+    state.listeners.push(() => {
+      const t = state.time[state.index];
+      const words = `${number(t)} s${Plots.phaseAt(t) ? `, ${Plots.phaseAt(t)}` : ""}`;
+      slider.value = state.index;
+      slider.setAttribute("aria-valuetext", words);
+      said.textContent = words;
+      marks.forEach((one, i) => {
+        const here = Plots.nearest(state.events[i].time) === state.index;
+        if (here) one.setAttribute("aria-current", "true"); else one.removeAttribute("aria-current");
+      });
+    });
+
+    function keys(e) {
+      const what = { "+": () => Plots.zoomBy(0.5), "=": () => Plots.zoomBy(0.5), "-": () => Plots.zoomBy(2), 0: all }[e.key];
+      if (!what) return;
+      e.preventDefault();
+      what();
+    }
+  }
+
+  function button(words, face, onclick) {
+    return el("button", { type: "button", "aria-label": face.length > 1 ? undefined : words, title: words, onclick }, face);
+  }
+
+  function mark(state, event, happened) {
+    const run = state.runs.length > 1 ? `${event.of}: ` : "";
+    const one = button("move the cursor here", `${event.number} ${run}${number(event.time)} s ${event.text}`,
+      () => state.select(event));
+    happened.append(el("li", {}, one));
+    return one;
+  }
+
+  return { build };
+})();

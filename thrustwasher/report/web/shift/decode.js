@@ -1,0 +1,71 @@
+/* The runs of the page as arrays over one time. Packed are second differences of the bits of single
+   precision, all bytes of one rank together, deflated. */
+"use strict";
+const Runs = (() => {
+  async function inflate(text) {
+    const letters = atob(text);
+    const bytes = new Uint8Array(letters.length);
+    for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  }
+
+  function unpack(bytes, points) {
+    const rows = [];
+    for (let from = 0; from < bytes.length; from += 4 * points) {
+      const bits = new Int32Array(points);
+      let step = 0;
+      let value = 0;
+      for (let i = from; i < from + points; i++) {
+        const second = bytes[i] | (bytes[i + points] << 8) | (bytes[i + 2 * points] << 16)
+          | (bytes[i + 3 * points] << 24);
+        step = (step + second) | 0;
+        value = (value + step) | 0;
+        bits[i - from] = value;
+      }
+      rows.push(new Float32Array(bits.buffer));
+    }
+    return rows;
+  }
+
+  /* One time for all runs: every point of each. */
+  function together(times) {
+    if (times.length === 1) return times[0];
+    const every = Float64Array.from(times.flatMap((time) => [...time])).sort();
+    return every.filter((t, i) => i === 0 || t > every[i - 1]);
+  }
+
+  /* Values between points are linear; there are none before the first and after the last one. */
+  function onto(time, own, values) {
+    if (time.length === own.length) return values;
+    const last = own.length - 1;
+    let i = 0;
+    return Array.from(time, (t) => {
+      if (t < own[0] || t > own[last]) return null;
+      while (i < last - 1 && own[i + 1] <= t) i++;
+      const wide = own[i + 1] - own[i];
+      const share = wide > 0 ? (t - own[i]) / wide : 0;
+      return values[i] + share * (values[i + 1] - values[i]);
+    });
+  }
+
+  /* Return {time, runs}; a run's `signals` are by name: help, unit, zero and values. */
+  async function all(given) {
+    const rows = await Promise.all(given.map(async (run) => unpack(await inflate(run.packed), run.points)));
+    const time = together(rows.map((row) => Float64Array.from(row[0])));
+    const runs = given.map((run, k) => {
+      const signals = new Map();
+      run.moving.forEach((signal, i) => {
+        signals.set(signal.name, { ...signal, values: onto(time, rows[k][0], rows[k][i + 1]) });
+      });
+      for (const signal of run.steady) {
+        const values = new Float32Array(time.length).fill(signal.value);
+        signals.set(signal.name, { ...signal, values, steady: true });
+      }
+      return { ...run, signals };
+    });
+    return { time, runs };
+  }
+
+  return { all, inflate };
+})();

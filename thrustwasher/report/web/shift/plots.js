@@ -1,0 +1,373 @@
+/* Plots over one time: a common cursor, a common zoom, signals that are switched on and off. */
+"use strict";
+const Plots = (() => {
+  const { el, colour, number, unitOf } = Parts;
+  const COLOURS = ["blue", "red", "green", "orange", "purple", "sky", "black", "grey"];
+  const DASHES = [undefined, [6, 4]];
+  const NAMES = ["A", "B"];
+  const NEAR = 6; // pixels: a click this near to an event means it
+  const HEIGHT = 210;
+  const PAPER = 640; // pixels that a plot is wide in print
+
+  const state = { time: [], runs: [], index: 0, view: { min: 0, max: 1 }, panels: [], others: [], listeners: [] };
+  let theme = {};
+  let awaited = false;
+
+  const first = () => state.time[0];
+  const last = () => state.time[state.time.length - 1];
+
+  function readTheme() {
+    theme = Object.fromEntries([...COLOURS, "soft", "line", "shade", "mark"].map((n) => [n, colour(n)]));
+  }
+
+  /* The index of the point nearest to a time. */
+  function nearest(t) {
+    let low = 0;
+    let high = state.time.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (state.time[middle] > t) high = middle; else low = middle;
+    }
+    return t - state.time[low] < state.time[high] - t ? low : high;
+  }
+
+  function phaseAt(t) {
+    const found = state.runs[0].phases.find(([, start, end]) => t >= start && t < end);
+    return found ? found[0] : "";
+  }
+
+  function moveTo(index) {
+    state.index = Math.max(0, Math.min(state.time.length - 1, index));
+    schedule();
+  }
+
+  function zoom(min, max) {
+    const least = (last() - first()) / state.time.length;
+    const wide = Math.min(Math.max(max - min, 2 * least), last() - first());
+    const start = Math.max(first(), Math.min(min, last() - wide));
+    state.view = { min: start, max: start + wide };
+    schedule();
+  }
+
+  /* Zoom about the cursor, or about the middle where the cursor is out of sight. */
+  function zoomBy(factor, about = state.time[state.index]) {
+    const { min, max } = state.view;
+    const centre = about >= min && about <= max ? about : 0.5 * (min + max);
+    zoom(centre - (centre - min) * factor, centre + (max - centre) * factor);
+  }
+
+  function pan(share) {
+    const { min, max } = state.view;
+    zoom(min + share * (max - min), max + share * (max - min));
+  }
+
+  function schedule() {
+    if (awaited) return;
+    awaited = true;
+    requestAnimationFrame(() => { awaited = false; paint(); });
+  }
+
+  /* Bring what can be seen up to date; all else follows when it comes into sight. */
+  function paint() {
+    for (const panel of state.panels) if (panel.visible) paintPanel(panel);
+    for (const tell of state.listeners) tell(state);
+  }
+
+  function paintPanel(panel) {
+    const { plot } = panel;
+    if (plot) {
+      if (panel.view !== state.view) {
+        panel.view = state.view;
+        plot.setScale("x", state.view);
+      }
+      const left = plot.valToPos(state.time[state.index], "x");
+      plot.setCursor({ left: left >= 0 && left <= plot.over.clientWidth ? left : -10, top: 0 }, false);
+    }
+    for (const { signal, cells, body } of panel.rows) {
+      if (body.parentNode.open === false) continue;
+      cells.forEach((cell, k) => {
+        const own = state.runs[k].signals.get(signal.name);
+        cell.textContent = own ? number(own.values[state.index], own) : "–";
+      });
+    }
+  }
+
+  /* Panels */
+
+  function panelOf(given, known) {
+    const aside = state.runs[0].aside;
+    const names = Object.keys(given.signals).filter((n) => known.get(n) && !known.get(n).steady && !aside.includes(n));
+    const panel = { given, rows: [], shown: names.map((name) => known.get(name)), visible: false, colours: {} };
+    names.forEach((name) => { panel.colours[name] = given.signals[name]; });
+    return panel;
+  }
+
+  /* Every signal has one panel: where it is named, or the first one of its unit. */
+  function sorted(definitions) {
+    const known = new Map([...state.runs].reverse().flatMap((run) => [...run.signals]));
+    const panels = definitions.map((given) => panelOf(given, known)).filter((p) => p.shown.length);
+    for (const panel of panels) panel.unit = panel.shown[0].unit;
+    const taken = new Set(panels.flatMap((p) => p.shown.map((s) => s.name)));
+    for (const signal of known.values()) {
+      if (taken.has(signal.name)) continue;
+      let panel = signal.unit === "1" ? undefined : panels.find((p) => p.unit === signal.unit && !p.given.turning);
+      panel ??= panels.find((p) => p.unit === signal.unit && p.more);
+      if (!panel) {
+        const title = `Signals ${signal.unit === "1" ? "without unit" : `in ${signal.unit}`}`;
+        panel = { ...panelOf({ title, signals: {} }, known), unit: signal.unit, more: true };
+        panels.push(panel);
+      }
+      (panel.extras ??= []).push(signal);
+    }
+    return panels;
+  }
+
+  /* What is drawn of a signal: nothing where its part stands still, no value below a logarithmic floor. */
+  function drawn(panel, run, signal) {
+    const { turning, floor, logarithmic } = panel.given;
+    const own = run.signals.get(signal.name);
+    if (!own) return new Array(state.time.length).fill(null);
+    const speed = turning && run.signals.get(`${signal.name.split(".")[0]}.speed`);
+    return Array.from(own.values, (value, i) => {
+      if (value === null || !Number.isFinite(value) || (speed && Math.abs(speed.values[i]) < turning)) return null;
+      return logarithmic ? Math.max(value, floor) : (value - own.zero) / own.scale;
+    });
+  }
+
+  function shade(u, panel) {
+    const { ctx, bbox } = u;
+    const at = (t) => Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(t, "x", true)));
+    ctx.save();
+    ctx.fillStyle = theme.shade;
+    state.runs[0].phases.forEach(([, start, end], i) => {
+      if (i % 2) ctx.fillRect(at(start), bbox.top, at(end) - at(start), bbox.height);
+    });
+    ctx.restore();
+    if (panel.given.levels || panel.limits.length) drawLevels(u, panel);
+  }
+
+  function drawLevels(u, panel) {
+    const { ctx, bbox } = u;
+    const levels = [...(panel.given.levels ?? []), ...panel.limits];
+    ctx.save();
+    ctx.strokeStyle = ctx.fillStyle = theme.soft;
+    ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
+    ctx.textAlign = "right";
+    ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
+    for (const [value, words] of levels) {
+      const y = u.valToPos(value, "y", true);
+      if (!(y > bbox.top && y < bbox.top + bbox.height)) continue;
+      ctx.beginPath();
+      ctx.moveTo(bbox.left, y);
+      ctx.lineTo(bbox.left + bbox.width, y);
+      ctx.stroke();
+      ctx.fillText(words, bbox.left + bbox.width - 4, y - 4 * devicePixelRatio);
+    }
+    ctx.restore();
+  }
+
+  function mark(u) {
+    const { ctx, bbox } = u;
+    ctx.save();
+    ctx.strokeStyle = ctx.fillStyle = theme.mark;
+    ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
+    ctx.setLineDash([devicePixelRatio, 3 * devicePixelRatio]);
+    let before = -Infinity;
+    let up = 0;
+    for (const event of state.events) {
+      const x = u.valToPos(event.time, "x", true);
+      if (x < bbox.left || x > bbox.left + bbox.width) continue;
+      up = x - before < 14 * devicePixelRatio ? up + 1 : 0;
+      before = x;
+      ctx.beginPath();
+      ctx.moveTo(x, bbox.top);
+      ctx.lineTo(x, bbox.top + bbox.height);
+      ctx.stroke();
+      ctx.fillText(event.number, x + 2, bbox.top + (11 + 11 * (up % 4)) * devicePixelRatio);
+    }
+    ctx.restore();
+  }
+
+  function axis(given = {}) {
+    const grid = { stroke: () => theme.line, width: 1 };
+    return { stroke: () => theme.soft, grid, ticks: { ...grid, size: 5 }, font: "12px system-ui, sans-serif", ...given };
+  }
+
+  function options(panel) {
+    const lines = panel.shown.flatMap((signal) => state.runs.map((run, k) => ({ signal, k })));
+    return {
+      width: Math.max(200, panel.chart.clientWidth), height: HEIGHT, legend: { show: false },
+      cursor: {
+        y: false, drag: { x: true, y: false, setScale: false, dist: 5 },
+        bind: { dblclick: () => () => { zoom(first(), last()); } },
+      },
+      scales: { x: { time: false }, y: panel.given.logarithmic ? { distr: 3 } : {} },
+      axes: [axis({ size: 34, values: (u, ticks) => ticks.map((t) => number(t)) }), axis({ size: 66 })],
+      series: [{}, ...lines.map(({ signal, k }) => ({
+        label: signal.name, stroke: () => theme[panel.colours[signal.name]], width: 1.6,
+        dash: DASHES[k], points: { show: false }, show: !panel.off?.has(signal.name),
+      }))],
+      hooks: {
+        drawClear: [(u) => shade(u, panel)],
+        draw: [mark],
+        setSelect: [(u) => take(u)],
+      },
+    };
+  }
+
+  function take(u) {
+    const { left, width } = u.select;
+    if (width < 5) return;
+    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    zoom(u.posToVal(left, "x"), u.posToVal(left + width, "x"));
+  }
+
+  function draw(panel) {
+    panel.plot?.destroy();
+    panel.plot = undefined;
+    panel.chart.hidden = !panel.shown.length;
+    if (!panel.shown.length) return;
+    panel.limits = panel.shown.filter((s) => s.limit).map((s) => [(s.limit - s.zero) / s.scale, `limit ${number(s.limit, s)}`]);
+    const values = panel.shown.flatMap((signal) => state.runs.map((run) => drawn(panel, run, signal)));
+    panel.plot = new uPlot(options(panel), [state.time, ...values], panel.chart);
+    panel.view = undefined;
+    listen(panel.plot);
+  }
+
+  function listen(plot) {
+    const { over } = plot;
+    const follow = (e) => moveTo(plot.posToIdx(e.clientX - over.getBoundingClientRect().left));
+    over.addEventListener("pointermove", follow);
+    over.addEventListener("pointerdown", follow);
+    over.addEventListener("mouseleave", () => setTimeout(schedule)); // the library takes its cursor away
+    over.addEventListener("click", (e) => {
+      const near = state.events.find((event) => Math.abs(plot.valToPos(event.time, "x") - e.offsetX) < NEAR);
+      if (near) state.select(near);
+    });
+    over.addEventListener("wheel", (e) => {
+      if (!e.ctrlKey && !e.shiftKey) return;
+      e.preventDefault();
+      if (e.ctrlKey) zoomBy(e.deltaY > 0 ? 1.25 : 0.8, plot.posToVal(e.offsetX, "x"));
+      else pan(e.deltaY > 0 || e.deltaX > 0 ? 0.1 : -0.1);
+    }, { passive: false });
+  }
+
+  function toggle(panel, signal, on) {
+    panel.off ??= new Set();
+    if (!panel.shown.includes(signal)) {
+      panel.shown.push(signal);
+      draw(panel);
+    } else {
+      if (on) panel.off.delete(signal.name); else panel.off.add(signal.name);
+      panel.plot.series.forEach((line, i) => {
+        if (i && line.label === signal.name) panel.plot.setSeries(i, { show: on });
+      });
+    }
+    schedule();
+  }
+
+  function rowOf(panel, body, signal, on) {
+    panel.colours[signal.name] ??= COLOURS[Object.keys(panel.colours).length % COLOURS.length];
+    const cells = state.runs.map(() => el("td"));
+    const box = el("input", { type: "checkbox", checked: on, onchange: () => toggle(panel, signal, box.checked) });
+    const line = el("i", { style: `border-color: var(--${panel.colours[signal.name]})` });
+    const row = el("tr", {}, el("th", { scope: "row", title: signal.name },
+      el("label", {}, box, line, el("span", {}, signal.help))), ...cells);
+    body.tBodies[0].append(row);
+    panel.rows.push({ signal, cells, body });
+  }
+
+  function tableOf(panel) {
+    const unit = unitOf({ unit: panel.unit });
+    const heads = state.runs.map((run, k) => el("th", { scope: "col" }, state.runs.length > 1 ? NAMES[k] : unit || "value"));
+    return el("table", {}, el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "at the cursor"), ...heads)), el("tbody"));
+  }
+
+  function build(panel, place) {
+    panel.chart = el("div", { class: "chart", role: "img", "aria-label":
+      `${panel.given.title} over time; the values at the cursor are in the table that follows` });
+    const legend = el("div");
+    const table = tableOf(panel);
+    if (panel.shown.length) legend.append(table);
+    panel.shown.forEach((signal) => rowOf(panel, table, signal, true));
+    if (panel.extras) legend.append(extrasOf(panel));
+    const unit = el("span", { class: "unit" }, ` [${panel.unit}]`);
+    const head = panel.more ? [] : [el("h3", {}, panel.given.title, unit)];
+    panel.box = el("section", { class: panel.more ? "panel more" : "panel" }, ...head,
+      ...(panel.given.note ? [el("p", {}, panel.given.note)] : []), el("div", { class: "beside" }, panel.chart, legend));
+    place.append(panel.box);
+  }
+
+  function extrasOf(panel) {
+    const table = tableOf(panel);
+    const of = panel.more ? panel.given.title.slice("Signals".length) : "";
+    const words = `${panel.extras.length} more signal${panel.extras.length > 1 ? "s" : ""}${of}`;
+    const fold = el("details", { "data-stays": true, ontoggle: () => {
+      if (fold.open && !table.tBodies[0].rows.length) panel.extras.forEach((s) => rowOf(panel, table, s, false));
+      schedule();
+    } }, el("summary", {}, words), table);
+    return fold;
+  }
+
+  function allPlots() {
+    return [...state.panels.map((panel) => panel.plot).filter(Boolean), ...state.others];
+  }
+
+  function repaint() {
+    readTheme();
+    for (const plot of allPlots()) plot.redraw(false);
+  }
+
+  function fit(width) {
+    for (const plot of allPlots()) {
+      plot.setSize({ width: width ?? Math.max(200, plot.root.parentNode.clientWidth), height: plot.height });
+    }
+  }
+
+  function watch() {
+    const seen = new IntersectionObserver((entries) => {
+      for (const entry of entries) {
+        const panel = state.panels.find((p) => p.box === entry.target);
+        panel.visible = entry.isIntersecting;
+        if (panel.visible && !panel.plot) draw(panel);
+      }
+      schedule();
+    }, { rootMargin: "200px" });
+    for (const panel of state.panels) seen.observe(panel.box);
+    addEventListener("resize", () => fit());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
+    addEventListener("beforeprint", () => {
+      for (const panel of state.panels) {
+        if (!panel.plot) draw(panel);
+        paintPanel(panel);
+      }
+      fit(PAPER);
+      repaint();
+    });
+    addEventListener("afterprint", () => { fit(); repaint(); });
+  }
+
+  /* The events of all runs, numbered; one that both have at the same time stands there once. */
+  function happened() {
+    const found = new Map();
+    state.runs.forEach((run, k) => run.events.forEach(([time, text]) => {
+      const known = found.get(`${time} ${text}`);
+      if (known) known.of += ` ${NAMES[k]}`; else found.set(`${time} ${text}`, { time, text, of: NAMES[k] });
+    }));
+    const events = [...found.values()].sort((a, b) => a.time - b.time);
+    return events.map((event, i) => ({ ...event, number: i + 1 }));
+  }
+
+  function show(data, found, place) {
+    Object.assign(state, found, { view: { min: found.time[0], max: found.time[found.time.length - 1] } });
+    state.events = happened();
+    readTheme();
+    Controls.build(state, place);
+    state.panels = sorted(data.panel);
+    for (const panel of state.panels) build(panel, place);
+    watch();
+    schedule();
+  }
+
+  return { show, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, NAMES };
+})();

@@ -5,7 +5,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
-from importlib import import_module
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -86,8 +85,6 @@ def run(arguments: argparse.Namespace) -> int:
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
     began = time.perf_counter()
-    if folder:  # what draws is loaded while the shift runs: compiled steps leave Python free
-        Thread(target=import_module, args=("thrustwasher.report.shift.shift_report",)).start()
     result = (_shifts if scene.sequence else _one_shift)(arguments, scene)
     if folder:
         with _output.whole_folder(folder) as draft:
@@ -101,6 +98,20 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _say(result, folder)
     return 0
+
+
+def _get_ready(arguments: argparse.Namespace) -> None:
+    """Load what draws and read the templates while the shift runs: its steps leave Python free."""
+    if not arguments.no_report:
+        Thread(target=_load_report).start()
+
+
+def _load_report() -> None:
+    from ..report import html
+    from ..report.shift import shift_report, summary  # noqa: F401 (it draws)
+
+    html.template()
+    summary.words()
 
 
 def _scene(arguments: argparse.Namespace, name: str) -> Any:
@@ -121,6 +132,7 @@ def _one_shift(arguments: argparse.Namespace, scene: Any) -> Any:
     from ..shift import run_auto
 
     with _fmu_instances(scene, arguments.fmu) as make:
+        _get_ready(arguments)
         return run_auto(scene, make, guard=not arguments.no_guard, build_maps=True,
                         progress=_progress(scene))  # fmt: skip
 
@@ -130,6 +142,7 @@ def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
     from ..shift import run_sequence
 
     with _fmu_instances(scene, arguments.fmu) as make:
+        _get_ready(arguments)
         instances = {name: make(name, part) for name, part in scene.parts.items()}
         return run_sequence(scene, instances, progress=_progress(scene))
 

@@ -7,14 +7,14 @@ import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # who wants the words alone waits for no drawing
     from matplotlib.figure import Figure
 
-WEB = Path(__file__).with_name("web")
+WEB, PAGE = Path(__file__).with_name("web"), Path(__file__).with_name("page.html.jinja")
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def render(page: Page) -> str:
     codes = [_web(name) for name in ("page.js", *page.scripts) if name.endswith(".js")]
     sums = [base64.b64encode(hashlib.sha256(code.encode()).digest()).decode() for code in codes]
     return fill_template(
-        Path(__file__).with_name("page.html.jinja"),
+        PAGE,
         **{**vars(page), "scripts": [Markup(code) for code in codes]},
         policy=" ".join(f"'sha256-{one}'" for one in sums),
         styles=[Markup(_web(name)) for name in names],
@@ -132,13 +132,19 @@ def _web(name: str) -> str:
 
 def fill_template(path: Path, **values: Any) -> str:
     """Return a template filled with values; in HTML they are escaped."""
+    return str(template(path).render(values))
+
+
+@cache
+def template(path: Path = PAGE) -> Any:
+    """Return a template, read once."""
     from jinja2 import Environment, StrictUndefined
 
     environment = Environment(
         autoescape=".html" in path.suffixes, undefined=StrictUndefined, keep_trailing_newline=True,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    return environment.from_string(path.read_text("utf-8")).render(values)
+    return environment.from_string(path.read_text("utf-8"))
 
 
 def save_plots(page: Page, folder: Path) -> None:

@@ -14,7 +14,7 @@ from .worst_moments import highest, least_margin
 
 
 @cache
-def _words() -> Any:
+def words() -> Any:
     """Return the template, whose macros are functions."""
     from jinja2 import Environment, StrictUndefined
 
@@ -32,7 +32,7 @@ def _words() -> Any:
 
 def paragraphs(name: str, *told: Any) -> list[str]:
     """Return what a macro of the template says of what it is told, a text for each paragraph."""
-    said = str(getattr(_words(), name)(*told))
+    said = str(getattr(words(), name)(*told))
     return [re.sub(r"[ \n]+", " ", text).strip(" ") for text in said.split("¶")[1:]]
 
 

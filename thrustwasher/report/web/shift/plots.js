@@ -347,6 +347,15 @@ const Plots = (() => {
     addEventListener("afterprint", () => { fit(); repaint(); });
   }
 
+  /* What lies further down is drawn panel by panel: who jumps there finds it. */
+  function drawRest() {
+    const next = state.panels.find((panel) => !panel.plot && panel.shown.length);
+    if (!next) return;
+    draw(next);
+    paintPanel(next);
+    setTimeout(drawRest, 20);
+  }
+
   /* The events of all runs, numbered; one that both have at the same time stands there once. */
   function happened() {
     const found = new Map();
@@ -367,6 +376,7 @@ const Plots = (() => {
     for (const panel of state.panels) build(panel, place);
     watch();
     schedule();
+    setTimeout(drawRest, 200);
   }
 
   return { show, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, NAMES };

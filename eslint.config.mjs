@@ -7,9 +7,9 @@ const browser = ["window", "document", "addEventListener", "matchMedia", "getCom
 const here = ["performance", "MessageChannel", "postMessage", "navigator", "location", "history",
   "ResizeObserver", "getSelection"];
 // explore: what one script declares and another one uses
-const joined = ["ABOUT", "Disc", "Kernel", "Model", "Plot", "VIEW", "allowed", "ask", "axisUnit", "digits", "el", "escaped",
-  "fields", "inputChanged", "last", "pixelsOf", "shown", "state"];
-const shared = ["uPlot", "Runs", "Parts", "Plots", "Controls", "Flow", "Live", "Discs", "Slip"];
+const joined = ["ABOUT", "Disc", "Kernel", "Model", "Plot", "PointModel", "VIEW", "allowed", "ask", "axisUnit", "digits", "el", "escaped",
+  "fields", "inputChanged", "last", "pixelsOf", "pretty", "shown", "state"];
+const shared = ["el", "Disc", "pixelsOf", "uPlot", "Runs", "Parts", "Plots", "Controls", "Flow", "Live", "Discs", "Slip"];
 
 const globals = (names, may = "readonly") => Object.fromEntries(names.map((name) => [name, may]));
 const rules = {

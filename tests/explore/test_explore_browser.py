@@ -1,12 +1,22 @@
 """The pages in Chromium, opened from the disk: no errors, no requests, the numbers of Python."""
 
+import re
+
 import pytest
+from browser_pages import Seen, faults
 from browser_pages import chromium as launched
-from browser_pages import faults
 from pages import MODELS, html
 
-from thrustwasher import WasherParams, load_curve, solve_gearmesh, solve_washer
-from thrustwasher.gearmesh.parameters import GearMeshParams
+from thrustwasher import (
+    ClutchParams,
+    GearMeshParams,
+    WasherParams,
+    load_curve,
+    solve_gearmesh,
+    solve_washer,
+)
+from thrustwasher.ladder.card import SAFETY, fresh_cards
+from thrustwasher.study.reference_clutch import HELD, RISE, TIMES
 
 pytestmark = pytest.mark.browser
 SAME = 1e-10
@@ -37,18 +47,11 @@ def files(tmp_path_factory):
     return file
 
 
-class Opened:
-    """A page with all that it said and asked for."""
+class Opened(Seen):
+    """A page to explore."""
 
-    def __init__(self, browser, path, address="", **look):
-        self.context = browser.new_context(**look)
-        self.page = self.context.new_page()
-        self.said, self.asked = [], []
-        self.page.on("console", lambda m: self.said.append(m.text))
-        self.page.on("pageerror", lambda e: self.said.append(str(e)))
-        self.page.on("request", lambda r: self.asked.append(r.url))
-        self.page.goto(f"file://{path}{address}")
-        self.page.wait_for_selector("html[data-settled]")
+    def __init__(self, browser, path, address="", ready="html[data-settled]", **look):
+        super().__init__(browser, f"{path.as_uri()}{address}", ready=ready, **look)
 
     def settled(self):
         """Wait until the numbers are those of a fresh solve again."""
@@ -83,9 +86,7 @@ def opened(chromium, files):
 
     yield open_
     for page in made:
-        assert page.said == []
-        assert all(url.startswith(("file:", "blob:")) for url in page.asked)
-        page.context.close()
+        page.close()
 
 
 def test_a_page_opens_with_the_numbers_of_python_and_fields_change_them(opened):
@@ -165,7 +166,7 @@ def test_arrow_keys_move_the_point(opened):
     assert float(page.page.input_value("#in-load")) > before
 
 
-@pytest.mark.parametrize("bad", ["20000", "-5", "", "abc", "1e400", "NaN"])
+@pytest.mark.parametrize("bad", ["20000", "-5", "", "abc", "1e999", "NaN", "1,5", "3 N", "<b>"])
 def test_a_bad_value_is_marked_with_its_range_and_the_last_good_result_stays(opened, bad):
     page = opened()
     before = page.figure("friction_torque")
@@ -195,16 +196,142 @@ def test_a_branch_that_is_not_there_is_told_in_words(opened):
     assert "The contact branch has no solution here" in page.page.text_content("#state")
 
 
-def test_without_webassembly_values_and_pictures_of_the_start_are_shown(chromium, files):
-    page = chromium.new_page()
-    page.add_init_script("delete globalThis.WebAssembly")
-    page.goto(f"file://{files('washer')}")
-    assert "no WebAssembly" in page.text_content("#state")
-    assert page.locator("#still img").count() == 2 and page.locator("#still img").first.is_visible()
-    assert not page.is_visible("#controls")
+def looks_still(page):
+    """Assert that figures and pictures of the start are there, large, and no empty axes."""
+    assert not page.is_visible("#views") and not page.is_visible("#controls")
+    pictures = page.locator("#still img")
+    assert pictures.count() >= 1
+    for picture in pictures.all():
+        assert picture.is_visible() and picture.bounding_box()["width"] > 500
+        assert picture.evaluate("(one) => one.naturalWidth") > 500
+    figures = page.locator("#figures data").all_text_contents()
+    assert len(figures) >= 6 and all(figures)
+
+
+WITHOUT = {
+    "webassembly": {"init": "delete globalThis.WebAssembly"},
+    "scripts": {"java_script_enabled": False},
+}
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("look", WITHOUT.values(), ids=WITHOUT)
+def test_a_browser_without_it_shows_values_and_pictures_of_the_start(opened, model, look):
+    page = opened(model, ready="", **look).page
+    looks_still(page)
+    said = page.text_content("#state")
+    assert "of the start" in said and ("no WebAssembly" in said or "Rung field; verified" in said)
+
+
+def test_still_values_are_those_of_python(opened):
+    page = opened(ready="", java_script_enabled=False)
     wanted = solve_washer(WasherParams(), **POINT)
-    shown = float(page.get_attribute("#friction_torque", "value"))
-    assert shown == wanted.friction_torque
+    assert page.figure("friction_torque") == wanted.friction_torque
+    words = f"verified error of the torque: at most {100 * wanted.error_estimate:.2g} %"
+    assert words in page.page.text_content("#state")
+
+
+def test_kernels_that_cannot_run_leave_the_still_version(chromium, files, tmp_path):
+    path = tmp_path / "broken.html"
+    text = files("gearmesh").read_text("utf-8")
+    path.write_text(re.sub(r'(id="module">)[^<]*', r"\g<1>AGFzbQ==", text), "utf-8")
+    page = Opened(chromium, path, ready="#state.problem")
+    assert page.page.text_content("#state").startswith("This browser cannot run the kernels: ")
+    looks_still(page.page)
+    page.close()
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_on_paper_the_views_are_full_and_dark_on_white(opened, model):
+    page = opened(model, color_scheme="dark").settled().page
+    page.emulate_media(media="print", color_scheme="dark")
+    plots = page.locator("#views svg")
+    assert plots.count() >= 2
+    for plot in plots.all():
+        plot.locator("polyline").first.wait_for(state="attached")
+        lines = plot.locator("polyline").evaluate_all("(all) => all.map((p) => p.points.length)")
+        assert max(lines) >= 2
+    ink, paper = page.evaluate(
+        "() => ['color', 'backgroundColor'].map((name) => getComputedStyle(document.body)[name])"
+    )
+    assert (ink, paper) == ("rgb(29, 39, 48)", "rgb(255, 255, 255)")
+    assert not page.is_visible("#controls")
+
+
+def test_the_washers_four_discs_have_colours_scales_and_units(opened):
+    page = opened(address="#load=700&branch=contact").settled().page
+    names = page.locator(".disc figcaption").all_text_contents()
+    assert names == ["film thickness", "film pressure", "asperity pressure",
+                     "temperature of the carrier"]  # fmt: skip
+    for disc, unit in zip(page.locator(".disc").all(), ("m", "Pa", "Pa", "°C"), strict=True):
+        ends = disc.locator(".ends span").all_text_contents()
+        assert ends[0] != ends[1] and ends[1].endswith(unit)
+        label = disc.locator("[role=img]").get_attribute("aria-label")
+        assert label.endswith(f"from {ends[0]} to {ends[1]}")
+        for canvas in disc.locator("canvas").all():
+            colours = canvas.evaluate(
+                """(one) => new Set(new Uint32Array(one.getContext("2d")
+                .getImageData(0, 0, one.width, one.height).data.buffer)).size"""
+            )
+            assert colours > 50
+
+
+@pytest.mark.parametrize("rung", ["field", "fine"])
+def test_the_clutch_says_the_error_of_its_cards_engagement(opened, rung):
+    at = {"load": 4000.0, "speed": 200.0, "oil_temperature": 330.0}
+    ramp = "[0,1000,4000,4000,4000,4000,4000,4000,4000]"
+    address = f"#speed=200&oil_temperature=330&fidelity={rung}&ramp={ramp}"
+    card = next(c for c in fresh_cards("clutch", rung, ClutchParams()) if c.chart == "engagement")
+    error = 100 * SAFETY * card.error_of("friction_torque", at)
+    said = opened("clutch", address).page.text_content("#state")
+    assert f"(load up in {RISE} s, slip down from {HELD} to {TIMES[-1]} s, drum at rest" in said
+    assert float(re.search(r"at most ([\d.]+) %$", said)[1]) == pytest.approx(error, rel=0.06)
+    outside = opened("clutch", "#speed=550").page.text_content("#state")
+    assert outside.endswith("no error is verified at this point")
+
+
+ADDRESSES = [
+    ("#load=abc", "The address: load = abc N, allowed: 1 .. 10000 N. "),
+    ("#load=1e9", "The address: load = 1e9 N, allowed: 1 .. 10000 N. "),
+    ("#load=", "The address: load =  N, allowed: 1 .. 10000 N. "),
+    ("#load=1,5", "The address: load = 1,5 N, allowed"),
+    ("#load=300&load=-1", "The address: load = -1 N, allowed"),
+    ("#weight=3", "The address: weight is nothing that this page knows. "),
+    (
+        "#__proto__=3&constructor=1",
+        "The address: __proto__ is nothing that this page knows; constr",
+    ),
+    ("#fidelity=constructor", "The address: fidelity = constructor, allowed: coarse or field or f"),
+    ("#branch=<script>window.hit=1</script>", "The address: branch = <script>window.hit=1</scri"),
+    ("#load=%E0%A4%A", "The address: load = %E0%A4%A N, allowed"),
+    ("#<img src=x onerror=window.hit=1>", "The address: %3Cimg%20src is nothing that this page"),
+    ("#conduction=toString", "The address: conduction = toString, allowed: "),
+    ("#oil_cooling=perhaps", "The address: oil_cooling = perhaps, allowed: true or false. "),
+    ("#&&=&=3&", "The address:  is nothing that this page knows. "),
+]
+
+
+@pytest.mark.parametrize(("address", "words"), ADDRESSES, ids=[a for a, _ in ADDRESSES])
+def test_an_address_that_cannot_be_taken_is_told_and_harmless(opened, address, words):
+    page = opened(address=address, ready="#state.problem")
+    assert page.page.text_content("#state").startswith(words)
+    assert page.page.evaluate("window.hit") is None and page.page.locator("img[src=x]").count() == 0
+    wanted = solve_washer(WasherParams(), **POINT)
+    assert page.figure("friction_torque") == pytest.approx(wanted.friction_torque, rel=SAME)
+    if address.startswith("#load") and "load=300&" not in address:
+        assert page.page.get_attribute("#in-load", "aria-invalid") == "true"
+    page.put("load", 300)  # and the page goes on
+    assert page.page.get_attribute("#in-load", "aria-invalid") == "false"
+
+
+@pytest.mark.parametrize(
+    "ramp", ["5", "[1]", "[1,2", '["a",1,1,1,1,1,1,1,1]', "[9e9,0,0,0,0,0,0,0,0]"]
+)
+def test_a_ramp_that_cannot_be_taken_is_told(opened, ramp):
+    page = opened("clutch", f"#ramp={ramp}")
+    said = page.page.text_content("#state")
+    assert said.startswith("The address: ramp, allowed: 9 loads in brackets, 0 .. ")
+    assert "2500" in page.page.text_content("#as-python")
 
 
 def test_the_gear_mesh_follows_its_inputs(opened):

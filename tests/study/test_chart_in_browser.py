@@ -72,9 +72,11 @@ def test_names_of_marks_do_not_lie_on_each_other(page):
             assert across < 1.0 or down < 2.0
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_nothing_serious_bars_access(browser, drawn, scheme):  # noqa: F811
-    with opened(browser, drawn / "chart.html", ready="html.js", scheme=scheme) as page:
+@pytest.mark.parametrize(("wide", "scheme"), [(1200, "light"), (1200, "dark"), (380, "dark")])
+def test_nothing_serious_bars_access(browser, drawn, wide, scheme):  # noqa: F811
+    look = {"wide": wide, "scheme": scheme}
+    with opened(browser, drawn / "chart.html", ready="html.js", **look) as page:
+        assert page.evaluate("document.documentElement.scrollWidth") <= wide
         assert faults(page) == []
 
 

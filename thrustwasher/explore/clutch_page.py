@@ -78,7 +78,8 @@ VIEW = View(
         "heat_flux_max": ("W/m2", "largest heat flux into a face"),
         "stored_heat": ("J", "heat in the steel at the end"),
     },
+    card_point=lambda point: {**point, "load": LARGEST},
     more={"ramp": RAMP, "largest_load": LOAD.high, "points": POINTS},
     spans={"speed": (0.0, 600.0), "drum_speed": (-600.0, 600.0), "duration": (0.05, 5.0),
-           "oil_temperature": (253.15, 423.15)},
+           "oil_temperature": (253.15, 423.15), "permeability": (1e-15, 1e-10)},
 )  # fmt: skip

@@ -52,7 +52,7 @@ def describe(
         "key": spec.key, "name": part.name if part.name != spec.name else f"My{spec.name}",
         "main": view.main,
         "inputs": [_input(s, view, point[s.name]) for s in inputs_of(model, view)],
-        "parameters": [_parameter(f) for f in fields(spec.params)],
+        "parameters": [_parameter(f, view) for f in fields(spec.params)],
         "defaults": {f.name: f.default for f in fields(spec.params)},
         "given": {f.name: getattr(params, f.name) for f in fields(spec.params)},
         "outputs": outputs_of(model, view), "units": readable_units(),
@@ -72,17 +72,18 @@ def _input(s: Signal, view: View, value: float) -> dict[str, Any]:
             "from": first, "to": last, "relative": s.relative, "value": value}  # fmt: skip
 
 
-def _parameter(f: Any) -> dict[str, Any]:
+def _parameter(f: Any, view: View) -> dict[str, Any]:
     m = f.metadata
+    first, last = view.spans.get(f.name, (m["min"], m["max"]))
     keys = ("unit", "help", "kind", "min", "max", "options")
-    return {"name": f.name, "relative": m.get("relative", False), "from": m["min"], "to": m["max"],
+    return {"name": f.name, "relative": m.get("relative", False), "from": first, "to": last,
             **{key: m[key] for key in keys if key in m}}  # fmt: skip
 
 
 def _card(card: Card) -> dict[str, Any]:
     errors, by = card.errors[QUANTITY], card.by_film_ratio
     return {
-        "fidelity": card.fidelity, "branch": card.branch,
+        "fidelity": card.fidelity, "branch": card.branch, "chart": card.chart,
         "envelope": {n: {"min": a.min, "max": a.max} for n, a in card.envelope.items()},
         "axes": card.cells.axes, "edges": card.cells.edges, "worst": errors.worst, "n": errors.n,
         "by": by and {"edges": by.edges, "worst": by.worst[QUANTITY]},

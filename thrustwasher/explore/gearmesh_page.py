@@ -29,5 +29,6 @@ VIEW = View(
     solve="solve_gearmesh",
     params="GearMeshParams",
     pictures=_pictures,
+    card_point=lambda point: {**point, "load": abs(point["power"] / point["speed"])},
     spans={"power": (100.0, 1e5), "speed": (1.0, 1000.0), "oil_temperature": (253.15, 423.15)},
 )  # fmt: skip

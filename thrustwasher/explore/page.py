@@ -4,11 +4,13 @@ import base64
 import hashlib
 import io
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from .. import __version__
 from ..errors import ParameterError
+from ..ladder.card import error_estimate
 from ..model.part_file import PartFile
 from ..model.record import resolve
 from ..model.registry import all_models, find_model
@@ -20,8 +22,8 @@ from .view import WEB, View
 ROOT = Path(__file__).parents[1]
 TEMPLATE = "explore.html.jinja"
 SOURCES = "thrustwasher.fmu.package.model_sources"
-PAGE = ("dom", "plot", "discs")  # scripts that every page has
-DPI = 66
+PAGE = ("../draw", "dom", "plot")  # scripts that every page has
+DPI = 80
 
 
 def page(part: PartFile) -> str:
@@ -46,7 +48,7 @@ def page(part: PartFile) -> str:
     equations = resolve("thrustwasher.fmu.documentation.html_page:equations")
     pictures = view.pictures(part.params, result, point)
     script = "\n".join(_text(f"{stem}.js") for stem in (*PAGE, view.page, "page"))
-    style = _text("explore.css")
+    style = _text("../draw.css") + _text("explore.css")
     env = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     return env.from_string(_text(TEMPLATE)).render(
         title=f"{part.name}: try it",
@@ -63,9 +65,20 @@ def page(part: PartFile) -> str:
         large=view.figures,
         pictures=[(words, _drawn(figure)) for words, figure in pictures],
         start=", ".join(f"{s.name} {format_quantity(point[s.name], s.unit)}" for s in inputs),
+        rung=about["rung"],
+        error=_error(view, part, point, about["rung"], result),
         equations=equations(folder).replace("<pre>", '<pre tabindex="0">'),
         others=[m.key for m in all_models() if m.explore and m.key != model.key],
     )
+
+
+def _error(view: View, part: PartFile, point: Mapping[str, float], rung: str, result: Any) -> str:
+    """Say the verified error of the torque at the start."""
+    known = error_estimate(
+        part.spec.key, rung, part.params, view.card_point(point),
+        branch=getattr(result, "branch", None), film_ratio=getattr(result, "film_ratio", None),
+    )  # fmt: skip
+    return "not verified" if known is None else f"at most {max(100.0 * known, 1e-3):.2g} %"
 
 
 def _start(value: float, box: tuple[float, float] | None) -> float:

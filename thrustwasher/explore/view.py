@@ -33,12 +33,14 @@ class View:
         [Any, Any, Mapping[str, float]], list[Picture]
     ]  # (parameters, result, point)
     spans: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Range of a slider where it is not the input's whole range."""
+    """Range of a slider where it is not the whole one of the input or parameter."""
     more: Mapping[str, Any] = field(default_factory=dict)  # that the page's own script reads
     result: Callable[[Any, Mapping[str, float], str], Any] | None = None
     """What (parameters, point, rung) come to, where it is not what the model's command solves."""
     inputs: tuple[Signal, ...] = ()  # in place of the command's
     usual: Mapping[str, float] = field(default_factory=dict)  # their values at the start
+    card_point: Callable[[Mapping[str, float]], Mapping[str, float]] = dict
+    """From the inputs to those that the cards know."""
     outputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # in place: unit, meaning
     least: Mapping[str, float] = field(default_factory=dict)
     """Least value of an input where the solve wants more than the FMU."""

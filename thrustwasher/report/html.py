@@ -80,6 +80,11 @@ class Section:
     plots: Sequence[Plot] = ()
     tables: Sequence[Table] = ()
 
+    @property
+    def look(self) -> str:
+        """The class of a chapter that is empty where no scripts run."""
+        return "" if self.texts or self.plots or self.tables else "widget"
+
 
 @dataclass(frozen=True)
 class Card:

@@ -211,7 +211,7 @@ def _moment(moment: Moment) -> dict[str, Any]:
         "recorded_film_ratio": moment.recorded_film_ratio,
         "radius": fields.radius.tolist(),
         "angle": fields.angle.tolist(),
-        **{n: [[float(f"{x:.5g}") for x in r] for r in getattr(fields, n)] for n in FIELDS},
+        **{n: [float(f"{x:.5g}") for x in getattr(fields, n).T.ravel()] for n in FIELDS},
     }
 
 

@@ -12,7 +12,7 @@ from .usual import beside, usual_table
 from .worst_moments import Moment, highest, solve_moment, worst_film
 
 SCRIPTS = (
-    "vendor/uPlot.min.css", "vendor/uPlot.iife.min.js", "shift/shift.css",
+    "vendor/uPlot.min.css", "vendor/uPlot.iife.min.js", "draw.css", "draw.js", "shift/shift.css",
     *(f"shift/{name}.js" for name in
       ("decode", "page_parts", "controls", "plots", "flow", "live", "discs", "slip", "start")),
 )  # fmt: skip

@@ -19,6 +19,10 @@ const VIEW = {
     state.extra.ramp = ABOUT.ramp.slice();
   },
 
+  get allows() {
+    return `${ABOUT.ramp.length} loads in brackets, 0 .. ${digits(ABOUT.largest_load, 6)} N`;
+  },
+
   checked(_, given) {
     const good = Array.isArray(given) && given.length === ABOUT.ramp.length && given.every((f) => f >= 0 && f <= ABOUT.largest_load);
     if (!good) throw new Error("ramp");
@@ -49,7 +53,13 @@ const VIEW = {
     this.heat.show({ series: [line("", "friction_power", "second")] });
   },
 
-  unverified: "the cards verify steady slip, no engagement",
+  // what the cards of this chart verify: see study/reference_clutch.py
+  chart: "engagement",
+  where: "in the cards' engagement to this load at this slip (load up in 0.1 s, slip down from 0.2 to 0.6 s, drum at rest; another course may err more)",
+
+  values({ speed, oil_temperature }) {
+    return { load: Math.max(...state.extra.ramp), speed, oil_temperature };
+  },
 
   /** Return the command's options for what was drawn, "" if that is no straight ramp to a level. */
   straight() {

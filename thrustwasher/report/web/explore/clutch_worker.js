@@ -3,24 +3,7 @@
 
 const POINTS = 250;
 
-class Model {
-  constructor(kernel, about) {
-    Object.assign(this, { kernel, about, L: about.layout });
-    const { L } = this;
-    this.par = kernel.array(L.NPAR);
-    this.state = kernel.array(L.NSTATE);
-    this.work = kernel.array(L.NWORK);
-    this.out = kernel.array(L.NOUT);
-  }
-
-  set(parameters, rung) {
-    const par = this.par.view;
-    par.fill(0);
-    par.set([...parameters, this.about.rungs[rung].code]);
-    const broken = this.kernel.call("broken_rule", this.par);
-    return broken || (this.kernel.call("derive", this.par) >= this.about.first_failure ? -1 : 0);
-  }
-
+class Model extends PointModel {
   /** Begin at the oil's temperature; return a status. */
   begin(load, oil) {
     const { kernel, L, par, work } = this, p = par.view;

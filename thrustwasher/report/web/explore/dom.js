@@ -1,18 +1,7 @@
 "use strict";
-/* Elements, numbers and units. */
+/* Numbers and units. */
 
 const ABOUT = JSON.parse(document.getElementById("about").textContent);
-
-/** Return an element with properties ("aria-*" and the like as attributes) and children. */
-function el(tag, given = {}, ...children) {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(given)) {
-    if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
-    else if (value !== undefined && value !== false) made.setAttribute(name, value === true ? "" : value);
-  }
-  made.append(...children.filter((child) => child !== null));
-  return made;
-}
 
 function escaped(text) {
   return String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -26,13 +15,18 @@ function digits(value, n = 4) {
   return String(Number(value.toPrecision(n)));
 }
 
+/** Return a unit in typography. */
+function pretty(unit) {
+  return unit.replaceAll(".", "·").replace(/([ms])([23])/g, (_, name, power) => name + "²³"[power - 2]);
+}
+
 /** Return a quantity as a person reads it: in the first unit whose number is at least 1. */
 function shown(value, unit, relative = false, n = 4) {
   if (unit === "1" || unit === "") return digits(value, n);
   if (unit === "K" && !relative) return `${digits(value - 273.15, n)} °C`;
   const known = ABOUT.units[unit] ?? [[unit, 1]];
   const [name, factor] = known.find(([, f]) => Math.abs(value) >= f) ?? known.at(-1);
-  return `${digits(value / factor, n)} ${name}`;
+  return `${digits(value / factor, n)} ${pretty(name)}`;
 }
 
 /** Return the unit and factor that fit the largest of some values, for an axis. */
@@ -41,11 +35,11 @@ function axisUnit(values, unit) {
   const known = ABOUT.units[unit] ?? [[unit === "1" ? "" : unit, 1]];
   const most = Math.max(...values.map(Math.abs).filter(Number.isFinite), 0);
   const [name, factor] = known.find(([, f]) => most >= f) ?? known.at(-1);
-  return [name, factor, 0];
+  return [pretty(name), factor, 0];
 }
 
 /** Say what a field allows. */
 function allowed(field) {
-  const unit = field.unit === "1" ? "" : ` ${field.unit}`;
+  const unit = field.unit === "1" ? "" : ` ${pretty(field.unit)}`;
   return `${digits(field.min, 6)} .. ${digits(field.max, 6)}${unit}${field.kind === "integer" ? ", a whole number" : ""}`;
 }

@@ -3,24 +3,7 @@
 
 const MOST_TORQUE = 1e5; // N m of the pinion
 
-class Model {
-  constructor(kernel, about) {
-    Object.assign(this, { kernel, about, L: about.layout });
-    const { L } = this;
-    this.par = kernel.array(L.NPAR);
-    this.state = kernel.array(L.NSTATE);
-    this.work = kernel.array(L.NWORK);
-  }
-
-  set(parameters, rung) {
-    const par = this.par.view, { L } = this;
-    par.fill(0);
-    par.set([...parameters, this.about.rungs[rung].code]);
-    par[L.P_THERMAL_MODE] = L.QUASI_STEADY;
-    const broken = this.kernel.call("broken_rule", this.par);
-    return broken || (this.kernel.call("derive", this.par) ? -1 : 0);
-  }
-
+class Model extends PointModel {
   /** Solve at (power, speed, oil temperature), as solve_gearmesh. */
   solve([power, speed, oil]) {
     const { L, kernel } = this;

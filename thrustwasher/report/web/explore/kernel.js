@@ -77,3 +77,20 @@ class Kernel {
     return tuple ? back : back[0];
   }
 }
+
+/** What models with one point have alike: their arrays, and taking parameters. */
+class PointModel {
+  constructor(kernel, about) {
+    Object.assign(this, { kernel, about, L: about.layout });
+    for (const name of ["par", "state", "work", "out"]) this[name] = kernel.array(this.L[`N${name.toUpperCase()}`]);
+  }
+
+  /** Take parameters [numbers in their order] and a rung; return the number of a broken rule, -1 if no constants follow. */
+  set(parameters, rung) {
+    const par = this.par.view, { L, kernel } = this;
+    par.fill(0);
+    par.set([...parameters, this.about.rungs[rung].code]);
+    if ("P_THERMAL_MODE" in L) par[L.P_THERMAL_MODE] = L.QUASI_STEADY;
+    return kernel.call("broken_rule", this.par) || (kernel.call("derive", this.par) >= this.about.first_failure ? -1 : 0);
+  }
+}

@@ -3,7 +3,8 @@
 
 const SETTLE = 180; // ms without a change until the numbers are those of a fresh solve
 const byId = (id) => document.getElementById(id);
-const state = { inputs: {}, parameters: {}, rung: ABOUT.rung, branch: "", asked: "", extra: {} };
+const state = { inputs: {}, parameters: {}, rung: ABOUT.rung, branch: "", asked: "", extra: {}, strange: "" };
+const BRANCHES_ASKED = ["", "film", "contact"], TRUE = ["true", "1"], FALSE = ["false", "0"];
 const fields = {}, heard = {};
 const view = VIEW;
 let worker, quiet = false, busy = false, waiting = null, timer = 0, broken = "", point = null, last = null, count = 0;
@@ -21,7 +22,7 @@ class Field {
     } else if (kind === "boolean") this.input = el("input", { ...common, type: "checkbox" });
     else this.input = el("input", { ...common, inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
     this.input.addEventListener("input", () => this.take(kind === "boolean" ? this.input.checked : this.input.value));
-    const line = el("div", { class: "line" }, this.input, el("span", { class: "unit" }, unit === "1" ? "" : unit), this.more);
+    const line = el("div", { class: "line" }, this.input, el("span", { class: "unit" }, unit === "1" ? "" : pretty(unit)), this.more);
     this.box = el("div", { class: "field" }, el("label", { for: id }, help, el("code", {}, name)), line, this.error);
     if (withSlider) {
       this.slider = el("input", { type: "range", min: 0, max: 1000, step: "any", "aria-label": `${help}, slider`, id: `${id}-slider` });
@@ -43,16 +44,19 @@ class Field {
   take(given, from = this.input) {
     const { name, unit, kind, min, max, options } = this.about;
     let value = given, good = true;
-    if (kind === "enumeration") good = given in options;
-    else if (kind === "boolean") value = given === true || given === "true" || given === "1";
+    if (kind === "enumeration") good = Object.hasOwn(options, given);
+    else if (kind === "boolean") [value, good] = [TRUE.includes(String(given)), [...TRUE, ...FALSE].includes(String(given))];
     else {
       value = String(given).trim() === "" ? NaN : Number(given);
       good = value >= min && value <= max && (kind !== "integer" || Number.isInteger(value));
     }
     this.input.setAttribute("aria-invalid", String(!good));
-    const words = kind === "enumeration" ? Object.keys(options).join(" or ") : allowed(this.about);
-    this.error.textContent = good ? "" : `${name} = ${given}${unit === "1" ? "" : ` ${unit}`}, allowed: ${words}`;
-    if (!good) return false;
+    const words = kind === "enumeration" ? Object.keys(options).join(" or ") : kind === "boolean" ? "true or false" : allowed(this.about);
+    this.error.textContent = good ? "" : `${name} = ${given}${unit === "1" ? "" : ` ${pretty(unit)}`}, allowed: ${words}`;
+    if (!good) {
+      if (from !== this.input && !options && kind !== "boolean") this.input.value = given; // what the message is about
+      return false;
+    }
     this.kept[name] = value;
     this.put(value, from);
     this.changed(name);
@@ -66,7 +70,7 @@ class Field {
     else if (from !== this.input) this.input.value = String(value);
     if (this.slider) {
       const share = this.log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
-      if (from !== this.slider) this.slider.value = 1000 * share;
+      if (from !== this.slider) this.slider.value = 1000 * Math.min(Math.max(share, 0), 1);
       this.slider.setAttribute("aria-valuetext", shown(value, unit, relative));
       const text = unit === "1" ? "" : unit === "rad/s" ? `${digits((value * 30) / Math.PI)} rpm` : shown(value, unit, relative);
       this.more.textContent = text;
@@ -103,8 +107,7 @@ function setParameters(then) {
   ask("set", { parameters: numbers, rung: state.rung }, (number, problem) => {
     broken = problem ?? (number > 0 ? ABOUT.rules[number - 1].replace(/{(\w+)}/g, (_, n) => state.parameters[n])
       : number < 0 ? "these parameters cannot be used together" : "");
-    say(broken, "problem");
-    if (!broken) then();
+    if (broken) say(broken, "problem"); else then();
   });
 }
 
@@ -143,14 +146,18 @@ function say(text, look = "") {
 function received(result, fresh, took, gone) {
   const failed = result.code >= ABOUT.worker.first_failure;
   if (failed) {
-    say(`No solution: ${ABOUT.worker.statuses[result.code]}. The figures are the last ones found.`, "problem");
+    say(`No solution: ${ABOUT.worker.statuses[result.code]}. The figures are ${last ? "the last ones found" : "those of the start"}.`, "problem");
     return;
   }
   last = { ...result, point: point.slice() };
+  reveal(".live");
   for (const [name, value] of Object.entries(result.outputs)) show(name, value);
   const missing = gone ? `The ${gone} branch has no solution here; this is the ${result.outputs.branch} branch. ` : "";
   const advice = result.code ? `${ABOUT.worker.statuses[result.code]}; ` : "";
-  if (fresh) say(`${missing}${advice}solved in ${digits(took, 2)} ms; ${told()}`, missing || result.code ? "problem" : "");
+  if (fresh) {
+    say(`${state.strange}${missing}${advice}solved in ${digits(took, 2)} ms; ${told()}`, state.strange || missing || result.code ? "problem" : "");
+    state.strange = "";
+  }
   view.solved(result, fresh);
   if (fresh) {
     state.branch = result.asked ? result.outputs.branch : "";
@@ -196,13 +203,13 @@ function errorOf(card, values, ratio) {
 /** Say rung and verified error. */
 function told() {
   const { rung } = state, values = view.values?.(state.inputs) ?? state.inputs, out = last.outputs;
-  const cards = ABOUT.cards.filter((c) => c.fidelity === rung && (!c.branch || c.branch === out.branch));
+  const cards = ABOUT.cards.filter((c) => c.fidelity === rung && (!c.branch || c.branch === out.branch) && (!view.chart || c.chart === view.chart));
   const same = changes(ABOUT.given).length === 0, found = cards.map((c) => errorOf(c, values, out.film_ratio)).filter((e) => e !== null);
   const words = `rung ${rung} (${ABOUT.rungs[rung]})`;
-  if (view.unverified) return `${words}; ${view.unverified}`;
   if (!same) return `${words}; no error is verified for changed parameters`;
   if (!found.length) return `${words}; no error is verified at this point`;
-  return `${words}; verified error of the torque here: at most ${digits(100 * ABOUT.safety * Math.max(...found), 2)} %`;
+  const percent = 100 * ABOUT.safety * Math.max(...found);
+  return `${words}; verified error of the torque ${view.where ?? "here"}: ${percent < 1e-3 ? "below 0.001" : `at most ${digits(percent, 2)}`} %`;
 }
 
 // Address and how to reproduce
@@ -246,27 +253,41 @@ function reproduced() {
   };
 }
 
+/** Take what the address names; what cannot be taken is told, all else stays as it is. */
 function readAddress() {
   const words = new Map(location.hash.slice(1).split("&").filter(Boolean).map((w) => {
     const [name, ...rest] = w.split("=");
-    return [name, decodeURIComponent(rest.join("="))];
+    try {
+      return [name, decodeURIComponent(rest.join("="))];
+    } catch {
+      return [name, rest.join("=")];
+    }
   }));
   for (const f of ABOUT.parameters) if (!words.has(f.name)) fields[f.name].set(ABOUT.given[f.name]);
-  if (words.size === 0) {
-    for (const s of ABOUT.inputs) fields[s.name].set(s.value);
-    view.reset?.();
-  }
+  for (const s of ABOUT.inputs) if (!words.has(s.name)) fields[s.name].set(words.size ? state.inputs[s.name] : s.value);
+  if (words.size === 0) view.reset?.();
+  const strange = [];
   quiet = true;
-  for (const [name, field] of Object.entries(fields)) if (words.has(name)) field.take(words.get(name), null);
-  quiet = false;
-  state.asked = words.get("branch") ?? "";
-  const rung = words.get("fidelity") ?? ABOUT.rung;
-  if (rung in ABOUT.worker.rungs) state.rung = byId("fidelity").value = rung;
-  for (const name of Object.keys(state.extra)) {
-    try {
-      if (words.has(name)) state.extra[name] = view.checked(name, JSON.parse(words.get(name)));
-    } catch { /* a course that cannot be read stays as it is */ }
+  for (const [name, text] of words) {
+    if (Object.hasOwn(fields, name)) {
+      if (!fields[name].take(text, null)) strange.push(fields[name].error.textContent);
+    } else if (name === "branch") {
+      if (!BRANCHES_ASKED.includes(text)) strange.push(`branch = ${text}, allowed: film or contact`);
+    } else if (name === "fidelity") {
+      if (!Object.hasOwn(ABOUT.worker.rungs, text)) strange.push(`fidelity = ${text}, allowed: ${Object.keys(ABOUT.worker.rungs).join(" or ")}`);
+    } else if (Object.hasOwn(state.extra, name)) {
+      try {
+        state.extra[name] = view.checked(name, JSON.parse(text));
+      } catch {
+        strange.push(`${name}, allowed: ${view.allows}`);
+      }
+    } else strange.push(`${name} is nothing that this page knows`);
   }
+  quiet = false;
+  const branch = words.get("branch") ?? "", rung = words.get("fidelity") ?? ABOUT.rung;
+  state.asked = BRANCHES_ASKED.includes(branch) ? branch : "";
+  if (Object.hasOwn(ABOUT.worker.rungs, rung)) state.rung = byId("fidelity").value = rung;
+  state.strange = strange.length ? `The address: ${strange.join("; ")}. ` : "";
 }
 
 // From a change to numbers
@@ -320,20 +341,30 @@ function restart() {
   setParameters(() => solve(true));
 }
 
+/** Show the live part; with the first solution the still one goes. */
+function reveal(which) {
+  for (const part of document.querySelectorAll(which)) part.hidden = false;
+  byId("still").hidden = last !== null;
+}
+
 function begin() {
   const source = byId("worker").textContent, bytes = Uint8Array.from(atob(byId("module").textContent.trim()), (c) => c.charCodeAt(0));
-  const made = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
-  made.onmessage = answered;
-  made.onerror = (problem) => say(`The computation stopped: ${problem.message}. The figures are those of the start.`, "problem");
-  made.postMessage({ task: "begin", about: ABOUT.worker, bytes });
-  builtControls();
-  view.build(byId("views"));
-  worker = made;
-  for (const part of document.querySelectorAll(".live")) part.hidden = false;
-  byId("still").hidden = true;
-  restart();
-  addEventListener("hashchange", () => {
-    if (location.hash !== document.documentElement.dataset.settled) restart();
+  const stays = "The figures and pictures stay as they are.";
+  worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
+  worker.onmessage = answered;
+  worker.onerror = (problem) => say(`The computation stopped: ${problem.message}. ${stays}`, "problem");
+  ask("begin", { about: ABOUT.worker, bytes }, (_, problem) => {
+    if (problem) {
+      say(`This browser cannot run the kernels: ${problem}. ${stays}`, "problem");
+      return;
+    }
+    builtControls();
+    view.build(byId("views"));
+    reveal("#controls");
+    restart();
+    addEventListener("hashchange", () => {
+      if (location.hash !== document.documentElement.dataset.settled) restart();
+    });
   });
 }
 

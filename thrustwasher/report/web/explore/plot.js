@@ -91,9 +91,10 @@ class Plot {
     }
     parts.push("</g>");
     for (const m of this.marks) {
-      const end = m.left || sx(m.x) > width - 150;
+      const room = 7 * (m.text ?? "").length + 12, words = width < 500 ? m.brief ?? m.text : m.text;
+      const end = m.left || sx(m.x) > width - (words === m.text ? room : 70);
       parts.push(`<circle class="mark ${m.look ?? ""}" cx="${sx(m.x)}" cy="${sy(m.y)}" r="4"/>`,
-        m.text ? `<text class="note" x="${sx(m.x) + (end ? -8 : 8)}" y="${sy(m.y) + (m.below ? 18 : -8)}" text-anchor="${end ? "end" : "start"}">${escaped(m.text)}</text>` : "");
+        words ? `<text class="note" x="${sx(m.x) + (end ? -8 : 8)}" y="${sy(m.y) + (m.below ? 18 : -8)}" text-anchor="${end ? "end" : "start"}">${escaped(words)}</text>` : "");
     }
     this.handles.forEach((h, i) => parts.push(
       `<circle class="handle" tabindex="0" role="slider" data-i="${i}" aria-label="${escaped(h.label)}" aria-valuenow="${digits(h.x, 6)}" aria-valuetext="${escaped(h.text ?? h.label)}" cx="${sx(h.x)}" cy="${sy(h.y)}" r="8"/>`));

@@ -19,12 +19,8 @@ const VIEW = {
     const drag = (load) => fields.load.take(Number(Math.min(Math.max(load, ABOUT.inputs[0].min), ABOUT.inputs[0].max).toPrecision(5)), null);
     this.plot = new Plot(curve, { title: "Load curve: drag the point over the fold", drag, x: { label: "load", unit: "N", log: true }, y: { label: "", unit: "N.m" }, height: 340 });
     curve.append(this.folds = el("p", { class: "folds" }));
-    this.discs = {
-      film_thickness: new Disc(all, { title: "film thickness", unit: "m", shades: "film" }),
-      pressure: new Disc(all, { title: "film pressure", unit: "Pa", shades: "pressure" }),
-      contact_pressure: new Disc(all, { title: "asperity pressure", unit: "Pa", shades: "pressure", least: 1 }),
-      carrier_temperature: new Disc(all, { title: "temperature of the carrier", unit: "K", shades: "warm" }),
-    };
+    const titles = { film_thickness: ["film thickness", "m"], pressure: ["film pressure", "Pa"], contact_pressure: ["asperity pressure", "Pa"], carrier_temperature: ["temperature of the carrier", "K"] };
+    this.discs = Object.entries(titles).map(([name, [title, unit]]) => [name, new Disc(all, { name, title, tell: (v) => shown(v, unit, false, 3) })]);
     this.other = new Plot(other, { title: "Stribeck curve at this load", x: { label: "speed", unit: "rad/s", log: true }, y: { label: "coefficient of friction", unit: "1", zero: true } });
   },
 
@@ -33,11 +29,11 @@ const VIEW = {
     this.trail.push([last.point[0], { ...outputs }]);
     if (this.trail.length > 400) this.trail.shift();
     const mesh = `${at.radius.join()} ${at.angle.length}`;
-    if (mesh !== this.mesh) [this.mesh, this.pixels] = [mesh, pixelsOf(at.radius, at.angle, 200)];
+    if (mesh !== this.mesh) [this.mesh, this.pixels] = [mesh, pixelsOf(at.radius, at.angle)];
     if (!this.drawing) {
       this.drawing = requestAnimationFrame(() => {
         this.drawing = 0;
-        for (const [name, disc] of Object.entries(this.discs)) disc.show(this.fields[name], this.pixels);
+        for (const [name, disc] of this.discs) disc.show(this.fields[name], this.pixels, last.point[1]);
         this.drawCurve();
       });
     }
@@ -94,7 +90,7 @@ const VIEW = {
           run = fold ? [[fold.load, size(fold[quantity])]] : [];
         }
       });
-      for (const f of this.curve.folds) marks.push({ x: f.load, y: size(f[quantity]), text: `${FOLDS[f.kind]}, ${shown(f.load, "N")}`, left: f.kind === "film_regained", below: about.unit !== "K" === (f.kind === "film_lost") });
+      for (const f of this.curve.folds) marks.push({ x: f.load, y: size(f[quantity]), text: `${FOLDS[f.kind]}, ${shown(f.load, "N")}`, brief: shown(f.load, "N"), left: f.kind === "film_regained", below: about.unit !== "K" === (f.kind === "film_lost") });
     }
     if (this.trail.length > 1) series.push({ name: "where it has been", points: this.trail.map(([load, o]) => [load, size(o[quantity])]), look: "trail" });
     const y = size(last.outputs[quantity]);

@@ -31,8 +31,10 @@ next.port1.onmessage = work;
 onmessage = ({ data }) => {
   const { id, task } = data;
   try {
-    if (task === "begin") solver = new Model(new Kernel(data.bytes, data.about.functions), data.about);
-    else if (task === "set") {
+    if (task === "begin") {
+      solver = new Model(new Kernel(data.bytes, data.about.functions), data.about);
+      postMessage({ id, task });
+    } else if (task === "set") {
       jobs.clear();
       postMessage({ id, task, result: solver.set(data.parameters, data.rung) });
     } else if (task === "solve") postMessage({ id, task, result: solver.solve(data.point, data.fresh, data.branch, data.extra) });

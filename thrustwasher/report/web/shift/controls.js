@@ -1,7 +1,7 @@
 /* The bar above the plots: time, zoom, events and phases; all of it works from the keyboard. */
 "use strict";
 const Controls = (() => {
-  const { el, number } = Parts;
+  const { number } = Parts;
 
   function build(state, place) {
     const points = state.time.length;

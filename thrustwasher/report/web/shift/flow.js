@@ -1,7 +1,6 @@
 /* The energy book as flows, from the start to the cursor: what came in, what it became, where heat went. */
 "use strict";
 const Flow = (() => {
-  const { el } = Parts;
   const WIDE = 1120;
   const TALL = 300;
   const BAR = 12;
@@ -116,7 +115,7 @@ const Flow = (() => {
 
   function start(data, state, place) {
     const now = el("p", { class: "small" });
-    const pictures = el("div");
+    const pictures = el("div", { class: "flows", tabindex: 0, role: "group", "aria-label": "flow of energy" });
     const last = state.time.length - 1;
     let shown = -1;
     const end = el("button", { type: "button", onclick: () => Plots.moveTo(last) }, "to the end of the run");

@@ -2,7 +2,6 @@
 "use strict";
 const Live = (() => {
   const NEAR = 0.05; // relative difference of film ratios on one branch
-  const FIELDS = ["film_thickness", "pressure", "contact_pressure", "washer_temperature"];
 
   async function begin({ module, script, about, parameters, rung }) {
     const worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
@@ -15,7 +14,7 @@ const Live = (() => {
     worker.onmessage = ({ data: { id, result, problem } }) => {
       if (problem) asked.get(id)?.reject(new Error(problem)); else asked.get(id)?.resolve(result);
     };
-    worker.postMessage({ task: "begin", bytes: await Runs.inflate(module), about });
+    await ask("begin", { bytes: await Runs.inflate(module), about });
     await ask("set", { parameters, rung });
     return ask;
   }
@@ -36,8 +35,10 @@ const Live = (() => {
     return found.reduce((best, one) => (away(one) < away(best) ? one : best));
   }
 
-  function rows(values, { radius, angle }) {
-    return Array.from(radius, (_, i) => Array.from(angle, (__, j) => values[j * radius.length + i]));
+  /* Say why nothing is solved at the cursor's time. */
+  function missing(about) {
+    return about ? "The washer cannot be solved at the cursor's time: this browser has no WebAssembly, in which its kernels run."
+      : "The washer cannot be solved at the cursor's time: this page holds no kernels for it.";
   }
 
   /* Give the page `solveAt`, if it has none, holds the kernels and the browser runs them. */
@@ -47,11 +48,9 @@ const Live = (() => {
     window.solveAt = async (inputs, recorded) => {
       ready ??= begin(about);
       const { fields, outputs } = await solve(await ready, about, inputs, recorded);
-      const { radius, angle } = fields;
-      const shown = FIELDS.map((name) => [name, rows(fields[name], fields)]);
-      return { ...outputs, radius, angle, ...Object.fromEntries(shown) };
+      return { ...outputs, ...fields };
     };
   }
 
-  return { start };
+  return { start, missing };
 })();

@@ -1,19 +1,6 @@
-/* What the scripts of a shift's page share: elements, colours, numbers. */
+/* What the scripts of a shift's page share: colours and numbers. */
 "use strict";
 const Parts = (() => {
-  const SVG = new Set(["svg", "path", "rect", "text", "title", "g", "line"]);
-
-  function el(tag, given = {}, ...children) {
-    const node = SVG.has(tag) ? document.createElementNS("http://www.w3.org/2000/svg", tag)
-      : document.createElement(tag);
-    for (const [name, value] of Object.entries(given)) {
-      if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-      else if (value !== undefined && value !== false) node.setAttribute(name, value === true ? "" : value);
-    }
-    node.append(...children);
-    return node;
-  }
-
   function colour(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
   }
@@ -30,5 +17,5 @@ const Parts = (() => {
     return signal.unit === "1" ? "" : signal.unit;
   }
 
-  return { el, colour, number, unitOf };
+  return { colour, number, unitOf };
 })();

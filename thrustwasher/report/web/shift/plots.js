@@ -1,7 +1,7 @@
 /* Plots over one time: a common cursor, a common zoom, signals that are switched on and off. */
 "use strict";
 const Plots = (() => {
-  const { el, colour, number, unitOf } = Parts;
+  const { colour, number, unitOf } = Parts;
   const COLOURS = ["blue", "red", "green", "orange", "purple", "sky", "black", "grey"];
   const DASHES = [undefined, [6, 4]];
   const NAMES = ["A", "B"];
@@ -17,7 +17,7 @@ const Plots = (() => {
   const last = () => state.time[state.time.length - 1];
 
   function readTheme() {
-    theme = Object.fromEntries([...COLOURS, "soft", "line", "shade", "mark"].map((n) => [n, colour(n)]));
+    theme = Object.fromEntries([...COLOURS, "soft", "line", "shade", "mark", "paper"].map((n) => [n, colour(n)]));
   }
 
   /* The index of the point nearest to a time. */
@@ -134,7 +134,7 @@ const Plots = (() => {
     });
   }
 
-  function shade(u, panel) {
+  function shade(u) {
     const { ctx, bbox } = u;
     const at = (t) => Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(t, "x", true)));
     ctx.save();
@@ -143,7 +143,6 @@ const Plots = (() => {
       if (i % 2) ctx.fillRect(at(start), bbox.top, at(end) - at(start), bbox.height);
     });
     ctx.restore();
-    if (panel.given.levels || panel.limits.length) drawLevels(u, panel);
   }
 
   function drawLevels(u, panel) {
@@ -161,7 +160,11 @@ const Plots = (() => {
       ctx.moveTo(bbox.left, y);
       ctx.lineTo(bbox.left + bbox.width, y);
       ctx.stroke();
-      ctx.fillText(words, bbox.left + bbox.width - 4, y - 4 * devicePixelRatio);
+      const high = 12 * devicePixelRatio, wide = ctx.measureText(words).width;
+      ctx.fillStyle = theme.paper;
+      ctx.fillRect(bbox.left + bbox.width - 6 - wide, y - 3 * devicePixelRatio - high, wide + 6, high);
+      ctx.fillStyle = theme.soft;
+      ctx.fillText(words, bbox.left + bbox.width - 4, y - 5 * devicePixelRatio);
     }
     ctx.restore();
   }
@@ -208,8 +211,8 @@ const Plots = (() => {
         dash: DASHES[k], points: { show: false }, show: !panel.off?.has(signal.name),
       }))],
       hooks: {
-        drawClear: [(u) => shade(u, panel)],
-        draw: [mark],
+        drawClear: [shade],
+        draw: [(u) => drawLevels(u, panel), mark],
         setSelect: [(u) => take(u)],
       },
     };

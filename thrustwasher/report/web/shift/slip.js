@@ -1,7 +1,7 @@
 /* Friction of the pack that engages over its slip, which falls; the cursor is that of all plots. */
 "use strict";
 const Slip = (() => {
-  const { el, colour } = Parts;
+  const { colour } = Parts;
   const COLOURS = ["blue", "orange"];
 
   function start(state, place) {

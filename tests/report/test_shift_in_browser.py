@@ -299,6 +299,12 @@ def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path):
         cells = page.locator('th[title="transmission.engine_speed"] ~ td').all_text_contents()
         assert cells[1] == "\N{EN DASH}"
         assert page.locator("#flow svg").count() == 2
+        curves = page.evaluate(
+            "Plots.state.others[0].data.slice(1).map((one) => one.filter(Number.isFinite).length)"
+        )
+        assert len(curves) >= 2 and min(curves) > 1000  # friction over slip of both
+        words = page.locator("#slip li").all_text_contents()
+        assert any(" A: " in one for one in words) and any(" B: " in one for one in words)
         assert faults(page) == []
 
 

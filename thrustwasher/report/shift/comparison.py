@@ -34,6 +34,8 @@ def comparison_page(runs: Sequence[Run], pictures: Sequence[Any]) -> Page:
             Section("said", "What happened",
                     texts=[f"{name}: {' '.join(run['summary'])}" for name, run in named]),
             Section("course", "Both shifts over time", widgets=["plots"], plots=stills),
+            *([Section("friction", "Friction over slip", widgets=["slip"])]
+              if any(run["slip"] for run in runs) else []),
             Section("energy", "Energy", widgets=["flow"]),
             Section("key-figures", "Key figures", tables=[difference_table(runs)]),
         ],

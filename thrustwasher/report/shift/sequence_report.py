@@ -23,7 +23,7 @@ def sequence_page(result: Any) -> Page:
         f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
         f"{say(oil[-1], 'K', digits=3)}."
     )
-    run = run_data(whole, {}, [said]) | {"slip": None}
+    run = run_data(whole, {}, [said]) | {"slip": None, "shifts": len(records)}
     sections = [
         Section("course", "The shifts over time", widgets=["plots"], tables=[_table(records)],
                 plots=[Plot("sequence", sequence_figure(result), CAPTION, bitmap=True,

@@ -20,6 +20,10 @@ from .shift_record import PACKS, Array, Record
 from .worst_moments import Moment
 
 VERSION = 1  # of this form
+KEYS = frozenset(  # of a run
+    "name title summary warnings figures phases events recorded points packed moving steady shifts "
+    "slip aside inputs moments".split()
+)
 ROOM = 1_000_000  # characters of packed signals: the page stays below 2 MB
 JERK_TIME = 0.01  # s over which a change of acceleration counts
 READABLE = {"Pa": "kPa", "J": "kJ", "W": "kW", "m": "um", "m3/s": "l/min", "rad": "mrad"}
@@ -83,6 +87,7 @@ def run_data(
             {**_signal(record, name), "value": float(values[0])}
             for name, values in signals.items() if name not in moving and np.isfinite(values[0])
         ],
+        "shifts": 1,
         "slip": slip_of(record),
         "aside": _set_aside(record),
         "inputs": [s.name for s in part.spec.inputs] if (part := record.part("washer")) else [],
@@ -220,8 +225,12 @@ def read_run(page: Path) -> dict[str, Any]:
     try:
         found = re.search(f"{re.escape(MARKER)}(.*?)</script>", page.read_text("utf-8"), re.DOTALL)
         data = json.loads(found[1]) if found else {}
-    except (OSError, ValueError):
-        data = {}
-    if data.get("version") != VERSION or len(data.get("runs", ())) != 1:
+        known = data["version"] == VERSION and len(data["runs"]) == 1
+        run = dict(data["runs"][0]) if known else {}
+    except (OSError, LookupError, RecursionError, TypeError, ValueError):
+        run = {}
+    if run.get("shifts", 1) != 1:
+        raise ParameterError(f"{page}: has several shifts, allowed: one")
+    if not run.keys() >= KEYS:
         raise ParameterError(f"{page}: is no report of one shift by this version, run it again")
-    return dict(data["runs"][0])
+    return run

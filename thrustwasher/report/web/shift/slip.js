@@ -4,18 +4,28 @@ const Slip = (() => {
   const { colour } = Parts;
   const COLOURS = ["blue", "orange"];
 
-  function start(state, place) {
-    const { pack, from, to, levels } = state.runs[0].slip;
-    const { signals } = state.runs[0];
-    const slip = signals.get(`${pack}.speed`).values;
-    const lines = ["friction_coefficient", "friction_with_oil"].map((name) => signals.get(`${pack}.${name}`)).filter(Boolean);
+  /* A run's friction over its slip: names, colours, dashes and values; `order`: points by rising slip. */
+  function curveOf(state, run, k) {
+    const { pack, from, to, levels } = run.slip;
+    const slip = run.signals.get(`${pack}.speed`).values;
+    const lines = ["friction_coefficient", "friction_with_oil"].map((name) => run.signals.get(`${pack}.${name}`)).filter(Boolean);
     const order = [...state.time.keys()].filter((i) => state.time[i] >= from && state.time[i] < to && slip[i])
       .sort((a, b) => Math.abs(slip[a]) - Math.abs(slip[b]));
-    const named = lines.map((line, i) => [line.help, COLOURS[i], undefined]);
-    const level = levels.map(([, words]) => [words, "grey", [6, 4]]);
-    const chart = el("div", { role: "img", "aria-label": `friction of the ${pack} over its slip, which falls` });
-    const key = el("ul", { class: "happened small" }, ...[...named, ...level].map(([words, shade]) =>
-      el("li", {}, el("span", { style: `color: var(--${shade})` }, "▬ "), words)));
+    const of = state.runs.length > 1 ? `${Plots.NAMES[k]}: ` : "";
+    const named = [...lines.map((line, i) => [of + line.help, COLOURS[i], k ? [6, 4] : undefined]),
+      ...levels.map(([, words]) => [of + words, "grey", [2, 4]])];
+    const data = [order.map((i) => Math.abs(slip[i])),
+      ...lines.map((line) => order.map((i) => (Number.isFinite(line.values[i]) ? line.values[i] : null))),
+      ...levels.map(([value]) => order.map(() => value))];
+    return { slip, order, named, data };
+  }
+
+  function start(state, place) {
+    const curves = state.runs.flatMap((run, k) => (run.slip ? [curveOf(state, run, k)] : []));
+    const named = curves.flatMap((curve) => curve.named), { slip, order } = curves[0];
+    const chart = el("div", { role: "img", "aria-label": "friction over slip, which falls" });
+    const key = el("ul", { class: "happened small" }, ...named.map(([words, shade, dash]) =>
+      el("li", {}, el("span", { style: `color: var(--${shade})` }, dash ? "▪▪ " : "▬ "), words)));
     place.append(chart, key);
     const axis = (label) => ({ stroke: () => colour("soft"), label, labelSize: 20, size: 50, font: "12px system-ui, sans-serif",
       labelFont: "13px system-ui, sans-serif", grid: { stroke: () => colour("line"), width: 1 } });
@@ -24,13 +34,13 @@ const Slip = (() => {
       scales: { x: { time: false, dir: -1 }, y: { range: (u, low, high) => [Math.min(0, low), 1.05 * high] } },
       axes: [axis("slip, falling [rad/s]"), axis("friction coefficient [1]")],
       cursor: { y: false, drag: { x: false, y: false } },
-      series: [{}, ...[...named, ...level].map(([, shade, dash]) => ({
-        stroke: () => colour(shade), width: 1.6, dash, points: { show: false } }))],
-    }, [order.map((i) => Math.abs(slip[i])),
-      ...lines.map((line) => order.map((i) => (Number.isFinite(line.values[i]) ? line.values[i] : null))),
-      ...levels.map(([value]) => order.map(() => value))], chart);
+      series: [{}, ...named.map(([, shade, dash]) => ({
+        stroke: () => colour(shade), width: 1.6, dash, spanGaps: true, points: { show: false } }))],
+    }, curves.length > 1 ? uPlot.join(curves.map((curve) => curve.data)) : curves[0].data, chart);
     plot.over.addEventListener("pointermove", (e) => {
-      Plots.moveTo(order[plot.posToIdx(e.clientX - plot.over.getBoundingClientRect().left)]);
+      const here = plot.posToVal(e.clientX - plot.over.getBoundingClientRect().left, "x");
+      const next = order.findIndex((i) => Math.abs(slip[i]) >= here);
+      Plots.moveTo(order.at(next));
     });
     state.listeners.push(() => {
       const at = order.indexOf(state.index);

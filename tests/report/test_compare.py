@@ -1,0 +1,104 @@
+"""``shift --compare``: what can be laid over each other, and what is refused in one line."""
+
+import json
+import re
+from dataclasses import replace
+
+import pytest
+import shift_stand_in
+
+from thrustwasher import cli
+from thrustwasher.report.html import Page, Section, render
+from thrustwasher.report.shift.shift_data import KEYS, VERSION, page_data, run_data
+
+RECORD = shift_stand_in.record(mesh=True)
+MARK = '<script type="application/json" id="data">{}</script>'
+
+
+def report(folder, record=RECORD, **more):
+    """Write a report's folder with what a comparison reads of it."""
+    folder.mkdir()
+    page = Page(title="", subtitle="", summary=[], warnings=[], cards=[], footer="", sections=[
+        Section("a", "b")], data=page_data([run_data(record, {}) | more]))  # fmt: skip
+    (folder / "report.html").write_text(render(page), "utf-8")
+    (folder / "overview.png").write_bytes(b"\x89PNG")
+    return folder
+
+
+def compared(*words, out):
+    return cli.main(["shift", "--compare", *map(str, words), "--out", str(out)])
+
+
+def test_a_run_has_the_keys_that_a_comparison_asks_for():
+    assert run_data(RECORD, {}).keys() == KEYS
+
+
+def test_a_report_beside_itself_differs_nowhere(tmp_path, capsys):
+    one = report(tmp_path / "one")
+    assert compared(one, one, out=tmp_path / "both") == 0
+    text = (tmp_path / "both" / "compare.html").read_text("utf-8")
+    rows = re.findall(r"<tr><td>(.*?)</td>.*?<td class=\"number\">([^<]*)</td></tr>", text)
+    assert len(rows) > 3 and all(more.startswith("0") for _, more in rows)
+    assert 'id="slip"' in text
+    assert capsys.readouterr().err == ""
+
+
+def test_runs_of_other_models_and_lengths_are_laid_over_each_other(tmp_path):
+    other = shift_stand_in.record(washer=False)
+    signals = {name: values[:2200] for name, values in other.signals.items()}
+    short = replace(other, time=other.time[:2200], signals=signals)
+    folders = report(tmp_path / "one"), report(tmp_path / "two", short)
+    assert compared(*folders, out=tmp_path / "both") == 0
+    assert compared(*reversed(folders), out=tmp_path / "back") == 0
+
+
+def data(**more):
+    return MARK.format(json.dumps({"version": VERSION, "runs": [{"title": "x"}], **more}))
+
+
+REFUSED = {
+    "no report": "",
+    "no data": "<html></html>",
+    "a list": MARK.format("[1]"),
+    "a number": MARK.format("1"),
+    "cut": MARK.format('{"version"'),
+    "deep": MARK.format("[" * 100_000),
+    "an older version": data(version=VERSION - 1),
+    "no run": data(runs=[]),
+    "two runs": data(runs=[{}, {}]),
+    "a run that is none": data(runs=[3]),
+    "a run without its signals": data(),
+}
+
+
+@pytest.mark.parametrize("text", REFUSED.values(), ids=REFUSED)
+def test_a_folder_that_is_no_report_of_this_version_is_refused_in_a_line(text, tmp_path, capsys):
+    bad = tmp_path / "bad"
+    bad.mkdir()
+    if text:
+        (bad / "report.html").write_text(text, "utf-8")
+    good = report(tmp_path / "good")
+    for pair in ((bad, good), (good, bad)):
+        assert compared(*pair, out=tmp_path / "out") == 2
+        err = capsys.readouterr().err
+        said = f"{bad / 'report.html'}: is no report of one shift by this version, run it again\n"
+        assert err.endswith(said) and err.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_report_of_several_shifts_and_one_without_its_picture_are_refused(tmp_path, capsys):
+    good, many = report(tmp_path / "good"), report(tmp_path / "many", shifts=24)
+    assert compared(good, many, out=tmp_path / "out") == 2
+    assert capsys.readouterr().err.endswith("report.html: has several shifts, allowed: one\n")
+    (good / "overview.png").unlink()
+    assert compared(good, good, out=tmp_path / "out") == 2
+    assert capsys.readouterr().err.endswith("good: overview.png: No such file or directory\n")
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_a_folder_holds_stays_when_a_comparison_is_put_beside_it(tmp_path):
+    good = report(tmp_path / "good")
+    before = (good / "report.html").read_bytes()
+    assert compared(good, good, out=good) == 0
+    assert sorted(p.name for p in good.iterdir()) == ["compare.html", "overview.png", "report.html"]
+    assert (good / "report.html").read_bytes() == before

@@ -1,6 +1,8 @@
 """The pages in Chromium, opened from the disk: no errors, no requests, the numbers of Python."""
 
+import json
 import re
+import shlex
 
 import pytest
 from browser_pages import Seen, faults
@@ -11,11 +13,13 @@ from thrustwasher import (
     ClutchParams,
     GearMeshParams,
     WasherParams,
+    cli,
     load_curve,
     solve_gearmesh,
     solve_washer,
 )
 from thrustwasher.ladder.card import SAFETY, fresh_cards
+from thrustwasher.model.part_file import find_part
 from thrustwasher.study.reference_clutch import HELD, RISE, TIMES
 
 pytestmark = pytest.mark.browser
@@ -116,14 +120,51 @@ def test_the_address_is_the_state_and_comes_back(opened):
     assert "--set roughness=4e-7" in command
 
 
-def test_the_lines_to_reproduce_it_reproduce_it(opened):
-    page = opened(address="#load=800&speed=545&tilt=0.002&oil_temperature=297.15&branch=contact")
+VIEWS = {  # an address; what the command prints of the figures; the parameters in the part file
+    "washer": (
+        "#load=800&speed=545&tilt=0.002&oil_temperature=297.15&branch=contact&roughness=4e-7"
+        "&conduction=all&oil_cooling=false",
+        ("friction_torque", "temperature", "film_ratio"),
+        {"roughness": 4e-7, "conduction": "all", "oil_cooling": False},
+    ),
+    "gearmesh": (
+        "#power=20000&speed=200&oil_temperature=350&fidelity=closed&pinion_teeth=23",
+        ("friction_torque", "scuffing_safety", "surface_temperature"),
+        {"pinion_teeth": 23},
+    ),
+    "clutch": (
+        "#speed=150&oil_temperature=340&drum_speed=20&duration=0.4&fidelity=fine&faces=6"
+        "&ramp=[0,3000,6000,6000,6000,6000,6000,6000,6000]",
+        (),
+        {"faces": 6},
+    ),
+}
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_command_lines_and_part_file_reproduce_what_is_seen(opened, model, tmp_path, capsys):
+    address, names, changed = VIEWS[model]
+    page = opened(model, address)
+    command = shlex.split(page.page.text_content("#as-command"))
+    assert command[0] == "thrustwasher" and cli.main([*command[1:], "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
     space = {"print": lambda *_: None}
     exec(page.page.text_content("#as-python"), space)
-    assert space["result"].branch == "contact"
-    assert page.figure("friction_torque") == pytest.approx(
-        space["result"].friction_torque, rel=1e-8
-    )
+    for name in names:
+        assert printed[name] == pytest.approx(page.figure(name), rel=1e-8)
+        assert getattr(space["result"], name) == pytest.approx(page.figure(name), rel=1e-8)
+    if model == "clutch":
+        most = max(space["result"].friction_torque, key=abs)
+        hottest = {max(printed["temperature"]), space["result"].temperature.max()}
+        assert page.figure("friction_torque_max") == pytest.approx(most, rel=1e-9)
+        assert len(hottest) == 1 or max(hottest) == pytest.approx(min(hottest), rel=1e-12)
+        assert page.figure("temperature_max") == pytest.approx(max(hottest), rel=1e-9)
+    file = tmp_path / "mine.toml"
+    file.write_text(page.page.text_content("#as-part"), "utf-8")
+    part = find_part(str(file))
+    assert part.spec.key == model and {n: getattr(part.params, n) for n in changed} == changed
+    assert part.params == type(part.params)(**changed)
+    assert part.fidelity == page.page.input_value("#fidelity")
 
 
 def test_the_point_is_dragged_over_the_fold_and_comes_back_on_the_other_branch(opened):

@@ -57,7 +57,7 @@ class Model {
 
   outputs() {
     const { L, about } = this, head = this.mesh.work.view, iout = this.iout.view, found = {};
-    about.real_outputs.forEach((name, i) => (found[name] = this.out.view[i]));
+    about.real_outputs.forEach((name, i) => (found[name] = head[L.AT_OUTPUTS + i]));
     found.fluid_load = head[L.AT_OUTPUTS + L.O_FLUID_LOAD];
     found.contact_load = head[L.AT_OUTPUTS + L.O_CONTACT_LOAD];
     found.washer_tilt_x = head[L.AT_POSITIONS + L.TILT_X];

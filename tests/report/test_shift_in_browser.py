@@ -11,9 +11,9 @@ from browser_pages import chromium, faults, opened
 
 from thrustwasher import solve_washer
 from thrustwasher.report.html import render
-from thrustwasher.report.panels.overview_plot import overview_figure
 from thrustwasher.report.shift import sequence_report, shift_report
 from thrustwasher.report.shift.comparison import comparison_page
+from thrustwasher.report.shift.overview_plot import overview_figure
 from thrustwasher.report.shift.shift_data import FIELDS, run_data
 from thrustwasher.report.shift.worst_moments import Moment, rung_with_fields
 

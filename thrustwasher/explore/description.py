@@ -1,7 +1,7 @@
 """A model as the page's scripts read it: everything from its interface, cards and kernels."""
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import asdict, fields
 from typing import Any, get_type_hints
 
 from ..ladder.card import SAFETY, Card, fresh_cards
@@ -87,7 +87,7 @@ def _card(card: Card) -> dict[str, Any]:
     errors, by = card.errors[QUANTITY], card.by_film_ratio
     return {
         "fidelity": card.fidelity, "branch": card.branch, "chart": card.chart,
-        "envelope": {n: {"min": a.min, "max": a.max, "unit": a.unit} for n, a in card.envelope.items()},
+        "envelope": {name: asdict(axis) for name, axis in card.envelope.items()},
         "axes": card.cells.axes, "edges": card.cells.edges, "worst": errors.worst, "n": errors.n,
         "by": by and {"edges": by.edges, "worst": by.worst[QUANTITY]},
         "uncertainty": card.reference.uncertainty.get(QUANTITY, 0.0),

@@ -7,10 +7,7 @@ class Model extends PointModel {
   /** As all models; if the pinion has too few teeth (rule 1), return also the least number of them. */
   set(parameters, rung) {
     const broken = super.set(parameters, rung), teeth = this.L.P_PINION_TEETH, par = this.par.view;
-    while (broken === 1 && par[teeth] < MOST_TEETH) {
-      par[teeth] += 1;
-      if (this.kernel.call("broken_rule", this.par) !== 1) return [broken, par[teeth]];
-    }
+    while (broken === 1 && (par[teeth] += 1) < MOST_TEETH) if (this.kernel.call("broken_rule", this.par) !== 1) return [broken, par[teeth]];
     return broken;
   }
 

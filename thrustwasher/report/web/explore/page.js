@@ -88,21 +88,17 @@ class Field {
   }
 }
 
-// The worker
-
 function ask(task, given, answer) {
   heard[task] = { id: (count += 1), answer };
   worker.postMessage({ id: count, task, ...given });
 }
 
 function answered({ data }) {
-  const about = heard[data.task];
-  if (!about || about.id !== data.id) return;
-  about.answer(data.result, data.problem);
+  if (heard[data.task]?.id === data.id) heard[data.task].answer(data.result, data.problem);
 }
 
-/** Have the worker take the parameters; tell which rule they break. */
-function setParameters(then) {
+/** Have the worker take the parameters and solve; tell which rule they break. */
+function setParameters() {
   const numbers = ABOUT.parameters.map((f) => {
     const value = state.parameters[f.name];
     return f.kind === "enumeration" ? Object.keys(f.options).indexOf(value) + 1 : Number(value);
@@ -111,7 +107,7 @@ function setParameters(then) {
     const [number, least] = [found].flat(), own = (name, factor = 1) => (typeof state.parameters[name] === "number" ? digits(state.parameters[name] * factor, 6) : state.parameters[name]);
     const words = (text) => (least ? text.replace("allowed: more", `allowed: ${least} and more`) : text).replace(/{(\w+)} rad/g, (_, n) => `${own(n, 180 / Math.PI)} deg`).replace(/{(\w+)}/g, (_, n) => own(n));
     broken = problem ?? (number > 0 ? words(ABOUT.rules[number - 1]) : number < 0 ? "these parameters cannot be used together" : "");
-    if (broken) failed(broken); else then();
+    if (broken) failed(broken); else solve(true);
   });
 }
 
@@ -137,10 +133,8 @@ function solve(fresh) {
 
 function say(text, look = "") {
   const place = byId("state");
-  if (place.textContent !== text || place.className !== look) {
-    place.textContent = text;
-    place.className = look;
-  }
+  place.className = look;
+  if (place.textContent !== text) place.textContent = text;
 }
 
 /** Say that the figures are not those of the inputs: other ones, greyed, or none yet. */
@@ -165,12 +159,13 @@ function received(result, fresh, took, gone) {
   reveal(".live");
   byId("results").classList.remove("stale");
   byId("views").classList.remove("empty");
-  for (const [name, value] of Object.entries({ ...result.outputs, error_estimate: estimate() })) show(name, value);
+  const [error_estimate, known] = verified();
+  for (const [name, value] of Object.entries({ ...result.outputs, error_estimate })) show(name, value);
   const missing = gone ? `The ${gone} branch has no solution here; this is the ${result.outputs.branch} branch. ` : "";
   const advice = (view.warning?.(result.outputs) ?? "") + (result.code ? `${ABOUT.worker.statuses[result.code]}; ` : "");
   if (fresh) {
-    const known = told(), look = state.strange || missing || advice || known.includes("outside") ? "problem" : "";
-    say(`${state.strange}${missing}${advice}solved in ${digits(took, 2)} ms; ${known}`, look);
+    const look = state.strange || missing || advice || known.includes("outside") ? "problem" : "";
+    say(`${state.strange}${missing}${advice}solved in ${digits(took, 2)} ms; rung ${state.rung} (${ABOUT.rungs[state.rung]}); ${known}`, look);
     state.strange = "";
   }
   view.solved(result, fresh);
@@ -192,8 +187,6 @@ function show(name, value) {
   place.textContent = over && isNoise(over, last.outputs[over]) ? "–" : typeof words === "number" ? shown(isNoise(name, words) ? 0 : words, about.unit, about.relative) : words;
   if (name === "distress") place.className = value ? "bad" : "";
 }
-
-// What is known of the error
 
 function cellOf(edges, value) {
   if (!(value >= edges[0] && value <= edges.at(-1))) return -1;
@@ -218,30 +211,18 @@ function errorOf(card, values, ratio) {
   return Math.max(found, card.uncertainty);
 }
 
-/** Return the cards that may speak for the last solution, and its inputs as they know them. */
-function cardsHere() {
-  const at = Object.fromEntries(ABOUT.inputs.map((s, i) => [s.name, last.point[i]])), own = ABOUT.cards.filter((c) => c.fidelity === state.rung && (!view.chart || c.chart === view.chart));
-  return [own.filter((c) => !c.branch || c.branch === last.outputs.branch), view.values?.(at) ?? at];
-}
-
-/** Return the verified error of the torque, null where no card knows it. */
-function estimate() {
-  const [cards, values] = cardsHere(), found = cards.map((c) => errorOf(c, values, last.outputs.film_ratio)).filter((e) => e !== null);
-  return found.length && !changes(ABOUT.given).length ? ABOUT.safety * Math.max(...found) : null;
-}
-
-/** Say rung and verified error. */
-function told() {
-  const { rung } = state, error = estimate(), [cards, values] = cardsHere(), words = `rung ${rung} (${ABOUT.rungs[rung]})`;
-  if (error !== null) return `${words}; verified error of the torque ${view.where ?? "here"}: ${error < 1e-5 ? "below 0.001" : `at most ${digits(100 * error, 2)}`} %`;
-  if (!ABOUT.cards.length || changes(ABOUT.given).length) return `${words}; no error is verified for these parameters`;
-  if (!cards.length) return `${words}; no error is verified on this rung`;
+/** Return the verified error of the last torque, null where no card knows it, and what is said of it. */
+function verified() {
+  const at = Object.fromEntries(ABOUT.inputs.map((s, i) => [s.name, last.point[i]])), values = view.values?.(at) ?? at, { branch, film_ratio } = last.outputs;
+  const cards = ABOUT.cards.filter((c) => c.fidelity === state.rung && (!view.chart || c.chart === view.chart) && (!c.branch || c.branch === branch));
+  if (!ABOUT.cards.length || changes(ABOUT.given).length) return [null, "no error is verified for these parameters"];
+  if (!cards.length) return [null, "no error is verified on this rung"];
+  const found = cards.map((c) => errorOf(c, values, film_ratio)).filter((e) => e !== null), error = ABOUT.safety * Math.max(...found);
+  if (found.length) return [error, `verified error of the torque ${view.where ?? "here"}: ${error < 1e-5 ? "below 0.001" : `at most ${digits(100 * error, 2)}`} %`];
   const out = Object.entries(cards[0].envelope).filter(([name]) => cards.every((c) => isOutside(c, name, values)));
   const range = ([name, a]) => `${name} ${shown(values[name], a.unit)} (${shown(a.min, a.unit)} .. ${shown(a.max, a.unit)})`;
-  return `${words}; no error is verified at this point${out.length ? `; outside the verified range: ${out.map(range).join(", ")}` : ""}`;
+  return [null, `no error is verified at this point${out.length ? `; outside the verified range: ${out.map(range).join(", ")}` : ""}`];
 }
-
-// Address and how to reproduce
 
 /** Return the parameters that differ from some values. */
 function changes(from) {
@@ -285,14 +266,8 @@ function reproduced() {
 
 /** Take what the address names; what cannot be taken is told, all else stays as it is. */
 function readAddress() {
-  const words = new Map(location.hash.slice(1).split("&").filter(Boolean).map((w) => {
-    const [name, ...rest] = w.split("=");
-    try {
-      return [name, decodeURIComponent(rest.join("="))];
-    } catch {
-      return [name, rest.join("=")];
-    }
-  }));
+  const decoded = (text) => { try { return decodeURIComponent(text); } catch { return text; } };
+  const words = new Map(location.hash.slice(1).split("&").filter(Boolean).map((w) => [w.split("=")[0], decoded(w.split("=").slice(1).join("="))]));
   for (const f of ABOUT.parameters) if (!words.has(f.name)) fields[f.name].set(ABOUT.given[f.name]);
   for (const s of ABOUT.inputs) if (!words.has(s.name)) fields[s.name].set(words.size ? state.inputs[s.name] : s.value);
   if (words.size === 0) view.reset?.();
@@ -320,22 +295,15 @@ function readAddress() {
   state.strange = strange.length ? `The address: ${strange.join("; ")}. ` : "";
 }
 
-// From a change to numbers
-
-function later() {
+function inputChanged() {
+  if (quiet) return;
+  solve(false);
   clearTimeout(timer);
   timer = setTimeout(() => solve(true), SETTLE);
 }
 
-function inputChanged() {
-  if (quiet) return;
-  if (view.live !== false) solve(false);
-  later();
-}
-
 function parametersChanged() {
-  if (quiet) return;
-  setParameters(() => solve(true));
+  if (!quiet) setParameters();
 }
 
 function builtControls() {
@@ -357,18 +325,16 @@ function builtControls() {
   main.prepend(el("div", { class: "field" }, el("label", { for: "fidelity" }, "rung: mesh and laws", el("code", {}, "fidelity")), rungs));
   byId("reset").addEventListener("click", () => { location.hash = ""; });
   for (const button of document.querySelectorAll("button[data-copy]")) {
-    button.addEventListener("click", () => copyText(byId(button.dataset.copy)));
+    button.addEventListener("click", () => {
+      getSelection().selectAllChildren(byId(button.dataset.copy));
+      navigator.clipboard?.writeText(byId(button.dataset.copy).textContent).catch(() => {});
+    });
   }
-}
-
-function copyText(place) {
-  getSelection().selectAllChildren(place);
-  navigator.clipboard?.writeText(place.textContent).catch(() => {});
 }
 
 function restart() {
   readAddress();
-  setParameters(() => solve(true));
+  setParameters();
 }
 
 /** Show the live part; with its views the still ones go. */

@@ -36,21 +36,12 @@ class Plot {
   /** `x`, `y`: {label, unit, log}; `drag(x, y)`: called with data while the point is moved. */
   constructor(host, { title, part, x, y, drag, height = 300 }) {
     Object.assign(this, { x, y, drag, height, series: [], marks: [], handles: [] });
-    this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    this.svg.setAttribute("role", "img");
-    this.svg.setAttribute("aria-label", title);
+    const moved = { onpointerdown: (e) => this.grab(e), onpointerup: () => (this.held = null), onpointercancel: () => (this.held = null), onkeydown: (e) => this.key(e) };
+    this.svg = el("svg", { role: "img", "aria-label": title, onpointermove: (e) => this.hover(e), onpointerleave: () => (this.readout.textContent = ""), ...drag && moved });
     this.legend = el("div", { class: "legend" });
     this.readout = el("div", { class: "readout", "aria-hidden": "true" });
     host.append(headed(title, part), this.legend, el("div", { class: "plot" }, this.svg, this.readout));
     new ResizeObserver(() => this.render()).observe(this.svg.parentNode);
-    this.svg.addEventListener("pointermove", (e) => this.hover(e));
-    this.svg.addEventListener("pointerleave", () => (this.readout.textContent = ""));
-    if (drag) {
-      this.svg.addEventListener("pointerdown", (e) => this.grab(e));
-      this.svg.addEventListener("pointerup", () => (this.held = null));
-      this.svg.addEventListener("pointercancel", () => (this.held = null));
-      this.svg.addEventListener("keydown", (e) => this.key(e));
-    }
   }
 
   /** Show `series` [{name, points, look}], `marks` [{x, y, text, look}], `handles` [{x, y, label}]. */

@@ -187,9 +187,7 @@ class Walker {
   }
 
   get film() { return this.at(this.L.AT_FILM); }
-
   get load() { return this.at(this.L.AT_LOAD); }
-
   get share() { return this.at(this.L.AT_SHARE); }
 
   check(code) {
@@ -197,7 +195,6 @@ class Walker {
   }
 
   start(ratio) { this.check(this.kernel.call("enter_curve", ...this.w, ...this.point, ratio)); }
-
   forget() { this.work.view[this.L.N_HEAD + this.L.TAG_VALID] = 0; }
 
   to(film) {

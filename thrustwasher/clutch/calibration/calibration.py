@@ -118,8 +118,7 @@ def _of_asperities(
             "oil_temperature is missing, wanted with friction_data = 'boundary': shear of the oil "
             "is taken off the measured friction"
         )
-    oil = course_of("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0,
-                    len(problem.measured))  # fmt: skip
+    oil = course_of("oil_temperature", oil_temperature, "K", *OIL.range, len(problem.measured))
     shear = law.settled_shear(params, np.asarray(speed, float), problem.load, oil)
     return replace(problem, measured=law.without_shear(problem.measured, shear))
 
@@ -132,8 +131,8 @@ def checked_problem(
     mu = course_of("friction", friction, "1", -LARGEST_FRICTION, LARGEST_FRICTION)
     count = len(mu)
     slips = np.atleast_1d(np.asarray(speed, object))  # one speed for all tells nothing
-    slip = course_of("speed", slips, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, count)
-    force = course_of("load", load, "N", 0.0, LOAD.high or 0.0, count)
+    slip = course_of("speed", slips, "rad/s", *SPEED.range, count)
+    force = course_of("load", load, "N", *LOAD.range, count)
     weight = np.ones(count)
     if friction_error is not None:
         error = course_of("friction_error", friction_error, "1", 0.0, LARGEST_FRICTION, count)

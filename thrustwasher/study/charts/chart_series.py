@@ -1,14 +1,15 @@
 """What a chart is: fixed operating points, hard corners included, and the series of ways to solve.
 
-A series goes over every rung, or over meshes and tolerances; it is named in the model's record. A
-method of somebody else is charted if it is put into ``RIVALS``. A changed list of points is another
-list (``digest``).
+A series goes over every rung, or over meshes and tolerances; it is named in the model's record. The
+points are those of ``cases.toml``. A changed list of points is another list (``digest``).
 """
 
 import hashlib
+import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from ...model.record import resolve
@@ -81,11 +82,8 @@ class Chart:
     quantities: tuple[Quantity, Quantity]
     cost_of: str  # its axis
     series: Callable[..., list[Configuration]]
-    cases: tuple[ChartCase, ...]
-    few: tuple[int, ...]  # of the cases, for a quick look
 
 
-RIVALS: dict[str, Callable[..., list[Configuration]]] = {}  # model -> its rival's series
 WARM = "warm call, 1 % away [s]"
 KELVIN = Quantity("temperature", False, unit="K")
 
@@ -98,8 +96,13 @@ def chart_of(model: str) -> Chart:
 
 def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:
     """Return the cases of a model, or those of a quick look."""
-    chart = chart_of(model)
-    return tuple(chart.cases[i] for i in chart.few) if quick else chart.cases
+    given = tomllib.loads(Path(__file__).with_name("cases.toml").read_text("utf-8"))[model]
+    before = given.get("before", {})
+    return tuple(
+        ChartCase(name, tuple(point), tuple(map(tuple, before.get(name, ()))))
+        for name, point in given["cases"].items()
+        if not quick or name in given["few"]
+    )
 
 
 def digest(cases: tuple[ChartCase, ...]) -> str:
@@ -109,6 +112,5 @@ def digest(cases: tuple[ChartCase, ...]) -> str:
 
 
 def series_of(model: str, *, quick: bool = False) -> list[Configuration]:
-    """Return everything that is measured for a model: its own series, then those of a rival."""
-    rival = RIVALS[model](quick=quick) if model in RIVALS else []
-    return [*chart_of(model).series(spec_of(model), quick=quick), *rival]
+    """Return everything that is measured for a model."""
+    return chart_of(model).series(spec_of(model), quick=quick)

@@ -17,15 +17,6 @@ from .methods import ChartCase, KernelMethod, MethodAnswer
 USUAL_STEP = 1e-3
 STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 5e-4)
 LEAST_STEP = 1e-9  # s
-# an engagement: full force N, slip at the start rad/s, oil K
-CASES = (
-    ChartCase("centre", (5898.0, 350.0, 297.15)),
-    ChartCase("light", (1500.0, 350.0, 297.15)),
-    ChartCase("heavy", (12000.0, 350.0, 297.15)),
-    ChartCase("slow", (5898.0, 40.0, 297.15)),
-    ChartCase("fast", (3000.0, 600.0, 297.15)),
-    ChartCase("hot oil", (5898.0, 350.0, 353.15)),
-)
 
 
 class ClutchMethod(KernelMethod):
@@ -85,5 +76,5 @@ def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
 
 CLUTCH = Chart(
     (Quantity("slip_energy", True), Quantity("end_temperature", False, unit="K")),
-    "engagement of 0.6 s [s]", _clutch, CASES, (0, 2, 3),
+    "engagement of 0.6 s [s]", _clutch,
 )  # fmt: skip

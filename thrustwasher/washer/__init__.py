@@ -1,7 +1,6 @@
 """The thrust washer in mixed lubrication.
 
 ====================  =====================================================================
-``model``             its record
 ``parameters``        parameters, inputs and outputs: the one list all interfaces come from
 ``kernel_arguments``  what its kernels take: constants, and memory that each thread keeps
 ``solve``             one operating point

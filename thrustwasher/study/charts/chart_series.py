@@ -5,16 +5,15 @@ points are those of ``cases.toml``. A changed list of points is another list (``
 """
 
 import hashlib
-import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from ...model.record import resolve
 from ...model.registry import ladder_of, spec_of
 from ...model.spec import ModelSpec
+from ...model.toml_tables import table_beside
 from .methods import ChartCase, KernelMethod, Method
 
 
@@ -96,7 +95,7 @@ def chart_of(model: str) -> Chart:
 
 def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:
     """Return the cases of a model, or those of a quick look."""
-    given = tomllib.loads(Path(__file__).with_name("cases.toml").read_text("utf-8"))[model]
+    given = table_beside(__file__, "cases.toml")[model]
     before = given.get("before", {})
     return tuple(
         ChartCase(name, tuple(point), tuple(map(tuple, before.get(name, ()))))

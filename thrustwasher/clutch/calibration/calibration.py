@@ -69,11 +69,10 @@ def calibrate(
     """
     law_of = "wang" if params.friction_law == "table" else params.friction_law
     params = replace(params, friction_law=law_of, friction_scale=1.0)
-    if fit is None:
-        fit = law.CONSTANT_LAW if params.friction_law == "constant" else DEFAULT_FIT
-    acting = law.constants_of(params)
-    words = f"under friction_law {params.friction_law!r}, which does not depend on load: "
-    names = chosen_names(fit, acting, words + ", ".join(acting))
+    acting = law.CONSTANT_LAW if law_of == "constant" else law.WANG_CONSTANTS
+    usual = DEFAULT_FIT if law_of == "wang" else acting
+    words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
+    names = chosen_names(usual if fit is None else fit, acting, words)
     problem = checked_problem(params, names, speed, load, friction, friction_error)
     if params.friction_data == "boundary":
         problem = _of_asperities(params, problem, speed, oil_temperature)
@@ -100,12 +99,11 @@ def _end_estimates(problem: LawProblem, best: Array, told: Information) -> tuple
     for name, value, row in zip(
         ("friction_at_rest", "friction_at_speed"), law.end_frictions(values), rows, strict=True
     ):
-        error = told.error_of(row) if np.any(row) else 0.0
-        half = error * told.quantile if np.isfinite(told.quantile) else np.inf
+        error, half = told.error_of(row), told.half_width_of(row)
         known = bool(half <= value)
         interval = (max(0.0, value - half), value + half) if known else (0.0, np.inf)
         reason = "" if known else "the points do not reach it"
-        found.append(Estimate(name, "1", value, float(error), interval, None, known, "", reason))
+        found.append(Estimate(name, "1", value, error, interval, None, known, "", reason))
     return tuple(found)
 
 
@@ -150,6 +148,7 @@ def checked_problem(
     return LawProblem(
         base=law.law_values(params), names=names, speed=slip_speed, measured=mu, load=force,
         weight=weight, low=low, high=high, scale=scale, units=units,
+        logarithmic=np.zeros(len(names), bool),
         is_constant=names == law.CONSTANT_LAW, known_errors=friction_error is not None,
     )  # fmt: skip
 

@@ -19,12 +19,6 @@ CONSTANT_LAW = ("constant_friction",)
 STEEPEST = 1.0 - 1e-9  # the derivative over the indentation is infinite at 1
 
 
-def constants_of(params: ClutchParams) -> tuple[str, ...]:
-    """Return the names of the constants that act in the pack's friction law."""
-    known = {"wang": WANG_CONSTANTS, "constant": CONSTANT_LAW}
-    return known.get(params.friction_law, ())
-
-
 def law_values(params: ClutchParams) -> dict[str, float]:
     """Return every number the law depends on, by the name of its parameter."""
     names = (*WANG_CONSTANTS, *CONSTANT_LAW, "kink_width", "adhesion_factor")

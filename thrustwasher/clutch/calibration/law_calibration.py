@@ -62,9 +62,7 @@ class LawCalibration(Calibration):
         problem, told = self._problem, self._told
         curve = problem.curve(self._best, speed)
         rows = friction_slopes(problem.values(self._best), speed, problem.names)
-        if not np.isfinite(told.quantile):
-            return curve, np.full(speed.shape, np.inf)
-        half = told.quantile * np.array([told.error_of(row) for row in rows])
+        half = np.array([told.half_width_of(row) for row in rows])
         if any(e.name == "stick_speed" and not e.identifiable for e in self.estimates):
             half[speed < problem.speed.min()] = np.inf
         return curve, half

@@ -16,8 +16,8 @@ from ...numerics.jit import Array
 from ..parameters import LOAD, OIL, SPEED, ClutchParams
 from . import friction_law as law
 from .data_warnings import warnings
+from .friction_law import LawProblem
 from .law_calibration import LawCalibration, load_test
-from .law_problem import LawProblem, bounds_of
 
 LARGEST_FRICTION = 2.0
 SPEEDS = ("stick_speed", "decay_speed")
@@ -143,7 +143,7 @@ def checked_problem(
     scale = np.where(np.isin(names, SPEEDS), float(slip_speed.max()) or 1.0, 1.0)
     if names == law.CONSTANT_LAW:
         scale[0] = float(mu.mean())
-    low, high = bounds_of(names)
+    low, high = law.bounds_of(names)
     units = {f.name: f.metadata["unit"] for f in fields(ClutchParams)}
     return LawProblem(
         base=law.law_values(params), names=names, speed=slip_speed, measured=mu, load=force,

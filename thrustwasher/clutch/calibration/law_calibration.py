@@ -10,8 +10,7 @@ from ...calibration.estimates import Calibration, Estimate, Series, size_text
 from ...calibration.identifiability import Information, counted
 from ...numerics.jit import Array
 from ...storage.digests import finite
-from .friction_law import friction_slopes
-from .law_problem import LawProblem
+from .friction_law import LawProblem, friction_slopes
 
 SAME_LOAD = 1e-6  # relative spread of loads below which there is nothing to compare
 FOLLOWS = 1e-4  # share of the load's spread that the law's constants must leave free

@@ -28,6 +28,11 @@ def parse(where: str, text: str) -> dict[str, Any]:
         raise ParameterError(f"{where}: not valid TOML ({problem})") from None
 
 
+def table_beside(module: str, name: str) -> dict[str, Any]:
+    """Return the TOML table that lies beside a module, which is given by its ``__file__``."""
+    return read_file("table", Path(module).with_name(name))
+
+
 def unknown(where: str, key: str, known: Iterable[str]) -> ParameterError:
     """Return the error of a key that is not known."""
     known = list(known)

@@ -2,12 +2,11 @@
 
 import os
 import subprocess
-import tomllib
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import Any
 
 from ...model.spec import ModelSpec
+from ...model.toml_tables import table_beside
 from ...units import UNITS, exponents
 from ..model_kernels import package_version
 from ..package.model_sources import PACKAGE
@@ -29,9 +28,7 @@ DISPLAY = {
     "W": ("kW",), "J": ("kJ",), "Pa": ("MPa", "GPa"), "Pa.s": ("mPa.s",), "m3/s": ("l/min",),
 }  # fmt: skip
 # Declared types of real variables: name -> attributes.
-TYPES: dict[str, dict[str, Any]] = tomllib.loads(
-    Path(__file__).with_name("real_types.toml").read_text("utf-8")
-)
+TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml")
 
 
 def declared_type(v: Variable) -> str | None:
@@ -81,17 +78,6 @@ def log_categories(spec: ModelSpec) -> dict[str, str]:
     if not any(signal.events for signal in spec.outputs):
         silent.add("logEvents")
     return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}
-
-
-def filled(template: Path, **told: Any) -> bytes:
-    """Return a template filled in, as it goes into the FMU; values are escaped."""
-    from jinja2 import Environment, StrictUndefined  # late: what is built already needs none
-
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )  # fmt: skip
-    return environment.from_string(template.read_text("utf-8")).render(told).encode()
 
 
 def head(spec: ModelSpec) -> dict[str, str]:

@@ -4,8 +4,7 @@ The C tables of the native shell are written from it, and the tests walk through
 in every mode.
 """
 
-import tomllib
-from pathlib import Path
+from ...model.toml_tables import table_beside
 
 INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, EVENTS = 1, 2, 4, 8, 16
 NEVER = 0
@@ -33,7 +32,7 @@ _NAMED = {
     "instantiated": INSTANTIATED, "stepping": STEPPING, "initializing": INITIALIZING,
     "terminated": TERMINATED, "events": EVENTS, "solvable": SOLVABLE, "always": ALWAYS,
 }  # fmt: skip
-_TABLE = tomllib.loads(Path(__file__).with_name("calls.toml").read_text("utf-8"))
+_TABLE = table_beside(__file__, "calls.toml")
 
 # Version -> functions without an instance.
 FREE: dict[int, list[str]] = {fmi: _TABLE["free"][f"fmi{fmi}"] for fmi in (2, 3)}

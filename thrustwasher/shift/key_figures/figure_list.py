@@ -1,8 +1,8 @@
 """The list of key figures, from ``figures.toml``. Values come from ``key_figures``."""
 
-import tomllib
-from pathlib import Path
 from typing import NamedTuple
+
+from ...model.toml_tables import table_beside
 
 # [rad/s] of a planet on its pin. A film vanishes with speed: its least ratio is looked for above
 # this speed only, else it would be that of the last sample before standstill.
@@ -33,8 +33,7 @@ class KeyFigure(NamedTuple):
 # name -> (value, time [s] it belongs to)
 Found = dict[str, tuple[float | None, float | None]]
 
-_TABLE = Path(__file__).with_name("figures.toml").read_text("utf-8")
-FIGURES = {name: Figure(*row) for name, row in tomllib.loads(_TABLE).items()}
+FIGURES = {n: Figure(*row) for n, row in table_beside(__file__, "figures.toml").items()}
 
 
 def assemble(found: Found, pack: str, other: str) -> list[KeyFigure]:

@@ -10,9 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from ...model.spec import ModelSpec
+from ...templates import filled
 from ...units import exponents
 from ..scene.connections import PLACES
 from .system_structure import PASSED_ON, Component, Structure
+
+HERE = Path(__file__).parent
 
 
 def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
@@ -28,22 +31,10 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
         "units": {name: exponents(name) for name in units},
     }  # fmt: skip
     return {
-        "SystemStructure.ssd": _filled("system.ssd.jinja", plain=False, **told),
-        "Parts.ssd": _filled("system.ssd.jinja", plain=True, **told),
-        "documentation/index.html": _filled("page.html.jinja", **told),
+        "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", plain=False, **told),
+        "Parts.ssd": filled(HERE / "system.ssd.jinja", plain=True, **told),
+        "documentation/index.html": filled(HERE / "page.html.jinja", **told),
     }
-
-
-def _filled(name: str, **told: Any) -> bytes:
-    """Return a template of this folder filled in; values are escaped."""
-    from jinja2 import Environment, StrictUndefined
-
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )  # fmt: skip
-    text = Path(__file__).with_name(name).read_text("utf-8")
-    return environment.from_string(text).render(told).encode()
 
 
 def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:

@@ -12,8 +12,7 @@ from typing import Any
 from ...model.spec import ModelSpec
 from ...templates import filled
 from ...units import exponents
-from ..scene.connections import PLACES
-from .system_structure import PASSED_ON, Component, Structure
+from .system_structure import BORDER, PASSED_ON, Component, Structure
 
 HERE = Path(__file__).parent
 
@@ -27,8 +26,8 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
     units = {m["unit"] for found in used for m in found.values() if m["kind"] == "real"}
     units |= {s.unit for p in system.components for s in p.spec.outputs if s.kind == "real"}
     told = {
-        **system._asdict(), "tool": tool, "date": date, "places": PLACES, "values_of": values_of,
-        "units": {name: exponents(name) for name in units},
+        **system._asdict(), "tool": tool, "date": date, "places": BORDER["places"],
+        "values_of": values_of, "units": {name: exponents(name) for name in units},
     }  # fmt: skip
     return {
         "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", plain=False, **told),

@@ -14,7 +14,7 @@ from ..model_kernels import content_digest, package_version
 PACKAGE = Path(str(files(__name__.partition(".")[0])))
 OWN = (PACKAGE / "fmu", PACKAGE / "native")  # what packs and links
 SHARED = ("shell", "documentation")  # folders beside those of the models
-TEXTS = (".py", ".c", ".h", ".md", ".html", ".jinja", ".txt", ".svg", ".png")
+TEXTS = (".py", ".c", ".h", ".md", ".html", ".jinja", ".toml", ".txt", ".svg", ".png")
 
 
 def source_folder() -> Path:

@@ -198,14 +198,17 @@ def read_options(arguments: argparse.Namespace, options: Iterable[Option]) -> di
     return found
 
 
-def add_listed(parser: argparse.ArgumentParser, command: str) -> None:
-    """Add the options of a command that ``options.toml`` lists, in argparse's own words."""
+def add_listed(parser: Any, command: str, **words: str) -> None:
+    """Add the options of a command that ``options.toml`` lists, in argparse's own words.
+
+    ``words`` fill in the names in braces.
+    """
     for name, said in table_beside(__file__, "options.toml")[command].items():
         if isinstance(said.get("metavar"), list):
             said["metavar"] = tuple(said["metavar"])
         if isinstance(said.get("default"), int):
             said["type"] = int
-        parser.add_argument(name, **said)
+        parser.add_argument(name, **said | {"help": said["help"].format(**words)})
 
 
 def read_grid(text: str) -> tuple[int, int]:

@@ -51,14 +51,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _page_of_failures(record: dict[str, Any]) -> str:
-    from ..study.charts.stability_page import stability_markdown
+    from ..study.charts.chart_page import stability_markdown
 
     return stability_markdown(record)
 
 
 def _same_everywhere() -> dict[str, Any]:
     """Return what the package brings along since it is the same on every machine."""
-    from ..study.charts.stability_page import same_everywhere
+    from ..study.charts.chart_page import same_everywhere
 
     return same_everywhere()
 

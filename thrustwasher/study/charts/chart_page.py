@@ -1,5 +1,6 @@
 """All charts as one page, as Markdown, and as drawings; made from the JSON record alone."""
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,11 +11,16 @@ from ...model.registry import find_spec
 from ...report.html import Page, Plot, Section, Table, fill_template
 from ...report.palette import BLUE, GREY
 from ...report.style import label, new_figure, styled
+from ...storage.digests import DATA
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
-from .stability_page import WORDS
 
 TITLE = "Speed against accuracy"
+SAME_EVERYWHERE = DATA / "same_everywhere.json"
+WORDS = {
+    "ok": "right", "slow": "right, but costs", "says": "fails and says so",
+    "LIES": "wrong without a word",
+}  # fmt: skip
 SCRIPTS = ("chart/chart.css", "chart/chart.js")
 HOW = (
     "Errors are measured against converged values on a fixed list of operating points with the "
@@ -206,3 +212,19 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
 def markdown(page: Page) -> str:
     """Return the page as Markdown beside its drawings."""
     return fill_template(Path(__file__).with_name("chart.md.jinja"), **vars(page))
+
+
+def same_everywhere() -> dict[str, Any]:
+    """Return what ``benchmarks/same_everywhere.py`` measured: no machine changes it."""
+    return dict(json.loads(SAME_EVERYWHERE.read_text("utf-8")))
+
+
+def stability_markdown(record: Mapping[str, Any]) -> str:
+    """Return the page for a record with ``stability`` and ``limits``."""
+    groups: Sequence[Mapping[str, Any]] = record["stability"]
+    return fill_template(
+        Path(__file__).with_name("stability.md.jinja"),
+        words=WORDS, groups=groups, limits=record.get("limits", []),
+        verdicts=[cell["verdict"] for g in groups for row in g["cells"] for cell in row],
+        machine=text.machine_sentence(record),
+    )  # fmt: skip

@@ -5,7 +5,7 @@ points are those of ``cases.toml``. A changed list of points is another list (``
 """
 
 import hashlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -54,24 +54,13 @@ class Quantity:
         return {"name": self.name, "kind": kind, "unit": self.unit, "floor": floor}
 
 
-Settings = Iterable[tuple[str, str, Callable[[], Method]]]  # label, value of the knob, method
-
-
-def series(
-    family: str, knob: str, settings: Settings, count_of: str, *, is_rival: bool = False,
-    preset: str = "",
-) -> list[Configuration]:  # fmt: skip
-    """Return a method at each of its settings."""
-    return [
-        Configuration(family, label, knob, value, make, count_of, is_rival, preset)
-        for label, value, make in settings
-    ]
-
-
 def rungs(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every named fidelity that the kernel knows."""
-    named = ((name, name, partial(KernelMethod, spec, name)) for name in spec.fidelities)
-    return series("rungs", "rung", named, spec.counts[0][0] if spec.counts else "calls")
+    counted = spec.counts[0][0] if spec.counts else "calls"
+    return [
+        Configuration("rungs", name, "rung", name, partial(KernelMethod, spec, name), counted)
+        for name in spec.fidelities
+    ]
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from ...clutch.parameters import SPEC
 from ...errors import Status
 from ...model.spec import ModelSpec
 from ..reference_clutch import TIMES, engagement_corners
-from .chart_series import Chart, Configuration, Quantity, Settings, series
+from .chart_series import Chart, Configuration, Quantity
 from .methods import ChartCase, KernelMethod, MethodAnswer
 
 USUAL_STEP = 1e-3
@@ -63,15 +63,17 @@ class ClutchMethod(KernelMethod):
 
 def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every rung, and those with a moving film over the communication step."""
-    rungs = ((name, name, partial(ClutchMethod, name, USUAL_STEP)) for name in spec.fidelities)
-    found = series("rungs", "rung", rungs, "steps")
-    for name in ("field", "fine"):
-        steps: Settings = (
-            (f"{name}, {1e3 * h:g} ms", f"{1e3 * h:g} ms", partial(ClutchMethod, name, h))
-            for h in (STEPS[::2] if quick else STEPS)
-        )
-        found += series(f"{name} over the step", "step", steps, "steps")
-    return found
+    rungs = [
+        Configuration("rungs", name, "rung", name, partial(ClutchMethod, name, USUAL_STEP), "steps")
+        for name in spec.fidelities
+    ]
+    steps = [
+        Configuration(f"{name} over the step", f"{name}, {1e3 * h:g} ms", "step", f"{1e3 * h:g} ms",
+                      partial(ClutchMethod, name, h), "steps")
+        for name in ("field", "fine")
+        for h in (STEPS[::2] if quick else STEPS)
+    ]  # fmt: skip
+    return rungs + steps
 
 
 CLUTCH = Chart(

@@ -8,7 +8,7 @@ from ...model.spec import ModelSpec
 from ...washer.kernel_arguments import constants
 from ...washer.kernels.layout import N_HEAD
 from ...washer.kernels.workspace import size_of_state, size_of_work
-from .chart_series import KELVIN, WARM, Chart, Configuration, Quantity, Settings, rungs, series
+from .chart_series import KELVIN, WARM, Chart, Configuration, Quantity, rungs
 from .methods import KernelMethod
 
 GRIDS = ((7, 20), (9, 24), (10, 32), (13, 40), (16, 48), (19, 64), (28, 96))
@@ -26,12 +26,12 @@ class MeshMethod(KernelMethod):
 
 def _washer(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return rungs, and meshes from coarse to fine."""
-    meshes: Settings = (
-        (f"{r} x {t}", f"{r}x{t}", partial(MeshMethod, spec, (r, t)))
+    meshes = [
+        Configuration("mesh of the package", f"{r} x {t}", "grid", f"{r}x{t}",
+                      partial(MeshMethod, spec, (r, t)), "Newton iterations x nodes")
         for r, t in (GRIDS[::3] if quick else GRIDS)
-    )
-    count_of = "Newton iterations x nodes"
-    return [*rungs(spec), *series("mesh of the package", "grid", meshes, count_of)]
+    ]  # fmt: skip
+    return [*rungs(spec), *meshes]
 
 
 WASHER = Chart((Quantity("friction_torque", True, 1e-3), KELVIN), WARM, _washer)

@@ -36,7 +36,7 @@ def table_beside(module: str, name: str) -> dict[str, Any]:
     return read_file("table", Path(module).with_name(name))
 
 
-def spec_beside(module: str, params: type[Any], rules: tuple[Rule, ...]) -> ModelSpec:
+def spec_beside(module: str, params: type[Any], rules: tuple[Rule, ...] = ()) -> ModelSpec:
     """Return what a model shows to the outside, of the ``interface.toml`` beside a module.
 
     A row of an output is its unit, nominal value if it is a real number, meaning, then the other

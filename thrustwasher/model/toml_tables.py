@@ -1,12 +1,12 @@
 """TOML files and their tables: read, with quantities in SI units, or an error that says where."""
 
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError, suggestion
+from ..errors import ParameterError, suggestion, within
 from ..units import parse_quantity
 from .parameters import allowed
 from .record import from_plain
@@ -63,20 +63,19 @@ def unknown(where: str, key: str, known: Iterable[str]) -> ParameterError:
     return ParameterError(f"{where}: there is no {key!r} here{hint}")
 
 
-def nothing_else(where: str, rest: Iterable[str], known: Iterable[str]) -> None:
-    """Refuse whatever is left in a table."""
-    for key in rest:
-        raise unknown(where, key, known)
+def nothing_else(where: str, keys: Iterable[str], known: Collection[str]) -> None:
+    """Refuse keys that are not known."""
+    for key in keys:
+        if key not in known:
+            raise unknown(where, key, known)
 
 
 def quantity(where: str, key: str, value: Any, unit: str) -> float:
     """Return a number in SI units."""
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
-    try:
+    with within(where):
         return parse_quantity(value, unit, key)
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
 
 
 def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import ParameterError, suggestion, within
 from ..units import parse_quantity
-from .parameters import allowed
+from .parameters import allowed, check_number
 from .record import from_plain
 from .spec import ModelSpec, Rule
 
@@ -81,13 +81,9 @@ def quantity(where: str, key: str, value: Any, unit: str) -> float:
 def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:
     """Return a number in SI units within its range; ``rule``: unit, least, largest."""
     unit, low, high = rule
-    number = quantity(where, key, value, unit)
-    if not low <= number <= high:
-        tail = "" if unit == "1" else f" {unit}"
-        raise ParameterError(
-            f"{where}: {key} = {number!r}{tail}, allowed: {low:g} .. {high:g}{tail}"
-        )
-    return number
+    found = quantity(where, key, value, unit)
+    with within(where):
+        return check_number(key, found, unit, low, high)
 
 
 def read_value(where: str, key: str, value: Any, meta: Any) -> Any:

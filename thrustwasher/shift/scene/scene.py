@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from typing import Any
 
-from ...errors import ParameterError
+from ...errors import ParameterError, within
 from ...ladder.choose import rung_and_tolerance
 from ...model.prepare import check_together
 from ...model.spec import ModelSpec
@@ -181,10 +181,8 @@ class Scene:
                 f"{MAX_STEPS} steps of {self.step!r} s (start_time = {self.start_time!r} s)"
             )
         for name, part in self.parts.items():
-            try:
+            with within(f"{where} [{name}]"):
                 check_together(part.spec, part.params, part.fidelity)
-            except ParameterError as problem:
-                raise ParameterError(f"{where} [{name}]: {problem}") from None
         gearbox = self.parts["transmission"]
         params = _with(
             gearbox.params, oil_temperature=self.oil_temperature,

@@ -220,7 +220,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
 def _package(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
     from ..fmu.build import pack_native
-    from ..fmu.description.xml_parts import generation_date
+    from ..fmu.description.model_description import generation_date
     from ..fmu.model_kernels import package_version
     from ..shift.ssp.package import files
     from ..shift.ssp.system_structure import plan, prepared, start_values

@@ -10,10 +10,9 @@ from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
 from ..model.record import resolve
 from ..model.registry import all_models
-from .cosim.instances import Stepping, capable
 from .cosim.loop import PythonLoop, Recorder, Run, Steps
 from .cosim.schedule import Correct
-from .cosim.system import ConnectedPart, System
+from .cosim.system import ConnectedPart, Stepping, System, capable
 from .key_figures.events_and_phases import find_events, find_phases
 from .key_figures.key_figures import energy_balance, key_figures
 from .masters.master import MASTERS

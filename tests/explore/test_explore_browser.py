@@ -383,6 +383,18 @@ def test_the_gear_mesh_follows_its_inputs(opened):
         assert page.figure(name) == pytest.approx(getattr(wanted, name), rel=SAME)
 
 
+def test_a_point_without_a_solution_is_told_and_the_last_result_stays(opened):
+    page = opened("gearmesh")
+    before = page.figure("friction_torque")
+    page.put("speed", 0)
+    said = page.page.text_content("#state")
+    assert said == "speed = 0 rad/s, allowed: from 0.075 rad/s on for power = 7500 W"
+    assert page.figure("friction_torque") == before and page.page.is_visible("#views")
+    page.put("speed", 200)
+    assert page.figure("friction_torque") != before
+    assert "verified error" in page.page.text_content("#state")
+
+
 def test_a_ramp_is_drawn_and_the_engagement_follows(opened):
     page = opened("clutch")
     before = page.figure("energy")

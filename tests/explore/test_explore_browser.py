@@ -261,7 +261,8 @@ def test_a_browser_without_it_shows_values_and_pictures_of_the_start(opened, mod
     page = opened(model, ready="", **look).page
     looks_still(page)
     said = page.text_content("#state")
-    assert "of the start" in said and ("no WebAssembly" in said or "Rung field; verified" in said)
+    assert "of the start: " in said and "Rung field; verified error of the torque: at most" in said
+    assert ("has no WebAssembly" in said) is ("init" in look)
 
 
 def test_still_values_are_those_of_python(opened):
@@ -418,6 +419,14 @@ def test_a_ramp_is_drawn_and_the_engagement_follows(opened):
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
 def test_an_automated_check_of_access_finds_nothing_serious(opened, model, look):
     assert faults(opened(model, **look).page) == []
+
+
+def test_nor_does_it_in_the_still_version(opened):
+    for look in LOOKS.values():
+        page = opened("clutch", ready="", init=WITHOUT["webassembly"]["init"], **look).page
+        assert faults(page) == []
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= page.viewport_size["width"]
 
 
 @pytest.mark.parametrize("model", MODELS)

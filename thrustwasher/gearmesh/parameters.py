@@ -5,15 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ..model.parameters import (
-    as_numbers,
-    check_ranges,
-    check_rules,
-    choice,
-    count,
-    flag,
-    quantity,
-)
+from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import made_of
 from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
 

@@ -131,7 +131,8 @@ def belongs_to(key):
     command, home = find_model(key).command, HOMES[key]
     own = {f"thrustwasher.cli.{name}" for name in (command.more if command else ())}
     own |= {m for m in structure.modules() if m == home or m.startswith(f"{home}.")}
-    texts = (structure.modules()[m].read_text("utf-8") for m in own)
+    files = [structure.modules()[m] for m in own]
+    texts = (path.read_text("utf-8") for path in (*files, PACKAGE / key / "model.toml"))
     named = {module for text in texts for module in re.findall(r'"([\w.]+):\w+"', text)}
     return own | named
 

@@ -11,7 +11,7 @@ import pytest
 
 from thrustwasher.cli import main
 from thrustwasher.study.charts.chart_cost import count_figure
-from thrustwasher.study.charts.stability_page import same_everywhere, stability_markdown
+from thrustwasher.study.charts.chart_page import same_everywhere, stability_markdown
 from thrustwasher.study.charts.work_precision import Sample
 
 ROOT = Path(__file__).parents[2]

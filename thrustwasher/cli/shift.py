@@ -11,7 +11,7 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..units import parse_quantity
-from . import _compare, _output, _sequence
+from . import _compare, _options, _output
 from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
@@ -20,55 +20,7 @@ REPORT, TABLE = "report.html", "shift.csv"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "--scene", metavar="NAME|FILE.toml", default="planetary",
-        help="a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary",
-    )  # fmt: skip
-    parser.add_argument(
-        "--out", metavar="DIR", default="shift-report",
-        help=f"folder for {REPORT}, overview.png and {TABLE}; default shift-report",
-    )  # fmt: skip
-    parser.add_argument(
-        "--compare", nargs=2, metavar=("A", "B"),
-        help="two shifts on one page, compare.html: each a report's folder, or a scene, which runs",
-    )  # fmt: skip
-    parser.add_argument(
-        "--no-report", action="store_true", help="write no files, only say what came out"
-    )
-    parser.add_argument(
-        "--step", metavar="QUANTITY", help="communication step [s], if not the scene's"
-    )
-    parser.add_argument(
-        "--master", metavar="NAME",
-        help="gauss-seidel, jacobi, linearly-implicit or step-doubling, if not the scene's",
-    )  # fmt: skip
-    parser.add_argument(
-        "--master-tolerance", metavar="NUMBER",
-        help="relative error of a step that step-doubling allows, if not the scene's",
-    )  # fmt: skip
-    parser.add_argument(
-        "--fidelity", metavar="[PART=]RUNG", action="append", default=[],
-        help="a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "
-        "the cheapest that holds 1 %% and checks it after the run; may be repeated",
-    )  # fmt: skip
-    parser.add_argument(
-        "--no-guard", action="store_true",
-        help="with auto: do not check the choice after the run, keep it",
-    )  # fmt: skip
-    parser.add_argument(
-        "--fmu", choices=["native", "python"], default="native",
-        help="kind of FMU; default native",
-    )  # fmt: skip
-    parser.add_argument(
-        "--ssp", metavar="FILE.ssp",
-        help="write the shift as an SSP package for other tools, instead of running it",
-    )  # fmt: skip
-    parser.add_argument(
-        "--platforms", metavar="LIST",
-        help="of the package's FMUs: names with commas, all, or local; default: all that can be "
-        "linked here",
-    )  # fmt: skip
-    parser.add_argument("--json", action="store_true", help="one JSON object with every number")
+    _options.add_listed(parser, "shift")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -77,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _compare.run(arguments, _scene, _one_shift)
     scene = _scene(arguments, arguments.scene)
     if scene.sequence:
-        _sequence.check(arguments, scene)
+        _check_sequence(arguments, scene)
     if arguments.ssp:
         return _export(arguments, scene)
     if arguments.platforms:
@@ -88,13 +40,13 @@ def run(arguments: argparse.Namespace) -> int:
     result = (_shifts if scene.sequence else _one_shift)(arguments, scene)
     if folder:
         with _output.whole_folder(folder) as draft:
-            (_sequence.write if scene.sequence else _write)(result, draft)
+            _write(result, draft)
     if arguments.json:
         more = {} if scene.sequence else {"warnings": _warnings(result)}
         total, out = time.perf_counter() - began, str(folder) if folder else None
         _output.print_json({**result.as_dict(), **more, "total_time": total, "out": out})
     elif scene.sequence:
-        _sequence.say(result)
+        _say_sequence(result)
     else:
         _say(result, folder)
     return 0
@@ -147,6 +99,15 @@ def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
         return run_sequence(scene, instances, progress=_progress(scene))
 
 
+def _check_sequence(arguments: argparse.Namespace, scene: Any) -> None:
+    """Refuse what a scene of several shifts has no use for."""
+    if arguments.ssp:
+        raise ParameterError("--ssp: a package has one shift, allowed: a scene without [sequence]")
+    if open_ := [name for name, part in scene.parts.items() if part.tolerance]:
+        raise ParameterError(f"fidelity of {', '.join(open_)} = auto, allowed with [sequence]: a "
+                             "rung by name (--fidelity PART=RUNG)")  # fmt: skip
+
+
 def _progress(scene: Any) -> Callable[[int, int], None] | None:
     return _output.time_left(scene.name) if sys.stderr.isatty() else None
 
@@ -175,6 +136,20 @@ def _say(result: Any, folder: Path | None) -> None:
         print(f"Report: {folder / REPORT}")
     if result.guard:
         print(f"Check: {result.guard.closing()}.")
+
+
+def _say_sequence(result: Any) -> None:
+    """Print a line per shift of a scene of several."""
+    oil = result.oil_temperature - 273.15
+    print(f"{result.scene.title}: {len(result.shifts)} shifts, oil {oil[0]:.1f} .. {oil[-1]:.1f} "
+          "degC")  # fmt: skip
+    for shift, (start, way) in zip(result.shifts, result.scene.sequence.shifts, strict=True):
+        figures = shift.figures
+        lock, heat = figures["lock_time"], figures["slip_energy"] or 0.0
+        locked = "does not lock" if lock is None else f"locks after {lock - start:.3f} s"
+        print(f"  {start:8.1f} s  {way:4}  {locked}, {1e-3 * heat:.2f} kJ")
+    for text in result.messages:
+        print(text)
 
 
 @contextmanager
@@ -208,12 +183,18 @@ def _tables(scene: Any) -> list[Any]:
 
 
 def _write(result: Any, folder: Path) -> None:
-    """Write page, overview and time series into a folder that is still a draft."""
+    """Write page, plots and time series into a folder that is still a draft."""
     from ..report.html import render, save_plots
-    from ..report.shift.shift_record import record_of
-    from ..report.shift.shift_report import shift_page
 
-    page = shift_page(record_of(result))
+    if result.scene.sequence:
+        from ..report.shift.sequence_report import sequence_page
+
+        page = sequence_page(result)
+    else:
+        from ..report.shift.shift_record import record_of
+        from ..report.shift.shift_report import shift_page
+
+        page = shift_page(record_of(result))
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)
     result.write_csv(folder / TABLE)

@@ -219,8 +219,7 @@ def _box(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> Box:
             raise ParameterError(
                 f"{where}: {key} = {given!r}, allowed: [low, high], 'low:high' or one value"
             )
-        s = inputs[key]
-        rule = s.unit, -math.inf if s.low is None else s.low, math.inf if s.high is None else s.high
+        rule = inputs[key].unit, *inputs[key].range
         low, high = (number(where, key, x, rule) for x in (ends[0], ends[-1]))
         if low > high:
             raise ParameterError(f"{where}: {key} = {given!r}, allowed: low <= high")

@@ -2,12 +2,15 @@
 
 import tomllib
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError, suggestion
 from ..units import parse_quantity
 from .parameters import allowed
+from .record import from_plain
+from .spec import ModelSpec, Rule
 
 
 def read_file(what: str, path: str | Path) -> dict[str, Any]:
@@ -26,6 +29,31 @@ def parse(where: str, text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as problem:  # also numbers and nesting without end
         raise ParameterError(f"{where}: not valid TOML ({problem})") from None
+
+
+def table_beside(module: str, name: str) -> dict[str, Any]:
+    """Return the TOML table that lies beside a module, which is given by its ``__file__``."""
+    return read_file("table", Path(module).with_name(name))
+
+
+def spec_beside(module: str, params: type[Any], rules: tuple[Rule, ...]) -> ModelSpec:
+    """Return what a model shows to the outside, of the ``interface.toml`` beside a module.
+
+    A row of an output is its unit, nominal value if it is a real number, meaning, then the other
+    fields of its ``Signal``; it depends on all inputs unless these say otherwise.
+    """
+    told = table_beside(module, "interface.toml")
+    inputs = [{"name": name, **fields} for name, fields in told["inputs"].items()]
+    outputs = []
+    for name, row in told["outputs"].items():
+        *most, more = row if isinstance(row[-1], dict) else [*row, {}]
+        unit, *nominal, text = most
+        usual = {"nominal": nominal[0]} if nominal else {}
+        signal = {"name": name, "unit": unit, "help": text, "depends": [*told["inputs"]]}
+        outputs.append(signal | usual | more)
+    told |= {"inputs": inputs, "outputs": outputs, "params": params}
+    spec: ModelSpec = from_plain(ModelSpec, told)
+    return replace(spec, rules=rules)
 
 
 def unknown(where: str, key: str, known: Iterable[str]) -> ParameterError:

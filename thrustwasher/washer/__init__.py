@@ -1,8 +1,7 @@
 """The thrust washer in mixed lubrication.
 
-====================  =====================================================================
-``model``             its record
-``parameters``        parameters, inputs and outputs: the one list all interfaces come from
+====================  =========================================================================
+``parameters``        parameters; with ``interface.toml`` the one list all interfaces come from
 ``kernel_arguments``  what its kernels take: constants, and memory that each thread keeps
 ``solve``             one operating point
 ``washer_result``     what a solve returns, and the error to expect of it
@@ -11,5 +10,5 @@
 ``map``               solutions on both branches, charted for look-up
 ``closed_forms``      exact solutions that a shift or the table of failures uses
 ``kernels``           compiled code
-====================  =====================================================================
+====================  =========================================================================
 """

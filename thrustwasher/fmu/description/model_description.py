@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from ...model.spec import ModelSpec
+from ...templates import filled
 from . import xml_parts as parts
 from .interface import enumerations, variables
 
@@ -15,7 +16,7 @@ def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = Fal
     """Return the model description; ``derivatives``: the binary has directional ones."""
     found = variables(spec)
     stop, step = parts.default_experiment(spec)
-    return parts.filled(
+    return filled(
         HERE / "modelDescription.xml.jinja", spec=spec, fmi=fmi, guid=guid, stop=stop, step=step,
         derivatives=str(derivatives).lower(), head=parts.head(spec), units=parts.units(found),
         types=parts.types(found), enumerations=enumerations(spec), kinds=TYPES,
@@ -26,4 +27,4 @@ def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = Fal
 
 def terminals_and_icons(spec: ModelSpec, *, icon: bool = True) -> bytes:
     """Return torque and speed as one plug; a file of FMI 3.0."""
-    return parts.filled(HERE / "terminalsAndIcons.xml.jinja", terminals=spec.terminals, icon=icon)
+    return filled(HERE / "terminalsAndIcons.xml.jinja", terminals=spec.terminals, icon=icon)

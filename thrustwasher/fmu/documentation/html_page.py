@@ -12,8 +12,8 @@ from ...ladder.formats import shown_error
 from ...model.prepare import tables_of
 from ...model.registry import MODELS, find_model, find_spec
 from ...model.spec import ModelSpec
+from ...templates import filled
 from ..description.interface import Variable, enumerations, variables
-from ..description.xml_parts import filled
 from ..model_kernels import package_version
 from ..package.licences import listed_licences
 from ..package.model_sources import source_folder

@@ -1,17 +1,26 @@
 """All charts as one page, as Markdown, and as drawings; made from the JSON record alone."""
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.figure import Figure
+
 from ...model.registry import find_spec
 from ...report.html import Page, Plot, Section, Table, fill_template
+from ...report.palette import BLUE, GREY
+from ...report.style import label, new_figure, styled
+from ...storage.digests import DATA
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
-from .corrections_page import corrections_section
-from .stability_page import WORDS
 
 TITLE = "Speed against accuracy"
+SAME_EVERYWHERE = DATA / "same_everywhere.json"
+WORDS = {
+    "ok": "right", "slow": "right, but costs", "says": "fails and says so",
+    "LIES": "wrong without a word",
+}  # fmt: skip
 SCRIPTS = ("chart/chart.css", "chart/chart.js")
 HOW = (
     "Errors are measured against converged values on a fixed list of operating points with the "
@@ -145,6 +154,41 @@ def _model_section(
     )  # fmt: skip
 
 
+def corrections_section(rows: Sequence[Mapping[str, Any]]) -> Section:
+    """Return what the corrections of the physics moved, and by which factor."""
+    table = [
+        [r["part"], r["figure"], r["unit"], f"{r['before']:.3g}{'*' if r['recorded'] else ''}",
+         f"{r['after']:.3g}", f"{r['after'] / r['before']:.2g}"] for r in rows
+    ]  # fmt: skip
+    heads = ["correction", "figure", "unit", "before", "after", "times"]
+    words = (
+        'Before is the preset "paper" of a model or the former scene, computed now; * is what '
+        "version 0.5.0 gave. The two scenes are two shifts: their figures differ by design."
+    )
+    caption = "After over before: bars to the right grew, bars to the left shrank."
+    return Section(
+        "corrections", "What the corrections moved", texts=[words],
+        plots=[Plot("chart-corrections", corrections_figure(rows), caption)],
+        tables=[Table(heads, table, numbers=(3, 4, 5))],
+    )  # fmt: skip
+
+
+@styled
+def corrections_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
+    """Return a bar for each figure: after over before, on a logarithmic axis."""
+    figure, (axes,) = new_figure(9.0, 1.4 + 0.25 * len(rows), left=3.3)
+    times = [r["after"] / r["before"] for r in rows]
+    colours = [GREY if r["part"].startswith("default scene") else BLUE for r in rows]
+    places = list(range(len(rows)))
+    axes.barh(places, [t - 1.0 for t in times], left=1.0, color=colours, height=0.7)
+    axes.set(xscale="log")
+    axes.set_yticks(places, [f"{r['part'].partition(':')[0]}: {r['figure']}" for r in rows])
+    axes.invert_yaxis()
+    axes.axvline(1.0, color="black", lw=0.8)
+    label(axes, "", "after over before", "")
+    return figure
+
+
 def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
     """Return the whole page."""
     warnings = []
@@ -168,3 +212,19 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
 def markdown(page: Page) -> str:
     """Return the page as Markdown beside its drawings."""
     return fill_template(Path(__file__).with_name("chart.md.jinja"), **vars(page))
+
+
+def same_everywhere() -> dict[str, Any]:
+    """Return what ``benchmarks/same_everywhere.py`` measured: no machine changes it."""
+    return dict(json.loads(SAME_EVERYWHERE.read_text("utf-8")))
+
+
+def stability_markdown(record: Mapping[str, Any]) -> str:
+    """Return the page for a record with ``stability`` and ``limits``."""
+    groups: Sequence[Mapping[str, Any]] = record["stability"]
+    return fill_template(
+        Path(__file__).with_name("stability.md.jinja"),
+        words=WORDS, groups=groups, limits=record.get("limits", []),
+        verdicts=[cell["verdict"] for g in groups for row in g["cells"] for cell in row],
+        machine=text.machine_sentence(record),
+    )  # fmt: skip

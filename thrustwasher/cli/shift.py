@@ -27,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
     if arguments.compare:
         return _compare.run(arguments, _scene, _one_shift)
-    scene = _scene(arguments, arguments.scene)
+    scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
         _check_sequence(arguments, scene)
     if arguments.ssp:
@@ -148,11 +148,11 @@ def _say_sequence(result: Any) -> None:
     oil = result.oil_temperature - 273.15
     print(f"{result.scene.title}: {len(result.shifts)} shifts, oil {oil[0]:.1f} .. {oil[-1]:.1f} "
           "degC")  # fmt: skip
-    for shift, (start, way) in zip(result.shifts, result.scene.sequence.shifts, strict=True):
-        figures = shift.figures
-        lock, heat = figures["lock_time"], figures["slip_energy"] or 0.0
-        locked = "does not lock" if lock is None else f"locks after {lock - start:.3f} s"
-        print(f"  {start:8.1f} s  {way:4}  {locked}, {1e-3 * heat:.2f} kJ")
+    for shift, (_, way) in zip(result.shifts, result.scene.sequence.shifts, strict=True):
+        lock, heat = (shift.figures[name] for name in ("lock_after_ramp_start", "slip_energy"))
+        locked = "does not lock" if lock is None else f"locks {lock:.3f} s after the shift began"
+        begin = f"{shift.scene.shift_start:8.1f} s"
+        print(f"  {begin}  {way:4}  {locked}, {1e-3 * (heat or 0.0):.2f} kJ")
     for text in result.messages:
         print(text)
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from ..units import format_quantity as say
 from ..washer.closed_forms import stack_times
 from ..washer.kernels.ladder import SHARES, TIMES
 from ..washer.parameters import WasherParams
@@ -57,7 +58,7 @@ def thermal_need(
     span = f"the washer's bodies settle within {quickest:.2g} .. {slowest:.2g} s"
     if not np.isfinite(change):
         return f"{span}; its friction power does not change: steady temperatures are right"
-    stretch = f"{span}, its friction power changes within {change:.2g} s"
+    stretch = f"{span}, its friction power changes within {say(change, 's', digits=2)}"
     if change < SLOW * slowest:
         if transient:
             return f"{stretch}: thermal_mode transient is needed here, and it ran"

@@ -8,10 +8,12 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from ...model.registry import find_spec
+from ...model.toml_tables import table_beside
 from ...report.html import Page, Plot, Section, Table, fill_template
 from ...report.palette import BLUE, GREY
 from ...report.style import label, new_figure, styled
 from ...storage.digests import DATA
+from ..macro_steps import FIRST_STEP, WAYS
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
 
@@ -22,6 +24,12 @@ WORDS = {
     "LIES": "wrong without a word",
 }  # fmt: skip
 SCRIPTS = ("chart/chart.css", "chart/chart.js")
+OF_PACKS = "--fidelity clutch={rung} --fidelity brake={rung}"
+OPTIONS = {  # of commands, by what changes along a series
+    "rung": "--fidelity {value}", "grid": "--grid {value}",
+    "step": '--fidelity {rung} --step "{value}"', "macro step": f'--step "{{value}}" {OF_PACKS}',
+    "master_tolerance": f"--step {FIRST_STEP:g} --master-tolerance {{value}} {OF_PACKS}",
+}  # fmt: skip
 HOW = (
     "Errors are measured against converged values on a fixed list of operating points with the "
     "hard corners in it, times on warm calls one per cent away; filled marks are the worst case, "
@@ -59,9 +67,11 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
                    tables=[Table(heads, rows, title="All cells", folded=True)])  # fmt: skip
 
 
-def _points(study: Mapping[str, Any], model: str = "") -> dict[str, list[list[str]]]:
+def _points(study: Mapping[str, Any], model: str) -> dict[str, list[list[str]]]:
     """Return the words of every mark in a study's drawing: way, errors, worst case, command."""
     found: dict[str, list[list[str]]] = {}
+    rungs = find_spec(model).fidelities if "cases" in study else {}
+    per = "a call" if rungs else "a simulated second"
     for q in study["quantities"]:
         for s in study["samples"]:
             errors = s["errors"].get(q["name"], {})
@@ -70,26 +80,37 @@ def _points(study: Mapping[str, Any], model: str = "") -> dict[str, list[list[st
                     f"{s['family']}: {s['label']}",
                     f"{q['name']}: worst {text.error_text(errors['worst'], q)}, rms "
                     f"{text.error_text(errors['rms'], q)}",
-                    f"{text.seconds(s['call_median'])} a call, fails in {s['n_failed']} of "
+                    f"{text.seconds(s['call_median'])} {per}, fails in {s['n_failed']} of "
                     f"{s['n_cases']} cases",
+                    f"worst case: {study.get('scene', errors['case'])}",
+                    *command_lines(study, model, s, errors["case"]),
                 ]
-                words += [f"worst case: {errors['case']}"] if errors["case"] else []
-                words += [_command(study, model, s, errors["case"])] if model else []
+                if s["knob"] == "rung":
+                    words.insert(1, f"{s['value']}: {rungs.get(s['value'], '')}")
                 found.setdefault(mark_of(q["name"], s["family"]), []).append(words)
     return found
 
 
-def _command(study: Mapping[str, Any], model: str, sample: Mapping[str, Any], worst: str) -> str:
-    """Return the command that solves the worst case this way; else the one that measured it."""
-    spec, option = find_spec(model), {"rung": "--fidelity", "grid": "--grid"}.get(sample["knob"])
-    case = next((c for c in study["cases"] if c["name"] == worst), None)
-    if case is None or option is None or len(case["point"]) != len(spec.inputs) or case["before"]:
-        return "command: thrustwasher chart"
-    point = " ".join(
-        f"--{signal.name.replace('_', '-')} {value:g}"
-        for signal, value in zip(spec.inputs, case["point"], strict=True)
+def command_lines(
+    study: Mapping[str, Any], model: str, sample: Mapping[str, Any], worst: str
+) -> list[str]:
+    """Return the command that solves the worst case this way, else what reproduces it."""
+    given = table_beside(__file__, "cases.toml")[model]
+    case = next((c for c in study.get("cases", ()) if c["name"] == worst), None)
+    way = next((w for w in WAYS if w.name == sample["family"]), None)
+    values = {"rung": sample["label"].partition(",")[0], "value": sample["value"]}
+    if case and not sample["is_rival"]:
+        values |= dict(zip((s.name for s in find_spec(model).inputs), case["point"], strict=False))
+        values["power"] = values["load"] * values["speed"]
+    elif way and way.coupling == "capacity" and way.extrapolation:
+        values |= {"rung": way.rung, "master": way.master}
+    else:
+        return [f"no command goes this way; reproduced by: {given['without']}"]
+    template = (
+        f"{given['command']} {given.get('more', {}).get(worst, '')} {OPTIONS[sample['knob']]}"
     )
-    return f"command: thrustwasher {model} {point} {option} {sample['value']}"
+    note = [f"note: {given['note']}"] if "note" in given else []
+    return [f"command: thrustwasher {' '.join(template.format(**values).split())}", *note]
 
 
 def _data(record: Mapping[str, Any]) -> dict[str, Any]:
@@ -98,7 +119,7 @@ def _data(record: Mapping[str, Any]) -> dict[str, Any]:
     for model, survey in record["models"].items():
         points[f"chart-{model}"] = points[f"chart-{model}-count"] = _points(survey, model)
     if "macro_steps" in record:
-        points["chart-shift"] = _points(record["macro_steps"])
+        points["chart-shift"] = _points(record["macro_steps"], "shift")
     return {"points": points, "stability": record.get("stability", []), "verdicts": WORDS}
 
 

@@ -12,7 +12,7 @@ from corrections import corrections
 from failures.coupling_limits import limits
 from failures.failure_map import stability
 
-from thrustwasher.study.charts.stability_page import SAME_EVERYWHERE, stability_markdown
+from thrustwasher.study.charts.chart_page import SAME_EVERYWHERE, stability_markdown
 from thrustwasher.study.surroundings import surroundings
 
 PAGE = Path(__file__).parents[1] / "docs" / "stability.md"

@@ -21,8 +21,10 @@ WORDS = [f"--{name.replace('_', '-')}={value!r}" for name, value in POINT.items(
 def folder(tmp_path_factory):
     """A folder with the page's files in it, and nothing else."""
     home = tmp_path_factory.mktemp("made-up")
-    files = re.findall(r"(?ms)`([\w/]+\.(?:py|md))`:\n\n```\w+\n(.*?)^```", PAGE.read_text("utf-8"))
-    assert len(files) == 7
+    files = re.findall(
+        r"(?ms)`([\w/]+\.(?:py|md|toml))`:\n\n```\w+\n(.*?)^```", PAGE.read_text("utf-8")
+    )
+    assert len(files) == 8
     for name, text in files:
         (home / name).parent.mkdir(parents=True, exist_ok=True)
         (home / name).write_text(text, "utf-8")

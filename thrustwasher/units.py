@@ -5,59 +5,25 @@ For the command line and scene files. A bare number is in SI units already.
 
 import math
 import re
+import tomllib
+from collections.abc import Sequence
 from fractions import Fraction
+from pathlib import Path
 
 from .errors import ParameterError
 
+_TABLES = tomllib.loads(Path(__file__).with_name("units.toml").read_text("utf-8"))
 # SI unit -> unit as written -> (factor, offset): SI value = factor * number + offset.
 # The offset is left out for a difference of temperatures.
 UNITS: dict[str, dict[str, tuple[float, float]]] = {
-    "1": {"1": (1.0, 0.0), "%": (1e-2, 0.0)},
-    "m": {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0), "nm": (1e-9, 0.0),
-          "in": (0.0254, 0.0)},
-    "N": {"N": (1.0, 0.0), "kN": (1e3, 0.0), "MN": (1e6, 0.0)},
-    "N.m": {"N.m": (1.0, 0.0), "Nm": (1.0, 0.0), "mN.m": (1e-3, 0.0), "kN.m": (1e3, 0.0)},
-    "Pa": {"Pa": (1.0, 0.0), "kPa": (1e3, 0.0), "MPa": (1e6, 0.0), "GPa": (1e9, 0.0),
-           "bar": (1e5, 0.0), "psi": (6894.757293168361, 0.0)},
-    "Pa.s": {"Pa.s": (1.0, 0.0), "mPa.s": (1e-3, 0.0), "cP": (1e-3, 0.0)},
-    "rad": {"rad": (1.0, 0.0), "mrad": (1e-3, 0.0), "deg": (math.pi / 180.0, 0.0)},
-    "rad/s": {"rad/s": (1.0, 0.0), "rpm": (math.pi / 30.0, 0.0), "1/min": (math.pi / 30.0, 0.0),
-              "deg/s": (math.pi / 180.0, 0.0)},
-    "m/s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "km/h": (1.0 / 3.6, 0.0)},
-    "s": {"s": (1.0, 0.0), "ms": (1e-3, 0.0), "us": (1e-6, 0.0), "min": (60.0, 0.0)},
-    "K": {"K": (1.0, 0.0), "degC": (1.0, 273.15), "degF": (5.0 / 9.0, 459.67 * 5.0 / 9.0)},
-    "W": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
-    "J": {"J": (1.0, 0.0), "kJ": (1e3, 0.0), "MJ": (1e6, 0.0)},
-    "J/m2": {"J/m2": (1.0, 0.0), "kJ/m2": (1e3, 0.0), "MJ/m2": (1e6, 0.0), "J/mm2": (1e6, 0.0)},
-    "W/m2": {"W/m2": (1.0, 0.0), "kW/m2": (1e3, 0.0), "MW/m2": (1e6, 0.0)},
-    "kg.m2": {"kg.m2": (1.0, 0.0), "g.m2": (1e-3, 0.0)},
-    "1/m2": {"1/m2": (1.0, 0.0), "1/mm2": (1e6, 0.0)},
-    "m2": {"m2": (1.0, 0.0), "mm2": (1e-6, 0.0), "um2": (1e-12, 0.0)},
-    "m3/s": {"m3/s": (1.0, 0.0), "l/min": (1e-3 / 60.0, 0.0), "ml/s": (1e-6, 0.0)},
-    "m2/s": {"m2/s": (1.0, 0.0), "mm2/s": (1e-6, 0.0), "cSt": (1e-6, 0.0)},
-}  # fmt: skip
-
-# Names that occur in unit strings, as exponents of the base units (kg is one of them).
-_BASE: dict[str, dict[str, int]] = {
-    "kg": {"kg": 1}, "m": {"m": 1}, "s": {"s": 1}, "K": {"K": 1}, "rad": {"rad": 1},
-    "N": {"kg": 1, "m": 1, "s": -2}, "Pa": {"kg": 1, "m": -1, "s": -2},
-    "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}, "Hz": {"s": -1},
-}  # fmt: skip
-
-# The unit a person reads, tried in this order: the first whose number is at least 1.
-_DISPLAY: dict[str, tuple[str, ...]] = {
-    "m": ("m", "mm", "um"),
-    "N": ("kN", "N"),
-    "Pa": ("GPa", "MPa", "kPa", "Pa"),
-    "Pa.s": ("Pa.s", "mPa.s"),
-    "rad": ("rad", "mrad"),
-    "s": ("s", "ms", "us"),
-    "W": ("kW", "W"),
-    "J": ("kJ", "J"),
-    "J/m2": ("MJ/m2", "kJ/m2", "J/m2"),
-    "W/m2": ("MW/m2", "kW/m2", "W/m2"),
-    "m3/s": ("l/min",),
+    unit: {unit: (1.0, 0.0)}
+    | {name: (size, 0.0) if isinstance(size, float) else tuple(size) for name, size in own.items()}
+    for unit, own in _TABLES["measures"].items()
 }
+# Names that occur in unit strings, as exponents of the base units (kg is one of them).
+_BASE: dict[str, dict[str, int]] = _TABLES["base"]
+# The unit a person reads, tried in this order: the first whose number is at least 1.
+_DISPLAY: dict[str, list[str]] = _TABLES["display"]
 # More units that a number may be exact in.
 _EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",)}
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
@@ -142,7 +108,7 @@ def display_unit(value: float, unit: str) -> tuple[str, float]:
     >>> display_unit(1.12e-6, "m")
     ('µm', 1e-06)
     """
-    shown = _readable(value, unit, _DISPLAY.get(unit, (unit,)))
+    shown = _readable(value, unit, _DISPLAY.get(unit, [unit]))
     return pretty_unit(shown), UNITS.get(unit, {}).get(shown, (1.0, 0.0))[0]
 
 
@@ -169,7 +135,7 @@ def exact_quantity(value: float, unit: str, *, difference: bool = False) -> str 
     """
     if unit == "1":
         return value
-    shown = (_readable(value, unit, _DISPLAY.get(unit, (unit,))), *_EXACT.get(unit, ()), unit)
+    shown = (_readable(value, unit, _DISPLAY.get(unit, [unit])), *_EXACT.get(unit, ()), unit)
     for digits in range(1, 18):
         texts = (
             f"{_plain_number((value - (0.0 if difference else offset)) / factor, digits)} {other}"
@@ -187,7 +153,7 @@ def _plain_number(number: float, digits: int) -> str:
     return repr(float(f"{number:.{digits}g}")).removesuffix(".0")
 
 
-def _readable(value: float, unit: str, choices: tuple[str, ...]) -> str:
+def _readable(value: float, unit: str, choices: Sequence[str]) -> str:
     """Return the first display unit in which the number is at least 1, or the last."""
     if value == 0.0 or not math.isfinite(value):
         return unit

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from thrustwasher.errors import Status
 from thrustwasher.numerics.dense import dense_solve
-from thrustwasher.study.charts.chart_series import Configuration, series
+from thrustwasher.study.charts.chart_series import Configuration
 from thrustwasher.study.charts.methods import ChartCase, MethodAnswer, neighbours, path_to
 from thrustwasher.tribology.asperities import contact_pressure
 from thrustwasher.tribology.flow_factors import mean_gap
@@ -128,7 +128,7 @@ def balance(
                 )
             for row in range(4):
                 jacobian[row, k] = (plus[row] - minus[row]) / (2.0 * s.difference)
-        if not dense_solve(jacobian.ravel(), force, 4, 1):
+        if not dense_solve(jacobian.ravel(), force, 4):
             return MAX_ITERATIONS
         # the largest change of either gap stays near a third of the film, or one sigma
         tilted = math.sqrt(force[2] ** 2 + force[3] ** 2)
@@ -297,16 +297,15 @@ class Method2006:
 
 def charted(*, quick: bool = False) -> list[Configuration]:
     """Return the method over its tolerance, and over its mesh at the best tolerance."""
-    tolerances = (
-        (f"2006, 9 x 67, {t:g}", f"{t:g}", partial(Method2006, tolerance=t))
+    made = partial(Configuration, count_of="sweeps x nodes", is_rival=True, preset="paper")
+    tolerances = [
+        made("2006, 9 x 67, tolerance", f"2006, 9 x 67, {t:g}", "tolerance", f"{t:g}",
+             partial(Method2006, tolerance=t))
         for t in (TOLERANCES[1:2] if quick else TOLERANCES)
-    )
-    meshes = (
-        (f"2006, mesh {r} x {t}", f"{r}x{t}", partial(Method2006, tolerance=1e-5, grid=(r, t)))
+    ]  # fmt: skip
+    meshes = [
+        made("2006, 1e-5, mesh", f"2006, mesh {r} x {t}", "grid", f"{r}x{t}",
+             partial(Method2006, tolerance=1e-5, grid=(r, t)))
         for r, t in (() if quick else GRIDS)
-    )
-    made = partial(series, count_of="sweeps x nodes", is_rival=True, preset="paper")
-    return [
-        *made("2006, 9 x 67, tolerance", "tolerance", tolerances),
-        *made("2006, 1e-5, mesh", "grid", meshes),
-    ]
+    ]  # fmt: skip
+    return tolerances + meshes

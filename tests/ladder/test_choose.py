@@ -11,7 +11,7 @@ from thrustwasher import ParameterError, SolveError
 from thrustwasher.ladder import candidates as home
 from thrustwasher.ladder.card_parts import Axis, Fold
 from thrustwasher.ladder.choose import choose
-from thrustwasher.washer.model import MODEL
+from thrustwasher.model.registry import find_model
 from thrustwasher.washer.parameters import SPEC
 
 LADDER = (
@@ -24,7 +24,10 @@ LADDER = (
 @pytest.fixture
 def ladder(monkeypatch):
     """Return a function that puts cards in place of the shipped ones."""
-    washer, kernels = replace(SPEC, fidelities=dict.fromkeys(RUNGS, "")), MODEL.ladder.kernels
+    washer, kernels = (
+        replace(SPEC, fidelities=dict.fromkeys(RUNGS, "")),
+        find_model("washer").ladder.kernels,
+    )
     monkeypatch.setitem(kernels, "coarse", kernels["field"])
     monkeypatch.setattr("thrustwasher.washer.parameters.SPEC", washer)
 

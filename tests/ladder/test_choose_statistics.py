@@ -11,7 +11,7 @@ from thrustwasher import SolveError
 from thrustwasher.ladder import candidates as home
 from thrustwasher.ladder.card_parts import worst_near
 from thrustwasher.ladder.choose import choose
-from thrustwasher.washer.model import MODEL
+from thrustwasher.model.registry import find_model
 from thrustwasher.washer.parameters import SPEC
 
 # typical error and seconds per call
@@ -77,7 +77,11 @@ def record():
     with pytest.MonkeyPatch.context() as patch:
         washer = replace(SPEC, fidelities=dict.fromkeys(RUNGS, ""))
         patch.setattr("thrustwasher.washer.parameters.SPEC", washer)
-        patch.setitem(MODEL.ladder.kernels, "coarse", MODEL.ladder.kernels["field"])
+        patch.setitem(
+            find_model("washer").ladder.kernels,
+            "coarse",
+            find_model("washer").ladder.kernels["field"],
+        )
         for k in range(REQUESTS):
             if k % 50 == 0:
                 phase = {r: rng.random(4) for r in LADDER}

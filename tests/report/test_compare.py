@@ -8,8 +8,10 @@ import pytest
 import shift_stand_in
 
 from thrustwasher import cli
+from thrustwasher.model.registry import find_spec
 from thrustwasher.report.html import Page, Section, render
 from thrustwasher.report.shift.shift_data import KEYS, VERSION, page_data, run_data
+from thrustwasher.report.shift.shift_record import Part
 
 RECORD = shift_stand_in.record(mesh=True)
 MARK = '<script type="application/json" id="data">{}</script>'
@@ -57,7 +59,7 @@ def data(**more):
 
 
 REFUSED = {
-    "no report": "",
+    "an empty file": " ",
     "no data": "<html></html>",
     "a list": MARK.format("[1]"),
     "a number": MARK.format("1"),
@@ -75,8 +77,7 @@ REFUSED = {
 def test_a_folder_that_is_no_report_of_this_version_is_refused_in_a_line(text, tmp_path, capsys):
     bad = tmp_path / "bad"
     bad.mkdir()
-    if text:
-        (bad / "report.html").write_text(text, "utf-8")
+    (bad / "report.html").write_text(text, "utf-8")
     good = report(tmp_path / "good")
     for pair in ((bad, good), (good, bad)):
         assert compared(*pair, out=tmp_path / "out") == 2
@@ -84,6 +85,35 @@ def test_a_folder_that_is_no_report_of_this_version_is_refused_in_a_line(text, t
         said = f"{bad / 'report.html'}: is no report of one shift by this version, run it again\n"
         assert err.endswith(said) and err.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_what_is_neither_folder_nor_scene_is_told_so(tmp_path, capsys):
+    good, empty = report(tmp_path / "good"), tmp_path / "empty"
+    empty.mkdir()
+    assert compared(empty, good, out=tmp_path / "out") == 2
+    assert capsys.readouterr().err.endswith("empty: the folder has no report.html\n")
+    assert compared("nofolder", good, out=tmp_path / "out") == 2
+    err = capsys.readouterr().err
+    assert "--compare nofolder: is no folder; as a scene: " in err and "planetary" in err
+    assert compared(good, good, "--scene", "judder", out=tmp_path / "out") == 2
+    assert capsys.readouterr().err.endswith("--compare: not together with --scene\n")
+
+
+def test_it_is_said_what_is_compared_and_which_parameters_differ(tmp_path):
+    clutch = Part("clutch", find_spec("clutch"), {"faces": 6, "fidelity": "stribeck"})
+    parts = [clutch if part.name == "clutch" else part for part in RECORD.parts]
+    other = replace(RECORD, step=5e-4, parts=parts)
+    folders = report(tmp_path / "one"), report(tmp_path / "two", other)
+    assert compared(*folders, out=tmp_path / "both") == 0
+    text = (tmp_path / "both" / "compare.html").read_text("utf-8")
+    rows = re.findall(r"<tr><td>(.*?)</td><td>(.*?)</td><td>(.*?)</td></tr>", text)
+    told = {name: (a, b) for name, a, b in rows}
+    assert told["from"] == tuple(f"folder {folder}" for folder in folders)
+    assert told["communication step"] == ("1 ms", "500 µs")
+    assert told["master"] == ("gauss-seidel",) * 2 and told["scene"][0].startswith("stand-in: ")
+    assert "clutch stribeck" in told["rungs"][1]
+    differ = {name: pair for name, pair in told.items() if name.startswith("clutch: ")}
+    assert [pair[1] for pair in differ.values()] == ["6"]
 
 
 def test_a_report_of_several_shifts_and_one_without_its_picture_are_refused(tmp_path, capsys):

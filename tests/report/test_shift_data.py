@@ -30,8 +30,8 @@ def unpacked(run):
 
 
 def row(run, name):
-    names = [signal["name"] for signal in run["moving"]]
-    return unpacked(run)[1 + names.index(name)]
+    place = next(signal["row"] for signal in run["moving"] if signal["name"] == name)
+    return unpacked(run)[place]
 
 
 def test_packed_signals_come_back_to_the_bit():
@@ -70,18 +70,43 @@ def test_every_signal_that_a_panel_or_a_flow_names_is_one_of_a_model():
     assert [name for name in named if name not in known] == []
 
 
-def test_a_long_run_is_thinned_but_not_beside_events(monkeypatch):
+def test_a_long_run_is_thinned_but_not_beside_events():
     record = shift_stand_in.record()
-    whole = run_data(record, {})
-    monkeypatch.setattr(shift_data, "ROOM", len(whole["packed"]) // 3)
-    thin = run_data(record, {})
-    assert len(thin["packed"]) <= shift_data.ROOM and thin["recorded"] == 2501
+    room = len(run_data(record, {})["packed"]) // 6
+    thin = run_data(record, {}, room=room)
+    assert len(thin["packed"]) <= room and thin["recorded"] == 2501
     time = row(thin, "transmission.engine_work").shape[0]
     assert time == thin["points"] < 2501 / 3
     times = unpacked(thin)[0]
     assert times[-1] == np.float32(2.5)
     for event in record.events:
         assert np.sum(np.abs(times - event.time) <= 1.01e-3) >= 3
+
+
+def test_a_thinned_run_has_the_extremes_of_every_signal_in_each_phase():
+    record, rng = shift_stand_in.record(), np.random.default_rng(3)
+    noise = {name: rng.normal(size=2501) * (1.0 + record.time) for name in ("clutch.load", "x.y")}
+    noise["x.y"][:1000] = np.nan
+    record = replace(record, signals=record.signals | noise)
+    thin = run_data(record, {}, room=len(run_data(record, {})["packed"]) // 4)
+    times = unpacked(thin)[0]
+    assert len(times) == thin["points"] < 1000
+    for name, values in record.signals.items():
+        if name not in [signal["name"] for signal in thin["moving"]]:
+            continue
+        for _, start, end in record.phases:
+            within = values[(record.time >= start) & (record.time < end)]
+            kept = row(thin, name)[(times >= np.float32(start)) & (times < np.float32(end))]
+            if np.all(np.isfinite(within)):
+                assert kept.min() == pytest.approx(within.min(), rel=2e-5)
+                assert kept.max() == pytest.approx(within.max(), rel=2e-5)
+
+
+def test_signals_that_parts_hand_on_are_packed_once():
+    run = run_data(shift_stand_in.record(), {})
+    rows = {signal["name"]: signal["row"] for signal in run["moving"]}
+    assert rows["clutch.speed"] == rows["transmission.clutch_speed"]
+    assert len(unpacked(run)) == 1 + len(set(rows.values())) < 1 + len(rows)
 
 
 def test_jerk_is_the_change_over_ten_milliseconds():

@@ -97,6 +97,25 @@ def test_a_zoom_in_one_plot_zooms_all(page):
     assert {(s["min"], s["max"]) for s in page.evaluate(SCALES)} == {(0.0, 2.5)}
 
 
+def test_after_a_zoom_the_cursor_is_drawn_at_the_time_that_the_table_tells(page):
+    plot = page.locator(".u-over").nth(1)
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    middle = box["y"] + 0.5 * box["height"]
+    page.mouse.move(box["x"] + 0.3 * box["width"], middle)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.5 * box["width"], middle, steps=5)
+    page.mouse.up()
+    settle(page)
+    time, drawn = page.evaluate(
+        """() => [Plots.state.time[Plots.state.index],
+          Plots.state.panels.filter((p) => p.visible && p.plot)
+            .map(({ plot }) => plot.posToVal(plot.cursor.left, "x"))]"""
+    )
+    assert time == pytest.approx(1.25, abs=0.01)
+    assert drawn == pytest.approx([time] * len(drawn), abs=2e-3)
+
+
 def test_a_plot_that_was_out_of_sight_has_the_zoom_when_it_comes(page):
     page.evaluate("Plots.zoom(1, 2)")
     last = page.locator(".panel:not(.more) .u-over").last
@@ -238,6 +257,9 @@ def test_without_scripts_there_are_the_tables_and_one_picture(browser, report):
     with opened(browser, report, ready="", java_script_enabled=False) as page:
         assert page.locator("img").count() == 1 and page.locator("img").is_visible()
         assert page.get_by_text("heat in the clutch", exact=True).is_visible()
+        for head in page.get_by_role("heading", level=2).all():  # none without a body
+            assert head.locator("xpath=..").locator("p, table, img").first.is_visible()
+        assert page.get_by_role("heading", name="Friction of the clutch").count() == 0
         assert not page.locator(".widget").first.is_visible()
 
 
@@ -279,12 +301,14 @@ def test_nothing_serious_bars_access_and_nothing_is_wider_than_the_screen(
         assert faults(page) == []
 
 
-def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path):
+@pytest.mark.parametrize(("wide", "scheme"), [(1200, "light"), (380, "dark")])
+def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path, wide, scheme):
     late = replace(RECORD, title="late", time=RECORD.time + 0.5005)
     runs = [run_data(record, {}) for record in (RECORD, late)]
     path = tmp_path / "compare.html"
     path.write_text(render(comparison_page(runs, [overview_figure(RECORD)] * 2)), "utf-8")
-    with opened(browser, path) as page:
+    with opened(browser, path, wide=wide, scheme=scheme) as page:
+        assert page.evaluate("document.documentElement.scrollWidth") <= wide
         page.evaluate("() => document.getElementById('plots').scrollIntoView()")
         page.wait_for_selector(".u-over")
         assert page.evaluate("Plots.state.time.length") == 5002
@@ -308,6 +332,23 @@ def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path):
         assert faults(page) == []
 
 
+def test_beyond_the_end_of_a_run_its_final_energies_stay(browser, tmp_path):
+    signals = {name: values[:1301] for name, values in RECORD.signals.items()}
+    short = replace(RECORD, title="short", time=RECORD.time[:1301], signals=signals)
+    runs = [run_data(record, {}) for record in (RECORD, short)]
+    path = tmp_path / "compare.html"
+    path.write_text(render(comparison_page(runs, [overview_figure(RECORD)] * 2)), "utf-8")
+    heat = signals["transmission.clutch_heat"][-1]
+    with opened(browser, path) as page:
+        page.evaluate("Plots.moveTo(Plots.nearest(2.4))")
+        settle(page)
+        assert page.locator("#flow h3").all_text_contents() == [
+            f"A: {RECORD.title}", "B: short, which ended at 1.3 s"
+        ]  # fmt: skip
+        told = page.locator("#flow svg").last.get_attribute("aria-label")
+        assert f"heat of the clutch {heat / 1e3:.2f} kJ" in told and "No energy" not in told
+
+
 def test_without_webassembly_plots_cursor_and_zoom_stay_and_the_discs_say_why(browser, report):
     with opened(browser, report, init="delete globalThis.WebAssembly") as page:
         page.evaluate("() => document.getElementById('plots').scrollIntoView()")
@@ -327,7 +368,8 @@ def test_without_webassembly_plots_cursor_and_zoom_stay_and_the_discs_say_why(br
 @pytest.fixture(scope="module")
 def cycle(tmp_path_factory):
     """A report of two shifts."""
-    later = replace(RECORD, time=RECORD.time + 10.0)
+    figures = [f._replace(value=11.75) if f.name == "lock_time" else f for f in RECORD.key_figures]
+    later = replace(RECORD, time=RECORD.time + 10.0, key_figures=figures)
     time = np.concatenate((RECORD.time, later.time))
     signals = {name: np.concatenate((v, v)) for name, v in RECORD.signals.items()}
     for pack in ("clutch", "brake"):
@@ -350,8 +392,12 @@ def test_several_shifts_have_one_time_and_each_is_a_button(browser, cycle):
     with opened(browser, cycle) as page:
         page.evaluate("() => document.getElementById('plots').scrollIntoView()")
         page.wait_for_selector(".u-over")
-        page.get_by_role("button", name="2 down 10").click()
+        event = page.get_by_role("button", name="2 down locks")
+        assert not event.is_visible()
+        page.get_by_label("shift", exact=True).select_option(index=2)
         settle(page)
+        assert event.is_visible()
+        assert page.locator(".happened li:visible").count() == 2
         view = page.evaluate("Plots.state.view")
         assert (view["min"], view["max"]) == pytest.approx((10.0, 12.5))
         assert page.locator("#now").text_content() == "10 s, 2 down"

@@ -11,7 +11,7 @@ import pytest
 
 from thrustwasher.cli import main
 from thrustwasher.study.charts.chart_cost import count_figure
-from thrustwasher.study.charts.stability_page import same_everywhere, stability_markdown
+from thrustwasher.study.charts.chart_page import same_everywhere, stability_markdown
 from thrustwasher.study.charts.work_precision import Sample
 
 ROOT = Path(__file__).parents[2]
@@ -81,8 +81,8 @@ def record(tmp_path_factory):
                failures={"a < b": "SINGULAR", "b": "SINGULAR"}),
     ]  # fmt: skip
     survey = {
-        "cases": [{"name": "a < b", "point": [1.0], "before": []},
-                  {"name": "b", "point": [2.0], "before": []}],
+        "cases": [{"name": "a < b", "point": [300.0, 545.0, 2e-3, 297.15], "before": []},
+                  {"name": "b", "point": [200.0, 545.0, 2e-3, 297.15], "before": []}],
         "cases_digest": "0", "cost_of": "a call [s]", "quantities": [QUANTITY], "truths": [],
         "samples": samples,
     }  # fmt: skip
@@ -118,9 +118,9 @@ def test_page_markdown_drawings_and_record_are_written(drawn, record):
 
 def test_who_won_what_failed_and_what_set_up_costs_is_said(drawn):
     text = (drawn / "chart.md").read_text()
-    assert "nothing beats closed (1 us, worst 50 %), map (2 us, worst 0.01 %)" in text
+    assert "nothing beats closed (1 µs, worst 50 %), map (2 µs, worst 0.01 %)" in text
     assert "old fails in 2 of 2 cases (a < b: SINGULAR; b: SINGULAR)." in text
-    assert "| map | 1 s | 200 ms | 2 us | 6056 |" in text  # (1.2 - 0.001)/(2e-4 - 2e-6)
+    assert "| map | 1 s | 200 ms | 2 µs | 6056 |" in text  # (1.2 - 0.001)/(2e-4 - 2e-6)
     assert "| clutch: counted once | friction | 1 | 0.1* | 0.05 | 0.5 |" in text
     assert "sources changed since" in text
 

@@ -30,8 +30,11 @@ def test_a_mark_under_the_pointer_tells_way_error_worst_case_and_command(page):
     page.mouse.move(box["x"] + box["width"] / 2 + 5, box["y"] + box["height"] / 2)
     tip = page.locator("[role=tooltip]")
     lines = tip.locator("div").all_text_contents()
-    assert lines[:2] == ["rungs: field", "friction_torque: worst 0.2 %, rms 0.08 %"]
-    assert "worst case: a < b" in lines and lines[-1].startswith("command: thrustwasher")
+    assert lines[0] == "rungs: field" and lines[1].startswith("field: 10 x 32 graded nodes")
+    assert lines[2] == "friction_torque: worst 0.2 %, rms 0.08 %"
+    assert "worst case: a < b" in lines
+    point = "--load 300 --speed 545 --tilt 0.002 --oil-temperature 297.15"
+    assert lines[-1] == f"command: thrustwasher washer {point} --fidelity field"
     page.keyboard.press("Escape")
     assert tip.is_hidden()
 
@@ -72,7 +75,9 @@ def test_names_of_marks_do_not_lie_on_each_other(page):
             assert across < 1.0 or down < 2.0
 
 
-@pytest.mark.parametrize(("wide", "scheme"), [(1200, "light"), (1200, "dark"), (380, "dark")])
+@pytest.mark.parametrize(
+    ("wide", "scheme"), [(1200, "light"), (1200, "dark"), (380, "light"), (380, "dark")]
+)
 def test_nothing_serious_bars_access(browser, drawn, wide, scheme):  # noqa: F811
     look = {"wide": wide, "scheme": scheme}
     with opened(browser, drawn / "chart.html", ready="html.js", **look) as page:

@@ -4,7 +4,7 @@ import pytest
 from corrections import corrections
 from scene_runs import slow_without_jit
 
-from thrustwasher.study.charts.corrections_page import corrections_section
+from thrustwasher.study.charts.chart_page import corrections_section
 
 
 @pytest.fixture(scope="module")

@@ -162,8 +162,7 @@ def _why_not(
         return lead + combination(problem, best, about[0])
     if not np.isfinite(told.quantile):
         return f"{few}: no scatter is left to judge by, add points or give {problem.error_name}"
-    factor = bool(len(problem.logarithmic) and problem.logarithmic[i])
-    width = f"a factor of {np.exp(half):.2g}" if factor else f"{half:.2g}"
+    width = f"a factor of {np.exp(half):.2g}" if problem.logarithmic[i] else f"{half:.2g}"
     return f"{lead}at this scatter its interval would be +- {width}"
 
 

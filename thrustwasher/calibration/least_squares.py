@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import SolveError
 from ..numerics.jit import Array
@@ -30,7 +31,7 @@ class Problem:
     low: Array  # (constants,) ranges, of the guess
     high: Array
     scale: Array  # (constants,) a change of the guess that would certainly matter
-    logarithmic: Array = field(default_factory=lambda: np.zeros(0, bool))  # (constants,)
+    logarithmic: NDArray[np.bool_]  # (constants,) those whose guess is a logarithm
     units: Mapping[str, str] = field(default_factory=dict)  # of the constants
     known_errors: bool = False
     """The weights are one over known standard deviations; else the residuals' scatter counts."""
@@ -62,14 +63,10 @@ class Problem:
 
     def shown(self, guess: Array) -> Array:
         """Return the values that a guess stands for."""
-        if not self.logarithmic.any():
-            return guess
         return np.where(self.logarithmic, np.exp(np.minimum(guess, 700.0)), guess)
 
     def stretch(self, guess: Array) -> Array:
         """Return the derivatives of the values over the guess."""
-        if not self.logarithmic.any():
-            return np.ones(len(guess))
         return np.where(self.logarithmic, self.shown(guess), 1.0)
 
     def values(self, guess: Array) -> dict[str, Any]:
@@ -97,7 +94,7 @@ class Problem:
             self, base={**self.base, self.names[i]: float(self.shown(values)[i])},
             names=tuple(n for n, kept in zip(self.names, keep, strict=True) if kept),
             low=self.low[keep], high=self.high[keep], scale=self.scale[keep],
-            logarithmic=self.logarithmic[keep] if len(self.logarithmic) else self.logarithmic,
+            logarithmic=self.logarithmic[keep],
         )  # fmt: skip
 
 

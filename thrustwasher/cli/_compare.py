@@ -17,11 +17,13 @@ def run(arguments: argparse.Namespace, load: Step, simulate: Step) -> int:
 
     ``load`` gives the scene of a name, ``simulate`` its result.
     """
-    for option in ("ssp", "no_report", "platforms"):
+    for option in ("scene", "ssp", "no_report", "platforms"):
         if getattr(arguments, option):
             raise ParameterError(f"--compare: not together with --{option.replace('_', '-')}")
     folder = _output.check_folder(arguments.out, "--out")
-    given = [_read(n) if Path(n).is_dir() else load(arguments, n) for n in arguments.compare]
+    given = [
+        _read(n) if Path(n).is_dir() else _scene(arguments, n, load) for n in arguments.compare
+    ]
     for scene in given:
         if not isinstance(scene, tuple) and scene.sequence:
             raise ParameterError(f"--compare {scene.name}: has several shifts, allowed: one each")
@@ -45,12 +47,23 @@ def run(arguments: argparse.Namespace, load: Step, simulate: Step) -> int:
     return 0
 
 
+def _scene(arguments: argparse.Namespace, name: str, load: Step) -> Any:
+    """Return the scene of a name that is no folder."""
+    try:
+        return load(arguments, name)
+    except ParameterError as problem:
+        raise ParameterError(f"--compare {name}: is no folder; as a scene: {problem}") from None
+
+
 def _read(name: str) -> tuple[Any, Any]:
     """Return the run and the picture that a report's folder holds."""
     from ..report.shift.shift_data import read_run
 
     folder = Path(name)
+    if not (folder / "report.html").is_file():
+        raise ParameterError(f"--compare {name}: the folder has no report.html")
     run = read_run(folder / "report.html")
+    run["settings"] = {"from": f"folder {name}", **run["settings"]}
     try:
         return run, (folder / "overview.png").read_bytes()
     except OSError as problem:
@@ -64,4 +77,6 @@ def _run_of(result: Any) -> tuple[Any, Any]:
     from ..report.shift.shift_record import record_of
 
     record = record_of(result)
-    return run_data(record, {}), overview_figure(record)
+    run = run_data(record, {})
+    run["settings"] = {"from": f"scene {record.name}", **run["settings"]}
+    return run, overview_figure(record)

@@ -11,7 +11,6 @@ from ..native.files import code_folder
 from ._output import note
 
 KEPT = 3  # versions
-TEXTS = (".py", ".json", ".npz", ".md", ".html", ".jinja", ".txt", ".svg", ".png", ".c", ".h")
 
 
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
@@ -40,16 +39,16 @@ def cache_folder(target: str) -> Path:
 def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
     from ..fmu.model_kernels import package_version
-    from ..fmu.package.model_sources import source_folder
+    from ..fmu.package.model_sources import TEXTS, source_folder
     from ..fmu.shell.platform_libraries import made_of
     from ..model.prepare import tables_of
     from ..model.registry import all_specs
 
-    native = target == "native"
+    native, texts = target == "native", (*TEXTS, ".json", ".npz")
     made_for = " ".join(made_of(spec, local=True) for spec in all_specs()) if native else "python"
     hashed = hashlib.sha256(f"{package_version()} {made_for}".encode())
     for root in (Path(__file__).parents[1], source_folder()):
-        for path in sorted(p for p in root.rglob("*") if p.suffix in TEXTS):
+        for path in sorted(p for p in root.rglob("*") if p.suffix in texts):
             hashed.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
     for tables in filter(None, map(tables_of, all_specs())):
         for path in tables.paths():

@@ -18,6 +18,7 @@ from ..model.part_file import (
 )
 from ..model.record import Option, resolve
 from ..model.registry import find_model, spec_of
+from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
 from ..units import parse_quantity
 
@@ -195,6 +196,19 @@ def read_options(arguments: argparse.Namespace, options: Iterable[Option]) -> di
         text, read = getattr(arguments, o.name), resolve(o.read) if o.read else str
         found[o.name] = None if text is None else read(text)
     return found
+
+
+def add_listed(parser: Any, command: str, **words: str) -> None:
+    """Add the options of a command that ``options.toml`` lists, in argparse's own words.
+
+    ``words`` fill in the names in braces.
+    """
+    for name, said in table_beside(__file__, "options.toml")[command].items():
+        if isinstance(said.get("metavar"), list):
+            said["metavar"] = tuple(said["metavar"])
+        if isinstance(said.get("default"), int):
+            said["type"] = int
+        parser.add_argument(name, **said | {"help": said["help"].format(**words)})
 
 
 def read_grid(text: str) -> tuple[int, int]:

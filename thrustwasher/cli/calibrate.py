@@ -19,36 +19,12 @@ LAW_UNITS = {
 }  # fmt: skip
 LAW_OPTIONAL = ("friction_error", "oil_temperature")
 FIGURE = "thrustwasher.report.model_plots.fit_plot:calibration_figure"
-SETTINGS = {
-    "set": ("NAME=VALUE", "what is held, and where the fit starts; an input that all points share"),
-    "error": ("NAME=VALUE", "standard deviation of an output: friction_torque=2%%, of its value"),
-    "bounds": ("NAME=LOW:HIGH", "narrower range of a parameter"),
-}
+SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "files", metavar="[PART] DATA.csv", nargs="*",
-        help=f"PART: {', '.join(models_with_points())} or a part file (.toml); DATA.csv: columns "
-        "named as inputs, parameters, measured outputs and <output>_error (standard deviation). "
-        "Without PART friction of a clutch: speed, load, friction and, if known, friction_error "
-        'and oil_temperature. A unit may follow in brackets, as in "speed [rpm]"',
-    )  # fmt: skip
-    parser.add_argument(
-        "--fit", metavar="NAMES",
-        help="parameters to fit, separated by commas; without PART constants of the friction law, "
-        "default plough_weight,shear_floor,stick_speed,decay_speed",
-    )  # fmt: skip
-    for name, (metavar, words) in SETTINGS.items():
-        parser.add_argument(f"--{name}", metavar=metavar, action="append", default=[],
-                            help=f"{words}; may be repeated")  # fmt: skip
-    parser.add_argument(
-        "--confidence", metavar="P", default="0.95",
-        help="probability of the intervals; above 0, below 1, default 0.95",
-    )  # fmt: skip
-    parser.add_argument("--preset", metavar="NAME", help="preset to start from, e.g. paper")
-    parser.add_argument("--fidelity", metavar="RUNG", help="rung of the model, default the part's")
+    _options.add_listed(parser, "calibrate", models=", ".join(models_with_points()))
     _output.add_targets(
         parser, plot="draw points, fit and residuals", instead="sentences",
         out="part file to write with the fitted values (.toml); never over one",
@@ -111,7 +87,7 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
     bounds, known = {}, places(part.spec)
     given = {
         option: split_settings(getattr(arguments, option), f"--{option}", metavar)
-        for option, (metavar, _) in SETTINGS.items()
+        for option, metavar in SETTINGS.items()
     }
     for name, text in given["bounds"].items():
         ends = text.split(":")

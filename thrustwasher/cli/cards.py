@@ -8,23 +8,16 @@ from ..ladder.card import VERIFY
 from ..model.part_file import is_part, load_part
 from ..model.registry import ladder_of, models_with_cards, spec_of
 from ..units import parse_quantity
-from . import _output
+from . import _options, _output
 
 HELP = "list the verified errors of all rungs, or verify those of a part file"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "model", nargs="?", metavar="MODEL|FILE",
-        help=f"list only {', '.join(models_with_cards())}; a part file (.toml): verify its rungs "
-        "in its box, half a minute or less",
-    )  # fmt: skip
+    _options.add_listed(parser, "cards", models=", ".join(models_with_cards()))
     group = parser.add_argument_group("of a part file")
-    group.add_argument("--tol", metavar="X", default="0.01",
-                       help="relative error of the map's torque allowed, default 0.01")  # fmt: skip
-    group.add_argument("--points", type=int, default=60, metavar="N",
-                       help="held-out points, default 60")  # fmt: skip
+    _options.add_listed(group, "cards_of_a_part")
     group.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 

@@ -8,50 +8,37 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from . import _output
+from . import _options, _output
 
 HELP = "measure error and cost of every way to solve the models here, and draw the charts"
-FOLDER = "charts"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "--out", metavar="DIR", default=FOLDER,
-        help=f"folder for chart.json, chart.html, chart.md and the drawings; default {FOLDER}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--only", choices=("stability",),
-        help="measure nothing, draw this part alone: where methods fail, and the limits of "
-        "coupling, as stability.md beside the chart's page; with --out FILE.md that page alone",
-    )  # fmt: skip
-    parser.add_argument(
-        "--quick", action="store_true",
-        help="few cases and repeats: minutes become half a minute, and the numbers a first look",
-    )  # fmt: skip
-    parser.add_argument(
-        "--draw", metavar="FILE.json", help="measure nothing, draw what an earlier run measured"
-    )
+    _options.add_listed(parser, "chart")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, then write the record and what is drawn from it."""
     if arguments.only and arguments.draw:
         raise ParameterError("--only: not together with --draw, which draws what was measured")
-    if arguments.only and Path(arguments.out).suffix.lower() == ".md":
-        target = _output.check_file(arguments.out, "--out")
-        page = _page_of_failures(_same_everywhere())
+    alone = arguments.only and Path(arguments.out).suffix.lower() == ".md"
+    target = (_output.check_file if alone else _output.check_folder)(arguments.out, "--out")
+    if arguments.only:
+        from ..study.charts.chart_page import same_everywhere, stability_markdown
+
+        record = same_everywhere()
+        page = stability_markdown(record)
+    else:
+        record = _read(arguments.draw) if arguments.draw else _measured(arguments.quick)
+        page = ""
+    if alone:
         with _output.whole_file(target) as draft:
             draft.write_text(page, "utf-8")
         _output.note(f"wrote {target}")
         return 0
-    folder = _output.check_folder(arguments.out, "--out")
-    if arguments.only:
-        record = _same_everywhere()
-    else:
-        record = _read(arguments.draw) if arguments.draw else _measured(arguments.quick)
     try:
-        _write(record, folder, _page_of_failures(record) if arguments.only else "")
+        _write(record, target, page)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
         if not arguments.draw:
             raise
@@ -59,24 +46,11 @@ def run(arguments: argparse.Namespace) -> int:
             f"--draw {arguments.draw}: is no whole chart.json ({type(problem).__name__}: {problem})"
         ) from None
     if arguments.only:
-        files = f"{folder / 'stability.md'}, chart.html, chart.md, chart.json, a drawing"
+        files = f"{target / 'stability.md'}, chart.html, chart.md, chart.json, a drawing"
     else:
-        files = f"{folder / 'chart.html'}, chart.md, chart.json and the drawings"
+        files = f"{target / 'chart.html'}, chart.md, chart.json and the drawings"
     _output.note(f"wrote {files}")
     return 0
-
-
-def _page_of_failures(record: dict[str, Any]) -> str:
-    from ..study.charts.stability_page import stability_markdown
-
-    return stability_markdown(record)
-
-
-def _same_everywhere() -> dict[str, Any]:
-    """Return what the package brings along since it is the same on every machine."""
-    from ..study.charts.stability_page import same_everywhere
-
-    return same_everywhere()
 
 
 def _measured(quick: bool) -> dict[str, Any]:
@@ -85,6 +59,7 @@ def _measured(quick: bool) -> dict[str, Any]:
 
     pin_threads()  # before numpy is loaded
     from ..model.registry import models_with_cards
+    from ..study.charts.chart_page import same_everywhere
     from ..study.charts.work_precision import work_precision
     from ..study.macro_steps import study
 
@@ -97,7 +72,7 @@ def _measured(quick: bool) -> dict[str, Any]:
     for model in models_with_cards():
         record["models"][model] = work_precision(model, quick=quick, progress=_say)
     record["macro_steps"] = study(quick=quick, progress=_say)
-    record |= {n: _same_everywhere()[n] for n in ("corrections", "stability", "limits")}
+    record |= {n: same_everywhere()[n] for n in ("corrections", "stability", "limits")}
     record["run_s"] = time.perf_counter() - began
     return record
 

@@ -3,8 +3,8 @@
 import argparse
 import time
 
+from ..model.registry import find_model
 from ..units import format_quantity
-from ..washer.model import GRID
 from ..washer.parameters import SPEC
 from . import _options, _output
 
@@ -17,6 +17,8 @@ COLUMNS = {
     "oil_heat": "W", "oil_outlet_temperature": "K", "film_temperature": "K", "stick_margin": "1",
     "branch": "",
 }  # fmt: skip
+COMMAND = find_model("washer").command
+GRID = [option for option in COMMAND.options if option.name == "grid"] if COMMAND else []
 TABLE = ("load", "film_ratio", "friction_torque", "friction_coefficient", "temperature", "branch")
 WIDTH = 22
 
@@ -25,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, INPUTS)
     _options.add_parameters(parser, SPEC)
-    _options.add_options(parser, [GRID])
+    _options.add_options(parser, GRID)
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
 
 
@@ -33,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Trace, then print, write or draw."""
     point = _options.read_inputs(arguments, INPUTS)
     params = _options.read_parameters(arguments, SPEC)
-    grid = _options.read_options(arguments, [GRID])
+    grid = _options.read_options(arguments, GRID)
     targets = _output.targets(arguments)
 
     from ..washer.load_curve import load_curve

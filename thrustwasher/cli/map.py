@@ -12,13 +12,14 @@ from ..washer.parameters import SPEC
 from . import _options, _output
 
 HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
-DEEDS = ("build", "list", "check")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument("deed", choices=DEEDS, help="what to do")
-    parser.add_argument("file", nargs="?", help="build: a part file (.toml); check: the map file")
+    _options.add_listed(parser, "map")
+    parser.add_argument("--tol", "--tolerance", dest="tolerance", metavar="X",
+                        help="relative error of the torque allowed, default 0.005")  # fmt: skip
+    parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     group = parser.add_argument_group("box of a map to build: LOW:HIGH, or one value to fix")
     for signal in SPEC.inputs:
         group.add_argument(
@@ -26,15 +27,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             help=f"{signal.help} [{signal.unit}]",
         )  # fmt: skip
     _options.add_parameters(parser, SPEC)
-    parser.add_argument("--tol", "--tolerance", dest="tolerance", metavar="X",
-                        help="relative error of the torque allowed, default 0.005")  # fmt: skip
-    parser.add_argument("--fidelity", help="mesh to chart: fine, field; default: as the tolerance "
-                        "needs")  # fmt: skip
-    parser.add_argument("--out", metavar="FILE", help="default washer.twm, PART.twm of a part file")
-    parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
-    parser.add_argument("--points", type=int, default=60, metavar="N",
-                        help="held-out points of the check, default 60")  # fmt: skip
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
 
 
 def run(arguments: argparse.Namespace) -> int:

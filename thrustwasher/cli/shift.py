@@ -11,7 +11,7 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..units import parse_quantity
-from . import _compare, _output, _sequence
+from . import _compare, _options, _output
 from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
@@ -20,64 +20,16 @@ REPORT, TABLE = "report.html", "shift.csv"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "--scene", metavar="NAME|FILE.toml", default="planetary",
-        help="a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary",
-    )  # fmt: skip
-    parser.add_argument(
-        "--out", metavar="DIR", default="shift-report",
-        help=f"folder for {REPORT}, overview.png and {TABLE}; default shift-report",
-    )  # fmt: skip
-    parser.add_argument(
-        "--compare", nargs=2, metavar=("A", "B"),
-        help="two shifts on one page, compare.html: each a report's folder, or a scene, which runs",
-    )  # fmt: skip
-    parser.add_argument(
-        "--no-report", action="store_true", help="write no files, only say what came out"
-    )
-    parser.add_argument(
-        "--step", metavar="QUANTITY", help="communication step [s], if not the scene's"
-    )
-    parser.add_argument(
-        "--master", metavar="NAME",
-        help="gauss-seidel, jacobi, linearly-implicit or step-doubling, if not the scene's",
-    )  # fmt: skip
-    parser.add_argument(
-        "--master-tolerance", metavar="NUMBER",
-        help="relative error of a step that step-doubling allows, if not the scene's",
-    )  # fmt: skip
-    parser.add_argument(
-        "--fidelity", metavar="[PART=]RUNG", action="append", default=[],
-        help="a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "
-        "the cheapest that holds 1 %% and checks it after the run; may be repeated",
-    )  # fmt: skip
-    parser.add_argument(
-        "--no-guard", action="store_true",
-        help="with auto: do not check the choice after the run, keep it",
-    )  # fmt: skip
-    parser.add_argument(
-        "--fmu", choices=["native", "python"], default="native",
-        help="kind of FMU; default native",
-    )  # fmt: skip
-    parser.add_argument(
-        "--ssp", metavar="FILE.ssp",
-        help="write the shift as an SSP package for other tools, instead of running it",
-    )  # fmt: skip
-    parser.add_argument(
-        "--platforms", metavar="LIST",
-        help="of the package's FMUs: names with commas, all, or local; default: all that can be "
-        "linked here",
-    )  # fmt: skip
-    parser.add_argument("--json", action="store_true", help="one JSON object with every number")
+    _options.add_listed(parser, "shift")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
     if arguments.compare:
         return _compare.run(arguments, _scene, _one_shift)
-    scene = _scene(arguments, arguments.scene)
+    scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
-        _sequence.check(arguments, scene)
+        _check_sequence(arguments, scene)
     if arguments.ssp:
         return _export(arguments, scene)
     if arguments.platforms:
@@ -88,13 +40,13 @@ def run(arguments: argparse.Namespace) -> int:
     result = (_shifts if scene.sequence else _one_shift)(arguments, scene)
     if folder:
         with _output.whole_folder(folder) as draft:
-            (_sequence.write if scene.sequence else _write)(result, draft)
+            _write(result, draft)
     if arguments.json:
         more = {} if scene.sequence else {"warnings": _warnings(result)}
         total, out = time.perf_counter() - began, str(folder) if folder else None
         _output.print_json({**result.as_dict(), **more, "total_time": total, "out": out})
     elif scene.sequence:
-        _sequence.say(result)
+        _say_sequence(result)
     else:
         _say(result, folder)
     return 0
@@ -147,6 +99,20 @@ def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
         return run_sequence(scene, instances, progress=_progress(scene))
 
 
+def _check_sequence(arguments: argparse.Namespace, scene: Any) -> None:
+    """Refuse what a scene of several shifts has no use for."""
+    if arguments.ssp:
+        raise ParameterError("--ssp: a package has one shift, allowed: a scene without [sequence]")
+    _check_rungs(scene, "with [sequence]")
+
+
+def _check_rungs(scene: Any, where: str) -> None:
+    """Refuse a fidelity that is still to be chosen."""
+    if open_ := [name for name, part in scene.parts.items() if part.tolerance]:
+        raise ParameterError(f"fidelity of {', '.join(open_)} = auto, allowed {where}: a rung by "
+                             "name (--fidelity PART=RUNG)")  # fmt: skip
+
+
 def _progress(scene: Any) -> Callable[[int, int], None] | None:
     return _output.time_left(scene.name) if sys.stderr.isatty() else None
 
@@ -175,6 +141,20 @@ def _say(result: Any, folder: Path | None) -> None:
         print(f"Report: {folder / REPORT}")
     if result.guard:
         print(f"Check: {result.guard.closing()}.")
+
+
+def _say_sequence(result: Any) -> None:
+    """Print a line per shift of a scene of several."""
+    oil = result.oil_temperature - 273.15
+    print(f"{result.scene.title}: {len(result.shifts)} shifts, oil {oil[0]:.1f} .. {oil[-1]:.1f} "
+          "degC")  # fmt: skip
+    for shift, (_, way) in zip(result.shifts, result.scene.sequence.shifts, strict=True):
+        lock, heat = (shift.figures[name] for name in ("lock_after_ramp_start", "slip_energy"))
+        locked = "does not lock" if lock is None else f"locks {lock:.3f} s after the shift began"
+        begin = f"{shift.scene.shift_start:8.1f} s"
+        print(f"  {begin}  {way:4}  {locked}, {1e-3 * (heat or 0.0):.2f} kJ")
+    for text in result.messages:
+        print(text)
 
 
 @contextmanager
@@ -208,12 +188,18 @@ def _tables(scene: Any) -> list[Any]:
 
 
 def _write(result: Any, folder: Path) -> None:
-    """Write page, overview and time series into a folder that is still a draft."""
+    """Write page, plots and time series into a folder that is still a draft."""
     from ..report.html import render, save_plots
-    from ..report.shift.shift_record import record_of
-    from ..report.shift.shift_report import shift_page
 
-    page = shift_page(record_of(result))
+    if result.scene.sequence:
+        from ..report.shift.sequence_report import sequence_page
+
+        page = sequence_page(result)
+    else:
+        from ..report.shift.shift_record import record_of
+        from ..report.shift.shift_report import shift_page
+
+        page = shift_page(record_of(result))
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)
     result.write_csv(folder / TABLE)
@@ -225,12 +211,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
         raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
     if arguments.master not in (None, "jacobi"):
         raise ParameterError(f"--master {arguments.master}: a package is for a parallel master")
-    open_ = [name for name, part in scene.parts.items() if part.tolerance]
-    if open_:
-        raise ParameterError(
-            f"fidelity of {', '.join(open_)} = auto, allowed in a package: a rung by name "
-            "(--fidelity PART=RUNG)"
-        )
+    _check_rungs(scene, "in a package")
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
     from ..native.files import zipped
@@ -252,7 +233,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
 def _package(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
     from ..fmu.build import pack_native
-    from ..fmu.description.xml_parts import generation_date
+    from ..fmu.description.model_description import generation_date
     from ..fmu.model_kernels import package_version
     from ..shift.ssp.package import files
     from ..shift.ssp.system_structure import plan, prepared, start_values

@@ -50,6 +50,28 @@ class PackCourse:
         return self.out
 
 
+def outputs_over(
+    par: Any, time: Array, load: Array, slip: Array, oil: float, drum: Array
+) -> tuple[Array, int]:
+    """Return the real outputs of a pack at the points of its course, (n, NOUT), and all substeps.
+
+    ``par`` is that of the kernel, the rest as in ``engage_clutch``; SolveError too.
+    """
+    rows, substeps, pack = np.empty((len(time), k.NOUT)), 0, PackCourse(par, load[0], oil)
+    for i in range(len(time)):
+        duration = time[i] - time[i - 1] if i else 0.0
+        if i and pack.status == Status.OK:
+            ends = (load[i - 1], slip[i - 1], oil, load[i], slip[i], oil, drum[i - 1], drum[i])
+            substeps += pack.advance(ends, duration)
+        if Status(pack.status).is_failure:
+            raise SolveError(
+                f"t = {time[i]:g} s, load = {load[i]:g} N, speed = {slip[i]:g} rad/s: "
+                f"{Status(pack.status).advice}"
+            )
+        rows[i] = pack.show(load[i], slip[i], drum[i], duration)
+    return rows, substeps
+
+
 @dataclass(frozen=True, slots=True)
 class Engagement:
     """An engagement at the points ``time``; arrays of one length, SI units."""
@@ -128,25 +150,12 @@ def engage_clutch(
     ('film', 'boundary')
     """
     points = rising(time)
-    forces = course_of("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0, len(points))
-    slips = course_of("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0, len(points))
-    oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
-    drums = course_of("drum_speed", drum_speed, "rad/s", DRUM.low or 0.0, DRUM.high or 0.0,
-                      len(points))  # fmt: skip
-    par, rows, substeps = prepare(params, fidelity), np.empty((len(points), k.NOUT)), 0
-    pack = PackCourse(par, forces[0], oil)
-    for i in range(len(points)):
-        if i and pack.status == Status.OK:
-            ends = (forces[i - 1], slips[i - 1], oil, forces[i], slips[i], oil)
-            substeps += pack.advance((*ends, drums[i - 1], drums[i]), points[i] - points[i - 1])
-        if not Status(pack.status).is_failure:
-            duration = points[i] - points[i - 1] if i else 0.0
-            rows[i] = pack.show(forces[i], slips[i], drums[i], duration)
-        if Status(pack.status).is_failure:
-            raise SolveError(
-                f"t = {points[i]:g} s, load = {forces[i]:g} N, speed = {slips[i]:g} rad/s: "
-                f"{Status(pack.status).advice}"
-            )
+    forces = course_of("load", load, "N", *LOAD.range, len(points))
+    slips = course_of("speed", speed, "rad/s", *SPEED.range, len(points))
+    oil = check_number("oil_temperature", oil_temperature, "K", *OIL.range)
+    drums = course_of("drum_speed", drum_speed, "rad/s", *DRUM.range, len(points))
+    par = prepare(params, fidelity)
+    rows, substeps = outputs_over(par, points, forces, slips, oil, drums)
     kept, stages = {f.name for f in fields(Engagement)}, list(REGIMES)
     columns = {n: rows[:, i].copy() for i, n in enumerate(SPEC.real_outputs) if n in kept}
     hot = bool((columns["temperature"] > k.HOT_LIMIT).any())

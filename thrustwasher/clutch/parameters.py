@@ -1,9 +1,8 @@
-"""Parameters, inputs and outputs of the wet clutch: the one list all interfaces come from."""
+"""Parameters of the wet clutch; ``interface.toml`` has its inputs and outputs."""
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 from ..errors import ParameterError
@@ -16,7 +15,8 @@ from ..model.parameters import (
     quantity,
 )
 from ..model.part_file import made_of
-from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
+from ..model.spec import Rule
+from ..model.toml_tables import spec_beside
 
 FRICTION_LAWS = {
     "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",
@@ -238,76 +238,5 @@ class ClutchParams:
         return cls(friction_law="table", **table, **others)
 
 
-LOAD = Signal(name="load", unit="N", help="axial force that presses the pack together",
-              low=0.0, high=1e6, nominal=5000.0, start=0.0)  # fmt: skip
-SPEED = Signal(name="speed", unit="rad/s", help="slip speed between the two sides of the pack",
-               low=-5000.0, high=5000.0, nominal=100.0, start=0.0)  # fmt: skip
-OIL = Signal(name="oil_temperature", unit="K", help="temperature of the cooling oil",
-             low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
-DRUM = Signal(name="drum_speed", unit="rad/s", low=-5000.0, high=5000.0, nominal=100.0, start=0.0,
-              help="speed of the drum; the hub turns by the slip faster (0: the drum stands still)",
-              optional=True)  # fmt: skip
-_POINT = ("load", "speed")
-_ALL = (*_POINT, "oil_temperature", "drum_speed")
-_out = partial(output, depends=_ALL)
-
-SPEC = ModelSpec(
-    key="clutch",
-    name="WetClutch",
-    help="Wet multi-plate clutch or brake: friction torque, torque capacity, interface temperature",
-    params=ClutchParams,
-    fidelities={
-        "closed": "constant coefficient of friction, film settled, lumped heat",
-        "boundary": "boundary friction over slip speed, film settled, no heat",
-        "stribeck": "boundary friction over slip speed, film settled, lumped heat",
-        "field": "boundary friction, film that is squeezed out and sheared, lumped heat",
-        "fine": "the same in four rings, each with its own slip speed, heat and temperature",
-    },
-    default_fidelity="field",
-    inputs=(LOAD, SPEED, OIL, DRUM),
-    outputs=(
-        _out("friction_torque", "N.m", 100.0,
-             "friction torque of the pack, sign of the slip, smooth through zero"),
-        _out("temperature", "K", 300.0, "interface temperature of the steel plates",
-             depends=("oil_temperature",),
-             limit="thrustwasher.clutch.kernels.layout:HOT_LIMIT"),
-        _out("film_thickness", "m", 1e-5, "separation of the mean surfaces of lining and steel"),
-        _out("torque_capacity", "N.m", 100.0,
-             "largest torque the pack can hold at this load and slip", low=0.0),
-        _out("friction_coefficient", "1", 0.1,
-             "coefficient of the law of friction at this slip"),
-        _out("film_ratio", "1", 1.0, "film thickness over the combined RMS roughness"),
-        _out("friction_power", "W", 1e4, "heat made by friction, torque times slip"),
-        _out("energy", "J", 1e4, "heat made by friction since the start", depends=(), low=0.0),
-        _out("contact_torque", "N.m", 100.0,
-             "share of the friction torque by the law of friction, for the load on asperities"),
-        _out("viscous_torque", "N.m", 10.0,
-             "share of the friction torque by shear of the oil beside the law"),
-        _out("contact_share", "1", 0.1, "share of the faces' area in contact", low=0.0, high=1.0),
-        _out("heat_flux", "W/m2", 1e5, "friction power over the area of all faces", low=0.0),
-        _out("viscosity", "Pa.s", 0.05, "viscosity of the oil at the interface temperature"),
-        _out("oil_heat", "W", 1e3, "heat that reaches the oil, mean of the last step", depends=()),
-        _out("stored_heat", "J", 1e4, "heat in the steel plates, over that at the start",
-             depends=()),
-        Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
-               help="lubrication regime of the friction faces"),
-        Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-               depends=_POINT, help="how the last solution was obtained"),
-    ),
-    kernel="thrustwasher.clutch.kernels.step",
-    rules=RULES,
-    terminals=(
-        Terminal(name="shaft", kind="thrustwasher.PackFlange",
-                 help="Slip speed and load in, friction torque out (coupling torque)",
-                 members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
-                          ("load", "load", "signal"))),
-        Terminal(name="shaft_capacity", kind="thrustwasher.PackFlange",
-                 help="Slip speed and load in, torque capacity out (coupling capacity)",
-                 members=(("speed", "w", "signal"), ("torque_capacity", "tau", "inflow"),
-                          ("load", "load", "signal"))),
-        OIL_PORT,
-    ),
-    # An engagement: the force rises, the slip falls to zero, then the pack holds.
-    course=((0.0, 0.0, 120.0, 320.0, 0.0), (0.2, 5000.0, 120.0, 320.0, 60.0),
-            (0.7, 5000.0, 0.0, 320.0, 100.0), (1.0, 4000.0, 0.0, 320.0, 100.0)),
-)  # fmt: skip
+SPEC = spec_beside(__file__, ClutchParams, RULES)
+LOAD, SPEED, OIL, DRUM = SPEC.inputs

@@ -216,10 +216,10 @@ def solve_clutch(
     >>> round(r.torque_capacity, 2)
     302.37
     """
-    load = check_number("load", load, "N", LOAD.low or 0.0, LOAD.high or 0.0)
-    speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
-    oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
-    drum = check_number("drum_speed", drum_speed, "rad/s", DRUM.low or 0.0, DRUM.high or 0.0)
+    load = check_number("load", load, "N", *LOAD.range)
+    speed = check_number("speed", speed, "rad/s", *SPEED.range)
+    oil = check_number("oil_temperature", oil_temperature, "K", *OIL.range)
+    drum = check_number("drum_speed", drum_speed, "rad/s", *DRUM.range)
     par = prepare(params, fidelity)
     heated = speed != 0.0 and fidelity != "boundary"
     guess = start.film_ratio if start else 1.0

@@ -4,16 +4,15 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..gearmesh.kernels import layout
-from ..gearmesh.model import MODEL
 from ..gearmesh.parameters import SPEC
 from ..model.record import resolve
 from .view import Picture, View, numbers_of
 
 
 def _pictures(params: Any, result: Any, point: Mapping[str, float]) -> list[Picture]:
-    assert MODEL.command is not None
-    figure = resolve(MODEL.command.figure)(result, point, params)
-    return [("Over the number of the pinion's teeth at the start's point.", figure)]
+    draw = resolve("thrustwasher.report.model_plots.gearmesh_plot:gearmesh_figure")
+    words = "Over the number of the pinion's teeth at the start's point."
+    return [(words, draw(result, point, params))]
 
 
 VIEW = View(

@@ -9,7 +9,6 @@ from ..washer.kernels import layout, newton, workspace
 from ..washer.kernels.constants import size_of_par
 from ..washer.kernels.workspace import size_of_state, size_of_work
 from ..washer.load_curve import load_curve
-from ..washer.model import MODEL
 from ..washer.parameters import SPEC
 from ..washer.solve import GRIDS, RANGES
 from ..washer.washer_result import SLIPS
@@ -17,13 +16,15 @@ from .view import Picture, View, numbers_of
 
 
 def _pictures(params: Any, result: Any, point: Mapping[str, float]) -> list[Picture]:
-    assert MODEL.command is not None
     rest: Any = {name: value for name, value in point.items() if name != "load"}
     curve = load_curve(params, **rest, fidelity=result.fidelity)
-    draw = resolve("thrustwasher.report.model_plots.washer_plots:curve_figure")
+    draw, draw_curve = (
+        resolve(f"thrustwasher.report.model_plots.washer_plots:{name}")
+        for name in ("field_figure", "curve_figure")
+    )
     return [
-        ("Over the washer at the start's point.", resolve(MODEL.command.figure)(result, point)),
-        ("All solutions over the load, with the folds.", draw(curve, rest)),
+        ("Over the washer at the start's point.", draw(result, point)),
+        ("All solutions over the load, with the folds.", draw_curve(curve, rest)),
     ]
 
 

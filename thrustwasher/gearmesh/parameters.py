@@ -2,20 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
-from ..model.parameters import (
-    as_numbers,
-    check_ranges,
-    check_rules,
-    choice,
-    count,
-    flag,
-    quantity,
-)
+from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import made_of
-from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
+from ..model.spec import Rule
+from ..model.toml_tables import spec_beside
 
 SURFACES = {
     "rough": "rough ground: composite RMS 2.26 um, effective roughness 4.5e-5",
@@ -304,83 +296,5 @@ class GearMeshParams:
         return made
 
 
-LOAD = Signal(name="load", unit="N.m", help="torque on the pinion, its sign does not matter",
-              low=-1e5, high=1e5, nominal=40.0, start=0.0)  # fmt: skip
-SPEED = Signal(name="speed", unit="rad/s", help="speed of the pinion, either sign",
-               low=-5000.0, high=5000.0, nominal=180.0, start=0.0)  # fmt: skip
-OIL = Signal(name="oil_temperature", unit="K", help="temperature of the oil",
-             low=233.15, high=473.15, nominal=300.0, start=299.85)  # fmt: skip
-_ALL = ("load", "speed", "oil_temperature")
-_out = partial(output, depends=_ALL)
-
-OUTPUTS = (
-    _out("friction_torque", "N.m", 1.0, "mesh loss as a torque on the pinion, sign of speed"),
-    _out("temperature", "K", 300.0, "temperature of the asperities where they are hottest"),
-    _out("film_thickness", "m", 1e-6, "film thickness where the flank is hottest"),
-    _out("surface_temperature", "K", 300.0, "temperature of the flank where it is hottest"),
-    _out("contact_stress", "Pa", 2e8, "Hertz contact stress, greatest along the path",
-         depends=("load",)),
-    _out("thermal_stress", "Pa", 1e8, "stress from the asperity's temperature rise"),
-    _out("modification_factor", "1", 1.0, "squared thermal over contact stress, each by its limit"),
-    _out("allowable_ratio", "1", 1.0, "share of contact stress allowed beside thermal stress"),
-    _out("film_temperature", "K", 300.0, "highest temperature of the oil film"),
-    _out("flash_rise", "K", 10.0, "temperature rise by friction over the nominal area",
-         relative=True),
-    _out("film_ratio", "1", 1.0, "film thickness over composite RMS roughness"),
-    _out("friction_coefficient", "1", 0.1, "coefficient of friction where the flank is hottest"),
-    _out("friction_power", "W", 100.0, "heat made by the mesh, torque times speed"),
-    _out("modification_factor_aisi1020", "1", 1.0, "modification factor for low-carbon AISI 1020"),
-    _out("modification_factor_aisi4340", "1", 1.0, "modification factor for high-carbon AISI 4340"),
-    _out("allowable_ratio_aisi1020", "1", 1.0, "share of contact stress allowed for AISI 1020"),
-    _out("allowable_ratio_aisi4340", "1", 1.0, "share of contact stress allowed for AISI 4340"),
-    _out("stress_utilization_aisi1020", "1", 1.0, "combined stress over endurance of AISI 1020"),
-    _out("stress_utilization_aisi4340", "1", 1.0, "combined stress over endurance of AISI 4340"),
-    _out("mean_friction", "1", 0.1, "coefficient of friction that the loss feels"),
-    _out("flash_max", "K", 10.0, "greatest flash temperature along the path", relative=True),
-    _out("bulk_temperature", "K", 300.0, "temperature of the gears' bodies"),
-    _out("oil_heat", "W", 100.0, "heat that reaches the oil, mean of the step"),
-    output("stored_heat", "J", 100.0, "heat stored in the bodies since the start"),
-    _out("contact_pressure_max", "Pa", 1e9, "greatest Hertz pressure along the path",
-         depends=("load",)),
-    _out("pitting_stress", "Pa", 1e9, "contact stress sigma_H of the pitting calculation",
-         depends=("load",)),
-    _out("pitting_safety", "1", 1.0, "contact limit over pitting stress", depends=("load",)),
-    _out("scuffing_safety", "1", 1.0, "rise of the oil that scuffs over that of the contact"),
-    _out("scuffing_margin", "K", 100.0, "scuffing temperature less that of the contact",
-         relative=True),
-    _out("film_ratio_gf", "1", 1.0, "least film of the path over mean Ra"),
-    _out("micropitting_safety", "1", 1.0, "film_ratio_gf over the permissible_film_ratio"),
-    Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
-           help="lubrication regime where the flank is hottest"),
-    Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus", depends=_ALL,
-           help="how the last solution was obtained"),
-)  # fmt: skip
-
-SPEC = ModelSpec(
-    key="gearmesh",
-    name="GearMesh",
-    help="Gear mesh: loss torque, heat, contact, flank and asperity temperature, endurance",
-    params=GearMeshParams,
-    fidelities={
-        "closed": "closed form: constant friction, Blok's flash temperature, oil as supplied",
-        "stribeck": "as field; of the paper's heat the flank's temperature in closed form",
-        "field": "friction at every position of the path; the paper's heat where contact starts",
-        "fine": "the same at twice the positions; the paper's heat at every position",
-    },
-    default_fidelity="field",
-    inputs=(LOAD, SPEED, OIL),
-    outputs=OUTPUTS,
-    kernel="thrustwasher.gearmesh.kernels.step",
-    rules=RULES,
-    terminals=(
-        Terminal(name="shaft", kind="thrustwasher.MeshFlange",
-                 help="Speed and torque of the pinion in, its friction torque out",
-                 members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
-                          ("load", "load", "signal"))),
-        OIL_PORT,
-    ),
-    # Run up under torque, work, coast down through standstill into reverse.
-    course=((0.0, 0.0, 0.0, 300.0), (0.3, 40.0, 180.0, 300.0), (0.6, 60.0, 120.0, 330.0),
-            (0.9, 20.0, 0.0, 330.0), (1.0, -20.0, -30.0, 330.0)),
-    counts=(("viscosity iterations", "thrustwasher.gearmesh.kernels.layout:F_ITERATIONS"),),
-)  # fmt: skip
+SPEC = spec_beside(__file__, GearMeshParams, RULES)
+LOAD, SPEED, OIL = SPEC.inputs

@@ -50,11 +50,11 @@ def checked_box(spec: ModelSpec, box: Mapping[str, float | tuple[float, float]])
                 + ", ".join(names)
             )
         found[signal.name] = _interval(signal.name, box[signal.name], signal.unit)
-        low, high = found[signal.name]
-        if low < (signal.low or 0.0) or high > (signal.high or 0.0):
+        (low, high), (least, largest) = found[signal.name], signal.range
+        if low < least or high > largest:
             raise ParameterError(
                 f"box: {signal.name} = {low:g} .. {high:g} {signal.unit}, "
-                f"allowed: {signal.low:g} .. {signal.high:g} {signal.unit}"
+                f"allowed: {least:g} .. {largest:g} {signal.unit}"
             )
     return found
 

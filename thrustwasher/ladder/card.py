@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
+from ..model.record import from_plain
 from ..model.registry import find_model
 from ..native.files import user_cache
 from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
@@ -146,7 +147,7 @@ def read_card(path: Path) -> Card:
     del raw[CHECK]
     try:
         if raw["schema"] == SCHEMA:
-            card: Card = part.from_json(Card, raw)
+            card: Card = from_plain(Card, raw)
             return card
     except (KeyError, TypeError, AttributeError) as error:
         raise ParameterError(f"{path.name}: is no card of this version ({error})") from None

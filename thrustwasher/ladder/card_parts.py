@@ -1,9 +1,8 @@
 """The parts of a card: what was verified, where, against what, and what it cost."""
 
 import math
-from dataclasses import dataclass, is_dataclass
-from functools import cache
-from typing import Any, get_args, get_origin, get_type_hints
+from dataclasses import dataclass
+from typing import Any
 
 Grid = tuple[tuple[float | None, ...], ...]  # over two axes of cells; None: no point fell there
 Counts = tuple[tuple[int, ...], ...]
@@ -153,27 +152,3 @@ def worst_near(errors: Errors, i: int, j: int) -> float | None:
         for b in range(max(j - reach, 0), min(j + reach + 1, columns))
     ]
     return max((w for w in found if w is not None and not math.isnan(w)), default=None)
-
-
-@cache
-def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
-    """Return what an annotation is made of: its origin, arguments, and fields if a dataclass."""
-    fields = get_type_hints(kind) if is_dataclass(kind) else {}
-    return get_origin(kind), get_args(kind), fields
-
-
-def from_json(kind: Any, raw: Any) -> Any:
-    """Return what ``json.loads`` gave as the annotation ``kind`` says, lists as tuples.
-
-    KeyError, TypeError or AttributeError if it has other keys or another shape.
-    """
-    origin, inner, fields = _anatomy(kind)
-    if fields:
-        return kind(**{k: from_json(fields[k], v) for k, v in raw.items()})
-    if origin is tuple:
-        return tuple(from_json(inner[0], item) for item in raw)
-    if origin is dict:
-        return {k: from_json(inner[1], item) for k, item in raw.items()}
-    if inner:  # one kind or None
-        return None if raw is None else from_json(inner[0], raw)
-    return raw

@@ -2,7 +2,7 @@
 
 ==============  ===============================================================================
 ``spec``        what a model shows to the outside: inputs, outputs, parameters, kernel; as data
-``record``      all that the rest of the package knows of a model
+``record``      all that the rest of the package knows of a model: what ``model.toml`` holds
 ``registry``    the models and their kernels by name
 ``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
 ``prepare``     from parameters to what a kernel takes: rules, constants, tables

@@ -1,15 +1,16 @@
-"""The record of a model: all that the rest of the package knows of it.
+"""The record of a model, ``model.toml``: all that the rest of the package knows of it.
 
-What lies above a model (plots, commands, reference values) stands here as data or as a dotted name
+What lies above a model (plots, commands, reference values) stands there as data or as a dotted name
 "module:NAME", which is resolved when it is asked for: a record imports nothing.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, is_dataclass
+from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args, get_origin, get_type_hints
 
 if TYPE_CHECKING:  # it needs numpy, which not every command does
     from .spec import ModelSpec
@@ -21,6 +22,30 @@ def resolve(name: str) -> Any:
     """Return what a dotted name "module:NAME" stands for."""
     module, _, attribute = name.partition(":")
     return getattr(import_module(module), attribute)
+
+
+@cache
+def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
+    """Return what an annotation is made of: its origin, arguments, and fields if a dataclass."""
+    fields = get_type_hints(kind) if is_dataclass(kind) else {}
+    return get_origin(kind), get_args(kind), fields
+
+
+def from_plain(kind: Any, raw: Any) -> Any:
+    """Return what was read from JSON or TOML as the annotation ``kind`` says, lists as tuples.
+
+    KeyError, TypeError or AttributeError if it has other keys or another shape.
+    """
+    origin, inner, fields = _anatomy(kind)
+    if fields:
+        return kind(**{k: from_plain(fields[k], v) for k, v in raw.items()})
+    if origin is tuple:
+        return tuple(from_plain(inner[0], item) for item in raw)
+    if origin in (dict, Mapping):
+        return {k: from_plain(inner[1], item) for k, item in raw.items()}
+    if inner:  # one kind or None
+        return None if raw is None else from_plain(inner[0], raw)
+    return raw
 
 
 @dataclass(frozen=True, kw_only=True)

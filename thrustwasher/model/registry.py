@@ -1,16 +1,18 @@
 """Which models there are: the one list, by the package each lives in.
 
-A model is a package with its record ``MODEL`` in the module ``model`` and with compiled code in the
-package ``kernels``, whose head says what of it Python calls (``CALLED``). Nothing is imported
-before it is asked for.
+A model is a package with its record in ``model.toml`` and with compiled code in the package
+``kernels``, whose head says what of it Python calls (``CALLED``). Nothing is imported before it is
+asked for.
 """
 
+import tomllib
 from functools import cache
 from importlib import import_module
+from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
-from .record import Ladder, Model, resolve
+from .record import Ladder, Model, from_plain, resolve
 
 if TYPE_CHECKING:
     from .spec import ModelSpec
@@ -35,7 +37,8 @@ def compiled_packages() -> tuple[str, ...]:
 
 @cache
 def _model_in(home: str) -> Model:
-    model: Model = import_module(f"{home}.model").MODEL
+    text = files(home).joinpath("model.toml").read_text("utf-8")
+    model: Model = from_plain(Model, tomllib.loads(text))
     return model
 
 

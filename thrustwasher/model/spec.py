@@ -3,6 +3,7 @@
 The FMU variables, the command line's columns and the documentation come from these lists.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, make_dataclass, replace
 from pathlib import Path
@@ -47,6 +48,12 @@ class Signal:
         """The value of an input that is not given: its start, or a nominal one in place of 0."""
         return self.start or (0.0 if self.optional else self.nominal) or 0.0
 
+    @property
+    def range(self) -> tuple[float, float]:
+        """The bounds; infinite where there is none."""
+        low, high = self.low, self.high
+        return -math.inf if low is None else low, math.inf if high is None else high
+
 
 def output(
     name: str, unit: str, nominal: float, help: str, depends: tuple[str, ...] = (), **more: Any
@@ -82,12 +89,6 @@ class Terminal:
     kind: str
     help: str
     members: tuple[tuple[str, str, str], ...]
-
-
-OIL_PORT = Terminal(
-    name="oil", kind="thrustwasher.HeatPort", help="Oil temperature in, heat to the oil out",
-    members=(("oil_temperature", "T", "signal"), ("oil_heat", "Q_flow", "outflow")),
-)  # fmt: skip
 
 
 class Tables(NamedTuple):

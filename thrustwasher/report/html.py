@@ -82,8 +82,9 @@ class Section:
 
     @property
     def look(self) -> str:
-        """The class of a chapter that is empty where no scripts run."""
-        return "" if self.texts or self.plots or self.tables else "widget"
+        """The class of a chapter that has nothing to show where no scripts run."""
+        without = self.plots or self.tables or (self.texts and not self.widgets)
+        return "" if without else "widget"
 
 
 @dataclass(frozen=True)

@@ -11,17 +11,15 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..transmission.parameters import course_points
-from .cosim.instances import Stepping
 from .cosim.loop import Recorder, Run, Steps
 from .cosim.schedule import carry_out, gauss_seidel
-from .cosim.system import System
-from .run import Progress, check_instances, connected, model_remarks, result_of
+from .cosim.system import Stepping, System
+from .run import Progress, check_instances, connected, result_of
 from .scene.connections import COMMAND
 from .scene.scene import Scene
 from .scene.sequence import sequence_of, shift_scene, times
 from .shift_result import ShiftResult
 
-Course = Callable[[float], float]
 # Input of the transmission -> course that drives it.
 DRIVEN = {"clutch_pressure": "clutch_pressure", "brake_pressure": "brake_pressure",
           "engine_torque_input": "engine_torque"}  # fmt: skip
@@ -95,11 +93,10 @@ def run_sequence(
         if progress is not None and i % 100 == 0:
             progress(i, len(time) - 1)
     wall = perf_counter() - begin
-    signals = recorder.signals()
+    found = [_one(shift, system, time, recorder) for shift in shifts]
     return SequenceResult(
-        scene=scene, time=time, signals=signals, wall_time=wall,
-        shifts=[_one(shift, system, time, recorder) for shift in shifts],
-        messages=model_remarks(scene, time, signals),
+        scene=scene, time=time, signals=recorder.signals(), wall_time=wall, shifts=found,
+        messages=[f"first shift: {message}" for message in found[0].messages],
     )  # fmt: skip
 
 

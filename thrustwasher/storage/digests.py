@@ -1,11 +1,11 @@
 """Fingerprints: of a parameter set, of the sources of a rung's numbers, of a JSON file."""
 
-import hashlib
 import json
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +26,7 @@ def params_digest(params: Any) -> str:
     values = {name: getattr(params, name) for name in mine}
     values |= {k: float(v) for k, v in values.items() if type(v) is int}
     text = json.dumps([type(params).__name__, values], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()
+    return sha256(text.encode()).hexdigest()
 
 
 def changed_fields(params: Any) -> dict[str, Any]:
@@ -54,16 +54,12 @@ def kernel_digest(files: Iterable[str]) -> str:
     Line ends count as one character: a checkout on Windows has the same digest. FileNotFoundError:
     a file is not there any more.
     """
-    whole = hashlib.sha256()
+    whole = sha256()
     for name in sorted(files):
-        whole.update(f"{name}\0{_file_digest(name)}\n".encode())
+        shipped = DATA / name if "/" in name else None  # it may be written anew
+        own = sha256(shipped.read_bytes()).hexdigest() if shipped else _module_digest(name)
+        whole.update(f"{name}\0{own}\n".encode())
     return whole.hexdigest()
-
-
-def _file_digest(name: str) -> str:
-    if "/" in name:  # it may be written anew
-        return hashlib.sha256((DATA / name).read_bytes()).hexdigest()
-    return _module_digest(name)
 
 
 @cache
@@ -71,7 +67,7 @@ def _module_digest(name: str) -> str:
     path = digest.file_of(name)
     if path is None:
         raise FileNotFoundError(name)
-    return hashlib.sha256(digest.read(path)).hexdigest()
+    return sha256(digest.read(path)).hexdigest()
 
 
 def finite(value: Any) -> Any:
@@ -87,7 +83,7 @@ def seal_of(record: Mapping[str, Any]) -> str:
     """Return 16 hex digits over keys and values, however the file is laid out."""
     bare = {key: value for key, value in record.items() if key != CHECK}
     text = json.dumps(bare, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
+    return sha256(text.encode()).hexdigest()[:16]
 
 
 def sealed(record: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,7 +1,6 @@
 """Put a card together and write its file."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -43,7 +42,7 @@ def make_card(
         held_out=HeldOut(verdicts.count(OK), verdicts.count(FAILED), verdicts.count(OUTSIDE),
                          case.seed),
         reference=Reference("reference", source.grid, source.routes, uncertainties(known)),
-        cost=Cost(*_seconds(timing, first), (built and built.card.get("build_s")) or 0.0),
+        cost=Cost(*seconds_of(timing, first), (built and built.card.get("build_s")) or 0.0),
         machine=this_machine(),
     )  # fmt: skip
 
@@ -66,15 +65,10 @@ def _name_of(file: Path) -> str:
     return (file.relative_to(home) if file.is_relative_to(home) else file).as_posix()
 
 
-def _seconds(timing: Timing, first: float) -> tuple[float, float, float]:
+def seconds_of(timing: Timing, first: float) -> tuple[float, float, float]:
+    """Return a call's seconds as a card has them: median, spread, first call."""
     median, iqr, once = (float(f"{t:.3g}") for t in (timing.median, timing.iqr, first))
     return median, iqr, once
-
-
-def timed_card(card: Card, timing: Timing, first: float) -> Card:
-    """Return a card with times measured anew, on this machine."""
-    cost = Cost(*_seconds(timing, first), card.cost.build_s)
-    return replace(card, cost=cost, machine=this_machine())
 
 
 def write_card(card: Card, folder: Path) -> Path:

@@ -12,6 +12,7 @@ import statistics
 import subprocess
 import sys
 import time
+import timeit
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -67,19 +68,12 @@ def time_call(
     call: Callable[[], object], *, repeats: int = REPEATS, batch: float = BATCH
 ) -> Timing:
     """Return the time of a call; the first one is apart."""
-    first = _seconds(call, 1)
-    once = _seconds(call, 1)
+    clock = timeit.Timer(call, timer=CLOCK)
+    first, once = clock.timeit(1), clock.timeit(1)
     n = max(1, math.ceil(batch / max(once, 1e-7)))
-    times = [_seconds(call, n) for _ in range(repeats)]
+    times = [spent / n for spent in clock.repeat(repeats, n)]
     low, _, high = statistics.quantiles(times, n=4)
     return Timing(statistics.median(times), high - low, min(times), repeats, first)
-
-
-def _seconds(call: Callable[[], object], n: int) -> float:
-    began = CLOCK()
-    for _ in range(n):
-        call()
-    return (CLOCK() - began) / n
 
 
 def idle_step() -> Any:

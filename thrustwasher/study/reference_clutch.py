@@ -4,13 +4,12 @@ Chart `settled` is slip that lasts for ever, as ``solve_clutch`` takes it; chart
 pack that closes while its slip runs out, as in a shift, at points of time. The drum stands still.
 """
 
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..clutch.engagement import PackCourse, engage_clutch
+from ..clutch.engagement import engage_clutch, outputs_over
 from ..clutch.kernels import advance, pack_outputs
 from ..clutch.kernels import layout as k
 from ..clutch.kernels import rates as clutch_rates
@@ -24,7 +23,6 @@ from .reference_values import Answer, Point, ReferencePoint, ReferenceValues, So
 
 Array = NDArray[np.float64]
 RINGS = (2, 4, 8)
-BEFORE, GAIN = ((b / a) ** 2 - 1.0 for a, b in pairwise(RINGS))
 TOLERANCE = 1e-9
 PLACES = (k.O_TORQUE, k.O_TEMPERATURE, k.O_FILM, k.O_RATIO)  # of QUANTITIES, among the outputs
 # The engagement that rungs are compared in: the force rises, the slip falls. Its film is squeezed
@@ -177,29 +175,15 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
 
 def _engagement(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
     """Return the quantities over the course, and what they may be off by at worst."""
-    a, b, c = (_by_rings(params, n, point) for n in RINGS)
-    value, other = c + (c - b) / GAIN, b + (b - a) / BEFORE
-    off = np.maximum(np.abs(c - b) / GAIN, np.abs(value - other)).max(axis=1)
-    values: Values = dict(zip(QUANTITIES, value.tolist(), strict=True))
-    return values, dict(zip(QUANTITIES, off.tolist(), strict=True))
-
-
-def _by_rings(params: Any, n: int, point: Point) -> Array:
-    """Return the quantities over the course, one row each, of a pack in ``n`` rings."""
-    par, oil = prepare(params, "fine").copy(), point["oil_temperature"]
-    derive_rings(par, n)
     time, load, slip = engagement_points(point["load"], point["speed"])
-    rows = np.empty((len(PLACES), len(time)))
-    pack = PackCourse(par, load[0], oil)
-    for i in range(len(time)):
-        if i:
-            ends = (load[i - 1], slip[i - 1], oil, load[i], slip[i], oil, 0.0, 0.0)
-            pack.advance(ends, time[i] - time[i - 1])
-        out = pack.show(load[i], slip[i], 0.0)
-        if Status(pack.status).is_failure:
-            raise SolveError(f"engagement: {Status(pack.status).advice} (t = {time[i]:g} s)")
-        rows[:, i] = [out[place] for place in PLACES]
-    return rows
+    rows = []
+    for n in RINGS:
+        par = prepare(params, "fine")
+        derive_rings(par, n)
+        outputs, _ = outputs_over(par, time, load, slip, point["oil_temperature"], 0.0 * time)
+        rows.append(dict(zip(QUANTITIES, outputs.T[list(PLACES)], strict=True)))
+    values, uncertainty = ref.extrapolated(rows, (2.0, 2.0), 2.0)
+    return {name: value.tolist() for name, value in values.items()}, uncertainty
 
 
 def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:

@@ -1,8 +1,10 @@
 """Reference values: what they are, at held-out points too, and what a rung says beside them."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
 
 Point = dict[str, float]
 Values = dict[str, float | list[float]]
@@ -68,12 +70,13 @@ class Source:
 
 
 def extrapolated(
-    rows: list[dict[str, float]], ratios: tuple[float, float], order: float
-) -> tuple[dict[str, float], dict[str, float]]:
+    rows: Sequence[Mapping[str, Any]], ratios: tuple[float, float], order: float
+) -> tuple[dict[str, Any], dict[str, float]]:
     """Return values from the two finest of three rows, and what each may still be off by.
 
     ``ratios`` of the resolution from row to row, ``order`` of the error. The uncertainty is the
-    correction or, if larger, the difference from the value that the two coarser rows give.
+    correction or, if larger, the difference from the value that the two coarser rows give; of
+    values over time the largest.
     """
     before, gain = (ratio**order - 1.0 for ratio in ratios)
     values, uncertainty = {}, {}
@@ -81,5 +84,6 @@ def extrapolated(
         a, b, c = (row[name] for row in rows)
         values[name] = c + (c - b) / gain
         other = b + (b - a) / before
-        uncertainty[name] = max(abs(c - b) / gain, abs(values[name] - other))
+        off = np.maximum(abs(c - b) / gain, abs(values[name] - other))
+        uncertainty[name] = float(np.max(off))
     return values, uncertainty

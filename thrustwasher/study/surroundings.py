@@ -5,6 +5,7 @@ import platform
 import subprocess
 import sys
 import time
+import timeit
 from contextlib import suppress
 from functools import cache
 from importlib import metadata
@@ -62,13 +63,7 @@ def load() -> float | None:
 
 def calibration() -> float:
     """Return the least seconds of a fixed loop of additions: what a second is worth here."""
-    best = float("inf")
-    for _ in range(5):
-        began, x = time.perf_counter(), 0.0
-        for i in range(200_000):
-            x += i * 0.5
-        best = min(best, time.perf_counter() - began)
-    return best
+    return min(timeit.repeat("for i in range(200_000): x += i * 0.5", "x = 0.0", number=1))
 
 
 def pin_threads() -> None:

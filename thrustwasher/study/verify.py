@@ -1,7 +1,6 @@
 """Write cards: each rung's error at random held-out points against a reference, and its cost.
 
 python -m thrustwasher.study.verify [MODEL] [FIDELITY] [--sample N] [--params NAME] [--out DIR]
-python -m thrustwasher.study.verify [MODEL] [FIDELITY] --costs
 
 Without FIDELITY only cards that are stale or missing are made; a run that is stopped goes on where
 it was, because reference values and finished cards are kept.
@@ -21,7 +20,7 @@ from ..model.registry import ladder_of, models_with_cards
 from ..model.spec import ModelSpec
 from ..storage.digests import DATA
 from .card_cases import POINTS_IN_PART, Case, cases
-from .card_writer import make_card, timed_card, write_card
+from .card_writer import make_card, write_card
 from .costs import call_cost, first_call
 from .reference_cache import answer, reference_points, source_of
 from .reference_values import ReferencePoint
@@ -35,21 +34,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("model", nargs="?", choices=list(models_with_cards()), help="default: all")
     parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
     parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 500")
-    parser.add_argument(
-        "--costs", action="store_true", help="only time the rungs of fresh cards again"
-    )
     parser.add_argument("--params", metavar="NAME", help="parameter set; default: all")
     parser.add_argument("--out", type=Path, default=DATA / "cards", metavar="DIR")
     options = parser.parse_args(argv)
     rungs = ladder_of(options.model).kernels if options.model else {}
     if options.fidelity and options.fidelity not in rungs:
         parser.error(f"fidelity = {options.fidelity!r}, allowed: {', '.join(rungs)}")
-    make = time_again if options.costs else _case
     failed = 0
     for model in [options.model] if options.model else list(models_with_cards()):
         for case in cases(model):
             if options.params in (None, case.name):
-                failed += make(case, options.fidelity, options.sample or case.n, options.out)
+                failed += _case(case, options.fidelity, options.sample or case.n, options.out)
     return 1 if failed else 0
 
 
@@ -62,14 +57,14 @@ def _case(case: Case, only: str | None, n: int, out: Path) -> int:
         _say(f"{case.spec.key} {case.name}: nothing to do")
         return 0
     began = time.perf_counter()
-    known = _known(case, n)
+    known = known_points(case, n)
     _say(f"\r{case.spec.key} {case.name}: {len(known)} reference values at {n} points, "
          f"{time.perf_counter() - began:.0f} s")  # fmt: skip
     failed = 0
     for rung in wanted:
         try:
             its_case = case_of(case, rung)
-            mine = known if its_case is case else _known(its_case, n)
+            mine = known if its_case is case else known_points(its_case, n)
             for card in rung_cards(its_case, rung, mine):
                 write_card(card, out)
                 _say(summary(card))
@@ -80,7 +75,7 @@ def _case(case: Case, only: str | None, n: int, out: Path) -> int:
     return failed
 
 
-def _known(case: Case, n: int) -> list[ReferencePoint]:
+def known_points(case: Case, n: int) -> list[ReferencePoint]:
     """Return the reference values of a case, of a part of its box fewer."""
     n = n if case.part is None else min(n, POINTS_IN_PART)
 
@@ -91,20 +86,6 @@ def _known(case: Case, n: int) -> list[ReferencePoint]:
             print(text, end=end, file=sys.stderr, flush=True)
 
     return reference_points(case, source_of(case.spec.key), n, show)
-
-
-def time_again(case: Case, only: str | None, n: int, out: Path) -> int:
-    """Measure the costs in fresh cards anew, on a machine that is idle now; return 0."""
-    for rung in [only] if only else ladder_of(case.spec.key).kernels:
-        cards = fresh_cards(case.spec.key, rung, case.params)
-        known = _known(case_of(case, rung), n) if cards else []
-        for card in cards:
-            mine = [t for t in known if t.chart == card.chart]
-            timing = call_cost(case.spec, case.params, rung, mine)
-            write_card(timed_card(card, timing, first_call(case.spec.key, rung)), out)
-            _say(f"  {card.name}: {1e6 * timing.median:.3g} us")
-    forget()
-    return 0
 
 
 def holds(spec: ModelSpec, rung: str, params: Any) -> bool:

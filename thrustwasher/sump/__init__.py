@@ -1,7 +1,6 @@
 """The oil sump: what the parts' heat does to the temperature of their oil.
 
 ==============  ===============================================================
-``model``       its record
 ``parameters``  parameters, inputs and outputs: the one list of all interfaces
 ``kernels``     compiled code
 ==============  ===============================================================

@@ -62,7 +62,7 @@ def places(spec: ModelSpec) -> dict[str, Place]:
     more = find_model(spec.key).sweep.more_inputs
     found = {}
     for s in (*spec.inputs, *(Signal(**fields_) for fields_ in more)):
-        low, high = -math.inf if s.low is None else s.low, math.inf if s.high is None else s.high
+        low, high = s.range
         meta = {"kind": "real", "unit": s.unit, "min": low, "max": high, "relative": s.relative}
         found[s.name] = Place(s.name, True, meta)
     return found | {f.name: Place(f.name, False, f.metadata) for f in fields(spec.params)}

@@ -17,7 +17,6 @@ from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
 
 Array = NDArray[np.float64]
-PIECE = 100_000  # rows of a column that are made into text at a time
 
 
 @dataclass(frozen=True)
@@ -235,10 +234,6 @@ def _identity(
 
 def _digest(part: Any) -> str:
     """Return the digest of a text or of a column."""
-    digest = hashlib.sha256()
-    if isinstance(part, str) or part.dtype == object:
-        digest.update((part if isinstance(part, str) else repr(part.tolist())).encode())
-        return digest.hexdigest()[:16]
-    for a in range(0, len(part), PIECE):
-        digest.update(part[a : a + PIECE].tobytes().hex().encode())
-    return digest.hexdigest()[:16]
+    if not isinstance(part, str):
+        part = repr(part.tolist()) if part.dtype == object else part.tobytes()
+    return hashlib.sha256(part.encode() if isinstance(part, str) else part).hexdigest()[:16]

@@ -1,7 +1,6 @@
 """The planetary set with engine, vehicle, clutch and brake.
 
 ================  ==============================================================
-``model``         its record
 ``parameters``    parameters, inputs and outputs: the one list of all interfaces
 ``vehicle``       a vehicle as inertia and load of the output
 ``mobility``      how slip and twist answer to torques

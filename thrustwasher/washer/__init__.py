@@ -1,15 +1,14 @@
 """The thrust washer in mixed lubrication.
 
-====================  =====================================================================
-``model``             its record
-``parameters``        parameters, inputs and outputs: the one list all interfaces come from
+====================  =========================================================================
+``parameters``        parameters; with ``interface.toml`` the one list all interfaces come from
 ``kernel_arguments``  what its kernels take: constants, and memory that each thread keeps
 ``solve``             one operating point
 ``washer_result``     what a solve returns, and the error to expect of it
 ``load_curve``        all solutions over load, with the folds: continuation in the film
 ``follow``            inputs are given over time, friction and heat follow
 ``map``               solutions on both branches, charted for look-up
-``closed_forms``      exact solutions that a shift or the table of failures uses
+``closed_forms``      an exact solution that a shift uses
 ``kernels``           compiled code
-====================  =====================================================================
+====================  =========================================================================
 """

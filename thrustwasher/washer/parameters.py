@@ -1,12 +1,12 @@
-"""Parameters, inputs and outputs of the thrust washer: the one list all interfaces come from."""
+"""Parameters of the thrust washer; ``interface.toml`` has its inputs and outputs."""
 
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 from ..model.parameters import check_ranges, check_rules, choice, flag, quantity
 from ..model.part_file import made_of
-from ..model.spec import OIL_PORT, ModelSpec, Rule, Signal, Terminal, output
+from ..model.spec import Rule
+from ..model.toml_tables import spec_beside
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
 FRICTION_LAWS = {
@@ -221,69 +221,4 @@ class WasherParams:
         check_rules(self, RULES, broken_rule)
 
 
-LOAD = Signal(name="load", unit="N", help="axial load on the washer, pressing gear to carrier",
-              low=0.0, high=1e4, nominal=300.0, start=300.0)  # fmt: skip
-SPEED = Signal(name="speed", unit="rad/s", help="speed of washer and gear against the carrier",
-               low=-2000.0, high=2000.0, nominal=500.0, start=545.0)  # fmt: skip
-TILT = Signal(name="tilt", unit="rad", help="tilt of the gear about the y axis",
-              low=0.0, high=0.01, nominal=2e-3, start=2e-3)  # fmt: skip
-OIL = Signal(name="oil_temperature", unit="K", help="temperature of oil and outer faces",
-             low=233.15, high=473.15, nominal=300.0, start=297.15)  # fmt: skip
-_ALL = ("load", "speed", "tilt", "oil_temperature")
-_out = partial(output, depends=_ALL)
-
-SPEC = ModelSpec(
-    key="washer",
-    name="ThrustWasher",
-    help="Tilted thrust washer in mixed lubrication: friction torque, temperature, film thickness",
-    params=WasherParams,
-    fidelities={
-        "map": "look-up in charts of fine solutions; the field's answer outside their box",
-        "coarse": "8 x 20 graded nodes: torque within 3 % but near a knee of the curve",
-        "field": "10 x 32 graded nodes: torque within 1 % but near a knee of the curve",
-        "fine": "19 x 64 graded nodes: torque within 0.2 % but near a knee of the curve",
-    },
-    default_fidelity="field",
-    inputs=(LOAD, SPEED, TILT, OIL),
-    outputs=(
-        _out("friction_torque", "N.m", 0.1, "friction torque on the washer, sign of the speed"),
-        _out("temperature", "K", 300.0, "area mean of carrier and washer over the annulus"),
-        _out("film_thickness", "m", 1e-6, "least separation of the mean surfaces of film 1"),
-        _out("temperature_max", "K", 300.0, "highest temperature of carrier and washer"),
-        _out("film_ratio", "1", 3.0, "film thickness over the combined RMS roughness"),
-        _out("fluid_load_share", "1", 1.0, "share of the load that the film carries"),
-        _out("friction_coefficient", "1", 0.05, "torque over load and mean friction radius"),
-        _out("friction_power", "W", 100.0, "heat made by friction, torque times speed"),
-        _out("oil_flow", "m3/s", 1e-6, "oil that leaves film 1 at its rims"),
-        _out("throughflow_heat", "W", 10.0, "heat that this oil carries away"),
-        _out("oil_heat", "W", 100.0,
-             "heat that reaches the oil, by throughflow and far faces, mean of the step"),
-        _out("oil_outlet_temperature", "K", 300.0, "mean temperature of the oil that leaves"),
-        _out("film_temperature", "K", 300.0, "area mean of the oil's temperature in film 1"),
-        _out("stick_margin", "1", 1.0, "torque that gap 2 can hold over the friction torque"),
-        output("energy", "J", 100.0, "heat made by friction since the start"),
-        output("stored_heat", "J", 100.0, "heat stored in the bodies since the start"),
-        Signal(name="regime", unit="1", kind="enumeration", type="Regime", depends=_ALL,
-               help="lubrication regime of the loaded film"),
-        Signal(name="distress", unit="1", kind="boolean", depends=_ALL,
-               help="film lost, or more than 200 K mean rise",
-               events=("film lost, or more than 200 K mean rise", "film regained")),
-        Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-               depends=_ALL, help="how the last solution was obtained"),
-    ),
-    kernel="thrustwasher.washer.kernels.step",
-    rules=RULES,
-    terminals=(
-        Terminal(name="shaft", kind="thrustwasher.WasherFlange",
-                 help="Slip speed, load and tilt in, friction torque out",
-                 members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"),
-                          ("load", "load", "signal"), ("tilt", "tilt", "signal"))),
-        OIL_PORT,
-    ),
-    table="thrustwasher.washer.map.look_up:TABLES",
-    step_size=0.02,  # quasi-steady: the step decides how finely the inputs are followed
-    course=((0.0, 100.0, 545.0, 2e-3, 297.15), (0.6, 400.0, 545.0, 2e-3, 310.0),
-            (1.0, 200.0, 300.0, 1.5e-3, 310.0)),
-    counts=(("Newton iterations", "thrustwasher.washer.kernels.layout:ITERATIONS"),
-            ("heat factors made", "thrustwasher.washer.kernels.layout:FACTORED")),
-)  # fmt: skip
+SPEC = spec_beside(__file__, WasherParams, RULES)

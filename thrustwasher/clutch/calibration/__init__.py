@@ -1,10 +1,8 @@
 """The friction law fitted to measurements: what it has beside every calibration.
 
-===================  ==================================================================
-``calibration``      what is asked, checked; the fit and the coefficients at both ends
-``law_calibration``  what comes out beside what every calibration gives; whether load acts
-``friction_law``     the law as a function of its own constants, with exact derivatives
-``law_problem``      the law as a problem of least squares, with a coarse search for starts
+===================  ============================================================================
+``calibration``      what is asked, checked; the fit, coefficients at both ends, whether load acts
+``friction_law``     the law over its constants: derivatives, a problem of least squares, starts
 ``data_warnings``    points that the law cannot follow, in plain sentences
-===================  ==================================================================
+===================  ============================================================================
 """

@@ -6,8 +6,7 @@ import numpy as np
 
 from ...calibration.identifiability import Verdict, listed
 from ...numerics.jit import Array
-from .friction_law import end_frictions, friction_over
-from .law_problem import LawProblem, bounds_of
+from .friction_law import LawProblem, bounds_of, end_frictions, friction_over
 
 POOR = 0.2  # of the mean friction: an rms residual above it is always worth a warning
 RISE = 0.05  # of the mean friction: a smaller rise with speed is not worth one

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from ...model.spec import ModelSpec
-from ..description.xml_parts import default_experiment, filled
+from ...templates import filled
+from ..description.model_description import default_experiment
 from ..running.direct_instance import DirectInstance
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"

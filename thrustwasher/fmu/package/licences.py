@@ -6,6 +6,7 @@ from importlib import metadata
 from pathlib import Path
 
 from ...errors import EnvironmentProblem
+from ...model.toml_tables import table_beside
 from .model_sources import PACKAGE
 
 PLACE = "documentation/licenses"
@@ -15,21 +16,8 @@ SUMMARY = """Parts of this FMU and their licences; the full texts are beside thi
 {parts}
 None of them asks for anything but that these notices are kept. This list is no legal advice.
 """
-# part -> (file, licence, what it is); in the order of the list
-NATIVE = {
-    "kernels and shell": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
-    "code from numba's templates": ("numba.txt", "BSD-2-Clause", "in every library"),
-    "code from llvmlite": ("llvmlite.txt", "BSD-2-Clause", "in every library"),
-    "code from LLVM and compiler-rt": (
-        "llvm.txt", "Apache-2.0 WITH LLVM-exception", "in every library"),
-    "FMI headers": ("fmi-headers.txt", "BSD-2-Clause", "declarations only"),
-    "start-up code of zig": ("zig.txt", "MIT", "in every library"),
-}  # fmt: skip
-MINGW = {"start-up code of mingw-w64": ("mingw-w64.txt", "ZPL-2.1 and others", "in win64")}
-PYTHON = {
-    "slave": ("license.txt", "BSD-3-Clause", "thrustwasher's own"),
-    "library and modules of pythonfmu": ("pythonfmu.txt", "MIT", "binaries, resources"),
-}
+# Of "native", "mingw" and "python" FMUs: part -> file, licence, what it is; in this order.
+PARTS = table_beside(__file__, "notices.toml")
 
 
 def licences(target: str, platforms: Sequence[str] = ()) -> dict[str, bytes]:
@@ -43,10 +31,8 @@ def licences(target: str, platforms: Sequence[str] = ()) -> dict[str, bytes]:
 
 def listed_licences(target: str, platforms: Sequence[str] = ()) -> list[tuple[str, str, str, str]]:
     """Return (file, part, licence, where) of each part of an FMU."""
-    parts = PYTHON
-    if target == "native":
-        mingw = MINGW if "win64" in platforms else {}
-        parts = NATIVE | mingw
+    mingw = target == "native" and "win64" in platforms
+    parts = PARTS[target] | (PARTS["mingw"] if mingw else {})
     return [(name, part, licence, where) for part, (name, licence, where) in parts.items()]
 
 

@@ -8,14 +8,13 @@ from pathlib import Path
 from ...errors import EnvironmentProblem
 from ...model.registry import MODELS as HOMES
 from ...model.spec import ModelSpec
-from ...native.digest import file_of
 from ..description.interface import enumerations, variables
 from ..model_kernels import content_digest, package_version
 
 PACKAGE = Path(str(files(__name__.partition(".")[0])))
 OWN = (PACKAGE / "fmu", PACKAGE / "native")  # what packs and links
 SHARED = ("shell", "documentation")  # folders beside those of the models
-TEXTS = (".py", ".c", ".h", ".md", ".html", ".jinja", ".txt", ".svg", ".png")
+TEXTS = (".py", ".c", ".h", ".md", ".html", ".jinja", ".toml", ".txt", ".svg", ".png")
 
 
 def source_folder() -> Path:
@@ -34,9 +33,8 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
     Of a model outside this package that is the folder of its record.
     """
     home = HOMES.get(spec.key, PACKAGE.name)
-    record = None if home.partition(".")[0] == PACKAGE.name else file_of(f"{home}.model")
-    if record:
-        return record.parent
+    if home.partition(".")[0] != PACKAGE.name:
+        return Path(str(files(home) / "model.toml")).parent
     return sources / re.sub(r"(?<=[a-z])(?=[A-Z])", "_", spec.kind or spec.name).lower()
 
 

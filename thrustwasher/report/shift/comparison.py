@@ -31,6 +31,7 @@ def comparison_page(runs: Sequence[Run], pictures: Sequence[Any]) -> Page:
         warnings=[f"{name}: {text}" for name, run in named for text in run["warnings"]],
         cards=[],
         sections=[
+            Section("compared", "What is compared", tables=[settings_table(runs)]),
             Section("said", "What happened",
                     texts=[f"{name}: {' '.join(run['summary'])}" for name, run in named]),
             Section("course", "Both shifts over time", widgets=["plots"], plots=stills),
@@ -43,6 +44,19 @@ def comparison_page(runs: Sequence[Run], pictures: Sequence[Any]) -> Page:
         scripts=SCRIPTS,
         data=page_data(runs),
     )  # fmt: skip
+
+
+ALWAYS = ("from", "scene", "communication step", "master", "rungs")
+
+
+def settings_table(runs: Sequence[Run]) -> Table:
+    """Return where both runs come from, how they were stepped, and the parameters that differ."""
+    ours, theirs = (run["settings"] for run in runs)
+    rows = [
+        (name, ours.get(name, ""), theirs.get(name, "")) for name in ours | theirs
+        if name in ALWAYS or ours.get(name) != theirs.get(name)
+    ]  # fmt: skip
+    return Table(("", *NAMES), rows)
 
 
 def difference_table(runs: Sequence[Run]) -> Table:

@@ -6,12 +6,14 @@ from typing import Any
 
 from ...units import format_quantity as say
 from ..html import Page, Plot, Section, Table
+from . import summary
 from .live_washer import live_washer
 from .overview_plot import overview_figure
 from .shift_data import page_data, run_data
-from .shift_record import Event, Phase, Record, record_of
+from .shift_record import Event, KeyFigure, Phase, Record, record_of
 from .shift_report import ENERGY_TEXT, SCRIPTS
 
+ROOM = 1_400_000  # characters of packed signals: this page has less beside them
 CAPTION = "Temperatures, speeds and torques over all shifts."
 STILL = ("Temperatures", "Speeds", "Torques")
 
@@ -24,7 +26,9 @@ def sequence_page(result: Any) -> Page:
         f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
         f"{say(oil[-1], 'K', digits=3)}."
     )
-    run = run_data(whole, {}, [said]) | {"slip": None, "shifts": len(records)}
+    warnings = _warnings(records)
+    run = run_data(whole, {}, room=ROOM, said=([said], warnings))
+    run |= {"slip": None, "shifts": len(records)}
     sections = [
         Section("course", "The shifts over time", widgets=["plots"], tables=[_table(records)],
                 plots=[Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True,
@@ -34,12 +38,15 @@ def sequence_page(result: Any) -> Page:
     washer = live_washer(whole)
     if washer:
         sections.insert(1, Section("washer", "The thrust washer", widgets=["discs"]))
+    if result.messages:
+        texts = [f"The run says: {message}." for message in result.messages]
+        sections.append(Section("trust", "How far to trust it", texts=texts))
     return Page(
         title=whole.title,
         subtitle=f"Scene {whole.name}, {result.time[-1] - result.time[0]:.4g} s simulated in "
         f"{say(result.wall_time, 's', digits=3)}, {len(whole.parts)} FMUs, made by thrustwasher",
         summary=[said],
-        warnings=result.messages,
+        warnings=warnings,
         cards=[],
         sections=sections,
         footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
@@ -63,17 +70,37 @@ def _whole(result: Any, records: Sequence[Record]) -> Record:
     )  # fmt: skip
 
 
+def _warnings(records: Sequence[Record]) -> list[str]:
+    """Return what must not be missed, of the first shift that it is said of."""
+    found: dict[str, tuple[str, list[str]]] = {}
+    for i, record in enumerate(records, 1):
+        for text in summary.warnings(record):
+            found.setdefault(text.partition(":")[0], (text, []))[1].append(str(i))
+    return [
+        f"Shift {own[0]}: {text}" + (f" Likewise shifts {', '.join(own[1:])}." if own[1:] else "")
+        for text, own in found.values()
+    ]
+
+
+def _head(records: Sequence[Record], row: Sequence[KeyFigure | None]) -> str:
+    """Return the words of a figure; where they name the pack that engages, they name none."""
+    known = [(r.engaging, f.text) for r, f in zip(records, row, strict=True) if f]
+    first = known[0][1]
+    same = all(text == first for _, text in known)
+    return first if same else first.replace(known[0][0], "engaging pack")
+
+
 def _table(records: Sequence[Record]) -> Table:
     """Return key figures, a row for each shift."""
     names = ("lock_after_ramp_start", "slip_energy", "peak_clutch_temperature",
              "peak_brake_temperature", "peak_jerk", "least_washer_film_ratio")  # fmt: skip
     found = [[record.figure(name) for name in names] for record in records]
     shown = [k for k in range(len(names)) if any(row[k] for row in found)]
-    heads = [next(row[k].text for row in found if row[k]) for k in shown]  # type: ignore[union-attr]
+    heads = [_head(records, [row[k] for row in found]) for k in shown]
     return Table(
         heads=("shift", "begins", *heads),
         rows=[
-            (f"{i} {'up' if record.engaging == 'clutch' else 'down'}", f"{record.time[0]:.5g} s",
+            (f"{i} {'up' if record.engaging == 'clutch' else 'down'}", f"{record.ramp_start:.5g} s",
              *("" if (f := row[k]) is None or f.value is None
                else say(f.value, f.unit, digits=4, difference=f.difference) for k in shown))
             for i, (record, row) in enumerate(zip(records, found, strict=True), 1)

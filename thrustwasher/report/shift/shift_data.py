@@ -15,16 +15,17 @@ import numpy as np
 from ...errors import ParameterError
 from ...model.record import resolve
 from ...units import UNITS, pretty_unit
-from . import summary
+from . import shift_tables, summary
 from .shift_record import PACKS, Array, Record
 from .worst_moments import Moment
 
-VERSION = 1  # of this form
+VERSION = 2  # of this form
 KEYS = frozenset(  # of a run
     "name title summary warnings figures phases events recorded points packed moving steady shifts "
-    "slip aside inputs moments".split()
+    "slip aside inputs moments settings".split()
 )
-ROOM = 1_000_000  # characters of packed signals: the page stays below 2 MB
+ROOM = 1_250_000  # characters of packed signals: the page stays below 2 MB
+DROPPED = 8  # bits of a number's 24 that a long run leaves out: four digits stay
 JERK_TIME = 0.01  # s over which a change of acceleration counts
 READABLE = {"Pa": "kPa", "J": "kJ", "W": "kW", "m": "um", "m3/s": "l/min", "rad": "mrad"}
 NO_LIMIT = 1.0  # permissible film ratio of flanks without one: safety and ratio are the same
@@ -55,18 +56,20 @@ def page_data(runs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def run_data(
-    record: Record, moments: Mapping[str, Moment | None], said: Sequence[str] | None = None
-) -> dict[str, Any]:
+    record: Record, moments: Mapping[str, Moment | None], *, room: int = ROOM,
+    said: tuple[Sequence[str], Sequence[str]] | None = None,
+) -> dict[str, Any]:  # fmt: skip
     """Return a run as JSON types; ``moments``: the washer solved again, by the moment's words.
 
-    ``said`` is its summary, if it is not that of one shift; the run's messages are its warnings.
-
-    Signals that change are packed, all others are a number each.
+    ``said`` are its summary and its warnings, if they are not those of one shift.
+    Signals that change are packed in ``room`` characters, all others are a number each.
     """
     signals = dict(record.signals) | _of_the_vehicle(record) | _with_oil(record)
     moving = [name for name, values in signals.items() if np.ptp(values) != 0.0]
     rows = np.array([record.time, *(signals[name] for name in moving)], dtype="<f4")
-    kept, packed = _packed_to_fit(rows, record)
+    places: dict[bytes, int] = {}  # what one part gives another takes: such signals share a row
+    row_of = [places.setdefault(row.tobytes(), len(places)) for row in rows]
+    kept, packed = _packed_to_fit(rows[np.unique(row_of, return_index=True)[1]], record, room)
     swing = record.judder
     judged = [] if swing is None else [
         (swing.start, "the swing's growth is judged from here"), (swing.end, "to here"),
@@ -74,15 +77,16 @@ def run_data(
     return {
         "name": record.name,
         "title": record.title,
-        "summary": summary.sentences(record) if said is None else said,
-        "warnings": summary.warnings(record) if said is None else record.messages,
+        "summary": said[0] if said else summary.sentences(record),
+        "warnings": said[1] if said else summary.warnings(record),
         "figures": [figure._asdict() for figure in record.key_figures],
         "phases": record.phases,
         "events": sorted([*((e.time, e.text) for e in record.events), *judged]),
         "recorded": len(record.time),
         "points": kept,
         "packed": packed,
-        "moving": [signal_of(record, name) for name in moving],
+        "moving": [{**signal_of(record, name), "row": k}
+                    for name, k in zip(moving, row_of[1:], strict=True)],
         "steady": [
             {**signal_of(record, name), "value": float(values[0])}
             for name, values in signals.items() if name not in moving and np.isfinite(values[0])
@@ -92,6 +96,7 @@ def run_data(
         "aside": set_aside(record),
         "inputs": [s.name for s in part.spec.inputs] if (part := record.part("washer")) else [],
         "moments": {words: _moment(m) for words, m in moments.items() if m is not None},
+        "settings": shift_tables.settings(record),
     }  # fmt: skip
 
 
@@ -175,23 +180,37 @@ def signal_of(record: Record, name: str) -> dict[str, Any]:
     return {"name": name, "help": words, **_shown(found.unit, found.relative), **limit}
 
 
-def _packed_to_fit(rows: Array, record: Record) -> tuple[int, str]:
-    """Return how many points are kept and the packed rows; of a long run every second, third ...
+def _packed_to_fit(rows: Array, record: Record, room: int) -> tuple[int, str]:
+    """Return how many points are kept and the packed rows.
 
-    Points beside events stay, and so does the last one.
+    Those of a long run have four digits; then every second, third ... point is kept, and with them
+    the extremes of all signals in each phase, those beside events and the last one.
     """
-    packed = pack(rows)
-    every = 1
-    while len(packed) > ROOM and every < rows.shape[1]:
-        every = max(every + 1, every * len(packed) // ROOM)
-        keep = np.zeros(rows.shape[1], dtype=bool)
-        keep[::every] = keep[-1] = True
-        beside = np.searchsorted(record.time, [e.time for e in record.events])
-        for shift in (-1, 0, 1):
-            keep[np.clip(beside + shift, 0, len(keep) - 1)] = True
-        thin = rows[:, keep]
-        packed, kept = pack(thin), thin.shape[1]
-    return rows.shape[1] if every == 1 else kept, packed
+    keep, every, packed = np.ones(rows.shape[1], dtype=bool), 1, pack(rows)
+    if len(packed) > room:
+        bits = rows[1:].view("<i4") + (1 << DROPPED - 1)
+        rows = np.vstack((rows[:1], (bits >> DROPPED << DROPPED).view("<f4")))
+        stay, packed = _to_stay(rows, record), pack(rows)
+        while len(packed) > room and every < rows.shape[1]:
+            every = max(every + 1, every * len(packed) // room)
+            keep = stay.copy()
+            keep[::every] = True
+            packed = pack(rows[:, keep])
+    return int(keep.sum()), packed
+
+
+def _to_stay(rows: Array, record: Record) -> Array:
+    """Return which points are extremes of a phase, stand beside an event or at the end."""
+    keep = np.zeros(rows.shape[1], dtype=bool)
+    keep[-1] = True
+    for _, start, end in record.phases:
+        first, last = np.clip(np.searchsorted(record.time, [start, end]), 0, len(keep) - 1)
+        for part in (rows[1:, first : last + 1], -rows[1:, first : last + 1]):
+            keep[first + np.nan_to_num(part, nan=np.inf).argmin(axis=1)] = True
+    beside = np.searchsorted(record.time, [e.time for e in record.events])
+    for shift in (-1, 0, 1):
+        keep[np.clip(beside + shift, 0, len(keep) - 1)] = True
+    return keep
 
 
 def pack(rows: Array) -> str:

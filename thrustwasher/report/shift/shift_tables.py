@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ...units import display_unit
 from ...units import format_quantity as say
 from ..html import Table
 from ..palette import RPM
@@ -105,8 +106,11 @@ def washer_table(record: Record) -> Table | None:
         values = record.series(f"washer.{s.name}") if s.name in OF_A_WASHER else None
         if values is not None:
             row: list[str] = [s.help]
+            unit, size = display_unit(float(np.nanmax(np.abs(values))), s.unit)
             for index in (int(np.nanargmin(values)), int(np.nanargmax(values))):
-                row += [say(float(values[index]), s.unit), f"{record.time[index]:.4g}"]
+                value = float(values[index])
+                told = say(value, "K") if s.unit == "K" else f"{value / size:.4g} {unit}"
+                row += [told.removesuffix(" 1"), f"{record.time[index]:.4g}"]
             rows.append(tuple(row))
     heads = ("of one washer", "least", "at [s]", "greatest", "at [s]")
     return Table(heads, rows, numbers=(1, 2, 3, 4)) if rows else None
@@ -198,6 +202,26 @@ def _parameters(part: Part) -> Table:
     return Table(heads, rows, numbers=(1,), title=title, folded=True)
 
 
+def settings(record: Record) -> dict[str, str]:
+    """Return what was simulated, by name: the scene, the steps, the rungs, every parameter."""
+    tables = [(part.name, _parameters(part).rows) for part in record.parts]
+    rungs = [f"{name} {row[1]}" for name, rows in tables for row in rows if row[0] == "fidelity"]
+    given = {
+        "scene": f"{record.name}: {record.title}",
+        "communication step": say(record.step, "s") if record.steps is None else "chosen",
+        "master": record.master,
+        "rungs": ", ".join(rungs),
+        "temperature of the oil": say(record.oil_temperature, "K"),
+    }
+    own = {
+        f"{name}: {row[3]}": " ".join(row[1:3]).strip()
+        for name, rows in tables
+        for row in rows
+        if row[3]
+    }
+    return given | own
+
+
 def source_texts(record: Record) -> list[str]:
     """Return where the defaults of the models in this run come from."""
     docs = {p.spec.name: (p.spec.params.__doc__ or "").replace("``", "") for p in record.parts}
@@ -223,7 +247,7 @@ def _percent(part: float, whole: float) -> str:
     if not whole or not math.isfinite(part / whole):
         return ""
     share = 100.0 * part / whole
-    return f"{share:.1e}" if share and abs(share) < 1e-3 else f"{share:.3f}"
+    return "below 0.001" if share and abs(share) < 1e-3 else f"{share:.3f}"
 
 
 def _ms(seconds: float) -> str:

@@ -1,26 +1,20 @@
 """The key figures of a shift and its energy balance, read from its signals."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.jit import Array
 from ..oscillation.judder import Judder, judder_figures
+from ..scene.connections import PACKS
 from ..scene.scene import Scene
 from .comfort import comfort_figures, phase_figures
 from .events_and_phases import Event, Signals, turning
-from .figure_list import FILM_SPEED, Found, KeyFigure, assemble
+from .figure_list import FIGURES, FILM_SPEED, Found, KeyFigure, assemble
 
 FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
 TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlaps a little
-# Figure -> signal whose greatest value counts.
-MESH_PEAKS = {
-    "peak_mesh_load": "mesh.load",
-    "peak_flash_temperature": "mesh.temperature",
-    "peak_flash_rise": "mesh.flash_rise",
-    "peak_mesh_temperature": "mesh.surface_temperature",
-    "peak_mesh_stress": "mesh.contact_stress",
-    "peak_mesh_thermal_stress": "mesh.thermal_stress",
-}
 STEELS = ("aisi1020", "aisi4340")  # of the paper, with its heat
 MESHES = ("mesh", "ring_mesh")
 SAFETIES = ("pitting_safety", "scuffing_safety")
@@ -39,6 +33,7 @@ def key_figures(
         "lock_after_ramp_start": (None if lock is None else lock - start, None),
         "lock_after_half_ramp": (None if lock is None or middle is None else lock - middle, None),
         "release_time": (release, None),
+        **read_off(scene, time, signals),
         **_slip(scene, time, signals, lock),
         **friction_figures(scene, time, signals, lock),
         **pack_figures(scene, "clutch", time, signals),
@@ -47,7 +42,6 @@ def key_figures(
         **phase_figures(scene, signals, events, lock),
         **comfort_figures(scene, time, signals, lock),
         **judder_figures(judder),
-        "peak_sun_thrust": peak(signals["transmission.sun_thrust"], time),
         **washer_figures(time, signals),
         **mesh_figures(scene, time, signals),
     }
@@ -70,15 +64,25 @@ def _engine_speed(scene: Scene, time: Array, signals: Signals, lock: float | Non
     return float(ratio * np.interp(lock, time, signals["transmission.output_speed"]))
 
 
+def read_off(scene: Scene, time: Array, signals: Signals) -> Found:
+    """Return the figures that are read off one signal each; of a pack not in use none."""
+    packs = {"pack": scene.engaging, "other": scene.releasing}
+    found: Found = {}
+    for name, figure in FIGURES.items():
+        reading, _, signal = figure.reading.format(**packs).partition(" ")
+        part = signal.partition(".")[0]
+        if signal in signals and (part not in PACKS or in_use(part, signals)):
+            found[name] = READINGS[reading](signals[signal], time)
+    return found
+
+
 def _slip(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Found:
-    """Return slip, heat and power of the pack that engages."""
+    """Return heat and power of the pack that engages, and the inertia that it stops alone."""
     pack = scene.engaging
-    slip = signals[f"transmission.{pack}_speed"]
     heat = float(signals[f"transmission.{pack}_heat"][-1])
-    greatest = float(np.max(np.abs(slip)))
+    greatest = float(np.max(np.abs(signals[f"transmission.{pack}_speed"])))
     area = scene.parts[pack].params.lining_area
     found: Found = {
-        "greatest_slip": peak(np.abs(slip), time),
         "slip_energy": (heat, None),
         "slip_energy_per_area": (heat / area, None),
         "peak_power": peak(np.abs(signals[f"{pack}.friction_power"]), time),
@@ -134,26 +138,33 @@ def least(values: Array, time: Array) -> tuple[float | None, float | None]:
     return (float(values[i]), float(time[i])) if np.isfinite(values[i]) else (None, None)
 
 
-def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Found:
-    """Return the heat, flux, torque, temperature and film of one pack; of one in use only.
+# What a figure is of a signal. Torques are those of the pack itself: the driveline's overshoots for
+# a step where the extrapolated capacity has a corner.
+READINGS: dict[str, Callable[[Array, Array], tuple[float | None, float | None]]] = {
+    "greatest": peak,
+    "least": least,
+    "size": lambda values, time: peak(np.abs(values), time),
+    "last": lambda values, _: (float(values[-1]), None),
+}
 
-    Peaks are those of the pack itself: the driveline's torque overshoots for a step where the
-    extrapolated capacity has a corner.
-    """
-    if not np.any(signals[f"{pack}.load"] > 0.0):
+
+def in_use(pack: str, signals: Signals) -> bool:
+    """Tell if a pack is ever pressed."""
+    return bool(np.any(signals[f"{pack}.load"] > 0.0))
+
+
+def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Found:
+    """Return the heat, flux and share of oil of one pack; of one in use only."""
+    if not in_use(pack, signals):
         return {}
     area = scene.parts[pack].params.lining_area
     found: Found = {
         f"{pack}_heat_per_area": (float(signals[f"transmission.{pack}_heat"][-1]) / area, None),
         f"peak_{pack}_heat_flux": peak(np.abs(signals[f"{pack}.friction_power"]) / area, time),
-        f"peak_{pack}_temperature": peak(signals[f"{pack}.temperature"], time),
-        f"peak_{pack}_torque": peak(np.abs(signals[f"{pack}.friction_torque"]), time),
-        f"least_{pack}_film_ratio": least(signals[f"{pack}.film_ratio"], time),
     }
     if f"{pack}.oil_heat" in signals:
         given = float(np.sum(signals[f"{pack}.oil_heat"][1:] * np.diff(time)))
         found[f"{pack}_oil_heat"] = (given, None)
-        found[f"{pack}_stored_heat"] = (float(signals[f"{pack}.stored_heat"][-1]), None)
     if f"{pack}.viscous_torque" in signals:
         slip = signals[f"{pack}.speed"]
         oil, whole = (
@@ -237,7 +248,7 @@ def tie_up_figures(scene: Scene, time: Array, signals: Signals) -> Found:
 
 
 def washer_figures(time: Array, signals: Signals) -> Found:
-    """Return load, temperatures and film of the washer; nothing without one."""
+    """Return load and film of the washer; nothing without one."""
     if "washer.friction_torque" not in signals:
         return {}
     moving = turning(signals)
@@ -245,29 +256,22 @@ def washer_figures(time: Array, signals: Signals) -> Found:
     lost = float(np.sum(np.diff(time)[distress[1:]]))
     return {
         "peak_washer_load": peak(signals["transmission.washer_load"], time),
-        "peak_washer_temperature": peak(signals["washer.temperature"], time),
-        "peak_washer_temperature_max": peak(signals["washer.temperature_max"], time),
         "least_washer_film_ratio": least_film("washer", time, signals),
         "washer_distress_time": (lost, None),
     }
 
 
 def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
-    """Return heat, temperatures, film and safety of the meshes; nothing without one.
+    """Return heat, film and safety of the meshes; nothing without one.
 
     Safeties are the least of sun and ring mesh. With the paper's heat there are stress margins of
     its steels instead, 1 - utilisation: at 0 the endurance limit is reached.
     """
     if "mesh.friction_torque" not in signals:
         return {}
-    found: Found = {
-        name: peak(signals[signal], time)
-        for name, signal in MESH_PEAKS.items() if signal in signals
-    }  # fmt: skip
+    found: Found = {"mesh_loss": (float(signals["transmission.mesh_heat"][-1]), None)}
     if "mesh.film_ratio" in signals:
         found["least_mesh_film_ratio"] = least_film("mesh", time, signals)
-    if "mesh.allowable_ratio" in signals:
-        found["least_allowable_ratio"] = least(signals["mesh.allowable_ratio"], time)
     paper = getattr(scene.parts["mesh"].params, "film_heat", "atan") == "atan"
     for name in () if paper else SAFETIES:
         own = [signals[f"{part}.{name}"] for part in MESHES if part in scene.parts]
@@ -276,7 +280,6 @@ def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
         used = signals.get(f"mesh.stress_utilization_{steel}")
         if used is not None:
             found[f"stress_margin_{steel}"] = least(1.0 - used, time)
-    found["mesh_loss"] = (float(signals["transmission.mesh_heat"][-1]), None)
     return found
 
 

@@ -10,9 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from ...model.spec import ModelSpec
+from ...templates import filled
 from ...units import exponents
-from ..scene.connections import PLACES
-from .system_structure import PASSED_ON, Component, Structure
+from .system_structure import BORDER, PASSED_ON, Component, Structure
+
+HERE = Path(__file__).parent
 
 
 def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
@@ -24,26 +26,14 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
     units = {m["unit"] for found in used for m in found.values() if m["kind"] == "real"}
     units |= {s.unit for p in system.components for s in p.spec.outputs if s.kind == "real"}
     told = {
-        **system._asdict(), "tool": tool, "date": date, "places": PLACES, "values_of": values_of,
-        "units": {name: exponents(name) for name in units},
+        **system._asdict(), "tool": tool, "date": date, "places": BORDER["places"],
+        "values_of": values_of, "units": {name: exponents(name) for name in units},
     }  # fmt: skip
     return {
-        "SystemStructure.ssd": _filled("system.ssd.jinja", plain=False, **told),
-        "Parts.ssd": _filled("system.ssd.jinja", plain=True, **told),
-        "documentation/index.html": _filled("page.html.jinja", **told),
+        "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", plain=False, **told),
+        "Parts.ssd": filled(HERE / "system.ssd.jinja", plain=True, **told),
+        "documentation/index.html": filled(HERE / "page.html.jinja", **told),
     }
-
-
-def _filled(name: str, **told: Any) -> bytes:
-    """Return a template of this folder filled in; values are escaped."""
-    from jinja2 import Environment, StrictUndefined
-
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )  # fmt: skip
-    text = Path(__file__).with_name(name).read_text("utf-8")
-    return environment.from_string(text).render(told).encode()
 
 
 def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:

@@ -15,15 +15,17 @@ from typing import Any, NamedTuple
 
 from ...errors import ParameterError
 from ...model.spec import ModelSpec, Signal, tailored
-from ..cosim.instances import Stepping
+from ...model.toml_tables import table_beside
+from ..cosim.system import Stepping
 from ..run import connected
-from ..scene.connections import COMMAND, SHOWN, SOURCE, SOURCE_SPEC, Link, links
+from ..scene.connections import COMMAND, SOURCE, SOURCE_SPEC, Link, links
 from ..scene.scene import Part, Scene
 
 MASTER = "jacobi"
 # What the values in the package say instead, for masters that pass values on until they agree.
 PASSED_ON = {("transmission", "torque_age"): 0, (SOURCE, "lead"): 0.0}
 OIL = "oil_temperature"
+BORDER = table_beside(__file__, "border.toml")
 Starts = Mapping[str, Mapping[str, float]]
 
 
@@ -126,7 +128,7 @@ def _border(parts: Mapping[str, Part]) -> list[Border]:
     None has the name of a part: OMSimulator would look for it inside that part.
     """
     found = []
-    for part, names in SHOWN:
+    for part, names in BORDER["shown"].items():
         if part in parts:
             known = {s.name: s for s in parts[part].spec.outputs}
             shown = {"transmission": "", SOURCE: "shift_"}.get(part, f"{part}_")

@@ -2,15 +2,13 @@
 
 ====================  ============================================================================
 ``chart_cost``        Error against cost: every way a model can be solved, on logarithmic axes
-``chart_page``        All charts as one page, as Markdown, and as drawings
-``chart_series``      What a chart is: fixed operating points and the series of ways to solve
+``chart_page``        All charts as one page, as Markdown, and as drawings; where methods fail
+``chart_series``      What a chart is: the series of ways to solve, the points of ``cases.toml``
 ``chart_text``        Which samples nothing beats, and the words beside the charts
 ``clutch_chart``      The chart of the clutch: engagements at every rung and over the step
-``corrections_page``  What the corrections of the physics moved: figures before and after
-``gearmesh_chart``    The chart of the gear mesh: its operating points
+``gearmesh_chart``    The chart of the gear mesh: its rungs
 ``methods``           Methods to solve a model that can be measured
-``stability_page``    Where methods fail, as a page of Markdown
-``washer_chart``      The chart of the washer: points on both branches, meshes
+``washer_chart``      The chart of the washer: rungs and meshes
 ``work_precision``    Work-precision: error and cost of methods on the same cases, by the same clock
 ====================  ============================================================================
 """

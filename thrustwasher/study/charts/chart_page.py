@@ -1,18 +1,35 @@
 """All charts as one page, as Markdown, and as drawings; made from the JSON record alone."""
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.figure import Figure
+
 from ...model.registry import find_spec
+from ...model.toml_tables import table_beside
 from ...report.html import Page, Plot, Section, Table, fill_template
+from ...report.palette import BLUE, GREY
+from ...report.style import label, new_figure, styled
+from ...storage.digests import DATA
+from ..macro_steps import FIRST_STEP, WAYS
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
-from .corrections_page import corrections_section
-from .stability_page import WORDS
 
 TITLE = "Speed against accuracy"
+SAME_EVERYWHERE = DATA / "same_everywhere.json"
+WORDS = {
+    "ok": "right", "slow": "right, but costs", "says": "fails and says so",
+    "LIES": "wrong without a word",
+}  # fmt: skip
 SCRIPTS = ("chart/chart.css", "chart/chart.js")
+OF_PACKS = "--fidelity clutch={rung} --fidelity brake={rung}"
+OPTIONS = {  # of commands, by what changes along a series
+    "rung": "--fidelity {value}", "grid": "--grid {value}",
+    "step": '--fidelity {rung} --step "{value}"', "macro step": f'--step "{{value}}" {OF_PACKS}',
+    "master_tolerance": f"--step {FIRST_STEP:g} --master-tolerance {{value}} {OF_PACKS}",
+}  # fmt: skip
 HOW = (
     "Errors are measured against converged values on a fixed list of operating points with the "
     "hard corners in it, times on warm calls one per cent away; filled marks are the worst case, "
@@ -50,9 +67,11 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
                    tables=[Table(heads, rows, title="All cells", folded=True)])  # fmt: skip
 
 
-def _points(study: Mapping[str, Any], model: str = "") -> dict[str, list[list[str]]]:
+def _points(study: Mapping[str, Any], model: str) -> dict[str, list[list[str]]]:
     """Return the words of every mark in a study's drawing: way, errors, worst case, command."""
     found: dict[str, list[list[str]]] = {}
+    rungs = find_spec(model).fidelities if "cases" in study else {}
+    per = "a call" if rungs else "a simulated second"
     for q in study["quantities"]:
         for s in study["samples"]:
             errors = s["errors"].get(q["name"], {})
@@ -61,26 +80,37 @@ def _points(study: Mapping[str, Any], model: str = "") -> dict[str, list[list[st
                     f"{s['family']}: {s['label']}",
                     f"{q['name']}: worst {text.error_text(errors['worst'], q)}, rms "
                     f"{text.error_text(errors['rms'], q)}",
-                    f"{text.seconds(s['call_median'])} a call, fails in {s['n_failed']} of "
+                    f"{text.seconds(s['call_median'])} {per}, fails in {s['n_failed']} of "
                     f"{s['n_cases']} cases",
+                    f"worst case: {study.get('scene', errors['case'])}",
+                    *command_lines(study, model, s, errors["case"]),
                 ]
-                words += [f"worst case: {errors['case']}"] if errors["case"] else []
-                words += [_command(study, model, s, errors["case"])] if model else []
+                if s["knob"] == "rung":
+                    words.insert(1, f"{s['value']}: {rungs.get(s['value'], '')}")
                 found.setdefault(mark_of(q["name"], s["family"]), []).append(words)
     return found
 
 
-def _command(study: Mapping[str, Any], model: str, sample: Mapping[str, Any], worst: str) -> str:
-    """Return the command that solves the worst case this way; else the one that measured it."""
-    spec, option = find_spec(model), {"rung": "--fidelity", "grid": "--grid"}.get(sample["knob"])
-    case = next((c for c in study["cases"] if c["name"] == worst), None)
-    if case is None or option is None or len(case["point"]) != len(spec.inputs) or case["before"]:
-        return "command: thrustwasher chart"
-    point = " ".join(
-        f"--{signal.name.replace('_', '-')} {value:g}"
-        for signal, value in zip(spec.inputs, case["point"], strict=True)
+def command_lines(
+    study: Mapping[str, Any], model: str, sample: Mapping[str, Any], worst: str
+) -> list[str]:
+    """Return the command that solves the worst case this way, else what reproduces it."""
+    given = table_beside(__file__, "cases.toml")[model]
+    case = next((c for c in study.get("cases", ()) if c["name"] == worst), None)
+    way = next((w for w in WAYS if w.name == sample["family"]), None)
+    values = {"rung": sample["label"].partition(",")[0], "value": sample["value"]}
+    if case and not sample["is_rival"]:
+        values |= dict(zip((s.name for s in find_spec(model).inputs), case["point"], strict=False))
+        values["power"] = values["load"] * values["speed"]
+    elif way and way.coupling == "capacity" and way.extrapolation:
+        values |= {"rung": way.rung, "master": way.master}
+    else:
+        return [f"no command goes this way; reproduced by: {given['without']}"]
+    template = (
+        f"{given['command']} {given.get('more', {}).get(worst, '')} {OPTIONS[sample['knob']]}"
     )
-    return f"command: thrustwasher {model} {point} {option} {sample['value']}"
+    note = [f"note: {given['note']}"] if "note" in given else []
+    return [f"command: thrustwasher {' '.join(template.format(**values).split())}", *note]
 
 
 def _data(record: Mapping[str, Any]) -> dict[str, Any]:
@@ -89,7 +119,7 @@ def _data(record: Mapping[str, Any]) -> dict[str, Any]:
     for model, survey in record["models"].items():
         points[f"chart-{model}"] = points[f"chart-{model}-count"] = _points(survey, model)
     if "macro_steps" in record:
-        points["chart-shift"] = _points(record["macro_steps"])
+        points["chart-shift"] = _points(record["macro_steps"], "shift")
     return {"points": points, "stability": record.get("stability", []), "verdicts": WORDS}
 
 
@@ -145,6 +175,41 @@ def _model_section(
     )  # fmt: skip
 
 
+def corrections_section(rows: Sequence[Mapping[str, Any]]) -> Section:
+    """Return what the corrections of the physics moved, and by which factor."""
+    table = [
+        [r["part"], r["figure"], r["unit"], f"{r['before']:.3g}{'*' if r['recorded'] else ''}",
+         f"{r['after']:.3g}", f"{r['after'] / r['before']:.2g}"] for r in rows
+    ]  # fmt: skip
+    heads = ["correction", "figure", "unit", "before", "after", "times"]
+    words = (
+        'Before is the preset "paper" of a model or the former scene, computed now; * is what '
+        "version 0.5.0 gave. The two scenes are two shifts: their figures differ by design."
+    )
+    caption = "After over before: bars to the right grew, bars to the left shrank."
+    return Section(
+        "corrections", "What the corrections moved", texts=[words],
+        plots=[Plot("chart-corrections", corrections_figure(rows), caption)],
+        tables=[Table(heads, table, numbers=(3, 4, 5))],
+    )  # fmt: skip
+
+
+@styled
+def corrections_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
+    """Return a bar for each figure: after over before, on a logarithmic axis."""
+    figure, (axes,) = new_figure(9.0, 1.4 + 0.25 * len(rows), left=3.3)
+    times = [r["after"] / r["before"] for r in rows]
+    colours = [GREY if r["part"].startswith("default scene") else BLUE for r in rows]
+    places = list(range(len(rows)))
+    axes.barh(places, [t - 1.0 for t in times], left=1.0, color=colours, height=0.7)
+    axes.set(xscale="log")
+    axes.set_yticks(places, [f"{r['part'].partition(':')[0]}: {r['figure']}" for r in rows])
+    axes.invert_yaxis()
+    axes.axvline(1.0, color="black", lw=0.8)
+    label(axes, "", "after over before", "")
+    return figure
+
+
 def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
     """Return the whole page."""
     warnings = []
@@ -168,3 +233,19 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
 def markdown(page: Page) -> str:
     """Return the page as Markdown beside its drawings."""
     return fill_template(Path(__file__).with_name("chart.md.jinja"), **vars(page))
+
+
+def same_everywhere() -> dict[str, Any]:
+    """Return what ``benchmarks/same_everywhere.py`` measured: no machine changes it."""
+    return dict(json.loads(SAME_EVERYWHERE.read_text("utf-8")))
+
+
+def stability_markdown(record: Mapping[str, Any]) -> str:
+    """Return the page for a record with ``stability`` and ``limits``."""
+    groups: Sequence[Mapping[str, Any]] = record["stability"]
+    return fill_template(
+        Path(__file__).with_name("stability.md.jinja"),
+        words=WORDS, groups=groups, limits=record.get("limits", []),
+        verdicts=[cell["verdict"] for g in groups for row in g["cells"] for cell in row],
+        machine=text.machine_sentence(record),
+    )  # fmt: skip

@@ -1,12 +1,11 @@
 """What a chart is: fixed operating points, hard corners included, and the series of ways to solve.
 
-A series goes over every rung, or over meshes and tolerances; it is named in the model's record. A
-method of somebody else is charted if it is put into ``RIVALS``. A changed list of points is another
-list (``digest``).
+A series goes over every rung, or over meshes and tolerances; it is named in the model's record. The
+points are those of ``cases.toml``. A changed list of points is another list (``digest``).
 """
 
 import hashlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -14,6 +13,7 @@ from typing import Any
 from ...model.record import resolve
 from ...model.registry import ladder_of, spec_of
 from ...model.spec import ModelSpec
+from ...model.toml_tables import table_beside
 from .methods import ChartCase, KernelMethod, Method
 
 
@@ -54,24 +54,13 @@ class Quantity:
         return {"name": self.name, "kind": kind, "unit": self.unit, "floor": floor}
 
 
-Settings = Iterable[tuple[str, str, Callable[[], Method]]]  # label, value of the knob, method
-
-
-def series(
-    family: str, knob: str, settings: Settings, count_of: str, *, is_rival: bool = False,
-    preset: str = "",
-) -> list[Configuration]:  # fmt: skip
-    """Return a method at each of its settings."""
-    return [
-        Configuration(family, label, knob, value, make, count_of, is_rival, preset)
-        for label, value, make in settings
-    ]
-
-
 def rungs(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every named fidelity that the kernel knows."""
-    named = ((name, name, partial(KernelMethod, spec, name)) for name in spec.fidelities)
-    return series("rungs", "rung", named, spec.counts[0][0] if spec.counts else "calls")
+    counted = spec.counts[0][0] if spec.counts else "calls"
+    return [
+        Configuration("rungs", name, "rung", name, partial(KernelMethod, spec, name), counted)
+        for name in spec.fidelities
+    ]
 
 
 @dataclass(frozen=True)
@@ -81,11 +70,8 @@ class Chart:
     quantities: tuple[Quantity, Quantity]
     cost_of: str  # its axis
     series: Callable[..., list[Configuration]]
-    cases: tuple[ChartCase, ...]
-    few: tuple[int, ...]  # of the cases, for a quick look
 
 
-RIVALS: dict[str, Callable[..., list[Configuration]]] = {}  # model -> its rival's series
 WARM = "warm call, 1 % away [s]"
 KELVIN = Quantity("temperature", False, unit="K")
 
@@ -98,8 +84,13 @@ def chart_of(model: str) -> Chart:
 
 def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:
     """Return the cases of a model, or those of a quick look."""
-    chart = chart_of(model)
-    return tuple(chart.cases[i] for i in chart.few) if quick else chart.cases
+    given = table_beside(__file__, "cases.toml")[model]
+    before = given.get("before", {})
+    return tuple(
+        ChartCase(name, tuple(point), tuple(map(tuple, before.get(name, ()))))
+        for name, point in given["cases"].items()
+        if not quick or name in given["few"]
+    )
 
 
 def digest(cases: tuple[ChartCase, ...]) -> str:
@@ -109,6 +100,5 @@ def digest(cases: tuple[ChartCase, ...]) -> str:
 
 
 def series_of(model: str, *, quick: bool = False) -> list[Configuration]:
-    """Return everything that is measured for a model: its own series, then those of a rival."""
-    rival = RIVALS[model](quick=quick) if model in RIVALS else []
-    return [*chart_of(model).series(spec_of(model), quick=quick), *rival]
+    """Return everything that is measured for a model."""
+    return chart_of(model).series(spec_of(model), quick=quick)

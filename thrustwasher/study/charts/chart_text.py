@@ -39,10 +39,10 @@ def _error(sample: Sampled, quantity: str) -> float:
 
 
 def seconds(value: float | None) -> str:
-    """Return a duration as a person reads it: 234 us, 65 s; "-" for None."""
+    """Return a duration as a person reads it: 234 µs, 65 s; "-" for None."""
     if value is None:
         return "-"
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
         if value >= size:
             return f"{value / size:.3g} {unit}"
     return f"{value / 1e-9:.3g} ns"

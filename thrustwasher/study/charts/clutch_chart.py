@@ -11,21 +11,12 @@ from ...clutch.parameters import SPEC
 from ...errors import Status
 from ...model.spec import ModelSpec
 from ..reference_clutch import TIMES, engagement_corners
-from .chart_series import Chart, Configuration, Quantity, Settings, series
+from .chart_series import Chart, Configuration, Quantity
 from .methods import ChartCase, KernelMethod, MethodAnswer
 
 USUAL_STEP = 1e-3
 STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 5e-4)
 LEAST_STEP = 1e-9  # s
-# an engagement: full force N, slip at the start rad/s, oil K
-CASES = (
-    ChartCase("centre", (5898.0, 350.0, 297.15)),
-    ChartCase("light", (1500.0, 350.0, 297.15)),
-    ChartCase("heavy", (12000.0, 350.0, 297.15)),
-    ChartCase("slow", (5898.0, 40.0, 297.15)),
-    ChartCase("fast", (3000.0, 600.0, 297.15)),
-    ChartCase("hot oil", (5898.0, 350.0, 353.15)),
-)
 
 
 class ClutchMethod(KernelMethod):
@@ -72,18 +63,20 @@ class ClutchMethod(KernelMethod):
 
 def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every rung, and those with a moving film over the communication step."""
-    rungs = ((name, name, partial(ClutchMethod, name, USUAL_STEP)) for name in spec.fidelities)
-    found = series("rungs", "rung", rungs, "steps")
-    for name in ("field", "fine"):
-        steps: Settings = (
-            (f"{name}, {1e3 * h:g} ms", f"{1e3 * h:g} ms", partial(ClutchMethod, name, h))
-            for h in (STEPS[::2] if quick else STEPS)
-        )
-        found += series(f"{name} over the step", "step", steps, "steps")
-    return found
+    rungs = [
+        Configuration("rungs", name, "rung", name, partial(ClutchMethod, name, USUAL_STEP), "steps")
+        for name in spec.fidelities
+    ]
+    steps = [
+        Configuration(f"{name} over the step", f"{name}, {1e3 * h:g} ms", "step", f"{1e3 * h:g} ms",
+                      partial(ClutchMethod, name, h), "steps")
+        for name in ("field", "fine")
+        for h in (STEPS[::2] if quick else STEPS)
+    ]  # fmt: skip
+    return rungs + steps
 
 
 CLUTCH = Chart(
     (Quantity("slip_energy", True), Quantity("end_temperature", False, unit="K")),
-    "engagement of 0.6 s [s]", _clutch, CASES, (0, 2, 3),
+    "engagement of 0.6 s [s]", _clutch,
 )  # fmt: skip

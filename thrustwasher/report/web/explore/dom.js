@@ -3,9 +3,7 @@
 
 const ABOUT = JSON.parse(document.getElementById("about").textContent);
 
-function escaped(text) {
-  return String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
-}
+const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 
 /** Return a number with some digits, without needless zeros. */
 function digits(value, n = 4) {

@@ -93,10 +93,6 @@ function ask(task, given, answer) {
   worker.postMessage({ id: count, task, ...given });
 }
 
-function answered({ data }) {
-  if (heard[data.task]?.id === data.id) heard[data.task].answer(data.result, data.problem);
-}
-
 /** Have the worker take the parameters and solve; tell which rule they break. */
 function setParameters() {
   const numbers = ABOUT.parameters.map((f) => {
@@ -240,9 +236,7 @@ function settled() {
   document.documentElement.dataset.settled = text;
 }
 
-function fillBoxes() {
-  for (const [name, text] of Object.entries(reproduced())) byId(`as-${name}`).textContent = text;
-}
+const fillBoxes = () => Object.entries(reproduced()).forEach(([name, text]) => (byId(`as-${name}`).textContent = text));
 
 /** Return the command, the Python lines and the part file that give the same figures. */
 function reproduced() {
@@ -264,7 +258,7 @@ function reproduced() {
   };
 }
 
-/** Take what the address names; what cannot be taken is told, all else stays as it is. */
+/** Take what the address names and solve; what cannot be taken is told, all else stays as it is. */
 function readAddress() {
   const decoded = (text) => { try { return decodeURIComponent(text); } catch { return text; } };
   const words = new Map(location.hash.slice(1).split("&").filter(Boolean).map((w) => [w.split("=")[0], decoded(w.split("=").slice(1).join("="))]));
@@ -293,6 +287,7 @@ function readAddress() {
   state.asked = BRANCHES_ASKED.includes(branch) ? branch : "";
   if (Object.hasOwn(ABOUT.worker.rungs, rung)) state.rung = byId("fidelity").value = rung;
   state.strange = strange.length ? `The address: ${strange.join("; ")}. ` : "";
+  setParameters();
 }
 
 function inputChanged() {
@@ -302,9 +297,7 @@ function inputChanged() {
   timer = setTimeout(() => solve(true), SETTLE);
 }
 
-function parametersChanged() {
-  if (!quiet) setParameters();
-}
+const parametersChanged = () => quiet || setParameters();
 
 function builtControls() {
   const inputs = byId("inputs"), main = byId("main-parameters"), all = byId("all-parameters");
@@ -332,11 +325,6 @@ function builtControls() {
   }
 }
 
-function restart() {
-  readAddress();
-  setParameters();
-}
-
 /** Show the live part; with its views the still ones go. */
 function reveal(which) {
   for (const part of document.querySelectorAll(which)) part.hidden = false;
@@ -345,24 +333,24 @@ function reveal(which) {
 
 function begin() {
   const source = byId("worker").textContent, bytes = Uint8Array.from(atob(byId("module").textContent.trim()), (c) => c.charCodeAt(0));
-  const stays = "The figures and pictures stay as they are.";
+  const still = byId("state").textContent;
   worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
-  worker.onmessage = answered;
-  worker.onerror = (problem) => say(`The computation stopped: ${problem.message}. ${stays}`, "problem");
+  worker.onmessage = ({ data }) => heard[data.task]?.id === data.id && heard[data.task].answer(data.result, data.problem);
+  worker.onerror = (problem) => say(`The computation stopped: ${problem.message}. ${last ? "The figures are the last ones found." : still}`, "problem");
   ask("begin", { about: ABOUT.worker, bytes }, (_, problem) => {
     if (problem) {
-      say(`This browser cannot run the kernels: ${problem}. ${stays}`, "problem");
+      say(`This browser cannot run the kernels: ${problem}. ${still}`, "problem");
       return;
     }
     builtControls();
     view.build(byId("views"));
     reveal("#controls");
-    restart();
+    readAddress();
     addEventListener("hashchange", () => {
-      if (location.hash !== document.documentElement.dataset.settled) restart();
+      if (location.hash !== document.documentElement.dataset.settled) readAddress();
     });
   });
 }
 
 if (typeof WebAssembly === "object" && typeof Worker === "function") begin();
-else say("This browser has no WebAssembly: the figures and pictures are those of the start.", "problem");
+else say(`This browser has no WebAssembly. ${byId("state").textContent}`, "problem");

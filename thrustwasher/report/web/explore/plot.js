@@ -143,9 +143,7 @@ class Plot {
     this.move(px, py);
   }
 
-  move(px, py) {
-    this.drag(this.sx.back(px), this.sy.back(py), this.held);
-  }
+  move(px, py) { this.drag(this.sx.back(px), this.sy.back(py), this.held); }
 
   key(event) {
     const i = event.target.dataset?.i, way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];

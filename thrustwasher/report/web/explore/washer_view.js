@@ -9,9 +9,7 @@ const SPEEDS = Array.from({ length: 36 }, (_, i) => Number((2 * 1000 ** (i / 35)
 const VIEW = {
   quantity: "friction_torque", curve: null, stribeck: null, trail: [], known: "", knownLoad: "", over: { oil_outlet_temperature: "oil_flow" },
 
-  warning({ stick_margin }) {
-    return stick_margin < 1 ? `${ABOUT.slips.replace(/{.*}/, digits(stick_margin, 2))}; ` : "";
-  },
+  warning: ({ stick_margin }) => (stick_margin < 1 ? `${ABOUT.slips.replace(/{.*}/, digits(stick_margin, 2))}; ` : ""),
 
   build(host) {
     const about = (name) => ABOUT.outputs[name], names = ["friction_torque", "friction_coefficient", "temperature", "temperature_max", "film_ratio", "film_thickness"];

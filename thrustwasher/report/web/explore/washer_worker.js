@@ -190,9 +190,7 @@ class Walker {
   get load() { return this.at(this.L.AT_LOAD); }
   get share() { return this.at(this.L.AT_SHARE); }
 
-  check(code) {
-    if (code) throw new Error(this.washer.about.statuses[code] ?? `status ${code}`);
-  }
+  check(code) { if (code) throw new Error(this.washer.about.statuses[code] ?? `status ${code}`); }
 
   start(ratio) { this.check(this.kernel.call("enter_curve", ...this.w, ...this.point, ratio)); }
   forget() { this.work.view[this.L.N_HEAD + this.L.TAG_VALID] = 0; }

@@ -35,13 +35,13 @@ const Runs = (() => {
     return every.filter((t, i) => i === 0 || t > every[i - 1]);
   }
 
-  /* Values between points are linear; there are none before the first and after the last one. */
+  /* Values between points are linear; there are none (NaN) before the first and after the last one. */
   function onto(time, own, values) {
     if (time.length === own.length) return values;
     const last = own.length - 1;
     let i = 0;
-    return Array.from(time, (t) => {
-      if (t < own[0] || t > own[last]) return null;
+    return Float32Array.from(time, (t) => {
+      if (t < own[0] || t > own[last]) return NaN;
       while (i < last - 1 && own[i + 1] <= t) i++;
       const wide = own[i + 1] - own[i];
       const share = wide > 0 ? (t - own[i]) / wide : 0;
@@ -49,20 +49,25 @@ const Runs = (() => {
     });
   }
 
-  /* Return {time, runs}; a run's `signals` are by name: help, unit, zero and values. */
+  /* A signal whose values are made when they are first asked for. */
+  function signalOf(given, make) {
+    let values;
+    return Object.defineProperty({ ...given }, "values", { get: () => (values ??= make()) });
+  }
+
+  /* Return {time, runs}; a run's `signals` are by name: help, unit, zero and values; `end` is its last point. */
   async function all(given) {
     const rows = await Promise.all(given.map(async (run) => unpack(await inflate(run.packed), run.points)));
     const time = together(rows.map((row) => Float64Array.from(row[0])));
     const runs = given.map((run, k) => {
       const signals = new Map();
-      run.moving.forEach((signal, i) => {
-        signals.set(signal.name, { ...signal, values: onto(time, rows[k][0], rows[k][i + 1]) });
-      });
-      for (const signal of run.steady) {
-        const values = new Float32Array(time.length).fill(signal.value);
-        signals.set(signal.name, { ...signal, values, steady: true });
+      for (const signal of run.moving) {
+        signals.set(signal.name, signalOf(signal, () => onto(time, rows[k][0], rows[k][signal.row])));
       }
-      return { ...run, signals };
+      for (const signal of run.steady) {
+        signals.set(signal.name, signalOf({ ...signal, steady: true }, () => new Float32Array(time.length).fill(signal.value)));
+      }
+      return { ...run, signals, end: time.lastIndexOf(rows[k][0].at(-1)) };
     });
     return { time, runs };
   }

@@ -126,7 +126,9 @@ const Flow = (() => {
       shown = index;
       now.textContent = `From the start to ${state.time[index].toPrecision(4)} s${index === last ? ", the end" : ", the cursor"}.`;
       pictures.replaceChildren(...state.runs.flatMap((run, k) => [
-        ...(state.runs.length > 1 ? [el("h3", {}, `${Plots.NAMES[k]}: ${run.title}`)] : []), picture(run, data.flow, index)]));
+        ...(state.runs.length > 1 ? [el("h3", {}, `${Plots.NAMES[k]}: ${run.title}`
+          + (index > run.end ? `, which ended at ${Parts.number(state.time[run.end])} s` : ""))] : []),
+        picture(run, data.flow, Math.min(index, run.end))]));
     });
   }
 

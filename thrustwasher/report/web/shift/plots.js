@@ -78,7 +78,7 @@ const Plots = (() => {
     if (plot) {
       if (panel.view !== state.view) {
         panel.view = state.view;
-        plot.setScale("x", state.view);
+        plot.batch(() => plot.setScale("x", state.view)); // at once: the cursor is placed on it
       }
       const left = plot.valToPos(state.time[state.index], "x");
       plot.setCursor({ left: left >= 0 && left <= plot.over.clientWidth ? left : -10, top: 0 }, false);

@@ -1,9 +1,0 @@
-"""The record of the command source."""
-
-from ..model.record import Model
-
-MODEL = Model(
-    key="command",
-    name="CommandSource",
-    interface="thrustwasher.command.parameters:SPEC",
-)

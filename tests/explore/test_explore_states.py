@@ -62,9 +62,7 @@ def test_figures_of_other_inputs_are_grey_and_named_while_solving_and_after(open
     page.page.fill("#in-load", "2664.4")
     page.page.wait_for_selector("#results.stale", state="attached")
     assert "; the figures are those of load " in said(page)
-    page.page.wait_for_function(
-        "document.querySelector('#state').textContent.match(/^No solution/)", timeout=60_000
-    )
+    page.page.wait_for_selector("#state:has-text('No solution')", timeout=60_000)
     assert "; the figures are those of load " in said(page)
     shade = "(one) => getComputedStyle(one).opacity"
     assert float(page.page.locator("#friction_torque").evaluate(shade)) < 0.6

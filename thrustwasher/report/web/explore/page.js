@@ -153,6 +153,7 @@ function failed(words) {
 function received(result, fresh, took, gone) {
   last = { ...result, point: point.slice() };
   reveal(".live");
+  if (!fresh && byId("results").classList.contains("stale")) say("solving");
   byId("results").classList.remove("stale");
   byId("views").classList.remove("empty");
   const [error_estimate, known] = verified();

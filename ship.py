@@ -6,12 +6,15 @@ changed stays. With ``--check`` nothing is written: everything is made anew and 
 is there, byte by byte if the same versions made it.
 """
 
+import io
 import json
+import lzma
 import platform as machine
 import sys
+import tarfile
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -78,7 +81,7 @@ def _write(kernel: str, code: Objects, took: float) -> dict[str, Any]:
     name = f"{shipped.short(kernel)}-{digest(kernel)}"
     return {
         "digest": digest(kernel), "sources": sorted(sources(kernel)), "seconds": round(took, 1),
-        "objects": put(shipped.FOLDER / f"{name}.tar.xz", shipped.pack(code)),
+        "objects": put(shipped.FOLDER / f"{name}.tar.xz", pack(code)),
         "libraries": _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES),
     }  # fmt: skip
 
@@ -90,6 +93,21 @@ def _write_libraries(
         platform: put(folder / f"{name}-{platform}.{TARGETS[platform].extension}", data)
         for platform, data in libraries(kernel, code, platforms).items()
     }
+
+
+def pack(
+    objects: Mapping[tuple[str, str], bytes], libraries: Mapping[str, bytes] | None = None
+) -> bytes:
+    """Return an archive of objects, and of libraries for FMUs by platform."""
+    found = {f"{platform}-{level}.o": data for (platform, level), data in objects.items()}
+    found |= {f"{shipped.FMU}{platform}": data for platform, data in (libraries or {}).items()}
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w") as archive:
+        for name, data in sorted(found.items()):
+            about = tarfile.TarInfo(name)
+            about.size = len(data)
+            archive.addfile(about, io.BytesIO(data))
+    return lzma.compress(buffer.getvalue(), preset=9 | lzma.PRESET_EXTREME)
 
 
 def put(path: Path, data: bytes) -> dict[str, str]:

@@ -40,7 +40,7 @@ def ship() -> None:
     for spec in all_specs(helpers=True):
         digest, about = library_digest(spec), index["kernels"][spec.kernel]
         if shipped.fmu_libraries(spec.kernel, digest).keys() != PLATFORMS.keys():
-            data = shipped.pack(shipped.objects_of(spec.kernel), made(spec))
+            data = kernels.pack(shipped.objects_of(spec.kernel), made(spec))
             about["objects"] = kernels.put(shipped.FOLDER / about["objects"]["file"], data)
             about["fmu"] = digest
             kernels.list_all(index)

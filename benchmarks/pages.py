@@ -118,6 +118,7 @@ def measure_explore(browser: Browser, folder: Path, model: str) -> None:
 def draw(browser: Browser, folder: Path, images: Path) -> None:
     """Write the documentation's pictures."""
     called("shift", "--out", str(folder / "report"))
+    shutil.copy(folder / "report" / "overview.png", images / "shift.png")
     page, _ = opened(browser, folder / "report" / "report.html", REPORT)
     page.evaluate("() => document.getElementById('plots').scrollIntoView()")
     page.wait_for_selector(".u-over")

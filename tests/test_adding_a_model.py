@@ -24,7 +24,7 @@ def folder(tmp_path_factory):
     files = re.findall(
         r"(?ms)`([\w/]+\.(?:py|md|toml))`:\n\n```\w+\n(.*?)^```", PAGE.read_text("utf-8")
     )
-    assert len(files) == 7
+    assert len(files) == 8
     for name, text in files:
         (home / name).parent.mkdir(parents=True, exist_ok=True)
         (home / name).write_text(text, "utf-8")

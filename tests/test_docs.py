@@ -94,7 +94,7 @@ def test_the_layers_on_the_page_are_those_that_are_checked():
     assert "\n".join(rows).replace("thrustwasher.", "") + "\n```" in page
     folders = {p.parent.name for p in PACKAGE.glob("*/__init__.py")}
     assert {f for f in folders if f"\n  {f}/ " not in page} == set()
-    walked = re.findall(r"(?m)^\| [\d .]+ \| `([\w/]+\.(?:py|c))`", page)
+    walked = re.findall(r"(?m)^\| [\d .]+ \| `([\w/]+\.(?:py|c|toml))`", page)
     assert len(set(walked)) <= 20 and f"That is {len(set(walked))} files" in page
 
 

@@ -21,10 +21,10 @@ FILE_LINES, FUNCTION_LINES, KERNEL_LINES = 400, 50, 120
 
 # Counts that may only fall: one that has fallen by more than the slack is to be lowered here.
 RATCHETS = {
-    "Python files of the package": (lambda: len(structure.modules()), 323, 20),
-    "lines of Python": (lambda: structure.lines_of(structure.modules().values()), 44_100, 600),
+    "Python files of the package": (lambda: len(structure.modules()), 313, 20),
+    "lines of Python": (lambda: structure.lines_of(structure.modules().values()), 42_500, 600),
     "lines of C": (lambda: structure.lines_of(structure.shell_sources()), 2_400, 200),
-    "module names that occur twice": (lambda: len(structure.repeated_stems()), 8, 3),
+    "module names that occur twice": (lambda: len(structure.repeated_stems()), 7, 3),
     "words of the README": (
         lambda: len((structure.ROOT / "README.md").read_text("utf-8").split()), 900, 150,
     ),

@@ -81,7 +81,7 @@ def tilted(m, ratio, gy=0.00197, gx=-1.9e-5, second=3.0, tilt=0.002):
 def settle(m, pt, q, f, passes=60):
     """Solve film and heat at fixed positions; leave everything evaluated there."""
     for _ in range(passes):
-        made = evaluate(m, pt, q, f)
+        made = evaluate(m, pt, q, f, False)
         if np.abs(f.heat).sum() < 1e-13 * max(made, 1e-2) and f.small[L.FILM_ERROR] < 1e-13:
             return
         assert factor_heat(m, pt, f)
@@ -89,7 +89,7 @@ def settle(m, pt, q, f, passes=60):
         solve_heat(m, f.heat, f.dtemp, f)
         f.temp[:] += f.dtemp
     # rounding is as far as it gets
-    evaluate(m, pt, q, f)
+    evaluate(m, pt, q, f, False)
 
 
 BASE = Point(300.0, 545.0, 0.002, 297.15)

@@ -41,6 +41,15 @@ def naming(path: str | PathLike[str]) -> Iterator[None]:
         raise
 
 
+@contextmanager
+def within(where: str) -> Iterator[None]:
+    """Let a ParameterError say in which file, table or part it arose."""
+    try:
+        yield
+    except ParameterError as problem:
+        raise ParameterError(f"{where}: {problem}") from None
+
+
 class Status(IntEnum):
     """How a kernel ended, the more severe the larger; ``advice`` is the sentence the user needs.
 

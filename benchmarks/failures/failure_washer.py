@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 
 from thrustwasher.model.part_file import made_of
 from thrustwasher.tribology.lumped_body import exponential_weights
-from thrustwasher.washer.closed_forms import narrow_ring_load
 from thrustwasher.washer.load_curve import load_curve
 from thrustwasher.washer.parameters import SPEC, WasherParams
 from thrustwasher.washer.solve import solve_washer
 
 from .failure_cells import LIES, NONE, OK, SAYS, Cell, Group, off, table
+from .narrow_ring import narrow_ring_load
 from .plain2006 import Plain2006
 
 WRONG_RATIO = 1.0  # of the film: another branch, not another mesh

@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from thrustwasher.errors import Status
-from thrustwasher.gearmesh.kernels.flank_temperature import surface_temperature
+from thrustwasher.gearmesh.kernels.flank_temperature import heated_flank
 
 from .failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, table
 
@@ -93,7 +93,7 @@ def heat_loop() -> Group:
 
     def ours(loop: Any) -> tuple[float, Status, int]:
         # a stress of 1 at the bulk's viscosity, so that the factor is the rise
-        t, _, status, turns = surface_temperature(
+        t, _, _, status, turns = heated_flank(
             loop.bulk + 273.15, loop.rise, 1.0, 1e300, loop.power, B, C
         )
         return t - 273.15, Status(status), turns

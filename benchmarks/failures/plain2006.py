@@ -128,7 +128,7 @@ def balance(
                 )
             for row in range(4):
                 jacobian[row, k] = (plus[row] - minus[row]) / (2.0 * s.difference)
-        if not dense_solve(jacobian.ravel(), force, 4, 1):
+        if not dense_solve(jacobian.ravel(), force, 4):
             return MAX_ITERATIONS
         # the largest change of either gap stays near a third of the film, or one sigma
         tilted = math.sqrt(force[2] ** 2 + force[3] ** 2)

@@ -261,7 +261,8 @@ def test_a_browser_without_it_shows_values_and_pictures_of_the_start(opened, mod
     page = opened(model, ready="", **look).page
     looks_still(page)
     said = page.text_content("#state")
-    assert "of the start" in said and ("no WebAssembly" in said or "Rung field; verified" in said)
+    assert "of the start: " in said and "Rung field; verified error of the torque: at most" in said
+    assert ("has no WebAssembly" in said) is ("init" in look)
 
 
 def test_still_values_are_those_of_python(opened):
@@ -383,6 +384,18 @@ def test_the_gear_mesh_follows_its_inputs(opened):
         assert page.figure(name) == pytest.approx(getattr(wanted, name), rel=SAME)
 
 
+def test_a_point_without_a_solution_is_told_and_the_last_result_stays(opened):
+    page = opened("gearmesh")
+    before = page.figure("friction_torque")
+    page.put("speed", 0)
+    said = page.page.text_content("#state")
+    assert said == "speed = 0 rad/s, allowed: from 0.075 rad/s on for power = 7500 W"
+    assert page.figure("friction_torque") == before and page.page.is_visible("#views")
+    page.put("speed", 200)
+    assert page.figure("friction_torque") != before
+    assert "verified error" in page.page.text_content("#state")
+
+
 def test_a_ramp_is_drawn_and_the_engagement_follows(opened):
     page = opened("clutch")
     before = page.figure("energy")
@@ -408,12 +421,21 @@ def test_an_automated_check_of_access_finds_nothing_serious(opened, model, look)
     assert faults(opened(model, **look).page) == []
 
 
+def test_nor_does_it_in_the_still_version(opened):
+    for look in LOOKS.values():
+        page = opened("clutch", ready="", init=WITHOUT["webassembly"]["init"], **look).page
+        assert faults(page) == []
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= page.viewport_size["width"]
+
+
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
 def test_nothing_is_wider_than_the_screen_and_all_fields_have_names(opened, model, look):
     page = opened(model, **look)
-    wide = page.page.evaluate_handle("document.documentElement").get_property("scrollWidth")
-    assert wide.json_value() <= page.page.viewport_size["width"]
+    page.page.evaluate("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
+    wide = page.page.evaluate("document.documentElement.scrollWidth")
+    assert wide <= page.page.viewport_size["width"]
     for field in page.page.locator("input, select, button").all():
         named = field.get_attribute("aria-label") or field.get_attribute("id")
         label = page.page.locator(f"label[for='{field.get_attribute('id')}']").count()

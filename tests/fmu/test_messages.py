@@ -6,7 +6,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from thrustwasher.errors import Status
-from thrustwasher.fmu.description.xml_parts import log_categories
+from thrustwasher.fmu.description.model_description import log_categories
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
 from thrustwasher.model.registry import all_specs
 

@@ -64,7 +64,7 @@ def test_an_array_that_is_not_contiguous_goes_to_the_kernel_as_python():
 
 
 def test_arrays_of_two_dimensions_are_known():
-    entry = entries.describe(map_rows.map_folds, ["folds"])
+    entry = entries.describe(map_rows.map_folds, ("folds",))
     assert [kind.ndim for kind in entry.takes if kind.name == "array"] == [1, 1, 2]
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from ship import pack
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.gearmesh.kernels.constants import slide_roll
 from thrustwasher.native import digest, files, library, link, objects, shipped
@@ -61,8 +62,8 @@ def test_what_is_shipped_is_small_and_all_listed():
 
 def test_the_same_objects_are_packed_to_the_same_bytes():
     given = {("linux64", "v2"): b"a" * 1000, ("win64", "v2"): b"b"}
-    data = shipped.pack(given, {"linux64": b"c"})
-    assert data == shipped.pack(dict(reversed(given.items())), {"linux64": b"c"})
+    data = pack(given, {"linux64": b"c"})
+    assert data == pack(dict(reversed(given.items())), {"linux64": b"c"})
     found = shipped.unpack(data)
     assert shipped.objects_in(found) == given and found[f"{shipped.FMU}linux64"] == b"c"
 
@@ -111,7 +112,7 @@ def test_an_edited_source_makes_the_shipped_code_stale(monkeypatch):
 
 def call(addresses):
     """Return what a gear function at its address returns."""
-    entry = describe(slide_roll, [])
+    entry = describe(slide_roll, ())
     return python_function(entry, addresses[entry.symbol])(2.0, 0.1, 1.0)
 
 

@@ -13,7 +13,6 @@ from thrustwasher.numerics.chebyshev import (
     contract,
     enter_cell,
     lines_of,
-    nodes_of,
     polynomial,
     polynomial_slope,
     share_out,
@@ -33,7 +32,7 @@ def places(low, high, patches):
 def filled(function, axes=AXES):
     """Return lines of a function at all nodes."""
     xs, ys, zs = (places(*axis) if axis[2] else [axis[0]] for axis in axes)
-    assert [len(nodes) for nodes in (xs, ys, zs)] == [nodes_of(axis[2]) for axis in axes]
+    assert [len(nodes) for nodes in (xs, ys, zs)] == [3 * axis[2] + 1 for axis in axes]
     lines = [function(x, y, z) for x in xs for z in zs for y in ys[::3]]
     inner = [y for k, y in enumerate(ys) if k % 3]
     lines += [function(x, y, z) for y in inner for x in xs[::3] for z in zs[::3]]

@@ -11,9 +11,9 @@ from browser_pages import chromium, faults, opened
 
 from thrustwasher import solve_washer
 from thrustwasher.report.html import render
-from thrustwasher.report.panels.overview_plot import overview_figure
 from thrustwasher.report.shift import sequence_report, shift_report
 from thrustwasher.report.shift.comparison import comparison_page
+from thrustwasher.report.shift.overview_plot import overview_figure
 from thrustwasher.report.shift.shift_data import FIELDS, run_data
 from thrustwasher.report.shift.worst_moments import Moment, rung_with_fields
 
@@ -301,12 +301,14 @@ def test_nothing_serious_bars_access_and_nothing_is_wider_than_the_screen(
         assert faults(page) == []
 
 
-def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path):
+@pytest.mark.parametrize(("wide", "scheme"), [(1200, "light"), (380, "dark")])
+def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path, wide, scheme):
     late = replace(RECORD, title="late", time=RECORD.time + 0.5005)
     runs = [run_data(record, {}) for record in (RECORD, late)]
     path = tmp_path / "compare.html"
     path.write_text(render(comparison_page(runs, [overview_figure(RECORD)] * 2)), "utf-8")
-    with opened(browser, path) as page:
+    with opened(browser, path, wide=wide, scheme=scheme) as page:
+        assert page.evaluate("document.documentElement.scrollWidth") <= wide
         page.evaluate("() => document.getElementById('plots').scrollIntoView()")
         page.wait_for_selector(".u-over")
         assert page.evaluate("Plots.state.time.length") == 5002

@@ -121,11 +121,14 @@ def test_a_sequence_out_of_order_and_a_sump_without_oil_are_refused_in_one_line(
     assert words in str(told.value) and "\n" not in str(told.value)
 
 
-def test_the_plot_shows_oil_plates_and_speeds(run):
-    from thrustwasher.report.panels.sequence_plot import sequence_figure
+def test_the_still_picture_shows_oil_plates_and_speeds(run):
+    from thrustwasher.report.shift.sequence_report import sequence_page
 
-    labels = [axes.get_ylabel() for axes in sequence_figure(run).axes]
-    assert labels == ["oil [°C]", "plates [°C]", "speed [rad/s]"]
+    axes = sequence_page(run).sections[0].plots[0].figure.axes
+    labels = [one.get_ylabel() for one in axes]
+    assert labels == ["temperatures [°C]", "speeds [rad/s]", "torques [N·m]"]
+    drawn = {line.get_label() for line in axes[0].lines}
+    assert {"clutch temperature", "brake temperature", "sump temperature"} <= drawn
 
 
 def test_the_page_holds_all_signals_and_a_row_for_each_shift(run):

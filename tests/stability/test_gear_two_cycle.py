@@ -18,13 +18,13 @@ from hypothesis import strategies as st
 
 from thrustwasher import GearMeshParams, solve_gearmesh
 from thrustwasher.errors import Status
-from thrustwasher.gearmesh.kernels.flank_temperature import surface_temperature
+from thrustwasher.gearmesh.kernels.flank_temperature import heated_flank
 
 FROZEN, THINNING = h.Loop(40.0, 100.0, 1.0), h.Loop(40.0, 100.0, 0.3)
 
 
 def ours(loop):
-    t, _, status, _ = surface_temperature(
+    t, _, _, status, _ = heated_flank(
         loop.bulk + 273.15, loop.rise, 1.0, 1e300, loop.power, h.B, h.C
     )
     return t - 273.15, status

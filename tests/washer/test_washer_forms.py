@@ -11,9 +11,8 @@ from closed_forms.thin_film import (
     wedge_moment,
     wedge_pressure,
 )
+from failures.narrow_ring import narrow_ring_load
 from scipy.integrate import quad
-
-from thrustwasher.washer.closed_forms import narrow_ring_load
 
 RI, RO, K = 0.0111, 0.0227, 60.5
 

@@ -72,7 +72,7 @@ def _read(name: str) -> tuple[Any, Any]:
 
 def _run_of(result: Any) -> tuple[Any, Any]:
     """Return the run of a finished shift and its picture."""
-    from ..report.panels.overview_plot import overview_figure
+    from ..report.shift.overview_plot import overview_figure
     from ..report.shift.shift_data import run_data
     from ..report.shift.shift_record import record_of
 

@@ -19,11 +19,7 @@ COLUMNS = {
 TABLE = ("time", "load", "speed", "friction_torque", "viscous_torque", "temperature", "film_ratio",
          "regime")  # fmt: skip
 WIDTH = 18
-TIMES = {
-    "duration": ("0.5 s", "time from the start to zero slip"),
-    "ramp": ("0.1 s", "time in which the load rises to its value"),
-    "step": ("1 ms", "distance of the points"),
-}
+TIMES = ("duration", "ramp", "step")
 LONGEST = 3600.0  # s
 MAX_POINTS = 200_000
 
@@ -31,8 +27,7 @@ MAX_POINTS = 200_000
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, SPEC.inputs)
-    for name, (usual, words) in TIMES.items():
-        parser.add_argument(f"--{name}", default=usual, help=f"{words} [s], default {usual}")
+    _options.add_listed(parser, "engage")
     _options.add_parameters(parser, SPEC)
     _options.add_fidelity(parser, SPEC)
     _output.add_targets(parser, out="write all points as CSV", plot="draw the engagement")

@@ -103,9 +103,14 @@ def _check_sequence(arguments: argparse.Namespace, scene: Any) -> None:
     """Refuse what a scene of several shifts has no use for."""
     if arguments.ssp:
         raise ParameterError("--ssp: a package has one shift, allowed: a scene without [sequence]")
+    _check_rungs(scene, "with [sequence]")
+
+
+def _check_rungs(scene: Any, where: str) -> None:
+    """Refuse a fidelity that is still to be chosen."""
     if open_ := [name for name, part in scene.parts.items() if part.tolerance]:
-        raise ParameterError(f"fidelity of {', '.join(open_)} = auto, allowed with [sequence]: a "
-                             "rung by name (--fidelity PART=RUNG)")  # fmt: skip
+        raise ParameterError(f"fidelity of {', '.join(open_)} = auto, allowed {where}: a rung by "
+                             "name (--fidelity PART=RUNG)")  # fmt: skip
 
 
 def _progress(scene: Any) -> Callable[[int, int], None] | None:
@@ -206,12 +211,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
         raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
     if arguments.master not in (None, "jacobi"):
         raise ParameterError(f"--master {arguments.master}: a package is for a parallel master")
-    open_ = [name for name, part in scene.parts.items() if part.tolerance]
-    if open_:
-        raise ParameterError(
-            f"fidelity of {', '.join(open_)} = auto, allowed in a package: a rung by name "
-            "(--fidelity PART=RUNG)"
-        )
+    _check_rungs(scene, "in a package")
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
     from ..native.files import zipped
@@ -233,7 +233,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
 def _package(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
     from ..fmu.build import pack_native
-    from ..fmu.description.xml_parts import generation_date
+    from ..fmu.description.model_description import generation_date
     from ..fmu.model_kernels import package_version
     from ..shift.ssp.package import files
     from ..shift.ssp.system_structure import plan, prepared, start_values

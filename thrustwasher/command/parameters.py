@@ -7,7 +7,7 @@ part that sends it.
 from dataclasses import dataclass
 
 from ..model.parameters import check_ranges, quantity
-from ..model.spec import ModelSpec, Signal
+from ..model.toml_tables import spec_beside
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,18 +24,4 @@ class CommandParams:
         check_ranges(self)
 
 
-SPEC = ModelSpec(
-    key="command",
-    name="CommandSource",
-    help="The shift command of a gear shift: a ramp between two values over time",
-    params=CommandParams,
-    fidelities={"ramp": "linear between the two values"},
-    default_fidelity="ramp",
-    inputs=(),
-    outputs=(
-        Signal(name="command", unit="1", nominal=1.0, help="0 first gear, 1 second gear"),
-        Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-               help="always OK"),
-    ),
-    kernel="thrustwasher.command.kernels.step",
-)  # fmt: skip
+SPEC = spec_beside(__file__, CommandParams)

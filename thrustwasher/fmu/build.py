@@ -6,7 +6,7 @@ from functools import partial
 from importlib import metadata
 from pathlib import Path
 
-from ..errors import ParameterError, SolveError
+from ..errors import ParameterError, SolveError, within
 from ..model.part_file import is_part, load_part
 from ..model.prepare import check_together
 from ..model.registry import all_specs, find_spec
@@ -107,10 +107,8 @@ def asked(models: Sequence[str] | None) -> list[ModelSpec]:
 
 def _part(path: str) -> ModelSpec:
     part = load_part(path)
-    try:
+    with within(f"part {path!r}"):
         check_together(part.spec, part.params, part.fidelity)
-    except ParameterError as problem:
-        raise ParameterError(f"part {path!r}: {problem}") from None
     return part.model
 
 

@@ -4,15 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from ..model.parameters import (
-    as_numbers,
-    check_ranges,
-    check_rules,
-    choice,
-    count,
-    flag,
-    quantity,
-)
+from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import made_of
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside

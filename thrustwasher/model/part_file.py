@@ -25,7 +25,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, within
 from ..units import exact_quantity, format_quantity
 from .parameters import allowed, other_names_of, plainly_named
 from .registry import find_model
@@ -98,10 +98,8 @@ def load_part(path: str | Path) -> PartFile:
     """
     where = f"part {str(path)!r}"
     part = _part(where, read_file("part", path))
-    try:
+    with within(f"{where} [parameters]"):
         part.params  # noqa: B018  (raises what the model says about them)
-    except ParameterError as problem:
-        raise ParameterError(f"{where} [parameters]: {problem}") from None
     return part
 
 
@@ -165,15 +163,13 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
     for key in ("model", "name"):
         if key not in table:
             raise ParameterError(f"{where}: {key!r} is missing")
-    try:
+    with within(where):
         spec = find_model(table["model"]).spec
         name = checked_name(table["name"])
         fidelity = table.get("fidelity", spec.default_fidelity)
         if fidelity not in spec.fidelities:
             rungs = " or ".join(map(repr, spec.fidelities))
             raise ParameterError(f"fidelity = {fidelity!r}, allowed: {rungs}")
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
     parameters = read_parameters(f"{where} [parameters]", spec, table.get("parameters", {}))
     return PartFile(
         spec=spec, name=name, parameters=parameters, fidelity=fidelity,

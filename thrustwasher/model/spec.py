@@ -91,12 +91,6 @@ class Terminal:
     members: tuple[tuple[str, str, str], ...]
 
 
-OIL_PORT = Terminal(
-    name="oil", kind="thrustwasher.HeatPort", help="Oil temperature in, heat to the oil out",
-    members=(("oil_temperature", "T", "signal"), ("oil_heat", "Q_flow", "outflow")),
-)  # fmt: skip
-
-
 class Tables(NamedTuple):
     """Files of solutions made beforehand, in which one of a model's rungs looks its answers up.
 

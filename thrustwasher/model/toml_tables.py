@@ -1,14 +1,14 @@
 """TOML files and their tables: read, with quantities in SI units, or an error that says where."""
 
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError, suggestion
+from ..errors import ParameterError, suggestion, within
 from ..units import parse_quantity
-from .parameters import allowed
+from .parameters import allowed, check_number
 from .record import from_plain
 from .spec import ModelSpec, Rule
 
@@ -36,7 +36,7 @@ def table_beside(module: str, name: str) -> dict[str, Any]:
     return read_file("table", Path(module).with_name(name))
 
 
-def spec_beside(module: str, params: type[Any], rules: tuple[Rule, ...]) -> ModelSpec:
+def spec_beside(module: str, params: type[Any], rules: tuple[Rule, ...] = ()) -> ModelSpec:
     """Return what a model shows to the outside, of the ``interface.toml`` beside a module.
 
     A row of an output is its unit, nominal value if it is a real number, meaning, then the other
@@ -63,32 +63,27 @@ def unknown(where: str, key: str, known: Iterable[str]) -> ParameterError:
     return ParameterError(f"{where}: there is no {key!r} here{hint}")
 
 
-def nothing_else(where: str, rest: Iterable[str], known: Iterable[str]) -> None:
-    """Refuse whatever is left in a table."""
-    for key in rest:
-        raise unknown(where, key, known)
+def nothing_else(where: str, keys: Iterable[str], known: Collection[str]) -> None:
+    """Refuse keys that are not known."""
+    for key in keys:
+        if key not in known:
+            raise unknown(where, key, known)
 
 
 def quantity(where: str, key: str, value: Any, unit: str) -> float:
     """Return a number in SI units."""
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
-    try:
+    with within(where):
         return parse_quantity(value, unit, key)
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
 
 
 def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:
     """Return a number in SI units within its range; ``rule``: unit, least, largest."""
     unit, low, high = rule
-    number = quantity(where, key, value, unit)
-    if not low <= number <= high:
-        tail = "" if unit == "1" else f" {unit}"
-        raise ParameterError(
-            f"{where}: {key} = {number!r}{tail}, allowed: {low:g} .. {high:g}{tail}"
-        )
-    return number
+    found = quantity(where, key, value, unit)
+    with within(where):
+        return check_number(key, found, unit, low, high)
 
 
 def read_value(where: str, key: str, value: Any, meta: Any) -> Any:

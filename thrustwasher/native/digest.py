@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 
-from .entries import called_modules, lines
+from .entries import called, called_modules
 
 PACKAGE = __name__.partition(".")[0]
 HERE = Path(__file__).parent
@@ -34,7 +34,7 @@ def digest(kernel: str) -> str:
 
 def digest_of(kernel: str, found: Mapping[str, bytes]) -> str:
     """Return 16 hex digits over a kernel module's sources by name, and what compiles them."""
-    hashed = hashlib.sha256(_makers() + "\n".join(lines(kernel)).encode())
+    hashed = hashlib.sha256(_makers() + str(called(kernel)).encode())
     for name in sorted(found):
         hashed.update(f"{name}\0{len(found[name])}\0".encode() + found[name])
     return hashed.hexdigest()[:16]

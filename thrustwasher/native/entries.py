@@ -3,8 +3,9 @@
 A model's library holds the entries of its step ABI for the FMU's shell, with arrays of fixed
 length, and functions for Python, with the lengths as they are given. What these take
 follows from their annotations: numbers, arrays, tuples of these. The head of a model's package of
-kernels lists them: ``CALLED``, module of the library -> functions, each by its full name. An array
-has one dimension unless it is named there, behind the function, as having two.
+kernels lists them: ``CALLED``, module of the library -> functions, those of a module as "module:
+name name" or each by its full name. An array has one dimension unless it is named behind that one
+function as having two.
 """
 
 from __future__ import annotations
@@ -56,9 +57,18 @@ def _called(package: str) -> Mapping[str, tuple[str, ...]]:
     return found
 
 
-def lines(library: str) -> tuple[str, ...]:
-    """Return a library's functions for Python, each with its arrays of two dimensions."""
-    return _called(library.rpartition(".")[0]).get(library, ())
+@cache
+def called(library: str) -> tuple[tuple[str, str, tuple[str, ...]], ...]:
+    """Return module, name and arrays of two dimensions of each function of a library for Python."""
+    found: list[tuple[str, str, tuple[str, ...]]] = []
+    for line in _called(library.rpartition(".")[0]).get(library, ()):
+        place, *rest = line.split()
+        if place.endswith(":"):
+            found += [(place[:-1], name, ()) for name in rest]
+        else:
+            module, _, name = place.rpartition(".")
+            found.append((module, name, tuple(rest)))
+    return tuple(found)
 
 
 def libraries() -> list[str]:
@@ -67,15 +77,14 @@ def libraries() -> list[str]:
 
 
 @cache
-def _found(module: str, name: str) -> tuple[str, list[str]] | None:
+def _found(module: str, name: str) -> tuple[str, tuple[str, ...]] | None:
     """Return the library that has a function, and the function's arrays of two dimensions."""
-    wanted = f"{module}.{name}"
     for package in compiled_packages():
         if package in OTHERS and not module.startswith(package):
             continue
-        for library, called in _called(package).items():
-            for place, *two in map(str.split, called):
-                if place == wanted:
+        for library in _called(package):
+            for place, own, two in called(library):
+                if (place, own) == (module, name):
                     return library, two
     return None
 
@@ -86,22 +95,21 @@ def library_of(module: str, name: str) -> str | None:
     return found[0] if found else None
 
 
-def arrays_of_two(module: str, name: str) -> list[str]:
+def arrays_of_two(module: str, name: str) -> tuple[str, ...]:
     """Return which arguments of a function are arrays of two dimensions."""
     found = _found(module, name)
-    return found[1] if found else []
+    return found[1] if found else ()
 
 
 @cache
 def symbols(library: str) -> tuple[str, ...]:
     """Return the names of a library's functions for Python, sorted: their order in its table."""
-    places = (line.split()[0].rpartition(".") for line in lines(library))
-    return tuple(sorted(symbol_of(module, name) for module, _, name in places))
+    return tuple(sorted(symbol_of(module, name) for module, name, _ in called(library)))
 
 
 def called_modules(library: str) -> list[str]:
     """Return the modules whose functions are in a library because Python calls them."""
-    return sorted({line.split()[0].rpartition(".")[0] for line in lines(library)})
+    return sorted({module for module, _, _ in called(library)})
 
 
 def symbol_of(module: str, name: str) -> str:
@@ -111,12 +119,8 @@ def symbol_of(module: str, name: str) -> str:
 
 def entries(library: str) -> list[Entry]:
     """Return the functions of a library that Python calls; imports all their modules."""
-    found = []
-    for line in lines(library):
-        place, *two = line.split()
-        module, _, name = place.rpartition(".")
-        found.append(describe(getattr(importlib.import_module(module), name), two))
-    return found
+    return [describe(getattr(importlib.import_module(module), name), two)
+            for module, name, two in called(library)]  # fmt: skip
 
 
 def describe(function: Any, two: Sequence[str]) -> Entry:

@@ -144,6 +144,14 @@ def private_folder() -> Path:
     return Path(folder)
 
 
+def forget_old(folder: Path, pattern: str, kept: int) -> None:
+    """Remove all folders of a name but those changed last."""
+    with suppress(OSError):
+        found = sorted(folder.glob(pattern), key=lambda f: f.stat().st_mtime)
+        for old in found[: max(len(found) - kept, 0)]:
+            shutil.rmtree(old, ignore_errors=True)
+
+
 def keep(path: Path, data: bytes) -> None:
     """Write a file of compiled code and beside it its checksum."""
     write(path, data, 0o600)

@@ -3,14 +3,12 @@
 import importlib.util
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 
@@ -77,8 +75,9 @@ def _kept(folder: Path, wanted: Wanted) -> Objects:
 
 
 def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note: Note) -> None:
-    _forget_old(folder, name)
     folder.mkdir(exist_ok=True, mode=0o700)
+    os.utime(folder)  # the one used last
+    files.forget_old(folder.parent, f"{name}-*", KEPT_VERSIONS)
 
     def waiting() -> None:
         note(f"{name} is being compiled by another process: waiting for it")
@@ -93,23 +92,12 @@ def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note:
             note(f"compiling {name}, whose source is new here: about {about:.0f} s")
             _make(bitcode, "emit", kernel, digest(kernel))
         with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-            jobs = [(_object(folder, w), bitcode, *wanted[w], name) for w in sorted(missing)]
-            for job in [pool.submit(_lower, *given) for given in jobs]:
+            jobs = [pool.submit(_make, _object(folder, w), "lower", str(bitcode), platform.name,
+                                json.dumps(asdict(level)), name)
+                    for w, (platform, level) in sorted(wanted.items()) if w in missing]  # fmt: skip
+            for job in jobs:
                 job.result()
         note(f"compiled {name} in {time.perf_counter() - start:.0f} s")
-
-
-def _forget_old(folder: Path, name: str) -> None:
-    """Drop the oldest versions of a kernel in the user's cache."""
-    with suppress(OSError):
-        versions = sorted(folder.parent.glob(f"{name}-*"), key=lambda f: f.stat().st_mtime)
-        for old in versions[: -KEPT_VERSIONS + 1]:
-            if old != folder:
-                shutil.rmtree(old, ignore_errors=True)
-
-
-def _lower(path: Path, bitcode: Path, platform: Platform, level: Level, name: str) -> None:
-    _make(path, "lower", str(bitcode), platform.name, json.dumps(asdict(level)), name)
 
 
 def _make(path: Path, module: str, *arguments: str) -> None:

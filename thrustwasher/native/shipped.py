@@ -105,25 +105,8 @@ def fmu_libraries(kernel: str, digest: str) -> dict[str, bytes]:
     return {n.removeprefix(FMU): data for n, data in found.items() if n.startswith(FMU)}
 
 
-def pack(
-    objects: Mapping[tuple[str, str], bytes], libraries: Mapping[str, bytes] | None = None
-) -> bytes:
-    """Return an archive of objects, and of libraries for FMUs by platform."""
-    import lzma  # late: a Python may have been built without it
-
-    found = {f"{platform}-{level}.o": data for (platform, level), data in objects.items()}
-    found |= {f"{FMU}{platform}": data for platform, data in (libraries or {}).items()}
-    buffer = io.BytesIO()
-    with tarfile.open(fileobj=buffer, mode="w") as archive:
-        for name, data in sorted(found.items()):
-            about = tarfile.TarInfo(name)
-            about.size = len(data)
-            archive.addfile(about, io.BytesIO(data))
-    return lzma.compress(buffer.getvalue(), preset=9 | lzma.PRESET_EXTREME)
-
-
 def unpack(data: bytes) -> dict[str, bytes]:
-    """Return the files in an archive of ``pack``."""
+    """Return the files in an archive."""
     with tarfile.open(fileobj=io.BytesIO(data)) as archive:
         members = [(about.name, archive.extractfile(about)) for about in archive]
         return {name: file.read() for name, file in members if file}

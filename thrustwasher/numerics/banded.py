@@ -124,19 +124,8 @@ def factor_solve(lower: Array, mirrored: Array, b: Array, n: int, band: int) -> 
 @kernel
 def cholesky_solve_many(a: Array, b: Array, n: int, band: int) -> None:
     """Solve for ``N_SIDES`` right sides at once; ``b[row * N_SIDES + side]``, in place."""
+    _forth_many(a, b, n, band)
     w = band + 1
-    for j in range(n):
-        end = min(band, n - 1 - j)
-        c = j * w
-        here = j * N_SIDES
-        scale = 1.0 / a[c]
-        for s in range(N_SIDES):
-            b[np.uintp(here + s)] *= scale
-        for k in range(1, end + 1):
-            f = a[np.uintp(c + k)]
-            there = (j + k) * N_SIDES
-            for s in range(N_SIDES):
-                b[np.uintp(there + s)] -= f * b[np.uintp(here + s)]
     for j in range(n - 1, -1, -1):
         end = min(band, n - 1 - j)
         c = j * w

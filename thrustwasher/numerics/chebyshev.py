@@ -16,6 +16,7 @@ weights of the 40 nodes, and the change of these along a direction.
 
 import numpy as np
 
+from .arrays import clear
 from .jit import Array, inlined, kernel
 
 N_AXES = 3
@@ -31,11 +32,6 @@ N_CELL = CHANGES + N_SHARES
 INNER = 32  # place of the nodes inside of the second axis among the shares
 
 
-def nodes_of(patches: int) -> int:
-    """Return how many nodes an axis of so many patches has."""
-    return (N_NODES - 1) * patches + 1
-
-
 def lines_of(patches1: int, patches2: int, patches3: int) -> int:
     """Return how many lines a chart has."""
     ends = (3 * patches1 + 1) * (3 * patches3 + 1) * (patches2 + 1)
@@ -47,8 +43,7 @@ def enter_cell(cell: Array, axis: int, x: float, low: float, high: float, patche
     """Write weights and slopes of one axis at ``x``; beyond ``low .. high`` it extrapolates."""
     base = axis * N_AXIS
     if patches < 1:
-        for k in range(N_AXIS):
-            cell[base + k] = 0.0
+        clear(cell[base : base + N_AXIS])
         cell[base + WEIGHT] = 1.0
         cell[base + LINEAR] = 1.0
         return

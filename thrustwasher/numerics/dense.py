@@ -8,13 +8,13 @@ from .jit import Array, kernel
 
 
 @kernel
-def dense_solve(a: Array, b: Array, n: int, n_rhs: int) -> bool:
+def dense_solve(a: Array, b: Array, n: int) -> bool:
     """Solve ``a x = b`` in place; return False if a pivot is zero or not finite.
 
     Parameters
     ----------
     a : (n * n,) row by row, overwritten
-    b : (n * n_rhs,) row by row; right sides in, solutions out
+    b : (n,) right side in, solution out
     """
     for j in range(n):
         best = j
@@ -27,20 +27,17 @@ def dense_solve(a: Array, b: Array, n: int, n_rhs: int) -> bool:
         if best != j:
             for k in range(j, n):
                 a[j * n + k], a[best * n + k] = a[best * n + k], a[j * n + k]
-            for k in range(n_rhs):
-                b[j * n_rhs + k], b[best * n_rhs + k] = b[best * n_rhs + k], b[j * n_rhs + k]
+            b[j], b[best] = b[best], b[j]
         for i in range(j + 1, n):
             f = a[i * n + j] / pivot
             for k in range(j + 1, n):
                 a[i * n + k] -= f * a[j * n + k]
-            for k in range(n_rhs):
-                b[i * n_rhs + k] -= f * b[j * n_rhs + k]
+            b[i] -= f * b[j]
     for j in range(n - 1, -1, -1):
-        for k in range(n_rhs):
-            x = b[j * n_rhs + k]
-            for i in range(j + 1, n):
-                x -= a[j * n + i] * b[i * n_rhs + k]
-            b[j * n_rhs + k] = x / a[j * n + j]
+        x = b[j]
+        for i in range(j + 1, n):
+            x -= a[j * n + i] * b[i]
+        b[j] = x / a[j * n + j]
     return True
 
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import shutil
 import tempfile
 from collections.abc import Callable
 from functools import cache, update_wrapper
@@ -25,10 +24,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import EnvironmentProblem
-from ..native.files import code_folder, private_folder
+from ..native.files import code_folder, forget_old, private_folder
 from ..native.load import native_function
 
 Array = NDArray[np.float64]
+Ints = NDArray[np.int32]
 F = TypeVar("F", bound=Callable[..., Any])
 KEPT_VERSIONS = 5
 PACKAGE = Path(__file__).parents[1]
@@ -100,13 +100,6 @@ def kernel_digest() -> str:
     return hashed.hexdigest()[:16]
 
 
-def _forget_old(base: str) -> None:
-    """Keep the compiled kernels of the last few versions only (some 10 MB each)."""
-    folders = sorted(Path(base).glob("kernels-*"), key=lambda f: f.stat().st_mtime)
-    for folder in folders[:-KEPT_VERSIONS]:
-        shutil.rmtree(folder, ignore_errors=True)
-
-
 @cache
 def cache_folder() -> str:
     """Return the folder of what numba compiled: NUMBA_CACHE_DIR, else the user's cache."""
@@ -114,7 +107,7 @@ def cache_folder() -> str:
     folder = os.path.join(base, f"kernels-{kernel_digest()}")
     try:
         if not os.path.isdir(folder):
-            _forget_old(base)
+            forget_old(Path(base), "kernels-*", KEPT_VERSIONS)
         os.makedirs(folder, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder

@@ -56,17 +56,10 @@ def soft_least(a: float, b: float, width: float) -> tuple[float, float]:
 
 
 @kernel
-def soft_most(a: float, b: float, width: float) -> float:
-    """Return max(a, b), rounded where they differ by less than ``width`` > 0 (up by width/4)."""
-    least, _ = soft_least(-a, -b, width)
-    return -least
-
-
-@kernel
-def soft_most_slope(a: float, b: float, width: float) -> float:
-    """Return the slope of ``soft_most`` over a."""
-    _, slope = soft_least(-a, -b, width)
-    return slope
+def soft_most(a: float, b: float, width: float) -> tuple[float, float]:
+    """Return max(a, b) and its slope over a; rounded as ``soft_least``, up by width/4 at most."""
+    least, slope = soft_least(-a, -b, width)
+    return -least, slope
 
 
 @kernel

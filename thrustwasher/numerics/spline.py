@@ -1,5 +1,6 @@
-"""Quadrature weights of the not-a-knot cubic spline through given nodes."""
+"""Splines: weights that integrate the not-a-knot cubic one, the quintic between two knots."""
 
+from .arrays import clear
 from .dense import dense_solve
 from .jit import Array, kernel
 
@@ -19,11 +20,9 @@ def spline_weights(x: Array, weights: Array, n: int, work: Array) -> bool:
     derivatives M solve A M = B f; so the weights are the trapezoid's less B^T A^-T v. Exact for
     cubics; error of order 4 for smooth f, also on graded nodes.
     """
-    for k in range(n * n + n):
-        work[k] = 0.0
     v = n * n
-    for i in range(n):
-        weights[i] = 0.0
+    clear(work[: v + n])
+    clear(weights[:n])
     for i in range(n - 1):
         h = x[i + 1] - x[i]
         weights[i] += 0.5 * h
@@ -42,7 +41,7 @@ def spline_weights(x: Array, weights: Array, n: int, work: Array) -> bool:
         work[i * n + i] = (h0 + h1) / 3.0
         work[(i + 1) * n + i] = h1 / 6.0
     y = work[n * n : n * n + n]
-    if not dense_solve(work[: n * n], y, n, 1):
+    if not dense_solve(work[: n * n], y, n):
         return False
     for i in range(1, n - 1):
         h0, h1 = x[i] - x[i - 1], x[i + 1] - x[i]
@@ -50,3 +49,22 @@ def spline_weights(x: Array, weights: Array, n: int, work: Array) -> bool:
         weights[i] += y[i] * (1.0 / h0 + 1.0 / h1)
         weights[i + 1] -= y[i] / h1
     return True
+
+
+@kernel
+def quintic(
+    one: tuple[float, float, float], two: tuple[float, float, float], t: float
+) -> tuple[float, float]:
+    """Return value and slope at ``t`` in 0 .. 1 of the quintic between two knots.
+
+    ``one``, ``two``: value, slope and curvature there, over ``t``.
+    """
+    (f0, g0, c0), (f1, g1, c1) = one, two
+    a = f1 - f0 - g0 - 0.5 * c0
+    b = g1 - g0 - c0
+    c = c1 - c0
+    e3 = 10.0 * a - 4.0 * b + 0.5 * c
+    e4 = -15.0 * a + 7.0 * b - c
+    e5 = 6.0 * a - 3.0 * b + 0.5 * c
+    value = f0 + t * (g0 + t * (0.5 * c0 + t * (e3 + t * (e4 + t * e5))))
+    return value, g0 + t * (c0 + t * (3.0 * e3 + t * (4.0 * e4 + t * 5.0 * e5)))

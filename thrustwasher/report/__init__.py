@@ -4,7 +4,6 @@
 ``html``         one page that holds text, tables and plots and works offline
 ``model_plots``  pictures of one model
 ``palette``      colours told apart by everyone, and what axis labels share
-``panels``       pictures of a shift over time
 ``shift``        the report of a shift, chapter by chapter
 ``style``        one look for all plots
 ``web``          styles and scripts of the pages, and the library they plot with

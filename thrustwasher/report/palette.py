@@ -5,7 +5,6 @@ import math
 # Okabe & Ito's palette, safe for the usual kinds of colour blindness; yellow is too pale for lines.
 BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 SKY, PURPLE, BLACK, GREY = "#56B4E9", "#CC79A7", "#222222", "#8A8A8A"
-COLOURS = {"clutch": RED, "brake": PURPLE}
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 CELSIUS = 273.15  # K

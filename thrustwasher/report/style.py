@@ -59,12 +59,10 @@ def legend_below(
     figure.legend(handles, names, loc="lower center", ncols=columns, borderaxespad=0.3)
 
 
-def time_figure(
-    height: float, rows: int = 1, shares: tuple[float, ...] = (1.0,)
-) -> tuple[Figure, list[Axes]]:
+def time_figure(height: float, rows: int) -> tuple[Figure, list[Axes]]:
     """Return panels over one time axis; all such figures have it at the same place of the page."""
     figure = Figure(figsize=(10.4, height))
-    axes = figure.subplots(rows, 1, sharex=True, height_ratios=shares)
+    axes = figure.subplots(rows, 1, sharex=True)
     figure.subplots_adjust(
         left=0.085, right=0.735, top=1.0 - 0.32 / height, bottom=0.5 / height, hspace=0.22
     )

@@ -1,6 +1,7 @@
 """Run a shift: connect the instances of a scene, step them to the end, and read the result."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -10,10 +11,9 @@ from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
 from ..model.record import resolve
 from ..model.registry import all_models
-from .cosim.instances import Stepping, capable
-from .cosim.loop import PythonLoop, Recorder, Run, Steps
+from .cosim.loop import Recorder, Run, Steps, advance_in_python
 from .cosim.schedule import Correct
-from .cosim.system import ConnectedPart, System
+from .cosim.system import ConnectedPart, Stepping, System, capable
 from .key_figures.events_and_phases import find_events, find_phases
 from .key_figures.key_figures import energy_balance, key_figures
 from .masters.master import MASTERS
@@ -190,7 +190,7 @@ def advance_of(run: Run, compiled: bool | None) -> Callable[[int, int], None]:
             "compiled = True, allowed: with FMUs for all parts and master 'gauss-seidel' or "
             "'jacobi', on a 64-bit machine where numba compiles"
         )
-    return PythonLoop(run).advance
+    return partial(advance_in_python, run)
 
 
 def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:

@@ -11,17 +11,15 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..transmission.parameters import course_points
-from .cosim.instances import Stepping
 from .cosim.loop import Recorder, Run, Steps
 from .cosim.schedule import carry_out, gauss_seidel
-from .cosim.system import System
+from .cosim.system import Stepping, System
 from .run import Progress, check_instances, connected, result_of
 from .scene.connections import COMMAND
 from .scene.scene import Scene
 from .scene.sequence import sequence_of, shift_scene, times
 from .shift_result import ShiftResult
 
-Course = Callable[[float], float]
 # Input of the transmission -> course that drives it.
 DRIVEN = {"clutch_pressure": "clutch_pressure", "brake_pressure": "brake_pressure",
           "engine_torque_input": "engine_torque"}  # fmt: skip

@@ -20,19 +20,16 @@ def body_times(params: WasherParams, gap: float) -> tuple[float, float]:
     The films are ``gap`` [m] thick.
     """
     p = params
-    carrier, washer, gear = (
-        (own[0] or p.conductivity, (own[1] or p.density) * (own[2] or p.specific_heat))
-        for own in (
-            (p.conductivity_carrier, p.density_carrier, p.specific_heat_carrier),
-            (p.conductivity_washer, p.density_washer, p.specific_heat_washer),
-            (p.conductivity_gear, p.density_gear, p.specific_heat_gear),
-        )
-    )
-    across = gap / p.oil_conductivity + 0.5 * p.washer_thickness / washer[0]
+
+    def of(body: str, name: str) -> float:
+        """Return a body's own property, that of all bodies if it has none."""
+        return float(getattr(p, f"{name}_{body}") or getattr(p, name))
+
+    across = gap / p.oil_conductivity + 0.5 * p.washer_thickness / of("washer", "conductivity")
     times = stack_times(
-        (carrier[0] / p.carrier_thickness, gear[0] / p.gear_thickness),
-        (carrier[1] * p.carrier_thickness, washer[1] * p.washer_thickness,
-         gear[1] * p.gear_thickness),
+        tuple(of(b, "conductivity") / getattr(p, f"{b}_thickness") for b in ("carrier", "gear")),
+        tuple(of(b, "density") * of(b, "specific_heat") * getattr(p, f"{b}_thickness")
+              for b in ("carrier", "washer", "gear")),
         across, across,
         ((1.0, 1.0),) if p.body_storage == "lumped" else tuple(zip(SHARES, TIMES, strict=True)),
     )  # fmt: skip

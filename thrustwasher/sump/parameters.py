@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..model.parameters import check_ranges, extended, quantity
-from ..model.spec import OIL_PORT, ModelSpec, Signal, Terminal, output
+from ..model.spec import ModelSpec, Signal, Terminal, output
 
 PORTS = range(1, 7)
 
@@ -70,7 +70,7 @@ SPEC = ModelSpec(
     ),
     kernel="thrustwasher.sump.kernels.step",
     terminals=tuple(
-        Terminal(name=f"part_{i}", kind=OIL_PORT.kind,
+        Terminal(name=f"part_{i}", kind="thrustwasher.HeatPort",
                  help="Heat from a kind of part in, temperature of its oil out",
                  members=((f"heat_{i}", "Q_flow", "inflow"), ("temperature", "T", "signal")))
         for i in PORTS

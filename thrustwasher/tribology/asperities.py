@@ -10,6 +10,7 @@ import numpy as np
 
 from ..numerics.jit import Array, kernel
 from ..numerics.quadrature import GAUSS_NODES, GAUSS_WEIGHTS
+from ..numerics.spline import quintic
 
 YIELD_END = 1.9  # w_t*: up to here the asperity counts as elastic
 
@@ -164,18 +165,10 @@ def contact_pressure(d: float, table: Array) -> tuple[float, float]:
         below, x = x, 0.0
     i = min(int(x), N_KNOTS - 2)
     t = x - i
-    f0, f1 = table[np.uintp(i)], table[np.uintp(i + 1)]
-    g0, g1 = table[np.uintp(N_KNOTS + i)], table[np.uintp(N_KNOTS + i + 1)]
-    c0, c1 = table[np.uintp(2 * N_KNOTS + i)], table[np.uintp(2 * N_KNOTS + i + 1)]
-    # quintic through value, slope, curvature at both ends
-    a = f1 - f0 - g0 - 0.5 * c0
-    b = g1 - g0 - c0
-    c = c1 - c0
-    e3 = 10.0 * a - 4.0 * b + 0.5 * c
-    e4 = -15.0 * a + 7.0 * b - c
-    e5 = 6.0 * a - 3.0 * b + 0.5 * c
-    ln_p = f0 + t * (g0 + t * (0.5 * c0 + t * (e3 + t * (e4 + t * e5))))
-    slope = g0 + t * (c0 + t * (3.0 * e3 + t * (4.0 * e4 + t * 5.0 * e5)))
+    j = i + 1
+    one = table[np.uintp(i)], table[np.uintp(N_KNOTS + i)], table[np.uintp(2 * N_KNOTS + i)]
+    two = table[np.uintp(j)], table[np.uintp(N_KNOTS + j)], table[np.uintp(2 * N_KNOTS + j)]
+    ln_p, slope = quintic(one, two, t)
     p = math.exp(ln_p)
     dp = p * slope / STEP
     if below < 0.0:

@@ -9,7 +9,9 @@ import math
 import numpy as np
 
 from ..numerics.jit import kernel
+from ..numerics.spline import quintic
 from ..numerics.status import MAX_ITERATIONS
+from .flow_factors import INV_SQRT2, INV_SQRT2PI
 
 N_NODES = 48
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(N_NODES)
@@ -21,8 +23,6 @@ U_MIN, U_MAX = -8.0, 14.0
 N_KNOTS = 353
 FAR_BELOW = -30.0
 STEP = (U_MAX - U_MIN) / (N_KNOTS - 1)
-INV_SQRT2 = 0.7071067811865476
-INV_SQRT2PI = 0.3989422804014327
 N_TRIES = 60
 
 
@@ -98,16 +98,9 @@ def contact_integral(u: float) -> tuple[float, float]:
     i = np.uintp(min(int(x), N_KNOTS - 2))
     j = np.uintp(i + np.uintp(1))
     t = x - float(i)
-    g0, c0 = TABLE[1, i], TABLE[2, i]
-    # quintic through value, slope, curvature at both ends
-    a = TABLE[0, j] - TABLE[0, i] - g0 - 0.5 * c0
-    b = TABLE[1, j] - g0 - c0
-    c = TABLE[2, j] - c0
-    e3 = 10.0 * a - 4.0 * b + 0.5 * c
-    e4 = -15.0 * a + 7.0 * b - c
-    e5 = 6.0 * a - 3.0 * b + 0.5 * c
-    value = math.exp(TABLE[0, i] + t * (g0 + t * (0.5 * c0 + t * (e3 + t * (e4 + t * e5)))))
-    slope = g0 + t * (c0 + t * (3.0 * e3 + t * (4.0 * e4 + t * 5.0 * e5)))
+    one, two = (TABLE[0, i], TABLE[1, i], TABLE[2, i]), (TABLE[0, j], TABLE[1, j], TABLE[2, j])
+    log, slope = quintic(one, two, t)
+    value = math.exp(log)
     return value, value * slope / STEP
 
 

@@ -3,10 +3,9 @@
 import math
 
 from ..numerics.jit import kernel
-from ..numerics.smoothing import soft_least, soft_most, soft_most_slope
+from ..numerics.smoothing import soft_least, soft_most
+from .flow_factors import INV_SQRT2, INV_SQRT2PI
 
-INV_SQRT2 = 0.7071067811865476
-INV_SQRT2PI = 0.3989422804014327
 DIRECT_LIMIT = 3.0  # above it pdf - u Q cancels and the continued fraction has converged
 N_TERMS = 60
 LARGEST_RATIO = 1e6  # surfaces that hardly touch: the law has left its meaning long before
@@ -64,26 +63,20 @@ def area_and_slope(film_ratio: float, asperity_group: float) -> tuple[float, flo
     if share * LARGEST_RATIO < 0.5:
         return LARGEST_RATIO, 0.0
     ratio, slope = soft_least(1.0 / share, LARGEST_RATIO, WINDOW * LARGEST_RATIO)
-    slope *= soft_most_slope(ratio, 1.0, WINDOW)
-    return soft_most(ratio, 1.0, WINDOW), slope * tail / (overlap * share)
-
-
-@kernel
-def bounded_ratio(ratio: float, hardness: float, pressure: float) -> float:
-    """Return the area ratio that leaves no asperity above ``hardness`` [Pa], and at least 1.
-
-    On the real area the mean ``pressure`` [Pa] is ratio times as large.
-    """
-    bound = hardness / pressure
-    bounded, _ = soft_least(ratio, bound, WINDOW * bound)
-    return soft_most(bounded, 1.0, WINDOW)
+    bounded, rest = soft_most(ratio, 1.0, WINDOW)
+    slope *= rest
+    return bounded, slope * tail / (overlap * share)
 
 
 @kernel
 def bounded_slopes(ratio: float, hardness: float, pressure: float) -> tuple[float, float, float]:
-    """Return ``bounded_ratio`` and its slopes over the ratio and over the logarithm of pressure."""
+    """Return the area ratio that leaves no asperity above ``hardness`` [Pa], and at least 1.
+
+    With its slopes over the ratio and over the logarithm of pressure. On the real area the mean
+    ``pressure`` [Pa] is ratio times as large.
+    """
     bound = hardness / pressure
     bounded, slope = soft_least(ratio, bound, WINDOW * bound)
-    least, rest = soft_least(-bounded, -1.0, WINDOW)
+    most, rest = soft_most(bounded, 1.0, WINDOW)
     # the rounded minimum grows in proportion with ratio and bound together
-    return -least, rest * slope, -rest * (bounded - slope * ratio)
+    return most, rest * slope, -rest * (bounded - slope * ratio)

@@ -8,7 +8,7 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 from lxml import etree
 
-from thrustwasher.fmu.description.xml_parts import default_experiment
+from thrustwasher.fmu.description.model_description import default_experiment
 from thrustwasher.fmu.documentation.reference_results import FOLDER, reference_files
 from thrustwasher.model.registry import all_specs, find_spec
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import find_spec
-from thrustwasher.shift.cosim.loop import PythonLoop, Recorder, Run
+from thrustwasher.shift.cosim.loop import Recorder, Run, advance_in_python
 from thrustwasher.shift.cosim.system import ConnectedPart, System
 from thrustwasher.shift.masters.master import MASTERS
 from thrustwasher.shift.scene.connections import Link
@@ -59,7 +59,7 @@ def march(system, master, h, n):
     system.set_command(1.0)
     system.initialize(0.0)
     recorder.keep(0)
-    PythonLoop(run).advance(0, n)
+    advance_in_python(run, 0, n)
     return recorder.signals()
 
 

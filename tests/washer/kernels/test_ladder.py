@@ -8,13 +8,8 @@ import pytest
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.washer.kernels import ladder
 from thrustwasher.washer.kernels import layout as L
-from thrustwasher.washer.kernels.constants import (
-    WasherModel,
-    derive_grid,
-    size_of_par,
-    washer_model,
-)
-from thrustwasher.washer.kernels.workspace import Fields, fields_of, size_of_work, workspace_of
+from thrustwasher.washer.kernels.constants import derive_grid, size_of_par, washer_model
+from thrustwasher.washer.kernels.workspace import Workspace, fields_of, size_of_work, workspace_of
 from thrustwasher.washer.parameters import WasherParams
 
 GRID = (6, 8)
@@ -26,8 +21,15 @@ SIGNS = np.where(ODD % 4 == 1, 1.0, -1.0)
 
 @dataclass
 class Bodies:
-    m: WasherModel
-    f: Fields
+    w: Workspace
+
+    @property
+    def m(self):
+        return washer_model(self.w.par)
+
+    @property
+    def f(self):
+        return fields_of(self.w)
 
     @property
     def carrier(self):
@@ -37,11 +39,11 @@ class Bodies:
         """Bring all bodies through ``dt`` with a flux that is linear in time."""
         f = self.f
         f.begin[:] = f.temp
-        ladder.set_stage(self.m, dt, f)
+        ladder.set_stage(self.w, dt)
         self.heat(first + ladder.STAGE * (last - first))
-        ladder.set_end(self.m, dt, f)
+        ladder.set_end(self.w, dt)
         self.heat(last)
-        ladder.advance_terms(self.m, dt, f)
+        ladder.advance_terms(self.w, dt)
 
     def heat(self, flux):
         m, f = self.m, self.f
@@ -68,8 +70,7 @@ def bodies(**changes):
     par = np.zeros(size_of_par(*GRID))
     par[: L.N_PARAM] = [*as_numbers(WasherParams(**changes)), L.FIELD]
     assert derive_grid(par, *GRID) == 0
-    w = workspace_of(par, np.zeros(L.N_HEAD + size_of_work(*GRID)))
-    return Bodies(washer_model(par), fields_of(w))
+    return Bodies(workspace_of(par, np.zeros(L.N_HEAD + size_of_work(*GRID))))
 
 
 def number(seconds, m):
@@ -117,7 +118,7 @@ def test_what_is_not_stored_leaves_through_the_far_faces(storage):
         one, two = b.areas()
         far = ladder.far_heat(b.m, b.f)
         before = b.f.ladder.copy()
-        for body in (ladder.carrier_of(b.m), ladder.gear_of(b.m)):
+        for body in (ladder.body_of(b.m, L.OF_CARRIER), ladder.body_of(b.m, L.OF_GEAR)):
             for k in range(L.N_TERMS):
                 resistance, time, _ = ladder.term(body, k)
                 for j in range(body.columns):
@@ -126,7 +127,7 @@ def test_what_is_not_stored_leaves_through_the_far_faces(storage):
                     b.f.ladder[k, part] = (resistance * FLUX - before[k, part]) / time
         kept = b.f.temp.copy()
         b.f.temp[:] = 0.0
-        assert FLUX * (one + two) - ladder.stored_heat(b.m, b.f) == pytest.approx(far, rel=1e-12)
+        assert FLUX * (one + two) - ladder.stored_heat(b.w) == pytest.approx(far, rel=1e-12)
         b.f.temp[:] = kept
         b.f.ladder[:] = before
 
@@ -140,14 +141,14 @@ def test_heat_stored_is_that_of_a_slab_but_for_a_few_percent():
         left = np.sum(4.0 / (np.pi * ODD) * SIGNS / RATES * np.exp(-RATES * number(now, b.m)))
         slab = p.density * p.specific_heat * p.carrier_thickness * b.rise() * (0.5 - left)
         one, _ = b.areas()
-        _, stored = ladder._through(b.m, ladder.carrier_of(b.m), b.f)
+        _, stored = ladder._through(b.m, ladder.body_of(b.m, L.OF_CARRIER), b.f)
         assert stored / one == pytest.approx(slab, rel=0.065 if now < 10.0 else 5e-3)
 
 
 def test_a_steady_body_passes_on_what_enters():
     b = bodies()
     b.f.temp[:] = 30.0
-    ladder.start_terms(b.m, b.f)
+    ladder.start_terms(b.w)
     one, two = b.areas()
     out = 30.0 * (b.m.carrier_conductivity / b.m.carrier_thickness * one
                   + b.m.gear_conductivity / b.m.gear_thickness * two)  # fmt: skip
@@ -164,14 +165,14 @@ def test_a_lumped_body_follows_the_exponential_of_its_time():
     exact = b.rise() * -np.expm1(-number(3.0, b.m))
     assert b.f.temp[b.carrier] == pytest.approx(exact, rel=1e-12)
     p = WasherParams()
-    _, stored = ladder._through(b.m, ladder.carrier_of(b.m), b.f)
+    _, stored = ladder._through(b.m, ladder.body_of(b.m, L.OF_CARRIER), b.f)
     heat = p.density * p.specific_heat * p.carrier_thickness * exact * b.areas()[0]
     assert stored == pytest.approx(heat, rel=1e-12)
 
 
 def test_a_face_follows_warmer_oil_as_that_of_a_slab():
     b = bodies()
-    ladder.shift_terms(b.m, 10.0, b.f)
+    ladder.shift_terms(b.w, 10.0)
     assert b.f.temp[b.carrier] == pytest.approx(-10.0)
     assert b.f.ladder[:, b.carrier].sum(axis=0) == pytest.approx(-10.0, rel=1e-12)
     now = 0.0
@@ -196,17 +197,17 @@ def test_the_washer_stores_all_it_takes():
 @pytest.mark.parametrize("h", [1e-4, 1e-2, 1.0, 1e4])
 def test_both_stages_have_nearly_the_same_coefficient(h):
     b = bodies()
-    ladder.set_stage(b.m, h, b.f)
+    ladder.set_stage(b.w, h)
     first = b.f.small[L.OUT_CARRIER : L.OUT_SIZE].copy()
-    ladder.set_end(b.m, h, b.f)
+    ladder.set_end(b.w, h)
     assert b.f.small[L.OUT_CARRIER : L.OUT_SIZE] == pytest.approx(first, rel=0.25)
 
 
 def test_a_change_that_lasts_for_a_long_step_is_a_steady_one():
     b = bodies()
-    ladder.set_held(b.m, 1e4, b.f)
+    ladder.set_held(b.w, 1e4)
     steady = b.m.carrier_conductivity / b.m.carrier_thickness
     assert b.f.small[L.OUT_CARRIER] == pytest.approx(steady, rel=1e-3)
     assert b.f.small[L.OUT_OIL] == pytest.approx(0.0, abs=1e-12)
-    ladder.set_held(b.m, 1e-6, b.f)
+    ladder.set_held(b.w, 1e-6)
     assert b.f.small[L.OUT_OIL : L.OUT_OIL + 3] == pytest.approx(1.0, abs=1e-3)

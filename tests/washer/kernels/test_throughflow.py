@@ -59,7 +59,7 @@ def test_oil_that_enters_a_node_leaves_it(ratio, speed):
     b = bench((10, 32))
     m, f = b.m, b.f
     pt, q = BASE._replace(speed=speed), tilted(b.m, ratio, gx=0.0)
-    evaluate(m, pt, q, f)
+    evaluate(m, pt, q, f, False)
     liquid, on, up = b.node("liquid"), b.node("flow_t"), b.node("flow_r")
     down = np.vstack((np.zeros(32), up[:-1]))
     back = np.roll(on, 1, axis=1)

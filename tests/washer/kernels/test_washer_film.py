@@ -9,9 +9,9 @@ from closed_forms.thin_film import (
     wedge_moment,
     wedge_pressure,
 )
+from failures.narrow_ring import narrow_ring_load
 
 from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap, shear_flow
-from thrustwasher.washer.closed_forms import narrow_ring_load
 from thrustwasher.washer.kernels.film import (
     _solve_one,
     evaluate_film,

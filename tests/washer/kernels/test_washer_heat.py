@@ -92,7 +92,7 @@ def at_random(b, seed=1):
     """Evaluate everything where film 1 touches, at temperatures drawn at random."""
     q = touching(b)
     b.f.temp[:] = np.random.default_rng(seed).uniform(0.0, 80.0, b.f.temp.size)
-    return q, evaluate(b.m, BASE, q, b.f)
+    return q, evaluate(b.m, BASE, q, b.f, False)
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -132,7 +132,7 @@ def test_torque_times_speed_is_the_heat_made(name):
 def test_only_the_wanted_share_of_film_heat_enters(share):
     b = bench((10, 32), film_heat_fraction=share, **DRY)
     q = tilted(b.m, 20.0)  # no contact at all
-    made = evaluate(b.m, BASE, q, b.f)
+    made = evaluate(b.m, BASE, q, b.f, False)
     whole = (
         np.outer(b.m.weight1, b.m.weight_t) * (BASE.speed * b.radius) ** 2 * b.node("mu")
         / b.node("ht")
@@ -176,7 +176,7 @@ def test_change_of_the_residual_is_the_difference(name, speed):
     dq = rng.normal(size=4) * m.sigma1 * np.array([1.0, 1.0, 0.3 / m.outer_radius, 10.0])
     dtemp = rng.normal(size=temp.size)
     change = Point(0.0, 50.0, 1e-4, 3.0)
-    evaluate(m, base, q, f)
+    evaluate(m, base, q, f, False)
     let_film_follow(m, base, change, q, dq, dtemp, f)
     told = np.empty(temp.size)
     gone = heat_change(m, base, change, q, dq, dtemp, f, told)
@@ -184,7 +184,7 @@ def test_change_of_the_residual_is_the_difference(name, speed):
     for e in (1e-5, -1e-5):
         f.temp[:] = temp + e * dtemp
         at = Point(*(np.array(base) + e * np.array(change)))
-        evaluate(m, at, start + e * dq, f)
+        evaluate(m, at, start + e * dq, f, False)
         found.append(f.heat.copy())
         carried.append(m.oil_storage * (f.rim * f.liquid) @ f.edge)
     differences = (found[0] - found[1]) / 2e-5
@@ -219,7 +219,7 @@ def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
         bodies(whole, np.arange(whole.f.temp.size)), bodies(rings), strict=True
     ):
         whole.f.temp[part] = values
-    evaluate(whole.m, BASE, q, whole.f)
+    evaluate(whole.m, BASE, q, whole.f, False)
     even = (1, 2) if option == "carrier" else (0,)
     for k, (mine, nodes) in enumerate(
         zip(bodies(rings, rings.f.heat), bodies(whole, whole.f.heat), strict=True)

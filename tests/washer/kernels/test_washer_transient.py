@@ -51,7 +51,7 @@ class Washer:
         return self.fields().temp.copy()
 
     def stored(self):
-        return ladder.stored_heat(self.m, self.fields())
+        return ladder.stored_heat(workspace_of(self.par, self.work))
 
     def leaving(self):
         """Return the heat that reaches the oil at the end of the step [W]."""
@@ -68,7 +68,7 @@ class Washer:
 
 
 def bodies_of(m):
-    return ladder.carrier_of(m), ladder.washer_of(m), ladder.gear_of(m)
+    return [ladder.body_of(m, body) for body in ladder.BODIES]
 
 
 def steady(params=IN_TIME, load=300.0, speed=545.0, tilt=2e-3, oil=OIL, grid=GRID):
@@ -102,9 +102,8 @@ def test_capacities_are_those_of_three_annuli():
     heat = outer * (p.carrier_thickness + p.washer_thickness) + gear * p.gear_thickness
     heat *= p.density * p.specific_heat
     assert matrices(w)[1].sum() == pytest.approx(heat, rel=1e-12)
-    f = w.fields()
-    f.temp[:] = 1.0
-    ladder.start_terms(w.m, f)
+    w.fields().temp[:] = 1.0
+    ladder.start_terms(workspace_of(w.par, w.work))
     assert w.stored() == pytest.approx(heat, rel=1e-12)
 
 

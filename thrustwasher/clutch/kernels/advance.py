@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, OK
 from ...tribology.lumped_body import exponential_weights
@@ -26,8 +27,7 @@ def load_memory(par: Array, load: float, oil: float, state: Array, work: Array) 
     work[L.W_SETTLED_LOAD] = 0.0
     n, each = n_unknowns(par), 1 + int(par[L.D_MODES])
     if state[L.S_STARTED] != 0.0:
-        for i in range(n):
-            work[np.uintp(L.W_NOW + i)] = state[np.uintp(L.S_FILM + i)]
+        copy(state[L.S_FILM :], work[L.W_NOW : L.W_NOW + n])
         return status
     ratio = par[L.D_OPEN_RATIO]
     if par[L.P_STARTS_PRESSED] != 0.0:
@@ -43,8 +43,7 @@ def load_memory(par: Array, load: float, oil: float, state: Array, work: Array) 
 def store_memory(par: Array, work: Array, base: int, state: Array) -> None:
     """Copy the unknowns at ``work[base:]`` to the memory."""
     state[L.S_STARTED] = 1.0
-    for i in range(n_unknowns(par)):
-        state[np.uintp(L.S_FILM + i)] = work[np.uintp(base + i)]
+    copy(work[base:], state[L.S_FILM : L.S_FILM + n_unknowns(par)])
 
 
 @kernel
@@ -146,8 +145,7 @@ def integrate(
     share = min(1.0, first / duration) if first > 0.0 else 1.0
     work[L.W_PROPOSED] = duration
     if follows:
-        for i in range(n):
-            work[np.uintp(L.W_VARIED + i)] = 0.0
+        clear(work[L.W_VARIED : L.W_VARIED + n])
     for count in range(MAX_SUBSTEPS):
         remaining = 1.0 - done
         least = LEAST_SHARE * done + FIRST_SHARE
@@ -160,8 +158,7 @@ def integrate(
         if taken:
             if follows:
                 follow(par, course, change, done, share, duration, work)
-            for i in range(n):
-                work[np.uintp(L.W_NOW + i)] = work[np.uintp(L.W_TRIAL + i)]
+            copy(work[L.W_TRIAL :], work[L.W_NOW : L.W_NOW + n])
             done += share
             proposed = share * factor * duration
             if closing:

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import are_finite, copy
 from ...numerics.jit import Array, kernel
 from ...numerics.quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 from ...numerics.status import NOT_FINITE, OK
@@ -129,8 +130,7 @@ def derive_rings(par: Array, n: int) -> None:
     total = 0.0
     for k in range(n):
         ring = par[L.D_BLOCKS + k * L.N_PACK : L.D_BLOCKS + (k + 1) * L.N_PACK]
-        for i in range(L.N_PACK):
-            ring[np.uintp(i)] = par[np.uintp(i)]
+        copy(par, ring)
         a, b = ri + (ro - ri) * k / n, ri + (ro - ri) * (k + 1) / n
         ring[L.P_INNER_RADIUS], ring[L.P_OUTER_RADIUS] = a, b
         ring[L.P_FIDELITY] = float(L.FIELD)
@@ -165,10 +165,7 @@ def derive(par: Array) -> int:
     par[L.D_RINGS], par[L.D_FIRST], par[L.D_SQUEEZE] = 1.0, 0.0, 1.0
     if par[L.P_FIDELITY] == L.FINE:
         derive_rings(par, L.N_RINGS)
-    for i in range(L.N_PARAM, L.NPAR):
-        if not math.isfinite(par[np.uintp(i)]):
-            return NOT_FINITE
-    return OK
+    return OK if are_finite(par[L.N_PARAM :]) else NOT_FINITE
 
 
 @kernel

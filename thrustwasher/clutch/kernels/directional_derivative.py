@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import are_finite, clear, copy
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from ...numerics.status import NOT_FINITE, OK
@@ -65,11 +66,9 @@ def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> 
         change = (seed[L.I_LOAD], seed[L.I_SPEED], seed[L.I_OIL], seed[L.I_DRUM])
         if work[L.W_DURATION] == 0.0 and work[L.W_SUBSTEPS] == 1.0:
             # the stretch was one substep, still as it was: W_NOW is its start again, for a while
-            for i in range(n):
-                work[np.uintp(L.W_VARIED + i)] = 0.0
+            clear(work[L.W_VARIED : L.W_VARIED + n])
             follow(par, course, change, 0.0, 1.0, duration, work)
-            for i in range(n):
-                work[np.uintp(L.W_NOW + i)] = work[np.uintp(L.W_TRIAL + i)]
+            copy(work[L.W_TRIAL :], work[L.W_NOW : L.W_NOW + n])
         else:
             first = state[L.S_SUBSTEP]
             status = integrate(par, course, change, duration, first, True, work)
@@ -115,8 +114,4 @@ def directional_derivative(
     ring_outputs(par, point, change, work, scratch, dout)
     dout[L.O_TEMPERATURE] = seed[L.I_OIL] if follows_oil else 0.0
     dout[L.O_ENERGY] = dout[L.O_OIL_HEAT] = dout[L.O_STORED_HEAT] = 0.0
-    if status == OK:
-        for i in range(L.NOUT):
-            if not math.isfinite(dout[np.uintp(i)]):
-                status = NOT_FINITE
-    return status
+    return NOT_FINITE if status == OK and not are_finite(dout) else status

@@ -15,9 +15,8 @@
     P_SHEAR_HEATING, P_OIL_FLOW, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_OIL_CONDUCTIVITY,
     P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE,
     P_STEEL_THICKNESS, P_STEEL_DENSITY, P_STEEL_HEAT_CAPACITY, P_STEEL_CONDUCTIVITY,
-    P_CONTACT_RISE, P_HEAT_TRANSFER, P_SPEED_SMOOTHING, P_INPUT_COURSE, P_FIDELITY,
-) = range(59)  # fmt: skip
-N_PARAM = 59
+    P_CONTACT_RISE, P_HEAT_TRANSFER, P_SPEED_SMOOTHING, P_INPUT_COURSE, P_FIDELITY, N_PARAM,
+) = range(60)  # fmt: skip
 
 N_MODES = 8  # of heat conduction across half a steel plate
 
@@ -38,8 +37,7 @@ D_RINGS, D_FIRST, D_SQUEEZE = N_PACK, N_PACK + 1, N_PACK + 2
 D_BLOCKS = D_SQUEEZE + MAX_RINGS
 NPAR = D_BLOCKS + MAX_RINGS * N_PACK
 
-I_LOAD, I_SPEED, I_OIL, I_DRUM = range(4)
-NINP = 4
+I_LOAD, I_SPEED, I_OIL, I_DRUM, NINP = range(5)
 
 # The unknowns of a pack: film ratio, energy of a face, then ring by ring the plate's mean
 # temperature and its modes, without gaps.
@@ -51,9 +49,8 @@ NY = Y_HEAT + N_HEAT
 S_STARTED, S_FILM, S_ENERGY, S_HEAT = range(4)  # the last three: unknowns in their order
 (
     S_SHOWN_TEMPERATURE, S_SHOWN_ENERGY, S_SHOWN_STORED, S_SHOWN_OIL_HEAT, S_FIRST, S_POWER,
-    S_LOAD, S_SLIP, S_OIL, S_DRUM, S_DURATION, S_SUBSTEP,
-) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 12)  # fmt: skip
-NSTATE = S_HEAT + N_HEAT + 12
+    S_LOAD, S_SLIP, S_OIL, S_DRUM, S_DURATION, S_SUBSTEP, NSTATE,
+) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 13)  # fmt: skip
 
 N_STAGES = 6
 W_NOW, W_TRIAL, W_RATE, W_STAGES = 0, NY, 2 * NY, 3 * NY
@@ -71,9 +68,8 @@ W_SETTLED_LOAD, W_COOLING = W_SUBSTEPS + 4, W_SUBSTEPS + 5
 R_RATE, R_RATE_U, R_RATE_F, R_RINGS = range(4)
 (
     R_POWER, R_POWER_U, R_POWER_T, R_POWER_F, R_POWER_S, R_POWER_D, R_RATE_T, R_COOL, R_COOL_U,
-    R_COOL_F, R_EXCESS,
-) = range(11)  # fmt: skip
-N_OF_RING = 11
+    R_COOL_F, R_EXCESS, N_OF_RING,
+) = range(12)  # fmt: skip
 N_RATES = R_RINGS + MAX_RINGS * N_OF_RING
 # They are kept for each stage of the last substep, for where the drift of the rates was read, for a
 # neighbouring state, and as changes of the slopes.
@@ -85,21 +81,17 @@ W_VARIED_DRIFT, W_VARIED_STAGES = W_VARIED + NY, W_VARIED + 2 * NY
 # Interface temperatures of the rings, or their changes; changes of their powers; what a substep's
 # linear systems have in common for each ring, and the right side.
 W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
-W_SURFACE_CHANGE, W_POWER_CHANGE = W_SURFACE + MAX_RINGS, W_SURFACE + 2 * MAX_RINGS
-W_DECAY, W_WARMED, W_DIAGONAL, W_FILM_PIVOT, W_DETERMINANT, W_HELD = (
-    W_SURFACE + 3 * MAX_RINGS, W_SURFACE + 4 * MAX_RINGS, W_SURFACE + 5 * MAX_RINGS,
-    W_SURFACE + 6 * MAX_RINGS, W_SURFACE + 7 * MAX_RINGS, W_SURFACE + 8 * MAX_RINGS,
-)  # fmt: skip
-NWORK = W_SURFACE + 9 * MAX_RINGS
+(
+    W_SURFACE_CHANGE, W_POWER_CHANGE, W_DECAY, W_WARMED, W_DIAGONAL, W_FILM_PIVOT, W_DETERMINANT,
+    W_HELD, NWORK,
+) = (W_SURFACE + i * MAX_RINGS for i in range(1, 10))  # fmt: skip
 
 (
     O_TORQUE, O_TEMPERATURE, O_FILM, O_CAPACITY, O_COEFFICIENT, O_RATIO, O_POWER, O_ENERGY,
     O_CONTACT_TORQUE, O_VISCOUS_TORQUE, O_CONTACT_SHARE, O_HEAT_FLUX, O_VISCOSITY, O_OIL_HEAT,
-    O_STORED_HEAT,
-) = range(15)  # fmt: skip
-NOUT = 15
-IO_REGIME, IO_STATUS = range(2)
-NIOUT = 2
+    O_STORED_HEAT, NOUT,
+) = range(16)  # fmt: skip
+IO_REGIME, IO_STATUS, NIOUT = range(3)
 
 CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD, FINE = range(1, 6)  # fidelity
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law

@@ -33,6 +33,13 @@ def ring_of(par: Array, k: int) -> Array:
 
 
 @kernel
+def kept_of(work: Array, place: int, k: int) -> Array:
+    """Return the k-th ring's numbers at the ``place``-th of W_KEPT (layout, R_POWER on)."""
+    at = L.W_KEPT + place * L.N_RATES + L.R_RINGS + k * L.N_OF_RING
+    return work[at : at + L.N_OF_RING]
+
+
+@kernel
 def n_unknowns(par: Array) -> int:
     """Return the number of a pack's unknowns."""
     return L.Y_HEAT + int(par[L.D_RINGS]) * (1 + int(par[L.D_MODES]))

@@ -12,10 +12,11 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import copy
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
-from .rates import n_unknowns, pack_rates, surfaces
+from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
 
 Course = tuple[float, float, float, float, float, float, float, float]
 GAMMA = 0.25
@@ -69,23 +70,16 @@ def _rates(par: Array, course: Course, x: float, work: Array, base: int, place: 
     kept = L.W_KEPT + place * L.N_RATES
     surfaces(par, work, base, L.W_SURFACE)
     pack_rates(par, max(load, 0.0), slip, drum, work[np.uintp(base + L.Y_FILM)], work, kept)
-    n, first = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
-    total = 0.0
+    n, total = 1 + int(par[L.D_MODES]), 0.0
     for k in range(int(par[L.D_RINGS])):
-        at = kept + L.R_RINGS + k * L.N_OF_RING
-        power = work[np.uintp(at + L.R_POWER)]
+        ring, own, heat = ring_of(par, k), kept_of(work, place, k), L.Y_HEAT + k * n
+        power = own[L.R_POWER]
         total += power
-        block, heat = first + k * L.N_PACK, L.Y_HEAT + k * n
-        excess = work[np.uintp(base + heat)] - oil
-        work[np.uintp(at + L.R_EXCESS)] = excess
-        work[np.uintp(L.W_RATE + heat)] = par[np.uintp(block + L.D_GAIN)] * (
-            power - work[np.uintp(at + L.R_COOL)] * excess
-        )
+        excess = own[L.R_EXCESS] = work[np.uintp(base + heat)] - oil
+        work[np.uintp(L.W_RATE + heat)] = ring[L.D_GAIN] * (power - own[L.R_COOL] * excess)
         for i in range(1, n):
-            gain, decay = par[np.uintp(block + L.D_GAIN + i)], par[np.uintp(block + L.D_DECAY + i)]
-            work[np.uintp(L.W_RATE + heat + i)] = (
-                gain * power - decay * work[np.uintp(base + heat + i)]
-            )
+            cooled = ring[np.uintp(L.D_DECAY + i)] * work[np.uintp(base + heat + i)]
+            work[np.uintp(L.W_RATE + heat + i)] = ring[np.uintp(L.D_GAIN + i)] * power - cooled
     work[np.uintp(L.W_RATE + L.Y_FILM)] = work[np.uintp(kept + L.R_RATE)]
     work[np.uintp(L.W_RATE + L.Y_ENERGY)] = total
 
@@ -98,19 +92,17 @@ def factorise(par: Array, s: float, work: Array) -> None:
     change of the ring's interface. Each ring has its own such system, from which the other rings
     are eliminated.
     """
-    n, first, rings = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST]), int(par[L.D_RINGS])
+    n, rings = 1 + int(par[L.D_MODES]), int(par[L.D_RINGS])
     for k in range(rings):
-        at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
-        block = first + k * L.N_PACK
-        decay = par[np.uintp(block + L.D_GAIN)] * work[np.uintp(at + L.R_COOL)]
+        ring, own = ring_of(par, k), kept_of(work, 0, k)
+        decay = ring[L.D_GAIN] * own[L.R_COOL]
         work[np.uintp(L.W_DECAY + k)] = decay
-        gain = mean = par[np.uintp(block + L.D_GAIN)] / (s + decay)
+        gain = mean = ring[L.D_GAIN] / (s + decay)
         for i in range(1, n):
-            gain += par[np.uintp(block + L.D_GAIN + i)] / (s + par[np.uintp(block + L.D_DECAY + i)])
-        work[np.uintp(L.W_WARMED + k)] = gain * work[
-            np.uintp(at + L.R_POWER_U)
-        ] - mean * cooled_by_film(work, at)
-        work[np.uintp(L.W_DIAGONAL + k)] = 1.0 - gain * work[np.uintp(at + L.R_POWER_T)]
+            gain += ring[np.uintp(L.D_GAIN + i)] / (s + ring[np.uintp(L.D_DECAY + i)])
+        warmed = gain * own[L.R_POWER_U] - mean * cooled_by_film(own)
+        work[np.uintp(L.W_WARMED + k)] = warmed
+        work[np.uintp(L.W_DIAGONAL + k)] = 1.0 - gain * own[L.R_POWER_T]
     for k in range(rings):
         pivot = s - work[np.uintp(L.W_KEPT + L.R_RATE_U)]
         for j in range(rings):
@@ -122,27 +114,26 @@ def factorise(par: Array, s: float, work: Array) -> None:
 
 
 @kernel
-def cooled_by_film(work: Array, at: int) -> float:
-    """Return the slope of a face's heat to the oil over the film ratio [W]."""
-    return work[np.uintp(at + L.R_COOL_U)] * work[np.uintp(at + L.R_EXCESS)]
+def cooled_by_film(own: Array) -> float:
+    """Return the slope of a face's heat to the oil over the film ratio [W]; ``own`` of a ring."""
+    return own[L.R_COOL_U] * own[L.R_EXCESS]
 
 
 @kernel
 def _coupling(work: Array, k: int) -> float:
     """Return the product of a ring's and the film's slopes over each other."""
-    at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
-    return work[np.uintp(at + L.R_RATE_T)] * work[np.uintp(L.W_WARMED + k)]
+    return kept_of(work, 0, k)[L.R_RATE_T] * work[np.uintp(L.W_WARMED + k)]
 
 
 @kernel
 def solve_stage(par: Array, s: float, work: Array, stage: int) -> None:
     """Turn the right side in the stage's place into its solution, with what ``factorise`` left."""
-    n, first, rings = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST]), int(par[L.D_RINGS])
+    n, rings = 1 + int(par[L.D_MODES]), int(par[L.D_RINGS])
     for k in range(rings):
-        held = work[np.uintp(stage + L.Y_HEAT + k * n)] / (s + work[np.uintp(L.W_DECAY + k)])
+        ring, heat = ring_of(par, k), stage + L.Y_HEAT + k * n
+        held = work[np.uintp(heat)] / (s + work[np.uintp(L.W_DECAY + k)])
         for i in range(1, n):
-            pivot = s + par[np.uintp(first + k * L.N_PACK + L.D_DECAY + i)]
-            held += work[np.uintp(stage + L.Y_HEAT + k * n + i)] / pivot
+            held += work[np.uintp(heat + i)] / (s + ring[np.uintp(L.D_DECAY + i)])
         work[np.uintp(L.W_HELD + k)] = held
     film, energy = 0.0, work[np.uintp(stage + L.Y_ENERGY)]
     right = work[np.uintp(stage + L.Y_FILM)]
@@ -150,32 +141,22 @@ def solve_stage(par: Array, s: float, work: Array, stage: int) -> None:
         r = right
         for j in range(rings):
             if j != k:
-                over = L.W_KEPT + L.R_RINGS + j * L.N_OF_RING + L.R_RATE_T
-                r += (
-                    work[np.uintp(over)] * work[np.uintp(L.W_HELD + j)]
-                    / work[np.uintp(L.W_DIAGONAL + j)]
-                )  # fmt: skip
-        at = L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
+                coupled = kept_of(work, 0, j)[L.R_RATE_T] * work[np.uintp(L.W_HELD + j)]
+                r += coupled / work[np.uintp(L.W_DIAGONAL + j)]
+        ring, own, heat = ring_of(par, k), kept_of(work, 0, k), stage + L.Y_HEAT + k * n
         held, warmed = work[np.uintp(L.W_HELD + k)], work[np.uintp(L.W_WARMED + k)]
-        power_u, power_t = work[np.uintp(at + L.R_POWER_U)], work[np.uintp(at + L.R_POWER_T)]
         determinant = work[np.uintp(L.W_DETERMINANT + k)]
         if k == 0:
-            film = (
-                r * work[np.uintp(L.W_DIAGONAL)] + work[np.uintp(at + L.R_RATE_T)] * held
-            ) / determinant
+            film = (r * work[np.uintp(L.W_DIAGONAL)] + own[L.R_RATE_T] * held) / determinant
         surface = (work[np.uintp(L.W_FILM_PIVOT + k)] * held + warmed * r) / determinant
-        power = power_u * film + power_t * surface
+        power = own[L.R_POWER_U] * film + own[L.R_POWER_T] * surface
         energy += power
-        block, heat = first + k * L.N_PACK, stage + L.Y_HEAT + k * n
-        net = power - cooled_by_film(work, at) * film
-        work[np.uintp(heat)] = (work[np.uintp(heat)] + par[np.uintp(block + L.D_GAIN)] * net) / (
-            s + work[np.uintp(L.W_DECAY + k)]
-        )
+        net = power - cooled_by_film(own) * film
+        pivot = s + work[np.uintp(L.W_DECAY + k)]
+        work[np.uintp(heat)] = (work[np.uintp(heat)] + ring[L.D_GAIN] * net) / pivot
         for i in range(1, n):
-            place = np.uintp(heat + i)
-            work[place] = (work[place] + par[np.uintp(block + L.D_GAIN + i)] * power) / (
-                s + par[np.uintp(block + L.D_DECAY + i)]
-            )
+            place, pivot = np.uintp(heat + i), s + ring[np.uintp(L.D_DECAY + i)]
+            work[place] = (work[place] + ring[np.uintp(L.D_GAIN + i)] * power) / pivot
     work[np.uintp(stage + L.Y_FILM)] = film
     work[np.uintp(stage + L.Y_ENERGY)] = energy / s
 
@@ -191,8 +172,7 @@ def substep(
     last = L.W_STAGES + (L.N_STAGES - 1) * L.NY
     if moving:  # the drift of the rates is differenced; it goes where the last stage will be
         _rates(par, course, x + NUDGE * share, work, L.W_NOW, L.DRIFTED)
-        for i in range(n):
-            work[np.uintp(last + i)] = work[np.uintp(L.W_RATE + i)]
+        copy(work[L.W_RATE :], work[last : last + n])
     _rates(par, course, x, work, L.W_NOW, 0)
     factorise(par, s, work)
     if moving:

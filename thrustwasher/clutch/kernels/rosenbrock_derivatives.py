@@ -8,22 +8,12 @@ its beginning do to them, has no formula here: it is read from slopes at neighbo
 
 import numpy as np
 
+from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, kernel
 from . import layout as L
-from .rates import n_unknowns, pack_rates, surfaces
-from .rosenbrock import (
-    ALPHA,
-    DRIFT,
-    GAMMA,
-    NUDGE,
-    A,
-    C,
-    Course,
-    cooled_by_film,
-    factorise,
-    is_moving,
-    solve_stage,
-)  # fmt: skip
+from . import rosenbrock
+from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
+from .rosenbrock import Course, cooled_by_film, factorise, is_moving, solve_stage
 
 Change = tuple[float, float, float, float]
 APART = 1e-5  # relative distance of the neighbouring states
@@ -43,26 +33,25 @@ def _changed_rates(
     kept = L.W_KEPT + place * L.N_RATES
     rate = work[np.uintp(kept + L.R_RATE_U)] * film
     for k in range(int(par[L.D_RINGS])):
-        ring, heat = kept + L.R_RINGS + k * L.N_OF_RING, work[np.uintp(L.W_SURFACE_CHANGE + k)]
-        rate += work[np.uintp(ring + L.R_RATE_T)] * heat
-        power = work[np.uintp(ring + L.R_POWER_U)] * film
-        power += work[np.uintp(ring + L.R_POWER_T)] * heat
-        power += work[np.uintp(ring + L.R_POWER_F)] * change[0] * at
-        power += work[np.uintp(ring + L.R_POWER_S)] * change[1] * at
-        power += work[np.uintp(ring + L.R_POWER_D)] * change[3] * at
+        own, heat = kept_of(work, place, k), work[np.uintp(L.W_SURFACE_CHANGE + k)]
+        rate += own[L.R_RATE_T] * heat
+        power = own[L.R_POWER_U] * film + own[L.R_POWER_T] * heat
+        power += own[L.R_POWER_F] * change[0] * at
+        power += own[L.R_POWER_S] * change[1] * at
+        power += own[L.R_POWER_D] * change[3] * at
         work[np.uintp(L.W_POWER_CHANGE + k)] = power
     return rate + work[np.uintp(kept + L.R_RATE_F)] * change[0] * at
 
 
 @kernel
-def _changed_cooling(
-    work: Array, kept: int, k: int, film: float, heat: float, change: Change, at: float
-) -> float:
-    """Return the change of a face's heat to the oil [W]; ``heat``: of its mean temperature [K]."""
-    ring = kept + L.R_RINGS + k * L.N_OF_RING
-    better = work[np.uintp(ring + L.R_COOL_F)] * change[0] * at * work[np.uintp(ring + L.R_EXCESS)]
-    better += cooled_by_film(work, ring) * film
-    return better + work[np.uintp(ring + L.R_COOL)] * (heat - change[2] * at)
+def _changed_cooling(own: Array, film: float, heat: float, change: Change, at: float) -> float:
+    """Return the change of a face's heat to the oil [W]; ``heat``: of its mean temperature [K].
+
+    ``own``: what is kept of the ring.
+    """
+    better = own[L.R_COOL_F] * change[0] * at * own[L.R_EXCESS]
+    better += cooled_by_film(own) * film
+    return better + own[L.R_COOL] * (heat - change[2] * at)
 
 
 @kernel
@@ -72,8 +61,7 @@ def _change_slopes(par: Array, course: Course, change: Change, x: float, work: A
     slip = course[1] + (course[4] - course[1]) * x
     drum = course[6] + (course[7] - course[6]) * x
     load_change, slip_change, drum_change = change[0] * x, change[1] * x, change[3] * x
-    for i in range(L.N_RATES):
-        work[np.uintp(L.W_BENT + i)] = 0.0
+    clear(work[L.W_BENT : L.W_VARIED])
     u, film = work[np.uintp(L.W_NOW + L.Y_FILM)], work[np.uintp(L.W_VARIED + L.Y_FILM)]
     surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
     size = max(
@@ -134,72 +122,66 @@ def _drift(
     """Fill W_VARIED_DRIFT: how the drift of the rates changes, read as the substep reads it."""
     film = work[np.uintp(L.W_VARIED + L.Y_FILM)]
     surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
-    at = x + NUDGE * share
+    at = x + rosenbrock.NUDGE * share
     rate = _changed_rates(par, work, place, film, change, at)
-    for k in range(int(par[L.D_RINGS])):
-        work[np.uintp(L.W_SURFACE + k)] = work[np.uintp(L.W_POWER_CHANGE + k)]
+    copy(work[L.W_POWER_CHANGE :], work[L.W_SURFACE : L.W_SURFACE + int(par[L.D_RINGS])])
     rate_0 = _changed_rates(par, work, 0, film, change, x)
-    per = 1.0 / (NUDGE * h)
+    per = 1.0 / (rosenbrock.NUDGE * h)
     work[np.uintp(L.W_VARIED_DRIFT + L.Y_FILM)] = (rate - rate_0) * per
     work[np.uintp(L.W_VARIED_DRIFT + L.Y_ENERGY)] = 0.0
-    n, first = 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
+    n = 1 + int(par[L.D_MODES])
     for k in range(int(par[L.D_RINGS])):
-        block, heat = first + k * L.N_PACK, L.W_VARIED_DRIFT + L.Y_HEAT + k * n
+        ring, heat = ring_of(par, k), L.W_VARIED_DRIFT + L.Y_HEAT + k * n
         power = work[np.uintp(L.W_SURFACE + k)] - work[np.uintp(L.W_POWER_CHANGE + k)]
         warm = work[np.uintp(L.W_VARIED + L.Y_HEAT + k * n)]
-        cooled = _changed_cooling(work, L.W_KEPT + place * L.N_RATES, k, film, warm, change, at)
-        cooled -= _changed_cooling(work, L.W_KEPT, k, film, warm, change, x)
+        cooled = _changed_cooling(kept_of(work, place, k), film, warm, change, at)
+        cooled -= _changed_cooling(kept_of(work, 0, k), film, warm, change, x)
         for i in range(n):
             net = power - cooled if i == 0 else power
-            work[np.uintp(heat + i)] = par[np.uintp(block + L.D_GAIN + i)] * net * per
+            work[np.uintp(heat + i)] = ring[np.uintp(L.D_GAIN + i)] * net * per
 
 
 @kernel
 def _stage(par: Array, change: Change, x: float, at: float, h: float, k: int, work: Array) -> None:
     """Fill the right side of the change of stage ``k``; W_BENT: changes of the slopes."""
     base, own = L.W_VARIED_STAGES + k * L.NY, L.W_STAGES + k * L.NY
-    n, m, first = n_unknowns(par), 1 + int(par[L.D_MODES]), int(par[L.D_FIRST])
+    n, m = n_unknowns(par), 1 + int(par[L.D_MODES])
     for i in range(n):  # the change of the state where the rates are taken, in W_RATE
         value = work[np.uintp(L.W_VARIED + i)]
         for j in range(k):
-            value += A[k, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
+            value += rosenbrock.A[k, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
         work[np.uintp(L.W_RATE + i)] = value
     surfaces(par, work, L.W_RATE, L.W_SURFACE_CHANGE)
-    rate = _changed_rates(par, work, k, work[np.uintp(L.W_RATE + L.Y_FILM)], change, at)
+    now = work[np.uintp(L.W_RATE + L.Y_FILM)]
+    rate = _changed_rates(par, work, k, now, change, at)
     film = work[np.uintp(own + L.Y_FILM)]
     surfaces(par, work, own, L.W_SURFACE)
     bent = work[np.uintp(L.W_BENT + L.R_RATE_U)] * film
     work[np.uintp(base + L.Y_ENERGY)] = 0.0
     for r in range(int(par[L.D_RINGS])):
-        of, heat = L.W_BENT + L.R_RINGS + r * L.N_OF_RING, work[np.uintp(L.W_SURFACE + r)]
-        bent += work[np.uintp(of + L.R_RATE_T)] * heat
+        of, heat = kept_of(work, L.BENT, r), work[np.uintp(L.W_SURFACE + r)]
+        bent += of[L.R_RATE_T] * heat
         power = work[np.uintp(L.W_POWER_CHANGE + r)] + (
-            work[np.uintp(of + L.R_POWER_U)] * film + work[np.uintp(of + L.R_POWER_T)] * heat
+            of[L.R_POWER_U] * film + of[L.R_POWER_T] * heat
         )
-        place, block = L.Y_HEAT + r * m, first + r * L.N_PACK
-        ring = L.W_KEPT + L.R_RINGS + r * L.N_OF_RING
+        place, ring, start = L.Y_HEAT + r * m, ring_of(par, r), kept_of(work, 0, r)
         warmer = work[np.uintp(L.W_VARIED + place)] - change[2] * x
-        cooled = _changed_cooling(
-            work, L.W_KEPT + k * L.N_RATES, r, work[np.uintp(L.W_RATE + L.Y_FILM)],
-            work[np.uintp(L.W_RATE + place)], change, at,
-        )  # fmt: skip
-        cooled += work[np.uintp(of + L.R_COOL)] * work[np.uintp(own + place)]
-        cooled += film * (
-            work[np.uintp(of + L.R_COOL_U)] * work[np.uintp(ring + L.R_EXCESS)]
-            + work[np.uintp(ring + L.R_COOL_U)] * warmer
-        )
-        work[np.uintp(base + place)] = par[np.uintp(block + L.D_GAIN)] * (power - cooled)
+        warm = work[np.uintp(L.W_RATE + place)]
+        cooled = _changed_cooling(kept_of(work, k, r), now, warm, change, at)
+        cooled += of[L.R_COOL] * work[np.uintp(own + place)]
+        cooled += film * (of[L.R_COOL_U] * start[L.R_EXCESS] + start[L.R_COOL_U] * warmer)
+        work[np.uintp(base + place)] = ring[L.D_GAIN] * (power - cooled)
         for i in range(1, m):
-            value = par[np.uintp(block + L.D_GAIN + i)] * power
-            value -= par[np.uintp(block + L.D_DECAY + i)] * work[np.uintp(L.W_RATE + place + i)]
+            value = ring[np.uintp(L.D_GAIN + i)] * power
+            value -= ring[np.uintp(L.D_DECAY + i)] * work[np.uintp(L.W_RATE + place + i)]
             work[np.uintp(base + place + i)] = value
     work[np.uintp(base + L.Y_FILM)] = rate + bent
     for i in range(n):
         value = work[np.uintp(base + i)]
         for j in range(k):
-            value += C[k, j] / h * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
+            value += rosenbrock.C[k, j] / h * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
         if k < 4:
-            value += DRIFT[k] * h * work[np.uintp(L.W_VARIED_DRIFT + i)]
+            value += rosenbrock.DRIFT[k] * h * work[np.uintp(L.W_VARIED_DRIFT + i)]
         work[np.uintp(base + i)] = value
 
 
@@ -214,22 +196,21 @@ def follow(
     the substep goes from the share ``x`` of the stretch over ``share`` of it.
     """
     h = share * duration
-    s = 1.0 / (GAMMA * h)
+    s = 1.0 / (rosenbrock.GAMMA * h)
     if x > 0.0:
         _change_slopes(par, course, change, x, work)
     else:
-        for i in range(L.N_RATES):
-            work[np.uintp(L.W_BENT + i)] = 0.0
+        clear(work[L.W_BENT : L.W_VARIED])
     _drift(par, change, x, share, h, L.DRIFTED if is_moving(course) else 0, work)
     factorise(par, s, work)
     for k in range(L.N_STAGES):
-        _stage(par, change, x, x + ALPHA[k] * share, h, k, work)
+        _stage(par, change, x, x + rosenbrock.ALPHA[k] * share, h, k, work)
         solve_stage(par, s, work, L.W_VARIED_STAGES + k * L.NY)
     last = L.N_STAGES - 1
     jump = _jump(par, course, change[0], x, share, duration, work)
     for i in range(n_unknowns(par)):
         value = work[np.uintp(L.W_VARIED_STAGES + last * L.NY + i)]
         for j in range(last):
-            value += A[last, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
+            value += rosenbrock.A[last, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
         work[np.uintp(L.W_VARIED + i)] += value
     work[np.uintp(L.W_VARIED + L.Y_FILM)] += jump

@@ -11,37 +11,26 @@ advance. This couples with second order to a partner that looks ahead by itself.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...numerics.jit import Array, kernel
+from ...numerics.arrays import are_finite, copy
+from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from . import layout as L
 from .advance import advance, load_memory, settle_film, store_memory, warm_up
-from .constants import broken_rule, derive
-from .directional_derivative import directional_derivative as sens
+from .constants import broken_rule as broken_rule
+from .constants import derive as derive
+from .directional_derivative import directional_derivative
 from .pack_friction import regime_of
 from .pack_outputs import fill_outputs, mean_surface, stored_heat
 from .rates import n_unknowns, pack_rates, surfaces
 
-__all__ = [
-    "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "broken_rule", "derive", "sens",
-    "step",
-]  # fmt: skip
-
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
-NOUT, NIOUT = L.NOUT, L.NIOUT
+NOUT, NIOUT, sens = L.NOUT, L.NIOUT, directional_derivative
 
 
 @kernel
 def step(
-    par: Array,
-    inp: Array,
-    state: Array,
-    work: Array,
-    out: Array,
-    iout: NDArray[np.int32],
-    t: float,
-    dt: float,
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
     """Advance the pack from t to t + dt, then fill the outputs.
 
@@ -49,11 +38,7 @@ def step(
     is their area mean; the advice HOT goes by the hottest one.
     """
     load, slip, oil, drum = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL], inp[L.I_DRUM]
-    if not (
-        math.isfinite(load) and load >= 0.0 and math.isfinite(slip) and math.isfinite(oil)
-        and math.isfinite(drum)
-        and math.isfinite(dt) and dt >= 0.0 and oil > 0.0
-    ):  # fmt: skip
+    if not (are_finite(inp) and load >= 0.0 and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     started = state[L.S_STARTED] != 0.0
@@ -84,8 +69,7 @@ def step(
     unknowns = L.W_NOW
     if linear and dt > 0.0:
         unknowns = L.W_TRIAL  # the memory is that of now; what is shown looks ahead
-        for i in range(n_unknowns(par)):
-            work[np.uintp(L.W_TRIAL + i)] = work[np.uintp(L.W_NOW + i)]
+        copy(work[L.W_NOW :], work[L.W_TRIAL : L.W_TRIAL + n_unknowns(par)])
         look_ahead(par, inp, dt, power, work)
         temperature, hottest = mean_surface(par, work)
         energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
@@ -146,9 +130,5 @@ def look_ahead(par: Array, inp: Array, dt: float, power: float, work: Array) -> 
 @kernel
 def _is_finite(par: Array, work: Array, unknowns: int, out: Array) -> bool:
     """Tell if what the memory takes over and all outputs are numbers."""
-    good = math.isfinite(work[L.W_PROPOSED])
-    for i in range(n_unknowns(par)):
-        good = good and math.isfinite(work[np.uintp(unknowns + i)])
-    for i in range(L.NOUT):
-        good = good and math.isfinite(out[np.uintp(i)])
-    return good
+    known = work[unknowns : unknowns + n_unknowns(par)]
+    return math.isfinite(work[L.W_PROPOSED]) and are_finite(known) and are_finite(out)

@@ -1,30 +1,174 @@
 """modelDescription.xml of FMI 2.0 and 3.0, and terminalsAndIcons.xml, from a model's lists."""
 
+import os
+import subprocess
+from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from ...model.spec import ModelSpec
+from ...model.toml_tables import table_beside
 from ...templates import filled
-from . import xml_parts as parts
-from .interface import enumerations, variables
+from ...units import UNITS, exponents
+from ..model_kernels import package_version
+from ..package.model_sources import PACKAGE
+from .interface import Variable, enumerations, variables
 
+HERE = Path(__file__).parent
 # In FMI 3 enumerations are 64-bit integers, whole numbers 32-bit ones; order as in tables.h.
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
-HERE = Path(__file__).parent
+Attributes = dict[str, Any]  # of an element; those that are None are left out
+LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
+    "logStatusWarning": "Results that need care, such as distress or too hot",
+    "logStatusError": "Refused values and failed steps, with the reason",
+    "logNonlinearSystems": "What the solver took in each step",
+    "logEvents": "Film lost or regained, lock and break-away: once each",
+    "logAll": "Everything, also tracebacks of defects",
+}
+MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
+RELEASED = 1767225600  # without git and SOURCE_DATE_EPOCH: 2026-01-01
+# unit -> its display units
+DISPLAY = {
+    "K": ("degC",), "rad/s": ("rpm",), "rad": ("deg", "mrad"), "m": ("mm", "um"), "N": ("kN",),
+    "W": ("kW",), "J": ("kJ",), "Pa": ("MPa", "GPa"), "Pa.s": ("mPa.s",), "m3/s": ("l/min",),
+}  # fmt: skip
+# Declared types of real variables: name -> attributes.
+REAL_TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml")
 
 
 def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = False) -> bytes:
     """Return the model description; ``derivatives``: the binary has directional ones."""
     found = variables(spec)
-    stop, step = parts.default_experiment(spec)
+    stop, step = default_experiment(spec)
     return filled(
         HERE / "modelDescription.xml.jinja", spec=spec, fmi=fmi, guid=guid, stop=stop, step=step,
-        derivatives=str(derivatives).lower(), head=parts.head(spec), units=parts.units(found),
-        types=parts.types(found), enumerations=enumerations(spec), kinds=TYPES,
-        categories=parts.log_categories(spec), structure=parts.structure(found),
-        variables=[(v, parts.head_attributes(v), parts.value_attributes(v)) for v in found],
+        derivatives=str(derivatives).lower(), head=head(spec), units=units(found),
+        types=types(found), enumerations=enumerations(spec), kinds=TYPES,
+        categories=log_categories(spec), structure=structure(found),
+        variables=[(v, head_attributes(v), value_attributes(v)) for v in found],
     )  # fmt: skip
 
 
 def terminals_and_icons(spec: ModelSpec, *, icon: bool = True) -> bytes:
     """Return torque and speed as one plug; a file of FMI 3.0."""
     return filled(HERE / "terminalsAndIcons.xml.jinja", terminals=spec.terminals, icon=icon)
+
+
+def declared_type(v: Variable) -> str | None:
+    """Return the declared type of a real variable, if its unit has one."""
+    return next((name for name, said in REAL_TYPES.items() if said["unit"] == v.unit
+                 and ("relativeQuantity" in said) == v.relative), None)  # fmt: skip
+
+
+def display_unit(v: Variable) -> str | None:
+    """Return the unit people say: films in um, geometry in mm, elastic moduli in GPa."""
+    size = v.nominal or 0.0
+    if v.unit == "m" and size:
+        return "um" if size < 1e-4 else "mm"
+    if v.unit == "Pa" and size >= 1e9:
+        return "GPa"
+    return REAL_TYPES.get(declared_type(v) or "", {}).get("displayUnit")
+
+
+def generation_date() -> str:
+    """Return the date that goes into the FMU: never the clock, so that builds repeat."""
+    seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not seconds.isdigit():
+        seconds = _last_commit() or str(RELEASED)
+    return datetime.fromtimestamp(int(seconds), UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def _last_commit() -> str:
+    root = PACKAGE.parent
+    if not (root / ".git").exists():
+        return ""
+    command = ["git", "-C", str(root), "log", "-1", "--format=%ct"]
+    try:
+        answer = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return answer.stdout.strip()
+
+
+def default_experiment(spec: ModelSpec) -> tuple[float, float]:
+    """Return (stop time, step size) [s]; the start time is 0."""
+    return min(spec.stop_time, MOST_STEPS * spec.step_size), spec.step_size
+
+
+def log_categories(spec: ModelSpec) -> dict[str, str]:
+    """Return the categories this model sends messages in."""
+    silent = set() if spec.counts else {"logNonlinearSystems"}
+    if not any(signal.events for signal in spec.outputs):
+        silent.add("logEvents")
+    return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}
+
+
+def head(spec: ModelSpec) -> dict[str, str]:
+    """Return the attributes of the root that both versions have."""
+    return {
+        "modelName": spec.name, "description": spec.help, "author": "The thrustwasher authors",
+        "version": package_version(), "copyright": "The thrustwasher authors",
+        "license": "BSD-3-Clause", "generationTool": f"thrustwasher {package_version()}",
+        "generationDateAndTime": generation_date(), "variableNamingConvention": "structured",
+    }  # fmt: skip
+
+
+def units(found: tuple[Variable, ...]) -> list[tuple[str, dict[str, int], list[Attributes]]]:
+    """Return every unit in use with its base units and display units.
+
+    A display value is factor x value + offset, with 1 and 0 where one is not said.
+    """
+    listed = []
+    for name in sorted({v.unit for v in found if v.type == "Real"}):
+        displays = []
+        for display in DISPLAY.get(name, ()):
+            size, zero = UNITS[name][display]
+            factor = None if size == 1.0 else 1.0 / size
+            displays.append({"name": display, "factor": factor, "offset": -zero / size or None})
+        listed.append((name, exponents(name), displays))
+    return listed
+
+
+def types(found: tuple[Variable, ...]) -> list[tuple[str, Attributes]]:
+    """Return name and attributes of each declared type of a real that is in use."""
+    used = {declared_type(v) for v in found if v.type == "Real"}
+    return [(name, REAL_TYPES[name]) for name in sorted(filter(None, used))]
+
+
+def head_attributes(v: Variable) -> Attributes:
+    """Return what a variable of any type says of itself."""
+    return {"name": v.name, "valueReference": v.reference, "description": v.help,
+            "causality": v.causality, "variability": v.variability, "initial": v.initial,
+            }  # fmt: skip
+
+
+def value_attributes(v: Variable) -> Attributes:
+    """Return what a variable says of its value: unit, range, nominal and start."""
+    if v.type == "Boolean":
+        return {"start": None if v.start is None else str(bool(v.start)).lower()}
+    kind = float if v.type == "Real" else int
+    numbers = {"min": v.low, "max": v.high, "nominal": v.nominal, "start": v.start}
+    shown = {name: None if x is None else kind(x) for name, x in numbers.items()}
+    if v.type != "Real":
+        return {"declaredType": v.type_name, **shown, "nominal": None}
+    relative = "true" if v.relative else None
+    return {"declaredType": declared_type(v), "unit": v.unit, "displayUnit": display_unit(v),
+            "relativeQuantity": relative, **shown}  # fmt: skip
+
+
+def structure(found: tuple[Variable, ...]) -> list[tuple[str, str, list[Any]]]:
+    """Return name of the list in FMI 2, of an element in FMI 3, and pairs: output, what it needs.
+
+    While running an output depends on the inputs that act at once, when it is initialized also on
+    every parameter. Without a list the standard reads "depends on everything".
+    """
+    parameters = {v.name for v in found if v.causality == "parameter"}
+    outputs = [v for v in found if v.causality == "output"]
+
+    def needs(more: set[str]) -> list[Any]:
+        return [(v, [k for k in found if k.name in more.union(v.depends)]) for v in outputs]
+
+    return [
+        ("Outputs", "Output", needs(set())),
+        ("InitialUnknowns", "InitialUnknown", needs(parameters)),
+    ]

@@ -13,7 +13,7 @@ from ...model.prepare import tables_of
 from ...model.registry import MODELS, find_model, find_spec
 from ...model.spec import ModelSpec
 from ...templates import filled
-from ..description.interface import Variable, enumerations, variables
+from ..description.interface import enumerations, variables
 from ..model_kernels import package_version
 from ..package.licences import listed_licences
 from ..package.model_sources import source_folder
@@ -43,30 +43,13 @@ def page(
         version=package_version(), reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
         usual=variables(find_spec(spec.key)) if spec.kind else (), found=found,
-        inputs=_settable(found, "input"), parameters=_settable(found, "parameter"),
-        outputs=[(v.name, _unit(v), v.help) for v in found if v.causality == "output"],
-        enumerations=[(name, str(i.value), i.name, i.help)
-                      for name, items in enumerations(spec).items() for i in items],
+        enumerations=enumerations(spec), statuses=sorted(Status),
         advice=find_model(spec.key).wiring if spec.key in MODELS else (),
         feedthrough=_feedthrough(spec), slope=_slope_words(spec, runs),
-        statuses=[(str(int(s)), s.name, "failure" if s.is_failure else "advice" if s else "-",
-                   s.advice) for s in sorted(Status)],
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
         accuracy=accuracy(spec), equations=equations(folder),
         licences=listed_licences(target, platforms),
     ).decode()  # fmt: skip
-
-
-def _settable(found: tuple[Variable, ...], causality: str) -> Rows:
-    shown = [v for v in found if v.causality == causality]
-    return [
-        (v.name, _unit(v), "" if v.low is None or v.high is None else f"{v.low:g} .. {v.high:g}",
-         f"{v.start:g}", v.help + "; tunable" * (v.variability == "tunable")) for v in shown
-    ]  # fmt: skip
-
-
-def _unit(v: Variable) -> str:
-    return v.unit if v.type == "Real" else v.type_name or v.type
 
 
 def accuracy(spec: ModelSpec) -> Rows:

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...model.spec import ModelSpec
 from ...templates import filled
-from ..description.xml_parts import default_experiment
+from ..description.model_description import default_experiment
 from ..running.direct_instance import DirectInstance
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"

@@ -24,7 +24,7 @@ from pythonfmu.enums import Fmi2Status
 
 from ...errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, SolveError, Status
 from ...model.registry import find_spec
-from ..description.xml_parts import LOG_CATEGORIES
+from ..description.model_description import LOG_CATEGORIES
 from ..model_kernels import content_digest, package_version
 from ..running.core import Core, Mode
 from ..running.snapshot import Snapshot, from_bytes

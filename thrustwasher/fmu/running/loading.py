@@ -67,22 +67,19 @@ def unpack(path: str | os.PathLike[str]) -> Path:
 def _unpacked(path: str, _changed: int, _size: int) -> Path:
     digest = hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
     home = code_folder("fmus")
-    part = Path(tempfile.mkdtemp(dir=home))
     folder = home / f"{Path(path).stem}-{digest}"
-    if not (folder / "modelDescription.xml").is_file():
-        try:
-            with naming(folder):
-                _extract(path, part)
-        except BaseException:
-            shutil.rmtree(part, ignore_errors=True)
-            raise
+    if (folder / "modelDescription.xml").is_file():
+        return folder
+    with tempfile.TemporaryDirectory(dir=home, ignore_cleanup_errors=True) as draft:
+        part = Path(draft) / "fmu"
+        with naming(folder):
+            _extract(path, part)
         try:
             part.rename(folder)  # all or nothing; two processes may do it at once
         except OSError:
             if not (folder / "modelDescription.xml").is_file():
                 raise
-        prune(home)
-    shutil.rmtree(part, ignore_errors=True)
+    prune(home)
     return folder
 
 

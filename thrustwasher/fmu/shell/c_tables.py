@@ -14,8 +14,7 @@ from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...native.shipped import digest_now
 from ..description.interface import Variable, enumerations, variables
-from ..description.model_description import TYPES
-from ..description.xml_parts import LOG_CATEGORIES, log_categories
+from ..description.model_description import LOG_CATEGORIES, TYPES, log_categories
 from ..model_kernels import count_places, has_derivatives
 from . import call_table
 

@@ -7,8 +7,7 @@ lies at 1, of a ring at -1, the pitch point at 1/(ratio + side). ``side`` is 1, 
 
 import math
 
-import numpy as np
-
+from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
@@ -23,7 +22,7 @@ LEAST_EFFECTIVE = 2.143e-5 / 2.873  # the film's term of Li & Seireg's law chang
 LARGEST_EFFECTIVE = 0.0864 / 1372.0  # the film has no effect from there on
 LEAST_SLIDE_ROLL = 0.27
 # Contact limits [Pa]: ISO 6336-5, MQ, as usually quoted; the mechanical ones of Atan's Table 1.
-LIMIT_CASE, LIMIT_4340, LIMIT_1020 = 1500e6, 689.5e6, 434.3e6
+LIMITS = (689.5e6, 434.3e6, 1500e6)  # in the order of the steels
 RIM = 4.0  # transverse modules from a ring's pitch circle to its outside; an estimate
 STILL_COOLING = 50.0  # W/(m2 K), of gears that hardly move, over their pitch cylinders; an estimate
 
@@ -122,10 +121,7 @@ def derive(par: Array) -> int:
         line_of_action(par, par[L.D_APPROACH], par[L.D_RECESS])
     if par[L.P_FILM_HEAT] == L.LOSS:
         derive_path(par)
-    for i in range(L.N_PARAM, L.D_POSITION):
-        if not math.isfinite(par[np.uintp(i)]):
-            return NOT_FINITE
-    return OK
+    return OK if are_finite(par[L.N_PARAM : L.D_POSITION]) else NOT_FINITE
 
 
 @kernel
@@ -218,11 +214,7 @@ def derive_limits(par: Array) -> None:
     slant = math.cos(par[L.P_HELIX_ANGLE])
     shape = zone * elastic * max(sharing, 0.0) / slant * (ratio + side) / (ratio * diameter)
     par[L.D_PITTING] = math.sqrt(shape * math.cos(angle) * par[L.P_LOAD_FACTOR])
-    limit = LIMIT_CASE
-    if par[L.P_STEEL] == L.AISI4340:
-        limit = LIMIT_4340
-    elif par[L.P_STEEL] == L.AISI1020:
-        limit = LIMIT_1020
+    limit = LIMITS[int(par[L.P_STEEL]) - 1]
     par[L.D_LIMIT] = par[L.P_CONTACT_LIMIT] if par[L.P_CONTACT_LIMIT] > 0.0 else limit
     stage = par[L.P_FZG_STAGE]
     par[L.D_SCUFFING] = (0.85 + 1.4 * par[L.P_STRUCTURAL_FACTOR]) * stage * stage

@@ -48,8 +48,8 @@ def film_thickness(
 
 
 @kernel
-def li_seireg(film: float, radius: float, f0: float, roughness: float) -> float:
-    """Return the coefficient of friction [-] of Li & Seireg (Atan Eq 4).
+def li_seireg(film: float, radius: float, f0: float, roughness: float) -> tuple[float, float]:
+    """Return the coefficient of friction [-] of Li & Seireg (Atan Eq 4); slope over ln(film).
 
     symbol     meaning                                              unit
     film       film thickness h                                     m
@@ -60,15 +60,9 @@ def li_seireg(film: float, radius: float, f0: float, roughness: float) -> float:
     f = f0 - a (1 - exp(-(h/R_c)/(2.873 S - 2.143e-5))), a = 0.0864 - 1372 S; between f0 (h = 0)
     and f0 - a. Holds for a slide/roll ratio above 0.27.
     """
-    depth = film / radius / (2.873 * roughness - 2.143e-5)
-    return f0 - (0.0864 - 1372.0 * roughness) * (1.0 - math.exp(-min(depth, 700.0)))
-
-
-@kernel
-def li_seireg_slope(film: float, radius: float, f0: float, roughness: float) -> float:
-    """Return the slope of ``li_seireg`` over the logarithm of the film."""
     depth = min(film / radius / (2.873 * roughness - 2.143e-5), 700.0)
-    return -(0.0864 - 1372.0 * roughness) * math.exp(-depth) * depth
+    thin, most = math.exp(-depth), 0.0864 - 1372.0 * roughness
+    return f0 - most * (1.0 - thin), -most * thin * depth
 
 
 @kernel

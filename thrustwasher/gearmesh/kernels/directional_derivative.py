@@ -5,6 +5,8 @@ Most laws are products of powers, so relative changes add up. The flank's temper
 of an equation: its change follows from that equation's slopes at the root.
 """
 
+import numpy as np
+
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import smoothstep_slope, soft_size, soft_size_slope
 from ...tribology.greenwood_williamson import bounded_slopes
@@ -13,26 +15,12 @@ from .contact import thermal_stress
 from .flank_temperature import LOWEST_OIL, settled_rise
 from .mesh_point import (
     LEAST_LINE_LOAD,
-    MECHANICAL_1020,
-    MECHANICAL_4340,
+    MECHANICAL,
     SWITCH_FROM,
     SWITCH_WIDTH,
-    THERMAL_1020,
-    THERMAL_4340,
-    ULTIMATE_1020,
-    ULTIMATE_4340,
+    THERMAL,
+    ULTIMATE,
     viscosity_follows,
-)
-
-SCALES_1020 = (
-    MECHANICAL_1020 / THERMAL_1020,
-    1.0 / (MECHANICAL_1020 * ULTIMATE_1020),
-    1.0 / (THERMAL_1020 * ULTIMATE_1020),
-)
-SCALES_4340 = (
-    MECHANICAL_4340 / THERMAL_4340,
-    1.0 / (MECHANICAL_4340 * ULTIMATE_4340),
-    1.0 / (THERMAL_4340 * ULTIMATE_4340),
 )
 
 
@@ -97,15 +85,6 @@ def follow_friction(
 
 
 @kernel
-def friction_change(
-    par: Array, field: Array, oil: float, turning: float, load: float, speed: float, change: float
-) -> float:
-    """Return the change of the coefficient of friction; arguments as of ``film_changes``."""
-    film, bulk, _, _ = film_changes(par, field, oil, turning, load, speed, change)
-    return follow_friction(par, field, film, bulk, load, speed)
-
-
-@kernel
 def flash_change(
     par: Array, field: Array, torque: float, load: float, speed: float, torque_change: float,
     friction: float,
@@ -151,16 +130,17 @@ def asperity_change(
 @kernel
 def endurance_change(
     mechanical: float, load: float, thermal: float, hotter: float, allowed: float, used: float,
-    scales: tuple[float, float, float],
+    steel: int,
 ) -> tuple[float, float, float]:  # fmt: skip
     """Return changes of modification factor, allowable ratio and utilization of a steel.
 
-    ``thermal`` stress [Pa] and its change ``hotter``; ``scales``: mechanical over thermal limit,
-    then one over the stresses [Pa] that each alone use up the endurance.
+    ``thermal`` stress [Pa] and its change ``hotter``; ``steel``: 0 AISI 1020, 1 AISI 4340.
     """
-    root = scales[0] / mechanical
+    limit, thermal_limit, ultimate = MECHANICAL[steel], THERMAL[steel], ULTIMATE[steel]
+    root = limit / thermal_limit / mechanical
     factor = 2.0 * root * root * thermal * (hotter - 0.5 * load * thermal)
-    m, t = scales[1] * mechanical, scales[2] * scales[2]
+    m, per_stress = 1.0 / (limit * ultimate) * mechanical, 1.0 / (thermal_limit * ultimate)
+    t = per_stress * per_stress
     more = (0.5 * load * m * m + t * thermal * hotter) / used
     return factor, -0.5 * allowed * allowed * allowed * factor, more
 
@@ -194,25 +174,19 @@ def asperity_changes(
     stiff = thermal_stress(
         1.0, par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO], par[L.P_THERMAL_EXPANSION]
     )
-    rise, soft = asperity_change(par, field, factor * ULTIMATE_1020, body, load, changes)
-    k, allowed, used = endurance_change(
-        mechanical, load, stiff * rise, stiff * soft, field[L.F_ALLOWABLE_1020],
-        field[L.F_UTILIZATION_1020], SCALES_1020,
-    )  # fmt: skip
-    dout[L.F_MODIFICATION_1020], dout[L.F_ALLOWABLE_1020] = k, allowed
-    dout[L.F_UTILIZATION_1020] = used
-    dout[L.F_ASPERITY], dout[L.F_THERMAL] = change + soft, stiff * soft
-    dout[L.F_MODIFICATION], dout[L.F_ALLOWABLE] = k, allowed
-    rise, hard = asperity_change(par, field, factor * ULTIMATE_4340, body, load, changes)
-    k, allowed, used = endurance_change(
-        mechanical, load, stiff * rise, stiff * hard, field[L.F_ALLOWABLE_4340],
-        field[L.F_UTILIZATION_4340], SCALES_4340,
-    )  # fmt: skip
-    dout[L.F_MODIFICATION_4340], dout[L.F_ALLOWABLE_4340] = k, allowed
-    dout[L.F_UTILIZATION_4340] = used
-    if par[L.P_STEEL] != L.AISI1020:
-        dout[L.F_ASPERITY], dout[L.F_THERMAL] = change + hard, stiff * hard
-        dout[L.F_MODIFICATION], dout[L.F_ALLOWABLE] = k, allowed
+    main = 0 if par[L.P_STEEL] == L.AISI1020 else 1
+    for s in range(2):
+        rise, more = asperity_change(par, field, factor * ULTIMATE[s], body, load, changes)
+        k, allowed, used = endurance_change(
+            mechanical, load, stiff * rise, stiff * more, field[np.uintp(L.F_ALLOWABLE_1020 + s)],
+            field[np.uintp(L.F_UTILIZATION_1020 + s)], s,
+        )  # fmt: skip
+        dout[np.uintp(L.F_MODIFICATION_1020 + s)] = k
+        dout[np.uintp(L.F_ALLOWABLE_1020 + s)] = allowed
+        dout[np.uintp(L.F_UTILIZATION_1020 + s)] = used
+        if s == main:
+            dout[L.F_ASPERITY], dout[L.F_THERMAL] = change + more, stiff * more
+            dout[L.F_MODIFICATION], dout[L.F_ALLOWABLE] = k, allowed
     dout[L.F_FILM], dout[L.F_RATIO] = field[L.F_FILM] * film, ratio
     dout[L.F_SURFACE], dout[L.F_FILM_TEMPERATURE] = surface, hottest
     dout[L.F_STRESS] = 0.5 * mechanical * load

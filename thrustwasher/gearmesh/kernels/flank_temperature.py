@@ -78,15 +78,6 @@ def shear_stress(shear: float, cap: float) -> tuple[float, float]:
 
 
 @kernel
-def surface_temperature(
-    bulk: float, factor: float, shear: float, cap: float, exponent: float, b: float, c: float
-) -> tuple[float, float, int, int]:
-    """Return (T [K], stress [Pa], status, iterations) of ``heated_flank``."""
-    found, stress, _, status, iterations = heated_flank(bulk, factor, shear, cap, exponent, b, c)
-    return found, stress, status, iterations
-
-
-@kernel
 def heated_flank(
     bulk: float, factor: float, shear: float, cap: float, exponent: float, b: float, c: float
 ) -> tuple[float, float, float, int, int]:

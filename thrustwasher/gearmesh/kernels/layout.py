@@ -12,9 +12,8 @@
     P_OIL_HEAT_CAPACITY, P_OIL_DENSITY, P_VISCOSITY_SCALE, P_VISCOSITY_B, P_VISCOSITY_C,
     P_VISCOSITY_AT, P_FILM_VISCOSITY, P_PRESSURE_VISCOSITY, P_HEAT_PARTITION, P_PARTITION_SHARE,
     P_TRACTION_LAW, P_LIMITING_TRACTION, P_ASPERITY_GROUP, P_HARDNESS_FACTOR, P_AREA_LAW,
-    P_AREA_RATIO, P_SWITCH, P_ASPERITY_BASE, P_SPEED_SMOOTHING, P_FIDELITY,
-) = range(58)  # fmt: skip
-N_PARAM = 58
+    P_AREA_RATIO, P_SWITCH, P_ASPERITY_BASE, P_SPEED_SMOOTHING, P_FIDELITY, N_PARAM,
+) = range(59)  # fmt: skip
 # Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
 # a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
 (
@@ -32,8 +31,7 @@ D_POSITION = D_PLACES + 1
 D_PATH_SHARE, D_PATH_LOSS, D_PATH_LENGTH, D_PATH_FLASH, D_PATH_FILM, D_PATH_PRESSURE, NPAR = (
     D_POSITION + i * N_PATH for i in range(1, 8)
 )
-I_LOAD, I_SPEED, I_OIL = range(3)
-NINP = 3
+I_LOAD, I_SPEED, I_OIL, NINP = range(4)
 # Memory: whether a step was made, temperature of the bodies [K], heat stored since then [J].
 S_STARTED, S_BULK, S_STORED, NSTATE = range(4)
 # What is known of one operating point; the real outputs come first, in their order.
@@ -45,9 +43,8 @@ S_STARTED, S_BULK, S_STORED, NSTATE = range(4)
     F_PITTING_STRESS, F_PITTING_SAFETY, F_SCUFFING_SAFETY, F_SCUFFING_MARGIN, F_FILM_GF,
     F_MICROPITTING, F_LINE_LOAD, F_WIDTH, F_PRESSURE, F_SLIDING, F_VISCOSITY, F_WEIGHT, F_AREA,
     F_STATUS, F_ITERATIONS, F_BULK_VISCOSITY, F_SURFACE_RISE, F_FILM_RISE, F_STRESS_SLOPE,
-    F_FRICTION_SLOPE, F_FREE_AREA, F_FREE_AREA_SLOPE, F_SMOOTH_SIGN, F_FREE_RISE,
-) = range(49)  # fmt: skip
-N_FIELD = 49
+    F_FRICTION_SLOPE, F_FREE_AREA, F_FREE_AREA_SLOPE, F_SMOOTH_SIGN, F_FREE_RISE, N_FIELD,
+) = range(50)  # fmt: skip
 # Behind them, for the rung `fine` of the paper's heat: the hottest position's own numbers, those of
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
@@ -56,8 +53,7 @@ W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_F
 W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
 W_SHEARED, W_CONTACT, NWORK = (W_FRICTION + i * N_PATH for i in range(1, 4))
 NOUT = 31
-IO_REGIME, IO_STATUS = range(2)
-NIOUT = 2
+IO_REGIME, IO_STATUS, NIOUT = range(3)
 
 FILM, MIXED, BOUNDARY = range(1, 4)  # regimes
 # Numbers of the enumerations.

@@ -7,13 +7,12 @@ loss is their sum; all other outputs are those of the position whose asperities 
 
 import math
 
-import numpy as np
-
+from ...numerics.arrays import copy
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import floored, floored_slope
 from ...numerics.status import OK
 from . import layout as L
-from .directional_derivative import fill_changes, friction_change
+from .directional_derivative import fill_changes, film_changes, follow_friction
 from .mesh_point import LEAST_LINE_LOAD, LEAST_SPEED, mesh_point
 from .path_of_contact import flanks_at
 
@@ -23,8 +22,7 @@ LEAST_SLIDING = 1e-6  # of the line's length per speed of 1 rad/s; at the pitch 
 @kernel
 def place_mesh(par: Array, place: int, local: Array) -> None:
     """Fill ``local`` with the constants of the mesh as they are at a place of the line."""
-    for i in range(L.D_POSITION):
-        local[np.uintp(i)] = par[np.uintp(i)]
+    copy(par, local)
     local[L.D_RADIUS], v1, v2 = flanks_at(par, par[L.D_POSITION + place])
     line = par[L.D_CENTRE] * math.sin(par[L.D_ANGLE])
     local[L.D_V1], local[L.D_V2] = v1, v2
@@ -52,10 +50,8 @@ def solve_mesh(par: Array, torque: float, speed: float, oil: float, work: Array)
         iterations += here[L.F_ITERATIONS]
         if place == 0 or here[L.F_ASPERITY] > hottest[L.F_ASPERITY]:
             work[L.W_PLACE] = float(place)
-            for i in range(L.N_FIELD):
-                hottest[np.uintp(i)] = here[np.uintp(i)]
-    for i in range(L.N_FIELD):
-        work[np.uintp(i)] = hottest[np.uintp(i)]
+            copy(here, hottest)
+    copy(hottest, work[: L.N_FIELD])
     work[L.F_FRICTION], work[L.F_ITERATIONS] = friction, iterations
     work[L.F_STATUS] = float(worst)
     return worst
@@ -80,9 +76,9 @@ def mesh_changes(
         place_mesh(par, place, local)
         mesh_point(local, torque, speed, oil, here)
         load = _heavier(local, torque, seed[L.I_LOAD])
-        friction += par[L.D_PATH_LOSS + place] * friction_change(
-            local, here, oil, turning, load, faster, seed[L.I_OIL]
-        )
+        film, bulk, _, _ = film_changes(local, here, oil, turning, load, faster, seed[L.I_OIL])
+        change = follow_friction(local, here, film, bulk, load, faster)
+        friction += par[L.D_PATH_LOSS + place] * change
     place_mesh(par, int(work[L.W_PLACE]), local)
     load = _heavier(local, torque, seed[L.I_LOAD])
     fill_changes(

@@ -6,20 +6,13 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, kernel
-from ...numerics.smoothing import (
-    floored,
-    floored_slope,
-    soft_most,
-    soft_most_slope,
-    soft_size,
-    soft_size_slope,
-)
+from ...numerics.smoothing import floored, floored_slope, soft_most, soft_size, soft_size_slope
 from ...numerics.status import HOT, OK, OUTSIDE_VERIFIED
 from ...tribology.lumped_body import rise_after, rise_changes
 from . import layout as L
 from .contact import hertz_width
 from .directional_derivative import asperity_changes, flash_change
-from .flank_temperature import LOWEST_OIL, film_factor, oil_viscosity
+from .flank_temperature import LOWEST_OIL, film_factor
 from .mesh_point import (
     HOT_FILM,
     LEAST_LINE_LOAD,
@@ -27,6 +20,7 @@ from .mesh_point import (
     contact_weight,
     outside,
     stress_asperities,
+    viscosity_at,
     viscosity_follows,
 )
 from .path_friction import fill_friction, film_scale, friction_changes, is_uniform
@@ -36,14 +30,7 @@ HALVINGS = 52
 
 
 @kernel
-def _viscosity(par: Array, temperature: float) -> float:
-    return oil_viscosity(
-        temperature, par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
-    )
-
-
-@kernel
-def _thinning(par: Array, temperature: float) -> float:
+def thinning(par: Array, temperature: float) -> float:
     """Return the relative slope [1/K] of the viscosity."""
     warmth = temperature - 273.15 + par[L.P_VISCOSITY_C]
     return -par[L.P_VISCOSITY_B] / (warmth * warmth) if temperature >= LOWEST_OIL else 0.0
@@ -60,8 +47,8 @@ def conductance(par: Array, line: float, turning: float) -> tuple[float, float]:
     if given > 0.0:
         return given, 0.0
     free = par[L.D_CONDUCTANCE] * math.sqrt(math.sqrt(line) * turning)
-    slope = soft_most_slope(free, still, 0.5 * still)
-    return soft_most(free, still, 0.5 * still), slope * free
+    found, slope = soft_most(free, still, 0.5 * still)
+    return found, slope * free
 
 
 @kernel
@@ -73,14 +60,14 @@ def steady_rise(
     T - T_oil = rate f(T)/G, ``rate`` [W] the loss of a friction of 1 and f the mean friction with a
     film of the bodies' temperature; by halving, from nothing to the largest friction's.
     """
-    thin = _viscosity(par, oil)
+    thin = viscosity_at(par, oil)
     follows, _, _ = viscosity_follows(par)
     if is_uniform(par) or not follows or rate == 0.0:
         return rate * fill_friction(par, line, turning, thin, thin, work) / cooling
     low, high = 0.0, rate * max(par[L.P_F0], par[L.P_LIMITING_TRACTION]) / cooling
     for _ in range(HALVINGS):
         rise = 0.5 * (low + high)
-        found = fill_friction(par, line, turning, thin, _viscosity(par, oil + rise), work)
+        found = fill_friction(par, line, turning, thin, viscosity_at(par, oil + rise), work)
         if rate * found / cooling > rise:
             low = rise
         else:
@@ -101,7 +88,7 @@ def heat_of_loss(
     line = floored(torque * par[L.D_LINE], LEAST_LINE_LOAD)
     cooling, _ = conductance(par, line, turning)
     follows, _, _ = viscosity_follows(par)
-    thin, rate = _viscosity(par, oil), par[L.D_LOSS] * drive
+    thin, rate = viscosity_at(par, oil), par[L.D_LOSS] * drive
     above, began = 0.0, L.OILS
     quasi_steady = par[L.P_THERMAL_MODE] == L.QUASI_STEADY
     if quasi_steady:
@@ -111,7 +98,7 @@ def heat_of_loss(
     elif par[L.P_THERMAL_START] == L.STEADY_START or quasi_steady:
         above = steady_rise(par, line, turning, oil, rate, cooling, work)
         began = L.STEADY
-    viscosity = _viscosity(par, oil + above) if follows else thin
+    viscosity = viscosity_at(par, oil + above) if follows else thin
     power = rate * fill_friction(par, line, turning, thin, viscosity, work)
     after, to_oil = rise_after(par[L.D_BULK_CAPACITY], above, power, cooling, dt)
     work[L.W_BEGAN], work[L.W_FROM], work[L.W_DURATION] = float(began), above, dt
@@ -137,11 +124,8 @@ def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: 
     v1, v2 = v1 * turning, v2 * turning
     borne = factor * par[np.uintp(L.D_PATH_SHARE + place)]
     width = hertz_width(borne * line, radius, par[L.D_THETA])
-    work[L.F_LINE_LOAD], work[L.F_WIDTH], work[L.F_PRESSURE] = (
-        borne * line,
-        width,
-        borne * line / width,
-    )
+    work[L.F_LINE_LOAD], work[L.F_WIDTH] = borne * line, width
+    work[L.F_PRESSURE] = borne * line / width
     scale = film_scale(line, turning, work[L.F_VISCOSITY])
     film = par[np.uintp(L.D_PATH_FILM + place)] * scale
     work[L.F_FILM], work[L.F_RATIO] = film, film / par[L.D_SIGMA]
@@ -183,8 +167,8 @@ def loss_changes(
     cooler = slope * (0.25 * load + 0.5 * faster)
     follows, _, _ = viscosity_follows(par)
     above, dt, viscosity = work[L.W_FROM], work[L.W_DURATION], work[L.F_VISCOSITY]
-    mean, thin = work[L.F_MEAN_FRICTION], _thinning(par, oil) * warmer
-    steep = _thinning(par, oil + above) if follows else 0.0
+    mean, thin = work[L.F_MEAN_FRICTION], thinning(par, oil) * warmer
+    steep = thinning(par, oil + above) if follows else 0.0
     held = 0.0 if follows else thin  # change of the film's viscosity with the body's held
     dmean, hottest = friction_changes(par, line, turning, load, faster, thin, viscosity, held, work)
     by_body, hot_by_body = friction_changes(

@@ -7,37 +7,22 @@ speed at least 1 mrad/s, rounded, so that every number stays finite with a conti
 
 import math
 
+import numpy as np
+
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import floored, smoothstep, soft_size
 from ...numerics.status import HOT, OK, OUTSIDE_VERIFIED
-from ...tribology.greenwood_williamson import LARGEST_RATIO, area_and_slope, bounded_ratio
+from ...tribology.greenwood_williamson import LARGEST_RATIO, area_and_slope, bounded_slopes
+from . import contact
+from . import flank_temperature as flank
 from . import layout as L
-from .contact import (
-    film_thickness,
-    hertz_width,
-    iso_and_slope,
-    li_seireg,
-    li_seireg_slope,
-    modification,
-    surface_stress,
-    thermal_stress,
-    utilization,
-)
-from .flank_temperature import (
-    blok_rise,
-    closed_flank,
-    film_factor,
-    flash_rise,
-    heated_flank,
-    oil_viscosity,
-    surface_factor,
-)
 
 LEAST_LINE_LOAD = 1.0  # N/m
 LEAST_SPEED = 1e-3  # rad/s
-# Atan's Table 1 (its numbers are bar): limits over ultimate strength, ultimate strength [Pa].
-MECHANICAL_1020, THERMAL_1020, ULTIMATE_1020 = 0.63, 0.77, 434.3e6 / 0.63
-MECHANICAL_4340, THERMAL_4340, ULTIMATE_4340 = 0.53, 0.40, 689.5e6 / 0.53
+# Atan's Table 1 (its numbers are bar), of AISI 1020 and 4340: limits over ultimate strength,
+# ultimate strength [Pa].
+MECHANICAL, THERMAL = (0.63, 0.53), (0.77, 0.40)
+ULTIMATE = (434.3e6 / 0.63, 689.5e6 / 0.53)
 SWITCH_AT, SWITCH_FROM, SWITCH_WIDTH = 1.4, 1.0, 0.8  # film ratios
 HOT_FILM = 523.0  # K
 COLDEST, WARMEST = 253.15, 423.15  # K; where the viscosity law is that of a real oil
@@ -56,11 +41,12 @@ def friction_coefficient(
     if par[L.P_FIDELITY] != L.CLOSED:
         if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
             radius, f0, roughness = par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS]
-            slope = li_seireg_slope(film, radius, f0, roughness)
-            return li_seireg(film, radius, f0, roughness), slope
+            return contact.li_seireg(film, radius, f0, roughness)
         if par[L.P_FRICTION_LAW] == L.ISO:
             rolling, radius = par[L.D_ROLLING] * speed, par[L.D_PITCH_RADIUS]
-            return iso_and_slope(line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0])
+            return contact.iso_and_slope(
+                line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0]
+            )
     return par[L.P_CONSTANT_FRICTION], 0.0
 
 
@@ -87,6 +73,13 @@ def viscosity_follows(par: Array) -> tuple[bool, bool, float]:
 
 
 @kernel
+def viscosity_at(par: Array, temperature: float) -> float:
+    """Return the viscosity of the oil [Pa s] at a temperature [K]."""
+    scale, b, c = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+    return flank.oil_viscosity(temperature, scale, b, c)
+
+
+@kernel
 def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, int]:
     """Fill film, surface and film temperature, viscosities; return (status, iterations).
 
@@ -94,8 +87,8 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
     """
     line_load, width, pressure = field[L.F_LINE_LOAD], field[L.F_WIDTH], field[L.F_PRESSURE]
     v1, sliding = par[L.D_V1] * speed, par[L.D_SLIDING] * speed
-    bulk = oil_viscosity(oil, par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C])
-    film = film_thickness(
+    bulk = viscosity_at(par, oil)
+    film = contact.film_thickness(
         bulk, 0.5 * speed * (par[L.D_V1] + par[L.D_V2]), line_load, par[L.D_RADIUS], par[L.D_THETA],
         par[L.P_PRESSURE_VISCOSITY],
     )  # fmt: skip
@@ -104,29 +97,25 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
         shear *= math.exp(min(par[L.P_PRESSURE_VISCOSITY] * pressure, 200.0))
         cap = par[L.P_LIMITING_TRACTION] * pressure
     taken = par[L.D_SHARE] * sliding * width  # heat into the pinion per stress, [m2/s]
-    factor = taken * surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
+    factor = taken * flank.surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
     warm, thins, exponent = viscosity_follows(par)
     status, iterations = OK, 0
     if par[L.P_FIDELITY] == L.STRIBECK:
-        surface, stress, slope = closed_flank(
+        surface, stress, slope = flank.closed_flank(
             oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
         )
     else:
-        surface, stress, slope, status, iterations = heated_flank(
+        surface, stress, slope, status, iterations = flank.heated_flank(
             oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
         )
-    viscosity = bulk
-    if warm:
-        viscosity = oil_viscosity(
-            surface, par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
-        )
+    viscosity = viscosity_at(par, surface) if warm else bulk
     if thins:
         film *= math.exp(0.7 * math.log(viscosity / bulk))
     field[L.F_VISCOSITY], field[L.F_FILM], field[L.F_SURFACE] = viscosity, film, surface
     field[L.F_RATIO] = film / par[L.D_SIGMA]
     field[L.F_BULK_VISCOSITY], field[L.F_STRESS_SLOPE] = bulk, slope
     field[L.F_SURFACE_RISE], field[L.F_FREE_RISE] = factor * stress, factor * shear
-    field[L.F_FILM_RISE] = taken * stress * film_factor(
+    field[L.F_FILM_RISE] = taken * stress * flank.film_factor(
         film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
         par[L.D_OIL_CAPACITY],
     )  # fmt: skip
@@ -141,7 +130,7 @@ def asperity_temperature(
     """Return (temperature [K], area ratio [-]) of the asperities of a steel of that hardness."""
     area = ratio
     if par[L.P_AREA_LAW] == L.BOUNDED:
-        area = bounded_ratio(ratio, hardness, field[L.F_PRESSURE])
+        area, _, _ = bounded_slopes(ratio, hardness, field[L.F_PRESSURE])
     weight = field[L.F_WEIGHT]
     if weight == 0.0:
         area_rise = 0.0
@@ -166,35 +155,25 @@ def stress_asperities(par: Array, oil: float, field: Array) -> None:
     modulus, poisson = par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO]
     expansion = par[L.P_THERMAL_EXPANSION]
 
-    soft, soft_area = asperity_temperature(par, field, oil, ratio, factor * ULTIMATE_1020)
-    thermal_soft = thermal_stress(soft - oil, modulus, poisson, expansion)
-    k, allowed = modification(thermal_soft, mechanical, THERMAL_1020, MECHANICAL_1020)
-    field[L.F_MODIFICATION_1020], field[L.F_ALLOWABLE_1020] = k, allowed
-    field[L.F_UTILIZATION_1020] = utilization(
-        thermal_soft, mechanical, THERMAL_1020, MECHANICAL_1020, ULTIMATE_1020
-    )
-
-    hard, hard_area = asperity_temperature(par, field, oil, ratio, factor * ULTIMATE_4340)
-    thermal_hard = thermal_stress(hard - oil, modulus, poisson, expansion)
-    k, allowed = modification(thermal_hard, mechanical, THERMAL_4340, MECHANICAL_4340)
-    field[L.F_MODIFICATION_4340], field[L.F_ALLOWABLE_4340] = k, allowed
-    field[L.F_UTILIZATION_4340] = utilization(
-        thermal_hard, mechanical, THERMAL_4340, MECHANICAL_4340, ULTIMATE_4340
-    )
-    if par[L.P_STEEL] != L.AISI1020:
-        field[L.F_ASPERITY], field[L.F_AREA], field[L.F_THERMAL] = hard, hard_area, thermal_hard
-        field[L.F_MODIFICATION] = field[L.F_MODIFICATION_4340]
-        field[L.F_ALLOWABLE] = field[L.F_ALLOWABLE_4340]
-    else:
-        field[L.F_ASPERITY], field[L.F_AREA], field[L.F_THERMAL] = soft, soft_area, thermal_soft
-        field[L.F_MODIFICATION] = field[L.F_MODIFICATION_1020]
-        field[L.F_ALLOWABLE] = field[L.F_ALLOWABLE_1020]
+    main = 0 if par[L.P_STEEL] == L.AISI1020 else 1
+    for k in range(2):
+        thermal_limit, limit, ultimate = THERMAL[k], MECHANICAL[k], ULTIMATE[k]
+        temperature, area = asperity_temperature(par, field, oil, ratio, factor * ultimate)
+        thermal = contact.thermal_stress(temperature - oil, modulus, poisson, expansion)
+        factor_k, allowed = contact.modification(thermal, mechanical, thermal_limit, limit)
+        used = contact.utilization(thermal, mechanical, thermal_limit, limit, ultimate)
+        field[np.uintp(L.F_MODIFICATION_1020 + k)] = factor_k
+        field[np.uintp(L.F_ALLOWABLE_1020 + k)] = allowed
+        field[np.uintp(L.F_UTILIZATION_1020 + k)] = used
+        if k == main:
+            field[L.F_ASPERITY], field[L.F_AREA], field[L.F_THERMAL] = temperature, area, thermal
+            field[L.F_MODIFICATION], field[L.F_ALLOWABLE] = factor_k, allowed
 
 
 @kernel
 def outside(par: Array, oil: float, field: Array) -> bool:
     """Tell if the point lies where the laws are stretched: oil, hardness, softened steel."""
-    ultimate = ULTIMATE_1020 if par[L.P_STEEL] == L.AISI1020 else ULTIMATE_4340
+    ultimate = ULTIMATE[0] if par[L.P_STEEL] == L.AISI1020 else ULTIMATE[1]
     return (
         oil < COLDEST or oil > WARMEST or field[L.F_ASPERITY] > HOTTEST_ASPERITY
         or field[L.F_PRESSURE] > par[L.P_HARDNESS_FACTOR] * ultimate
@@ -209,13 +188,10 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
     """
     turning = floored(speed, LEAST_SPEED)
     line_load = floored(torque * par[L.D_LINE], LEAST_LINE_LOAD)
-    width = hertz_width(line_load, par[L.D_RADIUS], par[L.D_THETA])
-    field[L.F_LINE_LOAD], field[L.F_WIDTH], field[L.F_PRESSURE] = (
-        line_load,
-        width,
-        line_load / width,
-    )
-    field[L.F_STRESS] = surface_stress(line_load, par[L.D_RADIUS], par[L.P_YOUNGS_MODULUS])
+    width = contact.hertz_width(line_load, par[L.D_RADIUS], par[L.D_THETA])
+    field[L.F_LINE_LOAD], field[L.F_WIDTH] = line_load, width
+    field[L.F_PRESSURE] = line_load / width
+    field[L.F_STRESS] = contact.surface_stress(line_load, par[L.D_RADIUS], par[L.P_YOUNGS_MODULUS])
     field[L.F_SLIDING] = par[L.D_SLIDING] * turning
     status, iterations = heat_film(par, oil, turning, field)
     friction, slope = friction_coefficient(
@@ -225,10 +201,10 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
     v1, v2 = par[L.D_V1] * turning, par[L.D_V2] * turning
     rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)  # no load, no heat
     if par[L.P_FIDELITY] == L.CLOSED:
-        rise = blok_rise(friction, rubbing, v1, v2, width, par[L.D_EFFUSIVITY])
+        rise = flank.blok_rise(friction, rubbing, v1, v2, width, par[L.D_EFFUSIVITY])
     else:
         heat = par[L.D_SHARE] * friction * rubbing * field[L.F_SLIDING]
-        rise = flash_rise(heat, width, v1, par[L.D_EFFUSIVITY])
+        rise = flank.flash_rise(heat, width, v1, par[L.D_EFFUSIVITY])
     field[L.F_FRICTION], field[L.F_FLASH], field[L.F_BULK] = friction, rise, oil
     field[L.F_WEIGHT] = contact_weight(par, field[L.F_RATIO])
     stress_asperities(par, oil, field)

@@ -8,11 +8,10 @@ standards' own text was not at hand.
 import math
 
 from ...numerics.jit import Array, kernel
-from ...numerics.smoothing import floored, floored_slope, soft_most, soft_most_slope
+from ...numerics.smoothing import floored, floored_slope, soft_most
 from . import layout as L
-from .flank_temperature import LOWEST_OIL
 from .line_of_action import mesh_changes, solve_mesh
-from .loss_heat import heat_of_loss, loss_changes
+from .loss_heat import heat_of_loss, loss_changes, thinning
 from .mesh_point import LEAST_LINE_LOAD
 
 LEAST_RISE = 1.0  # K of the contact over the oil that the safety against scuffing counts at least
@@ -32,7 +31,7 @@ def fill_safety(par: Array, torque: float, oil: float, field: Array) -> None:
     field[L.F_PITTING_SAFETY] = par[L.D_LIMIT] / field[L.F_PITTING_STRESS]
     limit = scuffing_temperature(par, field[L.F_BULK_VISCOSITY])
     rise = field[L.F_BULK] + field[L.F_FLASH_MAX] - oil
-    counted = soft_most(rise, LEAST_RISE, 0.5 * LEAST_RISE)
+    counted, _ = soft_most(rise, LEAST_RISE, 0.5 * LEAST_RISE)
     field[L.F_SCUFFING_SAFETY] = (limit - oil) / counted
     field[L.F_SCUFFING_MARGIN] = limit - oil - rise
     field[L.F_MICROPITTING] = field[L.F_FILM_GF] / par[L.P_PERMISSIBLE_FILM_RATIO]
@@ -55,9 +54,9 @@ def safety_changes(
     limit = scuffing_temperature(par, field[L.F_BULK_VISCOSITY])
     lower = -0.05 * (limit - 353.15) * change[2]
     rise = field[L.F_BULK] + field[L.F_FLASH_MAX] - oil
-    counted = soft_most(rise, LEAST_RISE, 0.5 * LEAST_RISE)
+    counted, rest = soft_most(rise, LEAST_RISE, 0.5 * LEAST_RISE)
     more = dout[L.F_BULK] + dout[L.F_FLASH_MAX] - change[1]
-    slope = soft_most_slope(rise, LEAST_RISE, 0.5 * LEAST_RISE) * more / counted
+    slope = rest * more / counted
     dout[L.F_SCUFFING_SAFETY] = (lower - change[1]) / counted - field[L.F_SCUFFING_SAFETY] * slope
     dout[L.F_SCUFFING_MARGIN] = lower - change[1] - more
     dout[L.F_MICROPITTING] = dout[L.F_FILM_GF] / par[L.P_PERMISSIBLE_FILM_RATIO]
@@ -104,7 +103,5 @@ def point_changes(
         stress = dout[L.F_STRESS] / work[L.F_STRESS]
         dout[L.F_PRESSURE_MAX] = work[L.F_PRESSURE_MAX] * stress
         dout[L.F_FILM_GF] = dout[L.F_FILM] / par[L.D_MEAN]
-    warmth = oil - 273.15 + par[L.P_VISCOSITY_C]
-    thinner = -par[L.P_VISCOSITY_B] / (warmth * warmth) if oil >= LOWEST_OIL else 0.0
-    change = (seed[L.I_LOAD], seed[L.I_OIL], thinner * seed[L.I_OIL])
+    change = (seed[L.I_LOAD], seed[L.I_OIL], thinning(par, oil) * seed[L.I_OIL])
     safety_changes(par, torque, oil, work, change, dout)

@@ -10,9 +10,9 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, kernel
-from ...numerics.smoothing import floored, floored_slope, soft_least, soft_most, soft_most_slope
+from ...numerics.smoothing import floored, floored_slope, soft_least, soft_most
 from . import layout as L
-from .contact import iso_and_slope, li_seireg, li_seireg_slope
+from .contact import iso_and_slope, li_seireg
 from .path_of_contact import flanks_at
 
 LEAST_ROLLING = 0.1  # m/s, below it the standard's mean friction would grow without bound; estimate
@@ -81,7 +81,8 @@ def boundary_friction(par: Array, wanted: float, contact: float) -> tuple[float,
     if f0 <= 0.0:
         return 0.0, 0.0
     least, slope = soft_least(wanted / (contact + NO_CONTACT), f0, 0.1 * f0)
-    return soft_most(least, 0.0, 0.05 * f0), slope * soft_most_slope(least, 0.0, 0.05 * f0)
+    friction, rest = soft_most(least, 0.0, 0.05 * f0)
+    return friction, slope * rest
 
 
 @kernel
@@ -104,7 +105,7 @@ def fill_friction(
         for k in range(int(par[L.D_PLACES])):
             radius, _, _ = flanks_at(par, par[L.D_POSITION + k])
             film = par[L.D_PATH_FILM + k] * scale
-            work[L.W_FRICTION + k] = li_seireg(film, radius, par[L.P_F0], par[L.D_ROUGHNESS])
+            work[L.W_FRICTION + k], _ = li_seireg(film, radius, par[L.P_F0], par[L.D_ROUGHNESS])
     mean, hottest = 0.0, -1.0
     for k in range(int(par[L.D_PLACES])):
         friction = work[np.uintp(L.W_FRICTION + k)]
@@ -163,7 +164,8 @@ def friction_changes(
     for k in range(int(par[L.D_PLACES])):
         radius, _, _ = flanks_at(par, par[L.D_POSITION + k])
         here = par[L.D_PATH_FILM + k] * scale
-        found = li_seireg_slope(here, radius, par[L.P_F0], par[L.D_ROUGHNESS]) * film
+        _, slope = li_seireg(here, radius, par[L.P_F0], par[L.D_ROUGHNESS])
+        found = slope * film
         mean += found * par[L.D_PATH_LOSS + k]
         if k == int(work[L.W_PLACE]):
             hottest = found

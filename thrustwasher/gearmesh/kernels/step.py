@@ -2,10 +2,8 @@
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ...numerics.jit import Array, kernel
+from ...numerics.arrays import are_finite, copy
+from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
 from . import layout as L
@@ -28,24 +26,14 @@ def regime_of(film_ratio: float) -> int:
 
 @kernel
 def step(
-    par: Array,
-    inp: Array,
-    state: Array,
-    work: Array,
-    out: Array,
-    iout: NDArray[np.int32],
-    t: float,
-    dt: float,
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
     """Fill the outputs at the present load, speed and oil temperature, held from t to t + dt.
 
     Returns 0 or the status of a failure; advice stands in ``iout`` only.
     """
     load, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
-    if not (
-        math.isfinite(load) and math.isfinite(speed) and math.isfinite(oil) and dt >= 0.0
-        and math.isfinite(dt) and oil > 0.0
-    ):  # fmt: skip
+    if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     # The loss grows from zero load with a continuous slope, over twice the least line load.
@@ -56,10 +44,9 @@ def step(
     work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
     work[L.F_POWER] = work[L.F_TORQUE] * speed
     iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])
-    for i in range(L.NOUT):
-        out[np.uintp(i)] = work[np.uintp(i)]
-        if not math.isfinite(out[np.uintp(i)]):
-            status = NOT_FINITE
+    copy(work, out)
+    if not are_finite(out):
+        status = NOT_FINITE
     if dt > 0.0 and status < 10:
         state[L.S_STARTED] = 1.0
         state[L.S_BULK], state[L.S_STORED] = work[L.F_BULK], work[L.F_STORED]
@@ -93,7 +80,4 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
         rising * smooth + friction * pressed * steep * seed[L.I_SPEED]
     )
     dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
-    for i in range(L.NOUT):
-        if not math.isfinite(dout[np.uintp(i)]):
-            return NOT_FINITE
-    return OK
+    return OK if are_finite(dout) else NOT_FINITE

@@ -26,9 +26,7 @@ FOLDS = {"film_lost": ("v", "film lost"), "film_regained": ("^", "film regained"
 
 
 @styled
-def field_figure(
-    result: Any, point: Mapping[str, float], params: Any = None, *, words: str = ""
-) -> Figure:
+def field_figure(result: Any, point: Mapping[str, float], params: Any = None) -> Figure:
     """Return six maps of a solved washer.
 
     Parameters
@@ -36,7 +34,6 @@ def field_figure(
     result : a washer result with ``fields()``
     point : load [N], speed [rad/s], tilt [rad], oil_temperature [K]
     params : not needed; taken for the sake of one call for all models
-    words : put before the operating point in the title
     """
     fields = result.fields()
     figure, axes = new_figure(9.6, 12.6, 3, 2, head=2, right=0.5)
@@ -56,7 +53,9 @@ def field_figure(
     if not np.any(touching):
         axes[2].text(0.5, 0.5, "no contact", transform=axes[2].transAxes, ha="center", va="center")
     _draw_rotation(axes[0], fields, point["speed"])
-    heading(figure, _field_heading(result, point, words), fontsize=10.5)
+    lost = ", FILM LOST (distress)" if result.distress else ""
+    torque = format_quantity(result.friction_torque, "N.m")
+    heading(figure, f"{_where(point)}\ntorque {torque}, {result.branch} branch{lost}")
     return figure
 
 
@@ -126,24 +125,6 @@ def _draw_rotation(axis: Axes, fields: Any, speed: float) -> None:
     axis.text(0.0, 0.0, "washer\nturns", ha="center", va="center", fontsize=7.5)
 
 
-def _field_heading(result: Any, point: Mapping[str, float], words: str) -> str:
-    """Return two lines: the operating point, the answer."""
-    rpm = point["speed"] * 30.0 / np.pi
-    where = (
-        f"{words or 'Thrust washer'}: load {format_quantity(point['load'], 'N')}, "
-        f"speed {point['speed']:.4g} rad/s ({rpm:.4g} rpm), "
-        f"tilt {format_quantity(point['tilt'], 'rad')}, "
-        f"oil {format_quantity(point['oil_temperature'], 'K')}"
-    )
-    answer = (
-        f"torque {format_quantity(result.friction_torque, 'N.m')}, "
-        f"film ratio {result.film_ratio:.3g}, mean film temperature "
-        f"{format_quantity(result.film_temperature, 'K', digits=3)}, {result.branch} branch"
-        + (", FILM LOST (distress)" if result.distress else "")
-    )
-    return f"{where}\n{answer}"
-
-
 def _plane(fields: Any) -> tuple[Array, Array]:
     """Return x, y [mm] of the drawn points: the nodes' circles, finer around."""
     radius = 1e3 * fields.radius[:, None]
@@ -188,7 +169,7 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
         axes[0].axhline(ratio, color=ORANGE, lw=0.9, ls=":")
         note_at_right(axes[0], words, ratio, color="#7A5400")
     legend_below(figure, *_legend(axes[0]), columns=5)
-    heading(figure, _curve_heading(curve.folds, point))
+    heading(figure, f"{_where(point)}\n{_seen(curve.folds)}")
     return figure
 
 
@@ -239,13 +220,14 @@ def _legend(axis: Axes) -> tuple[list[Any], list[str]]:
     return list(entries.values()), list(entries)
 
 
-def _curve_heading(folds: Sequence[Any], point: Mapping[str, float]) -> str:
-    """Return what is seen, in words."""
-    where = (
-        f"Thrust washer at {point['speed']:.4g} rad/s, tilt {format_quantity(point['tilt'], 'rad')}"
-        f", oil {format_quantity(point['oil_temperature'], 'K')}"
-    )
-    if not folds:
-        return f"{where}\none solution at every load: no sudden loss of the film"
-    words = [f"{FOLDS[f.kind][1]} at {format_quantity(f.load, 'N')}" for f in folds]
-    return f"{where}\n{', '.join(words)}"
+def _where(point: Mapping[str, float]) -> str:
+    """Return the operating point in words."""
+    units = {"load": "N", "speed": "rad/s", "tilt": "rad", "oil_temperature": "K"}
+    words = (f"{n} {format_quantity(point[n], u)}" for n, u in units.items() if n in point)
+    return f"Thrust washer: {', '.join(words)}".replace("_temperature", "")
+
+
+def _seen(folds: Sequence[Any]) -> str:
+    """Return the folds in words."""
+    found = [f"{FOLDS[f.kind][1]} at {format_quantity(f.load, 'N')}" for f in folds]
+    return ", ".join(found) or "one solution at every load: no sudden loss of the film"

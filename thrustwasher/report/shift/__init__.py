@@ -2,6 +2,7 @@
 
 =================  =======================================================================
 ``heat_split``     made, stored, given to the oil: the heat of a part
+``overview_plot``  plots of the page as one still picture
 ``shift_data``     the run for the page's scripts; ``panels.toml``: what stands together
 ``shift_record``   what the report needs from a finished shift, as plain data
 ``shift_report``   the page: what was simulated, what came out, how far to trust it

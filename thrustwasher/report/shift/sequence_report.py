@@ -6,15 +6,16 @@ from typing import Any
 
 from ...units import format_quantity as say
 from ..html import Page, Plot, Section, Table
-from ..panels.sequence_plot import sequence_figure
 from . import summary
 from .live_washer import live_washer
+from .overview_plot import overview_figure
 from .shift_data import page_data, run_data
 from .shift_record import Event, KeyFigure, Phase, Record, record_of
 from .shift_report import ENERGY_TEXT, SCRIPTS
 
 ROOM = 1_400_000  # characters of packed signals: this page has less beside them
-CAPTION = "Temperature of oil and plates, speeds; thin lines: where a shift begins."
+CAPTION = "Temperatures, speeds and torques over all shifts."
+STILL = ("Temperatures", "Speeds", "Torques")
 
 
 def sequence_page(result: Any) -> Page:
@@ -30,7 +31,7 @@ def sequence_page(result: Any) -> Page:
     run |= {"slip": None, "shifts": len(records)}
     sections = [
         Section("course", "The shifts over time", widgets=["plots"], tables=[_table(records)],
-                plots=[Plot("sequence", sequence_figure(result), CAPTION, bitmap=True,
+                plots=[Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True,
                             still=True)]),
         Section("energy", "Energy", texts=[ENERGY_TEXT], widgets=["flow"]),
     ]  # fmt: skip

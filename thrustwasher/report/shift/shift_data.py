@@ -85,22 +85,22 @@ def run_data(
         "recorded": len(record.time),
         "points": kept,
         "packed": packed,
-        "moving": [{**_signal(record, name), "row": k}
-                   for name, k in zip(moving, row_of[1:], strict=True)],
+        "moving": [{**signal_of(record, name), "row": k}
+                    for name, k in zip(moving, row_of[1:], strict=True)],
         "steady": [
-            {**_signal(record, name), "value": float(values[0])}
+            {**signal_of(record, name), "value": float(values[0])}
             for name, values in signals.items() if name not in moving and np.isfinite(values[0])
         ],
         "shifts": 1,
         "slip": slip_of(record),
-        "aside": _set_aside(record),
+        "aside": set_aside(record),
         "inputs": [s.name for s in part.spec.inputs] if (part := record.part("washer")) else [],
         "moments": {words: _moment(m) for words, m in moments.items() if m is not None},
         "settings": shift_tables.settings(record),
     }  # fmt: skip
 
 
-def _set_aside(record: Record) -> list[str]:
+def set_aside(record: Record) -> list[str]:
     """Return the signals that say nothing in this run: they are not drawn until asked for."""
     idle = [pack for pack in PACKS if not record.presses(pack)]
     found = [f"{pack}.{own}" for pack in idle for own in ("temperature", "film_ratio")]
@@ -163,7 +163,7 @@ def _shown(unit: str, relative: bool = False) -> dict[str, Any]:
     return {"unit": pretty_unit(shown), "zero": zero, "scale": scale}
 
 
-def _signal(record: Record, name: str) -> dict[str, Any]:
+def signal_of(record: Record, name: str) -> dict[str, Any]:
     """Return a signal's words, unit and limit as its model gives them."""
     if name in OF_THE_VEHICLE:
         words, unit = OF_THE_VEHICLE[name]

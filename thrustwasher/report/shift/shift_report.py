@@ -2,9 +2,9 @@
 
 from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
-from ..panels.overview_plot import overview_figure
 from . import shift_tables, summary
 from .live_washer import live_washer
+from .overview_plot import overview_figure
 from .shift_data import page_data, run_data, slip_of
 from .shift_record import Record
 from .summary import paragraphs
@@ -17,8 +17,8 @@ SCRIPTS = (
       ("decode", "page_parts", "controls", "plots", "flow", "live", "discs", "slip", "start")),
 )  # fmt: skip
 OVERVIEW_CAPTION = (
-    "Speeds, torques and film ratios of the shift. Shaded: its phases; dotted and numbered: what "
-    "happened when. Above a film ratio of 3 the oil carries, below 1 the asperities do."
+    "Shaded: the phases of the shift; dotted and numbered: what happened when. Above a film ratio "
+    "of 3 the oil carries, below 1 the asperities do."
 )
 ENERGY_TEXT = "Integrated by the driveline itself inside its steps."
 FRICTION_TEXT = (

@@ -7,7 +7,7 @@ import numpy as np
 from ...errors import ParameterError, SolveError
 from ...model.record import resolve
 from ...model.registry import models_with_points
-from .shift_record import Array, Part, Record
+from .shift_record import Part, Record
 
 TURNING = 1.0  # [rad/s] a washer slower than this needs no film
 FILM_SPEED = 10.0  # [rad/s] below, film vanishes with speed and its least value says nothing
@@ -40,14 +40,6 @@ def worst_film(record: Record) -> Extreme | None:
         return None
     index = np.argmin(np.where(turning, values, np.inf))
     return Extreme(float(values[index]), float(record.time[index]))
-
-
-def distressed(record: Record) -> Array:
-    """Return where the washer turns and has lost its film."""
-    lost, speed = record.series("washer.distress"), record.series("transmission.washer_speed")
-    if lost is None or speed is None:
-        return np.zeros(len(record.time), dtype=bool)
-    return np.asarray((lost > 0.5) & (np.abs(speed) > TURNING))
 
 
 def least_margin(record: Record) -> Extreme | None:

@@ -1,8 +1,7 @@
 """Co-simulation: connected instances and the loop over communication points.
 
 ===================  ==============================================================================
-``instances``        what is asked of an instance, and what only some can do
-``system``           instances with their present inputs and outputs
+``system``           what is asked of an instance; instances with their present inputs and outputs
 ``schedule``         what is done in a communication step, in which order
 ``loop``             a run, its record, and the loop in Python
 ``compiled_layout``  the same loop laid out for compiled code: operations, C addresses, buffers

@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import way
 from ..scene.connections import COMMAND
-from .instances import capable
 from .loop import Run
 from .schedule import Correct, Pull
-from .system import renamed
+from .system import capable, renamed
 
 
 def can_compile(run: Run) -> bool:

@@ -87,17 +87,11 @@ class Run(NamedTuple):
     recorder: Recorder
 
 
-class PythonLoop:
-    """Steps the parts one call after another."""
-
-    def __init__(self, run: Run) -> None:
-        self.run = run
-
-    def advance(self, i: int, stop: int) -> None:
-        """Step from point ``i`` to point ``stop`` and record every point on the way."""
-        system, schedule, time, h, commands, recorder = self.run
-        for k in range(i, stop):
-            t = float(time[k])
-            system.set_command(float(commands[k + 1]))
-            carry_out(schedule, t, h)
-            recorder.keep(k + 1)
+def advance_in_python(run: Run, i: int, stop: int) -> None:
+    """Step from point ``i`` to point ``stop``, one call after another, and record every point."""
+    system, schedule, time, h, commands, recorder = run
+    for k in range(i, stop):
+        t = float(time[k])
+        system.set_command(float(commands[k + 1]))
+        carry_out(schedule, t, h)
+        recorder.keep(k + 1)

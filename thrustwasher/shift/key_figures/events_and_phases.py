@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.record import resolve
+from ...model.toml_tables import table_beside
 from ...numerics.jit import Array
 from ..oscillation.judder import FEW
 from ..scene.connections import PACKS
@@ -14,19 +15,7 @@ from ..scene.scene import Scene
 
 Signals = dict[str, Array]
 STANDSTILL = 1.0  # rad/s
-# What a change of a Boolean signal means: (signal, kind and text when it rises, when it falls,
-# signals with the located time; None: located here, or known to the communication step only).
-CHANGES = (
-    ("transmission.clutch_locked", ("clutch_locked", "clutch locks"),
-     ("clutch_released", "clutch breaks away"), "transmission.lock_time", None),
-    ("transmission.brake_locked", ("brake_locked", "brake holds the drum"),
-     ("brake_released", "brake lets go of the drum"), None, "transmission.release_time"),
-    *((f"transmission.{pack}_filled", (f"{pack}_filled", f"{pack}'s piston is full"),
-       (f"{pack}_emptied", f"{pack}'s piston goes back"), f"transmission.{pack}_filled_time", None)
-      for pack in PACKS),
-    ("washer.distress", ("film_lost", "washer loses its film"),
-     ("film_regained", "washer regains its film"), None, None),
-)  # fmt: skip
+CHANGES = table_beside(__file__, "changes.toml")
 GEARS = {"brake": "first gear", "clutch": "second gear"}  # what holds when a pack is locked
 SLIPPING = {"brake": "braking", "clutch": "engaging"}  # a pack that takes over from no other
 
@@ -61,7 +50,7 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
     if scene.shift_duration > 0.0:
         found.append(Event(scene.shift_start + scene.shift_duration, "ramp_end", last))
     found = [e for e in found if scene.start_time <= e.time <= scene.stop_time]
-    for name, up, down, up_time, down_time in CHANGES:
+    for name, change in CHANGES.items():
         if name not in signals:
             continue
         on = signals[name] > 0.5
@@ -70,8 +59,8 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
         if on[0] and name == "washer.distress":
             found.append(Event(float(time[0]), "film_lost", "washer has no film at the start"))
         for i in np.flatnonzero(on[1:] != on[:-1]) + 1:
-            (kind, text), located = (up, up_time) if on[i] else (down, down_time)
-            when = float(signals[located][i] if located else time[i])
+            kind, text, *located = change["rises" if on[i] else "falls"]
+            when = float(signals[located[0]][i] if located else time[i])
             if kind == "brake_locked":
                 when = _standstill(time, signals, int(i))
             found.append(Event(when, kind, text))

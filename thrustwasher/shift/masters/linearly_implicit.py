@@ -19,9 +19,8 @@ import numpy as np
 
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import Array
-from ..cosim.instances import can, capable
 from ..cosim.schedule import Correct, Schedule, gauss_seidel
-from ..cosim.system import ConnectedPart, System, with_state
+from ..cosim.system import ConnectedPart, System, can, capable, with_state
 from ..scene.connections import SPEED
 
 NAME = "linearly-implicit"

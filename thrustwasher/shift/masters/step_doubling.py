@@ -8,7 +8,8 @@ half are located and become communication points. FMUs do not let their states b
 halves are not extrapolated any further.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from math import inf
 from typing import Any, NamedTuple
 
@@ -80,13 +81,19 @@ class Rollback:
         self.parts = list(system.parts.values())
         self._instances = [with_state(part, NAME) for part in self.parts]
 
-    def hold(self) -> Held:
-        """Return the present point; let go of it with ``drop``."""
-        return Held(
+    @contextmanager
+    def held(self) -> Iterator[Held]:
+        """Hold the present point; it can be given back as long as the block lasts."""
+        point = Held(
             [instance.get_state() for instance in self._instances],
             [list(part.inputs) for part in self.parts],
             [list(part.outputs) for part in self.parts],
         )
+        try:
+            yield point
+        finally:
+            for instance, state in zip(self._instances, point.states, strict=True):
+                instance.free_state(state)
 
     def give_back(self, held: Held) -> None:
         """Go back to a point, which stays held."""
@@ -95,11 +102,6 @@ class Rollback:
         ):
             instance.set_state(state)
             part.inputs, part.outputs = list(inputs), list(outputs)
-
-    def drop(self, held: Held) -> None:
-        """Let go of a point."""
-        for instance, state in zip(self._instances, held.states, strict=True):
-            instance.free_state(state)
 
 
 class Seen(NamedTuple):
@@ -191,7 +193,11 @@ class Doubling:
 
     def advance(self) -> float:
         """Take one step, in halves, and return the time reached."""
-        t, points, start = self.time[-1], len(self.time), self._back.hold()
+        with self._back.held() as start:
+            return self._advance(start)
+
+    def _advance(self, start: Held) -> float:
+        t, points = self.time[-1], len(self.time)
         stop = next(s for s in self._stops if s > t)
         goal, shortest = self._goal(t, stop), 2.0 * self._control.shortest
         for _ in range(ATTEMPTS):
@@ -200,7 +206,6 @@ class Doubling:
             if event is None and (error <= 1.0 or goal - t <= shortest):
                 self._forced += error > 1.0
                 self._control.accepted(reached - t, error, goal - t)
-                self._back.drop(start)
                 return reached
             self._rejected += 1
             del self.time[points:]
@@ -248,8 +253,8 @@ class Doubling:
 
     def _part(self, t: float, goal: float, landing: bool = False) -> float | None:
         """Step and record; or stay and return the time of an event that is not at an end."""
-        start, before, h = self._back.hold(), self._events.seen(), goal - t
-        try:
+        before, h = self._events.seen(), goal - t
+        with self._back.held() as start:
             self._step(t, goal)
             if landing:
                 self._located += 1
@@ -261,23 +266,18 @@ class Doubling:
                 self._step(t, goal)
             self.keep(goal)
             return None
-        finally:
-            self._back.drop(start)
 
     def _error(self, start: Held, t: float, goal: float) -> float:
         """Return how far a whole step ends from where its halves did, 1: as far as it may."""
-        end = self._back.hold()
-        try:
+        with self._back.held() as end:
             self._back.give_back(start)
             self._step(t, goal)
             whole, halves = self.system.transmission.outputs, end.outputs[self._hub]
-            return max(
-                abs(whole[i] - halves[i]) / (relative * abs(halves[i]) + least)
-                for i, relative, least in self._scales
-            )
-        finally:
             self._back.give_back(end)
-            self._back.drop(end)
+        return max(
+            abs(whole[i] - halves[i]) / (relative * abs(halves[i]) + least)
+            for i, relative, least in self._scales
+        )
 
     def _step(self, t: float, goal: float) -> None:
         self.system.set_command(self._command(goal))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.jit import Array
-from ..key_figures.figure_list import Found
+from ..key_figures.figure_list import FIGURES, Found
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 from .damped_oscillation import Oscillation, fit_oscillation
@@ -107,15 +107,9 @@ def judder_figures(found: Judder | None) -> Found:
     """Return the key figures of an oscillation; times are those of its beginning."""
     if found is None:
         return {}
-    names = (
-        "frequency", "mode_frequency", "growth", "mode_growth", "step_growth", "amplitude",
-        "slope", "damping", "limit_damping",
-    )  # fmt: skip
-    first = found.start
-    return {
-        f"judder_{name}": (getattr(found, name), first if name == "growth" else None)
-        for name in names
-    }
+    names = (name for name in FIGURES if name.startswith("judder_"))
+    figures: Found = {n: (getattr(found, n.removeprefix("judder_")), None) for n in names}
+    return {**figures, "judder_growth": (found.growth, found.start)}
 
 
 class _Stretch(NamedTuple):

@@ -5,10 +5,11 @@ from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from typing import Any
 
-from ...errors import ParameterError
+from ...errors import ParameterError, within
 from ...ladder.choose import rung_and_tolerance
 from ...model.prepare import check_together
 from ...model.spec import ModelSpec
+from ...model.toml_tables import number
 from ...transmission.parameters import COURSES, course_points
 from ...transmission.vehicle import Vehicle
 from ..masters.master import MASTERS
@@ -165,15 +166,8 @@ class Scene:
         if self.master not in MASTERS:
             options = " or ".join(repr(n) for n in MASTERS)
             raise ParameterError(f"{where}: master = {self.master!r}, allowed: {options}")
-        low, high = STEP_RANGE
-        if not low <= self.step <= high:
-            raise ParameterError(f"{where}: step = {self.step!r} s, allowed: {low:g} .. {high:g} s")
-        low, high = TOLERANCE_RANGE
-        if not low <= self.master_tolerance <= high:
-            raise ParameterError(
-                f"{where}: master_tolerance = {self.master_tolerance!r}, allowed: {low:g} .. "
-                f"{high:g}"
-            )
+        number(where, "step", self.step, ("s", *STEP_RANGE))
+        number(where, "master_tolerance", self.master_tolerance, ("1", *TOLERANCE_RANGE))
         span = self.stop_time - self.start_time
         if not self.step <= span <= MAX_STEPS * self.step and not self.sequence:
             raise ParameterError(
@@ -181,10 +175,8 @@ class Scene:
                 f"{MAX_STEPS} steps of {self.step!r} s (start_time = {self.start_time!r} s)"
             )
         for name, part in self.parts.items():
-            try:
+            with within(f"{where} [{name}]"):
                 check_together(part.spec, part.params, part.fidelity)
-            except ParameterError as problem:
-                raise ParameterError(f"{where} [{name}]: {problem}") from None
         gearbox = self.parts["transmission"]
         params = _with(
             gearbox.params, oil_temperature=self.oil_temperature,

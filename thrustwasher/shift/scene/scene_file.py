@@ -10,12 +10,12 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-from ...errors import ParameterError, suggestion
+from ...errors import ParameterError, suggestion, within
 from ...ladder.choose import rung_and_tolerance
 from ...model.parameters import other_names_of, plainly_named
 from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
-from ...model.toml_tables import number, parse, quantity, read_file, read_value, unknown
+from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
 from ..key_figures.figure_list import FIGURES
 from . import oil
 from .connections import PARTS, REQUIRED
@@ -130,10 +130,8 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
 
 def _scene(name: str, table: dict[str, Any]) -> Scene:
     where = f"scene {name!r}"
-    known = [*TEXTS, *NUMBERS, *TABLES]
+    nothing_else(where, table, [*TEXTS, *NUMBERS, *TABLES])
     for key, value in table.items():
-        if key not in known:
-            raise unknown(where, key, known)
         if key in TEXTS and not isinstance(value, str):
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a text")
         if key in TABLES and not isinstance(value, dict):
@@ -184,7 +182,8 @@ def _parts(
             given = dict(table[key])
             if "fidelity" in table and len(PARTS[key].fidelities) > 1:
                 given.setdefault("fidelity", table["fidelity"])  # the scene's word for all parts
-            common = _of_oil(f"{where} [oil]", the_oil, PARTS[key])
+            with within(f"{where} [oil]"):
+                common = oil.parameters_of(the_oil, PARTS[key])
             if own := [name for name in common if name in given]:
                 notes.append(f"{key}: {', '.join(own)} of its own, not of the scene's oil")
             if key == "sump":
@@ -197,14 +196,6 @@ def _parts(
     return parts, notes
 
 
-def _of_oil(where: str, the_oil: dict[str, Any], spec: ModelSpec) -> dict[str, float]:
-    """Return what the scene's oil says of a part."""
-    try:
-        return oil.parameters_of(the_oil, spec)
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
-
-
 def _sump(table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
     """Return the sump's table with the oil's temperature and the numbers of parts alike."""
     alike = {"factor_3": gearbox.washers, "factor_4": gearbox.meshes, "factor_5": gearbox.planets}
@@ -213,9 +204,7 @@ def _sump(table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
 
 def _shift(where: str, table: dict[str, Any]) -> dict[str, float]:
     """Return the ramp of the shift command, as fields of a scene."""
-    for key in table:
-        if key not in SHIFT:
-            raise unknown(where, key, list(SHIFT))
+    nothing_else(where, table, SHIFT)
     given = {f"shift_{key}": number(where, key, x, SHIFT[key]) for key, x in table.items()}
     return {"shift_start": 0.0, "shift_duration": 0.0, **given}
 
@@ -228,9 +217,7 @@ def _published(where: str, table: dict[str, Any] | None) -> Published | None:
     source = values.pop("source", None)
     if not isinstance(source, str):
         raise ParameterError(f"{where}: source = {source!r}, allowed: a text")
-    for key in values:
-        if key not in FIGURES:
-            raise unknown(where, key, ["source", *FIGURES])
+    nothing_else(where, values, ["source", *FIGURES])
     figures = {k: quantity(where, k, v, FIGURES[k].unit) for k, v in values.items()}
     return Published(source=source, figures=figures)
 
@@ -249,24 +236,19 @@ def _part(
     """Return a part, and what its file says of the oil in vain; ``common``: the scene's."""
     known = {f.name: f.metadata for f in fields(spec.params)}
     given = dict(table)
-    try:
+    with within(where):
         values, usual, told = _start(spec, given.pop("part", None), given.pop("preset", None))
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
     own = {k: x for k, x in values.items() if x != getattr(spec.params(), k)}
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values |= common
     fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", usual))
+    nothing_else(where, given, ["fidelity", "part", "preset", *known])
     for key, value in given.items():
-        if key not in known:
-            raise unknown(where, key, ["fidelity", "part", "preset", *known])
         if key in RESERVED:
             raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")
         values[key] = read_value(where, key, value, known[key])
-    try:
+    with within(where):
         params = spec.params(**values)
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
     part = Part(spec=spec, fidelity=fidelity, params=params, tolerance=tolerance, told=told)
     return part, lost
 

@@ -3,7 +3,7 @@
 from dataclasses import fields
 from typing import Any
 
-from ...errors import ParameterError
+from ...errors import ParameterError, within
 from ...model.toml_tables import nothing_else, number, quantity, read_value, unknown
 from ...transmission.parameters import COURSES, course_fields
 from ...transmission.vehicle import Vehicle
@@ -73,11 +73,10 @@ def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
     if table is None:
         return None
     known = {f.name: f.metadata for f in fields(Vehicle)}
-    nothing_else(where, [k for k in table if k not in known], known)
-    try:
-        return Vehicle(**{k: read_value(where, k, x, known[k]) for k, x in table.items()})
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
+    nothing_else(where, table, known)
+    values = {k: read_value(where, k, x, known[k]) for k, x in table.items()}
+    with within(where):
+        return Vehicle(**values)
 
 
 def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -85,18 +84,13 @@ def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[s
     points = pairs(
         where, "points", table.pop("points", None), ("time", "s"), COURSES[name][0], what
     )
-    try:
+    with within(where):
         return course_fields(name, points)
-    except ParameterError as problem:
-        raise ParameterError(f"{where}: {problem}") from None
 
 
 def oil_of(where: str, table: dict[str, Any]) -> dict[str, Any]:
     """Return the scene's oil: numbers in SI units, the viscosity as points."""
-    nothing_else(
-        where, [k for k in table if k not in (*oil.NUMBERS, *oil.VISCOSITY)],
-        [*oil.NUMBERS, *oil.VISCOSITY],
-    )  # fmt: skip
+    nothing_else(where, table, [*oil.NUMBERS, *oil.VISCOSITY])
     found: dict[str, Any] = {
         k: number(where, k, table[k], oil.NUMBERS[k][:3]) for k in oil.NUMBERS if k in table
     }

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from ...errors import ParameterError
-from ...model.toml_tables import nothing_else, number, quantity, unknown
+from ...model.toml_tables import nothing_else, number, quantity
 from ...transmission.parameters import COURSES, course_fields, course_points
 from .scene import STEP_RANGE, Scene, ShiftSequence, shift_of_pressures
 from .scene_tables import points_of
@@ -99,9 +99,7 @@ def checked_sequence(where: str, whole: Scene, sequence: ShiftSequence) -> Scene
 
 def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSequence:
     """Return the shifts of a run; those up are the scene's own, those down have a table."""
-    for key in table:
-        if key not in KEYS:
-            raise unknown(where, key, list(KEYS))
+    nothing_else(where, table, KEYS)
     numbers = {k: number(where, k, table[k], RUN) for k in ("period", "window") if k in table}
     for key in ("shifts", "window"):
         if key not in table:
@@ -122,7 +120,7 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
         raise ParameterError(f"{where}: [sequence.down] is missing, the courses of a shift down")
     own: dict[str, Any] = {}
     down = dict(table.get("down", {}))
-    nothing_else(f"{where[:-1]}.down]", [k for k in down if k not in DOWN], DOWN)
+    nothing_else(f"{where[:-1]}.down]", down, DOWN)
     for name, key in DOWN.items():
         own |= course_fields(key, points) if (points := course_points(params, key)) else {}
         if name in down:

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from ...errors import ParameterError
 from ...model.spec import ModelSpec, Signal, tailored
 from ...model.toml_tables import table_beside
-from ..cosim.instances import Stepping
+from ..cosim.system import Stepping
 from ..run import connected
 from ..scene.connections import COMMAND, SOURCE, SOURCE_SPEC, Link, links
 from ..scene.scene import Part, Scene

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError, Status
 from ...numerics.jit import Array
-from ..cosim.instances import Stepping
+from ..cosim.system import Stepping
 from ..scene.connections import SPEED, WITHOUT_PAST
 from ..scene.scene import Part
 from ..shift_result import ShiftResult

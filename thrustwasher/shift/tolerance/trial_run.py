@@ -16,7 +16,7 @@ import numpy as np
 
 from ...ladder.card import fresh_cards
 from ...model.spec import ModelSpec
-from ..cosim.instances import Stepping
+from ..cosim.system import Stepping
 from ..run import run_shift
 from ..scene.connections import DIRECT
 from ..scene.scene import STEP_RANGE, Part, Scene

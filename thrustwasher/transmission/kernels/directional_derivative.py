@@ -8,11 +8,13 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import are_finite, clear
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from ...numerics.status import NOT_FINITE, OK
+from . import dynamics
 from . import layout as L
-from .dynamics import brake_capacity, clutch_capacity, clutch_share, drum_speed
+from .dynamics import clutch_share, drum_speed
 from .piston import force
 
 LEAST_WASHER_LOAD = 1.0  # N
@@ -112,16 +114,15 @@ def directional_derivative(
     ``work`` is as the last successful step with these inputs left it; its modes stay. A torque of
     exactly 0 counts as standing in the corner of its size: slope 0. Returns 0, or NOT_FINITE.
     """
-    for i in range(L.NOUT):
-        dout[np.uintp(i)] = 0.0
+    clear(dout)
     r, s = par[L.D_RATIO], state[L.S_LAST_DURATION]  # the instant matters after a step only
     washers = par[L.P_WASHERS] * sign_of(inp[L.I_WASHER]) * seed[L.I_WASHER]
     meshes = par[L.D_MESHES] * sign_of(inp[L.I_MESH]) * seed[L.I_MESH]
     meshes += par[L.D_RING_MESHES] * sign_of(inp[L.I_RING_MESH]) * seed[L.I_RING_MESH]
     resists = (washers + meshes) * par[L.D_SPIN] * r / (1.0 + r)
-    capacity = clutch_capacity(work, s)
+    capacity = dynamics.capacity(work, 0, s)
     clutch = pack_change(par, inp, state, 0, capacity, seed[L.I_CLUTCH])
-    brake = pack_change(par, inp, state, 1, brake_capacity(work, s), seed[L.I_BRAKE])
+    brake = pack_change(par, inp, state, 1, dynamics.capacity(work, 1, s), seed[L.I_BRAKE])
     engine, load = seed[L.I_ENGINE], seed[L.I_LOAD]
     rigid = not par[L.P_SHAFT_STIFFNESS] > 0.0
     shaft = load if rigid else 0.0
@@ -154,7 +155,4 @@ def directional_derivative(
     dout[L.O_INPUT_TOOTH_TORQUE], dout[L.O_DRAG_TORQUE] = tau, drag
     dout[L.O_TOOTH_FORCE], dout[L.O_TILTING_COUPLE] = force, couple
     dout[L.O_SUN_THRUST] = force * par[L.P_PLANETS] * par[L.D_TAN_HELIX]
-    for i in range(L.NOUT):
-        if not math.isfinite(dout[np.uintp(i)]):
-            return NOT_FINITE
-    return OK
+    return OK if are_finite(dout) else NOT_FINITE

@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
@@ -75,10 +76,7 @@ def derive(par: Array) -> int:
     supply = 2.0 * par[L.P_PISTON_SUPPLY_RADIUS] ** 2
     moment = outer**4 - inner**4 - supply * (outer**2 - inner**2)
     par[L.D_HEAD] = 0.25 * math.pi * par[L.P_OIL_DENSITY] * moment * (1.0 - par[L.P_BALANCE_SHARE])
-    for i in range(L.N_PARAM, L.NPAR):
-        if not math.isfinite(par[np.uintp(i)]):
-            return NOT_FINITE
-    return OK
+    return OK if are_finite(par[L.N_PARAM :]) else NOT_FINITE
 
 
 @kernel
@@ -121,15 +119,10 @@ def output_torque(par: Array, work: Array, y: int) -> float:
 
 
 @kernel
-def clutch_capacity(work: Array, s: float) -> float:
-    """Return the capacity of the clutch [N m], without drag, at ``s`` seconds into the step."""
-    return max(0.0, work[L.W_CLUTCH_START] + work[L.W_CLUTCH_SLOPE] * s)
-
-
-@kernel
-def brake_capacity(work: Array, s: float) -> float:
-    """Return the capacity of the brake [N m] at ``s`` seconds into the step."""
-    return max(0.0, work[L.W_BRAKE_START] + work[L.W_BRAKE_SLOPE] * s)
+def capacity(work: Array, pack: int, s: float) -> float:
+    """Return the capacity of clutch (0), without drag, or brake (1) [N m], ``s`` into the step."""
+    start, slope = L.W_CLUTCH_START + 2 * pack, L.W_CLUTCH_SLOPE + 2 * pack
+    return max(0.0, work[np.uintp(start)] + work[np.uintp(slope)] * s)
 
 
 @kernel
@@ -151,8 +144,8 @@ def solve_torques(par: Array, work: Array, s: float, load: float) -> None:
     free_brake = c * free_carrier - b * free_driven
 
     clutch_mode, brake_mode = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
-    x = work[L.W_CLUTCH_GIVEN] + clutch_mode * (clutch_capacity(work, s) + work[L.W_DRAG])
-    brake = work[L.W_BRAKE_GIVEN] + brake_mode * brake_capacity(work, s)
+    x = work[L.W_CLUTCH_GIVEN] + clutch_mode * (capacity(work, 0, s) + work[L.W_DRAG])
+    brake = work[L.W_BRAKE_GIVEN] + brake_mode * capacity(work, 1, s)
     if clutch_mode == L.STUCK and brake_mode == L.STUCK:
         det = s_cc * s_bb - s_cb * s_cb
         x = (s_bb * free_clutch - s_cb * free_brake) / det
@@ -176,12 +169,12 @@ def clutch_share(par: Array, work: Array, s: float) -> float:
     A stuck clutch holds what it can; only beyond its capacity does the drag of the planets help.
     """
     given, mode = work[L.W_CLUTCH_GIVEN], work[L.W_CLUTCH_MODE]
-    capacity = clutch_capacity(work, s)
+    own = capacity(work, 0, s)
     if mode != L.STUCK:
-        return given + mode * capacity
+        return given + mode * own
     if work[L.W_DRAG] == 0.0:
         return work[L.W_CLUTCH]
-    return given + min(max(work[L.W_CLUTCH] - given, -capacity), capacity)
+    return given + min(max(work[L.W_CLUTCH] - given, -own), own)
 
 
 @kernel

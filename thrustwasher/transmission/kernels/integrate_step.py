@@ -8,6 +8,7 @@ solution.
 
 import numpy as np
 
+from ...numerics.arrays import copy
 from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, NO_EVENT, NOT_FINITE, OK
 from . import layout as L
@@ -98,16 +99,14 @@ def first_event(par: Array, work: Array, s: float, h: float) -> tuple[float, int
     """
     reach_c, reach_b = reach(par, work, 0, s, h), reach(par, work, 1, s, h)
     best, pack = 1.0, -1
-    if reach_c > 0.0:
-        trial_step(par, work, s, reach_c * h)
-        g = guard(par, work, 0, s, L.W_Y)
-        best, pack = reach_c * locate(par, work, 0, s, reach_c * h, g), 0
-    if reach_b > 0.0:
-        trial_step(par, work, s, reach_b * h)
-        g = guard(par, work, 1, s, L.W_Y)
-        fraction = reach_b * locate(par, work, 1, s, reach_b * h, g)
-        if pack < 0 or fraction < best:
-            best, pack = fraction, 1
+    for k in range(2):
+        share = reach_c if k == 0 else reach_b
+        if share > 0.0:
+            trial_step(par, work, s, share * h)
+            g = guard(par, work, k, s, L.W_Y)
+            fraction = share * locate(par, work, k, s, share * h, g)
+            if pack < 0 or fraction < best:
+                best, pack = fraction, k
     return best, pack
 
 
@@ -177,14 +176,10 @@ def run(par: Array, work: Array, t: float, dt: float, started: bool) -> int:
         else:
             s = end if h >= end - s else s + h
             h *= min(5.0, 0.9 * max(ratio, 1e-6) ** -0.2)
-        for i in range(L.N_Y):
-            work[np.uintp(L.W_Y + i)] = work[np.uintp(L.W_NEW + i)]
+        copy(work[L.W_NEW :], work[L.W_Y : L.W_NEW])
         project(par, work, clutch == L.STUCK or (pack == 0), brake == L.STUCK or (pack == 1))
-        exclude = -1
-        if pack == 0 and clutch == L.STUCK:
-            exclude = 0
-        if pack == 1 and brake == L.STUCK:
-            exclude = 1
+        broke_away = (clutch if pack == 0 else brake) == L.STUCK
+        exclude = pack if broke_away else -1
         if pack >= 0 or s >= end:
             if s >= end and s < dt:
                 end = next_break(par, work, t, s, dt)

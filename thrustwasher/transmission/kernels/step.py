@@ -4,9 +4,9 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...numerics.jit import Array, kernel
+from ...numerics.arrays import are_finite, clear, copy
+from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, STALLED
 from . import dynamics, piston
 from . import layout as L
@@ -22,16 +22,12 @@ derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_d
 def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
     """Copy the memory, or the start values, to where the step works."""
     if state[L.S_STARTED] != 0.0:
-        for i in range(L.N_Y):
-            work[np.uintp(L.W_Y + i)] = state[np.uintp(L.S_Y + i)]
+        copy(state[L.S_Y :], work[L.W_Y : L.W_NEW])
         work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE]
-        for i in range(4):
-            work[np.uintp(L.W_EVENTS + i)] = state[np.uintp(L.S_LOCK_TIME + i)]
-        for i in range(2 * L.N_PISTON):
-            work[np.uintp(L.W_PISTON + i)] = state[np.uintp(L.S_PISTON + i)]
+        copy(state[L.S_LOCK_TIME :], work[L.W_EVENTS : L.W_EVENTS + 4])
+        copy(state[L.S_PISTON :], work[L.W_PISTON : L.W_Y])
         return
-    for i in range(L.N_Y):
-        work[np.uintp(L.W_Y + i)] = 0.0
+    clear(work[L.W_Y : L.W_NEW])
     driven, drum, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_DRUM_SPEED], par[L.D_RATIO]
     carrier = (driven + r * drum) / (1.0 + r)
     work[L.W_Y + L.Y_CARRIER] = carrier
@@ -93,8 +89,7 @@ def press(par: Array, inp: Array, state: Array, work: Array, t: float, dt: float
             else:
                 status = max(status, piston.advance(par, work, k, t, dt, before, after))
         return status
-    for i in range(2 * L.N_PISTON):
-        work[np.uintp(L.W_PISTON + i)] = 0.0
+    clear(work[L.W_PISTON : L.W_Y])
     return status
 
 
@@ -115,17 +110,14 @@ def keep(inp: Array, state: Array, work: Array, start: float, dt: float) -> None
     """Take the result of a step over into the memory."""
     state[L.S_KINETIC_START] = start
     state[L.S_STARTED] = 1.0
-    for i in range(L.N_Y):
-        state[np.uintp(L.S_Y + i)] = work[np.uintp(L.W_Y + i)]
+    copy(work[L.W_Y :], state[L.S_Y : L.S_KINETIC_START])
     state[L.S_LAST_CLUTCH], state[L.S_LAST_BRAKE] = inp[L.I_CLUTCH], inp[L.I_BRAKE]
     state[L.S_LAST_DURATION] = dt
-    state[L.S_CLUTCH_NOW] = dynamics.clutch_capacity(work, dt)
-    state[L.S_BRAKE_NOW] = dynamics.brake_capacity(work, dt)
+    state[L.S_CLUTCH_NOW] = dynamics.capacity(work, 0, dt)
+    state[L.S_BRAKE_NOW] = dynamics.capacity(work, 1, dt)
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
-    for i in range(4):
-        state[np.uintp(L.S_LOCK_TIME + i)] = work[np.uintp(L.W_EVENTS + i)]
-    for i in range(2 * L.N_PISTON):
-        state[np.uintp(L.S_PISTON + i)] = work[np.uintp(L.W_PISTON + i)]
+    copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_LAST_PRESSURE])
+    copy(work[L.W_PISTON :], state[L.S_PISTON :])
     state[L.S_LAST_PRESSURE] = inp[L.I_PRESSURE]
     state[L.S_LAST_BRAKE_PRESSURE] = inp[L.I_BRAKE_PRESSURE]
 
@@ -215,24 +207,13 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
 
 @kernel
 def step(
-    par: Array,
-    inp: Array,
-    state: Array,
-    work: Array,
-    out: Array,
-    iout: NDArray[np.int32],
-    t: float,
-    dt: float,
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
     """Advance the driveline from t to t + dt, then fill the outputs.
 
     Returns 0 or the status of a failure; STALLED is advice and stands in ``iout`` only.
     """
-    for i in range(L.NINP):
-        if not math.isfinite(inp[np.uintp(i)]):
-            iout[L.IO_STATUS] = BAD_INPUT
-            return BAD_INPUT
-    good = math.isfinite(t) and math.isfinite(dt) and dt >= 0.0
+    good = are_finite(inp) and math.isfinite(t) and math.isfinite(dt) and dt >= 0.0
     good = good and 0.0 <= inp[L.I_COMMAND] <= 1.0
     if not (good and inp[L.I_PRESSURE] >= 0.0 and inp[L.I_BRAKE_PRESSURE] >= 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
@@ -250,7 +231,7 @@ def step(
         status = NOT_FINITE
     if status == OK and dt > 0.0:
         keep(inp, state, work, start, dt)
-    clutch_holds = dynamics.clutch_capacity(work, dt) > 0.0
+    clutch_holds = dynamics.capacity(work, 0, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0
     for k in range(2):
@@ -264,13 +245,7 @@ def step(
 @kernel
 def _is_finite(work: Array, out: Array, dt: float) -> bool:
     """Tell if what the memory takes over and all outputs are numbers."""
-    good = math.isfinite(dt)
-    for i in range(L.N_Y):
-        good = good and math.isfinite(work[np.uintp(L.W_Y + i)])
-    for i in range(4):
-        good = good and math.isfinite(work[np.uintp(L.W_EVENTS + i)])
-    good = good and math.isfinite(dynamics.clutch_capacity(work, dt))
-    good = good and math.isfinite(dynamics.brake_capacity(work, dt))
-    for i in range(L.NOUT):
-        good = good and math.isfinite(out[np.uintp(i)])
-    return good
+    good = math.isfinite(dt) and are_finite(work[L.W_Y : L.W_NEW]) and are_finite(out)
+    good = good and are_finite(work[L.W_EVENTS : L.W_EVENTS + 4])
+    good = good and math.isfinite(dynamics.capacity(work, 0, dt))
+    return good and math.isfinite(dynamics.capacity(work, 1, dt))

@@ -12,15 +12,7 @@ import numpy as np
 
 from ...numerics.jit import Array, kernel
 from . import layout as L
-from .dynamics import (
-    brake_capacity,
-    clutch_capacity,
-    clutch_slip,
-    drum_speed,
-    output_torque,
-    solve_torques,
-    trial_step,
-)
+from .dynamics import capacity, clutch_slip, drum_speed, output_torque, solve_torques, trial_step
 
 MAX_ROOT_STEPS = 100
 
@@ -35,28 +27,17 @@ def slip_of(par: Array, work: Array, pack: int, y: int) -> float:
 
 
 @kernel
-def slip_rate(par: Array, work: Array, pack: int) -> float:
-    """Return the slip acceleration [rad/s2] after ``solve_torques``."""
-    if pack == 0:
-        return clutch_slip(par[L.D_RATIO], work[L.W_INPUT_RATE], work[L.W_CARRIER_RATE])
-    return drum_speed(par[L.D_RATIO], work[L.W_INPUT_RATE], work[L.W_CARRIER_RATE])
-
-
-@kernel
-def margin_of(par: Array, work: Array, pack: int, s: float) -> float:
-    """Return capacity minus the torque a stuck pack carries [N m], after ``solve_torques``."""
-    if pack == 0:
-        return (
-            clutch_capacity(work, s) + work[L.W_DRAG]
-            - abs(work[L.W_CLUTCH] - work[L.W_CLUTCH_GIVEN])
-        )  # fmt: skip
-    return brake_capacity(work, s) - abs(work[L.W_BRAKE] - work[L.W_BRAKE_GIVEN])
-
-
-@kernel
 def capacity_of(work: Array, pack: int, s: float) -> float:
     """Return what can hold the pack [N m]; for the clutch the planets' drag helps."""
-    return clutch_capacity(work, s) + work[L.W_DRAG] if pack == 0 else brake_capacity(work, s)
+    own = capacity(work, pack, s)
+    return own + work[L.W_DRAG] if pack == 0 else own
+
+
+@kernel
+def margin_of(work: Array, pack: int, s: float) -> float:
+    """Return capacity minus the torque a stuck pack carries [N m], after ``solve_torques``."""
+    given, torque = work[np.uintp(L.W_CLUTCH_GIVEN + pack)], work[np.uintp(L.W_CLUTCH + pack)]
+    return capacity_of(work, pack, s) - abs(torque - given)
 
 
 @kernel
@@ -64,11 +45,12 @@ def violation(par: Array, work: Array, pack: int, s: float, free: bool) -> float
     """Return by how many N m the mode of a pack contradicts the torques; 0 if consistent."""
     mode = work[np.uintp(L.W_CLUTCH_MODE + pack)]
     if mode == L.STUCK:
-        return max(0.0, -margin_of(par, work, pack, s))
+        return max(0.0, -margin_of(work, pack, s))
     if free:  # slip is not zero, or nothing holds the pack: any acceleration will do
         return 0.0
     mobility = par[L.D_SLIP_CC] if pack == 0 else par[L.D_SLIP_BB]
-    return max(0.0, -mode * slip_rate(par, work, pack)) / mobility
+    rate = slip_of(par, work, pack, L.W_INPUT_RATE)  # after ``solve_torques``
+    return max(0.0, -mode * rate) / mobility
 
 
 @kernel
@@ -120,7 +102,7 @@ def guard(par: Array, work: Array, pack: int, s: float, y: int) -> float:
     if mode != L.STUCK:
         return mode * slip_of(par, work, pack, y)
     solve_torques(par, work, s, output_torque(par, work, y))
-    return margin_of(par, work, pack, s) + 1e-12 * capacity_of(work, pack, s)
+    return margin_of(work, pack, s) + 1e-12 * capacity_of(work, pack, s)
 
 
 @kernel

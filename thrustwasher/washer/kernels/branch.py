@@ -7,6 +7,7 @@ single-valued in film thickness.
 
 import math
 
+from ...numerics.arrays import copy
 from ...numerics.jit import inlined, kernel
 from ...numerics.status import MAX_ITERATIONS, NO_BRANCH, OK
 from . import layout as L
@@ -22,7 +23,7 @@ from .continuation import (
 )
 from .gap import oil_viscosity
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, film_ratio, newton, smooth_film
-from .workspace import Point, Workspace, copy, fields_of, forget_factor, model_of
+from .workspace import Point, Workspace, fields_of, forget_factor, model_of
 
 TOLERANCE = 1e-9  # of a solve from nothing
 FILM_RATIO = 3.0  # single-valued curves are called film above it

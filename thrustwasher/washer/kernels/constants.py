@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...numerics.arrays import copy
 from ...numerics.jit import Array, kernel, matrix
 from ...numerics.spline import spline_weights
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
@@ -110,15 +111,6 @@ def mesh_arrays(par: Array, n_r: int, n_t: int) -> tuple[Array, Array]:
 
 
 @kernel
-def roughness_pair(par: Array, first: int, second: int) -> tuple[float, float]:
-    """Return the RMS roughness of two surfaces, overrides taken into account."""
-    common = par[L.P_ROUGHNESS]
-    a = par[first] if par[first] > 0.0 else common
-    b = par[second] if par[second] > 0.0 else common
-    return a, b
-
-
-@kernel
 def summits(par: Array, sigma: float) -> tuple[float, float, bool]:
     """Return height and scatter [m] of the summits (Jackson & Green Eq 15), and if they exist."""
     density_radius = par[L.P_ASPERITY_DENSITY] * par[L.P_ASPERITY_RADIUS]
@@ -208,8 +200,9 @@ def derive_grid(par: Array, n_r: int, n_t: int) -> int:
 @kernel
 def combined_roughness(par: Array) -> tuple[float, float, float]:
     """Return the RMS roughness of film 1 and gap 2 [m], and how film 1 is shared (see D_SHEAR)."""
-    carrier, washer = roughness_pair(par, L.P_ROUGHNESS_CARRIER, L.P_ROUGHNESS_WASHER)
-    gear, _ = roughness_pair(par, L.P_ROUGHNESS_GEAR, L.P_ROUGHNESS_WASHER)
+    carrier = of_body(par, L.P_ROUGHNESS, L.OF_CARRIER)
+    washer = of_body(par, L.P_ROUGHNESS, L.OF_WASHER)
+    gear = of_body(par, L.P_ROUGHNESS, L.OF_GEAR)
     sigma1 = math.sqrt(carrier * carrier + washer * washer)
     sigma2 = math.sqrt(gear * gear + washer * washer)
     return sigma1, sigma2, (carrier * carrier - washer * washer) / (sigma1 * sigma1)
@@ -264,16 +257,8 @@ def derive_surfaces(par: Array, scratch: Array) -> int:
     first, second = par[L.D_TABLE1 : L.D_TABLE2], par[L.D_TABLE2 : L.D_MESH]
     pair1, pair2 = contact_pair(par, L.OF_CARRIER), contact_pair(par, L.OF_GEAR)
     good = _tabulate(par, pair1, scatter1, first, scratch)
-    same = (
-        scatter2 == scatter1
-        and pair1.contact_modulus == pair2.contact_modulus
-        and pair1.youngs_modulus == pair2.youngs_modulus
-        and pair1.poisson_ratio == pair2.poisson_ratio
-        and pair1.yield_strength == pair2.yield_strength
-    )
-    if same:
-        for k in range(N_TABLE):
-            second[k] = first[k]
+    if scatter2 == scatter1 and pair1 == pair2:
+        copy(first, second[:N_TABLE])
     else:
         good = _tabulate(par, pair2, scatter2, second, scratch) and good
     par[L.D_RADIAL], par[L.D_AROUND], par[L.D_GEAR_NODE] = 0.0, 0.0, 0.0

@@ -9,24 +9,14 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import MAX_ITERATIONS, OK
 from . import layout as L
 from .constants import WasherModel
 from .gap import evaluate_gaps
 from .newton import FILM, NO_FLOOR, evaluate, newton, smooth_film
-from .workspace import (
-    Fields,
-    Point,
-    Workspace,
-    clear,
-    copy,
-    fields_of,
-    forget_factor,
-    model_of,
-    square,
-    vector,
-)
+from .workspace import Fields, Point, Workspace, fields_of, forget_factor, model_of, square, vector
 
 LARGEST_RISE = 50.0  # [K] of a temperature by a step along the tangent
 
@@ -97,7 +87,7 @@ def cold_start(w: Workspace, pt: Point, ratio: float) -> None:
     clear(f.dtemp)
     clear(f.p)
     forget_factor(w)
-    evaluate(m, pt, q, f)
+    evaluate(m, pt, q, f, False)
     _press_gear(m, pt, q, f)
 
 

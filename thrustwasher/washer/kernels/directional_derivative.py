@@ -8,6 +8,7 @@ for the least residual (truncated generalised conjugate residuals).
 
 import numpy as np
 
+from ...numerics.arrays import clear, copy, negate, size_of
 from ...numerics.dense import dense_solve
 from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import MAX_ITERATIONS, OK, SINGULAR
@@ -19,19 +20,7 @@ from .heat_factor import solve_heat
 from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .newton import EXACT, add_pressure, linearise, make_factor
 from .outputs import change_of_outputs
-from .workspace import (
-    Fields,
-    Point,
-    Workspace,
-    clear,
-    copy,
-    fields_of,
-    model_of,
-    negate,
-    size_of,
-    square,
-    vector,
-)
+from .workspace import Fields, Point, Workspace, fields_of, model_of, square, vector
 
 CLOSE = 1e-8  # of the heat that the change moves
 ROUNDS = 12  # then a new factor is made
@@ -50,7 +39,7 @@ def _follow(m: WasherModel, f: Fields, dq: Array) -> bool:
             unit = m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
             system[a, c] = slopes[a, c] * unit * row
         right[a] = dq[a] * row
-    if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4, 1):
+    if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4):
         return False
     for c in range(4):
         dq[c] = right[c] * (m.sigma1 if c <= Z_GEAR else m.sigma1 / ro)

@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import clear
 from ...numerics.banded import N_SIDES, band_solve, cholesky, cholesky_solve_many
 from ...numerics.jit import Array, kernel, matrix
 from ...tribology.flow_factors import flow_conductance, mean_gap, shear_flow
@@ -18,7 +19,7 @@ from . import layout as L
 from .constants import WasherModel
 from .gap import film_change
 from .layout import AT_FIXED, OVER_POSITIONS, TILT_X, TILT_Y, Z_WASHER
-from .workspace import Fields, Point, clear
+from .workspace import Fields, Point
 
 MOST_MARKS = 30  # rounds that settle which nodes are full
 

@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import clear
 from ...numerics.jit import Array, kernel
 from ...tribology.asperities import contact_pressure
 from ...tribology.flow_factors import mean_gap
@@ -18,7 +19,7 @@ from ...tribology.viscosity import viscosity
 from . import layout as L
 from .constants import WasherModel
 from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
-from .workspace import Fields, Point, clear, square, vector
+from .workspace import Fields, Point, square, vector
 
 FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, and its stiffness
 

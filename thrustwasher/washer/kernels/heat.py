@@ -17,6 +17,7 @@ docs/theory/washer.md: the film.
 
 import numpy as np
 
+from ...numerics.arrays import clear
 from ...numerics.jit import Array, kernel
 from . import layout as L
 from .constants import WasherModel
@@ -24,7 +25,7 @@ from .film import hold_pressure, let_flows_follow, let_pressure_follow
 from .gap import film_change
 from .layout import TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .throughflow import carry, carry_change, flows_change, supply_rise
-from .workspace import Fields, Point, clear, vector
+from .workspace import Fields, Point, vector
 
 
 @kernel

@@ -13,20 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.banded import (
-    N_SIDES,
-    cholesky,
-    factor_solve,
-    factor_solve_many,
-    halve,
-    lu,
-    mirror,
-)
+from ...numerics.arrays import clear
+from ...numerics.banded import N_SIDES, cholesky, factor_solve, factor_solve_many, halve, lu, mirror
 from ...numerics.dense import dense_factor, dense_substitute
 from ...numerics.jit import Array, kernel, matrix
 from . import layout as L
 from .constants import WasherModel
-from .workspace import Fields, Point, clear, padded
+from .workspace import Fields, Point, padded
 
 
 class Blocks(NamedTuple):

@@ -18,11 +18,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, kernel
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .constants import WasherModel, of_body
-from .workspace import Fields, clear, copy
+from .workspace import Fields, Workspace, fields_of, model_of
 
 SHARES = (0.819646, 0.113430, 0.066924)  # R over thickness/conductivity
 TIMES = (0.399510, 0.032111, 0.003693)  # tau over thickness^2/diffusivity
@@ -30,6 +31,9 @@ FAR_FIRST = (0.5 - TIMES[1]) / (TIMES[0] - TIMES[1])
 FAR = (FAR_FIRST, 1.0 - FAR_FIRST, 0.0)  # c: sum 1, with the times 1/2
 STAGE = 1.0 - 0.5**0.5  # where the first of two stages ends, as a share of a step
 HELD = 1e10  # [W/(m^2 K)] conductance that lets no temperature move
+LEAST_STEP = 1e-6  # [s] in which no temperature moves
+BODIES = (L.OF_CARRIER, L.OF_WASHER, L.OF_GEAR)
+WITH_LADDER = (L.OF_CARRIER, L.OF_GEAR)
 
 
 class Body(NamedTuple):
@@ -46,50 +50,28 @@ class Body(NamedTuple):
 
 
 @kernel
-def _body(
-    m: WasherModel, body: int, at: int, step: int, first: int, weight: Array, thickness: float,
-    conductivity: float,
-) -> Body:  # fmt: skip
-    columns = m.n_t if step > 0 else 1
+def body_of(m: WasherModel, body: int) -> Body:
+    """Return a body: OF_CARRIER, OF_WASHER or OF_GEAR."""
+    at, step, first, weight = m.washer_at, m.washer_step, 0, m.weight1
+    thickness, conductivity = m.washer_thickness, m.washer_conductivity
+    if body == L.OF_CARRIER:
+        at, step = m.carrier_at, m.carrier_step
+        thickness, conductivity = m.carrier_thickness, m.carrier_conductivity
+    elif body == L.OF_GEAR:
+        at, step, first, weight = m.gear_at - m.i_g, m.gear_step, m.i_g, m.weight2
+        thickness, conductivity = m.gear_thickness, m.gear_conductivity
     density = of_body(m.par, L.P_DENSITY, body)
     heat = of_body(m.par, L.P_SPECIFIC_HEAT, body)
     return Body(
         at=at,
         step=step,
         first=first,
-        columns=columns,
+        columns=m.n_t if step > 0 else 1,
         weight=weight,
         conductance=conductivity / thickness,
         storage=density * heat * thickness,
         is_lumped=m.par[L.P_BODY_STORAGE] == L.LUMPED,
     )
-
-
-@kernel
-def carrier_of(m: WasherModel) -> Body:
-    """Return the carrier."""
-    return _body(
-        m, L.OF_CARRIER, m.carrier_at, m.carrier_step, 0, m.weight1, m.carrier_thickness,
-        m.carrier_conductivity,
-    )  # fmt: skip
-
-
-@kernel
-def washer_of(m: WasherModel) -> Body:
-    """Return the washer."""
-    return _body(
-        m, L.OF_WASHER, m.washer_at, m.washer_step, 0, m.weight1, m.washer_thickness,
-        m.washer_conductivity,
-    )  # fmt: skip
-
-
-@kernel
-def gear_of(m: WasherModel) -> Body:
-    """Return the gear."""
-    return _body(
-        m, L.OF_GEAR, m.gear_at - m.i_g, m.gear_step, m.i_g, m.weight2, m.gear_thickness,
-        m.gear_conductivity,
-    )  # fmt: skip
 
 
 @kernel
@@ -104,41 +86,35 @@ def term(b: Body, k: int) -> tuple[float, float, float]:
 
 
 @kernel
-def start_terms(m: WasherModel, f: Fields) -> None:
+def start_terms(w: Workspace) -> None:
     """Fill the ladders for bodies that have been as warm as they are for long."""
+    m, f = model_of(w), fields_of(w)
     for k in range(L.N_TERMS):
         clear(f.ladder[k])
-    _start(m, carrier_of(m), f)
-    _start(m, gear_of(m), f)
+    for body in WITH_LADDER:
+        b = body_of(m, body)
+        for k in range(L.N_TERMS):
+            resistance, _, _ = term(b, k)
+            share = resistance * b.conductance
+            for j in range(b.columns):
+                for i in range(b.first, m.n_r):
+                    node = np.uintp(b.at + j * b.step + i)
+                    f.ladder[k, node] = share * f.temp[node]
 
 
 @kernel
-def _start(m: WasherModel, b: Body, f: Fields) -> None:
-    for k in range(L.N_TERMS):
-        resistance, _, _ = term(b, k)
-        share = resistance * b.conductance
-        for j in range(b.columns):
-            for i in range(b.first, m.n_r):
-                node = np.uintp(b.at + j * b.step + i)
-                f.ladder[k, node] = share * f.temp[node]
-
-
-@kernel
-def shift_terms(m: WasherModel, warmer: float, f: Fields) -> None:
+def shift_terms(w: Workspace, warmer: float) -> None:
     """Let all of the bodies be less warm than the oil by ``warmer`` [K] more."""
-    _shift(m, carrier_of(m), warmer, f)
-    _shift(m, gear_of(m), warmer, f)
+    m, f = model_of(w), fields_of(w)
+    for body in WITH_LADDER:
+        b = body_of(m, body)
+        for k in range(L.N_TERMS):
+            resistance, _, far = term(b, k)
+            for j in range(b.columns):
+                for i in range(b.first, m.n_r):
+                    f.ladder[k, np.uintp(b.at + j * b.step + i)] -= far * resistance * warmer
     for k in range(f.temp.size):
         f.temp[np.uintp(k)] -= warmer
-
-
-@kernel
-def _shift(m: WasherModel, b: Body, warmer: float, f: Fields) -> None:
-    for k in range(L.N_TERMS):
-        resistance, _, far = term(b, k)
-        for j in range(b.columns):
-            for i in range(b.first, m.n_r):
-                f.ladder[k, np.uintp(b.at + j * b.step + i)] -= far * resistance * warmer
 
 
 @kernel
@@ -167,51 +143,49 @@ def weigh_body(b: Body, dt: float) -> tuple[float, float]:
 
 
 @kernel
-def hold_bodies(m: WasherModel, f: Fields) -> None:
+def hold_bodies(w: Workspace) -> None:
     """Let no temperature of a body move."""
+    f = fields_of(w)
     f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER], f.small[L.OUT_GEAR] = HELD, HELD, HELD
     copy(f.temp, f.outward)
 
 
 @kernel
-def set_stage(m: WasherModel, dt: float, f: Fields) -> None:
+def set_stage(w: Workspace, dt: float) -> None:
     """Set what bodies take up until the stage in a step of ``dt``, of a flux that is held.
 
     ``f.begin``: the rises at the start.
     """
+    m, f = model_of(w), fields_of(w)
     clear(f.flux)
     clear(f.outward)
     part = STAGE * dt
-    carrier, washer, gear = carrier_of(m), washer_of(m), gear_of(m)
-    late, early = weigh_body(carrier, part)
-    f.small[L.OUT_CARRIER] = 1.0 / (late + early)
-    late, early = weigh_body(gear, part)
-    f.small[L.OUT_GEAR] = 1.0 / (late + early)
+    for body in WITH_LADDER:
+        b = body_of(m, body)
+        late, early = weigh_body(b, part)
+        f.small[out_of(body)] = 1.0 / (late + early)
+        _add_terms(m, b, part, f)
+    washer = body_of(m, L.OF_WASHER)
     f.small[L.OUT_WASHER] = washer.storage / part
-    _add_terms(m, carrier, part, f)
-    _add_terms(m, gear, part, f)
     _add_washer(m, washer, 0.0, f)
 
 
 @kernel
-def set_end(m: WasherModel, dt: float, f: Fields) -> None:
+def set_end(w: Workspace, dt: float) -> None:
     """Set what bodies take up in a step of ``dt`` that has been solved for until its stage.
 
     Fills ``f.flux`` with the flux there, and a guess of where the step ends.
     """
-    carrier, washer, gear = carrier_of(m), washer_of(m), gear_of(m)
-    _take(m, carrier, f.small[L.OUT_CARRIER], f)
-    _take(m, washer, f.small[L.OUT_WASHER], f)
-    _take(m, gear, f.small[L.OUT_GEAR], f)
+    m, f = model_of(w), fields_of(w)
+    _take(m, f)
     clear(f.outward)
-    late, _ = weigh_body(carrier, dt)
-    f.small[L.OUT_CARRIER] = 1.0 / late
-    _add_terms(m, carrier, dt, f)
-    _guess(m, carrier, late, f)
-    late, _ = weigh_body(gear, dt)
-    f.small[L.OUT_GEAR] = 1.0 / late
-    _add_terms(m, gear, dt, f)
-    _guess(m, gear, late, f)
+    for body in WITH_LADDER:
+        b = body_of(m, body)
+        late, _ = weigh_body(b, dt)
+        f.small[out_of(body)] = 1.0 / late
+        _add_terms(m, b, dt, f)
+        _guess(m, b, late, f)
+    washer = body_of(m, L.OF_WASHER)
     late = STAGE * dt / washer.storage
     f.small[L.OUT_WASHER] = 1.0 / late
     _add_washer(m, washer, (1.0 - STAGE) * dt / washer.storage, f)
@@ -219,12 +193,20 @@ def set_end(m: WasherModel, dt: float, f: Fields) -> None:
 
 
 @kernel
-def _take(m: WasherModel, b: Body, out: float, f: Fields) -> None:
-    """Fill the flux into a body at a solution."""
-    for j in range(b.columns):
-        for i in range(b.first, m.n_r):
-            node = np.uintp(b.at + j * b.step + i)
-            f.flux[node] = out * (f.temp[node] - f.outward[node])
+def out_of(body: int) -> int:
+    """Return the place of a body's conductance outwards in ``Fields.small``."""
+    return L.OUT_CARRIER + body - L.OF_CARRIER
+
+
+@kernel
+def _take(m: WasherModel, f: Fields) -> None:
+    """Fill the fluxes into the bodies at a solution."""
+    for body in BODIES:
+        b, out = body_of(m, body), f.small[out_of(body)]
+        for j in range(b.columns):
+            for i in range(b.first, m.n_r):
+                node = np.uintp(b.at + j * b.step + i)
+                f.flux[node] = out * (f.temp[node] - f.outward[node])
 
 
 @kernel
@@ -256,13 +238,19 @@ def _add_washer(m: WasherModel, b: Body, early: float, f: Fields) -> None:
 
 
 @kernel
-def set_held(m: WasherModel, dt: float, f: Fields) -> None:
-    """Set what a change of flux that lasts for ``dt`` brings, for derivatives."""
-    b = washer_of(m)
-    f.small[L.OUT_WASHER], f.small[L.OUT_OIL + 1] = b.storage / dt, 1.0
-    out, falls = _held(carrier_of(m), dt, f.small[L.FAR_CARRIER : L.FAR_CARRIER + 2])
+def set_held(w: Workspace, dt: float) -> None:
+    """Have derivatives be those of a change that lasts for a whole step, from its beginning on.
+
+    The flux into a body counts as changed by the same amount all the while: right to first order
+    in a short step, and in a long one.
+    """
+    m, f = model_of(w), fields_of(w)
+    lasts = max(dt, LEAST_STEP)
+    washer = body_of(m, L.OF_WASHER)
+    f.small[L.OUT_WASHER], f.small[L.OUT_OIL + 1] = washer.storage / lasts, 1.0
+    out, falls = _held(body_of(m, L.OF_CARRIER), lasts, f.small[L.FAR_CARRIER : L.FAR_GEAR])
     f.small[L.OUT_CARRIER], f.small[L.OUT_OIL] = out, falls
-    out, falls = _held(gear_of(m), dt, f.small[L.FAR_GEAR : L.FAR_GEAR + 2])
+    out, falls = _held(body_of(m, L.OF_GEAR), lasts, f.small[L.FAR_GEAR : L.FAR_GEAR + 2])
     f.small[L.OUT_GEAR], f.small[L.OUT_OIL + 2] = out, falls
 
 
@@ -286,46 +274,34 @@ def _held(b: Body, dt: float, through: Array) -> tuple[float, float]:
 
 
 @kernel
-def error_of_flux(m: WasherModel, f: Fields) -> tuple[float, float]:
+def error_of_flux(w: Workspace) -> tuple[float, float]:
     """Return how far rises would be off had the flux been held, and the largest rise [K]."""
-    error, largest = _error(m, carrier_of(m), f.small[L.OUT_CARRIER], f)
-    one, two = _error(m, washer_of(m), f.small[L.OUT_WASHER], f)
-    error, largest = max(error, one), max(largest, two)
-    one, two = _error(m, gear_of(m), f.small[L.OUT_GEAR], f)
-    return max(error, one), max(largest, two)
-
-
-@kernel
-def _error(m: WasherModel, b: Body, out: float, f: Fields) -> tuple[float, float]:
+    m, f = model_of(w), fields_of(w)
     error, largest = 0.0, 0.0
-    for j in range(b.columns):
-        for i in range(b.first, m.n_r):
-            node = np.uintp(b.at + j * b.step + i)
-            error = max(error, abs(f.temp[node] - f.outward[node] - f.flux[node] / out))
-            largest = max(largest, abs(f.temp[node]))
+    for body in BODIES:
+        b, out = body_of(m, body), f.small[out_of(body)]
+        for j in range(b.columns):
+            for i in range(b.first, m.n_r):
+                node = np.uintp(b.at + j * b.step + i)
+                error = max(error, abs(f.temp[node] - f.outward[node] - f.flux[node] / out))
+                largest = max(largest, abs(f.temp[node]))
     return error, largest
 
 
 @kernel
-def advance_terms(m: WasherModel, dt: float, f: Fields) -> None:
+def advance_terms(w: Workspace, dt: float) -> None:
     """Bring ladders and ``f.flux`` to the end of a step that has been solved for."""
-    carrier, washer, gear = carrier_of(m), washer_of(m), gear_of(m)
-    _advance(m, carrier, f.small[L.OUT_CARRIER], dt, f)
-    _advance(m, gear, f.small[L.OUT_GEAR], dt, f)
-    _take(m, carrier, f.small[L.OUT_CARRIER], f)
-    _take(m, washer, f.small[L.OUT_WASHER], f)
-    _take(m, gear, f.small[L.OUT_GEAR], f)
-
-
-@kernel
-def _advance(m: WasherModel, b: Body, out: float, dt: float, f: Fields) -> None:
-    for k in range(L.N_TERMS):
-        kept, late, early = weigh(b, k, dt)
-        for j in range(b.columns):
-            for i in range(b.first, m.n_r):
-                node = np.uintp(b.at + j * b.step + i)
-                gain = late * out * (f.temp[node] - f.outward[node]) + early * f.flux[node]
-                f.ladder[k, node] = kept * f.ladder[k, node] + gain
+    m, f = model_of(w), fields_of(w)
+    for body in WITH_LADDER:
+        b, out = body_of(m, body), f.small[out_of(body)]
+        for k in range(L.N_TERMS):
+            kept, late, early = weigh(b, k, dt)
+            for j in range(b.columns):
+                for i in range(b.first, m.n_r):
+                    node = np.uintp(b.at + j * b.step + i)
+                    gain = late * out * (f.temp[node] - f.outward[node]) + early * f.flux[node]
+                    f.ladder[k, node] = kept * f.ladder[k, node] + gain
+    _take(m, f)
 
 
 @kernel
@@ -342,17 +318,18 @@ def _angle(m: WasherModel, b: Body, j: int) -> float:
 @kernel
 def far_heat(m: WasherModel, f: Fields) -> float:
     """Return the heat that flows through the far faces of carrier and gear [W]."""
-    carrier, _ = _through(m, carrier_of(m), f)
-    gear, _ = _through(m, gear_of(m), f)
+    carrier, _ = _through(m, body_of(m, L.OF_CARRIER), f)
+    gear, _ = _through(m, body_of(m, L.OF_GEAR), f)
     return carrier + gear
 
 
 @kernel
-def stored_heat(m: WasherModel, f: Fields) -> float:
+def stored_heat(w: Workspace) -> float:
     """Return the heat that the bodies hold above oil temperature [J]."""
-    washer = washer_of(m)
-    _, carrier = _through(m, carrier_of(m), f)
-    _, gear = _through(m, gear_of(m), f)
+    m, f = model_of(w), fields_of(w)
+    washer = body_of(m, L.OF_WASHER)
+    _, carrier = _through(m, body_of(m, L.OF_CARRIER), f)
+    _, gear = _through(m, body_of(m, L.OF_GEAR), f)
     stored = carrier + gear
     for j in range(washer.columns):
         angle = _angle(m, washer, j)

@@ -32,8 +32,7 @@ P_CONDUCTIVITY = 26
     P_FILM_HEAT_FRACTION, P_THERMAL_MODE,
 ) = range(30, 50)  # fmt: skip
 P_DENSITY, P_SPECIFIC_HEAT = 50, 54
-P_BODY_STORAGE, P_THERMAL_START, P_FIDELITY = range(58, 61)
-N_PARAM = 61
+P_BODY_STORAGE, P_THERMAL_START, P_FIDELITY, N_PARAM = range(58, 62)
 N_STEADY = P_THERMAL_MODE  # a steady solution depends on those before; what follows is of time
 OF_CARRIER, OF_WASHER, OF_GEAR = 1, 2, 3  # places of a body's own property behind the common one
 CONTACT_YIELD, SUMMIT_HEIGHTS, CONSTANT_FRICTION = 2.0, 2.0, 2.0  # values of the laws
@@ -50,10 +49,8 @@ MAP, COARSE, FIELD, FINE = range(1, 5)
 D_TABLE1 = N_PARAM + 16  # contact tables of film 1 and gap 2
 D_TABLE2 = D_TABLE1 + N_TABLE
 D_MESH = D_TABLE2 + N_TABLE  # arrays over the radial nodes, then over the angles
-RADIUS, FACE, LOG_WIDTH, WEIGHT1, WEIGHT2, ALONG, GEAR_WIDTH = range(7)
-N_RADIAL = 7
-COS, SIN, COS_FACE, SIN_FACE, WEIGHT_T, WIDTH_T, STEP_T, PER_STEP = range(8)
-N_AROUND = 8
+RADIUS, FACE, LOG_WIDTH, WEIGHT1, WEIGHT2, ALONG, GEAR_WIDTH, N_RADIAL = range(8)
+COS, SIN, COS_FACE, SIN_FACE, WEIGHT_T, WIDTH_T, STEP_T, PER_STEP, N_AROUND = range(9)
 
 # `inp`; of the branch there is no input to an FMU.
 I_LOAD, I_SPEED, I_TILT, I_OIL, I_BRANCH = range(5)
@@ -66,15 +63,12 @@ NINP = 4
     O_STORED_HEAT, O_FLUID_LOAD, O_CONTACT_LOAD,
 ) = range(18)  # fmt: skip
 NOUT, N_ALL = 16, 18
-IO_REGIME, IO_DISTRESS, IO_STATUS = range(3)
-NIOUT = 3
+IO_REGIME, IO_DISTRESS, IO_STATUS, NIOUT = range(4)
 
 # The head of `work`: counts and residuals of a solve, what was found, where the walk along the
 # curve of solutions stands, all outputs, the positions.
-ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT, ARRIVED, SCANNED = range(8)
-N_INFO = 8
-BRANCH, MULTIPLICITY, LOST, REGAINED = range(4)  # loads of the folds found: nan if not met
-N_FOUND = 4
+ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT, ARRIVED, SCANNED, N_INFO = range(9)
+BRANCH, MULTIPLICITY, LOST, REGAINED, N_FOUND = range(5)  # loads of folds found: nan if not met
 # film thickness s [m], load [N], dload/ds [N/m], contact share [-]; tolerance, set by the caller
 AT_FILM, AT_LOAD, AT_SLOPE, AT_SHARE, ACCURACY = range(5)
 N_CURVE = 8
@@ -90,7 +84,7 @@ UNKNOWN, SINGLE, MULTIPLE = 0.0, 1.0, 2.0  # is the curve single-valued in load?
 
 # The rest of `work`, ``Fields``. Its tag says what the heat factor was made for: inputs, positions,
 # parameters with the grid, conductances outwards; then temperatures.
-TAG_VALID, TAG_SPEED, TAG_TILT, TAG_POSITIONS, TAG_OIL, TAG_PARAMETERS = 0, 1, 2, 3, 7, 8
+TAG_VALID, TAG_SPEED, TAG_TILT, TAG_OIL, TAG_POSITIONS, TAG_PARAMETERS = 0, 1, 2, 3, 4, 8
 TAG_OUT, N_TAG = TAG_PARAMETERS + D_SIGMA1, TAG_PARAMETERS + D_SIGMA1 + 3
 # ``Fields.small``, numbers (16: a matrix): contact forces and their slopes; contact force of film 1
 # [N] and its slopes; dry friction and its slope over that force [1/N], and the
@@ -118,7 +112,8 @@ N_PRESSED = 3  # of the forces: the film presses on all but the gear
 N_KEPT = 3  # solutions that ``remember`` has room for
 N_TERMS = 3  # of the ladder through the thickness of a body
 
-# `state`: last solution, inputs of the last descent (tilt < 0: none), where the factor was made.
+# `state`: last solution, inputs of the last descent (tilt < 0: none), where the factor was made (as
+# the tag begins).
 S_VALID, S_BRANCH, S_MULTIPLICITY, S_LOAD, S_SPEED, S_TILT, S_OIL = range(7)
 S_SCAN_SPEED, S_SCAN_TILT, S_SCAN_OIL, S_POSITIONS = range(7, 11)
 S_RATIO, S_FACTOR_VALID, S_FACTOR_SPEED, S_FACTOR_TILT, S_FACTOR_OIL = 14, 16, 17, 18, 19

@@ -14,6 +14,7 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import clear, copy, negate, size_of
 from ...numerics.dense import dense_solve
 from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
@@ -23,32 +24,8 @@ from .film import evaluate_film, film_solve, settle_film, settle_marked
 from .gap import evaluate_gaps, evaluate_viscosity
 from .heat import heat_change, heat_residual, let_film_follow
 from .heat_factor import factor_heat, solve_heat
-from .layout import (
-    AT_FIXED,
-    MOMENT_X,
-    MOMENT_Y,
-    ON_GEAR,
-    ON_WASHER,
-    OVER_POSITIONS,
-    TILT_X,
-    TILT_Y,
-    Z_GEAR,
-    Z_WASHER,
-)
 from .throughflow import find_flows
-from .workspace import (
-    Fields,
-    Point,
-    Workspace,
-    clear,
-    copy,
-    fields_of,
-    model_of,
-    negate,
-    size_of,
-    square,
-    vector,
-)
+from .workspace import Fields, Point, Workspace, fields_of, model_of, square, vector
 
 # modes and counts are floats: numba would compile anew for each integer constant
 LOAD, FILM = 0.0, 1.0
@@ -62,26 +39,26 @@ LARGEST_JUMP = 1000.0  # [K] of a temperature in one iteration
 @kernel
 def tilt_of(q: Array) -> float:
     """Return the washer's tilt [rad]."""
-    return math.sqrt(q[TILT_X] * q[TILT_X] + q[TILT_Y] * q[TILT_Y])
+    return math.sqrt(q[L.TILT_X] * q[L.TILT_X] + q[L.TILT_Y] * q[L.TILT_Y])
 
 
 @kernel
 def smooth_film(w: Workspace) -> float:
     """Return the smoothed least film thickness s [m] that mode FILM prescribes."""
-    return float(w.q[Z_WASHER] - _reach(w.par[L.P_OUTER_RADIUS], w.par[L.D_SIGMA1], w.q))
+    return float(w.q[L.Z_WASHER] - _reach(w.par[L.P_OUTER_RADIUS], w.par[L.D_SIGMA1], w.q))
 
 
 @kernel
 def _reach(ro: float, sigma: float, q: Array) -> float:
     """Return by how much the rim dips below the washer's middle [m], smoothed."""
     e = 0.05 * sigma
-    return math.sqrt(ro * ro * (q[TILT_X] * q[TILT_X] + q[TILT_Y] * q[TILT_Y]) + e * e)
+    return math.sqrt(ro * ro * (q[L.TILT_X] * q[L.TILT_X] + q[L.TILT_Y] * q[L.TILT_Y]) + e * e)
 
 
 @kernel
 def film_ratio(w: Workspace) -> float:
     """Return the least film thickness over the disc in sigma."""
-    least = w.q[Z_WASHER] - w.par[L.P_OUTER_RADIUS] * tilt_of(w.q)
+    least = w.q[L.Z_WASHER] - w.par[L.P_OUTER_RADIUS] * tilt_of(w.q)
     return float(least / w.par[L.D_SIGMA1])
 
 
@@ -145,9 +122,9 @@ def add_pressure(m: WasherModel, p: Array, forces: Array) -> None:
     for j in range(m.n_t):
         for i in range(1, m.n_r - 1):
             push = m.weight1[i] * m.weight_t[j] * p[np.uintp(j * m.n_r + i)]
-            forces[ON_WASHER] += push
-            forces[MOMENT_X] += push * m.r[i] * m.sin[j]
-            forces[MOMENT_Y] -= push * m.r[i] * m.cos[j]
+            forces[L.ON_WASHER] += push
+            forces[L.MOMENT_X] += push * m.r[i] * m.sin[j]
+            forces[L.MOMENT_Y] -= push * m.r[i] * m.cos[j]
 
 
 @kernel
@@ -160,15 +137,15 @@ def linearise(m: WasherModel, f: Fields) -> None:
             k = np.uintp(j * m.n_r + i)
             weight = m.weight1[i] * m.weight_t[j]
             wy, wx = weight * m.r[i] * m.sin[j], weight * m.r[i] * m.cos[j]
-            p0 = f.film_rhs[k, AT_FIXED]
-            forces[ON_WASHER] += weight * p0
-            forces[MOMENT_X] += wy * p0
-            forces[MOMENT_Y] -= wx * p0
+            p0 = f.film_rhs[k, L.AT_FIXED]
+            forces[L.ON_WASHER] += weight * p0
+            forces[L.MOMENT_X] += wy * p0
+            forces[L.MOMENT_Y] -= wx * p0
             for c in range(4):
-                dp = f.film_rhs[k, np.uintp(OVER_POSITIONS + c)]
-                slopes[ON_WASHER, np.uintp(c)] += weight * dp
-                slopes[MOMENT_X, np.uintp(c)] += wy * dp
-                slopes[MOMENT_Y, np.uintp(c)] -= wx * dp
+                dp = f.film_rhs[k, np.uintp(L.OVER_POSITIONS + c)]
+                slopes[L.ON_WASHER, np.uintp(c)] += weight * dp
+                slopes[L.MOMENT_X, np.uintp(c)] += wy * dp
+                slopes[L.MOMENT_Y, np.uintp(c)] -= wx * dp
 
 
 @kernel
@@ -180,28 +157,29 @@ def _steps(m: WasherModel, mode: float, target: float, q: Array, f: Fields) -> b
     system, right = square(f.small, L.SYSTEM), vector(f.small, L.RIGHT)
     for kind in range(2):  # 0: tangent, always from the FILM row; 1: the step wanted
         for c in range(4):
-            unit = m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
-            system[0, c] = slopes[ON_WASHER, c] * unit
-            system[1, c] = slopes[MOMENT_X, c] * unit / ro
-            system[2, c] = slopes[MOMENT_Y, c] * unit / ro
-            system[3, c] = slopes[ON_GEAR, c] * unit
+            unit = m.sigma1 if c <= L.Z_GEAR else m.sigma1 / ro
+            system[0, c] = slopes[L.ON_WASHER, c] * unit
+            system[1, c] = slopes[L.MOMENT_X, c] * unit / ro
+            system[2, c] = slopes[L.MOMENT_Y, c] * unit / ro
+            system[3, c] = slopes[L.ON_GEAR, c] * unit
         if kind == 0 or mode == FILM:
-            system[3, Z_WASHER], system[3, Z_GEAR] = 1.0, 0.0
-            system[3, TILT_X], system[3, TILT_Y] = -ro * q[TILT_X] / reach, -ro * q[TILT_Y] / reach
+            system[3, L.Z_WASHER], system[3, L.Z_GEAR] = 1.0, 0.0
+            system[3, L.TILT_X] = -ro * q[L.TILT_X] / reach
+            system[3, L.TILT_Y] = -ro * q[L.TILT_Y] / reach
         if kind == 0:
             right[0], right[1], right[2] = 0.0, 0.0, 0.0
             right[3] = 1.0 / m.sigma1
         else:
-            right[0], right[1] = -forces[ON_WASHER], -forces[MOMENT_X] / ro
-            right[2] = -forces[MOMENT_Y] / ro
+            right[0], right[1] = -forces[L.ON_WASHER], -forces[L.MOMENT_X] / ro
+            right[2] = -forces[L.MOMENT_Y] / ro
             if mode == FILM:
-                right[3] = (target - (q[Z_WASHER] - reach)) / m.sigma1
+                right[3] = (target - (q[L.Z_WASHER] - reach)) / m.sigma1
             else:
-                right[3] = target - forces[ON_GEAR]
-        if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4, 1):
+                right[3] = target - forces[L.ON_GEAR]
+        if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4):
             return False
         for c in range(4):
-            right[c] *= m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
+            right[c] *= m.sigma1 if c <= L.Z_GEAR else m.sigma1 / ro
         if kind == 0:
             copy(right, vector(f.small, L.TANGENT))
     return True
@@ -215,32 +193,27 @@ def _limit(ro: float, sigma: float, pt: Point, q: Array, step: Array) -> float:
     and a rocking washer moves most, eight times as much.
     """
     tilt = tilt_of(q)
-    ratio = (q[Z_WASHER] - ro * tilt) / sigma
+    ratio = (q[L.Z_WASHER] - ro * tilt) / sigma
     limit = max(1.0, 0.3 * ratio) * sigma
     small = 1e-3 * sigma / ro
-    gx, rel = q[TILT_X], pt.tilt - q[TILT_Y]
+    gx, gy, rel = q[L.TILT_X], q[L.TILT_Y], pt.tilt - q[L.TILT_Y]
     lean = math.sqrt(rel * rel + gx * gx) + small
-    turn = ro * math.sqrt(step[TILT_X] * step[TILT_X] + step[TILT_Y] * step[TILT_Y])
-    lift = step[Z_GEAR] - step[Z_WASHER]
-    one = step[Z_WASHER] - ro * (gx * step[TILT_X] + q[TILT_Y] * step[TILT_Y]) / (tilt + small)
-    two = lift + ro * (rel * step[TILT_Y] - gx * step[TILT_X]) / lean
-    far1, far2 = abs(step[Z_WASHER]) + turn, abs(lift) + turn
+    turn = ro * math.sqrt(step[L.TILT_X] * step[L.TILT_X] + step[L.TILT_Y] * step[L.TILT_Y])
+    lift = step[L.Z_GEAR] - step[L.Z_WASHER]
+    one = step[L.Z_WASHER] - ro * (gx * step[L.TILT_X] + gy * step[L.TILT_Y]) / (tilt + small)
+    two = lift + ro * (rel * step[L.TILT_Y] - gx * step[L.TILT_X]) / lean
+    far1, far2 = abs(step[L.Z_WASHER]) + turn, abs(lift) + turn
     worst = max(abs(one), 0.5 * abs(two), far1 / 8.0, far2 / 16.0)
     return limit / worst if worst > limit else 1.0
 
 
 @kernel
-def evaluate(m: WasherModel, pt: Point, q: Array, f: Fields) -> float:
+def evaluate(m: WasherModel, pt: Point, q: Array, f: Fields, marked: bool) -> float:
     """Evaluate everything at (q, f.temp), the film settled; return the heat made [W].
 
-    The residual of the film stays in ``f.small[FILM_ERROR]``.
+    The residual of the film stays in ``f.small[FILM_ERROR]``. ``marked``: the last film in ``f``
+    was of this washer and point.
     """
-    return _evaluate(m, pt, q, f, False)
-
-
-@kernel
-def _evaluate(m: WasherModel, pt: Point, q: Array, f: Fields, marked: bool) -> float:
-    """Evaluate everything; ``marked``: the last film in ``f`` was of this washer and point."""
     evaluate_gaps(m, pt, q, f)
     evaluate_viscosity(m, pt, f)
     evaluate_film(m, pt, q, f)
@@ -253,15 +226,15 @@ def _evaluate(m: WasherModel, pt: Point, q: Array, f: Fields, marked: bool) -> f
 @kernel
 def evaluate_here(w: Workspace, pt: Point) -> None:
     """Evaluate everything at a solution that was taken back."""
-    evaluate(model_of(w), pt, w.q, fields_of(w))
+    evaluate(model_of(w), pt, w.q, fields_of(w), False)
 
 
 @kernel
 def _take(f: Fields, share: float, q: Array) -> None:
     """Go ``share`` of the step: positions, and the temperatures that follow them."""
     step = vector(f.small, L.RIGHT)
-    d0, d1 = share * step[Z_WASHER], share * step[Z_GEAR]
-    d2, d3 = share * step[TILT_X], share * step[TILT_Y]
+    d0, d1 = share * step[L.Z_WASHER], share * step[L.Z_GEAR]
+    d2, d3 = share * step[L.TILT_X], share * step[L.TILT_Y]
     n_temp = f.temp.size
     dt0, dt1, dt2, dt3 = f.following[0], f.following[1], f.following[2], f.following[3]
     jump = 0.0
@@ -274,10 +247,10 @@ def _take(f: Fields, share: float, q: Array) -> None:
     for node in range(n_temp):
         k = np.uintp(node)
         f.temp[k] += damp * f.dtemp[k]
-    q[Z_WASHER] += d0
-    q[Z_GEAR] += d1
-    q[TILT_X] += d2
-    q[TILT_Y] += d3
+    q[L.Z_WASHER] += d0
+    q[L.Z_GEAR] += d1
+    q[L.TILT_X] += d2
+    q[L.TILT_Y] += d3
 
 
 @kernel
@@ -306,12 +279,12 @@ def newton(
     before = math.inf
     rounds = ROUGH if tolerance > ROUGH_FROM else EXACT
     for iteration in range(int(max_iterations) + 1):
-        made = _evaluate(m, pt, w.q, f, iteration > 0)
+        made = evaluate(m, pt, w.q, f, iteration > 0)
         _balance(m, f)
-        reached = forces[ON_GEAR]
+        reached = forces[L.ON_GEAR]
         load = target if mode == LOAD else max(reached, 1e-3)
-        moment = max(abs(forces[MOMENT_X]), abs(forces[MOMENT_Y])) / m.outer_radius
-        error = max(abs(forces[ON_WASHER]), moment) / load
+        moment = max(abs(forces[L.MOMENT_X]), abs(forces[L.MOMENT_Y])) / m.outer_radius
+        error = max(abs(forces[L.ON_WASHER]), moment) / load
         if mode == LOAD:
             error = max(error, abs(reached - target) / load)
         else:
@@ -344,7 +317,7 @@ def newton(
             return SINGULAR
         slope = 0.0
         for c in range(4):
-            slope += slopes[ON_GEAR, c] * tangent[c]
+            slope += slopes[L.ON_GEAR, c] * tangent[c]
         w.info[L.LOAD_SLOPE] = slope
         share = _limit(m.outer_radius, m.sigma1, pt, w.q, vector(f.small, L.RIGHT))
         _take(f, share, w.q)

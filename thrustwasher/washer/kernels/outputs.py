@@ -1,10 +1,10 @@
 """From a converged state to the numbers a user sees, and how they change with it."""
 
-import math
-
 import numpy as np
 
+from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, inlined, kernel
+from ...numerics.smoothing import sign_of
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .constants import WasherModel
@@ -20,24 +20,9 @@ MOST_MARGIN = 1000.0  # of `stick_margin`: nothing is to be held
 
 
 @kernel
-def are_finite(a: Array) -> bool:
-    """Tell if all numbers are finite."""
-    good = True
-    for k in range(a.size):
-        good = good and math.isfinite(a[np.uintp(k)])
-    return good
-
-
-@kernel
 def coefficient_per_torque(inner: float, outer: float, load: float) -> float:
     """Return the friction coefficient that a torque of 1 N m stands for."""
     return 1.5 * (outer**2 - inner**2) / (load * (outer**3 - inner**3))
-
-
-@kernel
-def side_of(speed: float) -> float:
-    """Return the sign of a speed, 0 at rest."""
-    return math.copysign(1.0, speed) if speed != 0.0 else 0.0
 
 
 @kernel
@@ -71,17 +56,18 @@ def _through_faces(m: WasherModel, f: Fields) -> float:
 
 
 @kernel
-def washer_outputs(m: WasherModel, pt: Point, q: Array, f: Fields, out: Array) -> bool:
-    """Fill ``out`` (N_ALL,) from the fields evaluated at the solution; return True if finite.
+def outputs_at(w: Workspace, pt: Point) -> bool:
+    """Fill the outputs of ``w`` from its fields at the solution; return True if finite.
 
     Source: Jackson & Green Eq 39-43 for film 1, with the weights of the balances.
     """
+    m, f, q, out = model_of(w), fields_of(w), w.q, w.outputs
     n_r, n_t = m.n_r, m.n_t
     if m.film_step == 0:
         find_flows(m, pt, q, f)
     viscous, rubbing, mean, area, hottest = 0.0, 0.0, 0.0, 0.0, -1e300
     fluid, film, flow, gone = 0.0, 0.0, 0.0, 0.0
-    dry = side_of(pt.speed) * f.small[L.FRICTION]
+    dry = sign_of(pt.speed) * f.small[L.FRICTION]
     per_speed = m.pressure_shear / pt.speed if pt.speed != 0.0 else 0.0
     warmer = supply_rise(m, pt)
     for j in range(n_t):
@@ -91,22 +77,22 @@ def washer_outputs(m: WasherModel, pt: Point, q: Array, f: Fields, out: Array) -
         below = m.washer_at + j * m.washer_step
         for i in range(n_r):
             k = np.uintp(j * n_r + i)
-            w = m.weight1[i] * m.weight_t[j]
+            weight = m.weight1[i] * m.weight_t[j]
             r = m.r[i]
             part = 1.0
             if m.only_liquid:
                 part = f.liquid[k]
-            viscous += w * r * part * f.mu[k] * pt.speed * r / f.ht[k]
+            viscous += weight * r * part * f.mu[k] * pt.speed * r / f.ht[k]
             viscous += per_speed * f.wedge[k] * (f.p[np.uintp(jn * n_r + i)] - f.p[k])
-            rubbing += w * r * dry * f.pc[k]
+            rubbing += weight * r * dry * f.pc[k]
             carrier, washer = f.temp[np.uintp(at + i)], f.temp[np.uintp(below + i)]
-            mean += 0.5 * w * (carrier + washer)
+            mean += 0.5 * weight * (carrier + washer)
             hottest = max(hottest, max(carrier, washer))
-            fluid += w * f.p[k]
-            area += w
+            fluid += weight * f.p[k]
+            area += weight
             flow += f.rim[k] * f.liquid[k]
             if m.film_step > 0:
-                film += w * f.temp[np.uintp(own + i)]
+                film += weight * f.temp[np.uintp(own + i)]
                 gone += m.oil_storage * f.rim[k] * f.liquid[k] * f.edge[k]
     if m.film_step == 0:
         film = mean
@@ -138,12 +124,6 @@ def washer_outputs(m: WasherModel, pt: Point, q: Array, f: Fields, out: Array) -
     out[L.O_STICK_MARGIN] = stick_margin(m, f, torque)
     out[L.O_ENERGY], out[L.O_STORED_HEAT] = 0.0, 0.0  # of a step, not of a point
     return are_finite(out)
-
-
-@kernel
-def outputs_at(w: Workspace, pt: Point) -> bool:
-    """Fill the outputs of ``w`` from its fields at the solution; return True if finite."""
-    return washer_outputs(model_of(w), pt, w.q, fields_of(w), w.outputs)
 
 
 @kernel
@@ -180,7 +160,7 @@ def change_of_outputs(
     out, dq, dtemp = w.outputs, vector(f.small, L.CHANGE), f.keep[: f.temp.size]
     if m.film_step == 0:
         flows_change(m, pt, w.q, dq, f)
-    side, dcontact = side_of(pt.speed), contact_change(f.small, dq)
+    side, dcontact = sign_of(pt.speed), contact_change(f.small, dq)
     friction = side * f.small[L.FRICTION]
     dfriction = side * f.small[L.FRICTION_SLOPE] * dcontact
     torque, mean, area, hottest, dhottest = 0.0, 0.0, 0.0, -1e300, 0.0
@@ -246,7 +226,7 @@ def change_of_outputs(
     dout[L.O_FLUID_SHARE] = ((1.0 - share) * dfluid - share * dcontact) / pt.load
     per_torque = coefficient_per_torque(m.inner_radius, m.outer_radius, pt.load)
     dout[L.O_COEFFICIENT] = (
-        per_torque * side_of(out[L.O_TORQUE]) * torque
+        per_torque * sign_of(out[L.O_TORQUE]) * torque
         - out[L.O_COEFFICIENT] * change.load / pt.load
     )
     dout[L.O_POWER] = torque * pt.speed + out[L.O_TORQUE] * change.speed

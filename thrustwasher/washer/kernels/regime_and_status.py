@@ -4,9 +4,8 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...numerics.jit import Array, kernel
+from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import DISTRESS, OK, OUTSIDE_VERIFIED
 from . import layout as L
 from .constants import combined_roughness, contact_pair, summits
@@ -121,7 +120,7 @@ def regime_of(ratio: float) -> int:
 
 
 @kernel
-def judge(pt: Point, ratio: float, distressed: bool, status: int, iout: NDArray[np.int32]) -> None:
+def judge(pt: Point, ratio: float, distressed: bool, status: int, iout: Ints) -> None:
     """Fill ``iout``: regime, distress, and the status or the advice in its place."""
     iout[L.IO_REGIME] = regime_of(ratio)
     iout[L.IO_DISTRESS] = 1 if distressed else 0

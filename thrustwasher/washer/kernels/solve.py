@@ -6,15 +6,14 @@ used if it was made at exactly these, else it is made again, so that results nev
 the work happens to hold.
 """
 
-import numpy as np
-
+from ...numerics.arrays import are_equal, copy
 from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import NO_BRANCH, OK
 from . import layout as L
 from .branch import FILM_RATIO, descend, is_clear_film, solve_cold
 from .continuation import go_along
 from .newton import EXACT, LOAD, NO_FLOOR, evaluate, factor_here, film_ratio, make_factor, newton
-from .workspace import Point, Workspace, copy, fields_of, forget_factor, model_of, vector
+from .workspace import Point, Workspace, fields_of, forget_factor, model_of, vector
 
 WARM_TOLERANCE = 5e-6
 CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
@@ -38,22 +37,11 @@ def _belongs(par: Array, state: Array, tag: Array, temp: Array) -> bool:
     """Tell if the factor was made for these parameters, the remembered point and ``temp``."""
     return (
         tag[L.TAG_VALID] == 1.0
-        and tag[L.TAG_SPEED] == state[L.S_FACTOR_SPEED]
-        and tag[L.TAG_TILT] == state[L.S_FACTOR_TILT]
-        and tag[L.TAG_OIL] == state[L.S_FACTOR_OIL]
-        and _are_equal(tag[L.TAG_OUT : L.N_TAG], state[L.S_FACTOR_OUT : L.S_SUBSTEP])
-        and _are_equal(vector(tag, L.TAG_POSITIONS), vector(state, L.S_FACTOR_POSITIONS))
-        and _are_equal(_owner(tag), par[: L.D_SIGMA1])
-        and _are_equal(tag[L.N_TAG : L.N_TAG + temp.size], temp)
+        and are_equal(tag[: L.TAG_PARAMETERS], state[L.S_FACTOR_VALID : L.S_MAP_BRANCH])
+        and are_equal(tag[L.TAG_OUT : L.N_TAG], state[L.S_FACTOR_OUT : L.S_SUBSTEP])
+        and are_equal(_owner(tag), par[: L.D_SIGMA1])
+        and are_equal(tag[L.N_TAG : L.N_TAG + temp.size], temp)
     )
-
-
-@kernel
-def _are_equal(one: Array, two: Array) -> bool:
-    for k in range(one.size):
-        if one[np.uintp(k)] != two[np.uintp(k)]:
-            return False
-    return True
 
 
 @kernel
@@ -77,7 +65,7 @@ def recall_state(w: Workspace, state: Array) -> None:
         copy(vector(state, L.S_FACTOR_POSITIONS), w.q)
         copy(of_factor, f.temp)
         copy(state[L.S_FACTOR_OUT : L.S_SUBSTEP], out)
-        evaluate(m, pt, w.q, f)
+        evaluate(m, pt, w.q, f, False)
         make_factor(m, pt, w.q, f.temp, f, EXACT)
         out[0], out[1], out[2] = now0, now1, now2
         copy(w.par[: L.D_SIGMA1], _owner(f.tag))
@@ -103,11 +91,8 @@ def remember_state(w: Workspace, pt: Point, state: Array) -> None:
     copy(f.temp, temp)
     copy(f.p, pressure)
     copy(w.par[: L.D_SIGMA1], _owner(f.tag))
-    state[L.S_FACTOR_VALID] = f.tag[L.TAG_VALID]
-    state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT] = f.tag[L.TAG_SPEED], f.tag[L.TAG_TILT]
-    state[L.S_FACTOR_OIL] = f.tag[L.TAG_OIL]
+    copy(f.tag, state[L.S_FACTOR_VALID : L.S_MAP_BRANCH])
     copy(f.tag[L.TAG_OUT : L.N_TAG], state[L.S_FACTOR_OUT : L.S_SUBSTEP])
-    copy(vector(f.tag, L.TAG_POSITIONS), vector(state, L.S_FACTOR_POSITIONS))
     copy(f.tag[L.N_TAG : L.N_TAG + temp.size], of_factor)
     if w.par[L.P_THERMAL_MODE] == L.TRANSIENT:
         for k in range(ladder.size):

@@ -3,35 +3,24 @@
 The map is a look-up; the other rungs are one kernel on meshes.
 """
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ...numerics.jit import Array, inlined, kernel
+from ...numerics.arrays import copy
+from ...numerics.jit import Array, Ints, inlined, kernel
 from ...numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
 from . import layout as L
 from .constants import derive_grid, size_of_par
 from .directional_derivative import differentiate
 from .heat import set_steady
+from .ladder import set_held, start_terms, stored_heat
 from .layout import N_PARAM, NINP, NIOUT, NOUT
 from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
 from .outputs import outputs_at
 from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, point_of
 from .solve import is_distressed, keep_solution, solve
-from .transient import (
-    advance_heat,
-    heat_in_bodies,
-    look_for_folds,
-    name_branch,
-    set_step_derivative,
-    start_cold,
-    start_ladders,
-    take_up,
-)
+from .transient import advance_heat, look_for_folds, name_branch, start_cold, take_up
 from .workspace import (
     Point,
     Workspace,
-    copy,
     fields_of,
     model_of,
     size_of_state,
@@ -60,14 +49,14 @@ __all__ = [
 
 
 @kernel
-def derive(par: NDArray[np.float64]) -> int:
+def derive(par: Array) -> int:
     """Fill ``par`` behind its ``N_PARAM`` parameters: contact tables, scalars, mesh if any."""
-    fidelity = par[L.P_FIDELITY]
-    if fidelity == L.COARSE:
-        return derive_grid(par, COARSE_GRID[0], COARSE_GRID[1])
-    if fidelity == L.FINE:
-        return derive_grid(par, FINE_GRID[0], FINE_GRID[1])
-    return derive_grid(par, FIELD_GRID[0], FIELD_GRID[1])
+    n_r, n_t = FIELD_GRID
+    if par[L.P_FIDELITY] == L.COARSE:
+        n_r, n_t = COARSE_GRID
+    elif par[L.P_FIDELITY] == L.FINE:
+        n_r, n_t = FINE_GRID
+    return derive_grid(par, n_r, n_t)
 
 
 @inlined
@@ -79,16 +68,16 @@ def _in_time(
     Returns a status, the next substep [s], the heat made and what of it stays in the bodies [J].
     """
     if fresh:
-        start_ladders(w)
+        start_terms(w)
     else:
         w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
         take_up(w, pt, state)
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
     w.info[L.ARRIVED], w.info[L.SCANNED] = 1.0, 0.0
-    status, substep, made, before = OK, 0.0, 0.0, heat_in_bodies(w)
+    status, substep, made, before = OK, 0.0, 0.0, stored_heat(w)
     if dt > 0.0 or not fresh:
         status, substep, made = advance_heat(w, pt, dt, state[L.S_SUBSTEP])
-    return status, substep, made, heat_in_bodies(w) - before
+    return status, substep, made, stored_heat(w) - before
 
 
 @kernel
@@ -107,9 +96,8 @@ def _keep_book(out: Array, state: Array) -> None:
 
 @kernel
 def step(
-    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: NDArray[np.int32],
-    t: float, dt: float,
-) -> int:  # fmt: skip
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
+) -> int:
     """Advance by ``dt`` (quasi-steady: solve at the present inputs) and write the outputs.
 
     ``inp`` is load, speed, tilt, oil temperature; a fifth entry, if there is one, names the wanted
@@ -171,7 +159,7 @@ def step(
         if lost:
             look_for_folds(w, pt, state)
     if in_time and (dt > 0.0 or not fresh or par[L.P_THERMAL_START] == L.FROM_OIL):
-        set_step_derivative(w, dt)
+        set_held(w, dt)
     judge(pt, out[L.O_RATIO], is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
     return status
 

@@ -16,11 +16,12 @@ import math
 
 import numpy as np
 
+from ...numerics.arrays import clear
 from ...numerics.jit import Array, kernel
 from . import layout as L
 from .constants import WasherModel
 from .layout import TILT_X, TILT_Y
-from .workspace import Fields, Point, clear
+from .workspace import Fields, Point
 
 SWEEPS = 40  # of the liquid fraction, at most; two are usual
 STILL = 1e-13  # its change by which a sweep ends

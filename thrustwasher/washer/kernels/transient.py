@@ -8,93 +8,30 @@ everything is solved for together, as in the steady state, which is the limit of
 
 import math
 
+from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import MAX_ITERATIONS, NO_BRANCH, OK
+from . import ladder
 from . import layout as L
 from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, settle
 from .continuation import enter_curve, note, recall, remember, walk_down, walk_to
 from .heat import set_steady
-from .ladder import (
-    STAGE,
-    advance_terms,
-    error_of_flux,
-    hold_bodies,
-    set_end,
-    set_held,
-    set_stage,
-    shift_terms,
-    start_terms,
-    stored_heat,
-)
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, newton, smooth_film
 from .outputs import outputs_at
 from .solve import recall_state, scan_holds
-from .workspace import Point, Workspace, clear, copy, fields_of, forget_factor, model_of
+from .workspace import Point, Workspace, fields_of, forget_factor, model_of
 
 ATOL, RTOL = 0.02, 2e-3  # [K], and of the largest rise: what a substep may be off
 LOST_SHARE = 0.7  # the film carries more above every fold where it is lost, less where regained
 ARRIVED = 1e-8  # tolerance of each instant: what is stored counts beside small powers
 MAX_SUBSTEPS = 20_000
-LEAST_STEP = 1e-6  # [s] in which no temperature moves
 
 
 @kernel
 def start_cold(w: Workspace) -> None:
     """Set all temperatures to the oil's and hold them there."""
-    m, f = model_of(w), fields_of(w)
-    clear(f.temp)
-    hold_bodies(m, f)
-
-
-@kernel
-def start_ladders(w: Workspace) -> None:
-    """Fill the ladders at a solution from which time begins."""
-    start_terms(model_of(w), fields_of(w))
-
-
-@kernel
-def heat_in_bodies(w: Workspace) -> float:
-    """Return the heat that the bodies hold above oil temperature [J]."""
-    return stored_heat(model_of(w), fields_of(w))
-
-
-@kernel
-def _hold(w: Workspace) -> None:
-    """Let no temperature of a body move."""
-    hold_bodies(model_of(w), fields_of(w))
-
-
-@kernel
-def _set_stage(w: Workspace, stage: int, h: float) -> None:
-    """Set what the bodies take up in a stage, and a guess of where it ends."""
-    if stage == 0:
-        set_stage(model_of(w), h, fields_of(w))
-    else:
-        set_end(model_of(w), h, fields_of(w))
-
-
-@kernel
-def _end_substep(w: Workspace, h: float) -> None:
-    f = fields_of(w)
-    advance_terms(model_of(w), h, f)
-    copy(f.temp, f.begin)
-
-
-@kernel
-def _error(w: Workspace) -> float:
-    """Return what a method of first order would be off over what a substep may be off."""
-    error, largest = error_of_flux(model_of(w), fields_of(w))
-    return error / (ATOL + RTOL * largest)
-
-
-@kernel
-def set_step_derivative(w: Workspace, dt: float) -> None:
-    """Have derivatives be those of a change that lasts for a whole step, from its beginning on.
-
-    The flux into a body counts as changed by the same amount all the while: right to first order
-    in a short step, and in a long one.
-    """
-    set_held(model_of(w), max(dt, LEAST_STEP), fields_of(w))
+    clear(fields_of(w).temp)
+    ladder.hold_bodies(w)
 
 
 @inlined
@@ -167,9 +104,11 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
         h = rest / parts
         for stage in range(1 if held else 2):
             if held:
-                _hold(w)
+                ladder.hold_bodies(w)
+            elif stage == 0:
+                ladder.set_stage(w, h)
             else:
-                _set_stage(w, stage, h)
+                ladder.set_end(w, h)
             before, status = power, _arrive(w, pt)
             if status != OK or held:
                 break
@@ -177,7 +116,8 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
             power = w.outputs[L.O_POWER]
         if held:
             break
-        error = _error(w) if status == OK else 16.0
+        error, largest = ladder.error_of_flux(w)
+        error = error / (ATOL + RTOL * largest) if status == OK else 16.0
         if not error <= 1.0:
             if h < 1e-9 * dt:
                 status = status if status != OK else MAX_ITERATIONS
@@ -186,8 +126,9 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
             copy(f.begin, f.temp)
             status = MAX_ITERATIONS
             continue
-        _end_substep(w, h)
-        made += h * ((1.0 - STAGE) * before + STAGE * power)
+        ladder.advance_terms(w, h)
+        copy(f.temp, f.begin)
+        made += h * ((1.0 - ladder.STAGE) * before + ladder.STAGE * power)
         growth = min(3.0, 0.9 / math.sqrt(max(error, 1e-3)))
         rest -= h
         if growth < 1.0 or growth > 1.5:  # else the heat factor goes on to serve
@@ -204,7 +145,7 @@ def take_up(w: Workspace, pt: Point, state: Array) -> None:
     recall_state(w, state)
     warmer = pt.oil_temperature - state[L.S_OIL]
     if warmer != 0.0:
-        shift_terms(model_of(w), warmer, fields_of(w))
+        ladder.shift_terms(w, warmer)
 
 
 @kernel
@@ -225,8 +166,8 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
         return
     m, f = model_of(w), fields_of(w)
-    carrier, washer = f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER]
-    gear, branch = f.small[L.OUT_GEAR], w.found[L.BRANCH]
+    out, branch = f.small[L.OUT_CARRIER : L.OUT_SIZE], w.found[L.BRANCH]
+    carrier, washer, gear = out[0], out[1], out[2]
     copy(f.outward, f.begin)
     set_steady(m, f)
     status = descend(w, pt, L.CONTACT_BRANCH)
@@ -238,8 +179,7 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     state[L.S_BRANCH], state[L.S_MULTIPLICITY] = branch, w.found[L.MULTIPLICITY]
     state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
     state[L.S_SCAN_OIL] = pt.oil_temperature
-    f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER] = carrier, washer
-    f.small[L.OUT_GEAR] = gear
+    out[0], out[1], out[2] = carrier, washer, gear
     copy(f.begin, f.outward)
     recall_state(w, state)
     evaluate_here(w, pt)

@@ -2,8 +2,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from ...numerics.banded import N_SIDES
 from ...numerics.jit import Array, kernel, matrix
 from . import layout as L
@@ -159,36 +157,6 @@ def model_of(w: Workspace) -> WasherModel:
 def forget_factor(w: Workspace) -> None:
     """Have the heat factor made anew before it is used again."""
     w.work[L.TAG_VALID] = 0.0
-
-
-@kernel
-def copy(fro: Array, to: Array) -> None:
-    """Copy an array into one of its length."""
-    for k in range(to.size):
-        to[np.uintp(k)] = fro[np.uintp(k)]
-
-
-@kernel
-def clear(a: Array) -> None:
-    """Fill an array with 0."""
-    for k in range(a.size):
-        a[np.uintp(k)] = 0.0
-
-
-@kernel
-def negate(a: Array) -> None:
-    """Turn the signs of all numbers."""
-    for k in range(a.size):
-        a[np.uintp(k)] = -a[np.uintp(k)]
-
-
-@kernel
-def size_of(a: Array) -> float:
-    """Return the sum of the sizes of all numbers."""
-    total = 0.0
-    for k in range(a.size):
-        total += abs(a[np.uintp(k)])
-    return total
 
 
 @kernel

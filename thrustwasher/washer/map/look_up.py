@@ -25,30 +25,14 @@ from ..kernels.map.map_search import map_covers
 from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
 from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
-from ..parameters import WasherParams
+from ..parameters import SPEC, WasherParams
 from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
-from .map_file import (
-    MOST_KEPT,
-    SUFFIX,
-    MapFile,
-    all_maps,
-    find_map,
-    forget_unused,
-    map_paths,
-    own_folder,
-    plain,
-    read_map,
-)
+from . import map_file
 from .map_plan import INPUTS, TOLERANCES, coverable, least_of, lines_about
 
 MAKER = "thrustwasher.washer.map.map_build:make_map"  # by name: it looks up too
 ERROR = Unread(2e-3)  # of friction_torque where no card says better
-OUTPUTS = (
-    "friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
-    "fluid_load_share", "friction_coefficient", "friction_power", "oil_flow", "throughflow_heat",
-    "oil_heat", "oil_outlet_temperature", "film_temperature", "stick_margin", "fluid_load",
-    "contact_load",
-)  # fmt: skip
+OUTPUTS = (*SPEC.real_outputs[: L.O_ENERGY], "fluid_load", "contact_load")
 PLACES = (*range(L.O_ENERGY), L.O_FLUID_LOAD, L.O_CONTACT_LOAD)  # of them
 NOTHING = (math.nan,) * L.N_ALL
 
@@ -215,15 +199,15 @@ def solve_by_map(
                      NO_MESH, ERROR, state)  # fmt: skip
 
 
-def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) -> MapFile:
+def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) -> map_file.MapFile:
     """Return the map file for parameters, or say how to make one."""
     numbers = as_numbers(params)
     if path is not None:
-        file = read_map(path)
+        file = map_file.read_map(path)
         if not file.made_for(numbers):
             raise ParameterError(f"map = {str(path)!r} was made for other parameters")
         return file
-    found = find_map(numbers)
+    found = map_file.find_map(numbers)
     if found is None:
         raise ParameterError(
             "fidelity = 'map': no map was made for these parameters; make one with "
@@ -252,22 +236,23 @@ def build_own(
 
 def keep_own(params: WasherParams, make: Callable[[Path], Any]) -> None:
     """Keep the map that ``make`` writes to a path where all find it: in the user's cache."""
-    path = own_folder() / f"washer-{params_digest(params)[:16]}{SUFFIX}"
+    path = map_file.own_folder() / f"washer-{params_digest(params)[:16]}{map_file.SUFFIX}"
     path.parent.mkdir(parents=True, exist_ok=True)
     make(path)
-    forget_unused()
+    map_file.forget_unused()
     washer_map.cache_clear()
     _solver.forget()
 
 
 def kept_maps() -> str:
     """Return in words what is kept of one's own washers."""
-    kept = [path for path in map_paths() if path.is_relative_to(own_folder())]
-    return f"{len(kept)} maps of one's own washers, of at most {MOST_KEPT}, in {own_folder()}"
+    own, most = map_file.own_folder(), map_file.MOST_KEPT
+    kept = [path for path in map_file.map_paths() if path.is_relative_to(own)]
+    return f"{len(kept)} maps of one's own washers, of at most {most}, in {own}"
 
 
 TABLES = Tables(
-    "map", map_paths, all_maps, map_for, lambda p: WasherMap(p).box, plain, build_own,
-    lambda p, box, tol: lines_about(p, coverable(box), tol), least_of,
+    "map", map_file.map_paths, map_file.all_maps, map_for, lambda p: WasherMap(p).box,
+    map_file.plain, build_own, lambda p, box, tol: lines_about(p, coverable(box), tol), least_of,
     TOLERANCES, kept_maps,
 )  # fmt: skip

@@ -349,13 +349,13 @@ function reveal(which) {
 
 function begin() {
   const source = byId("worker").textContent, bytes = Uint8Array.from(atob(byId("module").textContent.trim()), (c) => c.charCodeAt(0));
-  const stays = "The figures and pictures stay as they are.";
+  const still = byId("state").textContent;
   worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
   worker.onmessage = answered;
-  worker.onerror = (problem) => say(`The computation stopped: ${problem.message}. ${stays}`, "problem");
+  worker.onerror = (problem) => say(`The computation stopped: ${problem.message}. ${last ? "The figures are the last ones found." : still}`, "problem");
   ask("begin", { about: ABOUT.worker, bytes }, (_, problem) => {
     if (problem) {
-      say(`This browser cannot run the kernels: ${problem}. ${stays}`, "problem");
+      say(`This browser cannot run the kernels: ${problem}. ${still}`, "problem");
       return;
     }
     builtControls();
@@ -369,4 +369,4 @@ function begin() {
 }
 
 if (typeof WebAssembly === "object" && typeof Worker === "function") begin();
-else say("This browser has no WebAssembly: the figures and pictures are those of the start.", "problem");
+else say(`This browser has no WebAssembly. ${byId("state").textContent}`, "problem");

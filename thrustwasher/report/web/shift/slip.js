@@ -4,13 +4,17 @@ const Slip = (() => {
   const { colour } = Parts;
   const COLOURS = ["blue", "orange"];
 
-  /* A run's friction over its slip: names, colours, dashes and values; `order`: points by rising slip. */
+  /* A run's friction over its slip: names, colours, dashes and values; `order`: points by rising slip, back from
+     the end: where slip grows for a while, what came before its last fall is left out. */
   function curveOf(state, run, k) {
     const { pack, from, to, levels } = run.slip;
     const slip = run.signals.get(`${pack}.speed`).values;
     const lines = ["friction_coefficient", "friction_with_oil"].map((name) => run.signals.get(`${pack}.${name}`)).filter(Boolean);
-    const order = [...state.time.keys()].filter((i) => state.time[i] >= from && state.time[i] < to && slip[i])
-      .sort((a, b) => Math.abs(slip[a]) - Math.abs(slip[b]));
+    const order = [];
+    for (let i = state.time.length - 1; i >= 0; i--) {
+      const falls = Math.abs(slip[i]) > (order.length ? Math.abs(slip[order.at(-1)]) : 0);
+      if (falls && state.time[i] >= from && state.time[i] < to) order.push(i);
+    }
     const of = state.runs.length > 1 ? `${Plots.NAMES[k]}: ` : "";
     const named = [...lines.map((line, i) => [of + line.help, COLOURS[i], k ? [6, 4] : undefined]),
       ...levels.map(([, words]) => [of + words, "grey", [2, 4]])];

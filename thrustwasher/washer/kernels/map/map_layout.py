@@ -74,3 +74,5 @@ LOGS = HEAD_CHANGE + N_LINE_HEAD  # (N_CURVES,) change of each curve along a dir
 CURVES = LOGS + N_CURVES  # (N_PIECES, MOST) coefficients of the pieces
 CHANGE = CURVES + N_PIECES * MOST  # (MOST,) their change along a direction
 N_LOOK_UP = CHANGE + MOST
+# then where a solution lies
+AT_PIECE, AT_U, AT_RATIO, AT_SCALE, N_PLACE = range(5)

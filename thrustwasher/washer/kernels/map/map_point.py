@@ -6,21 +6,14 @@ import numpy as np
 
 from ....numerics.chebyshev import CHANGES, polynomial, polynomial_slope, share_out_change
 from ....numerics.jit import Array, inlined, kernel
+from ....numerics.smoothing import sign_of
 from .. import layout as L
 from ..gap import dry_friction, oil_viscosity
-from ..outputs import MOST_MARGIN, coefficient_per_torque, side_of
+from ..outputs import MOST_MARGIN, coefficient_per_torque
 from ..workspace import Point
 from . import map_layout as M
 from .map_layout import THICK
-from .map_search import (
-    AT_PIECE,
-    AT_RATIO,
-    AT_SCALE,
-    AT_U,
-    ratio_at,
-    read_lines,
-    read_rest,
-)
+from .map_search import ratio_at, read_lines, read_rest
 
 
 @inlined
@@ -73,7 +66,7 @@ def map_outputs(data: Array, w: Array, pt: Point, place: Array, out: Array) -> N
 
     ``w`` still holds the load's curves of the piece.
     """
-    piece, u, scale = int(place[AT_PIECE]), place[AT_U], place[AT_SCALE]
+    piece, u, scale = int(place[M.AT_PIECE]), place[M.AT_U], place[M.AT_SCALE]
     read_rest(data, w, piece)
     par, n = data[M.PARAMS :], int(data[M.TERMS + piece])
     at = M.CURVES + piece * M.MOST
@@ -87,7 +80,7 @@ def map_outputs(data: Array, w: Array, pt: Point, place: Array, out: Array) -> N
         contact = _exp(log_contact)
         dry = contact * _exp(log_dry)
     speed, viscous = abs(pt.speed), scale * _exp(log_viscous)
-    torque = side_of(pt.speed) * (viscous + dry)
+    torque = sign_of(pt.speed) * (viscous + dry)
     power = torque * pt.speed
     oil = pt.oil_temperature
     mean = power * _exp(mean)
@@ -98,8 +91,8 @@ def map_outputs(data: Array, w: Array, pt: Point, place: Array, out: Array) -> N
     out[L.O_TORQUE] = torque
     out[L.O_MEAN] = oil + mean
     out[L.O_PEAK] = oil + max(power * _exp(top), mean)
-    out[L.O_RATIO] = place[AT_RATIO]
-    out[L.O_FILM] = place[AT_RATIO] * data[M.SIGMA]
+    out[L.O_RATIO] = place[M.AT_RATIO]
+    out[L.O_FILM] = place[M.AT_RATIO] * data[M.SIGMA]
     out[L.O_FLUID_LOAD], out[L.O_CONTACT_LOAD] = fluid, contact
     out[L.O_FLUID_SHARE] = fluid / (fluid + contact) if fluid > 0.0 else 0.0
     inner, outer = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
@@ -189,7 +182,7 @@ def map_derivative(
 
     ``w`` and ``out`` are as `map_outputs` left them. The branch is held. False at a fold.
     """
-    piece, u, scale = int(place[AT_PIECE]), place[AT_U], place[AT_SCALE]
+    piece, u, scale = int(place[M.AT_PIECE]), place[M.AT_U], place[M.AT_SCALE]
     side = -1.0 if pt.speed < 0.0 else 1.0
     par, n = data[M.PARAMS :], int(data[M.TERMS + piece])
     speed, speed_change = abs(pt.speed), side * change.speed

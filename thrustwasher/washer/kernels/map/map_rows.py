@@ -9,10 +9,6 @@ from ..workspace import Point
 from . import map_layout as M
 from .map_point import map_outputs
 from .map_search import (
-    AT_PIECE,
-    AT_RATIO,
-    AT_SCALE,
-    AT_U,
     SAMPLES,
     SHALLOW,
     enter_map,
@@ -99,8 +95,8 @@ def map_folds(
                 load, _ = load_at(w, n_best, int(best_piece), scale, at)
                 if side * (load - best) < 0.0:
                     at, load = best_u, best
-                place[AT_PIECE], place[AT_U], place[AT_SCALE] = best_piece, at, scale
-                place[AT_RATIO] = ratio_at(w, int(best_piece), at)
+                place[M.AT_PIECE], place[M.AT_U], place[M.AT_SCALE] = best_piece, at, scale
+                place[M.AT_RATIO] = ratio_at(w, int(best_piece), at)
                 pt = Point(load, speed, tilt, oil_temperature)
                 map_outputs(data, w, pt, place, folds[count])
                 folds[count, L.N_ALL] = load
@@ -115,7 +111,7 @@ def map_folds(
 @kernel
 def map_tilts(data: Array, w: Array, tilts: Array) -> None:
     """Fill ``tilts`` (2,): the washer's tilts about x and y over the gear's, at the place in w."""
-    piece, u = int(w[PLACE + AT_PIECE]), w[PLACE + AT_U]
+    piece, u = int(w[PLACE + M.AT_PIECE]), w[PLACE + M.AT_U]
     n, first = M.N_TILT_TERMS, int(data[M.PIECE_AT + piece + 1]) - M.N_TILTS
     read_lines(data, w, first, M.N_TILTS, SHARES, M.CHANGE)
     square = 2.0 * u * u - 1.0

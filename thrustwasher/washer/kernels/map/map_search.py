@@ -23,8 +23,6 @@ EXACT = 1e-12  # relative, of the load
 CLOSE = 1e-6  # Newton's last step
 SLACK = 1e-9  # relative, of the ends of speed, tilt and oil temperature
 LOADS, ALL = 1.0, 2.0  # what of a piece is interpolated
-# places in `place`, where a solution lies
-AT_PIECE, AT_U, AT_RATIO, AT_SCALE, N_PLACE = 0, 1, 2, 3, 4
 
 
 @kernel
@@ -307,8 +305,8 @@ def search_map(data: Array, w: Array, scale: float, load: float, down: bool, pla
         if u == 3.0:
             return LOST
         if u < 1.5:
-            place[AT_PIECE], place[AT_U], place[AT_SCALE] = piece, u, scale
-            place[AT_RATIO] = ratio_at(w, piece, u)
+            place[M.AT_PIECE], place[M.AT_U], place[M.AT_SCALE] = piece, u, scale
+            place[M.AT_RATIO] = ratio_at(w, piece, u)
             return FOUND
     return THIN if down else THICKER
 
@@ -355,6 +353,7 @@ def continue_map(
             allowed = reach * max(1.0, before / 5.0)
             if abs(ratio - before) > allowed:
                 return False
-            place[AT_PIECE], place[AT_U], place[AT_RATIO], place[AT_SCALE] = piece, u, ratio, scale
+            place[M.AT_PIECE], place[M.AT_U], place[M.AT_SCALE] = piece, u, scale
+            place[M.AT_RATIO] = ratio
             return True
     return False

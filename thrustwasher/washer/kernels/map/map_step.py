@@ -1,24 +1,18 @@
 """One step of a washer through its map: which branch, where on it, what comes out."""
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ....numerics.jit import Array, kernel
+from ....numerics.arrays import are_finite, copy
+from ....numerics.jit import Array, Ints, kernel
 from ....numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
 from .. import layout as L
 from ..branch import FILM_RATIO
-from ..outputs import are_finite
 from ..regime_and_status import LARGEST_RISE, change_of, judge, point_of
-from ..workspace import Point, copy
+from ..workspace import Point
 from . import map_layout as M
 from .map_layout import THICK
 from .map_point import map_derivative, map_outputs
 from .map_search import (
-    AT_PIECE,
-    AT_RATIO,
     FOUND,
     LOST,
-    N_PLACE,
     continue_map,
     enter_map,
     map_covers,
@@ -33,7 +27,7 @@ CONTINUOUS = 0.3  # a film ratio that moves by less has stayed on its branch
 # scratch: a look-up, then the place found
 PLACE = M.N_LOOK_UP
 N_VERDICT = 2  # branch, and 2 where there are several
-N_MAP_WORK = PLACE + N_PLACE + N_VERDICT
+N_MAP_WORK = PLACE + M.N_PLACE + N_VERDICT
 
 
 @kernel
@@ -87,8 +81,8 @@ def place_without_memory(data: Array, pt: Point, wanted: float, w: Array) -> flo
     scale = enter_map(data, pt, w)
     first = L.CONTACT_BRANCH if wanted == L.CONTACT_BRANCH else L.FILM_BRANCH
     found = search(data, w, scale, pt.load, wanted, first, place)
-    if found > 0.0 and place[AT_PIECE] != THICK and not w[M.STEEP] > 0.0:
-        found = L.FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
+    if found > 0.0 and place[M.AT_PIECE] != THICK and not w[M.STEEP] > 0.0:
+        found = L.FILM_BRANCH if place[M.AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
     if found > 0.0 and wanted != L.ANY and wanted != found:
         return 0.0
     return found
@@ -116,11 +110,11 @@ def look_up(
     if found == 0.0:
         return NO_BRANCH
     several = False
-    if place[AT_PIECE] != THICK:
+    if place[M.AT_PIECE] != THICK:
         read_edges(data, w)
         several = w[M.STEEP] > 0.0
     if not several:
-        found = L.FILM_BRANCH if place[AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
+        found = L.FILM_BRANCH if place[M.AT_RATIO] >= FILM_RATIO else L.CONTACT_BRANCH
         if wanted != L.ANY and wanted != found:
             return NO_BRANCH
     map_outputs(data, w, pt, place, out)
@@ -133,7 +127,7 @@ def look_up(
 @kernel
 def map_step(
     par: Array, inp: Array, wanted: float, state: Array, numbers: Array, w: Array, data: Array,
-    out: Array, iout: NDArray[np.int32], dt: float,
+    out: Array, iout: Ints, dt: float,
 ) -> int:  # fmt: skip
     """Step by looking up: outputs, memory and verdict as of `washer_step.step`, or NOT_HERE.
 

@@ -31,9 +31,7 @@ def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
                 for name, (unit, words) in view.outputs.items()}  # fmt: skip
     assert model.command is not None
     result = get_type_hints(resolve(model.command.solve))["return"]
-    for s in model.spec.outputs:
-        if not hasattr(result, s.name):
-            continue
+    for s in (s for s in model.spec.outputs if hasattr(result, s.name)):
         found[s.name] = {"unit": s.unit, "help": s.help, "kind": s.kind, "relative": s.relative,
                          "scale": s.nominal}  # fmt: skip
         if s.type == "Regime":

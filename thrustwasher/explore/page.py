@@ -79,9 +79,7 @@ def _error(view: View, part: PartFile, point: Mapping[str, float], rung: str, re
         part.spec.key, rung, part.params, view.card_point(point),
         branch=getattr(result, "branch", None), film_ratio=getattr(result, "film_ratio", None),
     )  # fmt: skip
-    if known is None:
-        return "not verified"
-    return "below 0.001 %" if known < 1e-5 else f"at most {100.0 * known:.2g} %"
+    return "not verified" if known is None else f"at most {max(100.0 * known, 1e-3):.2g} %"
 
 
 def _start(value: float, box: tuple[float, float] | None) -> float:

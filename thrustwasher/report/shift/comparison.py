@@ -31,7 +31,7 @@ def comparison_page(runs: Sequence[Run], pictures: Sequence[Any]) -> Page:
         warnings=[f"{name}: {text}" for name, run in named for text in run["warnings"]],
         cards=[],
         sections=[
-            Section("compared", "What is compared", tables=[settings_table(runs)]),
+            Section("compared", "What is compared", tables=settings_tables(runs)),
             Section("said", "What happened",
                     texts=[f"{name}: {' '.join(run['summary'])}" for name, run in named]),
             Section("course", "Both shifts over time", widgets=["plots"], plots=stills),
@@ -49,14 +49,14 @@ def comparison_page(runs: Sequence[Run], pictures: Sequence[Any]) -> Page:
 ALWAYS = ("from", "scene", "communication step", "master", "rungs")
 
 
-def settings_table(runs: Sequence[Run]) -> Table:
-    """Return where both runs come from, how they were stepped, and the parameters that differ."""
+def settings_tables(runs: Sequence[Run]) -> list[Table]:
+    """Return where both runs come from how they were stepped, and which parameters differ."""
     ours, theirs = (run["settings"] for run in runs)
-    rows = [
-        (name, ours.get(name, ""), theirs.get(name, "")) for name in ours | theirs
-        if name in ALWAYS or ours.get(name) != theirs.get(name)
-    ]  # fmt: skip
-    return Table(("", *NAMES), rows)
+    rows = [(name, ours.get(name, ""), theirs.get(name, "")) for name in ours | theirs]
+    differ = [row for row in rows if row[0] not in ALWAYS and row[1] != row[2]]
+    head, title = ("", *NAMES), f"Parameters that differ: {len(differ) or 'none'}"
+    return [Table(head, [row for row in rows if row[0] in ALWAYS]),
+            Table(head, differ, title=title, folded=len(differ) > 12)]  # fmt: skip
 
 
 def difference_table(runs: Sequence[Run]) -> Table:

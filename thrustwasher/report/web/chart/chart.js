@@ -9,8 +9,7 @@
   document.body.append(tip);
 
   function make(tag, kind, ...children) {
-    const node = document.createElement(tag);
-    if (kind) node.className = kind;
+    const node = Object.assign(document.createElement(tag), { className: kind });
     node.append(...children);
     return node;
   }
@@ -23,9 +22,7 @@
     tip.style.top = `${window.scrollY + box.bottom + 8}px`;
   }
 
-  function quiet() {
-    tip.hidden = true;
-  }
+  const quiet = () => { tip.hidden = true; };
 
   /* The marks of a drawing with their words; one of them is a stop of the Tab key, arrows go on from it. */
   function marksOf(plot, points) {
@@ -55,8 +52,7 @@
   function watch(plot, marks) {
     if (!marks.length) return;
     plot.addEventListener("pointermove", (e) => {
-      let best;
-      let least = NEAR;
+      let best, least = NEAR;
       for (const one of marks) {
         const box = one.mark.getBoundingClientRect();
         const far = Math.hypot(box.x + 0.5 * box.width - e.clientX, box.y + 0.5 * box.height - e.clientY);
@@ -78,9 +74,7 @@
   }
 
   function headOf(words, scope) {
-    const head = make("th", "", words);
-    head.scope = scope;
-    return head;
+    return Object.assign(make("th", "", words), { scope });
   }
 
   function cellOf(cell, method, hazard) {

@@ -16,10 +16,10 @@ const Controls = (() => {
     const happened = el("ul", { class: "happened", "aria-label": "events and phases" });
     const marks = state.events.map((event) => mark(state, event, happened));
     const phases = state.runs[0].phases.filter(([, start, end]) => end > start);
-    const words = ([name, start, end]) => `${name} ${number(start)}–${number(end)} s`;
+    const faceOf = ([name, start, end]) => `${name} ${number(start)}–${number(end)} s`;
     const show = ([, start, end]) => { Plots.zoom(start, end); Plots.moveTo(Plots.nearest(start)); };
     if (state.runs[0].shifts > 1) happened.prepend(el("li", {}, chosen())); else phases.forEach((phase) =>
-      happened.append(el("li", {}, button(`zoom to ${phase[0]}`, words(phase), () => show(phase)))));
+      happened.append(el("li", {}, button(`zoom to ${phase[0]}`, faceOf(phase), () => show(phase)))));
     const thin = state.runs.filter((run) => run.points < run.recorded).map((run) =>
       `${run.points} of ${run.recorded} recorded points of ${run.title} are in this page, with the greatest and least of each phase, to four digits; shift.csv has all.`);
     place.append(el("p", { class: "small" }, "Drag over a plot to zoom all of them, double-click to see all; with ",
@@ -45,15 +45,14 @@ const Controls = (() => {
     /* A list of shifts: the events of the one that is chosen are buttons. */
     function chosen() {
       const choose = (phase) => marks.forEach((one, i) => {
-        const { time } = state.events[i];
-        one.parentNode.hidden = !phase || time < phase[1] || time >= phase[2];
+        one.parentNode.hidden = !(phase && state.events[i].time >= phase[1] && state.events[i].time < phase[2]);
       });
       choose();
       const list = el("select", { "aria-label": "shift", onchange: () => {
         const phase = phases[list.selectedIndex - 1];
         choose(phase);
         if (phase) show(phase); else all();
-      } }, el("option", {}, "all shifts"), ...phases.map((phase) => el("option", {}, words(phase))));
+      } }, el("option", {}, "all shifts"), ...phases.map((phase) => el("option", {}, faceOf(phase))));
       return list;
     }
 

@@ -14,8 +14,7 @@ const Runs = (() => {
     const rows = [];
     for (let from = 0; from < bytes.length; from += 4 * points) {
       const bits = new Int32Array(points);
-      let step = 0;
-      let value = 0;
+      let step = 0, value = 0;
       for (let i = from; i < from + points; i++) {
         const second = bytes[i] | (bytes[i + points] << 8) | (bytes[i + 2 * points] << 16)
           | (bytes[i + 3 * points] << 24);

@@ -1,9 +1,7 @@
 /* The energy book as flows, from the start to the cursor: what came in, what it became, where heat went. */
 "use strict";
 const Flow = (() => {
-  const WIDE = 1120;
-  const TALL = 300;
-  const BAR = 12;
+  const WIDE = 1120, TALL = 300, BAR = 12;
   const GAP = 22; // between flows: room for their words
   const LEAST = 1e-4; // of the whole: a flow below it is not drawn
   const COLUMNS = [230, 420, 620, 860]; // where bars stand; the last flows begin at the last one
@@ -21,8 +19,7 @@ const Flow = (() => {
 
   /* What came in and what went out up to a point, largest in the order of the list. */
   function book(run, flows, index) {
-    const sources = [];
-    const sinks = [];
+    const sources = [], sinks = [];
     for (const flow of flows) {
       const signal = run.signals.get(flow.signal);
       const value = signal ? signal.values[index] : 0;
@@ -65,8 +62,7 @@ const Flow = (() => {
   }
 
   function column(svg, side, left, hub, scale, whole) {
-    let own = 30;
-    let middle = hub.y;
+    let own = 30, middle = hub.y;
     const hot = [];
     for (const flow of side) {
       const thick = flow.size * scale;

@@ -22,8 +22,7 @@ const Plots = (() => {
 
   /* The index of the point nearest to a time. */
   function nearest(t) {
-    let low = 0;
-    let high = state.time.length - 1;
+    let low = 0, high = state.time.length - 1;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
       if (state.time[middle] > t) high = middle; else low = middle;
@@ -175,8 +174,7 @@ const Plots = (() => {
     ctx.strokeStyle = ctx.fillStyle = theme.mark;
     ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
     ctx.setLineDash([devicePixelRatio, 3 * devicePixelRatio]);
-    let before = -Infinity;
-    let up = 0;
+    let before = -Infinity, up = 0;
     for (const event of state.events) {
       const x = u.valToPos(event.time, "x", true);
       if (x < bbox.left || x > bbox.left + bbox.width) continue;

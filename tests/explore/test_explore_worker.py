@@ -19,7 +19,8 @@ from thrustwasher.ladder.card import error_estimate
 SAME = 1e-10  # the C libraries differ in the last bit
 BESIDE_FOLDS = 1e-8
 RESULTS = ("friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
-           "friction_coefficient", "oil_flow", "contact_load", "fluid_load")  # fmt: skip
+           "friction_coefficient", "oil_flow", "oil_heat", "contact_load",
+           "fluid_load")  # fmt: skip
 pytestmark = node
 
 

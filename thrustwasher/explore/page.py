@@ -63,6 +63,7 @@ def page(part: PartFile) -> str:
         module=base64.b64encode(web_module(model.spec.kernel)).decode("ascii"),
         figures=_figures(outputs_of(model, view), view.figures, result),
         large=view.figures,
+        terms=view.terms,
         pictures=[(words, _drawn(figure)) for words, figure in pictures],
         start=", ".join(f"{s.name} {format_quantity(point[s.name], s.unit)}" for s in inputs),
         rung=about["rung"],
@@ -78,7 +79,9 @@ def _error(view: View, part: PartFile, point: Mapping[str, float], rung: str, re
         part.spec.key, rung, part.params, view.card_point(point),
         branch=getattr(result, "branch", None), film_ratio=getattr(result, "film_ratio", None),
     )  # fmt: skip
-    return "not verified" if known is None else f"at most {max(100.0 * known, 1e-3):.2g} %"
+    if known is None:
+        return "not verified"
+    return "below 0.001 %" if known < 1e-5 else f"at most {100.0 * known:.2g} %"
 
 
 def _start(value: float, box: tuple[float, float] | None) -> float:

@@ -7,8 +7,8 @@ const browser = ["window", "document", "addEventListener", "matchMedia", "getCom
 const here = ["performance", "MessageChannel", "postMessage", "navigator", "location", "history",
   "ResizeObserver", "getSelection"];
 // explore: what one script declares and another one uses
-const joined = ["ABOUT", "Disc", "Kernel", "Model", "Plot", "PointModel", "VIEW", "allowed", "ask", "axisUnit", "digits", "el", "escaped",
-  "fields", "inputChanged", "last", "pixelsOf", "pretty", "shown", "state"];
+const joined = ["ABOUT", "Disc", "Kernel", "Model", "Plot", "PointModel", "VIEW", "allowed", "ask", "axisUnit", "digits", "el", "escaped", "headed",
+  "fields", "inputChanged", "last", "pixelsOf", "pretty", "readQuantity", "shown", "state"];
 const shared = ["el", "Disc", "pixelsOf", "uPlot", "Runs", "Parts", "Plots", "Controls", "Flow", "Live", "Discs", "Slip"];
 
 const globals = (names, may = "readonly") => Object.fromEntries(names.map((name) => [name, may]));

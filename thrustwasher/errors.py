@@ -62,7 +62,7 @@ class Status(IntEnum):
         1, "an input is outside the range the accuracy was verified for; use with care"
     )  # fmt: skip
     HOT = (
-        2, "the interface is hotter than 523 K, where oil and lining fail; lower load, slip or time"
+        2, "the contact is above 250 degC, too hot for oil and lining; lower load, speed or time"
     )  # fmt: skip
     DISTRESS = 3, "the oil film is lost (thermo-viscous distress); lower the load to regain it"
     STALLED = (

@@ -1,15 +1,26 @@
-"""Pages and XML from templates."""
+"""Texts, pages and XML from templates."""
 
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 
-def filled(template: Path, **told: Any) -> bytes:
-    """Return a template filled in; values are escaped as in XML and HTML."""
+def filled(path: Path, **told: Any) -> bytes:
+    """Return a template filled in; values are escaped as in XML and HTML, but for Markdown."""
+    return bytes(template(path).render(told), "utf-8")
+
+
+@cache
+def template(path: Path) -> Any:
+    """Return a template, read once."""
+    return environment(escape=".md" not in path.suffixes).from_string(path.read_text("utf-8"))
+
+
+def environment(*, escape: bool) -> Any:
+    """Return what reads templates; a name that it was not told is an error."""
     from jinja2 import Environment, StrictUndefined  # late: few commands need it
 
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+    return Environment(
+        autoescape=escape, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
         keep_trailing_newline=True,
     )  # fmt: skip
-    return environment.from_string(template.read_text("utf-8")).render(told).encode()

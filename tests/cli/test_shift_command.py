@@ -220,7 +220,7 @@ def test_two_shifts_are_compared_a_report_and_a_scene(msl, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        (["{tmp}", "msl"], "report.html: is no report of one shift by this version, run it again"),
+        (["{tmp}", "msl"], "the folder has no report.html"),
         (["msl", "duty-cycle"], "--compare duty-cycle: has several shifts, allowed: one each"),
         (["msl", "msl", "--no-report"], "--compare: not together with --no-report"),
         (["msl", "msl", "--ssp", "a.ssp"], "--compare: not together with --ssp"),

@@ -23,7 +23,7 @@ each = pytest.mark.parametrize("model", MODELS)
 
 def test_the_command_writes_a_page(tmp_path, capsys):
     out = tmp_path / "gears.html"
-    assert cli.main(["explore", "gearmesh", "--out", str(out)]) == 0
+    assert cli.main(["explore", "GearMesh", "--out", str(out)]) == 0
     assert capsys.readouterr().out.startswith(f"{out}: 0.2")
     assert out.read_text("utf-8").startswith("<!DOCTYPE html>")
     assert [p.name for p in tmp_path.iterdir()] == ["gears.html"]
@@ -32,7 +32,9 @@ def test_the_command_writes_a_page(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["washer", "--out", "page.pdf"], "--out page.pdf: allowed: a file that ends in .html"),
+        (["washer", "--out", "page.pdf"], "--out page.pdf: allowed: a file name ending in .htm"),
+        (["washer", "--out", ""], "--out : allowed: a file name ending in .html"),
+        (["washer", "--out", "/proc/x.html"], "--out /proc: cannot be written (No such file"),
         (["wheel"], "'wheel'"),
         (["missing.toml"], "missing.toml"),
         (["washer", "--preset", "gold"], "preset = 'gold', allowed: 'bronze' or 'paper'"),

@@ -17,7 +17,7 @@ from ..model.part_file import (
     preset_parts,
 )
 from ..model.record import Option, resolve
-from ..model.registry import spec_of
+from ..model.registry import find_model, spec_of
 from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
 from ..units import parse_quantity
@@ -89,7 +89,7 @@ def solvable(name: str, preset: str | None = None) -> PartFile:
     ParameterError unless its model is solved at operating points.
     """
     if not is_part(name):
-        spec = spec_of(name)
+        spec = spec_of(find_model(name).key)
         return find_part(spec.key) if preset is None else preset_part(spec, preset)
     if preset is not None:
         raise ParameterError(

@@ -1,9 +1,7 @@
 """``thrustwasher explore``: one file in which a model is tried in a browser."""
 
 import argparse
-from pathlib import Path
 
-from ..errors import ParameterError
 from ..model.registry import all_models
 from . import _options, _output
 
@@ -27,14 +25,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
     part = _options.solvable(arguments.subject, arguments.preset)
-    out = Path(arguments.out or f"explore-{part.name}.html")
-    if out.suffix not in (".html", ".htm"):
-        raise ParameterError(f"--out {out}: allowed: a file that ends in .html")
+    out = f"explore-{part.name}.html" if arguments.out is None else arguments.out
+    target = _output.check_file(out, "--out", (".html", ".htm"))
 
     from ..explore.page import page
 
     text = page(part)
-    with _output.whole_file(out) as draft:
+    with _output.whole_file(target) as draft:
         draft.write_text(text, "utf-8")
     print(f"{out}: {len(text.encode()) / 1e6:.2f} MB; open it in a browser")
     return 0

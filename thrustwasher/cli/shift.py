@@ -59,10 +59,11 @@ def _get_ready(arguments: argparse.Namespace) -> None:
 
 
 def _load_report() -> None:
-    from ..report import html
+    from ..report.html import PAGE
     from ..report.shift import shift_report, summary  # noqa: F401 (it draws)
+    from ..templates import template
 
-    html.template()
+    template(PAGE)
     summary.words()
 
 

@@ -91,14 +91,11 @@ class Engagement:
     friction_power: Array
     heat_flux: Array
     energy: Array
-    oil_heat: Array
-    """[W] heat that reached the oil, mean since the point before; 0 at the first."""
+    oil_heat: Array  # [W] heat that reached the oil, mean since the point before; 0 at the first
     stored_heat: Array
     regime: list[str]
-    status: Status
-    """HOT if the interface passed 523 K, OK otherwise."""
-    substeps: int
-    """Implicit substeps that all intervals together took."""
+    status: Status  # HOT if the interface passed 523 K, OK otherwise
+    substeps: int  # Implicit substeps that all intervals together took
     fidelity: str
 
     def as_dict(self) -> dict[str, Any]:

@@ -23,26 +23,18 @@ __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 class ClutchResult:
     """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
 
-    friction_torque: float
-    """[N m] with the sign of the slip; 0 at slip 0."""
+    friction_torque: float  # [N m] with the sign of the slip; 0 at slip 0
     friction_coefficient: float
-    temperature: float
-    """[K] interface after a very long time at this slip; compare with status HOT."""
+    temperature: float  # [K] interface after a very long time at this slip; compare with status HOT
     film_thickness: float
     """[m] separation of the mean surfaces, settled; below 0 the roughness is pressed flat."""
     film_ratio: float
-    shear_ratio: float
-    """[-] shear strength of the interface over that of the material, s/s_m."""
-    torque_capacity: float
-    """[N m] largest torque the pack holds at this load and slip."""
-    friction_power: float
-    """[W] heat made in the whole pack."""
-    contact_torque: float
-    """[N m] share of friction_torque that the asperities make."""
-    viscous_torque: float
-    """[N m] share of friction_torque that shear of the oil makes."""
-    contact_share: float
-    """[-] share of the faces' area that is in contact."""
+    shear_ratio: float  # [-] shear strength of the interface over that of the material, s/s_m
+    torque_capacity: float  # [N m] largest torque the pack holds at this load and slip
+    friction_power: float  # [W] heat made in the whole pack
+    contact_torque: float  # [N m] share of friction_torque that the asperities make
+    viscous_torque: float  # [N m] share of friction_torque that shear of the oil makes
+    contact_share: float  # [-] share of the faces' area that is in contact
     regime: str
     status: Status
     iterations: int

@@ -35,16 +35,13 @@ def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
     c = _course(params, point, rung)
     thin = np.flatnonzero(c.film_ratio < 1.0)
     return SimpleNamespace(
-        course=c, friction_torque_max=_most(c.friction_torque), power_max=_most(c.friction_power),
+        course=c, friction_torque_max=float(np.abs(c.friction_torque).max()),
+        power_max=float(np.abs(c.friction_power).max()),
         temperature_max=float(c.temperature.max()), film_ratio_min=float(c.film_ratio.min()),
         heat_flux_max=float(c.heat_flux.max()), energy=float(c.energy[-1]),
         stored_heat=float(c.stored_heat[-1]),
         boundary_from=float(c.time[thin[0]]) if thin.size else float("nan"),
     )  # fmt: skip
-
-
-def _most(values: Any) -> float:
-    return float(values[np.abs(values).argmax()])
 
 
 def _pictures(_params: Any, result: Any, _point: Mapping[str, float]) -> list[Picture]:

@@ -1,15 +1,15 @@
 """A model as the page's scripts read it: everything from its interface, cards and kernels."""
 
 from collections.abc import Mapping
-from dataclasses import fields
-from typing import Any
+from dataclasses import asdict, fields
+from typing import Any, get_type_hints
 
 from ..ladder.card import SAFETY, Card, fresh_cards
 from ..ladder.card_parts import FEW
 from ..model.part_file import PartFile
-from ..model.record import Model
+from ..model.record import Model, resolve
 from ..model.spec import REGIMES, Signal
-from ..units import readable_units
+from ..units import UNITS, readable_units
 from .view import View
 
 QUANTITY = "friction_torque"
@@ -24,18 +24,21 @@ def inputs_of(model: Model, view: View) -> list[Signal]:
 
 
 def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
-    """Return what is known of each result: unit, meaning, names of an enumeration's values."""
+    """Return what is known of each of the API's results: unit, meaning, an enumeration's names."""
     found: dict[str, dict[str, Any]] = {}
     if view.outputs:
         return {name: {"kind": "real", "relative": False, "unit": unit, "help": words}
                 for name, (unit, words) in view.outputs.items()}  # fmt: skip
+    assert model.command is not None
+    result = get_type_hints(resolve(model.command.solve))["return"]
     for s in model.spec.outputs:
-        if s.type == "SolverStatus":
+        if not hasattr(result, s.name):
             continue
-        found[s.name] = {"unit": s.unit, "help": s.help, "kind": s.kind, "relative": s.relative}
+        found[s.name] = {"unit": s.unit, "help": s.help, "kind": s.kind, "relative": s.relative,
+                         "scale": s.nominal}  # fmt: skip
         if s.type == "Regime":
             found[s.name]["options"] = list(REGIMES)
-    for name, (unit, words) in (model.command.extra if model.command else {}).items():
+    for name, (unit, words) in model.command.extra.items():
         before = found.get(name, {"relative": False})
         found[name] = {"kind": "real", **before, "unit": unit, "help": words}
     return found
@@ -55,7 +58,7 @@ def describe(
         "parameters": [_parameter(f, view) for f in fields(spec.params)],
         "defaults": {f.name: f.default for f in fields(spec.params)},
         "given": {f.name: getattr(params, f.name) for f in fields(spec.params)},
-        "outputs": outputs_of(model, view), "units": readable_units(),
+        "outputs": outputs_of(model, view), "units": readable_units(), "scales": UNITS,
         "rungs": spec.fidelities, "rung": rung, "usual_rung": spec.default_fidelity,
         "rules": [rule.text for rule in spec.rules],
         "cards": [_card(c) for name in view.rungs for c in fresh_cards(spec.key, name, params)],
@@ -84,7 +87,7 @@ def _card(card: Card) -> dict[str, Any]:
     errors, by = card.errors[QUANTITY], card.by_film_ratio
     return {
         "fidelity": card.fidelity, "branch": card.branch, "chart": card.chart,
-        "envelope": {n: {"min": a.min, "max": a.max} for n, a in card.envelope.items()},
+        "envelope": {name: asdict(axis) for name, axis in card.envelope.items()},
         "axes": card.cells.axes, "edges": card.cells.edges, "worst": errors.worst, "n": errors.n,
         "by": by and {"edges": by.edges, "worst": by.worst[QUANTITY]},
         "uncertainty": card.reference.uncertainty.get(QUANTITY, 0.0),

@@ -27,6 +27,7 @@ VIEW = View(
              "scuffing_safety", "pitting_safety", "micropitting_safety"),
     solve="solve_gearmesh",
     params="GearMeshParams",
+    terms="film_ratio_gf is the least film along the path of contact over the mean roughness Ra.",
     pictures=_pictures,
     card_point=lambda point: {**point, "load": abs(point["power"] / point["speed"])},
     spans={"power": (100.0, 1e5), "speed": (1.0, 1000.0), "oil_temperature": (253.15, 423.15)},

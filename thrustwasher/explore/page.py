@@ -15,6 +15,7 @@ from ..model.part_file import PartFile
 from ..model.record import resolve
 from ..model.registry import all_models, find_model
 from ..native.library import web_module
+from ..templates import template
 from ..units import format_quantity
 from .description import describe, inputs_of, outputs_of
 from .view import WEB, View
@@ -31,8 +32,6 @@ def page(part: PartFile) -> str:
 
     ParameterError: there is no page for its model, or its parameters have no solution at the start.
     """
-    import jinja2
-
     model = find_model(part.spec.key)
     if not model.explore or model.command is None:
         raise ParameterError(f"model = {model.key!r} has no page to explore")
@@ -49,8 +48,7 @@ def page(part: PartFile) -> str:
     pictures = view.pictures(part.params, result, point)
     script = "\n".join(_text(f"{stem}.js") for stem in (*PAGE, view.page, "page"))
     style = _text("../draw.css") + _text("explore.css")
-    env = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return env.from_string(_text(TEMPLATE)).render(
+    filled: str = template(WEB / TEMPLATE).render(
         title=f"{part.name}: try it",
         name=part.name,
         help=part.description or model.spec.help,
@@ -63,6 +61,7 @@ def page(part: PartFile) -> str:
         module=base64.b64encode(web_module(model.spec.kernel)).decode("ascii"),
         figures=_figures(outputs_of(model, view), view.figures, result),
         large=view.figures,
+        terms=view.terms,
         pictures=[(words, _drawn(figure)) for words, figure in pictures],
         start=", ".join(f"{s.name} {format_quantity(point[s.name], s.unit)}" for s in inputs),
         rung=about["rung"],
@@ -70,6 +69,7 @@ def page(part: PartFile) -> str:
         equations=equations(folder).replace("<pre>", '<pre tabindex="0">'),
         others=[m.key for m in all_models() if m.explore and m.key != model.key],
     )
+    return filled
 
 
 def _error(view: View, part: PartFile, point: Mapping[str, float], rung: str, result: Any) -> str:
@@ -78,7 +78,9 @@ def _error(view: View, part: PartFile, point: Mapping[str, float], rung: str, re
         part.spec.key, rung, part.params, view.card_point(point),
         branch=getattr(result, "branch", None), film_ratio=getattr(result, "film_ratio", None),
     )  # fmt: skip
-    return "not verified" if known is None else f"at most {max(100.0 * known, 1e-3):.2g} %"
+    if known is None:
+        return "not verified"
+    return "below 0.001 %" if known < 1e-5 else f"at most {100.0 * known:.2g} %"
 
 
 def _start(value: float, box: tuple[float, float] | None) -> float:

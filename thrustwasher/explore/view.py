@@ -42,6 +42,7 @@ class View:
     card_point: Callable[[Mapping[str, float]], Mapping[str, float]] = dict
     """From the inputs to those that the cards know."""
     outputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # in place: unit, meaning
+    terms: str = ""  # what words of the results mean
     least: Mapping[str, float] = field(default_factory=dict)
     """Least value of an input where the solve wants more than the FMU."""
 

@@ -11,6 +11,7 @@ from ..washer.kernels.workspace import size_of_state, size_of_work
 from ..washer.load_curve import load_curve
 from ..washer.parameters import SPEC
 from ..washer.solve import GRIDS, RANGES
+from ..washer.washer_result import SLIPS
 from .view import Picture, View, numbers_of
 
 
@@ -49,6 +50,8 @@ VIEW = View(
              "temperature_max", "friction_coefficient"),
     solve="solve_washer",
     params="WasherParams",
+    terms="Film 1 lies between carrier and washer, gap 2 between washer and gear.",
+    more={"slips": SLIPS},
     pictures=_pictures,
     spans={"load": (10.0, 3000.0), "speed": (0.0, 1500.0), "tilt": (0.0, 0.005),
            "oil_temperature": (253.15, 423.15)},

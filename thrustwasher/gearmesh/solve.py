@@ -26,34 +26,24 @@ class GearMeshResult:
 
     friction_torque: float
     """[N m] mean loss of the whole mesh as a torque on the pinion, sign of the speed; 0 at rest."""
-    friction_power: float
-    """[W] heat made by the mesh."""
-    friction_coefficient: float
-    """[-] there; ``mean_friction`` is what the loss feels."""
+    friction_power: float  # [W] heat made by the mesh
+    friction_coefficient: float  # [-] there; ``mean_friction`` is what the loss feels
     contact_stress: float
     """[Pa] greatest along the path; "atan": sigma_m of Eq 9 with its rounded factor 0.591."""
-    hertz_pressure: float
-    """[Pa] greatest Hertz pressure, 4/pi of the mean."""
-    hertz_width: float
-    """[m] full width of the contact."""
+    hertz_pressure: float  # [Pa] greatest Hertz pressure, 4/pi of the mean
+    hertz_width: float  # [m] full width of the contact
     film_thickness: float
     film_ratio: float
-    viscosity: float
-    """[Pa s] of the oil in the film."""
-    surface_temperature: float
-    """[K] of the pinion's flank."""
-    film_temperature: float
-    """[K] highest in the oil film."""
-    asperity_temperature: float
-    """[K] of the pinion's asperities, of the steel chosen."""
+    viscosity: float  # [Pa s] of the oil in the film
+    surface_temperature: float  # [K] of the pinion's flank
+    film_temperature: float  # [K] highest in the oil film
+    asperity_temperature: float  # [K] of the pinion's asperities, of the steel chosen
     flash_rise: float
     """[K] rise by friction there if the whole nominal area carried (no film switch)."""
     area_ratio: float
     """[-] nominal over real contact area that the asperity temperature is taken with."""
-    thermal_stress: float
-    """[Pa] of the steel chosen, from its asperity temperature."""
-    modification_factor: float
-    """[-] K of Atan Eq 12, of the steel chosen."""
+    thermal_stress: float  # [Pa] of the steel chosen, from its asperity temperature
+    modification_factor: float  # [-] K of Atan Eq 12, of the steel chosen
     allowable_ratio: float
     """[-] 1/sqrt(1 + K): share of the contact stress that thermal stress leaves allowable."""
     modification_factor_aisi1020: float
@@ -63,35 +53,24 @@ class GearMeshResult:
     stress_utilization_aisi1020: float
     """[-] combined stress over endurance limit (root of the right side of Atan Eq 10)."""
     stress_utilization_aisi4340: float
-    mean_friction: float
-    """[-] that the loss feels."""
-    flash_max: float
-    """[K] greatest flash temperature along the path."""
-    bulk_temperature: float
-    """[K] of the gears' bodies, steady."""
-    oil_heat: float
-    """[W] that reaches the oil."""
-    stored_heat: float
-    """[J] 0: the bodies are steady."""
-    contact_pressure_max: float
-    """[Pa] greatest Hertz pressure along the path, load factor included."""
-    pitting_stress: float
-    """[Pa] sigma_H of the pitting calculation."""
+    mean_friction: float  # [-] that the loss feels
+    flash_max: float  # [K] greatest flash temperature along the path
+    bulk_temperature: float  # [K] of the gears' bodies, steady
+    oil_heat: float  # [W] that reaches the oil
+    stored_heat: float  # [J] 0: the bodies are steady
+    contact_pressure_max: float  # [Pa] greatest Hertz pressure along the path, load factor included
+    pitting_stress: float  # [Pa] sigma_H of the pitting calculation
     pitting_safety: float
     scuffing_safety: float
     """[-] scuffing temperature over that of the contact, both above the oil's."""
-    scuffing_margin: float
-    """[K] scuffing temperature less that of the contact."""
-    film_ratio_gf: float
-    """[-] least film along the path over the mean Ra."""
+    scuffing_margin: float  # [K] scuffing temperature less that of the contact
+    film_ratio_gf: float  # [-] least film along the path over the mean Ra
     micropitting_safety: float
     start_of_contact: float
     """[-] x_s along the line of action, from the pinion's base tangent point."""
     contact_ratio: float
-    sliding_speed: float
-    """[m/s] of the flanks where contact starts."""
-    slide_roll_ratio: float
-    """[-] sliding speed over the mean of both rolling speeds."""
+    sliding_speed: float  # [m/s] of the flanks where contact starts
+    slide_roll_ratio: float  # [-] sliding speed over the mean of both rolling speeds
     regime: str
     status: Status
     iterations: int

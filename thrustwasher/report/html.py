@@ -7,9 +7,11 @@ import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from ..templates import template
 
 if TYPE_CHECKING:  # who wants the words alone waits for no drawing
     from matplotlib.figure import Figure
@@ -122,35 +124,19 @@ def render(page: Page) -> str:
     names = ("page.css", *(name for name in page.scripts if name.endswith(".css")))
     codes = [_web(name) for name in ("page.js", *page.scripts) if name.endswith(".js")]
     sums = [base64.b64encode(hashlib.sha256(code.encode()).digest()).decode() for code in codes]
-    return fill_template(
-        PAGE,
-        **{**vars(page), "scripts": [Markup(code) for code in codes]},
+    notice = any("uPlot" in name for name in page.scripts)
+    filled: str = template(PAGE).render(
+        {**vars(page), "scripts": [Markup(code) for code in codes]},
         policy=" ".join(f"'sha256-{one}'" for one in sums),
         styles=[Markup(_web(name)) for name in names],
-        notice=_web("vendor/LICENSE-uPlot.txt") if any("uPlot" in n for n in page.scripts) else "",
+        notice=_web("vendor/LICENSE-uPlot.txt") if notice else "",
         json=Markup(json.dumps(page.data, separators=(",", ":")).replace("<", r"\u003c")),
     )
+    return filled
 
 
 def _web(name: str) -> str:
     return (WEB / name).read_text("utf-8")
-
-
-def fill_template(path: Path, **values: Any) -> str:
-    """Return a template filled with values; in HTML they are escaped."""
-    return str(template(path).render(values))
-
-
-@cache
-def template(path: Path = PAGE) -> Any:
-    """Return a template, read once."""
-    from jinja2 import Environment, StrictUndefined
-
-    environment = Environment(
-        autoescape=".html" in path.suffixes, undefined=StrictUndefined, keep_trailing_newline=True,
-        trim_blocks=True, lstrip_blocks=True,
-    )  # fmt: skip
-    return environment.from_string(path.read_text("utf-8"))
 
 
 def save_plots(page: Page, folder: Path) -> None:

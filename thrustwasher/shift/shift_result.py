@@ -47,8 +47,7 @@ class ShiftResult:
     """
 
     scene: Scene
-    step: float
-    """[s]; with a master that chooses its steps the longest one."""
+    step: float  # [s]; with a master that chooses its steps the longest one
     steps: Steps
     master: str
     time: NDArray[np.float64]
@@ -58,19 +57,15 @@ class ShiftResult:
     energy: dict[str, float]
     key_figures: list[KeyFigure]
     cost: list[Cost]
-    wall_time: float
-    """[s] of wall clock for all steps, without building and instantiating."""
-    overhead: float
-    """[s] of it spent by the master itself."""
-    real_time_factor: float
-    """Simulated time over wall-clock time."""
+    wall_time: float  # [s] of wall clock for all steps, without building and instantiating
+    overhead: float  # [s] of it spent by the master itself
+    real_time_factor: float  # Simulated time over wall-clock time
     messages: list[str]
     guard: CheckRecord | None = None
     """How the chosen rungs were checked afterwards, and what was run again; None: they were not."""
     judder: Judder | None = None
     """How the output shaft swings while a pack slips; None: it is rigid or does not swing."""
-    chatter: Sequence[Chatter] = ()
-    """Packs whose slip flips from step to step."""
+    chatter: Sequence[Chatter] = ()  # Packs whose slip flips from step to step
     selection: Selection | None = None
     """Why the rungs are what they are, if they were chosen for a tolerance."""
 

@@ -17,6 +17,10 @@ from .kernels.workspace import Fields, Point, fields_of, size_of_work, workspace
 from .parameters import WasherParams
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
+SLIPS = (
+    "gap 2 cannot hold the washer: its dry friction takes {:.2g} times the friction torque, so the "
+    "washer would slip on the gear; here both turn together"
+)
 BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
 
 
@@ -165,12 +169,7 @@ def result_of(
 
 def hold_warning(result: WasherResult) -> str:
     """Return a warning if gap 2 cannot hold the washer, else nothing."""
-    if not result.stick_margin < 1.0:
-        return ""
-    return (
-        f"gap 2 cannot hold the washer: its dry friction takes {result.stick_margin:.2g} times the "
-        "friction torque, so the washer would slip on the gear; here both turn together"
-    )
+    return SLIPS.format(result.stick_margin) if result.stick_margin < 1.0 else ""
 
 
 def _liquid_flow(m: WasherModel, f: Fields) -> tuple[Array, Array]:

@@ -32,8 +32,7 @@ class LoadTest:
 
     change: float | None
     """[-] change of friction over the range of loads, relative to its mean; None: no test."""
-    p_value: float | None
-    """Probability of a change as large if friction did not depend on load."""
+    p_value: float | None  # Probability of a change as large if friction did not depend on load
     text: str
 
     @property

@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from ...templates import environment
 from ...units import format_quantity
 from .shift_record import PACKS, Record
 from .shift_tables import source_texts
@@ -16,18 +17,16 @@ from .worst_moments import highest, least_margin
 @cache
 def words() -> Any:
     """Return the template, whose macros are functions."""
-    from jinja2 import Environment, StrictUndefined
-
-    environment = Environment(undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters["f"] = lambda value, text: format(value, text)
-    environment.filters["say"] = lambda value, unit, digits=3: format_quantity(
+    reader = environment(escape=False)
+    reader.filters["f"] = lambda value, text: format(value, text)
+    reader.filters["say"] = lambda value, unit, digits=3: format_quantity(
         value, unit, digits=digits
     )
-    environment.globals.update(highest=highest, least_margin=least_margin, pi=math.pi,
-                               pitting=of_meshes("pitting_safety"),
-                               scuffing=of_meshes("scuffing_safety"))  # fmt: skip
+    reader.globals.update(highest=highest, least_margin=least_margin, pi=math.pi,
+                          pitting=of_meshes("pitting_safety"),
+                          scuffing=of_meshes("scuffing_safety"))  # fmt: skip
     text = Path(__file__).with_name("words.jinja").read_text("utf-8")
-    return environment.from_string(text).module
+    return reader.from_string(text).module
 
 
 def paragraphs(name: str, *told: Any) -> list[str]:

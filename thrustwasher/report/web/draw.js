@@ -11,7 +11,7 @@ const SHADES = {
   film_thickness: ["#00224e", "#35456c", "#666970", "#948e77", "#c8b866", "#fee838"],
   carrier_temperature: WARM, washer_temperature: WARM,
 };
-const LEAST = { contact_pressure: 1 }; // below it a field counts as zero everywhere
+const LEAST = { contact_pressure: 1, pressure: 1 }; // Pa, below it a field counts as zero everywhere
 
 /** Return an element with properties (as attributes; "on..." listens) and children. */
 function el(tag, given = {}, ...children) {
@@ -61,8 +61,9 @@ class Disc {
       if (v > high) high = v;
     }
     if (high < this.least) low = high = 0;
+    const ends = [this.tell(low), this.tell(high)], same = ends[0] === ends[1];
     const context = this.canvas.getContext("2d"), image = context.createImageData(DISC, DISC), level = new Int8Array(DISC * DISC).fill(-1);
-    const by = high > low ? 1 / (high - low) : 0, { at, k, w } = pixels;
+    const by = same ? 0 : 1 / (high - low), { at, k, w } = pixels;
     for (let p = 0; p < at.length; p += 1) {
       const v = w[4 * p] * values[k[4 * p]] + w[4 * p + 1] * values[k[4 * p + 1]] + w[4 * p + 2] * values[k[4 * p + 2]] + w[4 * p + 3] * values[k[4 * p + 3]];
       const place = at[p], own = Math.min(LEVELS - 1, Math.max(0, Math.floor((v - low) * by * LEVELS)));
@@ -72,8 +73,8 @@ class Disc {
     }
     context.putImageData(image, 0, 0);
     if (speed) this.turning(context, 0.24 * DISC * pixels.hole, Math.sign(speed));
-    [this.low.textContent, this.high.textContent] = [this.tell(low), high > low || low ? this.tell(high) : "nowhere more"];
-    this.canvas.setAttribute("aria-label", `${this.title}: from ${this.low.textContent} to ${this.high.textContent}`);
+    [this.low.textContent, this.high.textContent] = same ? [`${ends[0]} everywhere`, ""] : ends;
+    this.canvas.setAttribute("aria-label", `${this.title}: ${same ? this.low.textContent : `from ${ends[0]} to ${ends[1]}`}`);
   }
 
   /** Draw an arrow around the middle: which way the washer turns. */

@@ -25,18 +25,12 @@ class Chatter:
     """A pack whose slip flips, and how far the step is over what its loop stands."""
 
     pack: str
-    start: float
-    """[s]"""
-    turns: int
-    """Changes of the slip's sign, each a few steps after the last."""
-    slope: float
-    """[N m s/rad] of friction through zero: capacity over the smoothing."""
-    inertia: float
-    """[kg m2] that the slip sees."""
-    smoothing: float
-    """[rad/s] over which friction passes through zero."""
-    step: float
-    """[s]"""
+    start: float  # [s]
+    turns: int  # Changes of the slip's sign, each a few steps after the last
+    slope: float  # [N m s/rad] of friction through zero: capacity over the smoothing
+    inertia: float  # [kg m2] that the slip sees
+    smoothing: float  # [rad/s] over which friction passes through zero
+    step: float  # [s]
     limit: float | None
     """Of ``kappa``, where the loop becomes unstable with this master; None: it has none."""
 

@@ -14,16 +14,12 @@ LEAST_SHARE = 0.5  # of what the trend leaves that an oscillation has to explain
 class Oscillation(NamedTuple):
     """exp(growth t) (cosine cos(w t) + sine sin(w t)) about a trend, t from the middle."""
 
-    growth: float
-    """[1/s]"""
-    frequency: float
-    """[rad/s]"""
+    growth: float  # [1/s]
+    frequency: float  # [rad/s]
     cosine: float
     sine: float
-    middle: float
-    """[s]"""
-    share: float
-    """[-] of what the trend leaves: 1 is a perfect oscillation."""
+    middle: float  # [s]
+    share: float  # [-] of what the trend leaves: 1 is a perfect oscillation
 
     @property
     def amplitude(self) -> float:

@@ -36,35 +36,22 @@ AGREES = 0.1, 1e-3  # of the predicted growth, and of the frequency
 class Judder:
     """An oscillation of the shaft while a pack slips; rates in 1/s, frequencies in Hz."""
 
-    pack: str
-    """The pack that slips, the one with the steepest fall of friction if both do."""
-    start: float
-    """[s] The oscillation was judged from here ..."""
-    end: float
-    """[s] ... to here."""
+    pack: str  # The pack that slips, the one with the steepest fall of friction if both do
+    start: float  # [s] The oscillation was judged from here
+    end: float  # [s] ... to here.
     frequency: float
-    growth: float
-    """Measured; below 0 the oscillation decays."""
+    growth: float  # Measured; below 0 the oscillation decays
     amplitude: float
     """[N m] of the shaft torque at its greatest, half of the way from crest to trough."""
-    locks: int
-    """How often the pack stuck meanwhile."""
-    slope: float
-    """[N m s/rad] of the pack's torque over its slip."""
-    damping: float
-    """[N m s/rad] of the shaft."""
-    limit_damping: float
-    """[N m s/rad] below which the oscillation grows."""
-    mode_frequency: float
-    """Of the eigenvalue."""
-    mode_growth: float
-    """Of the eigenvalue."""
-    step_growth: float
-    """What handing capacities over once per step adds to the eigenvalue's growth."""
-    step: float
-    """[s]"""
-    scatter: float = 0.0
-    """Of measured less computed growth, from window to window."""
+    locks: int  # How often the pack stuck meanwhile
+    slope: float  # [N m s/rad] of the pack's torque over its slip
+    damping: float  # [N m s/rad] of the shaft
+    limit_damping: float  # [N m s/rad] below which the oscillation grows
+    mode_frequency: float  # Of the eigenvalue
+    mode_growth: float  # Of the eigenvalue
+    step_growth: float  # What handing capacities over once per step adds to the eigenvalue's growth
+    step: float  # [s]
+    scatter: float = 0.0  # Of measured less computed growth, from window to window
 
     @property
     def tolerance(self) -> float:

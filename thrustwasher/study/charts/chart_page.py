@@ -9,10 +9,11 @@ from matplotlib.figure import Figure
 
 from ...model.registry import find_spec
 from ...model.toml_tables import table_beside
-from ...report.html import Page, Plot, Section, Table, fill_template
+from ...report.html import Page, Plot, Section, Table
 from ...report.palette import BLUE, GREY
 from ...report.style import label, new_figure, styled
 from ...storage.digests import DATA
+from ...templates import template
 from ..macro_steps import FIRST_STEP, WAYS
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
@@ -230,9 +231,9 @@ def page_of(record: Mapping[str, Any], fronts: Mapping[str, Any]) -> Page:
     )
 
 
-def markdown(page: Page) -> str:
+def markdown(page: Page) -> Any:
     """Return the page as Markdown beside its drawings."""
-    return fill_template(Path(__file__).with_name("chart.md.jinja"), **vars(page))
+    return template(Path(__file__).with_name("chart.md.jinja")).render(vars(page))
 
 
 def same_everywhere() -> dict[str, Any]:
@@ -240,11 +241,10 @@ def same_everywhere() -> dict[str, Any]:
     return dict(json.loads(SAME_EVERYWHERE.read_text("utf-8")))
 
 
-def stability_markdown(record: Mapping[str, Any]) -> str:
+def stability_markdown(record: Mapping[str, Any]) -> Any:
     """Return the page for a record with ``stability`` and ``limits``."""
     groups: Sequence[Mapping[str, Any]] = record["stability"]
-    return fill_template(
-        Path(__file__).with_name("stability.md.jinja"),
+    return template(Path(__file__).with_name("stability.md.jinja")).render(
         words=WORDS, groups=groups, limits=record.get("limits", []),
         verdicts=[cell["verdict"] for g in groups for row in g["cells"] for cell in row],
         machine=text.machine_sentence(record),

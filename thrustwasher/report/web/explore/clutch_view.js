@@ -3,30 +3,25 @@
 
 const VIEW = {
   build(host) {
-    const panel = (wide) => host.appendChild(el("section", { class: wide ? "panel wide" : "panel" })), x = { label: "time", unit: "s" };
+    const panel = (more = "") => host.appendChild(el("section", { class: `panel ${more}` })), x = { label: "time", unit: "s" };
     this.reset();
-    const drawn = panel(true);
-    this.most = fieldsMost();
-    this.ramp = new Plot(drawn, { title: "Load over time: drag the points to draw the ramp", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
-    this.torque = new Plot(panel(), { title: "Torque", x, y: { label: "torque", unit: "N.m", zero: true } });
-    this.warm = new Plot(panel(), { title: "Interface temperature", x, y: { label: "temperature", unit: "K" } });
-    this.film = new Plot(panel(), { title: "Film ratio", x, y: { label: "film over roughness", unit: "1", zero: true } });
-    this.heat = new Plot(panel(), { title: "Friction power", x, y: { label: "power", unit: "W", zero: true } });
+    this.most = Math.max(...ABOUT.ramp) * 2 || 1e4;
+    this.ramp = new Plot(panel("wide drawn"), { title: "Load over time: drag the points to draw the ramp", part: "Torque", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
+    this.torque = new Plot(panel(), { title: "Torque", part: "Torque", x, y: { label: "torque", unit: "N.m", zero: true } });
+    this.warm = new Plot(panel(), { title: "Interface temperature", part: "Heat", x, y: { label: "temperature", unit: "K" } });
+    this.film = new Plot(panel(), { title: "Film ratio", part: "Film", x, y: { label: "film over roughness", unit: "1", zero: true } });
+    this.heat = new Plot(panel(), { title: "Friction power", part: "Heat", x, y: { label: "power", unit: "W", zero: true } });
     this.drawRamp();
   },
 
-  reset() {
-    state.extra.ramp = ABOUT.ramp.slice();
-  },
+  reset() { state.extra.ramp = ABOUT.ramp.slice(); },
 
-  get allows() {
-    return `${ABOUT.ramp.length} loads in brackets, 0 .. ${digits(ABOUT.largest_load, 6)} N`;
-  },
+  get allows() { return `${ABOUT.ramp.length} loads in brackets, numbers 0 .. ${digits(ABOUT.largest_load, 6)} in N`; },
 
   checked(_, given) {
-    const good = Array.isArray(given) && given.length === ABOUT.ramp.length && given.every((f) => f >= 0 && f <= ABOUT.largest_load);
+    const good = Array.isArray(given) && given.length === ABOUT.ramp.length && given.every((f) => typeof f === "number" && f >= 0 && f <= ABOUT.largest_load);
     if (!good) throw new Error("ramp");
-    return given.map(Number);
+    return given;
   },
 
   draw(load, i) {
@@ -84,7 +79,3 @@ const VIEW = {
     };
   },
 };
-
-function fieldsMost() {
-  return Math.max(...ABOUT.ramp) * 2 || 1e4;
-}

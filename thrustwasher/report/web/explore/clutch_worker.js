@@ -51,7 +51,7 @@ class Model extends PointModel {
     }
     const series = { time: times, load: loads, speed: slips };
     about.real_outputs.forEach((name, k) => (series[name] = rows.map((row) => row[k])));
-    const most = (values) => values.reduce((a, b) => (Math.abs(b) > Math.abs(a) ? b : a), 0);
+    const most = (values) => Math.max(...values.map(Math.abs));
     const outputs = {
       friction_torque_max: most(series.friction_torque), temperature_max: Math.max(...series.temperature),
       film_ratio_min: Math.min(...series.film_ratio), heat_flux_max: Math.max(...series.heat_flux),

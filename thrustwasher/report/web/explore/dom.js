@@ -3,9 +3,7 @@
 
 const ABOUT = JSON.parse(document.getElementById("about").textContent);
 
-function escaped(text) {
-  return String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
-}
+const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 
 /** Return a number with some digits, without needless zeros. */
 function digits(value, n = 4) {
@@ -17,16 +15,27 @@ function digits(value, n = 4) {
 
 /** Return a unit in typography. */
 function pretty(unit) {
-  return unit.replaceAll(".", "·").replace(/([ms])([23])/g, (_, name, power) => name + "²³"[power - 2]);
+  return unit.replace(/^deg(?=[CF])/, "°").replace(/^u/, "µ").replaceAll(".", "·").replace(/([ms])([23])/g, (_, name, power) => name + "²³"[power - 2]);
 }
 
 /** Return a quantity as a person reads it: in the first unit whose number is at least 1. */
 function shown(value, unit, relative = false, n = 4) {
   if (unit === "1" || unit === "") return digits(value, n);
   if (unit === "K" && !relative) return `${digits(value - 273.15, n)} °C`;
-  const known = ABOUT.units[unit] ?? [[unit, 1]];
+  const known = value ? ABOUT.units[unit] ?? [[unit, 1]] : [[unit, 1]];
   const [name, factor] = known.find(([, f]) => Math.abs(value) >= f) ?? known.at(-1);
   return `${digits(value / factor, n)} ${pretty(name)}`;
+}
+
+/** Read a quantity as the command line does: return its value, else what is wrong, and the unit [name, factor, offset] it is in. */
+function readQuantity(given, { unit, relative }) {
+  const [, number, rest] = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/is.exec(given) ?? [], scales = { [unit]: [1, 0], ...ABOUT.scales[unit] };
+  const name = rest?.replace("°", "deg").replace(/[·*]/g, ".").replace("^", "").replace("²", "2").replace("³", "3").replace(/[µμ]/, "u").replace(/\s+/g, ".") || unit;
+  if (!String(given).trim()) return { wrong: ": a number is missing", as: [unit, 1, 0] };
+  if (/\d,\d/.test(given)) return { wrong: ` = ${given}: a decimal point is wanted, no comma`, as: [unit, 1, 0] };
+  if (!number || !Object.hasOwn(scales, name)) return { wrong: ` = ${given}: a number is wanted, in ${Object.keys(scales).filter((n) => n !== "1").map(pretty).join(" or ")}`, as: [unit, 1, 0] };
+  const [factor, zero] = scales[name], offset = relative ? 0 : zero, plain = factor === 1 && !offset;
+  return { value: plain ? Number(number) : Number((factor * number + offset).toPrecision(15)), as: [name, factor, offset], wrong: ` = ${number}${name === "1" ? "" : ` ${pretty(name)}`}` };
 }
 
 /** Return the unit and factor that fit the largest of some values, for an axis. */
@@ -39,7 +48,7 @@ function axisUnit(values, unit) {
 }
 
 /** Say what a field allows. */
-function allowed(field) {
-  const unit = field.unit === "1" ? "" : ` ${pretty(field.unit)}`;
-  return `${digits(field.min, 6)} .. ${digits(field.max, 6)}${unit}${field.kind === "integer" ? ", a whole number" : ""}`;
+function allowed({ min, max, kind }, [name, factor, offset]) {
+  const [low, high] = [min, max].map((v) => digits((v - offset) / factor, 6));
+  return `${low} .. ${high}${name === "1" ? "" : ` ${pretty(name)}`}${kind === "integer" ? ", a whole number" : ""}`;
 }

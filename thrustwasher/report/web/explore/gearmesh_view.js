@@ -6,11 +6,11 @@ const VIEW = {
     const panel = (wide) => host.appendChild(el("section", { class: wide ? "panel wide" : "panel" }));
     const x = { label: "position from the pitch point, in base pitches", unit: "1" }, temperatures = panel(true);
     this.none = temperatures.appendChild(el("p", { class: "folds" }));
-    this.warm = new Plot(temperatures, { title: "Temperatures along the path of contact", x, y: { label: "temperature", unit: "K" }, height: 320 });
-    this.safe = new Plot(panel(), { title: "Safety along the path", x, y: { label: "safety factor", unit: "1", log: true } });
-    this.film = new Plot(panel(), { title: "Film along the path", x, y: { label: "film thickness", unit: "m", zero: true } });
-    this.press = new Plot(panel(), { title: "Hertz pressure along the path", x, y: { label: "pressure", unit: "Pa", zero: true } });
-    this.rub = new Plot(panel(), { title: "Friction along the path", x, y: { label: "coefficient of friction", unit: "1", zero: true } });
+    this.warm = new Plot(temperatures, { title: "Temperatures along the path of contact", part: "Heat", x, y: { label: "temperature", unit: "K" }, height: 320 });
+    this.safe = new Plot(panel(), { title: "Safety along the path", part: "Safety", x, y: { label: "safety factor", unit: "1", log: true } });
+    this.film = new Plot(panel(), { title: "Film along the path", part: "Geometry and load", x, y: { label: "film thickness", unit: "m", zero: true } });
+    this.press = new Plot(panel(), { title: "Hertz pressure along the path", part: "Geometry and load", x, y: { label: "pressure", unit: "Pa", zero: true } });
+    this.rub = new Plot(panel(), { title: "Friction along the path", part: "Heat", x, y: { label: "coefficient of friction", unit: "1", zero: true } });
   },
 
   /** The inputs that the cards know: a torque in place of the power. */

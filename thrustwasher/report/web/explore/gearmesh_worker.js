@@ -1,9 +1,16 @@
 "use strict";
 /* The gear mesh: a point, and what comes with it along the path of contact. */
 
-const MOST_TORQUE = 1e5; // N m of the pinion
+const MOST_TORQUE = 1e5, MOST_TEETH = 500; // N·m, number: of the pinion
 
 class Model extends PointModel {
+  /** As all models; if the pinion has too few teeth (rule 1), return also the least number of them. */
+  set(parameters, rung) {
+    const broken = super.set(parameters, rung), teeth = this.L.P_PINION_TEETH, par = this.par.view;
+    while (broken === 1 && (par[teeth] += 1) < MOST_TEETH) if (this.kernel.call("broken_rule", this.par) !== 1) return [broken, par[teeth]];
+    return broken;
+  }
+
   /** Solve at (power, speed, oil temperature), as solve_gearmesh. */
   solve([power, speed, oil]) {
     const { L, kernel } = this;

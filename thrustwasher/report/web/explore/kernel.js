@@ -9,9 +9,7 @@ class Numbers {
 
   get view() {
     const buffer = this.kernel.memory.buffer;
-    if (!this.kept || this.kept.buffer !== buffer) {
-      this.kept = new this.type(buffer, this.at, this.length);
-    }
+    if (this.kept?.buffer !== buffer) this.kept = new this.type(buffer, this.at, this.length);
     return this.kept;
   }
 

@@ -2,6 +2,8 @@
 /* The page: controls, figures, address; what is solved comes from the worker. */
 
 const SETTLE = 180; // ms without a change until the numbers are those of a fresh solve
+const SLOW = 100; // ms from which on it is told that a solution is not there yet
+const NOISE = 1e-12, USUAL = 100; // of an output's usual size, and that of one of no known size: what is less is rounding
 const byId = (id) => document.getElementById(id);
 const state = { inputs: {}, parameters: {}, rung: ABOUT.rung, branch: "", asked: "", extra: {}, strange: "" };
 const BRANCHES_ASKED = ["", "film", "contact"], TRUE = ["true", "1"], FALSE = ["false", "0"];
@@ -22,6 +24,7 @@ class Field {
     } else if (kind === "boolean") this.input = el("input", { ...common, type: "checkbox" });
     else this.input = el("input", { ...common, inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
     this.input.addEventListener("input", () => this.take(kind === "boolean" ? this.input.checked : this.input.value));
+    this.input.addEventListener("change", () => this.input.ariaInvalid === "true" || this.put(this.kept[name]));
     const line = el("div", { class: "line" }, this.input, el("span", { class: "unit" }, unit === "1" ? "" : pretty(unit)), this.more);
     this.box = el("div", { class: "field" }, el("label", { for: id }, help, el("code", {}, name)), line, this.error);
     if (withSlider) {
@@ -42,17 +45,17 @@ class Field {
 
   /** Take what was given if it is allowed; else mark it, the last good value stays. */
   take(given, from = this.input) {
-    const { name, unit, kind, min, max, options } = this.about;
-    let value = given, good = true;
-    if (kind === "enumeration") good = Object.hasOwn(options, given);
-    else if (kind === "boolean") [value, good] = [TRUE.includes(String(given)), [...TRUE, ...FALSE].includes(String(given))];
+    const { name, kind, min, max, options } = this.about;
+    let value = given, good = true, words, wrong = ` = ${given}`;
+    if (kind === "enumeration") [good, words] = [Object.hasOwn(options, given), Object.keys(options).join(" or ")];
+    else if (kind === "boolean") [value, good, words] = [TRUE.includes(String(given)), [...TRUE, ...FALSE].includes(String(given)), "true or false"];
     else {
-      value = String(given).trim() === "" ? NaN : Number(given);
+      const read = readQuantity(given, this.about);
+      [value, wrong, words] = [read.value, read.wrong, allowed(this.about, read.as)];
       good = value >= min && value <= max && (kind !== "integer" || Number.isInteger(value));
     }
     this.input.setAttribute("aria-invalid", String(!good));
-    const words = kind === "enumeration" ? Object.keys(options).join(" or ") : kind === "boolean" ? "true or false" : allowed(this.about);
-    this.error.textContent = good ? "" : `${name} = ${given}${unit === "1" ? "" : ` ${pretty(unit)}`}, allowed: ${words}`;
+    this.error.textContent = good ? "" : `${name}${wrong}${wrong.includes(":") ? ";" : ","} allowed: ${words}`;
     if (!good) {
       if (from !== this.input && !options && kind !== "boolean") this.input.value = given; // what the message is about
       return false;
@@ -85,77 +88,81 @@ class Field {
   }
 }
 
-// The worker
-
 function ask(task, given, answer) {
   heard[task] = { id: (count += 1), answer };
   worker.postMessage({ id: count, task, ...given });
 }
 
-function answered({ data }) {
-  const about = heard[data.task];
-  if (!about || about.id !== data.id) return;
-  about.answer(data.result, data.problem);
-}
-
-/** Have the worker take the parameters; tell which rule they break. */
-function setParameters(then) {
+/** Have the worker take the parameters and solve; tell which rule they break. */
+function setParameters() {
   const numbers = ABOUT.parameters.map((f) => {
     const value = state.parameters[f.name];
     return f.kind === "enumeration" ? Object.keys(f.options).indexOf(value) + 1 : Number(value);
   });
-  ask("set", { parameters: numbers, rung: state.rung }, (number, problem) => {
-    broken = problem ?? (number > 0 ? ABOUT.rules[number - 1].replace(/{(\w+)}/g, (_, n) => state.parameters[n])
-      : number < 0 ? "these parameters cannot be used together" : "");
-    if (broken) say(broken, "problem"); else then();
+  ask("set", { parameters: numbers, rung: state.rung }, (found, problem) => {
+    const [number, least] = [found].flat(), own = (name, factor = 1) => (typeof state.parameters[name] === "number" ? digits(state.parameters[name] * factor, 6) : state.parameters[name]);
+    const words = (text) => (least ? text.replace("allowed: more", `allowed: ${least} and more`) : text).replace(/{(\w+)} rad/g, (_, n) => `${own(n, 180 / Math.PI)} deg`).replace(/{(\w+)}/g, (_, n) => own(n));
+    broken = problem ?? (number > 0 ? words(ABOUT.rules[number - 1]) : number < 0 ? "these parameters cannot be used together" : "");
+    if (broken) failed(broken); else solve(true);
   });
 }
 
 /** Solve; only the newest wish waits while one is being solved. */
 function solve(fresh) {
-  if (broken) return;
-  if (busy) {
-    waiting = { fresh };
-    return;
-  }
+  if (busy) waiting = { fresh };
+  if (broken || busy) return;
   busy = true;
   point = ABOUT.inputs.map((s) => state.inputs[s.name]);
   // the branch that the address names, else the one where the last solution is
-  const began = performance.now(), { asked, extra } = state, branch = asked || (last?.outputs.branch ?? "");
+  const began = performance.now(), { asked, extra } = state, branch = asked || (last?.outputs.branch ?? ""), slow = setTimeout(() => (last || location.hash) && stale("solving"), SLOW);
   ask("solve", { point, fresh, branch, extra }, (result, problem) => {
     busy = false;
+    clearTimeout(slow);
     if (fresh) state.asked = "";
-    if (problem) say(problem, "problem");
+    if (problem || result.code >= ABOUT.worker.first_failure) failed(problem ?? `No solution: ${ABOUT.worker.statuses[result.code]}`);
     else received(result, fresh, performance.now() - began, result.missing ? asked : "");
-    if (waiting) {
-      const wish = waiting;
-      waiting = null;
-      solve(wish.fresh);
-    }
+    const wish = waiting;
+    waiting = null;
+    if (wish) solve(wish.fresh);
   });
 }
 
 function say(text, look = "") {
   const place = byId("state");
-  if (place.textContent !== text || place.className !== look) {
-    place.textContent = text;
-    place.className = look;
-  }
+  place.className = look;
+  if (place.textContent !== text) place.textContent = text;
+}
+
+/** Say that the figures are not those of the inputs: other ones, greyed, or none yet. */
+function stale(words, look = "") {
+  const at = ABOUT.inputs.map((s, i) => `${s.name} ${shown(last?.point[i], s.unit, s.relative, 6)}`).join(", ");
+  byId("results").classList.add("stale");
+  byId("views").classList.toggle("empty", !last);
+  reveal(".live");
+  fillBoxes();
+  for (const place of last ? [] : document.querySelectorAll("dl data")) [place.textContent, place.value] = ["–", ""];
+  say(`${state.strange}${words}${last ? `; the figures are those of ${at}` : "; there are no figures yet"}`, look);
+}
+
+function failed(words) {
+  stale(words, "problem");
+  state.strange = "";
+  settled();
 }
 
 function received(result, fresh, took, gone) {
-  const failed = result.code >= ABOUT.worker.first_failure;
-  if (failed) {
-    say(`No solution: ${ABOUT.worker.statuses[result.code]}. The figures are ${last ? "the last ones found" : "those of the start"}.`, "problem");
-    return;
-  }
   last = { ...result, point: point.slice() };
   reveal(".live");
-  for (const [name, value] of Object.entries(result.outputs)) show(name, value);
+  if (!fresh && byId("results").classList.contains("stale")) say("solving");
+  byId("results").classList.remove("stale");
+  byId("views").classList.remove("empty");
+  const [error_estimate, known] = verified();
+  for (const [name, value] of Object.entries({ ...result.outputs, error_estimate })) show(name, value);
   const missing = gone ? `The ${gone} branch has no solution here; this is the ${result.outputs.branch} branch. ` : "";
-  const advice = result.code ? `${ABOUT.worker.statuses[result.code]}; ` : "";
+  const advice = (view.warning?.(result.outputs) ?? "") + (result.code ? `${ABOUT.worker.statuses[result.code]}; ` : "");
   if (fresh) {
-    say(`${state.strange}${missing}${advice}solved in ${digits(took, 2)} ms; ${told()}`, state.strange || missing || result.code ? "problem" : "");
+    const look = state.strange || missing || advice || known.includes("outside") ? "problem" : "";
+    say(`${state.strange}${missing}${advice}solved in ${digits(took, 2)} ms; rung ${state.rung} (${ABOUT.rungs[state.rung]}); ${known}`, look);
     state.strange = "";
   }
   view.solved(result, fresh);
@@ -166,29 +173,30 @@ function received(result, fresh, took, gone) {
   document.documentElement.dataset.solved = String(Number(document.documentElement.dataset.solved ?? 0) + 1);
 }
 
-/** Put a figure into its places. */
+const isNoise = (name, value) => Math.abs(value) < NOISE * (ABOUT.outputs[name].scale ?? USUAL);
+
+/** Put a figure into its places; rounding noise counts as 0, what is divided by it is not there. */
 function show(name, value) {
-  const place = byId(name), about = ABOUT.outputs[name];
+  const place = byId(name), about = ABOUT.outputs[name], over = view.over?.[name];
   if (!place || !about) return;
-  place.setAttribute("value", String(value));
-  const words = about.options ? about.options[value - 1] : about.kind === "boolean" ? (value ? "yes" : "no") : value;
-  place.textContent = typeof words === "number" ? shown(words, about.unit, about.relative) : words;
+  const words = about.options ? about.options[value - 1] : about.kind === "boolean" ? (value ? "yes" : "no") : value ?? "not verified here";
+  place.setAttribute("value", String(about.options ? words : value ?? ""));
+  place.textContent = over && isNoise(over, last.outputs[over]) ? "–" : typeof words === "number" ? shown(isNoise(name, words) ? 0 : words, about.unit, about.relative) : words;
   if (name === "distress") place.className = value ? "bad" : "";
 }
-
-// What is known of the error
 
 function cellOf(edges, value) {
   if (!(value >= edges[0] && value <= edges.at(-1))) return -1;
   return Math.min(edges.filter((e) => value >= e).length - 1, edges.length - 2);
 }
 
+const size = (card, name, values) => (card.envelope[name].min >= 0 ? Math.abs(values[name]) : values[name]);
+const isOutside = (card, name, values) => !(size(card, name, values) >= card.envelope[name].min && size(card, name, values) <= card.envelope[name].max);
+
 /** Return the error that a card promises here, null outside its box; as Python's error_estimate. */
 function errorOf(card, values, ratio) {
-  const size = (name) => (card.envelope[name].min >= 0 ? Math.abs(values[name]) : values[name]);
-  const inside = Object.entries(card.envelope).every(([n, a]) => n in values && size(n) >= a.min && size(n) <= a.max);
-  if (!inside) return null;
-  const [i, j] = card.axes.map((name, k) => cellOf(card.edges[k], size(name))), near = [];
+  if (Object.keys(card.envelope).some((name) => isOutside(card, name, values))) return null;
+  const [i, j] = card.axes.map((name, k) => cellOf(card.edges[k], size(card, name, values))), near = [];
   if (i < 0 || j < 0) return null;
   const reach = card.n[i][j] >= ABOUT.few ? 0 : 1;
   for (let a = i - reach; a <= i + reach; a += 1) {
@@ -200,19 +208,18 @@ function errorOf(card, values, ratio) {
   return Math.max(found, card.uncertainty);
 }
 
-/** Say rung and verified error. */
-function told() {
-  const { rung } = state, values = view.values?.(state.inputs) ?? state.inputs, out = last.outputs;
-  const cards = ABOUT.cards.filter((c) => c.fidelity === rung && (!c.branch || c.branch === out.branch) && (!view.chart || c.chart === view.chart));
-  const same = changes(ABOUT.given).length === 0, found = cards.map((c) => errorOf(c, values, out.film_ratio)).filter((e) => e !== null);
-  const words = `rung ${rung} (${ABOUT.rungs[rung]})`;
-  if (!same) return `${words}; no error is verified for changed parameters`;
-  if (!found.length) return `${words}; no error is verified at this point`;
-  const percent = 100 * ABOUT.safety * Math.max(...found);
-  return `${words}; verified error of the torque ${view.where ?? "here"}: ${percent < 1e-3 ? "below 0.001" : `at most ${digits(percent, 2)}`} %`;
+/** Return the verified error of the last torque, null where no card knows it, and what is said of it. */
+function verified() {
+  const at = Object.fromEntries(ABOUT.inputs.map((s, i) => [s.name, last.point[i]])), values = view.values?.(at) ?? at, { branch, film_ratio } = last.outputs;
+  const cards = ABOUT.cards.filter((c) => c.fidelity === state.rung && (!view.chart || c.chart === view.chart) && (!c.branch || c.branch === branch));
+  if (!ABOUT.cards.length || changes(ABOUT.given).length) return [null, "no error is verified for these parameters"];
+  if (!cards.length) return [null, "no error is verified on this rung"];
+  const found = cards.map((c) => errorOf(c, values, film_ratio)).filter((e) => e !== null), error = ABOUT.safety * Math.max(...found);
+  if (found.length) return [error, `verified error of the torque ${view.where ?? "here"}: ${error < 1e-5 ? "below 0.001" : `at most ${digits(100 * error, 2)}`} %`];
+  const out = Object.entries(cards[0].envelope).filter(([name]) => cards.every((c) => isOutside(c, name, values)));
+  const range = ([name, a]) => `${name} ${shown(values[name], a.unit)} (${shown(a.min, a.unit)} .. ${shown(a.max, a.unit)})`;
+  return [null, `no error is verified at this point${out.length ? `; outside the verified range: ${out.map(range).join(", ")}` : ""}`];
 }
-
-// Address and how to reproduce
 
 /** Return the parameters that differ from some values. */
 function changes(from) {
@@ -226,12 +233,11 @@ function settled() {
   for (const [name, value] of Object.entries(state.extra)) pairs.push([name, JSON.stringify(value)]);
   const text = `#${pairs.map(([n, v]) => `${n}=${encodeURIComponent(v)}`).join("&")}`;
   if (text !== location.hash) history.replaceState(null, "", text);
-  const { command, python, part } = reproduced();
-  byId("as-command").textContent = command;
-  byId("as-python").textContent = python;
-  byId("as-part").textContent = part;
+  fillBoxes();
   document.documentElement.dataset.settled = text;
 }
+
+const fillBoxes = () => Object.entries(reproduced()).forEach(([name, text]) => (byId(`as-${name}`).textContent = text));
 
 /** Return the command, the Python lines and the part file that give the same figures. */
 function reproduced() {
@@ -253,16 +259,10 @@ function reproduced() {
   };
 }
 
-/** Take what the address names; what cannot be taken is told, all else stays as it is. */
+/** Take what the address names and solve; what cannot be taken is told, all else stays as it is. */
 function readAddress() {
-  const words = new Map(location.hash.slice(1).split("&").filter(Boolean).map((w) => {
-    const [name, ...rest] = w.split("=");
-    try {
-      return [name, decodeURIComponent(rest.join("="))];
-    } catch {
-      return [name, rest.join("=")];
-    }
-  }));
+  const decoded = (text) => { try { return decodeURIComponent(text); } catch { return text; } };
+  const words = new Map(location.hash.slice(1).split("&").filter(Boolean).map((w) => [w.split("=")[0], decoded(w.split("=").slice(1).join("="))]));
   for (const f of ABOUT.parameters) if (!words.has(f.name)) fields[f.name].set(ABOUT.given[f.name]);
   for (const s of ABOUT.inputs) if (!words.has(s.name)) fields[s.name].set(words.size ? state.inputs[s.name] : s.value);
   if (words.size === 0) view.reset?.();
@@ -271,7 +271,7 @@ function readAddress() {
   for (const [name, text] of words) {
     if (Object.hasOwn(fields, name)) {
       if (!fields[name].take(text, null)) strange.push(fields[name].error.textContent);
-    } else if (name === "branch") {
+    } else if (name === "branch" && "branch" in ABOUT.outputs) {
       if (!BRANCHES_ASKED.includes(text)) strange.push(`branch = ${text}, allowed: film or contact`);
     } else if (name === "fidelity") {
       if (!Object.hasOwn(ABOUT.worker.rungs, text)) strange.push(`fidelity = ${text}, allowed: ${Object.keys(ABOUT.worker.rungs).join(" or ")}`);
@@ -288,25 +288,17 @@ function readAddress() {
   state.asked = BRANCHES_ASKED.includes(branch) ? branch : "";
   if (Object.hasOwn(ABOUT.worker.rungs, rung)) state.rung = byId("fidelity").value = rung;
   state.strange = strange.length ? `The address: ${strange.join("; ")}. ` : "";
-}
-
-// From a change to numbers
-
-function later() {
-  clearTimeout(timer);
-  timer = setTimeout(() => solve(true), SETTLE);
+  setParameters();
 }
 
 function inputChanged() {
   if (quiet) return;
-  if (view.live !== false) solve(false);
-  later();
+  solve(false);
+  clearTimeout(timer);
+  timer = setTimeout(() => solve(true), SETTLE);
 }
 
-function parametersChanged() {
-  if (quiet) return;
-  setParameters(() => solve(true));
-}
+const parametersChanged = () => quiet || setParameters();
 
 function builtControls() {
   const inputs = byId("inputs"), main = byId("main-parameters"), all = byId("all-parameters");
@@ -327,31 +319,24 @@ function builtControls() {
   main.prepend(el("div", { class: "field" }, el("label", { for: "fidelity" }, "rung: mesh and laws", el("code", {}, "fidelity")), rungs));
   byId("reset").addEventListener("click", () => { location.hash = ""; });
   for (const button of document.querySelectorAll("button[data-copy]")) {
-    button.addEventListener("click", () => copyText(byId(button.dataset.copy)));
+    button.addEventListener("click", () => {
+      getSelection().selectAllChildren(byId(button.dataset.copy));
+      navigator.clipboard?.writeText(byId(button.dataset.copy).textContent).catch(() => {});
+    });
   }
 }
 
-function copyText(place) {
-  getSelection().selectAllChildren(place);
-  navigator.clipboard?.writeText(place.textContent).catch(() => {});
-}
-
-function restart() {
-  readAddress();
-  setParameters(() => solve(true));
-}
-
-/** Show the live part; with the first solution the still one goes. */
+/** Show the live part; with its views the still ones go. */
 function reveal(which) {
   for (const part of document.querySelectorAll(which)) part.hidden = false;
-  byId("still").hidden = last !== null;
+  byId("still").hidden = which === ".live";
 }
 
 function begin() {
   const source = byId("worker").textContent, bytes = Uint8Array.from(atob(byId("module").textContent.trim()), (c) => c.charCodeAt(0));
   const still = byId("state").textContent;
   worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
-  worker.onmessage = answered;
+  worker.onmessage = ({ data }) => heard[data.task]?.id === data.id && heard[data.task].answer(data.result, data.problem);
   worker.onerror = (problem) => say(`The computation stopped: ${problem.message}. ${last ? "The figures are the last ones found." : still}`, "problem");
   ask("begin", { about: ABOUT.worker, bytes }, (_, problem) => {
     if (problem) {
@@ -361,9 +346,9 @@ function begin() {
     builtControls();
     view.build(byId("views"));
     reveal("#controls");
-    restart();
+    readAddress();
     addEventListener("hashchange", () => {
-      if (location.hash !== document.documentElement.dataset.settled) restart();
+      if (location.hash !== document.documentElement.dataset.settled) readAddress();
     });
   });
 }

@@ -20,30 +20,34 @@ function logTicks(low, high) {
   return found;
 }
 
+/** Return the heading of a view, with a link to the part of the equations that tells its theory. */
+function headed(title, part) {
+  const go = (event) => {
+    event.preventDefault(); // the address holds the page's state
+    document.getElementById("theory").open = true;
+    const place = [...document.querySelectorAll("#theory h3")].find((h) => h.textContent === part);
+    place.tabIndex = -1;
+    place.focus();
+  };
+  return el("h3", {}, title, el("a", { href: "#theory", "data-part": part, onclick: go }, `equations: ${part}`));
+}
+
 class Plot {
   /** `x`, `y`: {label, unit, log}; `drag(x, y)`: called with data while the point is moved. */
-  constructor(host, { title, x, y, drag, keys, height = 300 }) {
-    Object.assign(this, { x, y, drag, keys, height, series: [], marks: [], handles: [] });
-    this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    this.svg.setAttribute("role", "img");
-    this.svg.setAttribute("aria-label", title);
+  constructor(host, { title, part, x, y, drag, height = 300 }) {
+    Object.assign(this, { x, y, drag, height, series: [], marks: [], handles: [] });
+    const moved = { onpointerdown: (e) => this.grab(e), onpointerup: () => (this.held = null), onpointercancel: () => (this.held = null), onkeydown: (e) => this.key(e) };
+    this.svg = el("svg", { role: "img", "aria-label": title, onpointermove: (e) => this.hover(e), onpointerleave: () => (this.readout.textContent = ""), ...drag && moved });
     this.legend = el("div", { class: "legend" });
     this.readout = el("div", { class: "readout", "aria-hidden": "true" });
-    host.append(el("h3", {}, title), this.legend, el("div", { class: "plot" }, this.svg, this.readout));
+    host.append(headed(title, part), this.legend, el("div", { class: "plot" }, this.svg, this.readout));
     new ResizeObserver(() => this.render()).observe(this.svg.parentNode);
-    this.svg.addEventListener("pointermove", (e) => this.hover(e));
-    this.svg.addEventListener("pointerleave", () => (this.readout.textContent = ""));
-    if (drag) {
-      this.svg.addEventListener("pointerdown", (e) => this.grab(e));
-      this.svg.addEventListener("pointerup", () => (this.held = null));
-      this.svg.addEventListener("pointercancel", () => (this.held = null));
-      this.svg.addEventListener("keydown", (e) => this.key(e));
-    }
   }
 
   /** Show `series` [{name, points, look}], `marks` [{x, y, text, look}], `handles` [{x, y, label}]. */
   show({ series = [], marks = [], handles = [], span }) {
-    Object.assign(this, { series, marks, handles, span });
+    const can = (m) => Number.isFinite(m.x) && Number.isFinite(m.y) && !(this.x.log && m.x <= 0) && !(this.y.log && m.y <= 0);
+    Object.assign(this, { series, marks: marks.filter(can), handles: handles.filter(can), span });
     this.render();
   }
 
@@ -139,9 +143,7 @@ class Plot {
     this.move(px, py);
   }
 
-  move(px, py) {
-    this.drag(this.sx.back(px), this.sy.back(py), this.held);
-  }
+  move(px, py) { this.drag(this.sx.back(px), this.sy.back(py), this.held); }
 
   key(event) {
     const i = event.target.dataset?.i, way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];

@@ -1,27 +1,33 @@
 "use strict";
 /* The washer: load curve with a point to drag, discs, Stribeck curve. */
 
+const SCALES = { film_thickness: ["film thickness", "m", "um"], pressure: ["film pressure", "Pa", "MPa"], contact_pressure: ["asperity pressure", "Pa", "MPa"], carrier_temperature: ["temperature of the carrier", "K", "degC"] };
 const BRANCHES = { film: "film branch", unstable: "unstable: never stays here", contact: "contact branch" };
 const FOLDS = { film_lost: "film lost", film_regained: "film regained" };
 const SPEEDS = Array.from({ length: 36 }, (_, i) => Number((2 * 1000 ** (i / 35)).toPrecision(6)));
 
 const VIEW = {
-  quantity: "friction_torque", curve: null, stribeck: null, trail: [], known: "", knownLoad: "",
+  quantity: "friction_torque", curve: null, stribeck: null, trail: [], known: "", knownLoad: "", over: { oil_outlet_temperature: "oil_flow" },
+
+  warning: ({ stick_margin }) => (stick_margin < 1 ? `${ABOUT.slips.replace(/{.*}/, digits(stick_margin, 2))}; ` : ""),
 
   build(host) {
     const about = (name) => ABOUT.outputs[name], names = ["friction_torque", "friction_coefficient", "temperature", "temperature_max", "film_ratio", "film_thickness"];
     const choose = el("select", { id: "curve-quantity", "aria-label": "quantity over the load" }, ...names.map((n) => el("option", { value: n }, about(n).help)));
     choose.addEventListener("change", () => { this.quantity = choose.value; this.drawCurve(); });
-    const curve = el("section", { class: "panel wide" }, el("div", { class: "choose" }, choose)), discs = el("section", { class: "panel" }, el("h3", {}, "Over the washer")), other = el("section", { class: "panel" });
+    const curve = el("section", { class: "panel wide" }, el("div", { class: "choose" }, choose)), discs = el("section", { class: "panel" }, headed("Over the washer", "Film")), other = el("section", { class: "panel" });
     const all = el("div", { class: "discs" });
     discs.append(all);
     host.append(curve, discs, other);
     const drag = (load) => fields.load.take(Number(Math.min(Math.max(load, ABOUT.inputs[0].min), ABOUT.inputs[0].max).toPrecision(5)), null);
-    this.plot = new Plot(curve, { title: "Load curve: drag the point over the fold", drag, x: { label: "load", unit: "N", log: true }, y: { label: "", unit: "N.m" }, height: 340 });
+    this.plot = new Plot(curve, { title: "Load curve: drag the point over the fold", part: "Branches", drag, x: { label: "load", unit: "N", log: true }, y: { label: "", unit: "N.m" }, height: 340 });
     curve.append(this.folds = el("p", { class: "folds" }));
-    const titles = { film_thickness: ["film thickness", "m"], pressure: ["film pressure", "Pa"], contact_pressure: ["asperity pressure", "Pa"], carrier_temperature: ["temperature of the carrier", "K"] };
-    this.discs = Object.entries(titles).map(([name, [title, unit]]) => [name, new Disc(all, { name, title, tell: (v) => shown(v, unit, false, 3) })]);
-    this.other = new Plot(other, { title: "Stribeck curve at this load", x: { label: "speed", unit: "rad/s", log: true }, y: { label: "coefficient of friction", unit: "1", zero: true } });
+    this.discs = Object.entries(SCALES).map(([name, [title, unit, own]]) => {
+      const [factor, offset] = ABOUT.scales[unit][own];
+      return [name, new Disc(all, { name, title, tell: (v) => `${digits((v - offset) / factor, 3)} ${pretty(own)}` })];
+    });
+    this.other = new Plot(other, { title: "Stribeck curve at this load", part: "Contact", x: { label: "speed", unit: "rad/s", log: true }, y: { label: "coefficient of friction", unit: "1", zero: true } });
+    other.append(this.wait = el("p", { class: "folds", role: "status" }));
   },
 
   solved(result, fresh) {
@@ -47,6 +53,7 @@ const VIEW = {
       this.known = own;
       this.trail = [];
       const began = performance.now();
+      this.folds.textContent = "Computing the load curve …";
       ask("curve", { given: [last.point, 20, 3000] }, (found, problem) => {
         this.curve = found ?? null;
         this.took = performance.now() - began;
@@ -57,7 +64,9 @@ const VIEW = {
     const load = JSON.stringify([last.point[0], own]);
     if (load !== this.knownLoad) {
       this.knownLoad = load;
-      ask("stribeck", { given: [last.point, SPEEDS] }, (found) => {
+      this.wait.textContent = "Computing the Stribeck curve …";
+      ask("stribeck", { given: [last.point, SPEEDS] }, (found, problem) => {
+        this.wait.textContent = problem ? `The Stribeck curve is not known here: ${problem}.` : "";
         this.stribeck = found ?? null;
         this.drawStribeck();
       });

@@ -57,7 +57,7 @@ class Model {
 
   outputs() {
     const { L, about } = this, head = this.mesh.work.view, iout = this.iout.view, found = {};
-    about.real_outputs.forEach((name, i) => (found[name] = this.out.view[i]));
+    about.real_outputs.forEach((name, i) => (found[name] = head[L.AT_OUTPUTS + i]));
     found.fluid_load = head[L.AT_OUTPUTS + L.O_FLUID_LOAD];
     found.contact_load = head[L.AT_OUTPUTS + L.O_CONTACT_LOAD];
     found.washer_tilt_x = head[L.AT_POSITIONS + L.TILT_X];
@@ -187,17 +187,12 @@ class Walker {
   }
 
   get film() { return this.at(this.L.AT_FILM); }
-
   get load() { return this.at(this.L.AT_LOAD); }
-
   get share() { return this.at(this.L.AT_SHARE); }
 
-  check(code) {
-    if (code) throw new Error(this.washer.about.statuses[code] ?? `status ${code}`);
-  }
+  check(code) { if (code) throw new Error(this.washer.about.statuses[code] ?? `status ${code}`); }
 
   start(ratio) { this.check(this.kernel.call("enter_curve", ...this.w, ...this.point, ratio)); }
-
   forget() { this.work.view[this.L.N_HEAD + this.L.TAG_VALID] = 0; }
 
   to(film) {

@@ -5,9 +5,7 @@ const SLICE = 12; // ms between two looks for messages
 const jobs = new Map(), next = new MessageChannel();
 let solver = null;
 
-function describe(problem) {
-  return String((problem && problem.message) || problem);
-}
+const describe = (problem) => String(problem?.message || problem);
 
 function work() {
   const until = performance.now() + SLICE;

@@ -95,8 +95,8 @@ def test_a_thinned_run_has_the_extremes_of_every_signal_in_each_phase():
         if name not in [signal["name"] for signal in thin["moving"]]:
             continue
         for _, start, end in record.phases:
-            within = values[(record.time >= start) & (record.time < end)]
-            kept = row(thin, name)[(times >= np.float32(start)) & (times < np.float32(end))]
+            within = values[(record.time >= start) & (record.time <= end)]
+            kept = row(thin, name)[(times >= np.float32(start)) & (times <= np.float32(end))]
             if np.all(np.isfinite(within)):
                 assert kept.min() == pytest.approx(within.min(), rel=2e-5)
                 assert kept.max() == pytest.approx(within.max(), rel=2e-5)

@@ -13,7 +13,7 @@ from .shift_data import page_data, run_data
 from .shift_record import Event, KeyFigure, Phase, Record, record_of
 from .shift_report import ENERGY_TEXT, SCRIPTS
 
-ROOM = 1_400_000  # characters of packed signals: this page has less beside them
+ROOM = 1_300_000  # characters of packed signals: this page has less beside them
 CAPTION = "Temperatures, speeds and torques over all shifts."
 STILL = ("Temperatures", "Speeds", "Torques")
 

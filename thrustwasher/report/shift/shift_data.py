@@ -183,18 +183,19 @@ def signal_of(record: Record, name: str) -> dict[str, Any]:
 def _packed_to_fit(rows: Array, record: Record, room: int) -> tuple[int, str]:
     """Return how many points are kept and the packed rows.
 
-    Those of a long run have four digits; then every second, third ... point is kept, and with them
-    the extremes of all signals in each phase, those beside events and the last one.
+    Those of a long run have four digits; then so many are kept, evenly, as there is room for, and
+    with them the extremes of all signals in each phase, those beside events and the last one.
     """
-    keep, every, packed = np.ones(rows.shape[1], dtype=bool), 1, pack(rows)
+    n = count = rows.shape[1]
+    keep, packed = np.ones(n, dtype=bool), pack(rows)
     if len(packed) > room:
         bits = rows[1:].view("<i4") + (1 << DROPPED - 1)
         rows = np.vstack((rows[:1], (bits >> DROPPED << DROPPED).view("<f4")))
         stay, packed = _to_stay(rows, record), pack(rows)
-        while len(packed) > room and every < rows.shape[1]:
-            every = max(every + 1, every * len(packed) // room)
+        while len(packed) > room and count > 1:
+            count = int(0.97 * count * room / len(packed))
             keep = stay.copy()
-            keep[::every] = True
+            keep[np.linspace(0, n - 1, count).astype(int)] = True
             packed = pack(rows[:, keep])
     return int(keep.sum()), packed
 

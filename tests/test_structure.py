@@ -21,8 +21,8 @@ FILE_LINES, FUNCTION_LINES, KERNEL_LINES = 400, 50, 120
 
 # Counts that may only fall: one that has fallen by more than the slack is to be lowered here.
 RATCHETS = {
-    "Python files of the package": (lambda: len(structure.modules()), 313, 20),
-    "lines of Python": (lambda: structure.lines_of(structure.modules().values()), 42_500, 600),
+    "Python files of the package": (lambda: len(structure.modules()), 309, 20),
+    "lines of Python": (lambda: structure.lines_of(structure.modules().values()), 42_000, 600),
     "lines of C": (lambda: structure.lines_of(structure.shell_sources()), 2_400, 200),
     "module names that occur twice": (lambda: len(structure.repeated_stems()), 7, 3),
     "words of the README": (

@@ -14,7 +14,7 @@ from thrustwasher.shift.tolerance.selection_record import (
     StepShare,
 )
 
-WORDS = ("washer: map, friction_torque within 0.01 % (asked 0.6 %), 2 us per call",)
+WORDS = ("washer: map, friction_torque within 0.01 % (asked 0.6 %), 2 µs per call",)
 CHOSEN = Selection(
     [Selected("washer", "washer", "map", "field", 0.006, True, WORDS, {}, ())],
     StepShare(1e-3, 0.01, 1e-3, "slip_energy"), 0.012,

@@ -7,7 +7,7 @@ from ..errors import ParameterError
 from ..ladder.card import VERIFY
 from ..model.part_file import is_part, load_part
 from ..model.registry import ladder_of, models_with_cards, spec_of
-from ..units import parse_quantity
+from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
 HELP = "list the verified errors of all rungs, or verify those of a part file"
@@ -74,8 +74,6 @@ def _order(model: str) -> Any:
 
 def _print_model(model: str, cards: list[Any]) -> None:
     """Print a table per parameter set."""
-    from ..ladder.formats import shown_seconds
-
     if not cards:
         print(f"{model}: no cards; make them: {VERIFY} {model}")
     for name in dict.fromkeys(card.params.name for card in cards):
@@ -87,7 +85,7 @@ def _print_model(model: str, cards: list[Any]) -> None:
         rows = []
         for card in mine:
             errors = [card.shown_worst(q) for q in ("friction_torque", "temperature")]
-            time = shown_seconds(card.cost.call_median_s)
+            time = format_quantity(card.cost.call_median_s, "s", digits=2)
             rung = f"{card.fidelity} {card.chart or ''}".strip()
             told = f"{card.held_out.n} points; {card.stale() or 'fresh'}"
             rows.append((rung, f"{errors[0]:>10} {errors[1]:>10} {time:>8}", told))

@@ -9,11 +9,12 @@ from ..errors import ParameterError, SolveError
 from ..model.parameters import params_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
+from ..units import format_quantity as say
 from .boxes import Part, Request, checked_box
 from .candidates import Candidate, Plan, candidates, plans
 from .card import VERIFY
 from .card_parts import QUANTITIES
-from .formats import plain, shown_error, shown_seconds, shown_share
+from .formats import plain, shown_error, shown_share
 
 AUTO = "auto"
 TOLERANCE = 0.01  # of "auto" alone
@@ -157,7 +158,7 @@ def decide(request: Request, found: list[Candidate], refused: dict[str, str]) ->
     asked = shown_error(request.tol, seen.kind, seen.unit)
     lines = [
         f"{request.spec.key}: {best.rung.fidelity}{seen.charts}, {request.quantity} within "
-        f"{seen.promise} (asked {asked}), {shown_seconds(best.rung.call)} per call",
+        f"{seen.promise} (asked {asked}), {say(best.rung.call, 's', digits=2)} per call",
         *_outside_lines(request, best),
     ]
     lines += _others(request, found, best) + [f"not asked: {r}: {w}" for r, w in refused.items()]
@@ -182,7 +183,7 @@ def _outside_lines(request: Request, plan: Plan) -> list[str]:
             lines.append(f"{part}: no card speaks there; {after.rung.fidelity}, not verified")
         else:
             rung, promise = after.rung, after.seen.promise
-            lines.append(f"{part}: {rung.fidelity}, within {promise}, {shown_seconds(rung.call)}")
+            lines.append(f"{part}: {rung.fidelity}, within {promise}, {say(rung.call, 's', digits=2)}")
         after = after.outside
     return [*lines, *filter(None, [plan.seen.beside_folds])]
 
@@ -202,7 +203,7 @@ def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
         if seen.error > request.tol:
             (cheaper if rung.call <= best.rung.call else coarser).append(text)
         else:
-            holds.append(f"{text} in {shown_seconds(rung.call)}")
+            holds.append(f"{text} in {say(rung.call, 's', digits=2)}")
     return [f"{words}: {', '.join(texts)}" for words, texts in groups.items() if texts]
 
 

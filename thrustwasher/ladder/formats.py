@@ -1,4 +1,4 @@
-"""How errors, times and shares are written for a person."""
+"""How errors and shares are written for a person."""
 
 import math
 
@@ -18,14 +18,6 @@ def plain(value: float) -> str:
     if "e" in text and 1e-3 <= abs(value) < 1e5:
         return f"{float(text):.0f}"
     return text
-
-
-def shown_seconds(seconds: float) -> str:
-    """Return a time in the largest unit that gives 0.1 or more."""
-    for scale, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")):
-        if seconds >= 0.0995 * scale:
-            return f"{plain(seconds / scale)} {unit}"
-    return f"{plain(seconds / 1e-9)} ns"
 
 
 def shown_share(share: float) -> str:

@@ -6,7 +6,6 @@
 ``chart_series``      What a chart is: the series of ways to solve, the points of ``cases.toml``
 ``chart_text``        Which samples nothing beats, and the words beside the charts
 ``clutch_chart``      The chart of the clutch: engagements at every rung and over the step
-``gearmesh_chart``    The chart of the gear mesh: its rungs
 ``methods``           Methods to solve a model that can be measured
 ``washer_chart``      The chart of the washer: rungs and meshes
 ``work_precision``    Work-precision: error and cost of methods on the same cases, by the same clock

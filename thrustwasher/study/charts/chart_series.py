@@ -74,6 +74,7 @@ class Chart:
 
 WARM = "warm call, 1 % away [s]"
 KELVIN = Quantity("temperature", False, unit="K")
+RUNGS = Chart((Quantity("friction_torque", True, 1e-4), KELVIN), WARM, rungs)
 
 
 def chart_of(model: str) -> Chart:

@@ -183,7 +183,8 @@ def _outside_lines(request: Request, plan: Plan) -> list[str]:
             lines.append(f"{part}: no card speaks there; {after.rung.fidelity}, not verified")
         else:
             rung, promise = after.rung, after.seen.promise
-            lines.append(f"{part}: {rung.fidelity}, within {promise}, {say(rung.call, 's', digits=2)}")
+            call = say(rung.call, "s", digits=2)
+            lines.append(f"{part}: {rung.fidelity}, within {promise}, {call}")
         after = after.outside
     return [*lines, *filter(None, [plan.seen.beside_folds])]
 

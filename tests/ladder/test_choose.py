@@ -226,7 +226,7 @@ def test_errors_beside_folds_are_said(ladder):
 
 def test_reasons_name_every_rung(ladder):
     lines = str(choose("washer", BOX, tol=0.02)).splitlines()
-    assert lines[0] == "washer: field, friction_torque within 0.75 % (asked 2 %), 0.2 ms per call"
+    assert lines[0] == "washer: field, friction_torque within 0.75 % (asked 2 %), 200 µs per call"
     assert "  cheaper but too coarse: coarse 150 %" in lines
     assert "  would hold too: fine 0.06 % in 2 ms" in lines
 

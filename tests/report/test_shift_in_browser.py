@@ -129,6 +129,7 @@ def test_signals_are_switched_on_and_off(page):
     drawn = (
         "() => Plots.state.panels[0].plot.series.slice(1).filter((s) => s.show).map((s) => s.label)"
     )
+    page.wait_for_function("() => Plots.state.panels[0].plot")
     assert "transmission.engine_speed" in page.evaluate(drawn)
     page.get_by_label("speed of engine and driven gear").first.uncheck()
     assert "transmission.engine_speed" not in page.evaluate(drawn)

@@ -26,7 +26,7 @@ def test_cards_lists_errors_costs_and_the_box(folder, capsys):
     assert main(["cards", "washer"]) == 0
     out = capsys.readouterr().out
     assert "load 20 .. 2000 N" in out
-    assert "0.5 %" in out and "0.2 ms" in out and "fresh" in out
+    assert "0.5 %" in out and "200 µs" in out and "fresh" in out
 
 
 def test_cards_names_stale_and_broken_files(folder, capsys):

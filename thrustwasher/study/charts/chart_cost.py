@@ -117,7 +117,7 @@ def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -
     if floor:
         axes.axhspan(0.4 * low, floor, color="#E8E8E8", lw=0, zorder=0)
         words = "uncertainty of the reference"
-        note_at_right(axes, words, floor, place=0.99, shift=(0, 2), va="bottom", color=GREY)
+        note_at_right(axes, words, 0.4 * low, place=0.99, shift=(0, 2), va="bottom", color=GREY)
     return 0.6 * low
 
 
@@ -203,6 +203,7 @@ def place_labels(axes: Axes, labels: Sequence[Label], marks: Sequence[tuple[floa
     frame = scale * np.array(axes.get_window_extent().extents)
     around = np.array([-MARK, -MARK, MARK, MARK])
     taken = [np.tile(scale * at(mark), 2) + around for mark in marks]
+    taken += [scale * np.array(words.get_window_extent().extents) for words in axes.texts]
     for one in labels:
         spot = scale * at((one.x, one.y))
         size = np.array([WIDE * len(one.text), TALL])

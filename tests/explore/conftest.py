@@ -34,6 +34,7 @@ class Opened(Seen):
     def settled(self):
         """Wait until the numbers are those of a fresh solve again."""
         self.page.wait_for_timeout(250)
+        self.page.wait_for_function("() => !busy && !setting && !waiting")
         count = self.number("html", "data-solved")
         for _ in range(100):
             self.page.wait_for_timeout(60)

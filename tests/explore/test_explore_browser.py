@@ -121,7 +121,7 @@ def test_the_point_is_dragged_over_the_fold_and_comes_back_on_the_other_branch(o
     branches = []
     for share in (0.6, 0.7, 0.8, 0.9, 0.8, 0.75, 0.7):
         page.page.mouse.move(box["x"] + 62 + share * (box["width"] - 74), y, steps=8)
-        page.page.wait_for_timeout(150)
+        page.settled()
         load = float(page.page.input_value("#in-load"))
         branches.append((load, page.page.text_content("#branch")))
     page.page.mouse.up()

@@ -167,3 +167,39 @@ def test_an_engagement_backwards_has_the_same_largest_torque():
     most = "friction_torque_max"
     assert back["outputs"][most] == pytest.approx(there["outputs"][most], rel=1e-9)
     assert back["outputs"][most] > 0.0
+
+
+def test_an_address_gives_the_same_figures_whatever_was_open_before(opened):
+    film = "#load=800&speed=545&tilt=0.002&oil_temperature=297.15"
+    page = opened(address=film)
+    torque = page.figure("friction_torque")
+    assert page.page.text_content("#branch") == "film"
+    page.page.evaluate("location.hash = '#load=2900&speed=545&tilt=0.002&oil_temperature=297.15'")
+    assert page.settled().page.text_content("#branch") == "contact"
+    page.page.evaluate(f"location.hash = '{film}'")
+    assert page.settled().figure("friction_torque") == torque
+    assert "branch" not in page.page.text_content("#as-command")
+
+
+def test_parameters_that_break_a_rule_are_told_while_something_is_solved(opened):
+    page = opened()
+    page.page.evaluate(
+        """() => {
+          for (const [name, text] of [["load", 400], ["load", 500], ["inner_radius", 0.05]]) {
+            const field = document.getElementById(`in-${name}`);
+            field.value = text;
+            field.dispatchEvent(new Event("input"));
+          }
+        }"""
+    )
+    assert "inner_radius" in page.settled().page.text_content("#state")
+
+
+def test_the_axis_of_a_ramp_holds_the_ramp_that_the_address_gives(opened):
+    page = opened("clutch", "#ramp=[0,20000,100000,100000,100000,50000,5000,5000,5000]")
+    handle = page.page.locator(".handle").nth(2)
+    assert all(float(h.get_attribute("cy")) > 0 for h in page.page.locator(".handle").all())
+    handle.focus()
+    handle.press("ArrowLeft")
+    page.settled()
+    assert "100000,100000,100000" in page.page.text_content("#as-python").replace(" ", "")

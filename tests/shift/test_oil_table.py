@@ -62,13 +62,14 @@ def test_a_parts_own_oil_overrides_and_is_said(tmp_path):
     assert _remarks(scene, scene) == ["mesh: oil_density of its own, not of the scene's oil"]
 
 
-def test_an_oil_is_known_by_its_kinematic_viscosity_too(tmp_path):
+@pytest.mark.parametrize("base", ["planetary-sun", "planetary"])  # without and with an oil
+def test_an_oil_is_known_by_its_kinematic_viscosity_too(tmp_path, base):
     found = []
     for key, unit, factor in (("viscosity", "mPa.s", 0.8), ("kinematic_viscosity", "cSt", 1.0)):
         path = tmp_path / "mine.toml"
         points = f"[[313.15, '{40 * factor} {unit}'], [373.15, '{7 * factor} {unit}']]"
         path.write_text(
-            f'base = "planetary-sun"\n[oil]\ndensity = 800.0\n{key} = {points}', encoding="utf-8"
+            f'base = "{base}"\n[oil]\ndensity = 800.0\n{key} = {points}', encoding="utf-8"
         )
         found.append(load_scene(path).parts["clutch"].params.viscosity_scale)
     assert found[0] == pytest.approx(found[1], rel=1e-9)
@@ -81,7 +82,11 @@ def test_an_oil_is_known_by_its_kinematic_viscosity_too(tmp_path):
         ("viscosity = [[313.15, 0.03]]", "1 points, allowed: 2 or 3"),
         ("viscosity = [[300, 0.06], [340, 0.05], [380, 0.001]]", "falls ever more slowly"),
         ("viscosity = 3", "pairs"),
-        ("kinematic_viscosity = [[313.15, 3e-5], [373.15, 5e-6]]", "beside"),
+        (
+            "viscosity = [[313.15, 0.03], [373.15, 0.005]]\n"
+            "kinematic_viscosity = [[313.15, 3e-5], [373.15, 5e-6]]",
+            "beside",
+        ),
         ("viscositi = 3", "did you mean 'viscosity'"),
         ("density = 8.5", "density = 8.5 kg/m3, allowed: 500 .. 1500"),
     ],

@@ -42,9 +42,10 @@ def run(arguments: argparse.Namespace) -> int:
         with _output.whole_folder(folder) as draft:
             _write(result, draft)
     if arguments.json:
-        more = {} if scene.sequence else {"warnings": _warnings(result)}
         total, out = time.perf_counter() - began, str(folder) if folder else None
-        _output.print_json({**result.as_dict(), **more, "total_time": total, "out": out})
+        _output.print_json(
+            {**result.as_dict(), "warnings": _warnings(result), "total_time": total, "out": out}
+        )
     elif scene.sequence:
         _say_sequence(result)
     else:
@@ -123,6 +124,8 @@ def _warnings(result: Any) -> list[str]:
     from ..report.shift import summary
     from ..report.shift.shift_record import record_of
 
+    if result.scene.sequence:
+        return summary.warnings_of_all([record_of(shift) for shift in result.shifts])
     return summary.warnings(record_of(result))
 
 

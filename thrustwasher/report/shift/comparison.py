@@ -54,9 +54,9 @@ def settings_tables(runs: Sequence[Run]) -> list[Table]:
     ours, theirs = (run["settings"] for run in runs)
     rows = [(name, ours.get(name, ""), theirs.get(name, "")) for name in ours | theirs]
     differ = [row for row in rows if row[0] not in ALWAYS and row[1] != row[2]]
-    head, title = ("", *NAMES), f"Parameters that differ: {len(differ) or 'none'}"
-    return [Table(head, [row for row in rows if row[0] in ALWAYS]),
-            Table(head, differ, title=title, folded=len(differ) > 12)]  # fmt: skip
+    head, title = ("", *NAMES), f"Parameters that differ: {len(differ)}"
+    more = [Table(head, differ, title=title, folded=len(differ) > 12)] if differ else []
+    return [Table(head, [row for row in rows if row[0] in ALWAYS]), *more]
 
 
 def difference_table(runs: Sequence[Run]) -> Table:

@@ -26,8 +26,7 @@ def sequence_page(result: Any) -> Page:
         f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
         f"{say(oil[-1], 'K', digits=3)}."
     )
-    warnings = _warnings(records)
-    run = run_data(whole, {}, room=ROOM, said=([said], warnings))
+    run = run_data(whole, {}, room=ROOM, said=([said], summary.warnings_of_all(records)))
     run |= {"slip": None, "shifts": len(records)}
     sections = [
         Section("course", "The shifts over time", widgets=["plots"], tables=[_table(records)],
@@ -46,7 +45,7 @@ def sequence_page(result: Any) -> Page:
         subtitle=f"Scene {whole.name}, {result.time[-1] - result.time[0]:.4g} s simulated in "
         f"{say(result.wall_time, 's', digits=3)}, {len(whole.parts)} FMUs, made by thrustwasher",
         summary=[said],
-        warnings=warnings,
+        warnings=summary.warnings_of_all(records),
         cards=[],
         sections=sections,
         footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
@@ -68,18 +67,6 @@ def _whole(result: Any, records: Sequence[Record]) -> Record:
         events=[Event(time, f"{name} locks") for name, time in locks if time is not None],
         key_figures=[], published=[], messages=result.messages, wall_time=result.wall_time,
     )  # fmt: skip
-
-
-def _warnings(records: Sequence[Record]) -> list[str]:
-    """Return what must not be missed, of the first shift that it is said of."""
-    found: dict[str, tuple[str, list[str]]] = {}
-    for i, record in enumerate(records, 1):
-        for text in summary.warnings(record):
-            found.setdefault(text.partition(":")[0], (text, []))[1].append(str(i))
-    return [
-        f"Shift {own[0]}: {text}" + (f" Likewise shifts {', '.join(own[1:])}." if own[1:] else "")
-        for text, own in found.values()
-    ]
 
 
 def _head(records: Sequence[Record], row: Sequence[KeyFigure | None]) -> str:

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,18 @@ def sentences(record: Record) -> list[str]:
 def warnings(record: Record) -> list[str]:
     """Return what a reader must not miss."""
     return paragraphs("warnings", record)
+
+
+def warnings_of_all(records: Sequence[Record]) -> list[str]:
+    """Return what must not be missed, of the first shift that it is said of."""
+    found: dict[str, tuple[str, list[str]]] = {}
+    for i, record in enumerate(records, 1):
+        for text in warnings(record):
+            found.setdefault(text.partition(":")[0], (text, []))[1].append(str(i))
+    return [
+        f"Shift {own[0]}: {text}" + (f" Likewise shifts {', '.join(own[1:])}." if own[1:] else "")
+        for text, own in found.values()
+    ]
 
 
 def trust_texts(record: Record) -> list[str]:

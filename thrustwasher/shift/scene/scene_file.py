@@ -107,10 +107,12 @@ def _parse(name: str) -> dict[str, Any]:
 
 
 def _without_parts(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
-    """Return the tables of a base without what it says of parts that have a file on top of it."""
+    """Return the tables of a base without what a part's file or another viscosity replaces."""
     result = dict(base)
     for key, said in base.items():
         new = top.get(key)
+        if key == "oil" and isinstance(new, dict) and set(new) & set(oil.VISCOSITY):
+            result[key] = {k: x for k, x in said.items() if k not in oil.VISCOSITY}
         if key in PARTS and isinstance(said, dict) and isinstance(new, dict):
             if "part" in new:
                 result[key] = {k: x for k, x in said.items() if k in ROLE}

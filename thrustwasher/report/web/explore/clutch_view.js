@@ -5,7 +5,6 @@ const VIEW = {
   build(host) {
     const panel = (more = "") => host.appendChild(el("section", { class: `panel ${more}` })), x = { label: "time", unit: "s" };
     this.reset();
-    this.most = Math.max(...ABOUT.ramp) * 2 || 1e4;
     this.ramp = new Plot(panel("wide drawn"), { title: "Load over time: drag the points to draw the ramp", part: "Torque", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
     this.torque = new Plot(panel(), { title: "Torque", part: "Torque", x, y: { label: "torque", unit: "N.m", zero: true } });
     this.warm = new Plot(panel(), { title: "Interface temperature", part: "Heat", x, y: { label: "temperature", unit: "K" } });
@@ -14,7 +13,10 @@ const VIEW = {
     this.drawRamp();
   },
 
-  reset() { state.extra.ramp = ABOUT.ramp.slice(); },
+  reset() {
+    state.extra.ramp = ABOUT.ramp.slice();
+    this.most = Math.max(...ABOUT.ramp) * 2 || 1e4;
+  },
 
   get allows() { return `${ABOUT.ramp.length} loads in brackets, numbers 0 .. ${digits(ABOUT.largest_load, 6)} in N`; },
 
@@ -31,7 +33,8 @@ const VIEW = {
   },
 
   drawRamp() {
-    const { ramp } = state.extra, n = ramp.length - 1, at = (i) => (state.inputs.duration * i) / n;
+    const { ramp } = state.extra, greatest = Math.max(...ramp), n = ramp.length - 1, at = (i) => (state.inputs.duration * i) / n;
+    if (greatest > this.most) this.most = 1.25 * greatest;
     const points = ramp.map((load, i) => [at(i), load]);
     this.ramp.show({
       series: [{ name: "", look: "", points }], span: { y: [0, this.most] },

@@ -5,11 +5,11 @@ const SETTLE = 180; // ms without a change until the numbers are those of a fres
 const SLOW = 100; // ms from which on it is told that a solution is not there yet
 const NOISE = 1e-12, USUAL = 100; // of an output's usual size, and that of one of no known size: what is less is rounding
 const byId = (id) => document.getElementById(id);
-const state = { inputs: {}, parameters: {}, rung: ABOUT.rung, branch: "", asked: "", extra: {}, strange: "" };
+const state = { inputs: {}, parameters: {}, rung: ABOUT.rung, branch: "", asked: "", held: "", extra: {}, strange: "" };
 const BRANCHES_ASKED = ["", "film", "contact"], TRUE = ["true", "1"], FALSE = ["false", "0"];
 const fields = {}, heard = {};
 const view = VIEW;
-let worker, quiet = false, busy = false, waiting = null, timer = 0, broken = "", point = null, last = null, count = 0;
+let worker, quiet = false, busy = false, setting = false, anew = false, waiting = null, timer = 0, broken = "", point = null, last = null, count = 0;
 
 /** A number field with its unit, its range, what is wrong with it, and a slider if wanted. */
 class Field {
@@ -93,13 +93,17 @@ function ask(task, given, answer) {
   worker.postMessage({ id: count, task, ...given });
 }
 
-/** Have the worker take the parameters and solve; tell which rule they break. */
+/** Have the worker take the parameters and solve; tell which rule they break. Nothing is solved meanwhile. */
 function setParameters() {
+  setting = true;
   const numbers = ABOUT.parameters.map((f) => {
     const value = state.parameters[f.name];
     return f.kind === "enumeration" ? Object.keys(f.options).indexOf(value) + 1 : Number(value);
   });
   ask("set", { parameters: numbers, rung: state.rung }, (found, problem) => {
+    if (anew) state.held = ""; // an address has no history
+    setting = anew = false;
+    waiting = null;
     const [number, least] = [found].flat(), own = (name, factor = 1) => (typeof state.parameters[name] === "number" ? digits(state.parameters[name] * factor, 6) : state.parameters[name]);
     const words = (text) => (least ? text.replace("allowed: more", `allowed: ${least} and more`) : text).replace(/{(\w+)} rad/g, (_, n) => `${own(n, 180 / Math.PI)} deg`).replace(/{(\w+)}/g, (_, n) => own(n));
     broken = problem ?? (number > 0 ? words(ABOUT.rules[number - 1]) : number < 0 ? "these parameters cannot be used together" : "");
@@ -109,12 +113,12 @@ function setParameters() {
 
 /** Solve; only the newest wish waits while one is being solved. */
 function solve(fresh) {
-  if (busy) waiting = { fresh };
-  if (broken || busy) return;
+  if (busy || setting) waiting = { fresh };
+  if (broken || busy || setting) return;
   busy = true;
   point = ABOUT.inputs.map((s) => state.inputs[s.name]);
   // the branch that the address names, else the one where the last solution is
-  const began = performance.now(), { asked, extra } = state, branch = asked || (last?.outputs.branch ?? ""), slow = setTimeout(() => (last || location.hash) && stale("solving"), SLOW);
+  const began = performance.now(), { asked, extra } = state, branch = asked || state.held, slow = setTimeout(() => (last || location.hash) && stale("solving"), SLOW);
   ask("solve", { point, fresh, branch, extra }, (result, problem) => {
     busy = false;
     clearTimeout(slow);
@@ -152,6 +156,7 @@ function failed(words) {
 
 function received(result, fresh, took, gone) {
   last = { ...result, point: point.slice() };
+  state.held = result.outputs.branch ?? "";
   reveal(".live");
   if (!fresh && byId("results").classList.contains("stale")) say("solving");
   byId("results").classList.remove("stale");
@@ -193,7 +198,7 @@ function cellOf(edges, value) {
 const size = (card, name, values) => (card.envelope[name].min >= 0 ? Math.abs(values[name]) : values[name]);
 const isOutside = (card, name, values) => !(size(card, name, values) >= card.envelope[name].min && size(card, name, values) <= card.envelope[name].max);
 
-/** Return the error that a card promises here, null outside its box; as Python's error_estimate. */
+/** Return the error that a card promises here, null outside its box. */
 function errorOf(card, values, ratio) {
   if (Object.keys(card.envelope).some((name) => isOutside(card, name, values))) return null;
   const [i, j] = card.axes.map((name, k) => cellOf(card.edges[k], size(card, name, values))), near = [];
@@ -288,6 +293,7 @@ function readAddress() {
   state.asked = BRANCHES_ASKED.includes(branch) ? branch : "";
   if (Object.hasOwn(ABOUT.worker.rungs, rung)) state.rung = byId("fidelity").value = rung;
   state.strange = strange.length ? `The address: ${strange.join("; ")}. ` : "";
+  anew = true;
   setParameters();
 }
 

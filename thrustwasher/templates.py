@@ -1,5 +1,7 @@
 """Texts, pages and XML from templates."""
 
+import base64
+import hashlib
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -24,3 +26,8 @@ def environment(*, escape: bool) -> Any:
         autoescape=escape, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
         keep_trailing_newline=True,
     )  # fmt: skip
+
+
+def policy_source(text: str) -> str:
+    """Return how a page's content policy names a script or style that it lets in."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"

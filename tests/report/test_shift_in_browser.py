@@ -77,16 +77,22 @@ def test_the_cursor_is_the_same_in_all_plots_and_tells_the_values_there(page):
     assert page.locator("#now").text_content().startswith(f"{RECORD.time[index]:g} s, ")
 
 
-def test_a_zoom_in_one_plot_zooms_all(page):
+def dragged(page, first, last):
+    """Drag over the second plot, from one share of its width to another; return the plot."""
     plot = page.locator(".u-over").nth(1)
     plot.scroll_into_view_if_needed()
     box = plot.bounding_box()
     middle = box["y"] + 0.5 * box["height"]
-    page.mouse.move(box["x"] + 0.25 * box["width"], middle)
+    page.mouse.move(box["x"] + first * box["width"], middle)
     page.mouse.down()
-    page.mouse.move(box["x"] + 0.5 * box["width"], middle, steps=5)
+    page.mouse.move(box["x"] + last * box["width"], middle, steps=5)
     page.mouse.up()
     settle(page)
+    return plot
+
+
+def test_a_zoom_in_one_plot_zooms_all(page):
+    plot = dragged(page, 0.25, 0.5)
     scales = page.evaluate(SCALES)
     assert len(scales) >= 2
     for scale in scales:
@@ -98,15 +104,7 @@ def test_a_zoom_in_one_plot_zooms_all(page):
 
 
 def test_after_a_zoom_the_cursor_is_drawn_at_the_time_that_the_table_tells(page):
-    plot = page.locator(".u-over").nth(1)
-    plot.scroll_into_view_if_needed()
-    box = plot.bounding_box()
-    middle = box["y"] + 0.5 * box["height"]
-    page.mouse.move(box["x"] + 0.3 * box["width"], middle)
-    page.mouse.down()
-    page.mouse.move(box["x"] + 0.5 * box["width"], middle, steps=5)
-    page.mouse.up()
-    settle(page)
+    dragged(page, 0.3, 0.5)
     time, drawn = page.evaluate(
         """() => [Plots.state.time[Plots.state.index],
           Plots.state.panels.filter((p) => p.visible && p.plot)

@@ -37,8 +37,8 @@ def run(arguments: argparse.Namespace, load: Step, simulate: Step) -> int:
     with _output.whole_folder(folder) as draft:
         (draft / PAGE).write_text(page, encoding="utf-8")
     if arguments.json:
-        names = ("title", "figures", "energy", "events", "phases", "warnings")
-        told = [{name: run[name] for name in names if name in run} for run in runs]
+        names = ("title", "figures", "events", "phases", "warnings")
+        told = [{name: run[name] for name in names} for run in runs]
         _output.print_json({"a": told[0], "b": told[1], "out": str(folder)})
         return 0
     for text, *values in difference_table(runs).rows:

@@ -1,7 +1,6 @@
 """The file: template, styles, scripts, the module of kernels, values and pictures of the start."""
 
 import base64
-import hashlib
 import io
 import json
 from collections.abc import Mapping
@@ -15,7 +14,7 @@ from ..model.part_file import PartFile
 from ..model.record import resolve
 from ..model.registry import all_models, find_model
 from ..native.library import web_module
-from ..templates import template
+from ..templates import policy_source, template
 from ..units import format_quantity
 from .description import describe, inputs_of, outputs_of
 from .view import WEB, View
@@ -91,13 +90,9 @@ def _text(name: str) -> str:
 
 def _policy(script: str, style: str) -> str:
     """Return the content policy: nothing from outside, this script, this style, the kernels."""
-
-    def sha(text: str) -> str:
-        return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
-
     return (
-        f"default-src 'none'; script-src {sha(script)} 'wasm-unsafe-eval'; worker-src blob:; "
-        f"style-src {sha(style)}; img-src data:; base-uri 'none'; form-action 'none'"
+        f"default-src 'none'; script-src {policy_source(script)} 'wasm-unsafe-eval'; worker-src blob:; "
+        f"style-src {policy_source(style)}; img-src data:; base-uri 'none'; form-action 'none'"
     )
 
 

@@ -1,7 +1,6 @@
 """One self-contained page: text, tables and plots in a single file that works offline."""
 
 import base64
-import hashlib
 import io
 import json
 import re
@@ -11,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..templates import template
+from ..templates import policy_source, template
 
 if TYPE_CHECKING:  # who wants the words alone waits for no drawing
     from matplotlib.figure import Figure
@@ -123,11 +122,10 @@ def render(page: Page) -> str:
 
     names = ("page.css", *(name for name in page.scripts if name.endswith(".css")))
     codes = [_web(name) for name in ("page.js", *page.scripts) if name.endswith(".js")]
-    sums = [base64.b64encode(hashlib.sha256(code.encode()).digest()).decode() for code in codes]
     notice = any("uPlot" in name for name in page.scripts)
     filled: str = template(PAGE).render(
         {**vars(page), "scripts": [Markup(code) for code in codes]},
-        policy=" ".join(f"'sha256-{one}'" for one in sums),
+        policy=" ".join(map(policy_source, codes)),
         styles=[Markup(_web(name)) for name in names],
         notice=_web("vendor/LICENSE-uPlot.txt") if notice else "",
         json=Markup(json.dumps(page.data, separators=(",", ":")).replace("<", r"\u003c")),

@@ -50,7 +50,7 @@ ALWAYS = ("from", "scene", "communication step", "master", "rungs")
 
 
 def settings_tables(runs: Sequence[Run]) -> list[Table]:
-    """Return where both runs come from how they were stepped, and which parameters differ."""
+    """Return where both runs come from, how they were stepped, and which parameters differ."""
     ours, theirs = (run["settings"] for run in runs)
     rows = [(name, ours.get(name, ""), theirs.get(name, "")) for name in ours | theirs]
     differ = [row for row in rows if row[0] not in ALWAYS and row[1] != row[2]]

@@ -26,7 +26,8 @@ def sequence_page(result: Any) -> Page:
         f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
         f"{say(oil[-1], 'K', digits=3)}."
     )
-    run = run_data(whole, {}, room=ROOM, said=([said], summary.warnings_of_all(records)))
+    warnings = summary.warnings_of_all(records)
+    run = run_data(whole, {}, room=ROOM, said=([said], warnings))
     run |= {"slip": None, "shifts": len(records)}
     sections = [
         Section("course", "The shifts over time", widgets=["plots"], tables=[_table(records)],
@@ -45,7 +46,7 @@ def sequence_page(result: Any) -> Page:
         subtitle=f"Scene {whole.name}, {result.time[-1] - result.time[0]:.4g} s simulated in "
         f"{say(result.wall_time, 's', digits=3)}, {len(whole.parts)} FMUs, made by thrustwasher",
         summary=[said],
-        warnings=summary.warnings_of_all(records),
+        warnings=warnings,
         cards=[],
         sections=sections,
         footer="One file, readable offline. The same numbers: shift.csv beside this page, and "

@@ -4,7 +4,6 @@ import base64
 import io
 import json
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from .. import __version__
@@ -19,7 +18,6 @@ from ..units import format_quantity
 from .description import describe, inputs_of, outputs_of
 from .view import WEB, View
 
-ROOT = Path(__file__).parents[1]
 TEMPLATE = "explore.html.jinja"
 SOURCES = "thrustwasher.fmu.package.model_sources"
 PAGE = ("../draw", "dom", "plot")  # scripts that every page has
@@ -91,8 +89,9 @@ def _text(name: str) -> str:
 def _policy(script: str, style: str) -> str:
     """Return the content policy: nothing from outside, this script, this style, the kernels."""
     return (
-        f"default-src 'none'; script-src {policy_source(script)} 'wasm-unsafe-eval'; worker-src blob:; "
-        f"style-src {policy_source(style)}; img-src data:; base-uri 'none'; form-action 'none'"
+        f"default-src 'none'; script-src {policy_source(script)} 'wasm-unsafe-eval'; "
+        f"worker-src blob:; style-src {policy_source(style)}; img-src data:; base-uri 'none'; "
+        "form-action 'none'"
     )
 
 

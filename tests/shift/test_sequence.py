@@ -7,6 +7,7 @@ import pytest
 from scene_runs import instances
 
 from thrustwasher.errors import ParameterError
+from thrustwasher.gearmesh.parameters import absent_outputs
 from thrustwasher.shift import load_scene, run_sequence, run_shift
 from thrustwasher.shift.scene.sequence import shift_scene
 
@@ -139,7 +140,10 @@ def test_the_page_holds_all_signals_and_a_row_for_each_shift(run):
     data = page.data["runs"][0]
     assert [p.name for p in data["phases"]] == ["1 up", "2 down"]
     assert [text for _, text in data["events"]] == ["1 up locks", "2 down locks"]
-    assert len(data["moving"]) + len(data["steady"]) >= len(run.signals)
+    shown = {signal["name"] for signal in (*data["moving"], *data["steady"])}
+    assert {name.partition(".")[2] for name in set(run.signals) - shown} == absent_outputs(
+        run.scene.parts["mesh"].params
+    )
     assert [row[0] for row in page.sections[0].tables[0].rows] == ["1 up", "2 down"]
     assert len(render(page).encode()) < 2_000_000
 

@@ -108,7 +108,8 @@ def _of_loss(params: GearMeshParams, torque: float, speed: float, oil: float) ->
 
 def share_at(par: Any, position: float) -> float:
     """Return the load share X of a pair [-] from the pairs in contact, counted."""
-    first, last = math.ceil(-par[k.D_APPROACH] - position), math.floor(par[k.D_RECESS] - position)
+    approach, recess = float(par[k.D_APPROACH]), float(par[k.D_RECESS])
+    first, last = math.ceil(-approach - position), math.floor(recess - position)
     even, contact = min(float(par[k.D_OVERLAP]), 1.0), float(par[k.D_CONTACT_RATIO])
     return (1.0 - even) / (last - first + 1) + even / contact
 
@@ -122,7 +123,7 @@ def loss_factor(par: Any) -> float:
         total += share_at(par, 0.5 * (low + high)) * moment
     ratio, teeth = float(par[k.P_GEAR_RATIO]), float(par[k.P_PINION_TEETH])
     both = (ratio + float(par[k.D_SIDE])) / (ratio * teeth)
-    return 2.0 * math.pi * both / float(par[k.D_COS_BASE]) * total
+    return float(2.0 * math.pi * both / par[k.D_COS_BASE] * total)
 
 
 def subdivide(par: Any, most: int) -> None:

@@ -5,6 +5,7 @@
 ``oil``              the one oil of all parts, from points of its viscosity
 ``scene_file``       TOML file -> ``Scene``; the built-in ones lie in ``../scenes``
 ``scene_tables``     numbers with their units; engine, vehicle, pressures, oil
+``contradictions``   what the parts of a scene say against each other
 ``sequence``         several shifts in one run, each as a scene
 ``connections``      which parts there are, of which models, and who passes what to whom
 ===================  ==============================================================================

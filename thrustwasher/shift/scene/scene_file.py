@@ -19,6 +19,7 @@ from ...model.toml_tables import nothing_else, number, parse, quantity, read_fil
 from ..key_figures.figure_list import FIGURES
 from . import oil
 from .connections import MESHES, PARTS, REQUIRED
+from .contradictions import contradictions
 from .scene import (
     STEP_RANGE,
     TOLERANCE_RANGE,
@@ -158,6 +159,7 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
         vehicle=vehicle,
         sequence=None,
         notes=tuple(notes),
+        warnings=contradictions(parts),
         published=_published(f"{where} [published]", table.get("published")),
         **(
             _shift(f"{where} [shift]", table["shift"])

@@ -5,6 +5,7 @@ import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..errors import Status
 from ..model.record import Command, Model, Variants, resolve
 from ..model.spec import ModelSpec, Signal
 from . import _options, _output
@@ -45,20 +46,23 @@ class PointCommand:
         began = time.perf_counter()
         result = solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
+        warnings = [*result.warnings]
+        if model.warning and not any(options.values()):
+            warnings += filter(None, [resolve(model.warning)(result)])
+        _output.warn(warnings)
         targets.draw(model.figure, result, point, params)
         found, parameters = _output.scalars(result), _output.parameters_of(params)
         if arguments.json:
             told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time}
-            _output.print_json(told)
+            _output.print_json({**told, "warnings": warnings})
             return 0
         where = ", ".join(f"{s.name} {_output.shown(point[s.name], s.unit)}" for s in inputs)
         print(f"{model.title.format(**parameters)} at {where}")
         _output.print_rows(list(_rows(model, spec, result, point)))
         if model.variants:
             _print_variants(model.variants, result, parameters)
-        if warning := resolve(model.warning)(result) if model.warning else "":
-            print(f"  {warning}")
-        print(f"  {result.status.advice}; {model.closing.format(**found)}, {wall_time:.3g} s")
+        said = result.status.advice if result.status is Status.OK else result.status.name
+        print(f"  {said}; {model.closing.format(**found)}, {wall_time:.3g} s")
         return 0
 
 

@@ -43,13 +43,14 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     curve = load_curve(params, **point, **grid)
     wall_time = time.perf_counter() - began
+    _output.warn(curve.warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.washer_plots:curve_figure", curve, point)
     if arguments.json:
         _output.print_json({
             "points": [_output.scalars(p) for p in curve.points],
-            "folds": [_output.scalars(f) for f in curve.folds],
+            "folds": [_output.scalars(f) for f in curve.folds], "warnings": curve.warnings,
             **point, "parameters": _output.parameters_of(params), "wall_time": wall_time,
         })  # fmt: skip
         return 0

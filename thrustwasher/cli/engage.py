@@ -5,6 +5,7 @@ import time
 from typing import Any
 
 from ..clutch.parameters import SPEC
+from ..errors import Status
 from ..model.parameters import check_number
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
@@ -43,6 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     result = _engage(params, point, times, _options.read_fidelity(arguments, SPEC))
     wall_time = time.perf_counter() - began
+    _output.warn(result.warnings)
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
@@ -99,4 +101,5 @@ def _print_summary(result: Any) -> None:
         f"{at('temperature', hot)} at {at('time', hot)}; heat {at('energy', -1)}; "
         f"boundary lubrication {begin}"
     )
-    print(f"  {result.status.advice}; {result.fidelity}, {result.substeps} substeps")
+    said = result.status.advice if result.status is Status.OK else result.status.name
+    print(f"  {said}; {result.fidelity}, {result.substeps} substeps")

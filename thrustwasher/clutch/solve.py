@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
+from ..model.advice import warnings_of
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.registry import find_model
@@ -16,6 +17,10 @@ from .kernels import layout as k
 from .kernels import pack_friction, rates, steady
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 
+PRESSED = (
+    "film_ratio = {:.3g}: the lining is pressed beyond the reach of the law of contact; lower the "
+    "load or check the lining's modulus"
+)
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
@@ -39,6 +44,8 @@ class ClutchResult:
     status: Status
     iterations: int
     fidelity: str
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields as a dictionary that JSON can hold; status by name."""
@@ -246,7 +253,14 @@ def solve_clutch(
         status=status,
         iterations=int(turns + s.iterations),
         fidelity=fidelity,
+        warnings=pack_warnings(status, ratio, s.hottest),
     )
+
+
+def pack_warnings(status: Status, ratio: float, hottest: float) -> tuple[str, ...]:
+    """Return the warnings of a pack with this film ratio and this hottest interface [K]."""
+    more = [PRESSED.format(ratio)] if ratio < k.LEAST_RATIO else []
+    return warnings_of(SPEC, status, {}, {"temperature": hottest}, more)
 
 
 def walk_steady(

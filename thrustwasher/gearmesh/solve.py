@@ -1,12 +1,14 @@
 """Gear mesh: loss, heat, temperatures, contact and thermal stress, safety factors."""
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
+from ..model.advice import warnings_of
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from .kernels import layout as k
@@ -14,6 +16,11 @@ from .kernels.constants import derive
 from .kernels.operating_point import solve_point
 from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams
 
+SAFETIES = {
+    "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "
+    "harder gear",
+    "scuffing_safety": "the flanks are expected to scuff; lower torque, speed or oil temperature",
+}
 __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 
@@ -75,6 +82,8 @@ class GearMeshResult:
     status: Status
     iterations: int
     fidelity: str
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields as a dictionary that JSON can hold; status by name."""
@@ -165,12 +174,13 @@ def solve_gearmesh(
             f"power = {power:g} W, speed = {speed:g} rad/s, oil_temperature = {oil:g} K: "
             f"{status.advice}"
         )
-    return _result(par, field.tolist(), torque, speed, status, fidelity)
+    return _result(par, field.tolist(), torque, speed, oil, status, fidelity)
 
 
 def _result(
-    par: Any, f: list[float], torque: float, speed: float, status: Status, fidelity: str
-) -> GearMeshResult:
+    par: Any, f: list[float], torque: float, speed: float, oil: float, status: Status,
+    fidelity: str,
+) -> GearMeshResult:  # fmt: skip
     loss = f[k.F_MEAN_FRICTION] * float(par[k.D_LOSS]) * torque
     ratio = f[k.F_RATIO]
     shown = dict(zip(SPEC.real_outputs, f, strict=False))  # they come first
@@ -185,4 +195,12 @@ def _result(
         slide_roll_ratio=float(par[k.D_SLIDE_ROLL]), status=status, fidelity=fidelity,
         regime="film" if ratio > 3.0 else "mixed" if ratio >= 1.0 else "boundary",
         iterations=int(f[k.F_ITERATIONS]),
+        warnings=(*warnings_of(SPEC, status, {"oil_temperature": oil}, shown), *_failures(shown)),
     )  # fmt: skip
+
+
+def _failures(shown: Mapping[str, float]) -> Iterator[str]:
+    """Yield a line for each safety below 1."""
+    for name, fails in SAFETIES.items():
+        if shown[name] < 1.0:
+            yield f"{name} = {shown[name]:.3g}, below 1: {fails}"

@@ -90,7 +90,8 @@ class Command:
     closing: str = "{fidelity}"  # how it was solved; may name results
     extra: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     """Results that are no output: unit and meaning."""
-    warning: str = ""  # dotted name: from a result to what a reader must not miss, "" if nothing
+    warning: str = ""
+    """Dotted name: from a result to a warning that takes a solve of its own, "" if nothing."""
     instead: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     """Name of a model's input -> fields of the signal that this command has instead of it."""
     place: str = ""  # dotted name: from the command's point to the model's own inputs

@@ -22,7 +22,7 @@ from .kernels.solve import remember_state
 from .kernels.workspace import Point, fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import WasherParams
 from .solve import ERRORS, check_point, resolve_grid, result_from
-from .washer_result import BRANCH_NAMES, Fold, WasherResult
+from .washer_result import BRANCH_NAMES, Fold, WasherResult, lost_text
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
@@ -42,6 +42,21 @@ class LoadCurve:
 
     points: list[WasherResult]  # ordered by falling film_thickness
     folds: list[Fold]  # empty if the curve is single-valued
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a reader must not miss: of each kind the point of least load; folds tell the rest.
+
+        The last point, beyond the range that was asked for, does not count.
+        """
+        found: dict[str, list[str]] = {}
+        points = sorted(self.points[:-1], key=lambda p: p.load)
+        for p in points:
+            for text in p.warnings[p.distress :]:
+                told = f"at load = {p.load:.4g} N: {text}"
+                found.setdefault(text.partition(" = ")[0], []).append(told)
+        n = len(points)
+        return tuple(f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
 
 
 def load_curve(
@@ -140,12 +155,12 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
             branch = "unstable" if passed % 2 else "contact" if passed else "film"
         else:
             branch = "film" if p.film_ratio >= 3.0 else "contact"
-        distress = (bool(folds) and branch == "contact") or (
-            p.temperature - p.oil_temperature > 200.0
-        )
+        rise = p.temperature - p.oil_temperature
+        distress = (bool(folds) and branch == "contact") or rise > 200.0
+        told = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
         p._state[L.S_BRANCH] = _NUMBERS[branch]
         p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
-        named.append(dataclasses.replace(p, branch=branch, distress=distress))
+        named.append(dataclasses.replace(p, branch=branch, distress=distress, warnings=told))
     return named
 
 

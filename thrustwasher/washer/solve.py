@@ -33,6 +33,10 @@ GRIDS = {
 # (tests/washer/test_washer_accuracy.py measures it again)
 ERRORS = {"map": 6e-3, "coarse": 3e-2, "field": 1e-2, "fine": 2e-3}
 UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
+BOTH = (
+    "load = {:.4g} N lies between two folds: with friction_torque = {:.4g} N m the branch {!r} has "
+    "a solution too, which one a washer is on depends on how it came there; this one is {!r}"
+)
 OK = Status.OK
 LARGEST_GRID = (129, 512)
 
@@ -165,6 +169,16 @@ def solve_washer(
             f"{nodes[1]}; tried: warm start, Newton from a guess, descent in film thickness)"
         )
     return result
+
+
+def other_branch(result: WasherResult) -> str:
+    """Return a warning if a point has a solution on the other branch too; it takes a solve."""
+    other = "contact" if result.branch == "film" else "film"
+    point = (result.load, result.speed, result.tilt, result.oil_temperature)
+    found = _solve(result.params, point, "field", GRIDS["field"], BRANCHES[other], None)
+    if found.status.is_failure or found.branch != other:
+        return ""
+    return BOTH.format(result.load, found.friction_torque, other, result.branch)
 
 
 @cache

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import ParameterError, Status
 from ..ladder.card import error_estimate
+from ..model.advice import warnings_of
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
@@ -14,13 +15,20 @@ from .kernels.constants import WasherModel, washer_model
 from .kernels.newton import evaluate_here
 from .kernels.outputs import outputs_at
 from .kernels.workspace import Fields, Point, fields_of, size_of_work, workspace_of
-from .parameters import WasherParams
+from .parameters import SPEC, WasherParams
 
+HOT_LIMIT = 523.0  # [K] above it oil and washer are lost
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
     "gap 2 cannot hold the washer: its dry friction takes {:.2g} times the friction torque, so the "
     "washer would slip on the gear; here both turn together"
 )
+PRESSED = (
+    "film_thickness = {:.3g} um: below 0 the mean surfaces would overlap, asperities alone carry "
+    "and wear; lower the load or raise roughness or viscosity"
+)
+INPUTS = tuple(signal.name for signal in SPEC.inputs)
+LOAD, SPEED, TILT, OIL = (signal.verified for signal in SPEC.inputs)
 BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
 
 
@@ -91,6 +99,8 @@ class WasherResult:
     oil_temperature: float  # [K]
     params: WasherParams = field(repr=False, compare=False)
     _state: Array = field(repr=False, compare=False)
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     @property
     def error_estimate(self) -> float:
@@ -164,12 +174,35 @@ def result_of(
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
         x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, status, iterations, fidelity,
         grid, error, *point, params, state,
+        washer_warnings(point, x, distress, status),
     )  # fmt: skip
 
 
-def hold_warning(result: WasherResult) -> str:
-    """Return a warning if gap 2 cannot hold the washer, else nothing."""
-    return SLIPS.format(result.stick_margin) if result.stick_margin < 1.0 else ""
+def lost_text(ratio: float, rise: float) -> str:
+    """Return the warning of a washer without a film: its film ratio and mean rise [K]."""
+    return f"film_ratio = {ratio:.3g}, mean rise {rise:.0f} K: {Status.DISTRESS.advice}"
+
+
+def washer_warnings(
+    point: Sequence[float], x: Sequence[float], distress: bool, status: Status
+) -> tuple[str, ...]:
+    """Return the warnings of a solution with these outputs of the kernels."""
+    load, speed, tilt, oil = point
+    hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
+    verified = load <= LOAD[1] and SPEED[0] <= speed <= SPEED[1] and tilt <= TILT[1]
+    verified = verified and OIL[0] <= oil <= OIL[1]
+    if verified and not (hot or distress or ratio < 0.0 or margin < 1.0 or status):
+        return ()
+    more = []
+    if distress:
+        more.append(lost_text(ratio, x[L.O_MEAN] - oil))
+    if ratio < 0.0:
+        more.append(PRESSED.format(1e6 * x[L.O_FILM]))
+    if margin < 1.0:
+        more.append(f"stick_margin = {margin:.3g}: {SLIPS.format(margin)}")
+    inputs = dict(zip(INPUTS, point, strict=True))
+    outputs = {"temperature_max": x[L.O_PEAK]}
+    return warnings_of(SPEC, status, inputs, outputs, more)
 
 
 def _liquid_flow(m: WasherModel, f: Fields) -> tuple[Array, Array]:

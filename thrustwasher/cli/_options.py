@@ -3,11 +3,11 @@
 import argparse
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
-from ..model.parameters import allowed
+from ..model.parameters import allowed, check_number
 from ..model.part_file import (
     PartFile,
     find_part,
@@ -32,17 +32,22 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
     for signal in inputs:
         span = f"{signal.low:g} .. {signal.high:g} {signal.unit}"
         group.add_argument(
-            option_name(signal.name), dest=signal.name, metavar="QUANTITY", default=signal.usual,
-            help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}",
+            option_name(signal.name), dest=signal.name, metavar="QUANTITY",
+            help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}, moved into the "
+            "part's [box]",
         )  # fmt: skip
 
 
 def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> dict[str, Any]:
-    """Return the inputs in SI units."""
+    """Return the inputs that are given, in SI units."""
     given = vars(arguments)
-    return {
-        s.name: parse_quantity(given[s.name], s.unit, s.name, difference=s.relative) for s in inputs
-    }
+    return {s.name: read_input(given[s.name], s) for s in inputs if given[s.name] is not None}
+
+
+def read_input(text: str, signal: "Signal") -> float:
+    """Return an input in SI units, in its range."""
+    value = parse_quantity(text, signal.unit, signal.name, difference=signal.relative)
+    return check_number(signal.name, value, signal.unit, *signal.range)
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
@@ -72,15 +77,15 @@ def add_start(group: Any, presets: Mapping[str, PartFile]) -> None:
         either.add_argument("--preset", choices=list(presets), help=help)
 
 
-def read_start(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, Any]:
-    """Return the parameters that a part file or a preset gives."""
+def read_part(arguments: argparse.Namespace, spec: "ModelSpec") -> PartFile:
+    """Return part file, preset or the model's defaults with every ``--set`` applied, checked."""
     file, preset = arguments.part, getattr(arguments, "preset", None)
-    if file is None:
-        return {} if preset is None else dict(preset_part(spec, preset).parameters)
-    part = load_part(file)
+    part = solvable(spec.key, preset) if file is None else load_part(file)
     if part.spec.key != spec.key:
         raise ParameterError(f"--part {file}: is one of {part.spec.name}, allowed: {spec.name}")
-    return dict(part.parameters)
+    part = replace(part, parameters=part.parameters | read_settings(arguments.settings, spec))
+    part.params  # noqa: B018  (raises what the model says about them)
+    return part
 
 
 def solvable(name: str, preset: str | None = None) -> PartFile:
@@ -106,11 +111,6 @@ class _ListParameters(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser._print_message(f"{parameter_table(self.const)}\n")
         parser.exit()
-
-
-def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
-    """Return part, preset or defaults with every ``--set`` applied; their own checks included."""
-    return spec.params(**(read_start(arguments, spec) | read_settings(arguments.settings, spec)))
 
 
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
@@ -163,12 +163,6 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bo
     usual = spec.default_fidelity
     help = "; ".join([*words, f"default {usual} or the part file's"]).replace("%", "%%")
     parser.add_argument("--fidelity", help=help, **allowed)
-
-
-def read_fidelity(arguments: argparse.Namespace, spec: "ModelSpec") -> str:
-    """Return the rung asked for, else the part file's, else the model's default."""
-    usual = load_part(arguments.part).fidelity if arguments.part else spec.default_fidelity
-    return arguments.fidelity or usual
 
 
 def _rung_or_auto(spec: "ModelSpec") -> Callable[[str], str]:

@@ -61,10 +61,9 @@ def run(arguments: argparse.Namespace) -> int:
     from ..calibration.model_fit import calibrate
 
     began = time.perf_counter()
-    found = calibrate(part.params, **options)
+    found = calibrate(part, **options)
     wall_time = time.perf_counter() - began
-    for text in found.warnings:
-        _output.note(f"warning: {text.partition(': ')[0]}")
+    _output.warn(found.warnings)
     targets.draw(FIGURE, found)
     if target:
         _write(target, part, found, data)

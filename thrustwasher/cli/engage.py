@@ -7,6 +7,7 @@ from typing import Any
 from ..clutch.parameters import SPEC
 from ..errors import Status
 from ..model.parameters import check_number
+from ..model.point import point_of
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
@@ -36,23 +37,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Engage, then print, write or draw."""
-    point = _options.read_inputs(arguments, SPEC.inputs)
-    params = _options.read_parameters(arguments, SPEC)
+    part = _options.read_part(arguments, SPEC)
+    there = point_of(part, _options.read_inputs(arguments, SPEC.inputs), SPEC.inputs)
+    point, params = there.values, part.params
     times = {name: _seconds(name, getattr(arguments, name)) for name in TIMES}
     targets = _output.targets(arguments)
 
     began = time.perf_counter()
-    result = _engage(params, point, times, _options.read_fidelity(arguments, SPEC))
+    result = _engage(params, point, times, arguments.fidelity or part.fidelity)
     wall_time = time.perf_counter() - began
-    _output.warn(result.warnings)
+    warnings = [*there.warnings, *result.warnings]
+    _output.warn(warnings)
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
-        given = {"parameters": _output.parameters_of(params)}
+        given = {
+            "parameters": _output.parameters_of(params), "warnings": warnings,
+            "taken": {"box": there.box, "default": there.default},
+        }  # fmt: skip
         _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
         return 0
+    if there.taken:
+        print(there.taken)
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     _print_summary(result)

@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Sweep, then write the table and say how it went."""
     part = _options.solvable(arguments.model, arguments.preset)
-    spec, params = part.spec, part.params
+    spec = part.spec
     at = _held(arguments, spec)
     out = None
     if arguments.out:
@@ -42,13 +42,13 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     over = split_settings(arguments.over, "--over", VALUES)
     table = run_sweep(
-        spec.key, over, at=at, points=points, params=params,
-        fidelity=arguments.fidelity or part.fidelity, out=out, workers=_workers(arguments.workers),
-        cluster=arguments.cluster,
+        part, over, at=at, points=points, fidelity=arguments.fidelity, out=out,
+        workers=_workers(arguments.workers), cluster=arguments.cluster,
         progress=_progress(spec), keep=False,
     )  # fmt: skip
-    if table.choice:
-        _output.note(table.choice)
+    for said in filter(None, [table.choice, table.taken]):
+        _output.note(said)
+    _output.warn(table.warnings)
     if not out:
         write_csv(table, sys.stdout)
     failed = ", ".join(f"{n} {name}" for name, n in table.failures.items())

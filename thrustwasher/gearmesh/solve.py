@@ -114,6 +114,12 @@ def under_torque(point: dict[str, float]) -> dict[str, float]:
     return {**rest, "load": pinion_torque(power, point["speed"])}
 
 
+def at_power(inputs: dict[str, float]) -> dict[str, float]:
+    """Return the point of a gear mesh with these inputs: the pinion's torque as a power."""
+    rest = {n: v for n, v in inputs.items() if n != "load"}
+    return {"power": abs(inputs["load"] * inputs["speed"]), **rest}
+
+
 def solve_gearmesh(
     params: GearMeshParams,
     *,

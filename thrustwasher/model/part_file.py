@@ -19,7 +19,7 @@ import json
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -27,7 +27,9 @@ from typing import Any
 
 from ..errors import ParameterError, within
 from ..units import exact_quantity, format_quantity
-from .parameters import allowed, other_names_of, plainly_named
+from .parameters import allowed, check_number, other_names_of, plainly_named
+from .point import command_inputs, own_inputs, point_of
+from .record import resolve
 from .registry import find_model
 from .spec import ModelSpec, tailored
 from .toml_tables import nothing_else, number, parse, read_file, read_value, unknown
@@ -65,8 +67,8 @@ class PartFile:
     def model(self) -> ModelSpec:
         """The model as its FMU shows it: this part's name and values, inputs inside its box."""
         names = [s.name for s in self.spec.inputs]
-        starts = {s.name: self._inside(s.name, s.start or 0.0) for s in self.spec.inputs}
-        course = tuple((t, *map(self._inside, names, row)) for t, *row in self.spec.course)
+        starts = {s.name: self.inside(s.name, s.start or 0.0) for s in self.spec.inputs}
+        course = tuple((t, *map(self.inside, names, row)) for t, *row in self.spec.course)
         return tailored(
             self.spec, {**self.parameters, "fidelity": self.fidelity}, starts, course=course,
             **self.told,
@@ -78,7 +80,45 @@ class PartFile:
         text = self.description.rstrip(".") or self.spec.help
         return {"name": self.name, "help": text, "box": self.box, "notes": self.notes}
 
-    def _inside(self, name: str, value: float) -> float:
+    @property
+    def starts(self) -> dict[str, float]:
+        """Value [SI] of each of the model's inputs where none is given: its default in the box."""
+        return own_inputs(self, point_of(self, {}).values)
+
+    def solve(self, **inputs: Any) -> Any:
+        """Return the result at an operating point, with the part's rung unless another is given.
+
+        Parameters
+        ----------
+        inputs : of the model's ``solve_*`` [SI] (a gear mesh takes ``load``, the pinion's torque,
+            for ``power`` too), and its other arguments such as ``fidelity``. An input that is not
+            given is the model's default, moved into the box
+
+        Returns
+        -------
+        The result; its ``warnings`` name values outside the box too.
+
+        Raises
+        ------
+        ParameterError, SolveError : as of ``solve_*``; ParameterError too where the model is not
+            solved at points
+        """
+        command = find_model(self.spec.key).command
+        if command is None:
+            raise ParameterError(f"{self.spec.name}: is not solved at operating points")
+        known = {s.name: s for s in (*self.spec.inputs, *command_inputs(find_model(self.spec.key)))}
+        given = {
+            name: check_number(name, value, known[name].unit, *known[name].range)
+            for name, value in inputs.items() if name in known
+        }  # fmt: skip
+        point = point_of(self, given)
+        more = {name: value for name, value in inputs.items() if name not in known}
+        result = resolve(command.solve)(
+            self.params, **point.values, **{"fidelity": self.fidelity, **more}
+        )
+        return replace(result, warnings=(*point.warnings, *result.warnings))
+
+    def inside(self, name: str, value: float) -> float:
         """Return the value of an input, moved into the box."""
         low, high = self.box.get(name, (-math.inf, math.inf))
         return min(max(value, low), high)

@@ -95,6 +95,7 @@ class Command:
     instead: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     """Name of a model's input -> fields of the signal that this command has instead of it."""
     place: str = ""  # dotted name: from the command's point to the model's own inputs
+    back: str = ""  # dotted name: from these to the command's point
     options: tuple[Option, ...] = ()  # more arguments of ``solve``
     variants: Variants | None = None
     more: tuple[str, ...] = ()  # other commands of this model, which are files

@@ -174,8 +174,17 @@ def targets(arguments: argparse.Namespace) -> Targets:
     out, plot = getattr(arguments, "out", None), getattr(arguments, "plot", None)
     return Targets(
         check_file(out, "--out", (".csv",)) if out else None,
-        check_file(plot, "--plot", PLOT_SUFFIXES) if plot else None,
+        _check_plot(plot) if plot else None,
     )
+
+
+def _check_plot(path: str) -> Path:
+    """Return the path of a picture if it can be written; no folder is made for it."""
+    if not Path(path).parent.is_dir():
+        raise ParameterError(
+            f"--plot {path}: there is no folder {Path(path).parent}; make it first"
+        )
+    return check_file(path, "--plot", PLOT_SUFFIXES)
 
 
 def check_file(path: str, option: str, suffixes: tuple[str, ...] = ()) -> Path:

@@ -11,6 +11,7 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 from ..errors import ParameterError
+from ..units import meant
 from .spec import ModelSpec, Rule
 
 T = TypeVar("T")
@@ -120,7 +121,11 @@ def check_value(name: str, value: Any, m: Mapping[str, Any]) -> None:
             good = good and value == int(value)
     if not good:
         unit = "" if m["unit"] == "1" else f" {m['unit']}"
-        raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}")
+        hint = ""
+        if m["kind"] == "real" and isinstance(value, int | float):
+            hint = meant(float(value), m["unit"], m["min"], m["max"],
+                         difference=bool(m.get("relative")))  # fmt: skip
+        raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}{hint}")
 
 
 def check_number(name: str, value: float, unit: str, low: float, high: float) -> float:
@@ -132,8 +137,9 @@ def check_number(name: str, value: float, unit: str, low: float, high: float) ->
     except OverflowError:
         number = math.inf
     if not low <= number <= high:
+        hint = meant(number, unit, low, high)
         unit = "" if unit == "1" else f" {unit}"
-        raise ParameterError(f"{name} = {number!r}{unit}, allowed: {low:g} .. {high:g}{unit}")
+        raise ParameterError(f"{name} = {number!r}{unit}, allowed: {low:g} .. {high:g}{unit}{hint}")
     return number
 
 

@@ -22,6 +22,7 @@ from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
 from ..units import parse_quantity
 
+LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
 if TYPE_CHECKING:  # they need numpy, which not every command does
     from ..model.spec import ModelSpec, Signal
 
@@ -42,6 +43,19 @@ def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> di
     """Return the inputs that are given, in SI units."""
     given = vars(arguments)
     return {s.name: read_input(given[s.name], s) for s in inputs if given[s.name] is not None}
+
+
+def doubts(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> list[str]:
+    """Return warnings of speeds without a unit that were probably meant in rpm."""
+    given, found = vars(arguments), []
+    for s in inputs:
+        text = given[s.name]
+        bare = text is not None and s.unit == "rad/s" and re.fullmatch(r"\s*[+-]?[\d.]+\s*", text)
+        if bare and abs(float(text)) >= LIKELY_RPM:
+            rpm = parse_quantity(f"{text} rpm", s.unit, s.name)
+            found.append(f"{s.name} = {text} without a unit is in rad/s; did you mean {rpm:.6g} "
+                         f"rad/s ({float(text):g} rpm)? Write the unit")  # fmt: skip
+    return found
 
 
 def read_input(text: str, signal: "Signal") -> float:

@@ -180,10 +180,9 @@ def targets(arguments: argparse.Namespace) -> Targets:
 
 def _check_plot(path: str) -> Path:
     """Return the path of a picture if it can be written; no folder is made for it."""
-    if not Path(path).parent.is_dir():
-        raise ParameterError(
-            f"--plot {path}: there is no folder {Path(path).parent}; make it first"
-        )
+    folder = Path(path).parent
+    if not folder.is_dir():
+        raise ParameterError(f"--plot {path}: there is no folder {folder}; make it first")
     return check_file(path, "--plot", PLOT_SUFFIXES)
 
 

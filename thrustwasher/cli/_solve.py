@@ -48,7 +48,8 @@ class PointCommand:
         began = time.perf_counter()
         result = solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
-        warnings = [*there.warnings, *result.warnings]
+        doubts = _options.doubts(arguments, inputs)
+        warnings = [*doubts, *there.warnings, *result.warnings]
         if model.warning and not any(options.values()):
             warnings += filter(None, [resolve(model.warning)(result)])
         _output.warn(warnings)

@@ -49,7 +49,8 @@ def run(arguments: argparse.Namespace) -> int:
     asked: dict[str, Any] = {**point, **_of_part(part), **grid}
     curve = load_curve(params, **asked)
     wall_time = time.perf_counter() - began
-    warnings = [*there.warnings, *curve.warnings]
+    doubts = _options.doubts(arguments, INPUTS)
+    warnings = [*doubts, *there.warnings, *curve.warnings]
     _output.warn(warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)

@@ -46,7 +46,8 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     result = _engage(params, point, times, arguments.fidelity or part.fidelity)
     wall_time = time.perf_counter() - began
-    warnings = [*there.warnings, *result.warnings]
+    doubts = _options.doubts(arguments, SPEC.inputs)
+    warnings = [*doubts, *there.warnings, *result.warnings]
     _output.warn(warnings)
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)

@@ -25,6 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
+    if arguments.list:
+        return _list(arguments.json)
     if arguments.compare:
         return _compare.run(arguments, _scene, _one_shift)
     scene = _scene(arguments, arguments.scene or "planetary")
@@ -50,6 +52,18 @@ def run(arguments: argparse.Namespace) -> int:
         _say_sequence(result)
     else:
         _say(result, folder)
+    return 0
+
+
+def _list(as_json: bool) -> int:
+    """List the built-in scenes."""
+    from ..shift import builtin_scenes, load_scene
+
+    titles = {name: load_scene(name).title for name in builtin_scenes()}
+    if as_json:
+        _output.print_json({"scenes": titles})
+    else:
+        _output.print_rows([(name, title, "") for name, title in titles.items()])
     return 0
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import ParameterError
+from ..model.kept import kept_warnings
 from ..model.part_file import (
     PartFile,
     checked_name,
@@ -59,17 +60,22 @@ def _usual_box(model: Model) -> dict[str, tuple[float, float]]:
 
 def _check(arguments: argparse.Namespace) -> None:
     path = Path(arguments.subject)
-    _told(arguments, path, load_part(path), f"{path}: sound")
+    _told(arguments, path, load_part(path), f"{path}: allowed")
 
 
 def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
-    """Say what a part file holds."""
+    """Say what a part file holds; first what of it no longer fits the rest."""
+    warnings = kept_warnings(part)
+    _output.warn(warnings)
     if arguments.json:
         _output.print_json({
             "file": str(path), "model": part.spec.key, "name": part.name, "box": part.box,
             "fidelity": part.fidelity, "parameters": _output.parameters_of(part.params),
+            "warnings": warnings,
         })  # fmt: skip
         return
+    if not warnings:
+        words = words.replace(": allowed", ": sound")
     plain, own = part.spec.params(), part.params
     changed = [n for n in part.parameters if getattr(plain, n) != getattr(own, n)]
     given = f"{len(changed)} parameters not at their defaults" if changed else "all at the defaults"

@@ -7,6 +7,8 @@
 ``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
 ``part_file``   parts of one's own and presets: TOML
 ``advice``      warnings of a solution, one line each
+``kept``        what a part keeps of its preset though what it belongs to was changed
+``point``       an operating point: what is given, what a part's box fixes, what is left to defaults
 ``prepare``     from parameters to what a kernel takes: rules, constants, tables
 ==============  ===============================================================================
 

@@ -20,15 +20,16 @@ T = TypeVar("T")
 def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: Any) -> Any:
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
-    ``tunable=True``: an FMU's host may change it between two steps.
+    ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
+    ``when``: see ``model.kept``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
 
 
-def count(default: int, low: int, high: int, text: str) -> Any:
+def count(default: int, low: int, high: int, text: str, **extra: Any) -> Any:
     """Return an integer field; both bounds are allowed."""
-    meta = {"kind": "integer", "unit": "1", "min": low, "max": high, "help": text}
+    meta = {"kind": "integer", "unit": "1", "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
 
 

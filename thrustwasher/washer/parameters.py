@@ -56,6 +56,10 @@ MATERIAL = {  # property of each body: unit, default, least, largest, what it is
 }
 
 
+RADII = ("inner_radius", "outer_radius")
+OF_SIZE: dict[str, Any] = {"belongs_to": RADII, "when": ("friction_law", "load")}
+
+
 def _own(name: str, common: str, unit: str, least: float, largest: float) -> Rule:
     """Return the rule of a body's own value: 0, or in the range of the common one."""
     unit = "" if unit == "1" else f" {unit}"
@@ -73,7 +77,9 @@ def _body(name: str) -> Any:
     """Return the field of one body's own property, 0 if it has the common one."""
     common, body = name.rsplit("_", 1)
     unit, _, _, largest, text = MATERIAL[common]
-    return quantity(0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})")
+    return quantity(
+        0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})", overrides=(common,)
+    )  # fmt: skip
 
 
 def property_of(params: Any, name: str, body: str) -> float:
@@ -117,16 +123,24 @@ class WasherParams:
 
     inner_radius: float = quantity(0.0111, "m", 2e-3, 0.05, "inner radius of the washer")
     outer_radius: float = quantity(0.0227, "m", 3e-3, 0.06, "outer radius of washer and gear face")
-    gear_inner_radius: float = quantity(0.0156, "m", 2e-3, 0.06, "inner radius of the gear face")
+    gear_inner_radius: float = quantity(
+        0.0156, "m", 2e-3, 0.06, "inner radius of the gear face", belongs_to=RADII
+    )
     carrier_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the carrier plate")
     washer_thickness: float = quantity(6.35e-4, "m", 1e-4, 0.02, "thickness of the washer")
     gear_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the gear's web")
     roughness: float = quantity(
         5.15e-7, "m", LEAST_ROUGHNESS, 1e-5, "RMS roughness of every surface"
     )
-    roughness_carrier: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the carrier (0: roughness)")
-    roughness_washer: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the washer (0: roughness)")
-    roughness_gear: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the gear face (0: roughness)")
+    roughness_carrier: float = quantity(
+        0.0, "m", 0.0, 1e-5, "RMS of the carrier (0: roughness)", overrides=("roughness",)
+    )
+    roughness_washer: float = quantity(
+        0.0, "m", 0.0, 1e-5, "RMS of the washer (0: roughness)", overrides=("roughness",)
+    )
+    roughness_gear: float = quantity(
+        0.0, "m", 0.0, 1e-5, "RMS of the gear face (0: roughness)", overrides=("roughness",)
+    )
     youngs_modulus: float = _material("youngs_modulus")
     youngs_modulus_carrier: float = _body("youngs_modulus_carrier")
     youngs_modulus_washer: float = _body("youngs_modulus_washer")
@@ -174,8 +188,12 @@ class WasherParams:
     dry_friction: float = quantity(0.15, "1", 0.0, 1.0, "dry friction of the constant law")
     friction_constant: float = quantity(0.48, "1", 0.0, 2.0, "constant of the dry friction law")
     friction_slope: float = quantity(0.05, "1", 0.0, 0.2, "slope of the dry friction law")
-    friction_load_min: float = quantity(260.5, "N", 1.0, 1e5, "lower end of the law's range")
-    friction_load_max: float = quantity(1725.6, "N", 1.0, 1e5, "upper end of the law's range")
+    friction_load_min: float = quantity(
+        260.5, "N", 1.0, 1e5, "lower end of the law's range", **OF_SIZE
+    )
+    friction_load_max: float = quantity(
+        1725.6, "N", 1.0, 1e5, "upper end of the law's range", **OF_SIZE
+    )
     heat_split: float = quantity(
         0.5, "1", 0.0, 1.0, "share of the heat that enters the carrier", tunable=True
     )

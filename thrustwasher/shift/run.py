@@ -11,6 +11,7 @@ from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
 from ..model.record import resolve
 from ..model.registry import all_models
+from ..transmission.parameters import BEARINGS
 from .cosim.loop import Recorder, Run, Steps, advance_in_python
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, Stepping, System, capable
@@ -158,6 +159,7 @@ def result_of(
             *(line for change in corrections for line in change.words()),
             *steps.words(),
             *_advice(time, signals),
+            *thrust_remarks(scene, signals),
             *model_remarks(scene, time, signals),
         ],
         judder=judder,
@@ -255,6 +257,21 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     if "washer" not in scene.parts and gearbox.washers:
         remarks.append("there is no washer model in this scene: the washers run without drag")
     return remarks
+
+
+def thrust_remarks(scene: Scene, signals: Mapping[str, NDArray[np.float64]]) -> list[str]:
+    """Say which thrusts of a finished run rest on no bearing in the model."""
+    gearbox = scene.parts["transmission"].params
+    free = [n for n in BEARINGS if not getattr(gearbox, f"{n}_coefficient")]
+    thrust = float(np.max(signals["transmission.sun_thrust"]))
+    if not free or thrust == 0.0:
+        return []
+    gears, tables = (" and ".join(form.format(n) for n in free) for form in ("the {}'s", "[{}]"))
+    gears = gears.replace("_bearing", "")
+    return [
+        f"{gears} thrust of up to {thrust:.4g} N rests on no bearing in the model, whose friction "
+        f"is left out; {tables} in the scene would add it"
+    ]
 
 
 def model_remarks(

@@ -90,6 +90,8 @@ class Scene:
     vehicle: Vehicle | None = None
     notes: tuple[str, ...] = ()
     """What a reader of a run has to know of its making."""
+    warnings: tuple[str, ...] = ()
+    """What is doubtful in the scene itself, one line each."""
     sequence: ShiftSequence | None = None
     """Several shifts in one run; None: the one that the scene's own ramp or courses make."""
 
@@ -197,7 +199,7 @@ def _with(params: Any, **values: Any) -> Any:
     return replace(params, **new) if new else params
 
 
-def shift_of_pressures(gearbox: Any) -> dict[str, float]:
+def shift_of_pressures(gearbox: Any) -> dict[str, Any]:
     """Return the shift that courses of pressure make, as fields of a scene.
 
     The pack whose pressure ends higher than it began engages; the shift begins where its pressure

@@ -16,9 +16,11 @@ from ...model.parameters import other_names_of, plainly_named
 from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
+from ...transmission.parameters import BEARINGS
 from ..key_figures.figure_list import FIGURES
 from . import oil
 from .connections import PARTS, REQUIRED
+from .doubts import doubts
 from .scene import (
     STEP_RANGE,
     TOLERANCE_RANGE,
@@ -46,7 +48,9 @@ SHIFT = {
     "from": ("1", 0.0, 1.0),
     "to": ("1", 0.0, 1.0),
 }
-TABLES = ("shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *PARTS)
+TABLES = (
+    "shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *BEARINGS, *PARTS
+)  # fmt: skip
 
 
 def builtin_scenes() -> list[str]:
@@ -144,7 +148,7 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
     for key in (*REQUIRED, moves, "stop_time"):
         if key not in table:
             raise ParameterError(f"{where}: {key!r} is missing")
-    numbers = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
+    numbers: dict[str, Any] = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
     numbers |= {k: number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
     vehicle = vehicle_of(f"{where} [vehicle]", table.get("vehicle"))
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
@@ -169,7 +173,8 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
     if "sequence" in table:
         where = f"{where} [sequence]"
         scene = checked_sequence(where, scene, read_sequence(where, scene, table["sequence"]))
-    return scene.checked()
+    scene = scene.checked()
+    return replace(scene, warnings=(*scene.warnings, *doubts(scene)))
 
 
 def _parts(
@@ -204,7 +209,7 @@ def _sump(table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
     return {"initial_temperature": oil, **alike, **table}
 
 
-def _shift(where: str, table: dict[str, Any]) -> dict[str, float]:
+def _shift(where: str, table: dict[str, Any]) -> dict[str, Any]:
     """Return the ramp of the shift command, as fields of a scene."""
     nothing_else(where, table, SHIFT)
     given = {f"shift_{key}": number(where, key, x, SHIFT[key]) for key, x in table.items()}

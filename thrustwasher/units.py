@@ -25,7 +25,8 @@ _BASE: dict[str, dict[str, int]] = _TABLES["base"]
 # The unit a person reads, tried in this order: the first whose number is at least 1.
 _DISPLAY: dict[str, list[str]] = _TABLES["display"]
 # More units that a number may be exact in.
-_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",)}
+_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",),
+          "m2/s": ("mm2/s",)}  # fmt: skip
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 

@@ -7,6 +7,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
+from ..model.oil import refuse_two_ways, sheet_oil
 from ..model.parameters import allowed
 from ..model.part_file import (
     PartFile,
@@ -21,8 +22,10 @@ from ..model.registry import find_model, spec_of
 from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
 from ..units import parse_quantity
+from ._output import note
 
 if TYPE_CHECKING:  # they need numpy, which not every command does
+    from ..model.oil import Oil
     from ..model.spec import ModelSpec, Signal
 
 
@@ -46,7 +49,7 @@ def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> di
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
-    """Add ``--part``, ``--set`` and ``--parameters``, and ``--preset`` if the model has presets."""
+    """Add ``--part``, ``--set``, ``--oil``, ``--parameters``, ``--preset`` if there are presets."""
     group = parser.add_argument_group("parameters")
     add_start(group, preset_parts(spec))
     names = {f.name: _default(f) for f in fields(spec.params)}
@@ -56,6 +59,7 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
         "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
         help=f"change a parameter, e.g. --set {example}; may be repeated",
     )  # fmt: skip
+    add_listed(group, "oil")
     group.add_argument(
         "--parameters", action=_ListParameters, nargs=0, const=spec,
         help=f"list the parameters of {spec.name} with default, unit and range, and stop",
@@ -110,7 +114,48 @@ class _ListParameters(argparse.Action):
 
 def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
     """Return part, preset or defaults with every ``--set`` applied; their own checks included."""
-    return spec.params(**(read_start(arguments, spec) | read_settings(arguments.settings, spec)))
+    settings = read_settings(arguments.settings, spec)
+    oil = read_oil(arguments, spec, settings)
+    if oil is None and arguments.part:
+        oil = load_part(arguments.part).oil
+    arguments.oil = oil
+    own = {} if oil is None else oil.parameters_for(spec)
+    if oil:
+        note(oil.words(spec))
+    return spec.params(**(read_start(arguments, spec) | own | settings))
+
+
+def read_oil(
+    arguments: argparse.Namespace, spec: "ModelSpec", others: Iterable[str]
+) -> "Oil | None":
+    """Return the oil of ``--oil``; ParameterError if it is said in ``others`` as well."""
+    if arguments.oil is None:
+        return None
+    oil = sheet_oil("--oil", arguments.oil)
+    refuse_two_ways("--oil", oil, spec, others)
+    return oil
+
+
+def with_oil(arguments: argparse.Namespace, part: PartFile, others: Iterable[str]) -> PartFile:
+    """Return a part with the oil of ``--oil``, and say what its oil is, if it has one."""
+    oil = read_oil(arguments, part.spec, others)
+    part = part if oil is None else part.with_oil(oil)
+    if part.oil:
+        note(part.oil_words)
+    return part
+
+
+def oil_record(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, Any]:
+    """Return what JSON says of the oil that ``read_parameters`` found, if any."""
+    return {} if arguments.oil is None else {"oil": arguments.oil.as_dict(spec)}
+
+
+def oil_warnings(
+    arguments: argparse.Namespace, spec: "ModelSpec", point: Mapping[str, float]
+) -> list[str]:
+    """Return what is doubtful of the oil that ``read_parameters`` found, at a point."""
+    at = point.get("oil_temperature")
+    return [] if arguments.oil is None or at is None else arguments.oil.warnings([spec], at)
 
 
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:

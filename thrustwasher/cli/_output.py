@@ -92,6 +92,12 @@ def note(message: str) -> None:
     print(message, file=sys.stderr)
 
 
+def warn(warnings: Iterable[str]) -> None:
+    """Write warnings to standard error, each on a line."""
+    for text in warnings:
+        note(f"warning: {text}")
+
+
 def time_left(label: str) -> Callable[[int, int], None]:
     """Return ``show(done, total)`` that also says how long it will take; in a pipe a line a minute.
 

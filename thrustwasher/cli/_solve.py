@@ -39,6 +39,8 @@ class PointCommand:
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
 
+        warnings = _options.oil_warnings(arguments, spec, point)
+        _output.warn(warnings)
         solve = resolve(model.solve)
         place = resolve(model.place)(point) if model.place else point
         fidelity = _rung(_options.read_fidelity(arguments, spec), spec, params, place)
@@ -48,7 +50,8 @@ class PointCommand:
         targets.draw(model.figure, result, point, params)
         found, parameters = _output.scalars(result), _output.parameters_of(params)
         if arguments.json:
-            told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time}
+            told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time,
+                    "warnings": warnings, **_options.oil_record(arguments, spec)}  # fmt: skip
             _output.print_json(told)
             return 0
         where = ", ".join(f"{s.name} {_output.shown(point[s.name], s.unit)}" for s in inputs)

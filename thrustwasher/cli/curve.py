@@ -40,6 +40,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..washer.load_curve import load_curve
 
+    warnings = _options.oil_warnings(arguments, SPEC, point)
+    _output.warn(warnings)
     began = time.perf_counter()
     curve = load_curve(params, **point, **grid)
     wall_time = time.perf_counter() - began
@@ -51,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
             "points": [_output.scalars(p) for p in curve.points],
             "folds": [_output.scalars(f) for f in curve.folds],
             **point, "parameters": _output.parameters_of(params), "wall_time": wall_time,
+            "warnings": warnings, **_options.oil_record(arguments, SPEC),
         })  # fmt: skip
         return 0
     if not any(targets):

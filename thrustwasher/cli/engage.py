@@ -40,6 +40,8 @@ def run(arguments: argparse.Namespace) -> int:
     times = {name: _seconds(name, getattr(arguments, name)) for name in TIMES}
     targets = _output.targets(arguments)
 
+    warnings = _options.oil_warnings(arguments, SPEC, point)
+    _output.warn(warnings)
     began = time.perf_counter()
     result = _engage(params, point, times, _options.read_fidelity(arguments, SPEC))
     wall_time = time.perf_counter() - began
@@ -48,7 +50,8 @@ def run(arguments: argparse.Namespace) -> int:
     targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
-        given = {"parameters": _output.parameters_of(params)}
+        given = {"parameters": _output.parameters_of(params), "warnings": warnings}
+        given |= _options.oil_record(arguments, SPEC)
         _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
         return 0
     if not any(targets):

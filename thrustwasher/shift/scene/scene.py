@@ -90,6 +90,8 @@ class Scene:
     vehicle: Vehicle | None = None
     notes: tuple[str, ...] = ()
     """What a reader of a run has to know of its making."""
+    warnings: tuple[str, ...] = ()
+    """What was found doubtful while the scene was read."""
     sequence: ShiftSequence | None = None
     """Several shifts in one run; None: the one that the scene's own ramp or courses make."""
 

@@ -138,9 +138,10 @@ class Oil:
         stay -= {p for s in specs for p in self.parameters_for(s)}
         return "; ".join(filter(None, (
             f"oil {self}",
-            f"density {density(self.density_15, AT):.4g} kg/m3, that at 40 degC",
+            f"density of the parts {density(self.density_15, AT):.4g} kg/m3, that at 40 degC",
             f"largest error of the viscosity law to ASTM D341 over 20 .. 150 degC: {told}"
             if told else "",
+            f"given beside it: {', '.join(self.rest)}" if self.rest else "",
             f"the part's own stay: {', '.join(sorted(stay))}" if stay else "",
         )))  # fmt: skip
 
@@ -303,9 +304,16 @@ def _found_name(where: str, name: Any) -> str:
     for key in (plain, f"sae{plain}", f"iso{plain}", f"isovg{plain.removeprefix('iso')}"):
         if key in known and not plain.isdigit():
             return known[key]
-    near = suggestion(plain, known, "{}")
+    alike = [key for key in known if re.sub(r"\d+", "", key) == re.sub(r"\d+", "", plain)]
+    near = suggestion(plain, known, "{}") if not alike else min(alike, key=lambda k: _far(k, plain))
     hint = f"; did you mean {known[near]!r}?" if near else ""
     raise ParameterError(f"{where} = {name!r}, allowed: {', '.join(known.values())}{hint}")
+
+
+def _far(name: str, other: str) -> int:
+    """Return how far apart the numbers in two names are."""
+    numbers = (map(int, re.findall(r"\d+", text)) for text in (name, other))
+    return sum(abs(a - b) for a, b in zip(*numbers, strict=False))
 
 
 def _plain(name: str) -> str:

@@ -231,11 +231,8 @@ function changes(from) {
   return ABOUT.parameters.filter((f) => state.parameters[f.name] !== from[f.name]).map((f) => [f.name, state.parameters[f.name]]);
 }
 
-/** Return the named oil that the parameters are those of, "" if they are of none. */
-const oilNow = () => Object.keys(ABOUT.oils).find((name) => Object.entries(ABOUT.oils[name]).every(([n, v]) => state.parameters[n] === v)) ?? "";
-
 function settled() {
-  byId("oil").value = oilNow();
+  byId("oil").value = Object.keys(ABOUT.oils).find((name) => Object.entries(ABOUT.oils[name]).every(([n, v]) => state.parameters[n] === v)) ?? "";
   const pairs = [...Object.entries(state.inputs), ...changes(ABOUT.given)];
   if (state.rung !== ABOUT.rung) pairs.push(["fidelity", state.rung]);
   if (state.branch) pairs.push(["branch", state.branch]);

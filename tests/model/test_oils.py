@@ -3,6 +3,7 @@
 import json
 import math
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -21,6 +22,7 @@ from thrustwasher.model.oil_laws import (
 from thrustwasher.model.registry import find_model
 from thrustwasher.shift import load_scene
 
+ROOT = Path(__file__).parents[2]
 SHEET = {"kinematic_viscosity_40": "46 cSt", "kinematic_viscosity_100": 6.8e-6, "density_15": 870}
 J306 = {"75W": 3.8, "80W": 8.5, "80": (8.5, 11.0), "90": (13.5, 18.5), "140": (24.0, 32.5)}
 J300 = {"0W": 3.8, "5W": 3.8, "10W": 4.1, "20": (6.9, 9.3), "30": (9.3, 12.5), "40": (12.5, 16.3)}
@@ -74,6 +76,16 @@ def test_a_models_law_is_within_one_percent_and_errs_alike_at_four_temperatures(
     law = law_of(spec)
     said = [getattr(spec.params(**found.parameters_for(key)), n) for n in law]
     assert law_viscosity(law, said, 353.15) == pytest.approx(found.viscosity(353.15), rel=worst)
+
+
+def test_the_page_has_the_named_oils_with_the_errors_of_their_laws():
+    text = (ROOT / "docs" / "oils.md").read_text("utf-8")
+    washer, mesh = (find_model(key).spec for key in ("washer", "gearmesh"))
+    for name, row in named_oils().items():
+        numbers = " | ".join(f"{x:g}" for x in row[:4])
+        errors = (100.0 * oil(name).worst_error(spec) for spec in (washer, mesh))
+        assert f"| {name} | {numbers} | {row.standard}: " in text
+        assert f" | {' | '.join(f'{x:.2f} %' for x in errors)} |\n" in text.split(f"| {name} |")[1]
 
 
 def test_the_level_line_of_a_parabola():

@@ -27,7 +27,8 @@ _DISPLAY: dict[str, list[str]] = _TABLES["display"]
 # In which unit a bare number was probably meant, the likeliest first.
 _MEANT: dict[str, list[str]] = _TABLES["meant"]
 # More units that a number may be exact in.
-_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",)}
+_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",),
+          "m2/s": ("mm2/s",)}  # fmt: skip
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 

@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
+from ..model.oil import refuse_two_ways, sheet_oil
 from ..model.parameters import allowed, check_number
 from ..model.part_file import (
     PartFile,
@@ -21,9 +22,11 @@ from ..model.registry import find_model, spec_of
 from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
 from ..units import parse_quantity
+from ._output import note
 
 LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
 if TYPE_CHECKING:  # they need numpy, which not every command does
+    from ..model.oil import Oil
     from ..model.spec import ModelSpec, Signal
 
 
@@ -65,7 +68,7 @@ def read_input(text: str, signal: "Signal") -> float:
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
-    """Add ``--part``, ``--set`` and ``--parameters``, and ``--preset`` if the model has presets."""
+    """Add ``--part``, ``--set``, ``--oil``, ``--parameters``, ``--preset`` if there are presets."""
     group = parser.add_argument_group("parameters")
     add_start(group, preset_parts(spec))
     names = {f.name: _default(f) for f in fields(spec.params)}
@@ -75,6 +78,7 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
         "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
         help=f"change a parameter, e.g. --set {example}; may be repeated",
     )  # fmt: skip
+    add_listed(group, "oil")
     group.add_argument(
         "--parameters", action=_ListParameters, nargs=0, const=spec,
         help=f"list the parameters of {spec.name} with default, unit and range, and stop",
@@ -97,7 +101,9 @@ def read_part(arguments: argparse.Namespace, spec: "ModelSpec") -> PartFile:
     part = solvable(spec.key, preset) if file is None else load_part(file)
     if part.spec.key != spec.key:
         raise ParameterError(f"--part {file}: is one of {part.spec.name}, allowed: {spec.name}")
-    part = replace(part, parameters=part.parameters | read_settings(arguments.settings, spec))
+    settings = read_settings(arguments.settings, spec)
+    part = with_oil(arguments, part, settings)
+    part = replace(part, parameters=part.parameters | settings)
     part.params  # noqa: B018  (raises what the model says about them)
     return part
 
@@ -125,6 +131,31 @@ class _ListParameters(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser._print_message(f"{parameter_table(self.const)}\n")
         parser.exit()
+
+
+def read_oil(
+    arguments: argparse.Namespace, spec: "ModelSpec", others: Iterable[str]
+) -> "Oil | None":
+    """Return the oil of ``--oil``; ParameterError if it is said in ``others`` as well."""
+    if arguments.oil is None:
+        return None
+    oil = sheet_oil("--oil", arguments.oil)
+    refuse_two_ways("--oil", oil, spec, others)
+    return oil
+
+
+def with_oil(arguments: argparse.Namespace, part: PartFile, others: Iterable[str]) -> PartFile:
+    """Return a part with the oil of ``--oil``, and say what its oil is, if it has one."""
+    oil = read_oil(arguments, part.spec, others)
+    part = part if oil is None else part.with_oil(oil)
+    if part.oil:
+        note(part.oil_words)
+    return part
+
+
+def oil_record(part: PartFile) -> dict[str, Any]:
+    """Return what JSON says of the oil of a part, if it has a name or a data sheet."""
+    return {"oil": part.oil.as_dict(part.spec)} if part.oil else {}
 
 
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:

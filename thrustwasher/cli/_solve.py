@@ -58,7 +58,8 @@ class PointCommand:
         if arguments.json:
             told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time}
             taken = {"box": there.box, "default": there.default}
-            _output.print_json({**told, "taken": taken, "warnings": warnings})
+            told |= {"taken": taken, "warnings": warnings, **_options.oil_record(part)}
+            _output.print_json(told)
             return 0
         where = ", ".join(f"{s.name} {_output.shown(point[s.name], s.unit)}" for s in inputs)
         print(f"{model.title.format(**parameters)} at {where}")

@@ -61,6 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
             "folds": [_output.scalars(f) for f in curve.folds], "warnings": warnings,
             "taken": {"box": there.box, "default": there.default}, **point,
             "parameters": _output.parameters_of(params), "wall_time": wall_time,
+            **_options.oil_record(part),
         })  # fmt: skip
         return 0
     if there.taken:

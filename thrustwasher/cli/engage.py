@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
         given = {
             "parameters": _output.parameters_of(params), "warnings": warnings,
-            "taken": {"box": there.box, "default": there.default},
+            "taken": {"box": there.box, "default": there.default}, **_options.oil_record(part),
         }  # fmt: skip
         _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
         return 0

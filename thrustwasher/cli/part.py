@@ -27,6 +27,7 @@ HELP = "write a part file of one's own (new), check one, list the presets"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "part", models=", ".join(m.key for m in all_models()))
+    _options.add_listed(parser, "oil")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -43,6 +44,8 @@ def _new(arguments: argparse.Namespace) -> None:
     spec = model.spec
     start = find_part(spec.key) if arguments.preset is None else preset_part(spec, arguments.preset)
     changes = _options.read_settings(arguments.settings, spec)
+    oil = _options.read_oil(arguments, spec, changes)
+    start = start if oil is None else start.with_oil(oil)
     name = checked_name(arguments.name or usual_name(spec))
     box = start.box or _usual_box(model)
     out = _output.new_part(arguments.out or f"{spec.key}.toml")
@@ -60,7 +63,10 @@ def _usual_box(model: Model) -> dict[str, tuple[float, float]]:
 
 def _check(arguments: argparse.Namespace) -> None:
     path = Path(arguments.subject)
-    _told(arguments, path, load_part(path), f"{path}: allowed")
+    part = load_part(path)
+    oil = _options.read_oil(arguments, part.spec, ())
+    part = part if oil is None else part.with_oil(oil)
+    _told(arguments, path, part, f"{path}: allowed")
 
 
 def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
@@ -71,7 +77,7 @@ def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
         _output.print_json({
             "file": str(path), "model": part.spec.key, "name": part.name, "box": part.box,
             "fidelity": part.fidelity, "parameters": _output.parameters_of(part.params),
-            "warnings": warnings,
+            "warnings": warnings, "oil": part.oil and part.oil.as_dict(part.spec),
         })  # fmt: skip
         return
     if not warnings:
@@ -81,6 +87,8 @@ def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
     given = f"{len(changed)} parameters not at their defaults" if changed else "all at the defaults"
     print(f"{words}: {part.name}, {part.spec.name}, {given}{': ' * bool(changed)}"
           + ", ".join(changed))  # fmt: skip
+    if part.oil:
+        print(part.oil_words)
 
 
 def _list(arguments: argparse.Namespace) -> None:

@@ -21,6 +21,7 @@ REPORT, TABLE = "report.html", "shift.csv"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "shift")
+    _options.add_listed(parser, "oil")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -88,7 +89,7 @@ def _scene(arguments: argparse.Namespace, name: str) -> Any:
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     tolerance = arguments.master_tolerance
-    scene = load_scene(name).with_options(
+    scene = load_scene(name, arguments.oil).with_options(
         step=step, master=arguments.master,
         master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
     )  # fmt: skip

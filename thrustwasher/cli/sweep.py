@@ -21,6 +21,7 @@ HELP = "solve a model over ranges of inputs and parameters, on all cores or on a
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "sweep", models=", ".join(models_with_points()))
+    _options.add_listed(parser, "oil")
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
     for name, units in _inputs().items():
         inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
@@ -35,12 +36,15 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.out:
         out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
     points = _points(arguments.points, spec) if arguments.points else None
+    over = split_settings(arguments.over, "--over", VALUES)
+    part = _options.with_oil(
+        arguments, part, (*at, *(n.partition("[")[0].strip() for n in over), *(points or ()))
+    )
 
     from ..sweep.run_sweep import run_sweep
     from ..sweep.sweep_table import write_csv
 
     began = time.perf_counter()
-    over = split_settings(arguments.over, "--over", VALUES)
     table = run_sweep(
         part, over, at=at, points=points, fidelity=arguments.fidelity, out=out,
         workers=_workers(arguments.workers), cluster=arguments.cluster,

@@ -6,6 +6,8 @@ notes::
     model = "washer"
     name = "MyWasher"
 
+    oil = "ISO VG 46"
+
     [parameters]
     roughness = "0.5 um"
 
@@ -27,6 +29,7 @@ from typing import Any
 
 from ..errors import ParameterError, within
 from ..units import exact_quantity, format_quantity
+from .oil import Oil, refuse_two_ways, sheet_oil
 from .parameters import allowed, check_number, other_names_of, plainly_named
 from .point import command_inputs, own_inputs, point_of
 from .record import resolve
@@ -55,6 +58,8 @@ class PartFile:
     """The rung that it is solved with where no other is asked for."""
     box: Box = field(default_factory=dict)
     """Range [SI] of each input that it is meant for; an input that is not there has no bounds."""
+    oil: Oil | None = None
+    """The oil that gave some of the parameters."""
     description: str = ""
     notes: str = ""
 
@@ -78,7 +83,18 @@ class PartFile:
     def told(self) -> dict[str, Any]:
         """What the FMU says of this part, beside its values: fields of the model's record."""
         text = self.description.rstrip(".") or self.spec.help
-        return {"name": self.name, "help": text, "box": self.box, "notes": self.notes}
+        return {"name": self.name, "help": text, "box": self.box,
+                "notes": "; ".join(filter(None, (self.notes, self.oil_words)))}  # fmt: skip
+
+    @property
+    def oil_words(self) -> str:
+        """What is to be known of its oil; of one that has a name or a data sheet."""
+        return self.oil.words(self.spec) if self.oil else ""
+
+    def with_oil(self, given: Oil) -> "PartFile":
+        """Return the part with another oil."""
+        changed = {**self.parameters, **given.parameters_for(self.spec)}
+        return replace(self, oil=given, parameters=changed)
 
     @property
     def starts(self) -> dict[str, float]:
@@ -191,7 +207,8 @@ def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> 
 
 
 def _part(where: str, table: dict[str, Any]) -> PartFile:
-    nothing_else(where, [k for k in table if k not in TEXTS + TABLES], TEXTS + TABLES)
+    known = (*TEXTS, *TABLES, "oil")
+    nothing_else(where, [k for k in table if k not in known], known)
     if isinstance(table.get("notes"), dict):
         table = {**table, "notes": "; ".join(f"{k}: {v}" for k, v in table["notes"].items())}
     for key in TEXTS:
@@ -211,8 +228,13 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
             rungs = " or ".join(map(repr, spec.fidelities))
             raise ParameterError(f"fidelity = {fidelity!r}, allowed: {rungs}")
     parameters = read_parameters(f"{where} [parameters]", spec, table.get("parameters", {}))
+    own = None
+    if "oil" in table:
+        own = sheet_oil(f"{where}: oil", table["oil"])
+        refuse_two_ways(f"{where}: oil", own, spec, parameters)
+        parameters |= own.parameters_for(spec)
     return PartFile(
-        spec=spec, name=name, parameters=parameters, fidelity=fidelity,
+        spec=spec, name=name, parameters=parameters, fidelity=fidelity, oil=own,
         box=_box(f"{where} [box]", spec, table.get("box", {})),
         description=table.get("description", ""), notes=table.get("notes", ""),
     )  # fmt: skip
@@ -286,10 +308,17 @@ def _lines(part: PartFile) -> Iterator[str]:
         yield f"{key} = {json.dumps(getattr(part, key), ensure_ascii=False)}"
     rungs = " or ".join(part.spec.fidelities)
     yield f"fidelity = {json.dumps(part.fidelity)}  # {rungs}"
+    params = part.params
+    set_by_oil = part.oil.parameters_for(part.spec) if part.oil else {}
+    if any(getattr(params, name) != value for name, value in set_by_oil.items()):
+        set_by_oil = {}  # it is not this oil any more
+    if part.oil and set_by_oil:
+        yield f"oil = {part.oil.as_toml()}  # sets {', '.join(set_by_oil)}"
     yield ""
     yield "[parameters]"
-    params = part.params
     for f in fields(params):
+        if f.name in set_by_oil:
+            continue
         m, value = f.metadata, getattr(params, f.name)
         if m["kind"] == "real":
             value = exact_quantity(value, m["unit"], difference=bool(m.get("relative")))

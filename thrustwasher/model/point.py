@@ -106,6 +106,8 @@ def point_of(
         for n, ends in part.box.items()
         if n in there and _moved(part, n, there[n]) != there[n]
     ]  # fmt: skip
+    if part.oil and "oil_temperature" in there:
+        outside += part.oil.warnings([part.spec], there["oil_temperature"])
     default = {n: v for n, v in values.items() if n not in given and n not in box}
     return Point(
         values=values, box=box, default=default, warnings=tuple(outside), inputs=inputs

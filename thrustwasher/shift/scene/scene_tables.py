@@ -4,10 +4,9 @@ from dataclasses import fields
 from typing import Any
 
 from ...errors import ParameterError, within
-from ...model.toml_tables import nothing_else, number, quantity, read_value, unknown
+from ...model.toml_tables import nothing_else, quantity, read_value, unknown
 from ...transmission.parameters import BEARINGS, COURSES, SHAFT, course_fields
 from ...transmission.vehicle import Vehicle
-from . import oil
 from .connections import PACKS
 
 # Key of [pressure.clutch], [pressure.brake] -> parameter of the transmission, {} the pack.
@@ -118,22 +117,3 @@ def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[s
     )
     with within(where):
         return course_fields(name, points)
-
-
-def oil_of(where: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Return the scene's oil: numbers in SI units, the viscosity as points."""
-    nothing_else(where, table, [*oil.NUMBERS, *oil.VISCOSITY])
-    found: dict[str, Any] = {
-        k: number(where, k, table[k], oil.NUMBERS[k][:3]) for k in oil.NUMBERS if k in table
-    }
-    given = [k for k in oil.VISCOSITY if k in table]
-    if len(given) > 1:
-        raise ParameterError(f"{where}: viscosity beside kinematic_viscosity, allowed: one")
-    for key in given:
-        unit, factor = ("Pa.s", 1.0) if key == "viscosity" else (
-            "m2/s", found.setdefault("density", oil.DENSITY)
-        )  # fmt: skip
-        found["viscosity"] = [
-            (t, factor * x) for t, x in pairs(where, key, table[key], ("temperature", "K"), unit)
-        ]
-    return found

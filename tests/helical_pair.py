@@ -77,16 +77,28 @@ def rolling(pair: Pair, rho: float, speed: float) -> tuple[float, float]:
     return speed * rho, speed * pair.teeth / pair.teeth_gear * (pair.line - pair.side * rho)
 
 
-def loss_factor(pair: Pair, *, wide: bool) -> float:
+def even_part(pair: Pair, width: float) -> float:
+    """Return the part of the load [-] that bears evenly on the whole path: at most the overlap."""
+    return min(width * math.sin(pair.helix) / (math.pi * pair.normal_module), 1.0)
+
+
+def share(pair: Pair, width: float, place: float) -> float:
+    """Return X [-] at a place of the path, in base pitches from the pitch point."""
+    approach, recess = contact_ratios(pair)
+    pairs = math.floor(place + approach) + math.floor(recess - place) + 1
+    even = even_part(pair, width)
+    return (1.0 - even) / pairs + even / (approach + recess)
+
+
+def loss_factor(pair: Pair, even: float) -> float:
     """Return H_v [-]: power lost = H_v x coefficient of friction x power transmitted.
 
-    ``wide``: an overlap of 1 and more, the load spread evenly on the whole path at any time; else
-    two pairs share it equally and one bears it alone (Ohlendorf 1958), contact ratios 1 to 2 with
-    the pitch point where one is alone.
+    ``even`` of the load bears on the whole path at any time; of the rest two pairs bear half each
+    and one alone all (Ohlendorf 1958): contact ratios 1 to 2, the pitch point where one is alone.
     """
     approach, recess = contact_ratios(pair)
     squares, whole = approach**2 + recess**2, approach + recess
-    shape = squares / whole if wide else 1.0 - whole + squares
+    shape = even * squares / whole + (1.0 - even) * (1.0 - whole + squares)
     both = 1.0 / pair.teeth + pair.side / pair.teeth_gear
     return math.pi * both / math.cos(pair.base_helix) * shape
 
@@ -101,10 +113,8 @@ def pitting_stress(
     angle, contact = pair.angle, sum(contact_ratios(pair))
     zone = 2.0 * math.cos(pair.base_helix) / (math.cos(angle) * math.sin(angle))
     elastic = youngs_modulus / (2.0 * math.pi * (1.0 - poisson**2))
-    overlap = width * math.sin(pair.helix) / (math.pi * pair.normal_module)
-    share = 1.0 / contact
-    if overlap < 1.0:
-        share = (4.0 - contact) / 3.0 * (1.0 - overlap) + overlap / contact
+    even = even_part(pair, width)
+    shared = (4.0 - contact) / 3.0 * (1.0 - even) + even / contact
     u = pair.teeth_gear / pair.teeth
     load = force / (2.0 * pair.radius * width) * (u + pair.side) / u
-    return math.sqrt(zone * elastic * share / math.cos(pair.helix) * load)
+    return math.sqrt(zone * elastic * shared / math.cos(pair.helix) * load)

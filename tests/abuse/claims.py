@@ -49,7 +49,8 @@ def gearmesh(r, speed, oil):
             >= oil * (1.0 - 1e-12),
         "stresses press": r.contact_stress >= 0.0 and r.hertz_pressure >= 0.0,
         "the film is there": r.film_thickness >= 0.0 and r.film_ratio >= 0.0,
-        "thermal stress takes of the allowable": 0.0 < r.allowable_ratio <= 1.0,
+        "thermal stress takes of the allowable":
+            r.allowable_ratio is None or 0.0 < r.allowable_ratio <= 1.0,
         "power is torque times speed":
             close(r.friction_power, r.friction_torque * speed, 1e-12),
     }  # fmt: skip

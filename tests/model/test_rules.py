@@ -63,6 +63,7 @@ BROKEN = {
         {"contact_limit": 1e7},
         {"addendum_gear": 0.1},
         {"normal_module": 1e-5},
+        {"permissible_film_ratio": 1e-3},
     ),
     "transmission": (
         {"ring_teeth": 30, "planet_teeth": 0},

@@ -114,7 +114,11 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
         Part("brake", find_spec("clutch"), {}),
     ]
     parts += [Part("washer", find_spec("washer"), small)] if washer else []
-    parts += [Part("mesh", find_spec("gearmesh"), {"film_heat": "atan"})] if mesh else []
+    parts += (
+        [Part("mesh", find_spec("gearmesh"), {"film_heat": "atan", "steel": "AISI4340"})]
+        if mesh
+        else []
+    )
     heat = float(s["transmission.clutch_heat"][-1])
     figures: dict[str, float | None] = {
         "lock_time": 1.75, "lock_speed": 99.0, "release_time": 0.25, "slip_energy": heat,
@@ -129,6 +133,7 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
                     "washer_distress_time": 0.04}  # fmt: skip
     if mesh:
         figures |= {"peak_flash_temperature": 387.15, "peak_mesh_temperature": 327.15,
+                    "peak_gear_temperature": 297.15,
                     "stress_margin_aisi1020": -0.1, "stress_margin_aisi4340": 0.2}  # fmt: skip
     energy = {
         "engine_work": float(s["transmission.engine_work"][-1]), "kinetic": float(kinetic[-1]),

@@ -94,9 +94,21 @@ def test_the_sweep_begins_at_the_least_number_of_teeth_and_marks_what_is_refused
     assert at_20.asperity_temperature == alone.asperity_temperature
 
 
+def test_the_plot_draws_safety_and_loss_where_the_paper_has_no_data():
+    params = GearMeshParams(gear_ratio=5.0, permissible_film_ratio=0.5)
+    figure = gearmesh_figure(solve_gearmesh(params, **MESH_POINT), MESH_POINT, params)
+    labels = [text for axes in figure.axes for text in axes.get_legend_handles_labels()[1]]
+    assert {"pitting", "scuffing, rough ground", "micropitting, fine ground"} <= set(labels)
+    assert not any("AISI" in text for text in labels)
+    assert [axes.get_title(loc="left") for axes in figure.axes][1:] == [
+        "Safety of the teeth",
+        "Loss",
+    ]
+
+
 def test_the_plot_draws_temperatures_and_both_steels():
     point = MESH_POINT
-    params = GearMeshParams(gear_ratio=5.0)
+    params = GearMeshParams.preset("paper", gear_ratio=5.0)
     _, sweeps = over_teeth(params, point, "field")
     figure = gearmesh_figure(solve_gearmesh(params, **point), point, params)
     labels = [text for axes in figure.axes for text in axes.get_legend_handles_labels()[1]]

@@ -120,7 +120,7 @@ def test_a_scene_with_a_mesh_shows_teeth_and_their_stress(record):
     page = shift_report.shift_page(shift_stand_in.record(washer=False, mesh=True))
     shown = {signal["name"] for signal in page.data["runs"][0]["moving"]}
     assert "mesh.stress_utilization_aisi1020" in shown
-    assert "asperities reached 114 °C" in page.summary[2]
+    assert "contact of the gear teeth reached 114 °C, the gears' bodies 24 °C" in page.summary[2]
     assert any("1.10 times what AISI 1020 endures." in words for words in page.warnings)
     assert render(page)
 

@@ -116,11 +116,16 @@ def test_jerk_is_the_change_over_ten_milliseconds():
     assert not [name for name in names if name.startswith("vehicle")]
 
 
-def test_a_film_without_a_limit_is_no_safety_to_look_at():
-    assert "mesh.micropitting_safety" in run_data(full(), {})["aside"]
+def test_a_safety_without_a_limit_and_another_steels_stress_are_not_in_the_page():
+    def shown(record):
+        run = run_data(record, {})
+        return {s["name"] for s in (*run["moving"], *run["steady"])}
+
+    absent = {"mesh.micropitting_safety", "mesh.stress_utilization_aisi4340"}
+    assert not shown(full()) & absent and "mesh.pitting_safety" in shown(full())
     mesh = Part("mesh", find_spec("gearmesh"), {"permissible_film_ratio": 0.3})
     given = replace(full(), parts=[*full().parts[:-1], mesh])
-    assert "mesh.micropitting_safety" not in run_data(given, {})["aside"]
+    assert shown(given) & absent == {"mesh.micropitting_safety"}
 
 
 def test_a_report_is_read_back_and_what_is_none_is_refused(tmp_path, monkeypatch):

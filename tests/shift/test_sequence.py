@@ -7,6 +7,7 @@ import pytest
 from scene_runs import instances
 
 from thrustwasher.errors import ParameterError
+from thrustwasher.gearmesh.parameters import absent_outputs
 from thrustwasher.shift import load_scene, run_sequence, run_shift
 from thrustwasher.shift.scene.sequence import shift_scene
 
@@ -62,7 +63,7 @@ def test_heat_made_is_heat_stored_and_heat_in_the_oil(run):
         assert stored + oil == pytest.approx(s[f"{pack}.energy"][-1], rel=1e-12)
     factors = {"clutch": 1, "brake": 1, "washer": 8, "mesh": 4, "ring_mesh": 4}
     sent = sum(f * np.sum(s[f"{p}.oil_heat"][1:] * h) for p, f in factors.items())
-        sent += np.sum(s["transmission.bearing_power"][1:] * h)
+    sent += np.sum(s["transmission.bearing_power"][1:] * h)
     assert s["sump.received_heat"][-1] == pytest.approx(sent, rel=1e-12)
     left = s["sump.stored_heat"][-1] + s["sump.ambient_heat"][-1]
     assert left == pytest.approx(s["sump.received_heat"][-1], rel=1e-12)
@@ -140,7 +141,10 @@ def test_the_page_holds_all_signals_and_a_row_for_each_shift(run):
     data = page.data["runs"][0]
     assert [p.name for p in data["phases"]] == ["1 up", "2 down"]
     assert [text for _, text in data["events"]] == ["1 up locks", "2 down locks"]
-    assert len(data["moving"]) + len(data["steady"]) >= len(run.signals)
+    shown = {signal["name"] for signal in (*data["moving"], *data["steady"])}
+    assert {name.partition(".")[2] for name in set(run.signals) - shown} == absent_outputs(
+        run.scene.parts["mesh"].params
+    )
     assert [row[0] for row in page.sections[0].tables[0].rows] == ["1 up", "2 down"]
     assert len(render(page).encode()) < 2_000_000
 

@@ -91,18 +91,21 @@ def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) 
 def _rows(
     model: Command, spec: ModelSpec, result: Any, point: Mapping[str, float]
 ) -> Iterator[tuple[str, str, str]]:
-    """Yield name, value and meaning of every result but inputs and those of variants."""
+    """Yield name, value and meaning of all results there are, but inputs and those of variants."""
     known = {s.name: (s.unit, s.help, s.relative) for s in spec.outputs}
     known |= {name: (*words, False) for name, words in model.extra.items()}
     apart = model.variants.fields() if model.variants else set()
-    for name in _output.scalars(result):
-        if name in known and name not in point and name not in apart:
+    for name, value in _output.scalars(result).items():
+        if name in known and name not in point and name not in apart and value is not None:
             unit, words, difference = known[name]
             yield name, _output.shown(getattr(result, name), unit, difference), words
 
 
 def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, Any]) -> None:
-    """Print the results of all variants, a row for each."""
+    """Print the results of all variants, a row for each; nothing where there are none."""
+    names = (variants.name(column, row) for column in variants.columns for row in variants.rows)
+    if all(getattr(result, name) is None for name in names):
+        return
     heads = variants.columns.values()
     print("  " + variants.head.ljust(22) + "".join(head.rjust(len(head) + 3) for head in heads))
     for words in variants.rows:

@@ -35,7 +35,7 @@ THERMAL_STARTS = {
 STEELS = {
     "AISI4340": "high-carbon steel: endurance 0.53 mechanical, 0.40 thermal of 1301 MPa",
     "AISI1020": "low-carbon steel: endurance 0.63 mechanical, 0.77 thermal of 689 MPa",
-    "case-hardened": "contact limit 1500 MPa; under thermal shocks counted as AISI4340",
+    "case-hardened": "contact limit 1500 MPa; asperities as hard as of AISI4340, no endurance",
 }
 VISCOSITY_AT = {
     "surface": "the film has the viscosity at the flank's temperature, found with it",
@@ -151,6 +151,8 @@ RULES = (
     Rule("contact_limit = {contact_limit} Pa, allowed: 0 (that of the steel) or 1e+08 .. 3e+09 Pa"),
     Rule("addendum_gear = {addendum_gear}, allowed: 0 (as addendum) or 0.3 .. 1.5"),
     Rule("normal_module = {normal_module} m, allowed: 0 (from centre_distance) or 1e-4 .. 0.1 m"),
+    Rule("permissible_film_ratio = {permissible_film_ratio}, allowed: 0 (no limit is given) or "
+         "0.01 .. 10"),
 )  # fmt: skip
 
 
@@ -192,7 +194,7 @@ class GearMeshParams:
     )
     face_width: float = quantity(0.05, "m", 1e-3, 5.0, "width of the teeth in contact")
     load_factor: float = quantity(
-        1.0, "1", 0.5, 5.0, "load factor K of pressure, flash and pitting stress"
+        1.0, "1", 0.5, 5.0, "load factor K of pressure, flash, body temperature and pitting stress"
     )
     load_share: float = quantity(
         1.0, "1", 0.05, 1.0, "share of load on the pair that starts, for film_heat atan"
@@ -240,7 +242,7 @@ class GearMeshParams:
         "W/K",
         0.0,
         1e5,
-        "heat of the bodies to the oil per kelvin (0: from the flash)",
+        "heat of this mesh's bodies to the oil per kelvin (0: by the flash)",
         belongs_to=SIZE,
     )
     bulk_heat_capacity: float = quantity(
@@ -248,11 +250,17 @@ class GearMeshParams:
         "J/K",
         0.0,
         1e8,
-        "heat capacity of the bodies (0: of both gears' masses)",
+        "heat capacity of this mesh's bodies (0: by masses over mates)",
         belongs_to=SIZE,
     )
     lubrication_factor: float = quantity(
         1.0, "1", 0.1, 3.0, "factor X_S of the bulk temperature: 1 dip, 1.2 spray"
+    )
+    mates_pinion: int = count(
+        1, 1, 100, "gears that mesh with the pinion; a planet of a set has 2, sun and ring"
+    )
+    mates_gear: int = count(
+        1, 1, 100, "gears that mesh with the gear; sun and ring of a set have all its planets"
     )
     steel: str = choice("case-hardened", STEELS, "Steel", "steel that the main outputs are for")
     contact_limit: float = quantity(
@@ -263,7 +271,7 @@ class GearMeshParams:
     )
     fzg_stage: int = count(10, 1, 14, "load stage at which the oil fails in the FZG test")
     permissible_film_ratio: float = quantity(
-        1.0, "1", 0.01, 10.0, "film over Ra that micropitting takes (1: its safety is the ratio)"
+        0.0, "1", 0.0, 10.0, "film over Ra that micropitting takes (0: not given, no safety)"
     )
     youngs_modulus: float = quantity(205e9, "Pa", 2e10, 1e12, "Young's modulus of both gears")
     poisson_ratio: float = quantity(0.3, "1", 0.0, 0.49, "Poisson's ratio of both gears")
@@ -329,6 +337,25 @@ class GearMeshParams:
         """
         made: GearMeshParams = made_of(SPEC, name, changes)
         return made
+
+
+STEELS_OF_THE_PAPER = ("aisi1020", "aisi4340")
+ENDURANCE = ("modification_factor", "allowable_ratio")
+ENDURANCE_OF_BOTH = (*ENDURANCE, "stress_utilization")
+
+
+def absent_outputs(params: GearMeshParams) -> frozenset[str]:
+    """Return the outputs that have no value with these parameters: no limit given, no data.
+
+    Endurance under thermal stress is the paper's alone: its heat, and one of its two steels.
+    """
+    found: set[str] = set()
+    if params.permissible_film_ratio == 0.0:
+        found.add("micropitting_safety")
+    if params.film_heat != "atan" or params.steel == "case-hardened":
+        both = (f"{name}_{s}" for name in ENDURANCE_OF_BOTH for s in STEELS_OF_THE_PAPER)
+        found.update(ENDURANCE, both)
+    return frozenset(found)
 
 
 SPEC = spec_beside(__file__, GearMeshParams, RULES)

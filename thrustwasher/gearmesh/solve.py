@@ -1,8 +1,8 @@
 """Gear mesh: loss, heat, temperatures, contact and thermal stress, safety factors."""
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,10 +11,11 @@ from ..errors import ParameterError, SolveError, Status
 from ..model.advice import warnings_of
 from ..model.parameters import check_number
 from ..model.prepare import filled
+from .doubts import doubts_of_parameters, doubts_of_point
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.operating_point import solve_point
-from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams
+from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs
 
 SAFETIES = {
     "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "
@@ -28,7 +29,9 @@ __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 class GearMeshResult:
     """A pair of gears at one operating point, seen where its flanks are hottest; SI units.
 
-    With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine".
+    With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine". None stands
+    where there is no such number: ``micropitting_safety`` without a ``permissible_film_ratio``,
+    endurance under thermal stress without the paper's heat and one of its steels.
     """
 
     friction_torque: float
@@ -37,12 +40,13 @@ class GearMeshResult:
     friction_coefficient: float  # [-] there; ``mean_friction`` is what the loss feels
     contact_stress: float
     """[Pa] greatest along the path; "atan": sigma_m of Eq 9 with its rounded factor 0.591."""
-    hertz_pressure: float  # [Pa] greatest Hertz pressure, 4/pi of the mean
+    hertz_pressure: float  # [Pa] peak of the contact there, 4/pi of its mean
     hertz_width: float  # [m] full width of the contact
     film_thickness: float
     film_ratio: float
     viscosity: float  # [Pa s] of the oil in the film
-    surface_temperature: float  # [K] of the pinion's flank
+    surface_temperature: float
+    """[K] of the pinion's flank; with ``film_heat`` "loss" it is bulk_temperature + flash_max."""
     film_temperature: float  # [K] highest in the oil film
     asperity_temperature: float  # [K] of the pinion's asperities, of the steel chosen
     flash_rise: float
@@ -50,16 +54,16 @@ class GearMeshResult:
     area_ratio: float
     """[-] nominal over real contact area that the asperity temperature is taken with."""
     thermal_stress: float  # [Pa] of the steel chosen, from its asperity temperature
-    modification_factor: float  # [-] K of Atan Eq 12, of the steel chosen
-    allowable_ratio: float
+    modification_factor: float | None  # [-] K of Atan Eq 12, of the steel chosen
+    allowable_ratio: float | None
     """[-] 1/sqrt(1 + K): share of the contact stress that thermal stress leaves allowable."""
-    modification_factor_aisi1020: float
-    modification_factor_aisi4340: float
-    allowable_ratio_aisi1020: float
-    allowable_ratio_aisi4340: float
-    stress_utilization_aisi1020: float
+    modification_factor_aisi1020: float | None
+    modification_factor_aisi4340: float | None
+    allowable_ratio_aisi1020: float | None
+    allowable_ratio_aisi4340: float | None
+    stress_utilization_aisi1020: float | None
     """[-] combined stress over endurance limit (root of the right side of Atan Eq 10)."""
-    stress_utilization_aisi4340: float
+    stress_utilization_aisi4340: float | None
     mean_friction: float  # [-] that the loss feels
     flash_max: float  # [K] greatest flash temperature along the path
     bulk_temperature: float  # [K] of the gears' bodies, steady
@@ -72,11 +76,12 @@ class GearMeshResult:
     """[-] scuffing temperature over that of the contact, both above the oil's."""
     scuffing_margin: float  # [K] scuffing temperature less that of the contact
     film_ratio_gf: float  # [-] least film along the path over the mean Ra
-    micropitting_safety: float
+    micropitting_safety: float | None
     start_of_contact: float
     """[-] x_s along the line of action, from the pinion's base tangent point."""
     contact_ratio: float
-    sliding_speed: float  # [m/s] of the flanks where contact starts
+    overlap_ratio: float  # [-] share of the load that bears evenly, if below 1
+    sliding_speed: float  # [m/s] of the flanks there
     slide_roll_ratio: float  # [-] sliding speed over the mean of both rolling speeds
     regime: str
     status: Status
@@ -180,33 +185,44 @@ def solve_gearmesh(
             f"power = {power:g} W, speed = {speed:g} rad/s, oil_temperature = {oil:g} K: "
             f"{status.advice}"
         )
-    return _result(par, field.tolist(), torque, speed, oil, status, fidelity)
+    doubts = doubts_of_parameters(params) + doubts_of_point(params, par, field, torque, speed, oil)
+    absent = dict.fromkeys(absent_outputs(params))
+    said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
+    point = {"status": status, "fidelity": fidelity}
+    result = _result(par, field.tolist(), torque, speed, absent | point)
+    return replace(result, warnings=(*said, *_failures(result), *doubts))
+
+
+def _shown(f: list[float]) -> dict[str, Any]:
+    """Return the model's outputs by name: they come first in the kernel's field."""
+    return dict(zip(SPEC.real_outputs, f, strict=False))
 
 
 def _result(
-    par: Any, f: list[float], torque: float, speed: float, oil: float, status: Status,
-    fidelity: str,
-) -> GearMeshResult:  # fmt: skip
+    par: Any, f: list[float], torque: float, speed: float, more: dict[str, Any]
+) -> GearMeshResult:
+    """Return the result; ``more`` are fields that are known already."""
     loss = f[k.F_MEAN_FRICTION] * float(par[k.D_LOSS]) * torque
     ratio = f[k.F_RATIO]
-    shown = dict(zip(SPEC.real_outputs, f, strict=False))  # they come first
+    shown = _shown(f)
     shown["friction_torque"] = math.copysign(loss, speed) if speed else 0.0
     shown["friction_power"] = loss * abs(speed)
     asperity = shown.pop("temperature")
     return GearMeshResult(
-        **shown, asperity_temperature=asperity,
+        **(shown | more), asperity_temperature=asperity,
         hertz_pressure=4.0 / math.pi * f[k.F_PRESSURE], hertz_width=f[k.F_WIDTH],
         viscosity=f[k.F_VISCOSITY], area_ratio=f[k.F_AREA], sliding_speed=f[k.F_SLIDING],
         start_of_contact=float(par[k.D_START]), contact_ratio=float(par[k.D_CONTACT_RATIO]),
-        slide_roll_ratio=float(par[k.D_SLIDE_ROLL]), status=status, fidelity=fidelity,
+        overlap_ratio=float(par[k.D_OVERLAP]),
+        slide_roll_ratio=float(par[k.D_SLIDE_ROLL]),
         regime="film" if ratio > 3.0 else "mixed" if ratio >= 1.0 else "boundary",
         iterations=int(f[k.F_ITERATIONS]),
-        warnings=(*warnings_of(SPEC, status, {"oil_temperature": oil}, shown), *_failures(shown)),
     )  # fmt: skip
 
 
-def _failures(shown: Mapping[str, float]) -> Iterator[str]:
+def _failures(result: GearMeshResult) -> Iterator[str]:
     """Yield a line for each safety below 1."""
     for name, fails in SAFETIES.items():
-        if shown[name] < 1.0:
-            yield f"{name} = {shown[name]:.3g}, below 1: {fails}"
+        safety = getattr(result, name)
+        if safety is not None and safety < 1.0:
+            yield f"{name} = {safety:.3g}, below 1: {fails}"

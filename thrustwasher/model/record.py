@@ -24,6 +24,11 @@ def resolve(name: str) -> Any:
     return getattr(import_module(module), attribute)
 
 
+def absent_outputs(spec: ModelSpec, params: Any) -> frozenset[str]:
+    """Return the names of the outputs that have no value with these parameters."""
+    return resolve(spec.absent)(params) if spec.absent else frozenset()
+
+
 @cache
 def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
     """Return what an annotation is made of: its origin, arguments, and fields if a dataclass."""

@@ -134,6 +134,9 @@ class ModelSpec:
     course: tuple[tuple[float, ...], ...] = ()
     # What the solver counts: (text, "module:NAME" of the place in work).
     counts: tuple[tuple[str, str], ...] = ()
+    # "module:NAME": from parameters to the names of outputs without a value; an FMU has the number
+    # there that the output's help names.
+    absent: str = ""
     # Of a part of one's own: the name of the model, the inputs it is meant for, what else is known.
     kind: str = ""
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)

@@ -1,5 +1,6 @@
 """Reference values of the gear mesh: the line of action by adaptive quadrature and search."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -19,7 +20,6 @@ from .reference_values import OK, Answer, Point, ReferencePoint, ReferenceValues
 TOLERANCE = 1e-12
 SEARCHED = 200  # positions on each stretch from which the hottest is searched
 METHODS = ("adaptive quadrature", "search for the hottest position")
-PATH = (k.D_POSITION, k.D_PATH_SHARE)
 SHOWN = {
     "friction_coefficient": k.F_FRICTION, "mean_friction": k.F_MEAN_FRICTION,
     "temperature": k.F_ASPERITY, "film_ratio": k.F_RATIO, "film_thickness": k.F_FILM,
@@ -97,7 +97,7 @@ def _of_loss(params: GearMeshParams, torque: float, speed: float, oil: float) ->
         par, work = prepare(params, "field"), np.zeros(k.NWORK)
         subdivide(par, most)
         solve_point(par, torque, speed, oil, torque * abs(speed), np.zeros(k.NSTATE), 0.0, work)
-        loss = float(par[k.D_LOSS] * torque * np.sign(speed) * work[k.F_MEAN_FRICTION])
+        loss = loss_factor(par) * torque * float(np.sign(speed)) * float(work[k.F_MEAN_FRICTION])
         found.append({"friction_torque": loss, **{n: float(work[i]) for n, i in SHOWN.items()}})
     coarse, best = found
     if not all(np.isfinite(list(best.values()))):
@@ -106,14 +106,34 @@ def _of_loss(params: GearMeshParams, torque: float, speed: float, oil: float) ->
     return ReferenceValues(best, off, ("Lobatto's rule on ever shorter stretches",))
 
 
+def share_at(par: Any, position: float) -> float:
+    """Return the load share X of a pair [-] from the pairs in contact, counted."""
+    approach, recess = float(par[k.D_APPROACH]), float(par[k.D_RECESS])
+    first, last = math.ceil(-approach - position), math.floor(recess - position)
+    even, contact = min(float(par[k.D_OVERLAP]), 1.0), float(par[k.D_CONTACT_RATIO])
+    return (1.0 - even) / (last - first + 1) + even / contact
+
+
+def loss_factor(par: Any) -> float:
+    """Return H_v [-] as the sum of share x sliding over the stretches, on each a closed form."""
+    total = 0.0
+    for first in range(0, int(par[k.D_PLACES]), N_NODES):
+        low, high = (float(par[k.D_POSITION + first + i]) for i in (0, N_NODES - 1))
+        moment = 0.5 * abs(high * abs(high) - low * abs(low))
+        total += share_at(par, 0.5 * (low + high)) * moment
+    ratio, teeth = float(par[k.P_GEAR_RATIO]), float(par[k.P_PINION_TEETH])
+    both = (ratio + float(par[k.D_SIDE])) / (ratio * teeth)
+    return float(2.0 * math.pi * both / par[k.D_COS_BASE] * total)
+
+
 def subdivide(par: Any, most: int) -> None:
     """Cut the stretches of the line of action into equal parts, ``most`` positions in all."""
     pieces = int(par[k.D_PLACES]) // N_NODES
     parts = most // N_NODES // pieces
-    old = {name: par[name : name + k.N_PATH].copy() for name in PATH}
+    old = par[k.D_POSITION : k.D_POSITION + k.N_PATH].copy()
     for n in range(pieces * parts):
-        low, high = (float(old[k.D_POSITION][n // parts * N_NODES + i]) for i in (0, N_NODES - 1))
-        share = float(old[k.D_PATH_SHARE][n // parts * N_NODES])
+        low, high = (float(old[n // parts * N_NODES + i]) for i in (0, N_NODES - 1))
+        share = share_at(par, 0.5 * (low + high))
         for i in range(N_NODES):
             at, length = n * N_NODES + i, (high - low) / parts
             s = low + length * (n % parts + NODES[i])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status
 from ..model.prepare import fill_table, filled, wants_table
-from ..model.record import resolve
+from ..model.record import absent_outputs, resolve
 from ..model.registry import find_model, kernel_of, spec_of
 from ..model.spec import ModelSpec, Signal
 from ..native.load import bound
@@ -63,6 +63,8 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
         else:
             try:
                 walk(spec, params, task.fidelity, task.inputs[a:b], numbers[a:b], flags[a:b])
+                absent = absent_outputs(spec, params)
+                numbers[a:b, [i for i, s in enumerate(real) if s.name in absent]] = np.nan
             except ParameterError:  # parameters that only the kernel's constants refuse
                 flags[a:b, -1] = Status.BAD_INPUT
     numbers[flags[:, -1] >= FIRST_FAILURE] = np.nan

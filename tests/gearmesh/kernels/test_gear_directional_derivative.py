@@ -37,6 +37,7 @@ def random_mesh(rng):
         changes["bulk_conductance"] = float(rng.choice([0.0, 10.0]))
     elif changes["friction_law"] == "mixed":
         changes["friction_law"] = "iso"
+    changes["permissible_film_ratio"] = float(rng.choice([0.0, 0.3]))
     unit = mesh(str(rng.choice(list(SPEC.fidelities))), **changes)
     if rng.random() < 0.4:
         unit.state[:] = 1.0, 350.0, 3.0

@@ -12,7 +12,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .contact import compliance
-from .path_of_contact import base_pitch, derive_path, line_of_action
+from .path_of_contact import base_pitch, derive_path, even_part, line_of_action
 
 SIGMA_ROUGH, SIGMA_FINE = 2.26e-6, 0.566e-6  # m, composite RMS of two ground flanks
 ROUGHNESS_ROUGH, ROUGHNESS_FINE = 4.5e-5, 1.5e-5  # S of Li & Seireg
@@ -92,9 +92,10 @@ def derive_geometry(par: Array) -> None:
     par[L.D_SLIDE] = apart * line / ratio  # sliding per base pitch from the pitch point
     par[L.D_ROLLING] = 2.0 * pitch * math.sin(angle)
     par[L.D_PITCH_RADIUS] = line * ratio / ((ratio + side) * (ratio + side))
-    par[L.D_LOSS] = loss_factor(ratio, teeth, approach, recess, side) / cos_base
-    if par[L.D_OVERLAP] >= 1.0:  # all of the path bears at any time
-        par[L.D_LOSS] = wide_loss_factor(ratio, teeth, approach, recess, side) / cos_base
+    even = even_part(par)
+    spur = loss_factor(ratio, teeth, approach, recess, side)
+    wide = wide_loss_factor(ratio, teeth, approach, recess, side)
+    par[L.D_LOSS] = ((1.0 - even) * spur + even * wide) / cos_base
 
 
 @kernel
@@ -204,15 +205,15 @@ def wide_loss_factor(
 def derive_limits(par: Array) -> None:
     """Fill pitting stress per root of the line load, its limit, scuffing temperature's slope."""
     ratio, side = par[L.P_GEAR_RATIO], par[L.D_SIDE]
-    angle, contact, overlap = par[L.D_ANGLE], par[L.D_CONTACT_RATIO], min(par[L.D_OVERLAP], 1.0)
+    angle, contact, even = par[L.D_ANGLE], par[L.D_CONTACT_RATIO], even_part(par)
     zone = 2.0 * par[L.D_COS_BASE] / (math.cos(angle) * math.sin(angle))
-    sharing = (4.0 - contact) / 3.0 * (1.0 - overlap) + overlap / contact
-    if overlap >= 1.0:
-        sharing = 1.0 / contact
+    # The standard's form falls below an even sharing of all pairs where the ratio is above 3.
+    spur = max((4.0 - contact) / 3.0, 1.0 / contact)
+    sharing = spur * (1.0 - even) + even / contact
     diameter = 2.0 * par[L.D_CENTRE] / (ratio + side)
     elastic = 1.0 / (math.pi * par[L.D_THETA])
     slant = math.cos(par[L.P_HELIX_ANGLE])
-    shape = zone * elastic * max(sharing, 0.0) / slant * (ratio + side) / (ratio * diameter)
+    shape = zone * elastic * sharing / slant * (ratio + side) / (ratio * diameter)
     par[L.D_PITTING] = math.sqrt(shape * math.cos(angle) * par[L.P_LOAD_FACTOR])
     limit = LIMITS[int(par[L.P_STEEL]) - 1]
     par[L.D_LIMIT] = par[L.P_CONTACT_LIMIT] if par[L.P_CONTACT_LIMIT] > 0.0 else limit
@@ -222,17 +223,21 @@ def derive_limits(par: Array) -> None:
 
 @kernel
 def derive_body(par: Array) -> None:
-    """Fill heat capacity [J/K] of the bodies and their conductance [W/K] when nothing turns."""
+    """Fill heat capacity [J/K] of the bodies and their conductance [W/K] when nothing turns.
+
+    A gear with several mates gives an equal share of its body to each of its meshes.
+    """
+    pinions, gears = par[L.P_MATES_PINION], par[L.P_MATES_GEAR]
     pinion = par[L.D_CENTRE] / (par[L.P_GEAR_RATIO] + par[L.D_SIDE])
     gear, width = pinion * par[L.P_GEAR_RATIO], par[L.P_FACE_WIDTH]
     disc = gear * gear
     if par[L.D_SIDE] < 0.0:
         rim = RIM * 2.0 * pinion / par[L.P_PINION_TEETH]
         disc = rim * (2.0 * gear + rim)
-    mass = math.pi * width * (pinion * pinion + disc) * par[L.P_DENSITY]
+    mass = math.pi * width * (pinion * pinion / pinions + disc / gears) * par[L.P_DENSITY]
     given = par[L.P_BULK_HEAT_CAPACITY]
     par[L.D_BULK_CAPACITY] = given if given > 0.0 else mass * par[L.P_HEAT_CAPACITY]
-    par[L.D_STILL] = STILL_COOLING * 2.0 * math.pi * width * (pinion + gear)
+    par[L.D_STILL] = STILL_COOLING * 2.0 * math.pi * width * (pinion / pinions + gear / gears)
 
 
 @kernel
@@ -247,6 +252,8 @@ def broken_rule(par: Array) -> int:
         return 9
     if 0.0 < par[L.P_NORMAL_MODULE] < 1e-4:
         return 10
+    if 0.0 < par[L.P_PERMISSIBLE_FILM_RATIO] < 0.01:
+        return 11
     side, _, angle, _ = section(par)
     ratio, is_paper = par[L.P_GEAR_RATIO], par[L.P_FILM_HEAT] != L.LOSS
     if not ratio + side > 0.0:

@@ -20,6 +20,7 @@ from .mesh_point import (
     SWITCH_WIDTH,
     THERMAL,
     ULTIMATE,
+    has_endurance,
     viscosity_follows,
 )
 
@@ -175,12 +176,16 @@ def asperity_changes(
         1.0, par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO], par[L.P_THERMAL_EXPANSION]
     )
     main = 0 if par[L.P_STEEL] == L.AISI1020 else 1
+    endures = has_endurance(par)
     for s in range(2):
         rise, more = asperity_change(par, field, factor * ULTIMATE[s], body, load, changes)
-        k, allowed, used = endurance_change(
-            mechanical, load, stiff * rise, stiff * more, field[np.uintp(L.F_ALLOWABLE_1020 + s)],
-            field[np.uintp(L.F_UTILIZATION_1020 + s)], s,
-        )  # fmt: skip
+        k, allowed, used = 0.0, 0.0, 0.0
+        if endures:
+            k, allowed, used = endurance_change(
+                mechanical, load, stiff * rise, stiff * more,
+                field[np.uintp(L.F_ALLOWABLE_1020 + s)], field[np.uintp(L.F_UTILIZATION_1020 + s)],
+                s,
+            )  # fmt: skip
         dout[np.uintp(L.F_MODIFICATION_1020 + s)] = k
         dout[np.uintp(L.F_ALLOWABLE_1020 + s)] = allowed
         dout[np.uintp(L.F_UTILIZATION_1020 + s)] = used

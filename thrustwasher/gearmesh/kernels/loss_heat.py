@@ -40,8 +40,8 @@ def thinning(par: Array, temperature: float) -> float:
 def conductance(par: Array, line: float, turning: float) -> tuple[float, float]:
     """Return G [W/K] from bodies to oil, and its slope over the log of w^(1/4) om^(1/2).
 
-    As given, or such that the steady bodies are 0.47 X_S times the mean flash temperature warmer
-    than the oil; at least that of gears at rest.
+    As given, or such that the steady bodies are as much warmer than the oil as ``derive_path``
+    says; at least that of gears at rest.
     """
     given, still = par[L.P_BULK_CONDUCTANCE], par[L.D_STILL]
     if given > 0.0:

@@ -144,8 +144,17 @@ def asperity_temperature(
 
 
 @kernel
+def has_endurance(par: Array) -> bool:
+    """Tell if the paper's endurance under thermal stress holds: its heat, one of its steels."""
+    return par[L.P_FILM_HEAT] != L.LOSS and par[L.P_STEEL] != L.CASE_HARDENED
+
+
+@kernel
 def stress_asperities(par: Array, oil: float, field: Array) -> None:
-    """Fill what the asperity temperature brings: area ratio, stress, both steels' endurance."""
+    """Fill what the asperity temperature brings: area ratio, stress, both steels' endurance.
+
+    A case-hardened steel has the hardness of AISI 4340 here, and no endurance.
+    """
     if par[L.P_AREA_LAW] == L.BOUNDED or par[L.P_AREA_LAW] == L.FREE:
         ratio, slope = area_and_slope(field[L.F_RATIO], par[L.P_ASPERITY_GROUP])
     else:
@@ -156,12 +165,15 @@ def stress_asperities(par: Array, oil: float, field: Array) -> None:
     expansion = par[L.P_THERMAL_EXPANSION]
 
     main = 0 if par[L.P_STEEL] == L.AISI1020 else 1
+    endures = has_endurance(par)
     for k in range(2):
         thermal_limit, limit, ultimate = THERMAL[k], MECHANICAL[k], ULTIMATE[k]
         temperature, area = asperity_temperature(par, field, oil, ratio, factor * ultimate)
         thermal = contact.thermal_stress(temperature - oil, modulus, poisson, expansion)
         factor_k, allowed = contact.modification(thermal, mechanical, thermal_limit, limit)
         used = contact.utilization(thermal, mechanical, thermal_limit, limit, ultimate)
+        if not endures:
+            factor_k, allowed, used = L.NO_DATA, L.NO_DATA, L.NO_DATA
         field[np.uintp(L.F_MODIFICATION_1020 + k)] = factor_k
         field[np.uintp(L.F_ALLOWABLE_1020 + k)] = allowed
         field[np.uintp(L.F_UTILIZATION_1020 + k)] = used

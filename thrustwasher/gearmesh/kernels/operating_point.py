@@ -34,7 +34,10 @@ def fill_safety(par: Array, torque: float, oil: float, field: Array) -> None:
     counted, _ = soft_most(rise, LEAST_RISE, 0.5 * LEAST_RISE)
     field[L.F_SCUFFING_SAFETY] = (limit - oil) / counted
     field[L.F_SCUFFING_MARGIN] = limit - oil - rise
-    field[L.F_MICROPITTING] = field[L.F_FILM_GF] / par[L.P_PERMISSIBLE_FILM_RATIO]
+    permissible = par[L.P_PERMISSIBLE_FILM_RATIO]
+    field[L.F_MICROPITTING] = L.NO_LIMIT
+    if permissible > 0.0:
+        field[L.F_MICROPITTING] = field[L.F_FILM_GF] / permissible
 
 
 @kernel
@@ -59,7 +62,8 @@ def safety_changes(
     slope = rest * more / counted
     dout[L.F_SCUFFING_SAFETY] = (lower - change[1]) / counted - field[L.F_SCUFFING_SAFETY] * slope
     dout[L.F_SCUFFING_MARGIN] = lower - change[1] - more
-    dout[L.F_MICROPITTING] = dout[L.F_FILM_GF] / par[L.P_PERMISSIBLE_FILM_RATIO]
+    permissible = par[L.P_PERMISSIBLE_FILM_RATIO]
+    dout[L.F_MICROPITTING] = dout[L.F_FILM_GF] / permissible if permissible > 0.0 else 0.0
 
 
 @kernel

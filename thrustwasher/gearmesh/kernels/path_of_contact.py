@@ -2,7 +2,8 @@
 """The path of contact: where the pairs touch, what each bears, what its sliding costs and heats.
 
 Positions count from the pitch point in base pitches. Spur teeth share the load equally, all pairs
-that are in contact; teeth with an overlap of 1 and more bear evenly on the whole path.
+that are in contact; teeth with an overlap of 1 and more bear evenly on the whole path. In between
+the overlap ratio says which part of the load does the one, which the other.
 """
 
 import math
@@ -40,8 +41,28 @@ def flanks_at(par: Array, position: float) -> tuple[float, float, float]:
 
 
 @kernel
+def even_part(par: Array) -> float:
+    """Return which part of the load bears evenly on the whole path [-]: the overlap, at most 1."""
+    return min(par[L.D_OVERLAP], 1.0)
+
+
+@kernel
+def pair_share(par: Array, pairs: float) -> float:
+    """Return X [-], what a pair bears per face width where ``pairs`` of them are in contact.
+
+    X = (1 - eps_beta)/pairs + eps_beta/eps_alpha: linear in the overlap ratio eps_beta up to 1, as
+    the contact ratio factor of the pitting stress is.
+    """
+    even = even_part(par)
+    return (1.0 - even) / pairs + even / par[L.D_CONTACT_RATIO]
+
+
+@kernel
 def _nodes(par: Array, low: float, high: float, shared: float, borne: float) -> None:
-    """Add the positions from ``low`` to ``high`` [base pitches]; ``shared`` by that many pairs."""
+    """Add the positions from ``low`` to ``high`` [base pitches].
+
+    ``borne``: what a pair there bears; ``shared`` 1/X as the loss books it.
+    """
     n = int(par[L.D_PLACES])
     if not high > low or n + N_NODES > L.N_PATH:
         return
@@ -80,15 +101,17 @@ def _split(par: Array, low: float, high: float, shared: float, borne: float) -> 
 def line_of_action(par: Array, approach: float, recess: float) -> None:
     """Fill positions, shares and losses from the start to the end of contact.
 
-    The loss books equal shares, as ``loss_factor`` does, and comes to it. The paper's heat is made
-    by the pair that bears ``load_share`` where it has company, all of the load where it is alone.
+    The loss books the shares X, as D_LOSS does, and comes to it. The paper's heat is made by the
+    pair that bears the parameter ``load_share`` where it has company, all where it is alone.
     """
     whole = math.floor(approach + recess)
     more = approach + recess - whole
     given = par[L.P_LOAD_SHARE]
     alone = 1.0 if whole <= 1.0 else min(1.0, given * (whole + 1.0) / whole)
+    many, few = whole + 1.0, max(whole, 1.0)
     if par[L.P_FILM_HEAT] == L.LOSS:
-        given, alone = 1.0 / (whole + 1.0), 1.0 / max(whole, 1.0)
+        given, alone = pair_share(par, many), pair_share(par, few)
+        many, few = 1.0 / given, 1.0 / alone
     stretches = int(min(whole, 0.5 * MAX_PIECES - 1.0)) + 1
     par[L.D_PLACES] = 0.0
     if par[L.D_OVERLAP] >= 1.0:
@@ -96,9 +119,9 @@ def line_of_action(par: Array, approach: float, recess: float) -> None:
         stretches = 0
     for k in range(stretches):
         low = -approach + k
-        _split(par, low, low + more, whole + 1.0, given)
+        _split(par, low, low + more, many, given)
         if k < whole:
-            _split(par, low + more, low + 1.0, max(whole, 1.0), alone)
+            _split(par, low + more, low + 1.0, few, alone)
     total = 0.0
     for k in range(int(par[L.D_PLACES])):
         total += par[L.D_PATH_LOSS + k]
@@ -128,8 +151,9 @@ def place_constants(par: Array, k: int) -> None:
 def derive_path(par: Array) -> None:
     """Fill the constants of all positions, their extremes, and the bodies' conductance.
 
-    The bodies are to be warmer than the oil by 0.47 X_S times the mean flash temperature, which
-    goes with w^(3/4) om^(1/2) as the loss goes with w om: the conductance over w^(1/4) om^(1/2).
+    The bodies are to be warmer than the oil by 0.47 X_S X_mp times the mean flash temperature at
+    the load factor K, which goes with (K w)^(3/4) om^(1/2) as the loss goes with w om: the
+    conductance over w^(1/4) om^(1/2). X_mp = (1 + n)/2, n mates of the gear that has more of them.
     """
     mean, length, film = 0.0, 0.0, 1e300
     par[L.D_FLASH_MOST] = par[L.D_PRESSURE_MOST] = 0.0
@@ -143,5 +167,7 @@ def derive_path(par: Array) -> None:
         if flash > par[L.D_FLASH_MOST]:
             par[L.D_FLASH_MOST], par[L.D_HOTTEST] = flash, float(k)
     par[L.D_FILM_LEAST] = film
+    mates, factor = max(par[L.P_MATES_PINION], par[L.P_MATES_GEAR]), par[L.P_LOAD_FACTOR]
     rise = MEAN_FLASH * par[L.P_LUBRICATION_FACTOR] * mean / length
+    rise *= 0.5 * (1.0 + mates) * factor / math.sqrt(math.sqrt(factor))
     par[L.D_CONDUCTANCE] = par[L.D_LOSS] / (par[L.D_LOAD] * rise)

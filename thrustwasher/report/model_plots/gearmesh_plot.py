@@ -1,4 +1,4 @@
-"""Temperatures of a gear mesh and what they leave of its endurance, against tooth number."""
+"""Temperatures of a gear mesh, its loss and safety or endurance, against tooth number."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -22,6 +22,11 @@ SURFACES: dict[str, tuple[str, str, Any, str]] = {
 }
 # Steel -> words, colour, width: a thin line stays visible on a wide one.
 STEELS = {"aisi1020": ("AISI 1020", BLUE, 3.0), "aisi4340": ("AISI 4340", RED, 1.4)}
+# Safety -> words, colour.
+SAFETIES = {
+    "pitting_safety": ("pitting", BLUE), "scuffing_safety": ("scuffing", RED),
+    "micropitting_safety": ("micropitting", GREEN),
+}  # fmt: skip
 FEWEST_TEETH, MOST_TEETH = 5, 60
 LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
 Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
@@ -56,7 +61,10 @@ def over_teeth(
 
 @styled
 def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshParams) -> Figure:
-    """Return temperatures, allowable ratio and modification factor over the pinion's teeth.
+    """Return temperatures over the pinion's teeth, and what they leave of the teeth.
+
+    That is safety and loss; with the paper's heat and steels allowable ratio and modification
+    factor.
 
     Parameters
     ----------
@@ -68,15 +76,22 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
     here = params.pinion_teeth
     figure, axes = new_figure(13.2, 4.3, 1, 3, head=1)
     draw_temperatures(axes[0], teeth, sweeps)
-    draw_ratios(axes[1], teeth, sweeps)
-    draw_factors(axes[2], teeth, sweeps)
     dot: dict[str, Any] = {"marker": "o", "color": BLACK, "ls": "", "ms": 5.5, "zorder": 6}
     axes[0].plot([here], [result.asperity_temperature - CELSIUS], **dot)
-    for steel in STEELS:
-        axes[1].plot([here], [getattr(result, f"allowable_ratio_{steel}")], **dot)
-        factor = getattr(result, f"modification_factor_{steel}")
-        if factor > LEAST_FACTOR:
-            axes[2].plot([here], [factor], **dot)
+    if result.allowable_ratio is None:
+        draw_safeties(axes[1], teeth, sweeps)
+        draw_loss(axes[2], teeth, sweeps)
+        safeties = (getattr(result, name) for name in SAFETIES)
+        axes[1].plot(*zip(*((here, s) for s in safeties if s is not None), strict=True), **dot)
+        axes[2].plot([here], [result.friction_power], **dot)
+    else:
+        draw_ratios(axes[1], teeth, sweeps)
+        draw_factors(axes[2], teeth, sweeps)
+        for steel in STEELS:
+            axes[1].plot([here], [getattr(result, f"allowable_ratio_{steel}")], **dot)
+            factor = getattr(result, f"modification_factor_{steel}")
+            if factor > LEAST_FACTOR:
+                axes[2].plot([here], [factor], **dot)
     heading(
         figure,
         f"Gear mesh where it is hottest: {format_quantity(point['power'], 'W')}, "
@@ -102,6 +117,36 @@ def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
         zero=CELSIUS, lw=1.1, zorder=4,
     )  # fmt: skip
     label(axes, "Temperatures", "teeth of the pinion [1]", "temperature [°C]")
+    axes.legend(loc="upper right")
+
+
+def draw_safeties(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
+    """Draw the safeties on a logarithmic scale; pitting does not know the roughness."""
+    for surface, results in sweeps.items():
+        words, _, dashes, marker = SURFACES[surface]
+        for name, (said, colour) in SAFETIES.items():
+            text = f"{said}, {words}"
+            if name == "pitting_safety":
+                if results is not next(iter(sweeps.values())):
+                    continue
+                text = said
+            _line(axes, teeth, results, name, colour, text, ls=dashes, marker=marker)
+    axes.axhline(1.0, color=BLACK, lw=0.9, ls=":")
+    axes.set_yscale("log")
+    axes.yaxis.set_major_formatter("{x:g}")
+    label(axes, "Safety of the teeth", "teeth of the pinion [1]", "safety factor [1]")
+    shown = [line for line in axes.lines if np.any(np.isfinite(np.asarray(line.get_ydata())))]
+    axes.legend(handles=[line for line in shown if not str(line.get_label()).startswith("_")],
+                loc="best")  # fmt: skip
+
+
+def draw_loss(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
+    """Draw the heat that the mesh makes."""
+    for surface, results in sweeps.items():
+        words, colour, dashes, marker = SURFACES[surface]
+        _line(axes, teeth, results, "friction_power", colour, words, ls=dashes, marker=marker)
+    axes.set_ylim(bottom=0.0)
+    label(axes, "Loss", "teeth of the pinion [1]", "friction power [W]")
     axes.legend(loc="upper right")
 
 

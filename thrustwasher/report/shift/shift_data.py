@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
-from ...model.record import resolve
+from ...model.record import absent_outputs, resolve
 from ...units import UNITS, pretty_unit
 from . import shift_tables, summary
 from .shift_record import PACKS, Array, Record
@@ -28,7 +28,6 @@ ROOM = 1_250_000  # characters of packed signals: the page stays below 2 MB
 DROPPED = 8  # bits of a number's 24 that a long run leaves out: four digits stay
 JERK_TIME = 0.01  # s over which a change of acceleration counts
 READABLE = {"Pa": "kPa", "J": "kJ", "W": "kW", "m": "um", "m3/s": "l/min", "rad": "mrad"}
-NO_LIMIT = 1.0  # permissible film ratio of flanks without one: safety and ratio are the same
 FIELDS = {
     "film_thickness": ("film thickness", "m"), "pressure": ("pressure in the film", "Pa"),
     "contact_pressure": ("pressure on asperities", "Pa"),
@@ -64,7 +63,9 @@ def run_data(
     ``said`` are its summary and its warnings, if they are not those of one shift.
     Signals that change are packed in ``room`` characters, all others are a number each.
     """
-    signals = dict(record.signals) | _of_the_vehicle(record) | _with_oil(record)
+    absent = {f"{p.name}.{n}" for p in record.parts for n in absent_outputs(p.spec, p.params())}
+    signals = {n: values for n, values in record.signals.items() if n not in absent}
+    signals |= _of_the_vehicle(record) | _with_oil(record)
     moving = [name for name, values in signals.items() if np.ptp(values) != 0.0]
     rows = np.array([record.time, *(signals[name] for name in moving)], dtype="<f4")
     places: dict[bytes, int] = {}  # what one part gives another takes: such signals share a row
@@ -106,11 +107,6 @@ def set_aside(record: Record) -> list[str]:
     found = [f"{pack}.{own}" for pack in idle for own in ("temperature", "film_ratio")]
     if not np.any(record.series("transmission.shaft_twist")):  # rigid: repeats carrier and load
         found += ["transmission.vehicle_speed", "transmission.shaft_torque"]
-    if record.rated_teeth:
-        found += [f"mesh.stress_utilization_{steel}" for steel in ("aisi1020", "aisi4340")]
-    for part in map(record.part, ("mesh", "ring_mesh")):
-        if part and part.params().permissible_film_ratio == NO_LIMIT:
-            found.append(f"{part.name}.micropitting_safety")
     return found
 
 

@@ -5,10 +5,11 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model.record import absent_outputs
 from ...numerics.jit import Array
 from ...transmission.parameters import BEARINGS
 from ..oscillation.judder import Judder, judder_figures
-from ..scene.connections import PACKS
+from ..scene.connections import MESHES, PACKS
 from ..scene.scene import Scene
 from .comfort import comfort_figures, phase_figures
 from .events_and_phases import Event, Signals, turning
@@ -17,8 +18,16 @@ from .figure_list import FIGURES, FILM_SPEED, Found, KeyFigure, assemble
 FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
 TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlaps a little
 STEELS = ("aisi1020", "aisi4340")  # of the paper, with its heat
-MESHES = ("mesh", "ring_mesh")
 SAFETIES = ("pitting_safety", "scuffing_safety")
+# Signal of a mesh -> figure: the greatest, or the least while the planets turn, of all meshes.
+GREATEST = {
+    "flash_rise": "peak_flash_rise", "bulk_temperature": "peak_gear_temperature",
+    "surface_temperature": "peak_mesh_temperature", "temperature": "peak_asperity_temperature",
+    "contact_stress": "peak_mesh_stress", "thermal_stress": "peak_mesh_thermal_stress",
+}  # fmt: skip
+LEAST_TURNING = {
+    "film_ratio": "least_mesh_film_ratio", "micropitting_safety": "least_micropitting_safety",
+}  # fmt: skip
 
 
 def key_figures(
@@ -301,24 +310,37 @@ def washer_figures(time: Array, signals: Signals) -> Found:
 
 
 def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
-    """Return heat, film and safety of the meshes; nothing without one.
+    """Return heat, temperatures, film and safety of the meshes; nothing without one.
 
-    Safeties are the least of sun and ring mesh. With the paper's heat there are stress margins of
-    its steels instead, 1 - utilisation: at 0 the endurance limit is reached.
+    All are the greatest or least of sun and ring mesh. Safeties count with the heat of the loss,
+    stress margins with that of the paper: 1 - utilisation of its steels, 0 at the endurance limit.
     """
     if "mesh.friction_torque" not in signals:
         return {}
+    meshes = [scene.parts[name] for name in MESHES if name in scene.parts]
+    paper = getattr(meshes[0].params, "film_heat", "atan") == "atan"
+
+    def of_all(name: str) -> list[Array]:
+        """Return a signal of all meshes in which it has a value."""
+        rated = [p for p, m in zip(MESHES, meshes, strict=False)
+                 if name not in absent_outputs(m.spec, m.params)]  # fmt: skip
+        return [signals[f"{p}.{name}"] for p in rated if f"{p}.{name}" in signals]
+
     found: Found = {"mesh_loss": (float(signals["transmission.mesh_heat"][-1]), None)}
-    if "mesh.film_ratio" in signals:
-        found["least_mesh_film_ratio"] = least_film("mesh", time, signals)
-    paper = getattr(scene.parts["mesh"].params, "film_heat", "atan") == "atan"
-    for name in () if paper else SAFETIES:
-        own = [signals[f"{part}.{name}"] for part in MESHES if part in scene.parts]
-        found[f"least_{name}"] = least(np.min(own, axis=0), time)
+    for name, figure in GREATEST.items():
+        if own := of_all(name):
+            found[figure] = peak(np.max(own, axis=0), time)
+    if hot := [a + b for a, b in zip(of_all("bulk_temperature"), of_all("flash_max"), strict=True)]:
+        found["peak_flash_temperature"] = peak(np.max(hot, axis=0), time)
+    for name, figure in LEAST_TURNING.items():
+        if own := of_all(name):
+            found[figure] = least_turning(np.min(own, axis=0), signals["mesh.speed"], time)
+    for name in ("allowable_ratio",) if paper else SAFETIES:
+        if own := of_all(name):
+            found[f"least_{name}"] = least(np.min(own, axis=0), time)
     for steel in STEELS if paper else ():
-        used = signals.get(f"mesh.stress_utilization_{steel}")
-        if used is not None:
-            found[f"stress_margin_{steel}"] = least(1.0 - used, time)
+        if own := of_all(f"stress_utilization_{steel}"):
+            found[f"stress_margin_{steel}"] = least(1.0 - np.max(own, axis=0), time)
     return found
 
 
@@ -334,17 +356,22 @@ def bearing_figures(scene: Scene, time: Array, signals: Signals) -> Found:
 
 
 def least_film(part: str, time: Array, signals: Signals) -> tuple[float | None, float | None]:
-    """Return the least film ratio of a part above FILM_SPEED, and its time.
+    """Return the least film ratio of a part above FILM_SPEED, and its time."""
+    return least_turning(signals[f"{part}.film_ratio"], signals[f"{part}.speed"], time)
 
-    Where the speed passes FILM_SPEED between two samples the ratio is interpolated to that speed:
+
+def least_turning(values: Array, speed: Array, time: Array) -> tuple[float | None, float | None]:
+    """Return the least value above FILM_SPEED, and its time.
+
+    Where the speed passes FILM_SPEED between two samples the value is interpolated to that speed:
     the figure must not depend on where the samples happen to lie. A film ratio belongs to the speed
     that the part itself was given.
     """
-    ratio, speed = signals[f"{part}.film_ratio"], np.abs(signals[f"{part}.speed"])
+    speed = np.abs(speed)
     fast = speed >= FILM_SPEED
     i = np.flatnonzero(fast[1:] != fast[:-1])
     done = (FILM_SPEED - speed[i]) / (speed[i + 1] - speed[i])
-    ratios, times = (
-        np.concatenate((v[fast], v[i] + done * (v[i + 1] - v[i]))) for v in (ratio, time)
+    found, times = (
+        np.concatenate((v[fast], v[i] + done * (v[i + 1] - v[i]))) for v in (values, time)
     )
-    return least(ratios, times) if len(ratios) else (None, None)
+    return least(found, times) if len(found) else (None, None)

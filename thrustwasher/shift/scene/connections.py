@@ -23,6 +23,7 @@ PARTS: dict[str, ModelSpec] = {
     "ring_mesh": gearmesh_params.SPEC,
 }
 PACKS = ("clutch", "brake")
+MESHES = ("mesh", "ring_mesh")
 REQUIRED = ("transmission", *PACKS)
 SPEED = "speed"  # of a friction part: the slip whose sign its torque has
 COMMAND = "shift_command"  # the transmission's input that the scene itself drives

@@ -21,7 +21,7 @@ from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
 from ...transmission.parameters import BEARINGS
 from ..key_figures.figure_list import FIGURES
-from .connections import PARTS, REQUIRED
+from .connections import MESHES, PARTS, REQUIRED
 from .doubts import doubts
 from .scene import (
     STEP_RANGE,
@@ -203,7 +203,8 @@ def _parts(
             if key == "sump":
                 gearbox = replace(parts["transmission"].params, ring_mesh="ring_mesh" in table)
                 given = _sump(given, gearbox, temperature)
-            parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common)
+            usual = _mates(parts["transmission"].params) if key in MESHES else {}
+            parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
             if lost:
                 notes.append(f"{key}: {', '.join(lost)} of its part or preset give way to "
                              "the scene's oil; named in the scene they stay")  # fmt: skip
@@ -243,6 +244,11 @@ def _sump(table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
     return {"initial_temperature": oil, **alike, **table}
 
 
+def _mates(gearbox: Any) -> dict[str, int]:
+    """Return with how many gears a planet meshes, and sun or ring: parameters of their meshes."""
+    return {"mates_pinion": 2, "mates_gear": gearbox.planets}
+
+
 def _shift(where: str, table: dict[str, Any]) -> dict[str, Any]:
     """Return the ramp of the shift command, as fields of a scene."""
     nothing_else(where, table, SHIFT)
@@ -272,17 +278,21 @@ RESERVED = {
 
 
 def _part(
-    where: str, spec: ModelSpec, table: dict[str, Any], common: dict[str, Any]
-) -> tuple[Part, list[str]]:
-    """Return a part, and what its file says of the oil in vain; ``common``: the scene's."""
+    where: str, spec: ModelSpec, table: dict[str, Any], common: dict[str, Any],
+    usual: dict[str, Any],
+) -> tuple[Part, list[str]]:  # fmt: skip
+    """Return a part, and what its file says of the oil in vain; ``common``: the scene's.
+
+    ``usual`` are the scene's parameters where neither its table nor the part's file has its own.
+    """
     known = {f.name: f.metadata for f in fields(spec.params)}
     given = dict(table)
     with within(where):
-        values, usual, told = _start(spec, given.pop("part", None), given.pop("preset", None))
+        values, rung, told = _start(spec, given.pop("part", None), given.pop("preset", None))
     own = {k: x for k, x in values.items() if x != getattr(spec.params(), k)}
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
-    values |= common
-    fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", usual))
+    values = usual | values | common
+    fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", rung))
     nothing_else(where, given, ["fidelity", "part", "preset", *known])
     for key, value in given.items():
         if key in RESERVED:

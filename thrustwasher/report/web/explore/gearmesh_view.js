@@ -29,7 +29,7 @@ const VIEW = {
       marks: [{ x: s, y: path.flank[path.hot], text: `hottest: ${shown(path.flank[path.hot], "K")}`, look: "here" }],
     });
     this.safe.show({
-      series: [line("scuffing", path.safety, "second"), line("micropitting", path.micropitting, ""), level("pitting", outputs.pitting_safety, "fourth"), level("1: at the limit", 1, "third")],
+      series: [line("scuffing", path.safety, "second"), ...(path.micropitting ? [line("micropitting", path.micropitting, "")] : []), level("pitting", outputs.pitting_safety, "fourth"), level("1: at the limit", 1, "third")],
     });
     this.film.show({ series: [line("", path.film, "")] });
     this.press.show({ series: [line("", path.pressure, "")] });

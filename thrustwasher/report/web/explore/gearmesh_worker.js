@@ -29,9 +29,13 @@ class Model extends PointModel {
       friction_torque: Math.sign(speed) * loss, friction_power: loss * Math.abs(speed),
       hertz_pressure: (4 / Math.PI) * f[L.F_PRESSURE], hertz_width: f[L.F_WIDTH], viscosity: f[L.F_VISCOSITY],
       area_ratio: f[L.F_AREA], sliding_speed: f[L.F_SLIDING], start_of_contact: par[L.D_START],
-      contact_ratio: par[L.D_CONTACT_RATIO], slide_roll_ratio: par[L.D_SLIDE_ROLL],
+      contact_ratio: par[L.D_CONTACT_RATIO], overlap_ratio: par[L.D_OVERLAP], slide_roll_ratio: par[L.D_SLIDE_ROLL],
       regime: ratio > 3 ? 1 : ratio >= 1 ? 2 : 3,
     });
+    const endures = par[L.P_FILM_HEAT] !== L.LOSS && par[L.P_STEEL] !== L.CASE_HARDENED;
+    for (const name of Object.keys(found)) {
+      if (name === "micropitting_safety" ? par[L.P_PERMISSIBLE_FILM_RATIO] === 0 : !endures && /^(modification|allowable|stress_util)/.test(name)) found[name] = null;
+    }
     return { code, outputs: found, path: this.path(oil) };
   }
 
@@ -53,7 +57,7 @@ class Model extends PointModel {
       bulk: f[L.F_BULK], pressure: along(pressure, most, f[L.F_PRESSURE_MAX]), share: row(L.D_PATH_SHARE),
       // in proportion, so that the least is the mesh's own, which is rounded below a rise of 1 K
       safety: flash.map((v) => (f[L.F_SCUFFING_SAFETY] * counted(f[L.F_BULK] + f[L.F_FLASH_MAX] - oil)) / counted(v + f[L.F_BULK] - oil)),
-      micropitting: film.map((v) => v / par[L.D_MEAN] / par[L.P_PERMISSIBLE_FILM_RATIO]),
+      micropitting: par[L.P_PERMISSIBLE_FILM_RATIO] > 0 ? film.map((v) => v / par[L.D_MEAN] / par[L.P_PERMISSIBLE_FILM_RATIO]) : null,
     };
   }
 }

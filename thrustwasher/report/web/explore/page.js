@@ -184,7 +184,7 @@ const isNoise = (name, value) => Math.abs(value) < NOISE * (ABOUT.outputs[name].
 function show(name, value) {
   const place = byId(name), about = ABOUT.outputs[name], over = view.over?.[name];
   if (!place || !about) return;
-  const words = about.options ? about.options[value - 1] : about.kind === "boolean" ? (value ? "yes" : "no") : value ?? "not verified here";
+  const words = about.options ? about.options[value - 1] : about.kind === "boolean" ? (value ? "yes" : "no") : value ?? (name === "error_estimate" ? "not verified here" : "none");
   place.setAttribute("value", String(about.options ? words : value ?? ""));
   place.textContent = over && isNoise(over, last.outputs[over]) ? "–" : typeof words === "number" ? shown(isNoise(name, words) ? 0 : words, about.unit, about.relative) : words;
   if (name === "distress") place.className = value ? "bad" : "";

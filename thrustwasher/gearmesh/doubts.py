@@ -1,0 +1,111 @@
+"""What to doubt in the numbers of a gear mesh: one line each, with what to do about it."""
+
+import math
+from dataclasses import fields
+from typing import Any
+
+from ..units import format_quantity
+from .kernels import constants
+from .kernels import layout as k
+from .kernels.mesh_point import LEAST_LINE_LOAD, LEAST_SPEED
+from .kernels.operating_point import LEAST_RISE
+from .kernels.path_friction import LEAST_ROLLING
+from .parameters import GearMeshParams
+
+APART = 2.0  # factor between roughness parameters from which they describe two surfaces
+
+
+def doubts_of_parameters(p: GearMeshParams) -> list[str]:
+    """Return what contradicts itself in parameters, and what has no effect beside the others."""
+    return [*_roughness(p), *_idle(p)]
+
+
+def doubts_of_point(
+    p: GearMeshParams, par: Any, field: Any, torque: float, speed: float, oil: float
+) -> list[str]:
+    """Return what to doubt in a solved point: numbers that a least value made."""
+    if torque * par[k.D_LOAD] < 2.0 * LEAST_LINE_LOAD:
+        return [
+            f"power = {torque * abs(speed):g} W: hardly any load; pressures, films and safeties "
+            f"are those of {LEAST_LINE_LOAD:g} N per metre of face width"
+        ]
+    if abs(speed) < 2.0 * LEAST_SPEED:
+        return [f"speed = {speed:g} rad/s: the film is that of {LEAST_SPEED:g} rad/s"]
+    found = []
+    rolling, by_iso = par[k.D_ROLLING] * abs(speed), p.friction_law in ("iso", "mixed")
+    if p.film_heat == "loss" and by_iso and rolling < LEAST_ROLLING:
+        found.append(
+            f"speed = {speed:g} rad/s: the flanks roll with {rolling:.2g} m/s, mean_friction takes "
+            f"{LEAST_ROLLING:g} m/s: the standard's formula has no bound towards standstill"
+        )
+    rise = float(field[k.F_BULK] + field[k.F_FLASH_MAX]) - oil
+    if field[k.F_SCUFFING_SAFETY] <= 0.0:
+        found.append(
+            f"scuffing_safety = {field[k.F_SCUFFING_SAFETY]:.3g}: oil of "
+            f"{format_quantity(oil, 'K')} is hotter than what scuffs; check oil_temperature, "
+            "fzg_stage and structural_factor"
+        )
+    elif rise < LEAST_RISE:
+        found.append(
+            f"scuffing_safety counts a rise of {LEAST_RISE:g} K, the contact is {rise:.2g} K above "
+            "the oil; read scuffing_margin instead"
+        )
+    return found
+
+
+def _roughness(p: GearMeshParams) -> list[str]:
+    rough = p.surface == "rough"
+    of_surface = constants.SIGMA_ROUGH if rough else constants.SIGMA_FINE
+    sigma, found = p.sigma_rms or of_surface, []
+    words = "sigma_rms" if p.sigma_rms else f"surface {p.surface!r}"
+    if p.mean_roughness and _differ(constants.MEAN_OVER_RMS * sigma, p.mean_roughness):
+        found.append(
+            f"mean_roughness = {p.mean_roughness:g} m beside a composite RMS roughness of "
+            f"{sigma:g} m ({words}), some {math.sqrt(2.0) * p.mean_roughness:.2g} m would go with "
+            "it: film_ratio follows the second, mean_friction and film_ratio_gf the first; give "
+            "sigma_rms to match"
+        )
+    li_seireg = p.friction_law == "li-seireg" and not p.effective_roughness
+    if li_seireg and p.sigma_rms and _differ(p.sigma_rms, of_surface):
+        found.append(
+            f"sigma_rms = {p.sigma_rms:g} m, but friction_law = 'li-seireg' takes the effective "
+            f"roughness of surface {p.surface!r}; give effective_roughness"
+        )
+    return found
+
+
+def _differ(a: float, b: float) -> bool:
+    return not 1.0 / APART <= a / b <= APART
+
+
+def _idle(p: GearMeshParams) -> list[str]:
+    """Return a line for each parameter off its default that the others leave without effect."""
+    loss, own = p.film_heat == "loss", {f.name: f.default for f in fields(p)}
+    limited = p.friction_law == "mixed" or (not loss and p.traction_law == "limited")
+    idle = {
+        "load_share": (loss, "film_heat = 'loss' shares the load by contact and overlap ratio"),
+        "heat_partition": (loss, "film_heat = 'loss' makes both flanks equally hot"),
+        "partition_share": (loss, "film_heat = 'loss' makes both flanks equally hot"),
+        "traction_law": (loss, "with film_heat = 'loss' friction_law says what shears"),
+        "film_viscosity": (loss, "with film_heat = 'loss' viscosity_at says it"),
+        "bulk_conductance": (not loss, "film_heat = 'atan' has no bodies"),
+        "bulk_heat_capacity": (not loss, "film_heat = 'atan' has no bodies"),
+        "lubrication_factor": (
+            not loss or p.bulk_conductance > 0.0,
+            "bulk_conductance is given" if loss else "film_heat = 'atan' has no bodies",
+        ),
+        "eyring_stress": (p.friction_law != "mixed", "it is of friction_law = 'mixed'"),
+        "limiting_traction": (
+            not limited, "it is of friction_law = 'mixed' and of traction_law = 'limited'"
+        ),
+        "effective_roughness": (
+            p.friction_law != "li-seireg", "it is of friction_law = 'li-seireg'"
+        ),
+        "area_ratio": (p.area_law != "constant", "it is of area_law = 'constant'"),
+        "centre_distance": (p.normal_module > 0.0, "normal_module gives the centre distance"),
+    }  # fmt: skip
+    return [
+        f"{name} = {getattr(p, name)!r} has no effect: {why}"
+        for name, (is_idle, why) in idle.items()
+        if is_idle and getattr(p, name) not in (own[name], 0.0)
+    ]

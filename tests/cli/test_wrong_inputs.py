@@ -26,7 +26,7 @@ FILES = {
 }
 KELVIN = "did you mean 353.15 K (80 degC)?"
 TABLE = [
-    ("wahser", "command = 'wahser', allowed in this version: washer, curve"),
+    ("wahser", "did you mean washer?"),
     ("washer --oil-temperature 80", KELVIN),
     ("curve --oil-temperature 80", KELVIN),
     ("clutch --oil-temperature 80", KELVIN),
@@ -44,8 +44,8 @@ TABLE = [
     ("washer --load 0", "load = 0.0 N, allowed: 1 .. 10000 N"),
     ("washer --load '300 K'", "allowed: a finite number in N, or one in kN, MN, lbf"),
     ("washer --load abc", "load = 'abc', allowed: a finite number in N"),
-    ("washer --load '1,5 kN'", "load = '1,5 kN', allowed: a finite number"),
-    ("washer --laod 300", "unrecognized arguments: --laod"),
+    ("washer --load '1,5 kN'", "; the decimal sign is a point"),
+    ("washer --laod 300", "; did you mean --load?"),
     ("washer --grid 9", "grid = '9', allowed: two node counts as in 9x32"),
     ("washer --branch up", "invalid choice: 'up'"),
     ("washer --fidelity feild", "'feild', allowed: 'map' or 'coarse' or 'field'"),
@@ -90,7 +90,7 @@ TABLE = [
     ("map build --load 20:500:3", "allowed: LOW:HIGH or one value"),
     ("map check points.csv", "allowed: a file written by `thrustwasher map build`"),
     ("map check", "the map file is wanted"),
-    ("cards whasher", "allowed: 'washer' or 'clutch' or 'gearmesh'"),
+    ("cards whasher", "; did you mean 'washer'?"),
     ("build Wsher", "allowed: ThrustWasher, WetClutch"),
     ("build GearMesh --platforms amiga", "'amiga', allowed: linux64"),
     ("explore sumpf", "model = 'sumpf'"),

@@ -56,8 +56,9 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
         digits, written = repr(_as_float(value)), ""
     else:
         match = _NUMBER.fullmatch(value)
-        if match is None:
-            raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
+        if match is None or re.match(r",\d", match[2]):
+            comma = "; the decimal sign is a point" if match else ""
+            raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}{comma}")
         digits, written = match[1], _plain(match[2])
     if written in ("", _plain(unit)):
         factor, offset = 1.0, 0.0

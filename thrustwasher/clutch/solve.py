@@ -235,8 +235,7 @@ def solve_clutch(
         status = Status.OUTSIDE_VERIFIED
     if not status.is_failure and s.hottest > k.HOT_LIMIT:
         status = Status.HOT
-    sign, capacity = float(np.sign(speed)), s.contact + s.viscous
-    torque = sign * capacity
+    sign, torque = float(np.sign(speed)), float(np.sign(speed)) * (s.contact + s.viscous)
     return ClutchResult(
         friction_torque=torque,
         friction_coefficient=s.coefficient,
@@ -244,7 +243,7 @@ def solve_clutch(
         film_thickness=float(ratio * params.roughness),
         film_ratio=float(ratio),
         shear_ratio=s.shear_ratio,
-        torque_capacity=float(capacity),
+        torque_capacity=float(s.contact + s.viscous),
         friction_power=float(torque * speed),
         contact_torque=sign * s.contact,
         viscous_torque=sign * s.viscous,

@@ -9,22 +9,34 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ..errors import ParameterError
 from .advice import quantity_text, range_text
 from .record import Command, Model, resolve
 from .registry import find_model
-from .spec import Signal
-
-if TYPE_CHECKING:
-    from .part_file import PartFile
+from .spec import ModelSpec, Signal
 
 Values = dict[str, float]
 OUTSIDE = (
     "{} is outside {}, the part's box: solved all the same, but it is not what the part is meant "
     "for; change the point, or [box] in the part file"
 )
+
+
+class Boxed(Protocol):
+    """What a point needs of a part file."""
+
+    @property
+    def spec(self) -> ModelSpec:
+        """The model."""
+
+    @property
+    def box(self) -> Mapping[str, tuple[float, float]]:
+        """Range [SI] of each input that it is meant for."""
+
+    def inside(self, name: str, value: float) -> float:
+        """Return the value of an input, moved into the box."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +65,7 @@ def taken_text(box: Values, default: Values, inputs: Iterable[Signal]) -> str:
     return f"taken {'; '.join(said)}" if said else ""
 
 
-def from_box(part: PartFile, name: str, value: float, usual: float) -> bool:
+def from_box(part: Boxed, name: str, value: float, usual: float) -> bool:
     """Tell if the value of an input that is not given is the box's doing."""
     low, high = part.box.get(name, (-math.inf, math.inf))
     return low == high or value != usual
@@ -65,14 +77,14 @@ def command_inputs(model: Model) -> list[Signal]:
     return [Signal(**instead[s.name]) if s.name in instead else s for s in model.spec.inputs]
 
 
-def own_inputs(part: PartFile, values: Values) -> Values:
+def own_inputs(part: Boxed, values: Values) -> Values:
     """Return the model's own inputs [SI] at a point of its command."""
     place, _ = _ways(find_model(part.spec.key).command)
     return dict(place(values))
 
 
 def point_of(
-    part: PartFile, given: Mapping[str, float], inputs: Iterable[Signal] | None = None
+    part: Boxed, given: Mapping[str, float], inputs: Iterable[Signal] | None = None
 ) -> Point:
     """Return the point of a part at the inputs ``given`` [SI], the rest from its box or by default.
 
@@ -121,7 +133,7 @@ def _ways(command: Command | None) -> tuple[Callable[..., Values], Callable[...,
     return resolve(command.place), resolve(command.back)
 
 
-def _moved(part: PartFile, name: str, value: float) -> float:
+def _moved(part: Boxed, name: str, value: float) -> float:
     """Return a value moved into the box; where another input stands for it only its size counts."""
     inside, command = part.inside(name, value), find_model(part.spec.key).command
     if inside == value or command is None or name not in command.instead or not command.place:

@@ -338,7 +338,7 @@ OUTPUTS = (
     output("shaft_twist", "rad", 0.1, "twist of the output shaft, carrier before vehicle"),
     output("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
     output("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
-    output("output_torque", "N.m", 100.0, "torque of the gears on the carrier", _TORQUES),
+    output("output_torque", "N.m", 100.0, "torque of gears and bearings on the carrier", _TORQUES),
     output("output_acceleration", "rad/s2", 10.0, "acceleration of the vehicle, at the output",
            _TORQUES),
     output("clutch_hub_speed", "rad/s", 100.0, "speed of the clutch's hub, the driven gear"),

@@ -3,7 +3,8 @@
 ===================  ==============================================================================
 ``scene``            ``Scene`` and its parts, checked; which rung or tolerance is asked for
 ``scene_file``       TOML file -> ``Scene``; the built-in ones lie in ``../scenes``
-``scene_tables``     numbers with their units; engine, vehicle, pressures
+``scene_tables``     numbers with their units; engine, vehicle, pressures, thrust bearings
+``doubts``           what a scene says that is hardly meant
 ``sequence``         several shifts in one run, each as a scene
 ``connections``      which parts there are, of which models, and who passes what to whom
 ===================  ==============================================================================

@@ -7,7 +7,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
-from ..model.oil import refuse_two_ways, sheet_oil
+from ..model.oil import refuse_two_ways, sheet_oil, too_stiff
 from ..model.parameters import allowed
 from ..model.part_file import (
     PartFile,
@@ -151,11 +151,12 @@ def oil_record(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, An
 
 
 def oil_warnings(
-    arguments: argparse.Namespace, spec: "ModelSpec", point: Mapping[str, float]
+    arguments: argparse.Namespace, spec: "ModelSpec", params: Any, point: Mapping[str, float]
 ) -> list[str]:
-    """Return what is doubtful of the oil that ``read_parameters`` found, at a point."""
-    at = point.get("oil_temperature")
-    return [] if arguments.oil is None or at is None else arguments.oil.warnings([spec], at)
+    """Return what is doubtful at a point of the oil that ``read_parameters`` found."""
+    at = point["oil_temperature"]
+    named = [] if arguments.oil is None else arguments.oil.warnings([spec], at)
+    return [*named, *too_stiff(spec, params, at)]
 
 
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:

@@ -39,7 +39,7 @@ class PointCommand:
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
 
-        warnings = _options.oil_warnings(arguments, spec, point)
+        warnings = _options.oil_warnings(arguments, spec, params, point)
         _output.warn(warnings)
         solve = resolve(model.solve)
         place = resolve(model.place)(point) if model.place else point

@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..washer.load_curve import load_curve
 
-    warnings = _options.oil_warnings(arguments, SPEC, point)
+    warnings = _options.oil_warnings(arguments, SPEC, params, point)
     _output.warn(warnings)
     began = time.perf_counter()
     curve = load_curve(params, **point, **grid)

@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     times = {name: _seconds(name, getattr(arguments, name)) for name in TIMES}
     targets = _output.targets(arguments)
 
-    warnings = _options.oil_warnings(arguments, SPEC, point)
+    warnings = _options.oil_warnings(arguments, SPEC, params, point)
     _output.warn(warnings)
     began = time.perf_counter()
     result = _engage(params, point, times, _options.read_fidelity(arguments, SPEC))

@@ -69,11 +69,13 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
     """Say what a part file holds."""
+    warnings = part.oil_warnings
+    _output.warn(warnings)
     if arguments.json:
         _output.print_json({
             "file": str(path), "model": part.spec.key, "name": part.name, "box": part.box,
             "fidelity": part.fidelity, "parameters": _output.parameters_of(part.params),
-            "oil": part.oil and part.oil.as_dict(part.spec),
+            "warnings": warnings, "oil": part.oil and part.oil.as_dict(part.spec),
         })  # fmt: skip
         return
     plain, own = part.spec.params(), part.params

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from thrustwasher import ParameterError, WasherParams, load_part, oil
+from thrustwasher import GearMeshParams, ParameterError, WasherParams, load_part, oil
 from thrustwasher.cli import main
 from thrustwasher.fmu.build import asked
-from thrustwasher.model.oil import law_of, named_oils
+from thrustwasher.model.oil import law_of, named_oils, too_stiff
 from thrustwasher.model.oil_laws import (
     FITTED,
     density,
@@ -138,6 +138,13 @@ def test_oil_outside_of_its_laws_or_too_cold_to_flow_is_a_warning():
     assert "gearmesh +79 %" in cold[1]
 
 
+def test_oil_that_is_all_but_solid_is_a_warning(capsys):
+    assert main(["gearmesh", "--power", "5 kW", "--oil-temperature", "-20 degC", "--json"]) == 0
+    (told,) = json.loads(capsys.readouterr().out)["warnings"]
+    assert "the viscosity is 350 Pa.s by the law of the gearmesh" in told
+    assert too_stiff(find_model("gearmesh").spec, GearMeshParams(), 263.15) == []
+
+
 # Files, commands, scenes, FMUs
 
 
@@ -190,7 +197,7 @@ def test_a_command_solves_with_the_oil_and_says_so(mine, capsys):
         told["parameters"]["viscosity_b"]
         == oil("ISO VG 100").parameters_for("gearmesh")["viscosity_b"]
     )
-    assert len(told["warnings"]) == 2 and all(f"warning: {w}\n" in err for w in told["warnings"])
+    assert len(told["warnings"]) == 3 and all(f"warning: {w}\n" in err for w in told["warnings"])
     assert "the part's own stay: oil_conductivity, oil_heat_capacity, pressure_viscosity" in err
 
 

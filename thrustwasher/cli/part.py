@@ -71,7 +71,7 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
     """Say what a part file holds; first what of it no longer fits the rest."""
-    warnings = kept_warnings(part)
+    warnings = [*kept_warnings(part), *part.oil_warnings]
     _output.warn(warnings)
     if arguments.json:
         _output.print_json({

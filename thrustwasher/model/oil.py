@@ -52,6 +52,7 @@ KEYS = (*VISCOSITY, *NUMBERS)
 USUAL_DENSITY = 850.0  # kg/m3 of an oil that does not say it
 AT = 313.15  # K, at which the density is that of the parts
 FAR_OFF = 0.10  # relative error of a law that is worth a warning
+STIFF = 150.0  # Pa s, the most that SAE J306 allows a gear oil in the cold
 
 
 class Named(NamedTuple):
@@ -327,6 +328,27 @@ def _names(spec: ModelSpec) -> set[str]:
 def law_of(spec: ModelSpec) -> Law | None:
     """Return the parameters of a model's law of viscosity; None if it has none."""
     return next((law for law in (ROELANDS, VOGEL) if set(law) <= _names(spec)), None)
+
+
+def viscosity_of(spec: ModelSpec, params: Any, temperature: float) -> float | None:
+    """Return the viscosity [Pa s] by the law in a model's parameters; None if it has none."""
+    law = law_of(spec)
+    if law is None:
+        return None
+    scale, size, last = (getattr(params, name) for name in law)
+    return law_viscosity(law, (scale, size, last), temperature)
+
+
+def too_stiff(spec: ModelSpec, params: Any, temperature: float) -> list[str]:
+    """Say that the oil is all but solid at a temperature [K], by the law in the parameters."""
+    found = viscosity_of(spec, params, temperature)
+    if found is None or found <= STIFF:
+        return []
+    return [
+        f"oil_temperature = {temperature - ZERO:.4g} degC: the viscosity is {found:.3g} Pa.s by "
+        f"the law of the {spec.key}, above {STIFF:g} Pa.s no gear oil is used; give an oil that "
+        "flows, or a warmer one"
+    ]
 
 
 def refuse_two_ways(what: str, given: Oil, spec: ModelSpec, others: Iterable[str]) -> None:

@@ -29,7 +29,7 @@ from typing import Any
 
 from ..errors import ParameterError, within
 from ..units import exact_quantity, format_quantity
-from .oil import Oil, refuse_two_ways, sheet_oil
+from .oil import Oil, refuse_two_ways, sheet_oil, too_stiff
 from .parameters import allowed, check_number, other_names_of, plainly_named
 from .point import command_inputs, own_inputs, point_of
 from .record import resolve
@@ -90,6 +90,15 @@ class PartFile:
     def oil_words(self) -> str:
         """What is to be known of its oil; of one that has a name or a data sheet."""
         return self.oil.words(self.spec) if self.oil else ""
+
+    @property
+    def oil_warnings(self) -> list[str]:
+        """What is doubtful of its oil in its box."""
+        found: dict[str, None] = {}
+        for end in self.box.get("oil_temperature", ()):
+            named = self.oil.warnings([self.spec], end) if self.oil else []
+            found |= dict.fromkeys([*named, *too_stiff(self.spec, self.params, end)])
+        return list(found)
 
     def with_oil(self, given: Oil) -> "PartFile":
         """Return the part with another oil."""

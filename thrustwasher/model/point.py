@@ -9,10 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..errors import ParameterError
 from .advice import quantity_text, range_text
+from .oil import Oil, too_stiff
 from .record import Command, Model, resolve
 from .registry import find_model
 from .spec import ModelSpec, Signal
@@ -34,6 +35,14 @@ class Boxed(Protocol):
     @property
     def box(self) -> Mapping[str, tuple[float, float]]:
         """Range [SI] of each input that it is meant for."""
+
+    @property
+    def params(self) -> Any:
+        """All its parameters."""
+
+    @property
+    def oil(self) -> Oil | None:
+        """Its oil, if that has a name or a data sheet."""
 
     def inside(self, name: str, value: float) -> float:
         """Return the value of an input, moved into the box."""
@@ -118,8 +127,10 @@ def point_of(
         for n, ends in part.box.items()
         if n in there and _moved(part, n, there[n]) != there[n]
     ]  # fmt: skip
-    if part.oil and "oil_temperature" in there:
-        outside += part.oil.warnings([part.spec], there["oil_temperature"])
+    if "oil_temperature" in there:
+        oil = there["oil_temperature"]
+        outside += part.oil.warnings([part.spec], oil) if part.oil else []
+        outside += too_stiff(part.spec, part.params, oil)
     default = {n: v for n, v in values.items() if n not in given and n not in box}
     return Point(
         values=values, box=box, default=default, warnings=tuple(outside), inputs=inputs

@@ -13,8 +13,16 @@ from typing import Any
 
 from ...errors import ParameterError, suggestion, within
 from ...ladder.choose import rung_and_tolerance
-from ...model.oil import SHEET, VISCOSITY, Oil, law_of, oil_table, read_oil
-from ...model.oil_laws import ZERO, law_viscosity
+from ...model.oil import (
+    SHEET,
+    VISCOSITY,
+    Oil,
+    oil_table,
+    read_oil,
+    too_stiff,
+    viscosity_of,
+)
+from ...model.oil_laws import ZERO
 from ...model.parameters import other_names_of, plainly_named
 from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
@@ -222,19 +230,18 @@ def _oil_warnings(
     given: Oil | None, parts: Mapping[str, Part], temperature: float, own: bool
 ) -> list[str]:
     """Return what is doubtful of the parts' oil; ``own``: the scene is none of the package's."""
+    stiff = [text for p in parts.values() for text in too_stiff(p.spec, p.params, temperature)]
     if given and (given.density_15 or given.points):
-        return given.warnings(_specs(parts), temperature)
-    found = {}
-    for key, part in parts.items():
-        if law := law_of(part.spec):
-            scale, size, last = (getattr(part.params, name) for name in law)
-            found[key] = law_viscosity(law, (scale, size, last), temperature)
+        return [*given.warnings(_specs(parts), temperature), *dict.fromkeys(stiff)]
+    known = {key: viscosity_of(p.spec, p.params, temperature) for key, p in parts.items()}
+    found = {key: x for key, x in known.items() if x}
     if not own or not found or max(found.values()) < ONE_OIL * min(found.values()):
-        return []
+        return stiff
     told = ", ".join(f"{key} {1e3 * x:.3g} mPa.s" for key, x in found.items())
     return [
         f"no viscosity in [oil], so that each part has an oil of its own: {told} at "
-        f'{temperature - ZERO:.4g} degC; give the scene one, as in oil = "Dexron VI"'
+        f'{temperature - ZERO:.4g} degC; give the scene one, as in oil = "Dexron VI"',
+        *stiff,
     ]
 
 

@@ -170,6 +170,8 @@ STANDINGS = {
         {"fidelity": "stribeck", "friction_law": "wang", "shear_temperature_slope": 1e-3},
         {"input_course": "linear", "friction_law": "wang", "shear_temperature_slope": 1e-3},
     ],
+    # endurance is the paper's, a safety against micropitting needs its limit
+    "GearMesh": [{"permissible_film_ratio": 0.3}, {"film_heat": "atan", "steel": "AISI4340"}],
 }
 CASES = {"ThrustWasher": 40, "WetClutch": 300, "GearMesh": 200, "ShiftTransmission": 4000,
          "OilSump": 5}  # fmt: skip

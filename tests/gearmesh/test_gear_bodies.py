@@ -9,6 +9,7 @@ import pytest
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
 from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.gearmesh.doubts import doubts_of_parameters
 from thrustwasher.gearmesh.kernels import layout as L
 from thrustwasher.gearmesh.parameters import ENDURANCE, SPEC, absent_outputs
 from thrustwasher.gearmesh.solve import prepare
@@ -158,6 +159,14 @@ def test_what_is_doubtful_is_said(changes, point, said):
     r = solve_gearmesh(GearMeshParams(**changes), **({"power": 7500.0, "speed": 180.0} | point))
     assert any(re.match(said, line) for line in r.warnings), r.warnings
     assert all("\n" not in line for line in r.warnings)
+
+
+@pytest.mark.parametrize(("more", "fouls"), [(6, True), (8, True), (9, False), (14, False)])
+def test_a_ring_with_too_few_teeth_fouls_its_pinion(more, fouls):
+    """Nine teeth more at 20 degrees, as handbooks say of trochoid interference."""
+    pair = GearMeshParams(internal=True, pinion_teeth=40, gear_ratio=(40 + more) / 40)
+    said = [line for line in doubts_of_parameters(pair) if "foul" in line]
+    assert bool(said) is fouls
 
 
 @pytest.mark.parametrize("preset", [None, "paper", "literal", "iso", "planet"])

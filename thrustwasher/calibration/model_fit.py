@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import ParameterError, SolveError
 from ..model.parameters import allowed
 from ..model.part_file import PartFile, find_part
-from ..model.record import resolve
+from ..model.record import absent_outputs, resolve
 from ..model.registry import find_model, models_with_points
 from ..numerics.jit import Array
 from ..sweep.solve_rows import check_rung
@@ -291,4 +291,7 @@ def _check_first(points: Measured, values: Mapping[str, float]) -> None:
                          "out, or start nearer with --set NAME=VALUE")  # fmt: skip
     if row in failed:
         raise SolveError(f"{where} has no solution: {failed[row].advice}")
+    if name in absent_outputs(plan.spec, plan.params[0]):
+        about = next(s.help for s in plan.spec.outputs if s.name == name)
+        raise ParameterError(f"{name}: has no value with these parameters ({about})")
     raise ParameterError(f"{where} is {computed[i]}, allowed: finite outputs")

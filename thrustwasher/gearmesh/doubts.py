@@ -17,7 +17,7 @@ APART = 2.0  # factor between roughness parameters from which they describe two 
 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
     """Return what contradicts itself in parameters, and what has no effect beside the others."""
-    return [*_roughness(p), *_idle(p)]
+    return [*_roughness(p), *_fouling(p), *_idle(p)]
 
 
 def doubts_of_point(
@@ -72,6 +72,39 @@ def _roughness(p: GearMeshParams) -> list[str]:
             f"roughness of surface {p.surface!r}; give effective_roughness"
         )
     return found
+
+
+def _fouling(p: GearMeshParams) -> list[str]:
+    """Return a line if a ring's tips foul the pinion's outside the path of contact.
+
+    Both tips pass the point where the tip circles cross; the ring's has to be there first. With
+    standard teeth of 20 degrees a ring needs 9 teeth more than its pinion.
+    """
+    if not p.internal:
+        return []
+    angle = math.atan(math.tan(p.pressure_angle) / math.cos(p.helix_angle))
+    base, addendum_gear = math.cos(angle), p.addendum_gear or p.addendum
+    r1, r2 = 0.5 * p.pinion_teeth, 0.5 * p.pinion_teeth * p.gear_ratio  # over transverse module
+    tip1, tip2 = (r1 + p.addendum * math.cos(p.helix_angle),
+                  r2 - addendum_gear * math.cos(p.helix_angle))  # fmt: skip
+    apart = r2 - r1
+    at1 = (tip2 * tip2 - tip1 * tip1 - apart * apart) / (2.0 * apart * tip1)
+    at2 = (apart * apart + tip2 * tip2 - tip1 * tip1) / (2.0 * apart * tip2)
+    if abs(at1) >= 1.0 or r2 * base >= tip2:
+        return []
+    along1, along2 = _involute(math.acos(r1 * base / tip1)), _involute(math.acos(r2 * base / tip2))
+    turned = (math.acos(at1) + along1 - _involute(angle)) / p.gear_ratio
+    if turned + _involute(angle) - along2 >= math.acos(at2):
+        return []
+    return [
+        f"gear_ratio = {p.gear_ratio:.6g}: a ring of {2.0 * r2:g} teeth around {p.pinion_teeth}: "
+        "their tips foul each other beside the path of contact; give the ring more teeth or a "
+        "smaller addendum_gear (profile shift is not in the model)"
+    ]
+
+
+def _involute(angle: float) -> float:
+    return math.tan(angle) - angle
 
 
 def _differ(a: float, b: float) -> bool:

@@ -328,7 +328,8 @@ def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
 
     found: Found = {"mesh_loss": (float(signals["transmission.mesh_heat"][-1]), None)}
     for name, figure in GREATEST.items():
-        if own := of_all(name):
+        own = [] if paper and name == "bulk_temperature" else of_all(name)  # there are no bodies
+        if own:
             found[figure] = peak(np.max(own, axis=0), time)
     if hot := [a + b for a, b in zip(of_all("bulk_temperature"), of_all("flash_max"), strict=True)]:
         found["peak_flash_temperature"] = peak(np.max(hot, axis=0), time)

@@ -23,7 +23,7 @@ BROKEN = {
         {"roughness_carrier": 1e-7},
         {"roughness_washer": 1e-9},
         {"roughness_gear": 1.4e-7},
-        {"friction_load_min": 2000.0},
+        {"friction_pressure_min": 2e6},
         {"asperity_height_law": "summit", "asperity_density": 1e9},
         *(
             {f"{name}_{body}": value}

@@ -7,7 +7,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
-from ..model.parameters import allowed
+from ..model.parameters import allowed, earlier_of
 from ..model.part_file import (
     PartFile,
     find_part,
@@ -115,7 +115,7 @@ def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
 
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
     """Return the values that ``--set NAME=VALUE`` gives, by name."""
-    metadata = {f.name: f.metadata for f in fields(spec.params)}
+    metadata = {f.name: f.metadata for f in fields(spec.params)} | earlier_of(spec.params)
     values: dict[str, Any] = {}
     for setting in settings:
         name, equals, text = (part.strip() for part in setting.partition("="))

@@ -13,7 +13,8 @@ from .kernels import layout as L
 from .kernels.constants import WasherModel, washer_model
 from .kernels.newton import evaluate_here
 from .kernels.outputs import outputs_at
-from .kernels.workspace import Fields, Point, fields_of, size_of_work, workspace_of
+from .kernels.regime_and_status import point_of
+from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .parameters import WasherParams
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
@@ -89,6 +90,7 @@ class WasherResult:
     speed: float  # [rad/s]
     tilt: float  # [rad]
     oil_temperature: float  # [K]
+    far_face_temperature: float  # [K] at the gear's far face; 0: the oil's
     params: WasherParams = field(repr=False, compare=False)
     _state: Array = field(repr=False, compare=False)
 
@@ -104,6 +106,13 @@ class WasherResult:
         )  # fmt: skip
         return float(self._error) if known is None else known
 
+    @property
+    def point(self) -> tuple[float, float, float, float, float]:
+        """The inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
+        return (
+            self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature
+        )  # fmt: skip
+
     def fields(self) -> WasherFields:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""
         if self.grid == NO_MESH:
@@ -118,7 +127,7 @@ class WasherResult:
         pressure = L.S_FIELDS + f.temp.size
         f.temp[:], f.p[:] = kept[L.S_FIELDS : pressure], kept[pressure:][: f.p.size]
         w.q[:] = kept[L.S_POSITIONS :][:4]
-        point = Point(self.load, self.speed, self.tilt, self.oil_temperature)
+        point = point_of(par, np.array(self.point))
         evaluate_here(w, point)
         outputs_at(w, point)
 
@@ -153,7 +162,7 @@ class WasherResult:
 
 
 def result_of(
-    params: WasherParams, point: tuple[float, float, float, float], x: Sequence[float],
+    params: WasherParams, point: tuple[float, ...], x: Sequence[float],
     tilts: Sequence[float], branch: str, distress: bool, status: Status, iterations: int,
     fidelity: str, grid: tuple[int, int], error: float, state: Array,
 ) -> WasherResult:  # fmt: skip

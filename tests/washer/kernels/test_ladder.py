@@ -9,10 +9,17 @@ from thrustwasher.model.parameters import as_numbers
 from thrustwasher.washer.kernels import ladder
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.constants import derive_grid, size_of_par, washer_model
-from thrustwasher.washer.kernels.workspace import Workspace, fields_of, size_of_work, workspace_of
+from thrustwasher.washer.kernels.workspace import (
+    Point,
+    Workspace,
+    fields_of,
+    size_of_work,
+    workspace_of,
+)
 from thrustwasher.washer.parameters import WasherParams
 
 GRID = (6, 8)
+HERE = Point(300.0, 545.0, 2e-3, 297.15, 297.15)  # all as warm as the oil outside
 FLUX = 1e5
 ODD = np.arange(1, 2001, 2)
 RATES = (0.5 * np.pi * ODD) ** 2
@@ -39,9 +46,9 @@ class Bodies:
         """Bring all bodies through ``dt`` with a flux that is linear in time."""
         f = self.f
         f.begin[:] = f.temp
-        ladder.set_stage(self.w, dt)
+        ladder.set_stage(self.w, HERE, dt)
         self.heat(first + ladder.STAGE * (last - first))
-        ladder.set_end(self.w, dt)
+        ladder.set_end(self.w, HERE, dt)
         self.heat(last)
         ladder.advance_terms(self.w, dt)
 
@@ -120,11 +127,11 @@ def test_what_is_not_stored_leaves_through_the_far_faces(storage):
         before = b.f.ladder.copy()
         for body in (ladder.body_of(b.m, L.OF_CARRIER), ladder.body_of(b.m, L.OF_GEAR)):
             for k in range(L.N_TERMS):
-                resistance, time, _ = ladder.term(body, k)
+                t = ladder.term(body, k)
                 for j in range(body.columns):
                     at = body.at + j * body.step
                     part = slice(at + body.first, at + b.m.n_r)
-                    b.f.ladder[k, part] = (resistance * FLUX - before[k, part]) / time
+                    b.f.ladder[k, part] = (t.resistance * FLUX - before[k, part]) / t.time
         kept = b.f.temp.copy()
         b.f.temp[:] = 0.0
         assert FLUX * (one + two) - ladder.stored_heat(b.w) == pytest.approx(far, rel=1e-12)
@@ -148,7 +155,7 @@ def test_heat_stored_is_that_of_a_slab_but_for_a_few_percent():
 def test_a_steady_body_passes_on_what_enters():
     b = bodies()
     b.f.temp[:] = 30.0
-    ladder.start_terms(b.w)
+    ladder.start_terms(b.w, HERE)
     one, two = b.areas()
     out = 30.0 * (b.m.carrier_conductivity / b.m.carrier_thickness * one
                   + b.m.gear_conductivity / b.m.gear_thickness * two)  # fmt: skip
@@ -172,7 +179,7 @@ def test_a_lumped_body_follows_the_exponential_of_its_time():
 
 def test_a_face_follows_warmer_oil_as_that_of_a_slab():
     b = bodies()
-    ladder.shift_terms(b.w, 10.0)
+    ladder.shift_terms(b.w, 10.0, 10.0)
     assert b.f.temp[b.carrier] == pytest.approx(-10.0)
     assert b.f.ladder[:, b.carrier].sum(axis=0) == pytest.approx(-10.0, rel=1e-12)
     now = 0.0
@@ -197,9 +204,9 @@ def test_the_washer_stores_all_it_takes():
 @pytest.mark.parametrize("h", [1e-4, 1e-2, 1.0, 1e4])
 def test_both_stages_have_nearly_the_same_coefficient(h):
     b = bodies()
-    ladder.set_stage(b.w, h)
+    ladder.set_stage(b.w, HERE, h)
     first = b.f.small[L.OUT_CARRIER : L.OUT_SIZE].copy()
-    ladder.set_end(b.w, h)
+    ladder.set_end(b.w, HERE, h)
     assert b.f.small[L.OUT_CARRIER : L.OUT_SIZE] == pytest.approx(first, rel=0.25)
 
 

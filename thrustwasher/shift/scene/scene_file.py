@@ -12,7 +12,7 @@ from typing import Any
 
 from ...errors import ParameterError, suggestion, within
 from ...ladder.choose import rung_and_tolerance
-from ...model.parameters import other_names_of, plainly_named
+from ...model.parameters import earlier_of, other_names_of, plainly_named
 from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
@@ -237,6 +237,7 @@ def _part(
 ) -> tuple[Part, list[str]]:
     """Return a part, and what its file says of the oil in vain; ``common``: the scene's."""
     known = {f.name: f.metadata for f in fields(spec.params)}
+    earlier = earlier_of(spec.params)
     given = dict(table)
     with within(where):
         values, usual, told = _start(spec, given.pop("part", None), given.pop("preset", None))
@@ -244,7 +245,8 @@ def _part(
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values |= common
     fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", usual))
-    nothing_else(where, given, ["fidelity", "part", "preset", *known])
+    nothing_else(where, given, ["fidelity", "part", "preset", *known, *earlier])
+    known |= earlier
     for key, value in given.items():
         if key in RESERVED:
             raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")

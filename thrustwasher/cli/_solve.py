@@ -51,7 +51,11 @@ class PointCommand:
             told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time}
             _output.print_json(told)
             return 0
-        where = ", ".join(f"{s.name} {_output.shown(point[s.name], s.unit)}" for s in inputs)
+        where = ", ".join(
+            f"{s.name} {_output.shown(point[s.name], s.unit)}"
+            for s in inputs
+            if not s.optional or point[s.name] != s.start
+        )
         print(f"{model.title.format(**parameters)} at {where}")
         _output.print_rows(list(_rows(model, spec, result, point)))
         if model.variants:

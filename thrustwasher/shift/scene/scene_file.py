@@ -149,6 +149,12 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
     vehicle = vehicle_of(f"{where} [vehicle]", table.get("vehicle"))
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
     parts, notes = _parts(where, table, numbers["oil_temperature"])
+    if "washer" in parts and "mesh" not in parts:
+        if parts["washer"].params.gear_far_face == "bulk":
+            raise ParameterError(
+                f"{where} [washer]: gear_far_face = 'bulk', allowed: beside [mesh], whose bulk "
+                "temperature it takes"
+            )
     scene = Scene(
         name=name,
         title=table.get("title", name),

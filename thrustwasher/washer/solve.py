@@ -260,7 +260,7 @@ def _prefer(
 def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:
     """Replace the error estimate by the change from a grid of half the intervals."""
     half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
-    point = result.point
+    point = result.point()
     coarse = _prefer(result.params, point, result.fidelity, half, BRANCHES.get(result.branch, 0.0))
     estimate = math.inf
     if not coarse.status.is_failure and coarse.branch == result.branch:

@@ -1,5 +1,6 @@
 """What a washer solve returns, and the error to expect of it."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -15,12 +16,18 @@ from .kernels.newton import evaluate_here
 from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
-from .parameters import WasherParams
+from .parameters import WasherParams, face_of
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
     "gap 2 cannot hold the washer: its dry friction takes {:.2g} times the friction torque, so the "
     "washer would slip on the gear; here both turn together"
+)
+COUNTS = 0.1  # share of the torque from which dry friction counts
+BEYOND = (
+    "dry friction was measured for mean contact pressures of {:.3g} .. {:.3g} Pa; here {:.3g} Pa: "
+    "it is held at the end, {:.3g}; give data for this pressure (friction_reference, "
+    "friction_slope, friction_pressure_min, friction_pressure_max) or friction_law = 'constant'"
 )
 BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
 
@@ -93,6 +100,8 @@ class WasherResult:
     far_face_temperature: float  # [K] at the gear's far face; 0: the oil's
     params: WasherParams = field(repr=False, compare=False)
     _state: Array = field(repr=False, compare=False)
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     @property
     def error_estimate(self) -> float:
@@ -106,7 +115,6 @@ class WasherResult:
         )  # fmt: skip
         return float(self._error) if known is None else known
 
-    @property
     def point(self) -> tuple[float, float, float, float, float]:
         """The inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
         return (
@@ -127,7 +135,7 @@ class WasherResult:
         pressure = L.S_FIELDS + f.temp.size
         f.temp[:], f.p[:] = kept[L.S_FIELDS : pressure], kept[pressure:][: f.p.size]
         w.q[:] = kept[L.S_POSITIONS :][:4]
-        point = point_of(par, np.array(self.point))
+        point = point_of(par, np.array(self.point()))
         evaluate_here(w, point)
         outputs_at(w, point)
 
@@ -173,7 +181,26 @@ def result_of(
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
         x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, status, iterations, fidelity,
         grid, error, *point, params, state,
+        tuple(filter(None, [friction_warning(params, x)])),
     )  # fmt: skip
+
+
+def friction_warning(params: WasherParams, x: Sequence[float]) -> str:
+    """Return a warning if contacts that count press outside the data of their dry friction."""
+    contact, torque = x[L.O_CONTACT_LOAD], abs(x[L.O_TORQUE])
+    if params.friction_law != "load" or not contact > 0.0:
+        return ""
+    face = face_of(params.inner_radius, params.outer_radius)
+    low, high = params.friction_pressure_min, params.friction_pressure_max
+    pressure = contact / face
+    if low * (1.0 - 1e-9) <= pressure <= high * (1.0 + 1e-9):
+        return ""
+    held = min(max(pressure, low), high)
+    friction = params.friction_reference - params.friction_slope * math.log(held / 1e6)
+    mean_radius = 0.5 * (params.inner_radius + params.outer_radius)
+    if friction * contact * mean_radius < COUNTS * torque:
+        return ""
+    return BEYOND.format(low, high, pressure, friction)
 
 
 def hold_warning(result: WasherResult) -> str:

@@ -218,3 +218,53 @@ def test_a_change_that_lasts_for_a_long_step_is_a_steady_one():
     assert b.f.small[L.OUT_OIL] == pytest.approx(0.0, abs=1e-12)
     ladder.set_held(b.w, 1e-6)
     assert b.f.small[L.OUT_OIL : L.OUT_OIL + 3] == pytest.approx(1.0, abs=1e-3)
+
+
+# A gear whose far face is insulated: all heat stays in it.
+WHOLE = np.arange(1, 2001)
+
+
+def kept(fourier):
+    """Return the rise of an insulated slab's heated face over flux x thickness/conductivity."""
+    shape = np.exp(-((np.pi * WHOLE) ** 2) * fourier) / WHOLE**2
+    return fourier + 1.0 / 3.0 - 2.0 / np.pi**2 * np.sum(shape)
+
+
+def gear(b):
+    return slice(b.m.gear_at, b.m.gear_at + b.m.n_r - b.m.i_g)
+
+
+@pytest.mark.parametrize("steps", [(0.062,), (1e-4, 0.02, 0.0419), (0.0124,) * 5])
+def test_the_face_of_an_insulated_slab_warms_as_the_series_says(steps):
+    b = bodies(gear_far_face="insulated")
+    now, per_flux = 0.0, b.m.gear_thickness / b.m.gear_conductivity
+    for h in (*steps, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 300.0):
+        b.go(h)
+        now += h
+        if number(now, b.m) > 0.01:
+            exact = FLUX * per_flux * kept(number(now, b.m))
+            assert b.f.temp[gear(b)] == pytest.approx(exact, rel=1.5e-3)
+
+
+@pytest.mark.parametrize("storage", ["slab", "lumped"])
+def test_an_insulated_body_stores_all_that_enters(storage):
+    b, entered = bodies(gear_far_face="insulated", body_storage=storage), 0.0
+    body = ladder.body_of(b.m, L.OF_GEAR)
+    for h, first, last in ((1e-3, FLUX, FLUX), (0.2, 0.0, FLUX), (2.0, FLUX, -FLUX / 2)):
+        b.go(h, first, last)
+        entered += 0.5 * h * (first + last) * b.areas()[1]
+        flow, stored = ladder._through(b.m, body, b.f)
+        assert flow == 0.0
+        assert stored == pytest.approx(entered, rel=1e-12)
+
+
+def test_an_insulated_body_stays_as_warm_when_the_oil_warms_up():
+    b = bodies(gear_far_face="insulated")
+    b.go(1.0)
+    before = b.f.temp[gear(b)].copy()
+    ladder.shift_terms(b.w, 10.0, 10.0)
+    b.go(0.5, 0.0, 0.0)
+    mean = b.f.ladder[0, gear(b)]
+    warmed = FLUX * 1.0 / ladder.body_of(b.m, L.OF_GEAR).storage
+    assert mean == pytest.approx(warmed - 10.0, rel=1e-12)
+    assert np.all(b.f.temp[gear(b)] < before - 10.0)  # heat goes on into the body's depth

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
 from ..model.oil import refuse_two_ways, sheet_oil
-from ..model.parameters import allowed, check_number
+from ..model.parameters import allowed, check_number, earlier_of
 from ..model.part_file import (
     PartFile,
     find_part,
@@ -160,7 +160,7 @@ def oil_record(part: PartFile) -> dict[str, Any]:
 
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
     """Return the values that ``--set NAME=VALUE`` gives, by name."""
-    metadata = {f.name: f.metadata for f in fields(spec.params)}
+    metadata = {f.name: f.metadata for f in fields(spec.params)} | earlier_of(spec.params)
     values: dict[str, Any] = {}
     for setting in settings:
         name, equals, text = (part.strip() for part in setting.partition("="))

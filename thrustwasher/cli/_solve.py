@@ -61,7 +61,11 @@ class PointCommand:
             told |= {"taken": taken, "warnings": warnings, **_options.oil_record(part)}
             _output.print_json(told)
             return 0
-        where = ", ".join(f"{s.name} {_output.shown(point[s.name], s.unit)}" for s in inputs)
+        where = ", ".join(
+            f"{s.name} {_output.shown(point[s.name], s.unit)}"
+            for s in inputs
+            if not s.optional or point[s.name] != s.start
+        )
         print(f"{model.title.format(**parameters)} at {where}")
         if there.taken:
             print(f"  {there.taken}")

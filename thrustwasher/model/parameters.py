@@ -15,6 +15,7 @@ from ..units import meant
 from .spec import ModelSpec, Rule
 
 T = TypeVar("T")
+EARLIER: dict[type[Any], tuple[dict[str, Any], Callable[[dict[str, Any]], dict[str, Any]]]] = {}
 
 
 def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: Any) -> Any:
@@ -80,6 +81,43 @@ def other_names(params: type[T]) -> type[T]:
     for other, name in others.items():
         setattr(params, other, property(attrgetter(name)))
     return params
+
+
+def renewed(
+    old: Mapping[str, tuple[str, float, float, str]],
+    renew: Callable[[dict[str, Any]], dict[str, Any]],
+) -> Callable[[type[T]], type[T]]:
+    """Let parameters of an earlier form be given and read: unit and range of each by its name.
+
+    ``renew`` makes fields of them and of all that is given beside them.
+    """
+
+    def decorate(params: type[T]) -> type[T]:
+        plain = params.__init__
+
+        @wraps(plain)
+        def init(self: Any, **given: Any) -> None:
+            plain(self, **renew(given))
+
+        params.__init__ = init  # type: ignore[method-assign]
+        meta = {
+            name: {"kind": "real", "unit": unit, "min": low, "max": high, "help": text}
+            for name, (unit, low, high, text) in old.items()
+        }
+        EARLIER[params] = meta, renew
+        return params
+
+    return decorate
+
+
+def earlier_of(params: type[Any]) -> dict[str, Any]:
+    """Return the metadata of parameters of an earlier form by name."""
+    return next((dict(EARLIER[c][0]) for c in params.__mro__ if c in EARLIER), {})
+
+
+def renewed_values(params: type[Any], given: dict[str, Any]) -> dict[str, Any]:
+    """Return values [SI] by name with none of an earlier form."""
+    return next((EARLIER[c][1](given) for c in params.__mro__ if c in EARLIER), given)
 
 
 def other_names_of(params: type[Any]) -> dict[str, str]:

@@ -30,7 +30,14 @@ from typing import Any
 from ..errors import ParameterError, within
 from ..units import exact_quantity, format_quantity
 from .oil import Oil, refuse_two_ways, sheet_oil, too_stiff
-from .parameters import allowed, check_number, other_names_of, plainly_named
+from .parameters import (
+    allowed,
+    check_number,
+    earlier_of,
+    other_names_of,
+    plainly_named,
+    renewed_values,
+)
 from .point import command_inputs, own_inputs, point_of
 from .record import resolve
 from .registry import find_model
@@ -268,9 +275,13 @@ def checked_name(name: str) -> str:
 def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values [SI] of a table of parameters by their names."""
     known = {f.name: f.metadata for f in fields(spec.params)}
+    earlier = earlier_of(spec.params)
     given = plainly_named(other_names_of(spec.params), table)
-    nothing_else(where, [key for key in given if key not in known], known)
-    return {key: read_value(where, key, value, known[key]) for key, value in given.items()}
+    nothing_else(where, [key for key in given if key not in known and key not in earlier], known)
+    known |= earlier
+    values = {key: read_value(where, key, value, known[key]) for key, value in given.items()}
+    with within(where):
+        return renewed_values(spec.params, values)
 
 
 def _box(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> Box:

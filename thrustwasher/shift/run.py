@@ -21,7 +21,7 @@ from .masters.master import MASTERS
 from .masters.step_doubling import Doubling
 from .oscillation.chatter import find_chatter
 from .oscillation.judder import find_judder
-from .scene.connections import PACK_INPUTS, links
+from .scene.connections import PACK_INPUTS, wired
 from .scene.scene import Part, Scene
 from .shift_result import Cost, ShiftResult
 
@@ -205,7 +205,7 @@ def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
     carries_on = gearbox.coupling == "capacity" and gearbox.capacity_extrapolation
     # A stand-in for a model may lack a signal: it is then not connected.
     wires = [
-        k for k in links(gearbox.coupling, set(parts))
+        k for k in wired(scene.parts)
         if k.input in parts[k.target].input_names and k.output in parts[k.source].output_names
     ]  # fmt: skip
     system = System(parts, wires, carries_on=PACK_INPUTS if carries_on else ())

@@ -23,7 +23,7 @@ from ...model.oil import (
     viscosity_of,
 )
 from ...model.oil_laws import ZERO
-from ...model.parameters import other_names_of, plainly_named
+from ...model.parameters import earlier_of, other_names_of, plainly_named
 from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
@@ -168,6 +168,12 @@ def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
     given = read_oil(f"{where} [oil]", table.get("oil", {}))
     parts, notes = _parts(where, table, given or Oil(), numbers["oil_temperature"])
+    if "washer" in parts and "mesh" not in parts:
+        if parts["washer"].params.gear_far_face == "bulk":
+            raise ParameterError(
+                f"{where} [washer]: gear_far_face = 'bulk', allowed: beside [mesh], whose bulk "
+                "temperature it takes"
+            )
     scene = Scene(
         name=name,
         title=table.get("title", name),
@@ -293,6 +299,7 @@ def _part(
     ``usual`` are the scene's parameters where neither its table nor the part's file has its own.
     """
     known = {f.name: f.metadata for f in fields(spec.params)}
+    earlier = earlier_of(spec.params)
     given = dict(table)
     with within(where):
         values, rung, told = _start(spec, given.pop("part", None), given.pop("preset", None))
@@ -300,7 +307,8 @@ def _part(
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values = usual | values | common
     fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", rung))
-    nothing_else(where, given, ["fidelity", "part", "preset", *known])
+    nothing_else(where, given, ["fidelity", "part", "preset", *known, *earlier])
+    known |= earlier
     for key, value in given.items():
         if key in RESERVED:
             raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")

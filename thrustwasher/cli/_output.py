@@ -92,6 +92,12 @@ def note(message: str) -> None:
     print(message, file=sys.stderr)
 
 
+def warn(warnings: Iterable[str]) -> None:
+    """Write warnings to standard error, a line each; it is called before the figures."""
+    for text in warnings:
+        note(f"warning: {' '.join(text.split())}")
+
+
 def time_left(label: str) -> Callable[[int, int], None]:
     """Return ``show(done, total)`` that also says how long it will take; in a pipe a line a minute.
 

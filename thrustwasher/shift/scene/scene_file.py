@@ -158,6 +158,7 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
         vehicle=vehicle,
         sequence=None,
         notes=tuple(notes),
+        warnings=(),
         published=_published(f"{where} [published]", table.get("published")),
         **(
             _shift(f"{where} [shift]", table["shift"])

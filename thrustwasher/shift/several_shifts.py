@@ -167,7 +167,7 @@ def _finer(
     """Run one shift once more from where it began, with shorter steps."""
     shift = result.shifts[i].scene
     n = result.shifts[i].steps.accepted
-    steps = n * parts_of_a_step(shift, n)
+    steps = round(n * parts_of_a_step(shift, shift.step, n))
     window = shift.stop_time - shift.start_time
     played = recorded_parts(result.scene, result.time, result.signals)
     time, recorder = windows.again(i, window, steps, drive, played)

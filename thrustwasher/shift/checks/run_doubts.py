@@ -59,7 +59,9 @@ def _of_solvers(time: Array, signals: Signals) -> Iterator[str]:
         if name.endswith(".solver_status"):
             for code in np.unique(values[values > 0.0]):
                 i, status = int(np.argmax(values == code)), Status(int(code))
-                yield f"{name.partition('.')[0]} from t = {time[i]:.4g} s: {status.advice} ({status.name})"
+                part = name.partition(".")[0]
+                if status != Status.DISTRESS:  # the film's loss is told with its time
+                    yield f"{part} from t = {time[i]:.4g} s: {status.advice} ({status.name})"
 
 
 def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:

@@ -10,19 +10,19 @@ from any order (benchmarks/step_error.py).
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from math import floor, log10
-from typing import Any
 
 from ...numerics.jit import Array
 from ..cosim.recorded import Recorded
 from ..cosim.system import Stepping
 from ..masters.master import MASTERS
 from ..scene.connections import DIRECT
-from ..scene.scene import MAX_STEPS, TOLERANCE_RANGE, Scene
+from ..scene.scene import MAX_STEPS, STEP_RANGE, TOLERANCE_RANGE, Scene
 from ..shift_result import ShiftResult
 from .step_estimate import LIMITS, StepError, excess
 
 SAFE = 0.8  # of a limit: what an advice has to keep
 LEAST, ENOUGH = 4, 4000  # the second run: steps as short at least; so many of them do
+LEAST_HEAT, LEAST_JERK = 1e-4, 1.0  # of the work done, m/s3: shares of less say nothing
 LESS = 0.25  # of master_tolerance, whose root the error goes with
 Run = Callable[[Scene, Mapping[str, Stepping]], ShiftResult]
 Make = Callable[[Scene, Mapping[str, Stepping]], dict[str, Stepping]]
@@ -43,7 +43,7 @@ def step_error(result: ShiftResult, make: Make, run: Run) -> StepError:
 
     if MASTERS[scene.master].adaptive:
         return by_tolerance(result, again(master_tolerance=LESS * scene.master_tolerance))
-    parts = parts_of_a_step(scene, result.steps.accepted)
+    parts = parts_of_a_step(scene, result.step, result.steps.accepted)
     finer = again(step=result.step / parts)
     return by_step(result, finer, lambda step: again(step=step))
 
@@ -59,16 +59,16 @@ def recorded_parts(scene: Scene, time: Array, signals: Mapping[str, Array]) -> d
     }  # fmt: skip
 
 
-def parts_of_a_step(scene: Scene, steps: int) -> int:
-    """Return how many steps of the second run make one of the first."""
-    parts = LEAST
+def parts_of_a_step(scene: Scene, step: float, steps: int) -> float:
+    """Return how many steps of the second run make one of the first; 0.5 where there is no room."""
+    parts = float(LEAST)
     while steps * parts < ENOUGH:
-        parts *= 2
+        parts *= 2.0
     if MASTERS[scene.master].in_python:
-        parts //= 2
-    while parts > 1 and steps * parts > MAX_STEPS:
-        parts //= 2
-    return parts
+        parts /= 2.0
+    while parts > 1.0 and (steps * parts > MAX_STEPS or step / parts < STEP_RANGE[0]):
+        parts /= 2.0
+    return parts if parts > 1.0 else 0.5
 
 
 def by_step(
@@ -80,7 +80,7 @@ def by_step(
     own, and halved as long as it errs too much.
     """
     h, fine = result.step, finer.step
-    errors = errors_between(result, finer, h / (h - fine))
+    errors = errors_between(result, finer, h / abs(h - fine))
     advice, over = h, excess(errors)
     if over > 1.0:
         advice = rounded(SAFE * h / over)
@@ -89,8 +89,7 @@ def by_step(
             if excess(tried) <= SAFE:
                 break
             advice = rounded(0.5 * advice)
-    values: Any = map(errors.get, LIMITS)
-    return StepError(h, fine, *values, advice=advice)
+    return StepError(step=h, compared_with=fine, advice=advice, **errors)
 
 
 def by_tolerance(result: ShiftResult, finer: ShiftResult) -> StepError:
@@ -103,9 +102,9 @@ def by_tolerance(result: ShiftResult, finer: ShiftResult) -> StepError:
     tolerance, over = result.scene.master_tolerance, excess(errors)
     if over > 1.0:
         tolerance = max(rounded(tolerance * (SAFE / over) ** 2), TOLERANCE_RANGE[0])
-    values: Any = map(errors.get, LIMITS)
     return StepError(
-        result.step, finer.step, *values, advice=result.step, tolerance=tolerance
+        step=result.step, compared_with=finer.step, advice=result.step, tolerance=tolerance,
+        **errors,
     )  # fmt: skip
 
 
@@ -113,13 +112,17 @@ def errors_between(run: ShiftResult, finer: ShiftResult, factor: float) -> dict[
     """Return ``factor`` times the differences of two runs, relative to the finer one's figures."""
     mine, its, start = run.figures, finer.figures, run.scene.shift_start
 
-    def share(name: str, zero: float = 0.0) -> float | None:
+    def share(name: str, zero: float = 0.0, least: float = 1e-300) -> float | None:
         a, b = mine.get(name), its.get(name)
         if a is None or b is None:
             return None if a is b else 1.0
-        return factor * abs(a - b) / max(abs(a - zero), abs(b - zero), 1e-300)
+        return factor * abs(a - b) / max(abs(a - zero), abs(b - zero), least)
 
-    found = (share("lock_time", start), share("slip_energy") or 0.0, share("peak_jerk"))
+    work = LEAST_HEAT * max(abs(run.energy["engine_work"]), abs(run.energy["kinetic"]), 1e-6)
+    found = (
+        share("lock_time", zero=start), share("slip_energy", least=work) or 0.0,
+        share("peak_jerk", least=LEAST_JERK),
+    )  # fmt: skip
     return {n: x for n, x in zip(LIMITS, found, strict=True) if x is not None}
 
 

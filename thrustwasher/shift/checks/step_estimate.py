@@ -5,7 +5,8 @@ from typing import Any, NamedTuple
 
 from ...units import format_quantity as say
 
-LIMITS = {"lock-up time": 0.01, "heat": 0.01, "peak jerk": 0.05}  # relative; above it is a warning
+LIMITS = {"lock_time": 0.01, "heat": 0.01, "peak_jerk": 0.05}  # relative; above it is a warning
+WORDS = {"lock_time": "lock-up time", "heat": "heat", "peak_jerk": "peak jerk"}
 
 
 class StepError(NamedTuple):
@@ -18,10 +19,10 @@ class StepError(NamedTuple):
 
     step: float
     compared_with: float
-    lock_time: float | None
-    heat: float
-    peak_jerk: float | None
     advice: float
+    heat: float
+    lock_time: float | None = None
+    peak_jerk: float | None = None
     tolerance: float | None = None
     """master_tolerance that would do, of a master that chooses its steps; None: others."""
 
@@ -40,24 +41,27 @@ class StepError(NamedTuple):
         return self._asdict()
 
     def errors(self) -> dict[str, float]:
-        """Return the errors there are, by what they are of."""
-        values = self.lock_time, self.heat, self.peak_jerk
-        return {n: x for n, x in zip(LIMITS, values, strict=True) if x is not None}
+        """Return the errors there are."""
+        return {n: x for n in LIMITS if (x := getattr(self, n)) is not None}
 
     def words(self) -> str:
         """Return the errors as part of a sentence."""
-        return ", ".join(f"{100.0 * x:.2g} % in {name}" for name, x in self.errors().items())
+        return ", ".join(f"{100.0 * x:.2g} % in {WORDS[n]}" for n, x in self.errors().items())
 
     def warnings(self) -> list[str]:
         """Return what must not be missed."""
         if self.suffices:
             return []
-        step = say(self.step, "s", digits=4)
         if self.tolerance is not None:
-            return [f"master_tolerance is too large: the steps err by about {self.words()}; {self.tolerance:.2g} "
-                    "would do (--master-tolerance)"]  # fmt: skip
-        return [f"The communication step of {step} is too long: it errs by about {self.words()}; "
-                f"{say(self.advice, 's', digits=3)} would do (--step)"]  # fmt: skip
+            return [
+                f"master_tolerance is too large: the steps err by about {self.words()}; "
+                f"{self.tolerance:.2g} would do (--master-tolerance)"
+            ]
+        step, advice = (say(x, "s", digits=4) for x in (self.step, self.advice))
+        return [
+            f"The communication step of {step} is too long: it errs by about {self.words()}; "
+            f"{advice} would do (--step)"
+        ]
 
 
 def excess(errors: Mapping[str, float]) -> float:

@@ -63,13 +63,17 @@ class InTime(NamedTuple):
 
     def warnings(self, part: str, remedy: str) -> list[str]:
         """Return what must not be missed."""
-        found = [
-            f"{part}: its steady temperatures do not hold in this run: {_words(self.differences)}; "
-            f"{remedy}"
-        ] if self.differences else []  # fmt: skip
+        found = []
+        if self.differences:
+            said = _words(self.differences)
+            found.append(
+                f"{part}: its steady temperatures do not hold in this run: {said}; {remedy}"
+            )
         if self.stopped:
-            found.append(f"{part}: it could not be followed in time beyond {self.time[-1]:.4g} s "
-                         f"({self.stopped}): whether its steady temperatures hold is open")  # fmt: skip
+            found.append(
+                f"{part}: it could not be followed in time beyond {self.time[-1]:.4g} s "
+                f"({self.stopped}): whether its steady temperatures hold is open"
+            )
         return found
 
 
@@ -174,8 +178,8 @@ def _walk(
 ) -> tuple[NDArray[np.intp], Array, str]:  # fmt: skip
     """Go from instant to instant; return the points reached, values there and why it stopped.
 
-    Where the difference is likely and changes much on the way, it is gone again in shorter ways. From ``rest`` on a washer that
-    is as warm as it shall be stays so.
+    Where the difference is likely and changes much on the way, it is gone again in shorter ways.
+    From ``rest`` on a washer that is as warm as it shall be stays so.
     """
     status = Status(follower.go(inputs[0], inputs[0], 0.0))
     reached, rows = [0], [follower.out[PLACES].copy()]

@@ -1,6 +1,7 @@
 """Windows of a run of several shifts: where each began, to run it once more from there."""
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,8 +60,7 @@ class Windows:
                     capable(part.instance).set_state(state)
                 part.inputs[:], part.outputs = inputs, list(outputs)
             recorder.keep(0)
-            ends = time.tolist()
-            for k, (t, end) in enumerate(zip(ends, ends[1:], strict=False), 1):
+            for k, (t, end) in enumerate(pairwise(time.tolist()), 1):
                 drive(t, end)
                 carry_out(schedule, t, end - t)
                 recorder.keep(k)

@@ -152,9 +152,6 @@ class Model:
     fits: Fits = Fits()
     explore: str = ""  # dotted name of its ``View``: how a page in the browser shows it
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
-    remark: str = ""
-    """Dotted name of what says a sentence on each finished shift with a part of this model, called
-    with the part's parameters, time and outputs."""
 
     @property
     def spec(self) -> ModelSpec:

@@ -128,7 +128,7 @@ def follow_washer(
     if fidelity == "map":
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'coarse', 'field' or 'fine'")
     inputs = np.column_stack(columns)
-    run = _Run(params, resolve_grid(fidelity, grid))
+    run = Follower(params, resolve_grid(fidelity, grid))
     rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
     said: list[Status] = []
 
@@ -163,8 +163,11 @@ def _settling(params: WasherParams, body: str) -> float:
     return density * heat * thickness**2 / conductivity
 
 
-class _Run:
-    """A washer with its memory, stepped by the kernel."""
+class Follower:
+    """A washer with its memory, stepped by the kernel from point to point.
+
+    ``state`` is all that it remembers: a copy of it is a point to go back to.
+    """
 
     def __init__(self, params: WasherParams, grid: tuple[int, int]) -> None:
         self.grid, self.in_time = grid, params.thermal_mode == "transient"
@@ -177,9 +180,11 @@ class _Run:
         self.piece = PIECE * max(_settling(params, body) for body in BODIES)
 
     def go(self, before: Array, now: Array, duration: float) -> int:
-        """Come to the inputs ``now``; return the status."""
+        """Come to the inputs ``now``; return the status. The first point takes no time."""
         if duration == 0.0 or not self.in_time:
-            return self._step(now, duration or 1e-12)
+            code = self._step(now, duration or 1e-12)
+            self.state[L.S_SUBSTEP] = 0.0  # that of the first point is none to go on with
+            return code
         if (before == now).all():
             return self._step(now, duration)
         n = min(max(math.ceil(duration / self.piece), 1), MOST_PIECES)

@@ -9,6 +9,9 @@ from __future__ import annotations
 import argparse
 import ast
 import re
+import subprocess
+import sys
+import tempfile
 import tomllib
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
@@ -17,6 +20,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "thrustwasher"
+SUFFIXES = (".py", ".toml", ".jinja", ".js", ".css", ".c", ".h")
+FMI_HEADER = re.compile(r"fmi[23]\w*(Functions|FunctionTypes|TypesPlatform|PlatformTypes)\.h")
+FORMAT_MARK = re.compile(r"#\s*fmt:\s*(skip|off|on)\b")
 LEAST_WIDTH, LINE_WIDTH = 0.09, 1.3e-5  # of a box, as shares of the picture; per line of code
 HALF_HEIGHT = 0.22  # of a box, in layers
 SPACE = 0.015  # between a box and an arrow that passes it
@@ -111,6 +117,38 @@ def shell_sources() -> list[Path]:
     return sorted(
         path for folder in folders for end in ("*.c", "*.h") for path in folder.rglob(end)
     )
+
+
+def sources() -> list[Path]:
+    """Return all sources written by hand that a user gets: no vendored file, no FMI header."""
+    return sorted(
+        path for folder in (PACKAGE, ROOT / "fmu_src") for path in folder.rglob("*")
+        if path.suffix in SUFFIXES and not {"vendor", "__pycache__"} & set(path.parts)
+        and not FMI_HEADER.fullmatch(path.name)
+    )  # fmt: skip
+
+
+def source_lines() -> Counter[str]:
+    """Return the lines of the sources by suffix, Python as ``ruff format`` lays it out everywhere.
+
+    Marks that keep it from doing so ("fmt: skip") are taken out first. FileNotFoundError: no ruff.
+    """
+    found: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory() as name:
+        copies = []
+        for i, path in enumerate(sources()):
+            if path.suffix != ".py":
+                found[path.suffix] += lines_of([path])
+                continue
+            copies.append(Path(name, f"{i}.py"))
+            copies[-1].write_text(FORMAT_MARK.sub("", path.read_text("utf-8")), "utf-8")
+        ruff = [sys.executable, "-m", "ruff", "format", "--quiet", "--no-cache", name]
+        ruff += ["--config", str(ROOT / "pyproject.toml")]
+        done = subprocess.run(ruff, capture_output=True, text=True)
+        if done.returncode:
+            raise FileNotFoundError(done.stderr.strip())
+        found[".py"] = lines_of(copies)
+    return found
 
 
 def repeated_stems() -> list[str]:
@@ -230,8 +268,9 @@ def main() -> None:
     given = parser.parse_args()
     found = circles(imports())
     wide, n = folder_widths().most_common(1)[0]
-    print(f"{len(modules())} files, {lines_of(modules().values())} lines of Python")
-    print(f"{lines_of(shell_sources())} lines of C")
+    lines = source_lines()
+    told = ", ".join(f"{n} {suffix[1:]}" for suffix, n in lines.most_common())
+    print(f"{len(modules())} Python files; {lines.total()} lines of source, as formatted: {told}")
     print(f"widest folder: {wide}, {n} files")
     print(f"import circles: {len(found)}", *(" ".join(group) for group in found), sep="\n  ")
     print(f"names that occur twice: {len(repeated_stems())}: {' '.join(repeated_stems())}")

@@ -27,7 +27,8 @@ def main() -> float:
     less = calibrate(ClutchParams(), speed=SLIP[fast], load=FORCE[fast], friction=friction[fast])
     for estimate in less.estimates:
         print(f"  {estimate.name:14} {'told' if estimate.identifiable else estimate.reason}")
-    torque = solve_clutch(found.params, load=6000.0, speed=50.0).friction_torque
+    pack = found.params
+    torque = solve_clutch(pack, load=6000.0, speed=50.0, fidelity="boundary").friction_torque
     print(f"\nTorque of the fitted pack at 6 kN and 50 rad/s: {torque:.1f} N m")
     return found.params.decay_speed
 

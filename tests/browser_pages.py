@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 from contextlib import contextmanager
 from pathlib import Path
 
-import pytest
+from needed import missing
 
 try:
     from playwright.sync_api import TimeoutError, sync_playwright
@@ -18,19 +17,14 @@ AXE = Path(__file__).parents[1] / "node_modules" / "axe-core" / "axe.min.js"
 SERIOUS = ("serious", "critical")
 
 
-def missing(what):
-    """Skip where the machine has no browser; fail where all must hold."""
-    (pytest.fail if os.environ.get("CI") else pytest.skip)(f"{what} is missing")
-
-
 @contextmanager
 def chromium():
     """Give a headless browser."""
     path = shutil.which("chromium")
     if sync_playwright is None:
-        missing("playwright")
+        missing("playwright is missing")
     if path is None:
-        missing("chromium")
+        missing("chromium is missing")
     with sync_playwright() as play:
         browser = play.chromium.launch(executable_path=path, args=["--no-sandbox"])
         yield browser

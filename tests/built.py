@@ -4,9 +4,11 @@ import hashlib
 import os
 from pathlib import Path
 
+import needed
 from filelock import FileLock
 
 from thrustwasher.cli._fmu_cache import fmu_paths, source_digest
+from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.running.loading import prune
 from thrustwasher.fmu.shell.platform_libraries import tools
@@ -31,7 +33,10 @@ def built_fmu(model, *, target="native", fmi=2, sources=None, **options):
         if fmi == 2 and sources is None and options == AS_COMMANDS_DO:
             return fmu_paths([name], target)[name]
         if not path.is_file():
-            build([model], target=target, fmi=fmi, out=home, sources=sources, **options)
+            try:
+                build([model], target=target, fmi=fmi, out=home, sources=sources, **options)
+            except EnvironmentProblem as problem:
+                needed.missing(str(problem))
             prune(HOME, 3)
     os.utime(home)  # the time of the last use
     return path
@@ -39,7 +44,8 @@ def built_fmu(model, *, target="native", fmi=2, sources=None, **options):
 
 def _digest(target, sources, options):
     """Return 16 hex digits over sources, compilers and the way it is built."""
-    compilers = tools(find_linker()) if target == "native" else ""
+    can = target == "native" and needed.linkable()
+    compilers = tools(find_linker()) if can else ""
     hashed = hashlib.sha256(f"{source_digest(target)} {compilers} {options}".encode())
     if sources:
         for path in sorted(p for p in sources.parent.rglob("*") if p.suffix in (".py", ".md")):

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import needed
 import pytest
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -49,13 +50,7 @@ def load(name):
 
 
 def _need_a_compiler():
-    from thrustwasher.errors import EnvironmentProblem
-    from thrustwasher.native.link import find_linker
-
-    try:
-        find_linker()
-    except EnvironmentProblem as problem:
-        pytest.skip(str(problem))
+    needed.linker()
 
 
 def _alone(name):

@@ -44,7 +44,7 @@ def bench_of(par, grid):
     """Return model and work arrays for derived parameters."""
     w = workspace_of(par, np.zeros(L.N_HEAD + 2 * size_of_work(*grid)))  # room for a full gear
     b = Bench(washer_model(par), fields_of(w), w)
-    set_steady(b.m, b.f)
+    set_steady(b.m, BASE, b.f)
     return b
 
 
@@ -92,7 +92,7 @@ def settle(m, pt, q, f, passes=60):
     evaluate(m, pt, q, f, False)
 
 
-BASE = Point(300.0, 545.0, 0.002, 297.15)
+BASE = Point(300.0, 545.0, 0.002, 297.15, 297.15)
 
 
 def order(errors):

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .errors import BranchError, ParameterError, SolveError, Status
     from .gearmesh.solve import GearMeshParams, GearMeshResult, solve_gearmesh
     from .ladder.choose import Choice, choose
+    from .model.oil import Oil, oil
     from .model.part_file import PartFile, load_part
     from .sweep.run_sweep import run_sweep
     from .sweep.sweep_table import SweepTable
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "ladder.choose": ("Choice", "choose"),
+    "model.oil": ("Oil", "oil"),
     "model.part_file": ("PartFile", "load_part"),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "clutch.solve": ("ClutchParams", "boundary_friction", "solve_clutch"),
@@ -43,10 +45,10 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "BranchError", "Calibration", "Choice", "ClutchParams", "Engagement", "GearMeshParams",
-    "GearMeshResult", "LoadCurve", "ModelCalibration", "ParameterError", "PartFile",
+    "GearMeshResult", "LoadCurve", "ModelCalibration", "Oil", "ParameterError", "PartFile",
     "SolveError", "Status", "SweepTable", "WasherCourse", "WasherParams", "WasherResult",
     "boundary_friction", "calibrate", "choose", "engage_clutch", "follow_washer", "load_curve",
-    "load_part", "run_sweep", "solve_clutch", "solve_gearmesh", "solve_washer",
+    "load_part", "oil", "run_sweep", "solve_clutch", "solve_gearmesh", "solve_washer",
 ]  # fmt: skip
 
 

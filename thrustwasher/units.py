@@ -24,8 +24,11 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
 _BASE: dict[str, dict[str, int]] = _TABLES["base"]
 # The unit a person reads, tried in this order: the first whose number is at least 1.
 _DISPLAY: dict[str, list[str]] = _TABLES["display"]
+# In which unit a bare number was probably meant, the likeliest first.
+_MEANT: dict[str, list[str]] = _TABLES["meant"]
 # More units that a number may be exact in.
-_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",)}
+_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",),
+          "m2/s": ("mm2/s",)}  # fmt: skip
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
@@ -53,8 +56,9 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
         digits, written = repr(_as_float(value)), ""
     else:
         match = _NUMBER.fullmatch(value)
-        if match is None:
-            raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
+        if match is None or re.match(r",\d", match[2]):
+            comma = "; the decimal sign is a point" if match else ""
+            raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}{comma}")
         digits, written = match[1], _plain(match[2])
     if written in ("", _plain(unit)):
         factor, offset = 1.0, 0.0
@@ -67,6 +71,25 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
     if not math.isfinite(si):
         raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
     return si
+
+
+def meant(value: float, unit: str, low: float, high: float, *, difference: bool = False) -> str:
+    """Return a question that names a unit with which a number would be in its range, "" if none.
+
+    Examples
+    --------
+    >>> meant(80.0, "K", 233.15, 473.15)
+    '; did you mean 353.15 K (80 degC)?'
+    """
+    if not math.isfinite(value) or (difference and unit == "K"):
+        return ""
+    for written in _MEANT.get(unit, []):
+        si = parse_quantity(f"{value!r} {written}", unit, "")
+        if low <= si <= high and si != 0.0:
+            shown = "" if unit == "1" else f" {unit}"
+            space = "" if written == "%" else " "
+            return f"; did you mean {si:.6g}{shown} ({value:g}{space}{written})?"
+    return ""
 
 
 def _scaled(digits: str, factor: float, offset: float) -> float:
@@ -191,7 +214,8 @@ def pretty_unit(unit: str) -> str:
 
 def _wanted(unit: str) -> str:
     """Say which units are allowed."""
-    others = [text for text in UNITS.get(unit, {}) if text not in (unit, "1")]
+    sizes = {pair: text for text, pair in reversed(UNITS.get(unit, {}).items())}  # one name of each
+    others = [text for text in UNITS.get(unit, {}) if text in sizes.values() and text != unit]
     if unit == "1":
         return "a finite number, or one in %"
     also = f", or one in {', '.join(others)}" if others else ""

@@ -10,6 +10,7 @@ int reset(Instance *m) {
     memset(&m->now, 0, sizeof m->now);
     m->now.mode = INSTANTIATED;
     m->now.dirty = 1;
+    memset(m->beyond, 0, sizeof m->beyond);
     m->unsolved = m->warned = m->work_fits = m->last_step = m->table_ready = 0;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];

@@ -71,6 +71,13 @@ void tell_rule(const Instance *m, const char *rule) {
     tell(&m->log, BAD, LOG_ERROR, &text);
 }
 
+static void add_range(Text *t, const Variable *v, double low, double high) {
+    add_number(t, low);
+    add(t, " .. ");
+    add_number(t, high);
+    if (strcmp(v->unit, "1") != 0) add(t, " %s", v->unit);
+}
+
 static void add_allowed(Text *t, const Variable *v) {
     if (v->enumeration >= 0) {
         const Enumeration *e = &ENUMERATIONS[v->enumeration];
@@ -79,10 +86,7 @@ static void add_allowed(Text *t, const Variable *v) {
         }
         return;
     }
-    add_number(t, v->low);
-    add(t, " .. ");
-    add_number(t, v->high);
-    if (strcmp(v->unit, "1") != 0) add(t, " %s", v->unit);
+    add_range(t, v, v->low, v->high);
 }
 
 static void add_reason(Text *t, const Variable *v, double value) {
@@ -161,14 +165,45 @@ void tell_effort(const Instance *m) {
     tell(&m->log, GOOD, LOG_SOLVER, &text);
 }
 
+/* Warn once when an input leaves a range of its own. Returns if one is outside what was verified. */
+static int tell_ranges(Instance *m) {
+    static const char *const begin[] = {"", "OUTSIDE_VERIFIED: "}, *const end[] = {
+        "the part's box: solved all the same, but it is not what the part is meant for; change the "
+        "input, or [box] in the part file", "for which the accuracy was verified; use with care"};
+    int unverified = 0;
+    for (int i = 1; VARIABLES[i].store == STORE_INP; i++) { /* the first variables after time */
+        const Variable *v = &VARIABLES[i];
+        for (int k = 0; k < 2; k++) {
+            const double *range = m->part.ranges[k][v->slot], value = m->now.inp[v->slot];
+            uint8_t *told = &m->beyond[k][v->slot], is_beyond = value < range[0] || value > range[1];
+            unverified |= k && is_beyond;
+            if (is_beyond && !*told) {
+                Text text = {0};
+                begin_text(&text, m);
+                add(&text, " s: %s", begin[k]);
+                add_quantity(&text, v, value);
+                add(&text, " is outside ");
+                add_range(&text, v, range[0], range[1]);
+                add(&text, ", %s", end[k]);
+                tell(&m->log, WARNING, LOG_WARNING, &text);
+            }
+            *told = is_beyond;
+        }
+    }
+    return unverified;
+}
+
 /* Warn once when the solution begins to need care. */
 void tell_advice(Instance *m) {
+    int unverified = tell_ranges(m);
     int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
     if (m->now.latch) status = m->now.latch;
-    if (status != m->warned && status > STATUS_OK && status < FIRST_FAILURE) {
+    int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified);
+    if (!told && status > STATUS_OK && status < FIRST_FAILURE) {
         Text text = {0};
         begin_text(&text, m);
-        add(&text, " s: %s: %s", status_text(status)->name, status_text(status)->advice);
+        add(&text, " s: %s: %s; ", status_text(status)->name, status_text(status)->advice);
+        add_point(&text, m, 1);
         tell(&m->log, WARNING, LOG_WARNING, &text);
     }
     m->warned = status;

@@ -50,6 +50,7 @@ typedef struct Log {
 typedef struct {
     char magic[8], build[16], guid[WORD_LENGTH], name[WORD_LENGTH];
     double starts[N_VARIABLES];
+    double ranges[2][AT_LEAST_ONE(NINP)][2]; /* of each input: the part's box, what was verified */
 } Part;
 
 typedef struct {
@@ -59,6 +60,7 @@ typedef struct {
     Part part;
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
     int32_t warned;    /* the status the host was last told */
+    uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that it was told are outside their ranges */
     int32_t work_fits; /* `work` belongs to the present solution */
     int32_t last_step; /* what the last step returned */
     int32_t has_events; /* the host goes through event mode; FMI 3 only */

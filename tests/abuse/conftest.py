@@ -6,7 +6,6 @@ import pytest
 from built import built_fmu
 
 from thrustwasher.fmu.stepper import Instance
-from thrustwasher.native.link import find_linker
 
 
 @pytest.fixture(scope="session")
@@ -16,11 +15,6 @@ def fmu_of():
     @cache
     def made(model, kind):
         target, fmi = kind.split("-fmi")
-        if target == "native":
-            try:
-                find_linker()
-            except Exception as problem:
-                pytest.skip(str(problem))
         return built_fmu(model, target=target, fmi=int(fmi), local=True)
 
     return made

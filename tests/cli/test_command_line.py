@@ -188,7 +188,8 @@ def test_help_needs_no_compiler(command):
 
 def test_a_plot_is_written_whole_or_not_at_all(tmp_path, capsys, monkeypatch):
     target = tmp_path / "new" / "clutch.png"
-    assert main(["clutch", "--load", "9000", "--speed", "50", "--plot", str(target)]) == 0
+    target.parent.mkdir()
+    assert main(["clutch", "--load", "9000", "--speed", "2", "--plot", str(target)]) == 0
     assert target.read_bytes()[:4] == b"\x89PNG"
     assert [p.name for p in target.parent.iterdir()] == ["clutch.png"]
     capsys.readouterr()
@@ -198,7 +199,7 @@ def test_a_plot_is_written_whole_or_not_at_all(tmp_path, capsys, monkeypatch):
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", fail)
     other = tmp_path / "new" / "other.png"
-    assert main(["clutch", "--load", "9000", "--speed", "50", "--plot", str(other)]) == 2
+    assert main(["clutch", "--load", "9000", "--speed", "2", "--plot", str(other)]) == 2
     assert "No space" in one_line(capsys)
     assert [p.name for p in target.parent.iterdir()] == ["clutch.png"]
 

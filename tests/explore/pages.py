@@ -1,13 +1,13 @@
 """Pages made once for all tests, and their workers run by node."""
 
 import json
-import os
 import shutil
 import subprocess
 import tempfile
 from functools import cache
 from pathlib import Path
 
+import needed
 import pytest
 
 from thrustwasher.explore.description import describe, inputs_of
@@ -22,7 +22,7 @@ from thrustwasher.native.library import web_module
 HERE = Path(__file__).parent
 MODELS = ("washer", "gearmesh", "clutch")
 node = pytest.mark.skipif(
-    not (shutil.which("node") or os.environ.get("CI")), reason="install the Debian package nodejs"
+    not (shutil.which("node") or needed.IN_CI), reason="install the Debian package nodejs"
 )
 
 

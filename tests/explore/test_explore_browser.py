@@ -14,6 +14,7 @@ from thrustwasher import (
     WasherParams,
     cli,
     load_curve,
+    oil,
     solve_gearmesh,
     solve_washer,
 )
@@ -56,6 +57,17 @@ def test_the_address_is_the_state_and_comes_back(opened):
     command = page.page.text_content("#as-command")
     assert command.startswith("thrustwasher washer --load 450 --speed 953 --tilt 0.002")
     assert "--set roughness=4e-7" in command
+
+
+def test_a_named_oil_is_taken_with_its_law(opened):
+    page = opened(address="#load=300&speed=545&tilt=0.002&oil_temperature=297.15")
+    assert page.page.input_value("#oil") == ""
+    page.page.select_option("#oil", "ISO VG 46")
+    page.settled()
+    params = WasherParams(**oil("ISO VG 46").parameters_for("washer"))
+    wanted = solve_washer(params, **POINT)
+    assert page.figure("friction_torque") == pytest.approx(wanted.friction_torque, rel=SAME)
+    assert page.page.input_value("#oil") == "ISO VG 46"
 
 
 VIEWS = {  # an address; what the command prints of the figures; the parameters in the part file

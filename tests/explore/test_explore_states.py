@@ -5,7 +5,7 @@ from pages import MODELS, about, answers
 
 from thrustwasher import GearMeshParams, ParameterError, WasherParams, solve_washer
 from thrustwasher.units import UNITS, parse_quantity
-from thrustwasher.washer.washer_result import hold_warning
+from thrustwasher.washer.washer_result import SLIPS
 
 pytestmark = pytest.mark.browser
 HERE = {"load": 211.677, "speed": -56.977, "tilt": 0.0025374, "oil_temperature": 300.207}
@@ -109,7 +109,7 @@ def test_units_of_the_fields_are_those_of_the_command_line():
 
 def test_a_washer_that_slips_on_the_gear_is_told_as_by_the_command(opened):
     page = opened(address=address(NO_TILT))
-    assert said(page).startswith(hold_warning(solve_washer(WasherParams(), **NO_TILT)))
+    assert said(page).startswith(SLIPS.format(solve_washer(WasherParams(), **NO_TILT).stick_margin))
 
 
 def test_noise_counts_as_zero_and_what_is_divided_by_it_as_nothing(opened):

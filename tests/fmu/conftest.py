@@ -9,10 +9,8 @@ from built import built_fmu
 from toy.places import HERE, TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
-from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import all_specs
-from thrustwasher.native.link import find_linker
 
 
 @pytest.fixture(scope="session")
@@ -29,10 +27,6 @@ def fmus():
 @pytest.fixture(scope="session")
 def natives():
     """Every model of this version, compiled for this machine."""
-    try:
-        find_linker()
-    except EnvironmentProblem as problem:
-        pytest.skip(str(problem))
     return {spec.name: built_fmu(spec.name, local=True) for spec in all_specs()}
 
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import needed
 import pytest
 from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
@@ -60,7 +61,7 @@ def test_checkers_find_nothing(name, fmus):
     tools = Path(sys.executable).parent
     done = subprocess.run([tools / "fmpy", "validate", fmus[name]], capture_output=True, text=True)
     assert (done.returncode, done.stdout.strip()) == (0, "No problems found."), done.stderr
-    command = [tools / "fmutool", "-input", fmus[name], "-check"]
+    command = [needed.tool("fmutool"), "-input", fmus[name], "-check"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     said = done.stdout + done.stderr
     assert "seems to be compliant" in said

@@ -9,9 +9,8 @@ from built import built_fmu
 from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
-from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
+from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.stepper import DirectInstance, Instance
-from thrustwasher.native import link
 from thrustwasher.shift import load_scene, run_shift
 from thrustwasher.shift.scene.scene import Part
 
@@ -25,11 +24,6 @@ STEPS = 60
 def fmus(request):
     """The FMUs of one kind by name, the toy among them."""
     target, _, version = request.param.partition("-fmi")
-    if target == "native":
-        try:
-            link.find_linker()
-        except EnvironmentProblem as problem:
-            pytest.skip(str(problem))
     options = {"target": target, "fmi": int(version), "local": True}
     made = [built_fmu(model, **options) for model in MODELS]
     made.append(built_fmu(TOY.key, sources=TOY_SLAVES, **options))

@@ -2,15 +2,15 @@
 
 import random
 
+import needed
 import pytest
 from built import built_fmu
 from toy.places import TOY_SLAVES, TOY_START
 from toy.spec import SPEC as TOY
 
-from thrustwasher.errors import EnvironmentProblem, ParameterError, SolveError
+from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import find_spec
-from thrustwasher.native import link
 
 H = 1e-3
 SETTINGS = {"discs": 4, "law": "dry", "fidelity": "fine", "dry": True, "inner_radius": 0.04}
@@ -19,10 +19,7 @@ GEAR_POINT = [60.0, -300.0, 340.0]
 
 @pytest.fixture(scope="module")
 def linker():
-    try:
-        return link.find_linker()
-    except EnvironmentProblem as problem:
-        pytest.skip(str(problem))
+    return needed.linker()
 
 
 @pytest.fixture(scope="module", params=[2, 3], ids=["fmi2", "fmi3"])

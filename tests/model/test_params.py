@@ -62,6 +62,7 @@ def test_unknown_choices_are_refused_with_the_known_ones(f):
         ({"inner_radius": 0.02}, "gear_inner_radius"),
         ({"outer_radius": 0.9}, "outer_radius"),
         ({"friction_load_min": 2000.0}, "friction_load_min"),
+        ({"friction_pressure_min": 2e6}, "friction_pressure_min"),
     ],
 )
 def test_fields_that_contradict_each_other_are_refused(change, named):

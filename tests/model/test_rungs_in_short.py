@@ -41,7 +41,7 @@ def test_the_map_has_the_derivatives_of_its_values(chart, load, branch):
     w, numbers, found = np.zeros(N_MAP_WORK), np.zeros(N_ALL), np.zeros(2)
 
     def outputs(x):
-        assert look_up(chart.data, Point(*x), branch, np.zeros(40), w, numbers, found) == 0
+        assert look_up(chart.data, Point(*x, x[3]), branch, np.zeros(40), w, numbers, found) == 0
         return numbers[:NOUT].copy()
 
     change = (outputs(at + 1e-3 * along) - outputs(at - 1e-3 * along)) / 2e-3

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,10 @@ for rung in ("closed", "boundary", "stribeck", "field", "fine"):
 """
 
 
-SAME_TOOLS = shipped.index().get("toolchain") == ship.toolchain()
+try:
+    SAME_TOOLS = shipped.index().get("toolchain") == ship.toolchain()
+except metadata.PackageNotFoundError:  # nothing that links for all platforms
+    SAME_TOOLS = False
 
 
 @pytest.mark.slow

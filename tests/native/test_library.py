@@ -10,6 +10,7 @@ import threading
 from dataclasses import asdict
 from pathlib import Path
 
+import needed
 import pytest
 from built import look_for_linkers_again
 from kernel_files import ROOT, kernel_files
@@ -32,9 +33,9 @@ each_platform = pytest.mark.parametrize("platform", ["linux64", *OTHERS])
 
 
 def made(platform, model="gearmesh"):
-    linker = link.find_linker()
+    linker = needed.linker()
     if platform not in linker.platforms:
-        pytest.skip(f"{linker.name} does not build for {platform}: pip install ziglang")
+        needed.missing(f"{linker.name} does not build for {platform}: {needed.DEV}")
     return platform_libraries.linked(find_spec(model), PLATFORMS[platform], linker)
 
 

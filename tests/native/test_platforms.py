@@ -7,6 +7,7 @@ import subprocess
 from functools import cache
 from pathlib import Path
 
+import needed
 import numpy as np
 import pytest
 from kernel_runs import HERE, MODELS, Python, Run, course, parameters
@@ -68,8 +69,8 @@ def built(platform: str) -> tuple[bytes, str]:
 
 def stepped(model: str, platform: str, before, folder) -> np.ndarray:
     """Return the real outputs (steps, n) of the library on a platform."""
-    if platform not in link.find_linker().platforms:
-        pytest.skip(f"{link.find_linker().name} does not build for {platform}: pip install ziglang")
+    if platform not in needed.linker().platforms:
+        needed.missing(f"{link.find_linker().name} does not build for {platform}: {needed.DEV}")
     spec, target = find_spec(model), PLATFORMS[platform]
     found = variables(spec)
     inputs = [v.reference for v in found if v.causality == "input"]

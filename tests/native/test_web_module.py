@@ -1,11 +1,11 @@
 """The kernels in WebAssembly, run by node: nothing from outside, the numbers of Python's."""
 
 import json
-import os
 import shutil
 import subprocess
 from pathlib import Path
 
+import needed
 import numpy as np
 import pytest
 from kernel_runs import MODELS, Python, Run, course, parameters
@@ -23,7 +23,7 @@ STEPS = 20
 SAME = 1e-10  # of the largest value of an output: the C libraries differ in the last bit
 each = pytest.mark.parametrize("model", MODELS)
 node = pytest.mark.skipif(
-    not (shutil.which("node") or os.environ.get("CI")), reason="install the Debian package nodejs"
+    not (shutil.which("node") or needed.IN_CI), reason="install the Debian package nodejs"
 )
 
 

@@ -5,9 +5,9 @@ import math
 import pytest
 
 from thrustwasher.errors import ParameterError
+from thrustwasher.model.oil_laws import roelands, three_points, vogel
 from thrustwasher.shift import load_scene
 from thrustwasher.shift.run import _remarks
-from thrustwasher.shift.scene.oil import roelands, three_points, vogel
 from thrustwasher.tribology.viscosity import viscosity
 
 FLUID = ((297.15, 60.8e-3), (313.15, 31.4e-3), (373.15, 5.99e-3))

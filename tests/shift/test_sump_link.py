@@ -22,9 +22,10 @@ def test_the_oil_of_all_parts_is_the_sumps_and_every_washer_heats_it(tmp_path):
     for part in ("clutch", "brake", "washer", "mesh", "ring_mesh"):
         assert (s[f"{part}.oil_temperature"][1:] == oil[:-1]).all()
     received = np.sum(8.0 * s["sump.heat_3"][1:]) * 1e-3
-    factors = {1: 1.0, 2: 1.0, 4: 4.0, 5: 4.0}
+    factors = {1: 1.0, 2: 1.0, 4: 4.0, 5: 4.0, 6: 1.0}
     others = sum(f * np.sum(s[f"sump.heat_{i}"][1:]) * 1e-3 for i, f in factors.items())
     assert s["sump.received_heat"][-1] == pytest.approx(received + others, rel=1e-12)
+    assert (s["sump.heat_6"][1:] == s["transmission.bearing_power"][1:]).all()
     assert received > 0.0 and (s["sump.heat_3"][1:] == s["washer.oil_heat"][1:]).all()
 
 

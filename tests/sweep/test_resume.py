@@ -4,6 +4,7 @@ import csv
 import math
 import time
 
+import needed
 import numpy as np
 import pytest
 
@@ -145,7 +146,7 @@ def test_csv_has_units_in_its_head_full_precision_and_empty_cells_for_failures(t
 
 
 def test_parquet_holds_the_same_numbers_and_null_for_failures(tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
+    parquet = needed.package("pyarrow.parquet")
     out = tmp_path / "map.parquet"
     over = {"speed": [0.0, 100.0, 200.0]}
     table = run_sweep("gearmesh", over, at={"power": 1e4}, out=out, workers=1)

@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 
+import needed
 import numpy as np
 import pytest
 
@@ -113,7 +114,7 @@ def test_a_script_without_a_guard_is_told_so(tmp_path):
 
 
 def test_a_cluster_that_does_not_answer_is_named(monkeypatch):
-    pytest.importorskip("distributed")
+    needed.package("distributed")
     monkeypatch.setattr(runs, "ANSWER_TIME", "1s")
     for address in ("tcp://127.0.0.1:1", "nonsense"):
         with pytest.raises(EnvironmentProblem, match="does not answer"):
@@ -122,7 +123,7 @@ def test_a_cluster_that_does_not_answer_is_named(monkeypatch):
 
 @pytest.mark.slow
 def test_a_cluster_that_loses_a_worker_loses_no_point(tmp_path, monkeypatch):
-    distributed = pytest.importorskip("distributed")
+    distributed = needed.package("distributed")
     firsts = count_blocks(monkeypatch)
     over = {"load": "1 kN:9 kN:n20", "speed": "5:300:n1000"}
     with distributed.LocalCluster(

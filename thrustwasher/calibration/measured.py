@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status, suggestion
+from ..model.part_file import PartFile
 from ..model.record import resolve
 from ..model.registry import find_model
 from ..model.spec import ModelSpec
@@ -84,10 +85,11 @@ def column_units(spec: ModelSpec) -> dict[str, str]:
 
 
 def measured(
-    spec: ModelSpec, params: Any, data: Mapping[str, Sequence[Any]], at: Mapping[str, Any],
+    part: PartFile, params: Any, data: Mapping[str, Sequence[Any]], at: Mapping[str, Any],
     errors: Mapping[str, float | str], fidelity: str,
 ) -> Measured:  # fmt: skip
     """Return measured points, or name the first thing that cannot be used."""
+    spec = part.spec
     units, known, fits = output_units(spec), column_units(spec), find_model(spec.key).fits
     columns = {name: list(column) for name, column in data.items()}
     for name in columns:
@@ -106,13 +108,12 @@ def measured(
         raise ParameterError(f"data: no {what}")
     row, output, value = zip(*found, strict=True)
     wanted = {i for i, name in zip(row, output, strict=True) if name not in fits.more}
-    usual = {s.name: s.usual for s in spec.inputs}
     for name, column in points.items():
         for i, x in enumerate(column):
             if x is None and (name != fits.without or i in wanted):
                 raise ParameterError(f"{name}: point {i + 1} has none")
-        points[name] = [usual[name] if x is None else x for x in column]
-    plan = make_plan(spec.key, {}, at, points, params, fidelity)
+        points[name] = [part.starts[name] if x is None else x for x in column]
+    plan = make_plan(part, {}, at, points, params, fidelity)
     if plan.params[0] is None:
         raise ParameterError("data: the parameters of point 1 break a rule of the model")
     spread = _deviations(units, columns, errors, found)

@@ -1,6 +1,6 @@
 """Fit parameters of any model that is solved at operating points to measured outputs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -11,7 +11,6 @@ from ..model.parameters import allowed
 from ..model.part_file import PartFile, find_part
 from ..model.record import absent_outputs, resolve
 from ..model.registry import find_model, models_with_points
-from ..model.spec import ModelSpec
 from ..numerics.jit import Array
 from ..sweep.solve_rows import check_rung
 from .estimates import Calibration, Series, size_text
@@ -181,7 +180,8 @@ def calibrate(
     >>> round(found.params.constant_friction, 6)
     0.06
     """
-    spec, params, rung = _start(part)
+    start, params = _start(part)
+    spec = start.spec
     if data is None:
         own = find_model(spec.key).fits.law
         if not own:
@@ -196,7 +196,9 @@ def calibrate(
         raise ParameterError(
             f"fit = {twice.pop()!r}: is a column of the data, allowed: one of both"
         )
-    points = measured(spec, params, data, at or {}, errors or {}, fidelity or rung)
+    points = measured(
+        start, params, data, at or {}, errors or {}, fidelity or start.fidelity
+    )  # fmt: skip
     if len(points.value) < len(names):
         told = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
         raise ParameterError(f"data: {told}, allowed: as many values as parameters, or more")
@@ -207,18 +209,27 @@ def calibrate(
     changes = {e.name: e.value for e in found["estimates"]}
     return ModelCalibration(
         params=replace(points.plan.params[0], **changes), points=points,
+        warnings=tuple(_doubts(points, len(names))),
         fitted=problem.curve(found["_best"]), **found,
     )  # fmt: skip
 
 
-def _start(part: Any) -> tuple[ModelSpec, Any, str]:
-    """Return the model, its parameters before the fit and its usual rung."""
+def _doubts(points: Measured, unknowns: int) -> Iterator[str]:
+    """Yield what a reader of a fit must not miss beside its verdicts."""
+    yield from points.plan.warnings
+    if len(points.value) == unknowns:
+        yield (f"as many values as parameters ({unknowns}): the fit goes through all points, and "
+               "nothing tells how good it is; measure more")  # fmt: skip
+
+
+def _start(part: Any) -> tuple[PartFile, Any]:
+    """Return the part and its parameters before the fit."""
     part = find_part(part) if isinstance(part, str) else part
     if isinstance(part, PartFile):
-        return part.spec, part.params, part.fidelity
+        return part, part.params
     for model in models_with_points().values():
         if isinstance(part, model.spec.params):
-            return model.spec, part, model.spec.default_fidelity
+            return find_part(model.key), part
     known = ", ".join(models_with_points())
     raise ParameterError(f"part: {type(part).__name__}, allowed: a part or parameters of {known}")
 

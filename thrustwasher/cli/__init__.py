@@ -28,7 +28,7 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from .. import __version__
-from ..errors import EnvironmentProblem, ParameterError, SolveError
+from ..errors import EnvironmentProblem, ParameterError, SolveError, suggestion
 from ..model.registry import models_with_points
 
 MODELS = models_with_points()
@@ -113,8 +113,15 @@ class _Parser(argparse.ArgumentParser):
         self._negative_number_matcher = re.compile(r"-[0-9.]")
 
     def error(self, message: str) -> NoReturn:
-        """Raise instead of printing the usage and leaving."""
-        raise ParameterError(f"{message} (see {self.prog} --help)")
+        """Raise instead of printing the usage and leaving; name what was probably meant."""
+        wrong = re.search(r"unrecognized arguments: (--[\w-]+)|invalid choice: '([^']*)'", message)
+        hint = ""
+        if wrong:
+            known = (
+                re.findall(r"'([^']*)'", message)[1:] if wrong[2] else self._option_string_actions
+            )
+            hint = suggestion(wrong[1] or wrong[2], known, "; did you mean {}?")
+        raise ParameterError(f"{message}{hint} (see {self.prog} --help)")
 
     def _print_message(self, message: str, file: Any = None) -> None:
         """Write help and version, and raise where that fails, which argparse would not."""
@@ -127,8 +134,9 @@ def _dispatch(words: list[str]) -> int:
     """Parse the words and run the command they name."""
     if words and not words[0].startswith("-"):
         if words[0] not in COMMANDS:
+            hint = suggestion(words[0], COMMANDS, "; did you mean {}?")
             raise ParameterError(
-                f"command = {words[0]!r}, allowed in this version: {', '.join(COMMANDS)}"
+                f"command = {words[0]!r}, allowed in this version: {', '.join(COMMANDS)}{hint}"
             )
         command = _command(words[0])
         parser = _Parser(f"thrustwasher {words[0]}", description=command.HELP, epilog=EPILOG)

@@ -30,16 +30,20 @@ def run(arguments: argparse.Namespace, load: Step, simulate: Step) -> int:
     found = [one if isinstance(one, tuple) else _run_of(simulate(arguments, one)) for one in given]
 
     from ..report.html import render
-    from ..report.shift.comparison import comparison_page, difference_table
+    from ..report.shift.comparison import NAMES, comparison_page, difference_table
 
     runs = [run for run, _ in found]
     page = render(comparison_page(runs, [picture for _, picture in found]))
     with _output.whole_folder(folder) as draft:
         (draft / PAGE).write_text(page, encoding="utf-8")
+    warnings = [
+        f"{n}: {text}" for n, run in zip(NAMES, runs, strict=True) for text in run["warnings"]
+    ]
+    _output.warn(warnings)
     if arguments.json:
         names = ("title", "figures", "events", "phases", "warnings")
         told = [{name: run[name] for name in names} for run in runs]
-        _output.print_json({"a": told[0], "b": told[1], "out": str(folder)})
+        _output.print_json({"a": told[0], "b": told[1], "warnings": warnings, "out": str(folder)})
         return 0
     for text, *values in difference_table(runs).rows:
         print(f"{text}: A {values[0] or '-'}, B {values[1] or '-'}")

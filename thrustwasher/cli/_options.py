@@ -3,11 +3,12 @@
 import argparse
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion
-from ..model.parameters import allowed
+from ..model.oil import refuse_two_ways, sheet_oil
+from ..model.parameters import allowed, check_number, earlier_of
 from ..model.part_file import (
     PartFile,
     find_part,
@@ -21,8 +22,11 @@ from ..model.registry import find_model, spec_of
 from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
 from ..units import parse_quantity
+from ._output import note
 
+LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
 if TYPE_CHECKING:  # they need numpy, which not every command does
+    from ..model.oil import Oil
     from ..model.spec import ModelSpec, Signal
 
 
@@ -32,21 +36,39 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
     for signal in inputs:
         span = f"{signal.low:g} .. {signal.high:g} {signal.unit}"
         group.add_argument(
-            option_name(signal.name), dest=signal.name, metavar="QUANTITY", default=signal.usual,
-            help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}",
+            option_name(signal.name), dest=signal.name, metavar="QUANTITY",
+            help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}, moved into the "
+            "part's [box]",
         )  # fmt: skip
 
 
 def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> dict[str, Any]:
-    """Return the inputs in SI units."""
+    """Return the inputs that are given, in SI units."""
     given = vars(arguments)
-    return {
-        s.name: parse_quantity(given[s.name], s.unit, s.name, difference=s.relative) for s in inputs
-    }
+    return {s.name: read_input(given[s.name], s) for s in inputs if given[s.name] is not None}
+
+
+def doubts(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> list[str]:
+    """Return warnings of speeds without a unit that were probably meant in rpm."""
+    given, found = vars(arguments), []
+    for s in inputs:
+        text = given[s.name]
+        bare = text is not None and s.unit == "rad/s" and re.fullmatch(r"\s*[+-]?[\d.]+\s*", text)
+        if bare and abs(float(text)) >= LIKELY_RPM:
+            rpm = parse_quantity(f"{text} rpm", s.unit, s.name)
+            found.append(f"{s.name} = {text} without a unit is in rad/s; did you mean {rpm:.6g} "
+                         f"rad/s ({float(text):g} rpm)? Write the unit")  # fmt: skip
+    return found
+
+
+def read_input(text: str, signal: "Signal") -> float:
+    """Return an input in SI units, in its range."""
+    value = parse_quantity(text, signal.unit, signal.name, difference=signal.relative)
+    return check_number(signal.name, value, signal.unit, *signal.range)
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
-    """Add ``--part``, ``--set`` and ``--parameters``, and ``--preset`` if the model has presets."""
+    """Add ``--part``, ``--set``, ``--oil``, ``--parameters``, ``--preset`` if there are presets."""
     group = parser.add_argument_group("parameters")
     add_start(group, preset_parts(spec))
     names = {f.name: _default(f) for f in fields(spec.params)}
@@ -56,6 +78,7 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
         "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
         help=f"change a parameter, e.g. --set {example}; may be repeated",
     )  # fmt: skip
+    add_listed(group, "oil")
     group.add_argument(
         "--parameters", action=_ListParameters, nargs=0, const=spec,
         help=f"list the parameters of {spec.name} with default, unit and range, and stop",
@@ -72,15 +95,17 @@ def add_start(group: Any, presets: Mapping[str, PartFile]) -> None:
         either.add_argument("--preset", choices=list(presets), help=help)
 
 
-def read_start(arguments: argparse.Namespace, spec: "ModelSpec") -> dict[str, Any]:
-    """Return the parameters that a part file or a preset gives."""
+def read_part(arguments: argparse.Namespace, spec: "ModelSpec") -> PartFile:
+    """Return part file, preset or the model's defaults with every ``--set`` applied, checked."""
     file, preset = arguments.part, getattr(arguments, "preset", None)
-    if file is None:
-        return {} if preset is None else dict(preset_part(spec, preset).parameters)
-    part = load_part(file)
+    part = solvable(spec.key, preset) if file is None else load_part(file)
     if part.spec.key != spec.key:
         raise ParameterError(f"--part {file}: is one of {part.spec.name}, allowed: {spec.name}")
-    return dict(part.parameters)
+    settings = read_settings(arguments.settings, spec)
+    part = with_oil(arguments, part, settings)
+    part = replace(part, parameters=part.parameters | settings)
+    part.params  # noqa: B018  (raises what the model says about them)
+    return part
 
 
 def solvable(name: str, preset: str | None = None) -> PartFile:
@@ -108,14 +133,34 @@ class _ListParameters(argparse.Action):
         parser.exit()
 
 
-def read_parameters(arguments: argparse.Namespace, spec: "ModelSpec") -> Any:
-    """Return part, preset or defaults with every ``--set`` applied; their own checks included."""
-    return spec.params(**(read_start(arguments, spec) | read_settings(arguments.settings, spec)))
+def read_oil(
+    arguments: argparse.Namespace, spec: "ModelSpec", others: Iterable[str]
+) -> "Oil | None":
+    """Return the oil of ``--oil``; ParameterError if it is said in ``others`` as well."""
+    if arguments.oil is None:
+        return None
+    oil = sheet_oil("--oil", arguments.oil)
+    refuse_two_ways("--oil", oil, spec, others)
+    return oil
+
+
+def with_oil(arguments: argparse.Namespace, part: PartFile, others: Iterable[str]) -> PartFile:
+    """Return a part with the oil of ``--oil``, and say what its oil is, if it has one."""
+    oil = read_oil(arguments, part.spec, others)
+    part = part if oil is None else part.with_oil(oil)
+    if part.oil:
+        note(part.oil_words)
+    return part
+
+
+def oil_record(part: PartFile) -> dict[str, Any]:
+    """Return what JSON says of the oil of a part, if it has a name or a data sheet."""
+    return {"oil": part.oil.as_dict(part.spec)} if part.oil else {}
 
 
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
     """Return the values that ``--set NAME=VALUE`` gives, by name."""
-    metadata = {f.name: f.metadata for f in fields(spec.params)}
+    metadata = {f.name: f.metadata for f in fields(spec.params)} | earlier_of(spec.params)
     values: dict[str, Any] = {}
     for setting in settings:
         name, equals, text = (part.strip() for part in setting.partition("="))
@@ -163,12 +208,6 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bo
     usual = spec.default_fidelity
     help = "; ".join([*words, f"default {usual} or the part file's"]).replace("%", "%%")
     parser.add_argument("--fidelity", help=help, **allowed)
-
-
-def read_fidelity(arguments: argparse.Namespace, spec: "ModelSpec") -> str:
-    """Return the rung asked for, else the part file's, else the model's default."""
-    usual = load_part(arguments.part).fidelity if arguments.part else spec.default_fidelity
-    return arguments.fidelity or usual
 
 
 def _rung_or_auto(spec: "ModelSpec") -> Callable[[str], str]:

@@ -92,6 +92,12 @@ def note(message: str) -> None:
     print(message, file=sys.stderr)
 
 
+def warn(warnings: Iterable[str]) -> None:
+    """Write warnings to standard error, a line each; it is called before the figures."""
+    for text in warnings:
+        note(f"warning: {' '.join(text.split())}")
+
+
 def time_left(label: str) -> Callable[[int, int], None]:
     """Return ``show(done, total)`` that also says how long it will take; in a pipe a line a minute.
 
@@ -168,8 +174,16 @@ def targets(arguments: argparse.Namespace) -> Targets:
     out, plot = getattr(arguments, "out", None), getattr(arguments, "plot", None)
     return Targets(
         check_file(out, "--out", (".csv",)) if out else None,
-        check_file(plot, "--plot", PLOT_SUFFIXES) if plot else None,
+        _check_plot(plot) if plot else None,
     )
+
+
+def _check_plot(path: str) -> Path:
+    """Return the path of a picture if it can be written; no folder is made for it."""
+    folder = Path(path).parent
+    if not folder.is_dir():
+        raise ParameterError(f"--plot {path}: there is no folder {folder}; make it first")
+    return check_file(path, "--plot", PLOT_SUFFIXES)
 
 
 def check_file(path: str, option: str, suffixes: tuple[str, ...] = ()) -> Path:

@@ -5,8 +5,10 @@ import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..errors import Status
+from ..model.point import command_inputs, point_of
 from ..model.record import Command, Model, Variants, resolve
-from ..model.spec import ModelSpec, Signal
+from ..model.spec import ModelSpec
 from . import _options, _output
 
 
@@ -22,7 +24,7 @@ class PointCommand:
         """Declare the options."""
         model, spec = self._command, self._model.spec
         # The model's own inputs come first.
-        inputs = sorted(_inputs(model, spec), key=lambda signal: signal not in spec.inputs)
+        inputs = sorted(command_inputs(self._model), key=lambda signal: signal not in spec.inputs)
         _options.add_inputs(parser, inputs)
         _options.add_parameters(parser, spec)
         _options.add_fidelity(parser, spec, auto=self._model.ladder is not None)
@@ -32,39 +34,47 @@ class PointCommand:
     def run(self, arguments: argparse.Namespace) -> int:
         """Solve, then print or draw."""
         model, spec = self._command, self._model.spec
-        inputs = _inputs(model, spec)
-        point = _options.read_inputs(arguments, inputs)
-        params = _options.read_parameters(arguments, spec)
+        inputs = command_inputs(self._model)
+        part = _options.read_part(arguments, spec)
+        there = point_of(part, _options.read_inputs(arguments, inputs))
+        point, params = there.values, part.params
         given = {"preset": getattr(arguments, "preset", None), "part": arguments.part}
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
 
         solve = resolve(model.solve)
         place = resolve(model.place)(point) if model.place else point
-        fidelity = _rung(_options.read_fidelity(arguments, spec), spec, params, place)
+        fidelity = _rung(arguments.fidelity or part.fidelity, spec, params, place)
         began = time.perf_counter()
         result = solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
+        doubts = _options.doubts(arguments, inputs)
+        warnings = [*doubts, *there.warnings, *result.warnings]
+        if model.warning and not any(options.values()):
+            warnings += filter(None, [resolve(model.warning)(result)])
+        _output.warn(warnings)
         targets.draw(model.figure, result, point, params)
         found, parameters = _output.scalars(result), _output.parameters_of(params)
         if arguments.json:
             told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time}
+            taken = {"box": there.box, "default": there.default}
+            told |= {"taken": taken, "warnings": warnings, **_options.oil_record(part)}
             _output.print_json(told)
             return 0
-        where = ", ".join(f"{s.name} {_output.shown(point[s.name], s.unit)}" for s in inputs)
+        where = ", ".join(
+            f"{s.name} {_output.shown(point[s.name], s.unit)}"
+            for s in inputs
+            if not s.optional or point[s.name] != s.start
+        )
         print(f"{model.title.format(**parameters)} at {where}")
+        if there.taken:
+            print(f"  {there.taken}")
         _output.print_rows(list(_rows(model, spec, result, point)))
         if model.variants:
             _print_variants(model.variants, result, parameters)
-        if warning := resolve(model.warning)(result) if model.warning else "":
-            print(f"  {warning}")
-        print(f"  {result.status.advice}; {model.closing.format(**found)}, {wall_time:.3g} s")
+        said = result.status.advice if result.status is Status.OK else result.status.name
+        print(f"  {said}; {model.closing.format(**found)}, {wall_time:.3g} s")
         return 0
-
-
-def _inputs(model: Command, spec: ModelSpec) -> list[Signal]:
-    """Return the inputs of the command."""
-    return [Signal(**model.instead[s.name]) if s.name in model.instead else s for s in spec.inputs]
 
 
 def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:

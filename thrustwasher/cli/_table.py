@@ -8,6 +8,7 @@ from typing import Any
 
 from ..errors import ParameterError, suggestion
 from ..units import parse_quantity
+from ._output import note
 
 LONGEST = 1_000_000  # lines; a larger file is not a table of measured points
 COMMAS = "; if these are decimal commas they shift the columns: the decimal sign is a point"
@@ -19,7 +20,8 @@ def read_columns(
     """Return the columns wanted, each a list of numbers in SI units.
 
     The head names the columns, with the unit of the numbers in brackets: ``speed [rpm]``; without
-    it they are SI. Other columns, empty lines and lines that begin with # are passed over. Comma,
+    it they are SI. Empty lines and lines that begin with # are passed over, other columns too, with
+    a line, unless their name is nearly one that is wanted. Comma,
     semicolon or tab separate; the decimal sign is a point. ``units`` holds the SI unit of every
     column by its name, ``optional`` the names that may be missing. ``strict``: other columns are
     refused unless their names begin with _, and a cell may be empty: None. Errors name line and
@@ -84,14 +86,17 @@ def _find(
 ) -> dict[str, tuple[int, str]]:
     """Return the place and the written unit of every column wanted."""
     found: dict[str, tuple[int, str]] = {}
+    passed = []
     for index, cell in enumerate(head):
         match = re.fullmatch(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", cell)
         name = match[1].lower().replace(" ", "_") if match else ""
         if match is None or name not in units:
-            if strict and cell and not cell.startswith("_"):
-                hint = suggestion(name, units, "did you mean {}? ")
-                raise ParameterError(f"{path}: column {cell!r} is not known; {hint}begin its name "
-                                     "with _ to pass it over")  # fmt: skip
+            hint = suggestion(name, set(units) - {*found}, "did you mean {}? ")
+            if cell and not cell.startswith("_"):
+                if strict or hint:
+                    raise ParameterError(f"{path}: column {cell!r} is not known; {hint}begin its "
+                                         "name with _ to pass it over")  # fmt: skip
+                passed.append(cell)
             continue
         if name in found:
             raise ParameterError(f"{path}: has two columns {name}")
@@ -105,6 +110,8 @@ def _find(
         raise ParameterError(
             f"{path}: column {missing[0]} is missing; wanted: {', '.join(units)}; found: {names}"
         )
+    if passed:
+        note(f"{path}: passed over, as no column that counts: {', '.join(passed)}")
     return found
 
 

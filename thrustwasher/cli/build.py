@@ -3,6 +3,7 @@
 import argparse
 
 from ..errors import ParameterError
+from ..model.oil import sheet_oil
 from ..model.part_file import is_part, load_part
 from ..model.registry import all_models
 from ..units import parse_quantity
@@ -14,6 +15,7 @@ HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_mo
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "build")
+    _options.add_listed(parser, "oil")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -24,14 +26,19 @@ def run(arguments: argparse.Namespace) -> int:
     from ..ladder.own_tables import build_missing
 
     tolerance = parse_quantity(arguments.tol, "1", "tol")
+    oil = None if arguments.oil is None else sheet_oil("--oil", arguments.oil)
+    if oil:
+        _output.note(f"oil {oil}")
     if arguments.target == "native" and not arguments.no_maps:
         for part in map(load_part, filter(is_part, arguments.models)):
+            part = part if oil is None else part.with_oil(oil)
             if problem := build_missing(part, tolerance, _output.time_left):
                 _output.note(problem)
     paths = build(
         arguments.models or None, target=arguments.target, fmi=arguments.fmi, out=folder,
         platforms=chosen_platforms(arguments.platforms, arguments.target), note=_output.note,
         maps=not arguments.no_maps, terminals=arguments.terminals,
+        oil=arguments.oil,
     )  # fmt: skip
     findings = [f"{path}: {finding}" for path in paths for finding in validate(path)]
     if arguments.json:

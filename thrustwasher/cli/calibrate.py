@@ -25,6 +25,7 @@ SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "calibrate", models=", ".join(models_with_points()))
+    _options.add_listed(parser, "oil")
     _output.add_targets(
         parser, plot="draw points, fit and residuals", instead="sentences",
         out="part file to write with the fitted values (.toml); never over one",
@@ -40,6 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise ParameterError("the file with the measured points is missing (DATA.csv)")
     with_law = next(key for key, model in models_with_points().items() if model.fits.law)
     part = _options.solvable(given[0] if given else with_law, arguments.preset)
+    settings = split_settings(arguments.set, "--set", "NAME=VALUE")
+    part = _options.with_oil(arguments, part, settings)
     target, arguments.out = arguments.out and _output.new_part(arguments.out), None
     targets = _output.targets(arguments)
     options: dict[str, Any] = {
@@ -61,10 +64,9 @@ def run(arguments: argparse.Namespace) -> int:
     from ..calibration.model_fit import calibrate
 
     began = time.perf_counter()
-    found = calibrate(part.params, **options)
+    found = calibrate(part, **options)
     wall_time = time.perf_counter() - began
-    for text in found.warnings:
-        _output.note(f"warning: {text.partition(': ')[0]}")
+    _output.warn(found.warnings)
     targets.draw(FIGURE, found)
     if target:
         _write(target, part, found, data)

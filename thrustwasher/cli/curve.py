@@ -2,7 +2,10 @@
 
 import argparse
 import time
+from typing import Any
 
+from ..model.part_file import PartFile
+from ..model.point import point_of
 from ..model.registry import find_model
 from ..units import format_quantity
 from ..washer.parameters import SPEC
@@ -21,6 +24,7 @@ COMMAND = find_model("washer").command
 GRID = [option for option in COMMAND.options if option.name == "grid"] if COMMAND else []
 TABLE = ("load", "film_ratio", "friction_torque", "friction_coefficient", "temperature", "branch")
 WIDTH = 22
+LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,26 +37,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Trace, then print, write or draw."""
-    point = _options.read_inputs(arguments, INPUTS)
-    params = _options.read_parameters(arguments, SPEC)
+    part = _options.read_part(arguments, SPEC)
+    there = point_of(part, _options.read_inputs(arguments, INPUTS), INPUTS)
+    point, params = there.values, part.params
     grid = _options.read_options(arguments, GRID)
     targets = _output.targets(arguments)
 
     from ..washer.load_curve import load_curve
 
     began = time.perf_counter()
-    curve = load_curve(params, **point, **grid)
+    asked: dict[str, Any] = {**point, **_of_part(part), **grid}
+    curve = load_curve(params, **asked)
     wall_time = time.perf_counter() - began
+    doubts = _options.doubts(arguments, INPUTS)
+    warnings = [*doubts, *there.warnings, *curve.warnings]
+    _output.warn(warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.washer_plots:curve_figure", curve, point)
     if arguments.json:
         _output.print_json({
             "points": [_output.scalars(p) for p in curve.points],
-            "folds": [_output.scalars(f) for f in curve.folds],
-            **point, "parameters": _output.parameters_of(params), "wall_time": wall_time,
+            "folds": [_output.scalars(f) for f in curve.folds], "warnings": warnings,
+            "taken": {"box": there.box, "default": there.default}, **point,
+            "parameters": _output.parameters_of(params), "wall_time": wall_time,
+            **_options.oil_record(part),
         })  # fmt: skip
         return 0
+    if there.taken:
+        print(there.taken)
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     if not curve.folds:
@@ -65,3 +78,11 @@ def run(arguments: argparse.Namespace) -> int:
             f"{format_quantity(fold.friction_torque, 'N.m')}"
         )
     return 0
+
+
+def _of_part(part: PartFile) -> dict[str, Any]:
+    """Return the ends of the curve [N], wider if the box is, and the part's rung."""
+    low, high = part.box.get("load", (LOAD_MIN, LOAD_MAX))
+    rung = "field" if part.fidelity == "map" else part.fidelity  # a curve takes a mesh
+    ends = {"load_min": max(min(low, LOAD_MIN), 1.0), "load_max": max(high, LOAD_MAX)}
+    return {**ends, "fidelity": rung}

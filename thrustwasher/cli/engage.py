@@ -5,7 +5,9 @@ import time
 from typing import Any
 
 from ..clutch.parameters import SPEC
+from ..errors import Status
 from ..model.parameters import check_number
+from ..model.point import point_of
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
@@ -35,22 +37,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Engage, then print, write or draw."""
-    point = _options.read_inputs(arguments, SPEC.inputs)
-    params = _options.read_parameters(arguments, SPEC)
+    part = _options.read_part(arguments, SPEC)
+    there = point_of(part, _options.read_inputs(arguments, SPEC.inputs), SPEC.inputs)
+    point, params = there.values, part.params
     times = {name: _seconds(name, getattr(arguments, name)) for name in TIMES}
     targets = _output.targets(arguments)
 
     began = time.perf_counter()
-    result = _engage(params, point, times, _options.read_fidelity(arguments, SPEC))
+    result = _engage(params, point, times, arguments.fidelity or part.fidelity)
     wall_time = time.perf_counter() - began
+    doubts = _options.doubts(arguments, SPEC.inputs)
+    warnings = [*doubts, *there.warnings, *result.warnings]
+    _output.warn(warnings)
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
-        given = {"parameters": _output.parameters_of(params)}
+        given = {
+            "parameters": _output.parameters_of(params), "warnings": warnings,
+            "taken": {"box": there.box, "default": there.default}, **_options.oil_record(part),
+        }  # fmt: skip
         _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
         return 0
+    if there.taken:
+        print(there.taken)
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     _print_summary(result)
@@ -99,4 +110,5 @@ def _print_summary(result: Any) -> None:
         f"{at('temperature', hot)} at {at('time', hot)}; heat {at('energy', -1)}; "
         f"boundary lubrication {begin}"
     )
-    print(f"  {result.status.advice}; {result.fidelity}, {result.substeps} substeps")
+    said = result.status.advice if result.status is Status.OK else result.status.name
+    print(f"  {said}; {result.fidelity}, {result.substeps} substeps")

@@ -17,6 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"part file, or model with its defaults: {models}; default {USUAL}",
     )  # fmt: skip
     parser.add_argument("--preset", help="preset of the model, `thrustwasher part list` names them")
+    _options.add_listed(parser, "oil")
     parser.add_argument(
         "--out", metavar="PAGE.html", help="file to write, default explore-NAME.html"
     )
@@ -25,6 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
     part = _options.solvable(arguments.subject, arguments.preset)
+    part = _options.with_oil(arguments, part, ())
     out = f"explore-{part.name}.html" if arguments.out is None else arguments.out
     target = _output.check_file(out, "--out", (".html", ".htm"))
 

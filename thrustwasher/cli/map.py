@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.part_file import is_part, load_part
+from ..model.part_file import is_part
 from ..units import parse_quantity
 from ..washer.parameters import SPEC
 from . import _options, _output
@@ -47,8 +47,8 @@ def _build(arguments: argparse.Namespace) -> int:
         arguments.part = arguments.file
     usual = f"{Path(arguments.file).stem if arguments.file else 'washer'}.twm"
     out = _output.check_file(arguments.out or usual, "--out", (".twm",))
-    params = _options.read_parameters(arguments, SPEC)
-    box = dict(load_part(arguments.part).box) if arguments.part else {}
+    part = _options.read_part(arguments, SPEC)
+    params, box = part.params, dict(part.box)
     box |= {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
             for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import ParameterError
+from ..model.kept import kept_warnings
 from ..model.part_file import (
     PartFile,
     checked_name,
@@ -26,6 +27,7 @@ HELP = "write a part file of one's own (new), check one, list the presets"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "part", models=", ".join(m.key for m in all_models()))
+    _options.add_listed(parser, "oil")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -42,6 +44,8 @@ def _new(arguments: argparse.Namespace) -> None:
     spec = model.spec
     start = find_part(spec.key) if arguments.preset is None else preset_part(spec, arguments.preset)
     changes = _options.read_settings(arguments.settings, spec)
+    oil = _options.read_oil(arguments, spec, changes)
+    start = start if oil is None else start.with_oil(oil)
     name = checked_name(arguments.name or usual_name(spec))
     box = start.box or _usual_box(model)
     out = _output.new_part(arguments.out or f"{spec.key}.toml")
@@ -59,22 +63,32 @@ def _usual_box(model: Model) -> dict[str, tuple[float, float]]:
 
 def _check(arguments: argparse.Namespace) -> None:
     path = Path(arguments.subject)
-    _told(arguments, path, load_part(path), f"{path}: sound")
+    part = load_part(path)
+    oil = _options.read_oil(arguments, part.spec, ())
+    part = part if oil is None else part.with_oil(oil)
+    _told(arguments, path, part, f"{path}: allowed")
 
 
 def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
-    """Say what a part file holds."""
+    """Say what a part file holds; first what of it no longer fits the rest."""
+    warnings = [*kept_warnings(part), *part.oil_warnings]
+    _output.warn(warnings)
     if arguments.json:
         _output.print_json({
             "file": str(path), "model": part.spec.key, "name": part.name, "box": part.box,
             "fidelity": part.fidelity, "parameters": _output.parameters_of(part.params),
+            "warnings": warnings, "oil": part.oil and part.oil.as_dict(part.spec),
         })  # fmt: skip
         return
+    if not warnings:
+        words = words.replace(": allowed", ": sound")
     plain, own = part.spec.params(), part.params
     changed = [n for n in part.parameters if getattr(plain, n) != getattr(own, n)]
     given = f"{len(changed)} parameters not at their defaults" if changed else "all at the defaults"
     print(f"{words}: {part.name}, {part.spec.name}, {given}{': ' * bool(changed)}"
           + ", ".join(changed))  # fmt: skip
+    if part.oil:
+        print(part.oil_words)
 
 
 def _list(arguments: argparse.Namespace) -> None:

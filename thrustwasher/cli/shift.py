@@ -21,10 +21,13 @@ REPORT, TABLE = "report.html", "shift.csv"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "shift")
+    _options.add_listed(parser, "oil")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
+    if arguments.list:
+        return _list(arguments.json)
     if arguments.compare:
         return _compare.run(arguments, _scene, _one_shift)
     scene = _scene(arguments, arguments.scene or "planetary")
@@ -41,15 +44,26 @@ def run(arguments: argparse.Namespace) -> int:
     if folder:
         with _output.whole_folder(folder) as draft:
             _write(result, draft)
+    _output.warn(result.warnings)
     if arguments.json:
         total, out = time.perf_counter() - began, str(folder) if folder else None
-        _output.print_json(
-            {**result.as_dict(), "warnings": _warnings(result), "total_time": total, "out": out}
-        )
+        _output.print_json({**result.as_dict(), "total_time": total, "out": out})
     elif scene.sequence:
         _say_sequence(result)
     else:
         _say(result, folder)
+    return 0
+
+
+def _list(as_json: bool) -> int:
+    """List the built-in scenes."""
+    from ..shift import builtin_scenes, load_scene
+
+    titles = {name: load_scene(name).title for name in builtin_scenes()}
+    if as_json:
+        _output.print_json({"scenes": titles})
+    else:
+        _output.print_rows([(name, title, "") for name, title in titles.items()])
     return 0
 
 
@@ -74,7 +88,7 @@ def _scene(arguments: argparse.Namespace, name: str) -> Any:
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     tolerance = arguments.master_tolerance
-    scene = load_scene(name).with_options(
+    scene = load_scene(name, arguments.oil).with_options(
         step=step, master=arguments.master,
         master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
     )  # fmt: skip
@@ -98,7 +112,8 @@ def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
     with _fmu_instances(scene, arguments.fmu) as make:
         _get_ready(arguments)
         instances = {name: make(name, part) for name, part in scene.parts.items()}
-        return run_sequence(scene, instances, progress=_progress(scene))
+        return run_sequence(scene, instances, guard=not arguments.no_guard,
+                            progress=_progress(scene))  # fmt: skip
 
 
 def _check_sequence(arguments: argparse.Namespace, scene: Any) -> None:
@@ -119,16 +134,6 @@ def _progress(scene: Any) -> Callable[[int, int], None] | None:
     return _output.time_left(scene.name) if sys.stderr.isatty() else None
 
 
-def _warnings(result: Any) -> list[str]:
-    """Return what a reader must not miss."""
-    from ..report.shift import summary
-    from ..report.shift.shift_record import record_of
-
-    if result.scene.sequence:
-        return summary.warnings_of_all([record_of(shift) for shift in result.shifts])
-    return summary.warnings(record_of(result))
-
-
 def _say(result: Any, folder: Path | None) -> None:
     """Print what happened in the shift, and where its report is."""
     from ..report.shift import summary
@@ -137,14 +142,19 @@ def _say(result: Any, folder: Path | None) -> None:
     record = record_of(result)
     for text in result.selection.words() if result.selection else []:
         print(text)
-    for text in [*summary.sentences(record), *summary.warnings(record)]:
+    for text in summary.sentences(record):
         print(text)
     missing = f"{record.energy['residual_share']:.1e} of {record.whole_name}"
-    print(f"Energy balance: {missing} is missing.")
+    print(f"Energy balance: {missing} is missing.{_step_words(record)}")
     if folder:
         print(f"Report: {folder / REPORT}")
     if result.guard:
         print(f"Check: {result.guard.closing()}.")
+
+
+def _step_words(record: Any) -> str:
+    """Return what the step errs by, if that was checked."""
+    return f" Error of the step: {record.step_error.words()}." if record.step_error else ""
 
 
 def _say_sequence(result: Any) -> None:

@@ -21,6 +21,7 @@ HELP = "solve a model over ranges of inputs and parameters, on all cores or on a
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "sweep", models=", ".join(models_with_points()))
+    _options.add_listed(parser, "oil")
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
     for name, units in _inputs().items():
         inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
@@ -29,26 +30,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Sweep, then write the table and say how it went."""
     part = _options.solvable(arguments.model, arguments.preset)
-    spec, params = part.spec, part.params
+    spec = part.spec
     at = _held(arguments, spec)
     out = None
     if arguments.out:
         out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
     points = _points(arguments.points, spec) if arguments.points else None
+    over = split_settings(arguments.over, "--over", VALUES)
+    part = _options.with_oil(
+        arguments, part, (*at, *(n.partition("[")[0].strip() for n in over), *(points or ()))
+    )
 
     from ..sweep.run_sweep import run_sweep
     from ..sweep.sweep_table import write_csv
 
     began = time.perf_counter()
-    over = split_settings(arguments.over, "--over", VALUES)
     table = run_sweep(
-        spec.key, over, at=at, points=points, params=params,
-        fidelity=arguments.fidelity or part.fidelity, out=out, workers=_workers(arguments.workers),
-        cluster=arguments.cluster,
+        part, over, at=at, points=points, fidelity=arguments.fidelity, out=out,
+        workers=_workers(arguments.workers), cluster=arguments.cluster,
         progress=_progress(spec), keep=False,
     )  # fmt: skip
-    if table.choice:
-        _output.note(table.choice)
+    for said in filter(None, [table.choice, table.taken]):
+        _output.note(said)
+    _output.warn(table.warnings)
     if not out:
         write_csv(table, sys.stdout)
     failed = ", ".join(f"{n} {name}" for name, n in table.failures.items())

@@ -15,7 +15,7 @@ from .kernels import advance as clutch_advance
 from .kernels import layout as k
 from .kernels import pack_friction, pack_outputs, rates
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
-from .solve import prepare
+from .solve import pack_warnings, prepare
 
 Course = tuple[float, float, float, float, float, float, float, float]
 
@@ -97,6 +97,8 @@ class Engagement:
     status: Status  # HOT if the interface passed 523 K, OK otherwise
     substeps: int  # Implicit substeps that all intervals together took
     fidelity: str
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields as a dictionary that JSON can hold; status by name."""
@@ -155,12 +157,14 @@ def engage_clutch(
     rows, substeps = outputs_over(par, points, forces, slips, oil, drums)
     kept, stages = {f.name for f in fields(Engagement)}, list(REGIMES)
     columns = {n: rows[:, i].copy() for i, n in enumerate(SPEC.real_outputs) if n in kept}
-    hot = bool((columns["temperature"] > k.HOT_LIMIT).any())
+    hottest = float(columns["temperature"].max())
+    status = Status.HOT if hottest > k.HOT_LIMIT else Status.OK
     return Engagement(
         time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=fidelity,
         regime=[
             stages[pack_friction.regime_of(par, u, slip) - 1]
             for u, slip in zip(columns["film_ratio"], slips, strict=True)
         ],
-        status=Status.HOT if hot else Status.OK,
+        status=status,
+        warnings=pack_warnings(status, float(columns["film_ratio"].min()), hottest),
     )  # fmt: skip

@@ -74,7 +74,12 @@ class ClutchParams:
     outer_radius: float = quantity(0.085, "m", 2e-3, 2.0, "outer radius of the friction faces")
     faces: int = count(4, 1, 100, "number of friction faces in the pack")
     effective_radius: float = quantity(
-        0.0, "m", 0.0, 10.0, "radius the friction acts at (0: from the face's radii)"
+        0.0,
+        "m",
+        0.0,
+        10.0,
+        "radius the friction acts at (0: from the face's radii)",
+        overrides=("inner_radius", "outer_radius"),
     )
     friction_law: str = choice(
         "table", FRICTION_LAWS, "ClutchFrictionLaw", "law of friction over slip speed"
@@ -124,7 +129,13 @@ class ClutchParams:
         1e-13, "m2", 0.0, 1e-9, "permeability of the lining along its plane"
     )
     land_share: float = quantity(0.8, "1", 0.05, 1.0, "share of a face that is not groove")
-    groove_count: int = count(24, 0, 1000, "number of radial grooves in a face (0: none)")
+    groove_count: int = count(
+        24,
+        0,
+        1000,
+        "number of radial grooves in a face (0: none)",
+        belongs_to=("inner_radius", "outer_radius"),
+    )
     groove_width: float = quantity(2e-3, "m", 1e-5, 0.1, "width of a groove at its foot")
     groove_depth: float = quantity(4e-4, "m", 1e-5, 0.01, "depth of the grooves")
     initial_film: float = quantity(1.5e-4, "m", 1e-6, 1e-2, "film thickness of the open pack")
@@ -141,6 +152,7 @@ class ClutchParams:
     oil_flow: float = quantity(
         1e-3 / 60.0, "m3/s", 0.0, 1.0,
         "oil fed to the pack; limits its drag and cooling (0: as much as it takes)",
+        belongs_to=("inner_radius", "outer_radius", "faces"),
     )  # fmt: skip
     oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
     oil_heat_capacity: float = quantity(

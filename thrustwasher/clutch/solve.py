@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
+from ..model.advice import warnings_of
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.registry import find_model
@@ -16,6 +17,10 @@ from .kernels import layout as k
 from .kernels import pack_friction, rates, steady
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 
+PRESSED = (
+    "film_ratio = {:.3g}: the lining is pressed beyond the reach of the law of contact; lower the "
+    "load or check the lining's modulus"
+)
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
@@ -39,6 +44,8 @@ class ClutchResult:
     status: Status
     iterations: int
     fidelity: str
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields as a dictionary that JSON can hold; status by name."""
@@ -228,8 +235,7 @@ def solve_clutch(
         status = Status.OUTSIDE_VERIFIED
     if not status.is_failure and s.hottest > k.HOT_LIMIT:
         status = Status.HOT
-    sign, capacity = float(np.sign(speed)), s.contact + s.viscous
-    torque = sign * capacity
+    sign, torque = float(np.sign(speed)), float(np.sign(speed)) * (s.contact + s.viscous)
     return ClutchResult(
         friction_torque=torque,
         friction_coefficient=s.coefficient,
@@ -237,7 +243,7 @@ def solve_clutch(
         film_thickness=float(ratio * params.roughness),
         film_ratio=float(ratio),
         shear_ratio=s.shear_ratio,
-        torque_capacity=float(capacity),
+        torque_capacity=float(s.contact + s.viscous),
         friction_power=float(torque * speed),
         contact_torque=sign * s.contact,
         viscous_torque=sign * s.viscous,
@@ -246,7 +252,14 @@ def solve_clutch(
         status=status,
         iterations=int(turns + s.iterations),
         fidelity=fidelity,
+        warnings=pack_warnings(status, ratio, s.hottest),
     )
+
+
+def pack_warnings(status: Status, ratio: float, hottest: float) -> tuple[str, ...]:
+    """Return the warnings of a pack with this film ratio and this hottest interface [K]."""
+    more = [PRESSED.format(ratio)] if ratio < k.LEAST_RATIO else []
+    return warnings_of(SPEC, status, {}, {"temperature": hottest}, more)
 
 
 def walk_steady(

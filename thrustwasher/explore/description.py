@@ -6,6 +6,7 @@ from typing import Any, get_type_hints
 
 from ..ladder.card import SAFETY, Card, fresh_cards
 from ..ladder.card_parts import FEW
+from ..model.oil import named_oils, oil
 from ..model.part_file import PartFile
 from ..model.record import Model, resolve
 from ..model.spec import REGIMES, Signal
@@ -56,6 +57,7 @@ def describe(
         "parameters": [_parameter(f, view) for f in fields(spec.params)],
         "defaults": {f.name: f.default for f in fields(spec.params)},
         "given": {f.name: getattr(params, f.name) for f in fields(spec.params)},
+        "oils": {name: oil(name).parameters_for(spec) for name in named_oils()},
         "outputs": outputs_of(model, view), "units": readable_units(), "scales": UNITS,
         "rungs": spec.fidelities, "rung": rung, "usual_rung": spec.default_fidelity,
         "rules": [rule.text for rule in spec.rules],

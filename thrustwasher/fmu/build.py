@@ -1,13 +1,15 @@
 """From a model's list, binaries and documents to an FMU file."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 from ..errors import ParameterError, SolveError, within
-from ..model.part_file import is_part, load_part
+from ..model.oil import Oil, refuse_two_ways, sheet_oil
+from ..model.part_file import PartFile, find_part, is_part, load_part
 from ..model.prepare import check_together
 from ..model.registry import all_specs, find_spec
 from ..model.spec import ModelSpec
@@ -37,6 +39,7 @@ def build(
     local: bool = False,
     maps: bool = True,
     terminals: bool = False,
+    oil: str | Mapping[str, Any] | None = None,
 ) -> list[Path]:
     """Build FMUs and return their paths, ``out/<target>-fmi<N>/<Model>.fmu``.
 
@@ -57,6 +60,8 @@ def build(
         2.5 MB and refuses that fidelity
     terminals : put the plugs into an FMI 2.0 FMU too; they are of FMI 3.0, where they always are,
         and some tools for FMI 2.0 call the file an error
+    oil : native only, the oil of all models that know one, as for ``thrustwasher.oil``; an FMU's
+        start values follow it
 
     Raises
     ------
@@ -65,10 +70,10 @@ def build(
         install
     """
     _check(target, fmi, platforms, maps)
-    specs = asked(models)
+    specs = asked(models, oil)
     say = note or (lambda _: None)
     if target == "python" and any(spec.kind for spec in specs):
-        raise ParameterError("a part file is for native FMUs only; use --target native")
+        raise ParameterError("part files and oils are for native FMUs only; use --target native")
     places: Sequence[str] = ()
     if target == "native":
         places = [this_platform().name] if local else chosen(platforms, say, specs)
@@ -88,12 +93,20 @@ def build(
     return paths
 
 
-def asked(models: Sequence[str] | None) -> list[ModelSpec]:
+def asked(
+    models: Sequence[str] | None, oil: str | Mapping[str, Any] | None = None
+) -> list[ModelSpec]:
     """Return the models to build; a part file stands for its model with the part's values."""
+    own = None if oil is None else sheet_oil("oil", oil)
     found: dict[str, tuple[str, ModelSpec]] = {}
     known = {spec.name: spec for spec in all_specs(helpers=True)}
     for word in models or [spec.key for spec in all_specs()]:
-        spec = _part(word) if is_part(word) else find_spec(word)
+        if is_part(word):
+            spec = _part(word, own)
+        else:
+            spec = find_spec(word)
+            if own and (models or own.parameters_for(spec)):
+                spec = _oiled(find_part(spec.key), own).model
         other, _ = found.setdefault(spec.name, (word, spec))
         if other != word and (is_part(word) or is_part(other)):
             raise ParameterError(f"{other} and {word} have one name, {spec.name}; change it in one")
@@ -105,8 +118,16 @@ def asked(models: Sequence[str] | None) -> list[ModelSpec]:
     return [spec for _, spec in found.values()]
 
 
-def _part(path: str) -> ModelSpec:
-    part = load_part(path)
+def _oiled(part: PartFile, oil: Oil | None) -> PartFile:
+    """Return a part with an oil; ParameterError if its model knows none."""
+    if oil is None:
+        return part
+    refuse_two_ways("oil", oil, part.spec, ())
+    return part.with_oil(oil)
+
+
+def _part(path: str, oil: Oil | None) -> ModelSpec:
+    part = _oiled(load_part(path), oil)
     with within(f"part {path!r}"):
         check_together(part.spec, part.params, part.fidelity)
     return part.model

@@ -156,6 +156,9 @@ RULES = (
 )  # fmt: skip
 
 
+SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GearMeshParams:
     """A pair of involute gears: geometry, flanks, friction, heat, steel, oil, laws.
@@ -171,7 +174,12 @@ class GearMeshParams:
     pinion_teeth: int = count(20, 5, 500, "number of teeth of the pinion")
     centre_distance: float = quantity(0.254, "m", 5e-3, 10.0, "distance of the two gear axes")
     normal_module: float = quantity(
-        0.0, "m", 0.0, 0.1, "normal module, gives the centre distance (0: from centre_distance)"
+        0.0,
+        "m",
+        0.0,
+        0.1,
+        "normal module, gives the centre distance (0: from centre_distance)",
+        overrides=("centre_distance",),
     )
     pressure_angle: float = quantity(
         0.3490658503988659, "rad", 0.2, 0.6, "pressure angle in the normal section, pitch point"
@@ -181,7 +189,9 @@ class GearMeshParams:
     )
     internal: bool = flag(False, "whether the gear is a ring with internal teeth")
     addendum: float = quantity(1.0, "1", 0.3, 1.5, "addendum of the pinion over the normal module")
-    addendum_gear: float = quantity(0.0, "1", 0.0, 1.5, "addendum of the gear (0: as addendum)")
+    addendum_gear: float = quantity(
+        0.0, "1", 0.0, 1.5, "addendum of the gear (0: as addendum)", overrides=("addendum",)
+    )
     face_width: float = quantity(0.05, "m", 1e-3, 5.0, "width of the teeth in contact")
     load_factor: float = quantity(
         1.0, "1", 0.5, 5.0, "load factor K of pressure, flash, body temperature and pitting stress"
@@ -191,13 +201,28 @@ class GearMeshParams:
     )
     surface: str = choice("rough", SURFACES, "Surface", "finish of the two flanks")
     sigma_rms: float = quantity(
-        0.0, "m", 0.0, 2e-5, "composite RMS roughness (0: that of the surface)"
+        0.0,
+        "m",
+        0.0,
+        2e-5,
+        "composite RMS roughness (0: that of the surface)",
+        overrides=("surface",),
     )
     effective_roughness: float = quantity(
-        0.0, "1", 0.0, 1e-4, "effective roughness S of Li and Seireg (0: that of the surface)"
+        0.0,
+        "1",
+        0.0,
+        1e-4,
+        "effective roughness S of Li and Seireg (0: that of the surface)",
+        overrides=("surface",),
     )
     mean_roughness: float = quantity(
-        0.0, "m", 0.0, 2e-5, "Ra for the ISO law (0: composite RMS over sqrt 2)"
+        0.0,
+        "m",
+        0.0,
+        2e-5,
+        "Ra for the ISO law (0: composite RMS over sqrt 2)",
+        overrides=("surface", "sigma_rms"),
     )
     friction_law: str = choice("iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
     f0: float = quantity(0.12, "1", 0.0, 1.0, "coefficient of friction without any film")
@@ -213,10 +238,20 @@ class GearMeshParams:
         "steady", THERMAL_STARTS, "ThermalStart", "bodies at the start, if transient"
     )
     bulk_conductance: float = quantity(
-        0.0, "W/K", 0.0, 1e5, "heat of this mesh's bodies to the oil per kelvin (0: by the flash)"
+        0.0,
+        "W/K",
+        0.0,
+        1e5,
+        "heat of this mesh's bodies to the oil per kelvin (0: by the flash)",
+        belongs_to=SIZE,
     )
     bulk_heat_capacity: float = quantity(
-        0.0, "J/K", 0.0, 1e8, "heat capacity of this mesh's bodies (0: by masses over mates)"
+        0.0,
+        "J/K",
+        0.0,
+        1e8,
+        "heat capacity of this mesh's bodies (0: by masses over mates)",
+        belongs_to=SIZE,
     )
     lubrication_factor: float = quantity(
         1.0, "1", 0.1, 3.0, "factor X_S of the bulk temperature: 1 dip, 1.2 spray"
@@ -229,7 +264,7 @@ class GearMeshParams:
     )
     steel: str = choice("case-hardened", STEELS, "Steel", "steel that the main outputs are for")
     contact_limit: float = quantity(
-        0.0, "Pa", 0.0, 3e9, "allowable contact stress (0: that of the steel)"
+        0.0, "Pa", 0.0, 3e9, "allowable contact stress (0: that of the steel)", overrides=("steel",)
     )
     structural_factor: float = quantity(
         1.0, "1", 0.1, 2.0, "structural factor X_W of the steel against scuffing"

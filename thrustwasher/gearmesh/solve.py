@@ -1,12 +1,14 @@
 """Gear mesh: loss, heat, temperatures, contact and thermal stress, safety factors."""
 
 import math
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
+from ..model.advice import warnings_of
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from .doubts import doubts_of_parameters, doubts_of_point
@@ -15,6 +17,11 @@ from .kernels.constants import derive
 from .kernels.operating_point import solve_point
 from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs
 
+SAFETIES = {
+    "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "
+    "harder gear",
+    "scuffing_safety": "the flanks are expected to scuff; lower torque, speed or oil temperature",
+}
 __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 
@@ -81,7 +88,7 @@ class GearMeshResult:
     iterations: int
     fidelity: str
     warnings: tuple[str, ...] = ()
-    """What to doubt in these numbers: parameters that contradict each other, least values."""
+    """What a reader must not miss, a line each."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields as a dictionary that JSON can hold; status by name."""
@@ -110,6 +117,12 @@ def under_torque(point: dict[str, float]) -> dict[str, float]:
     """Return the inputs of a gear mesh: the power as a torque of the pinion."""
     power, rest = point["power"], {n: v for n, v in point.items() if n != "power"}
     return {**rest, "load": pinion_torque(power, point["speed"])}
+
+
+def at_power(inputs: dict[str, float]) -> dict[str, float]:
+    """Return the point of a gear mesh with these inputs: the pinion's torque as a power."""
+    rest = {n: v for n, v in inputs.items() if n != "load"}
+    return {"power": abs(inputs["load"] * inputs["speed"]), **rest}
 
 
 def solve_gearmesh(
@@ -174,8 +187,15 @@ def solve_gearmesh(
         )
     doubts = doubts_of_parameters(params) + doubts_of_point(params, par, field, torque, speed, oil)
     absent = dict.fromkeys(absent_outputs(params))
-    point = {"status": status, "fidelity": fidelity, "warnings": tuple(doubts)}
-    return _result(par, field.tolist(), torque, speed, absent | point)
+    said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
+    point = {"status": status, "fidelity": fidelity}
+    result = _result(par, field.tolist(), torque, speed, absent | point)
+    return replace(result, warnings=(*said, *_failures(result), *doubts))
+
+
+def _shown(f: list[float]) -> dict[str, Any]:
+    """Return the model's outputs by name: they come first in the kernel's field."""
+    return dict(zip(SPEC.real_outputs, f, strict=False))
 
 
 def _result(
@@ -184,7 +204,7 @@ def _result(
     """Return the result; ``more`` are fields that are known already."""
     loss = f[k.F_MEAN_FRICTION] * float(par[k.D_LOSS]) * torque
     ratio = f[k.F_RATIO]
-    shown: dict[str, Any] = dict(zip(SPEC.real_outputs, f, strict=False))  # they come first
+    shown = _shown(f)
     shown["friction_torque"] = math.copysign(loss, speed) if speed else 0.0
     shown["friction_power"] = loss * abs(speed)
     asperity = shown.pop("temperature")
@@ -198,3 +218,11 @@ def _result(
         regime="film" if ratio > 3.0 else "mixed" if ratio >= 1.0 else "boundary",
         iterations=int(f[k.F_ITERATIONS]),
     )  # fmt: skip
+
+
+def _failures(result: GearMeshResult) -> Iterator[str]:
+    """Yield a line for each safety below 1."""
+    for name, fails in SAFETIES.items():
+        safety = getattr(result, name)
+        if safety is not None and safety < 1.0:
+            yield f"{name} = {safety:.3g}, below 1: {fails}"

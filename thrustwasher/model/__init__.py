@@ -5,6 +5,10 @@
 ``record``      all that the rest of the package knows of a model: what ``model.toml`` holds
 ``registry``    the models and their kernels by name
 ``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
+``part_file``   parts of one's own and presets: TOML
+``advice``      warnings of a solution, one line each
+``kept``        what a part keeps of its preset though what it belongs to was changed
+``point``       an operating point: what is given, what a part's box fixes, what is left to defaults
 ``prepare``     from parameters to what a kernel takes: rules, constants, tables
 ==============  ===============================================================================
 

@@ -11,23 +11,26 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 from ..errors import ParameterError
+from ..units import meant
 from .spec import ModelSpec, Rule
 
 T = TypeVar("T")
+EARLIER: dict[type[Any], tuple[dict[str, Any], Callable[[dict[str, Any]], dict[str, Any]]]] = {}
 
 
 def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: Any) -> Any:
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
-    ``tunable=True``: an FMU's host may change it between two steps.
+    ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
+    ``when``: see ``model.kept``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
 
 
-def count(default: int, low: int, high: int, text: str) -> Any:
+def count(default: int, low: int, high: int, text: str, **extra: Any) -> Any:
     """Return an integer field; both bounds are allowed."""
-    meta = {"kind": "integer", "unit": "1", "min": low, "max": high, "help": text}
+    meta = {"kind": "integer", "unit": "1", "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
 
 
@@ -80,6 +83,43 @@ def other_names(params: type[T]) -> type[T]:
     return params
 
 
+def renewed(
+    old: Mapping[str, tuple[str, float, float, str]],
+    renew: Callable[[dict[str, Any]], dict[str, Any]],
+) -> Callable[[type[T]], type[T]]:
+    """Let parameters of an earlier form be given and read: unit and range of each by its name.
+
+    ``renew`` makes fields of them and of all that is given beside them.
+    """
+
+    def decorate(params: type[T]) -> type[T]:
+        plain = params.__init__
+
+        @wraps(plain)
+        def init(self: Any, **given: Any) -> None:
+            plain(self, **renew(given))
+
+        params.__init__ = init  # type: ignore[method-assign]
+        meta = {
+            name: {"kind": "real", "unit": unit, "min": low, "max": high, "help": text}
+            for name, (unit, low, high, text) in old.items()
+        }
+        EARLIER[params] = meta, renew
+        return params
+
+    return decorate
+
+
+def earlier_of(params: type[Any]) -> dict[str, Any]:
+    """Return the metadata of parameters of an earlier form by name."""
+    return next((dict(EARLIER[c][0]) for c in params.__mro__ if c in EARLIER), {})
+
+
+def renewed_values(params: type[Any], given: dict[str, Any]) -> dict[str, Any]:
+    """Return values [SI] by name with none of an earlier form."""
+    return next((EARLIER[c][1](given) for c in params.__mro__ if c in EARLIER), given)
+
+
 def other_names_of(params: type[Any]) -> dict[str, str]:
     """Return the other names of fields: other name -> name."""
     return {f.metadata["also"]: f.name for f in fields(params) if "also" in f.metadata}
@@ -120,7 +160,11 @@ def check_value(name: str, value: Any, m: Mapping[str, Any]) -> None:
             good = good and value == int(value)
     if not good:
         unit = "" if m["unit"] == "1" else f" {m['unit']}"
-        raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}")
+        hint = ""
+        if m["kind"] == "real" and isinstance(value, int | float):
+            hint = meant(float(value), m["unit"], m["min"], m["max"],
+                         difference=bool(m.get("relative")))  # fmt: skip
+        raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}{hint}")
 
 
 def check_number(name: str, value: float, unit: str, low: float, high: float) -> float:
@@ -132,8 +176,9 @@ def check_number(name: str, value: float, unit: str, low: float, high: float) ->
     except OverflowError:
         number = math.inf
     if not low <= number <= high:
+        hint = meant(number, unit, low, high)
         unit = "" if unit == "1" else f" {unit}"
-        raise ParameterError(f"{name} = {number!r}{unit}, allowed: {low:g} .. {high:g}{unit}")
+        raise ParameterError(f"{name} = {number!r}{unit}, allowed: {low:g} .. {high:g}{unit}{hint}")
     return number
 
 

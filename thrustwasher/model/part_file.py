@@ -6,6 +6,8 @@ notes::
     model = "washer"
     name = "MyWasher"
 
+    oil = "ISO VG 46"
+
     [parameters]
     roughness = "0.5 um"
 
@@ -19,7 +21,7 @@ import json
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -27,7 +29,17 @@ from typing import Any
 
 from ..errors import ParameterError, within
 from ..units import exact_quantity, format_quantity
-from .parameters import allowed, other_names_of, plainly_named
+from .oil import Oil, refuse_two_ways, sheet_oil, too_stiff
+from .parameters import (
+    allowed,
+    check_number,
+    earlier_of,
+    other_names_of,
+    plainly_named,
+    renewed_values,
+)
+from .point import command_inputs, own_inputs, point_of
+from .record import resolve
 from .registry import find_model
 from .spec import ModelSpec, tailored
 from .toml_tables import nothing_else, number, parse, read_file, read_value, unknown
@@ -53,6 +65,8 @@ class PartFile:
     """The rung that it is solved with where no other is asked for."""
     box: Box = field(default_factory=dict)
     """Range [SI] of each input that it is meant for; an input that is not there has no bounds."""
+    oil: Oil | None = None
+    """The oil that gave some of the parameters."""
     description: str = ""
     notes: str = ""
 
@@ -65,8 +79,8 @@ class PartFile:
     def model(self) -> ModelSpec:
         """The model as its FMU shows it: this part's name and values, inputs inside its box."""
         names = [s.name for s in self.spec.inputs]
-        starts = {s.name: self._inside(s.name, s.start or 0.0) for s in self.spec.inputs}
-        course = tuple((t, *map(self._inside, names, row)) for t, *row in self.spec.course)
+        starts = {s.name: self.inside(s.name, s.start or 0.0) for s in self.spec.inputs}
+        course = tuple((t, *map(self.inside, names, row)) for t, *row in self.spec.course)
         return tailored(
             self.spec, {**self.parameters, "fidelity": self.fidelity}, starts, course=course,
             **self.told,
@@ -76,9 +90,67 @@ class PartFile:
     def told(self) -> dict[str, Any]:
         """What the FMU says of this part, beside its values: fields of the model's record."""
         text = self.description.rstrip(".") or self.spec.help
-        return {"name": self.name, "help": text, "box": self.box, "notes": self.notes}
+        return {"name": self.name, "help": text, "box": self.box,
+                "notes": "; ".join(filter(None, (self.notes, self.oil_words)))}  # fmt: skip
 
-    def _inside(self, name: str, value: float) -> float:
+    @property
+    def oil_words(self) -> str:
+        """What is to be known of its oil; of one that has a name or a data sheet."""
+        return self.oil.words(self.spec) if self.oil else ""
+
+    @property
+    def oil_warnings(self) -> list[str]:
+        """What is doubtful of its oil in its box."""
+        found: dict[str, None] = {}
+        for end in self.box.get("oil_temperature", ()):
+            named = self.oil.warnings([self.spec], end) if self.oil else []
+            found |= dict.fromkeys([*named, *too_stiff(self.spec, self.params, end)])
+        return list(found)
+
+    def with_oil(self, given: Oil) -> "PartFile":
+        """Return the part with another oil."""
+        changed = {**self.parameters, **given.parameters_for(self.spec)}
+        return replace(self, oil=given, parameters=changed)
+
+    @property
+    def starts(self) -> dict[str, float]:
+        """Value [SI] of each of the model's inputs where none is given: its default in the box."""
+        return own_inputs(self, point_of(self, {}).values)
+
+    def solve(self, **inputs: Any) -> Any:
+        """Return the result at an operating point, with the part's rung unless another is given.
+
+        Parameters
+        ----------
+        inputs : of the model's ``solve_*`` [SI] (a gear mesh takes ``load``, the pinion's torque,
+            for ``power`` too), and its other arguments such as ``fidelity``. An input that is not
+            given is the model's default, moved into the box
+
+        Returns
+        -------
+        The result; its ``warnings`` name values outside the box too.
+
+        Raises
+        ------
+        ParameterError, SolveError : as of ``solve_*``; ParameterError too where the model is not
+            solved at points
+        """
+        command = find_model(self.spec.key).command
+        if command is None:
+            raise ParameterError(f"{self.spec.name}: is not solved at operating points")
+        known = {s.name: s for s in (*self.spec.inputs, *command_inputs(find_model(self.spec.key)))}
+        given = {
+            name: check_number(name, value, known[name].unit, *known[name].range)
+            for name, value in inputs.items() if name in known
+        }  # fmt: skip
+        point = point_of(self, given)
+        more = {name: value for name, value in inputs.items() if name not in known}
+        result = resolve(command.solve)(
+            self.params, **point.values, **{"fidelity": self.fidelity, **more}
+        )
+        return replace(result, warnings=(*point.warnings, *result.warnings))
+
+    def inside(self, name: str, value: float) -> float:
         """Return the value of an input, moved into the box."""
         low, high = self.box.get(name, (-math.inf, math.inf))
         return min(max(value, low), high)
@@ -151,7 +223,8 @@ def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> 
 
 
 def _part(where: str, table: dict[str, Any]) -> PartFile:
-    nothing_else(where, [k for k in table if k not in TEXTS + TABLES], TEXTS + TABLES)
+    known = (*TEXTS, *TABLES, "oil")
+    nothing_else(where, [k for k in table if k not in known], known)
     if isinstance(table.get("notes"), dict):
         table = {**table, "notes": "; ".join(f"{k}: {v}" for k, v in table["notes"].items())}
     for key in TEXTS:
@@ -171,8 +244,13 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
             rungs = " or ".join(map(repr, spec.fidelities))
             raise ParameterError(f"fidelity = {fidelity!r}, allowed: {rungs}")
     parameters = read_parameters(f"{where} [parameters]", spec, table.get("parameters", {}))
+    own = None
+    if "oil" in table:
+        own = sheet_oil(f"{where}: oil", table["oil"])
+        refuse_two_ways(f"{where}: oil", own, spec, parameters)
+        parameters |= own.parameters_for(spec)
     return PartFile(
-        spec=spec, name=name, parameters=parameters, fidelity=fidelity,
+        spec=spec, name=name, parameters=parameters, fidelity=fidelity, oil=own,
         box=_box(f"{where} [box]", spec, table.get("box", {})),
         description=table.get("description", ""), notes=table.get("notes", ""),
     )  # fmt: skip
@@ -197,9 +275,13 @@ def checked_name(name: str) -> str:
 def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values [SI] of a table of parameters by their names."""
     known = {f.name: f.metadata for f in fields(spec.params)}
+    earlier = earlier_of(spec.params)
     given = plainly_named(other_names_of(spec.params), table)
-    nothing_else(where, [key for key in given if key not in known], known)
-    return {key: read_value(where, key, value, known[key]) for key, value in given.items()}
+    nothing_else(where, [key for key in given if key not in known and key not in earlier], known)
+    known |= earlier
+    values = {key: read_value(where, key, value, known[key]) for key, value in given.items()}
+    with within(where):
+        return renewed_values(spec.params, values)
 
 
 def _box(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> Box:
@@ -246,10 +328,17 @@ def _lines(part: PartFile) -> Iterator[str]:
         yield f"{key} = {json.dumps(getattr(part, key), ensure_ascii=False)}"
     rungs = " or ".join(part.spec.fidelities)
     yield f"fidelity = {json.dumps(part.fidelity)}  # {rungs}"
+    params = part.params
+    set_by_oil = part.oil.parameters_for(part.spec) if part.oil else {}
+    if any(getattr(params, name) != value for name, value in set_by_oil.items()):
+        set_by_oil = {}  # it is not this oil any more
+    if part.oil and set_by_oil:
+        yield f"oil = {part.oil.as_toml()}  # sets {', '.join(set_by_oil)}"
     yield ""
     yield "[parameters]"
-    params = part.params
     for f in fields(params):
+        if f.name in set_by_oil:
+            continue
         m, value = f.metadata, getattr(params, f.name)
         if m["kind"] == "real":
             value = exact_quantity(value, m["unit"], difference=bool(m.get("relative")))

@@ -95,10 +95,12 @@ class Command:
     closing: str = "{fidelity}"  # how it was solved; may name results
     extra: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     """Results that are no output: unit and meaning."""
-    warning: str = ""  # dotted name: from a result to what a reader must not miss, "" if nothing
+    warning: str = ""
+    """Dotted name: from a result to a warning that takes a solve of its own, "" if nothing."""
     instead: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     """Name of a model's input -> fields of the signal that this command has instead of it."""
     place: str = ""  # dotted name: from the command's point to the model's own inputs
+    back: str = ""  # dotted name: from these to the command's point
     options: tuple[Option, ...] = ()  # more arguments of ``solve``
     variants: Variants | None = None
     more: tuple[str, ...] = ()  # other commands of this model, which are files
@@ -150,9 +152,6 @@ class Model:
     fits: Fits = Fits()
     explore: str = ""  # dotted name of its ``View``: how a page in the browser shows it
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
-    remark: str = ""
-    """Dotted name of what says a sentence on each finished shift with a part of this model, called
-    with the part's parameters, time and outputs."""
 
     @property
     def spec(self) -> ModelSpec:

@@ -103,7 +103,9 @@ def spec_of(name: str) -> "ModelSpec":
 def _among(models: dict[str, Model], name: str) -> Model:
     if name not in models:
         why = " (it has no cards)" if name in models_with_points() else ""
-        raise ParameterError(f"model = {name!r}{why}, allowed: {' or '.join(map(repr, models))}")
+        hint = suggestion(name, models, "; did you mean {!r}?")
+        words = " or ".join(map(repr, models))
+        raise ParameterError(f"model = {name!r}{why}, allowed: {words}{hint}")
     return models[name]
 
 

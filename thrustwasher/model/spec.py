@@ -26,6 +26,7 @@ class Signal:
     enter an output at once, at the same time point; an output that is an integral of the past
     has none. ``events``, of a Boolean output, says what happens when it becomes true, then false.
     ``limit`` names the temperature that an output should stay below, as "module:NAME".
+    ``verified`` is the range of an input for which the accuracy was verified; empty: all of it.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Signal:
     optional: bool = False  # an input that may be left out: it is at its start then
     events: tuple[str, str] | None = None
     limit: str = ""
+    verified: tuple[float, ...] = ()
 
     @property
     def usual(self) -> float:

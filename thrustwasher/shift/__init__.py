@@ -1,6 +1,7 @@
 """A gear shift: parts that run together through FMI.
 
 ==================  =========================================================================
+``checks``          what a finished run is worth: its step, its steady washers
 ``cosim``           connected instances and the loop over communication points
 ``key_figures``     what is read from the signals of a finished shift
 ``masters``         co-simulation masters
@@ -10,7 +11,6 @@
 ``several_shifts``  several shifts in one run, with long steps between them
 ``shift_result``    what a run leaves: time series, events, key figures, cost
 ``ssp``             a shift as an SSP 1.0 package, for any SSP master
-``thermal_need``    which thermal mode a washer needs
 ``tolerance``       a shift with the cheapest rungs that hold a tolerance
 ==================  =========================================================================
 """

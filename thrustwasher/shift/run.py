@@ -1,16 +1,16 @@
 """Run a shift: connect the instances of a scene, step them to the end, and read the result."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import ParameterError, Status
+from ..errors import ParameterError
 from ..model.parameters import as_numbers
-from ..model.record import resolve
-from ..model.registry import all_models
+from ..numerics.jit import Array
+from ..transmission.parameters import BEARINGS
+from .checks.run_doubts import doubts
 from .cosim.loop import Recorder, Run, Steps, advance_in_python
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, Stepping, System, capable
@@ -20,7 +20,7 @@ from .masters.master import MASTERS
 from .masters.step_doubling import Doubling
 from .oscillation.chatter import find_chatter
 from .oscillation.judder import find_judder
-from .scene.connections import PACK_INPUTS, links
+from .scene.connections import PACK_INPUTS, wired
 from .scene.scene import Part, Scene
 from .shift_result import Cost, ShiftResult
 
@@ -36,6 +36,7 @@ def run_shift(
     master: str | None = None,
     progress: Progress | None = None,
     compiled: bool | None = None,
+    guard: bool = False,
 ) -> ShiftResult:
     """Simulate a shift with living instances and return everything about it.
 
@@ -44,11 +45,14 @@ def run_shift(
     scene : what to simulate; ``scene.with_options`` first if step or master are to differ, since
         the transmission's parameters depend on the master
     instances : one per part of the scene, made with ``scene.parts[name].parameters()`` and not
-        initialized since they were made or reset; they are neither closed nor reset here
+        initialized since they were made or reset; they are not closed here and, but for
+        ``guard``, not reset
     step, master : other values than the scene's
     progress : called as ``progress(done, total)`` a hundred times at most, and at the end
     compiled : step the instances in one compiled function; default: if all of them are FMUs. The
         numbers are the same to the bit
+    guard : check the run afterwards, as ``run_auto`` does: the same instances, reset, run once more
+        with shorter steps, and washers that were taken as steady are followed in time
 
     Raises
     ------
@@ -58,7 +62,7 @@ def run_shift(
     if scene.sequence is not None:
         raise ParameterError(f"scene {scene.name!r}: it has a [sequence], allowed: run_sequence")
     made_for, scene = scene, scene.with_options(step=step, master=master)
-    messages = _remarks(made_for, scene)
+    messages, found = _remarks(made_for, scene), _of_other_masters(made_for, scene)
     system = connected(scene, instances)
     adaptive = MASTERS[scene.master].adaptive
     if adaptive and compiled:
@@ -79,7 +83,13 @@ def run_shift(
         begin = perf_counter()
         _drive(advance, n, progress)
     wall = perf_counter() - begin
-    return result_of(scene, run, steps, wall, _costs(scene, system, before, wall), messages)
+    cost = _costs(scene, system, before, wall)
+    result = result_of(scene, run, steps, wall, cost, messages, found)
+    if not guard:
+        return result
+    from .checks.guard import guarded, reset
+
+    return guarded(result, reset(instances), partial(run_shift, compiled=compiled))
 
 
 def run_adaptive(scene: Scene, system: System, progress: Progress | None) -> tuple[Run, Steps]:
@@ -131,8 +141,9 @@ def _costs(
 
 
 def result_of(
-    scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str]
-) -> ShiftResult:
+    scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str],
+    found: Sequence[str] = (),
+) -> ShiftResult:  # fmt: skip
     """Read everything from the rows of a finished run."""
     time, signals = run.time, run.recorder.signals()
     events = find_events(scene, time, signals)
@@ -156,10 +167,9 @@ def result_of(
         messages=[
             *messages,
             *(line for change in corrections for line in change.words()),
-            *steps.words(),
-            *_advice(time, signals),
-            *model_remarks(scene, time, signals),
+            *thrust_remarks(scene, signals),
         ],
+        found=(*found, *doubts(scene, run.h, steps, time, signals)),
         judder=judder,
         chatter=find_chatter(scene, time, signals, run.h),
     )
@@ -203,7 +213,7 @@ def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
     carries_on = gearbox.coupling == "capacity" and gearbox.capacity_extrapolation
     # A stand-in for a model may lack a signal: it is then not connected.
     wires = [
-        k for k in links(gearbox.coupling, set(parts))
+        k for k in wired(scene.parts)
         if k.input in parts[k.target].input_names and k.output in parts[k.source].output_names
     ]  # fmt: skip
     system = System(parts, wires, carries_on=PACK_INPUTS if carries_on else ())
@@ -244,12 +254,6 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     """Return what a reader has to know before looking at any number."""
     remarks = list(scene.notes)
     gearbox = scene.parts["transmission"].params
-    if made_for.parts["transmission"].params.torque_age != gearbox.torque_age:
-        remarks.append(
-            f"the instances were made for master {made_for.master!r} and ran with "
-            f"{scene.master!r}: capacities are extrapolated over the wrong time; "
-            "make them from scene.with_options(master=...)"
-        )
     if "mesh" not in scene.parts and gearbox.planet_teeth:
         remarks.append("there is no gear mesh model in this scene: the meshes run without loss")
     if "washer" not in scene.parts and gearbox.washers:
@@ -257,28 +261,28 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
     return remarks
 
 
-def model_remarks(
-    scene: Scene, time: NDArray[np.float64], signals: Mapping[str, NDArray[np.float64]]
-) -> list[str]:
-    """Return what the models of the parts have to say about a finished run."""
-    remarks = {model.key: model.remark for model in all_models() if model.remark}
-    found = []
-    for name, part in scene.parts.items():
-        if part.spec.key in remarks:
-            own = {s.name: signals[f"{name}.{s.name}"] for s in part.spec.outputs}
-            found.append(resolve(remarks[part.spec.key])(part.params, time, own))
-    return found
+def thrust_remarks(scene: Scene, signals: Mapping[str, Array]) -> list[str]:
+    """Say which thrusts of a finished run rest on no bearing in the model."""
+    gearbox = scene.parts["transmission"].params
+    free = [n for n in BEARINGS if not getattr(gearbox, f"{n}_coefficient")]
+    thrust = float(np.max(signals["transmission.sun_thrust"]))
+    if not free or thrust == 0.0:
+        return []
+    gears, tables = (" and ".join(form.format(n) for n in free) for form in ("the {}'s", "[{}]"))
+    gears = gears.replace("_bearing", "")
+    return [
+        f"{gears} thrust of up to {thrust:.4g} N rests on no bearing in the model, whose friction "
+        f"is left out; {tables} in the scene would add it"
+    ]
 
 
-def _advice(time: NDArray[np.float64], signals: dict[str, NDArray[np.float64]]) -> list[str]:
-    """Return the advice behind every solver status that occurred, with its first time."""
-    advice = []
-    for name, values in signals.items():
-        if not name.endswith(".solver_status"):
-            continue
-        for code in np.unique(values[values > 0.0]):
-            i = int(np.argmax(values == code))
-            status = Status(int(code))
-            part = name.partition(".")[0]
-            advice.append(f"{part} from t = {time[i]:.4g} s: {status.advice} ({status.name})")
-    return advice
+def _of_other_masters(made_for: Scene, scene: Scene) -> list[str]:
+    """Return a warning if instances were made for another master."""
+    one, other = (s.parts["transmission"].params.torque_age for s in (made_for, scene))
+    if one == other:
+        return []
+    return [
+        f"The instances were made for master {made_for.master!r} and ran with {scene.master!r}: "
+        "capacities are extrapolated over the wrong time; make them from "
+        "scene.with_options(master=...)"
+    ]

@@ -1,7 +1,7 @@
 """Run several shifts in one: fine steps in each shift's window, long ones between them."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -9,8 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..errors import ParameterError, SolveError
+from ..model.record import resolve
 from ..transmission.parameters import course_points
+from .checks.guard import REMEDY, followed_washers
+from .checks.step_error import by_step, parts_of_a_step, recorded_parts
+from .checks.step_estimate import StepError, excess
+from .checks.washer_in_time import InTime
+from .checks.windows import Windows
 from .cosim.loop import Recorder, Run, Steps
 from .cosim.schedule import carry_out, gauss_seidel
 from .cosim.system import Stepping, System
@@ -38,6 +44,24 @@ class SequenceResult:
     shifts: list[ShiftResult]
     wall_time: float
     messages: list[str]
+    found: tuple[str, ...] = ()
+    """What the run and the checks after it found to be doubtful; ``warnings`` has more."""
+    step_errors: dict[int, StepError] = field(default_factory=dict)
+    """What the step of a window errs by, by the shift's place: the first and the longest one."""
+    in_time: Mapping[str, InTime] = field(default_factory=dict)
+    """Washers taken as steady in the run, followed in time, by the part's name."""
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What must not be missed, a line each; of shifts alike, that of the first."""
+        warnings_of: Any = resolve("thrustwasher.report.shift.summary:warnings_of")
+        return tuple(warnings_of(self))
+
+    @property
+    def step_error(self) -> StepError | None:
+        """The largest estimated error of the step; None if it was not checked."""
+        found = self.step_errors.values()
+        return max(found, key=lambda e: excess(e.errors())) if found else None
 
     @property
     def oil_temperature(self) -> NDArray[np.float64]:
@@ -55,6 +79,10 @@ class SequenceResult:
             "energy_residual": float(self.signals["transmission.energy_residual"][-1]),
             "shifts": [{"time": start, "direction": way, **shift.figures} for (start, way), shift
                        in zip(sequence_of(self.scene).shifts, self.shifts, strict=True)],
+            "warnings": list(self.warnings),
+            "step_error": self.step_error.relative if self.step_error else None,
+            "step_errors": {str(i): e.as_dict() for i, e in self.step_errors.items()},
+            "step_advice": min((e.advice for e in self.step_errors.values()), default=None),
             "wall_time": self.wall_time, "messages": self.messages,
         }  # fmt: skip
 
@@ -64,14 +92,19 @@ class SequenceResult:
 
 
 def run_sequence(
-    scene: Scene, instances: Mapping[str, Stepping], *, progress: Progress | None = None
-) -> SequenceResult:
+    scene: Scene, instances: Mapping[str, Stepping], *, progress: Progress | None = None,
+    guard: bool = False,
+) -> SequenceResult:  # fmt: skip
     """Simulate all shifts of a scene's ``[sequence]`` with living instances.
 
     Instances, ``progress`` and errors are those of ``run_shift``; ParameterError also with another
-    master than gauss-seidel, whose torques are not bound to a constant step.
+    master than gauss-seidel, whose torques are not bound to a constant step. ``guard``: check the
+    run afterwards; the first and the longest shift run once more from where they began, with
+    shorter steps, and washers that were taken as steady are followed in time.
     """
     shifts = [shift_scene(scene, i) for i in range(len(sequence_of(scene).shifts))]
+    for shift in shifts:
+        shift.check_step()
     if scene.master != "gauss-seidel":
         raise ParameterError(
             f"scene {scene.name!r}: master = {scene.master!r}, allowed with [sequence]: "
@@ -85,8 +118,10 @@ def run_sequence(
     time = np.array(list(times(scene)))
     recorder, schedule = Recorder(system, len(time)), gauss_seidel(system)
     recorder.keep(0)
+    windows = Windows(system, shifts if guard else ())
     begin = perf_counter()
     for i, (t, end) in enumerate(zip(time[:-1].tolist(), time[1:].tolist(), strict=True), 1):
+        windows.pass_by(t)
         drive(t, end)
         carry_out(schedule, t, end - t)
         recorder.keep(i)
@@ -94,10 +129,49 @@ def run_sequence(
             progress(i, len(time) - 1)
     wall = perf_counter() - begin
     found = [_one(shift, system, time, recorder) for shift in shifts]
-    return SequenceResult(
+    result = SequenceResult(
         scene=scene, time=time, signals=recorder.signals(), wall_time=wall, shifts=found,
         messages=[f"first shift: {message}" for message in found[0].messages],
     )  # fmt: skip
+    return _guarded(result, windows, drive) if guard else result
+
+
+def _guarded(
+    result: SequenceResult, windows: Windows, drive: Callable[[float, float], None]
+) -> SequenceResult:
+    """Return a finished sequence with what the checks after it have found."""
+    found: list[str] = []
+    errors: dict[int, StepError] = {}
+    lasts = [s.figures["lock_after_ramp_start"] or np.inf for s in result.shifts]
+    for i in sorted({0, int(np.argmax(lasts))}):
+        if not windows.able:
+            found.append("The step was not checked: there are parts that cannot save their state")
+            break
+        try:
+            errors[i] = error = by_step(result.shifts[i], _finer(result, i, windows, drive))
+            found += [f"Shift {i + 1}: {text}" for text in error.warnings()]
+        except (ParameterError, SolveError) as problem:
+            found.append(
+                f"The step of shift {i + 1} was not checked: a second run failed ({problem})"
+            )
+    windows.free()
+    followed = followed_washers(result.scene, result.time, result.signals, result.scene.step)
+    for name, washer in followed.items():
+        found += washer.warnings(name, REMEDY)
+    return replace(result, found=tuple(found), step_errors=errors, in_time=followed)
+
+
+def _finer(
+    result: SequenceResult, i: int, windows: Windows, drive: Callable[[float, float], None]
+) -> ShiftResult:
+    """Run one shift once more from where it began, with shorter steps."""
+    shift = result.shifts[i].scene
+    n = result.shifts[i].steps.accepted
+    steps = round(n * parts_of_a_step(shift, shift.step, n))
+    window = shift.stop_time - shift.start_time
+    played = recorded_parts(result.scene, result.time, result.signals)
+    time, recorder = windows.again(i, window, steps, drive, played)
+    return _one(replace(shift, step=window / steps), windows.system, time, recorder)
 
 
 def _drives(system: System, shifts: list[Scene]) -> Callable[[float, float], None]:

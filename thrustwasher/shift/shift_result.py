@@ -1,7 +1,7 @@
 """What a shift run leaves: time series, events, energy balance, key figures, cost."""
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
-from ..model.record import absent_outputs
+from ..model.record import absent_outputs, resolve
 from ..storage.whole_files import whole_file
+from .checks.step_estimate import StepError
 from .cosim.loop import Steps
 from .key_figures.events_and_phases import Event, Phase
 from .key_figures.figure_list import KeyFigure
@@ -62,6 +63,12 @@ class ShiftResult:
     overhead: float  # [s] of it spent by the master itself
     real_time_factor: float  # Simulated time over wall-clock time
     messages: list[str]
+    found: tuple[str, ...] = ()
+    """What the run and the checks after it found to be doubtful; ``warnings`` has more."""
+    step_error: StepError | None = None
+    """What the communication step errs by, estimated; None: that was not checked."""
+    in_time: Mapping[str, Any] = field(default_factory=dict)
+    """Washers taken as steady in the run, followed in time: ``InTime`` by the part's name."""
     guard: CheckRecord | None = None
     """How the chosen rungs were checked afterwards, and what was run again; None: they were not."""
     judder: Judder | None = None
@@ -74,6 +81,12 @@ class ShiftResult:
     def figures(self) -> dict[str, float | None]:
         """The key figures by name, SI units; None where there is no such thing."""
         return {figure.name: figure.value for figure in self.key_figures}
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What must not be missed, a line each: doubts about the figures, then faults they show."""
+        warnings_of: Any = resolve("thrustwasher.report.shift.summary:warnings_of")
+        return tuple(warnings_of(self))
 
     def comparison(self) -> list[dict[str, Any]]:
         """Return what the scene's source says beside this run: one entry per key figure."""
@@ -118,6 +131,10 @@ class ShiftResult:
             "wall_time": self.wall_time,
             "master_overhead": self.overhead,
             "real_time_factor": self.real_time_factor,
+            "warnings": list(self.warnings),
+            "step_error": self.step_error.relative if self.step_error else None,
+            "step_errors": self.step_error.as_dict() if self.step_error else None,
+            "step_advice": self.step_error.advice if self.step_error else None,
             "messages": self.messages,
             "guard": self.guard.as_dict() if self.guard else None,
             "judder": self.judder.as_dict() if self.judder else None,

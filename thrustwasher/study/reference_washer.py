@@ -89,9 +89,10 @@ def solve_on(result: WasherResult, grid: tuple[int, int]) -> WasherResult:
     Where Newton's method does not arrive from there the solver finds the branch by itself, as from
     nothing. A failure is told by the status; ``error_estimate`` is that of the named rung.
     """
-    point = (result.load, result.speed, result.tilt, result.oil_temperature)
     wanted = BRANCHES.get(result.branch, 0.0)
-    return _solve(result.params, point, "field", grid, wanted, interpolate_to_mesh(result, grid))
+    return _solve(
+        result.params, result.point(), "field", grid, wanted, interpolate_to_mesh(result, grid)
+    )
 
 
 def interpolate_to_mesh(result: WasherResult, grid: tuple[int, int]) -> WasherResult:

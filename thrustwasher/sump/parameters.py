@@ -19,8 +19,12 @@ class _SumpParams:
     volume: float = quantity(6e-3, "m3", 1e-6, 100.0, "oil in the sump")
     oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
     oil_heat_capacity: float = quantity(2050.0, "J/(kg.K)", 500.0, 5e3, "heat capacity of the oil")
-    housing_capacity: float = quantity(1.08e4, "J/K", 0.0, 1e8, "heat capacity of the housing")
-    conductance: float = quantity(25.0, "W/K", 0.0, 1e6, "from the sump to the surroundings")
+    housing_capacity: float = quantity(
+        1.08e4, "J/K", 0.0, 1e8, "heat capacity of the housing", belongs_to=("volume",)
+    )
+    conductance: float = quantity(
+        25.0, "W/K", 0.0, 1e6, "from the sump to the surroundings", belongs_to=("volume",)
+    )
     initial_temperature: float = quantity(
         358.15, "K", 233.15, 473.15, "temperature of oil and housing at the start"
     )

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import EnvironmentProblem, ParameterError
+from ..model.part_file import PartFile
 from ..numerics.jit import kernel_digest
 from ..processes import local_processes, refuse_import_by_worker, usable_cores
 from ..storage.journal import Journal
@@ -32,7 +33,8 @@ ANSWER_TIME = "10s"  # a cluster that takes longer is taken for absent
 
 
 def run_sweep(
-    model: str, over: Mapping[str, Any] | None = None, *, at: Mapping[str, Any] | None = None,
+    model: str | PartFile, over: Mapping[str, Any] | None = None, *,
+    at: Mapping[str, Any] | None = None,
     points: Mapping[str, Any] | None = None, params: Any = None, fidelity: str | None = None,
     out: str | Path | None = None, workers: int | None = None, cluster: str | None = None,
     progress: Progress | None = None, keep: bool = True,
@@ -41,10 +43,11 @@ def run_sweep(
 
     Parameters
     ----------
-    model : "washer", "clutch" (slipping for ever) or "gearmesh"
+    model : "washer", "clutch" (slipping for ever) or "gearmesh", or a part (``load_part``)
     over : values by name of an input or parameter (``gearmesh`` takes ``power`` for ``load`` too):
         numbers, or a text such as "50:1850:50", "20:1850:x40", "24 degC, 80 degC"
-    at : one value by name for what is held; the rest is at the model's defaults
+    at : one value by name for what is held; the rest is at the model's defaults, moved into the
+        part's box
     points : instead of ``over``, columns of one length by name: every row is a point
     params : parameter object to start from
     fidelity : rung of the model, or "auto:0.01": the cheapest one whose torque the cards verify to

@@ -1,7 +1,7 @@
 """The rows of a sweep in their order, cut into lines: one line is one walk of warm starts."""
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 from ..errors import ParameterError
 from ..ladder import choose as chooser
 from ..ladder.own_tables import build_where_it_pays
+from ..model.advice import quantity_text, range_text
 from ..model.parameters import params_of
+from ..model.part_file import PartFile, find_part
+from ..model.point import from_box, taken_text
 from ..model.registry import spec_of
 from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
@@ -36,6 +39,8 @@ class Plan:
     params_of: NDArray[np.int64]  # (n_lines,) index into params
     identity: dict[str, str] = field(default_factory=dict)  # digests by what they stand for
     choice: str = ""  # why the cards chose this rung, if they did
+    taken: str = ""  # the inputs that were not given, and where their values come from
+    warnings: tuple[str, ...] = ()  # of points outside the part's box
 
     @property
     def n_rows(self) -> int:
@@ -44,13 +49,14 @@ class Plan:
 
 
 def make_plan(
-    model: str, over: Mapping[str, Any], at: Mapping[str, Any], points: Mapping[str, Any] | None,
-    params: Any, fidelity: str | None,
+    model: str | PartFile, over: Mapping[str, Any], at: Mapping[str, Any],
+    points: Mapping[str, Any] | None, params: Any, fidelity: str | None,
 ) -> Plan:  # fmt: skip
     """Return the plan of a sweep; arguments as in ``run_sweep``."""
-    spec = spec_of(model)
+    part = model if isinstance(model, PartFile) else find_part(spec_of(model).key)
+    spec, params = spec_of(part.spec.key), part.params if params is None else params
     known = places(spec)
-    asked = spec.default_fidelity if fidelity is None else fidelity
+    asked = part.fidelity if fidelity is None else fidelity
     rung, tolerance = chooser.rung_and_tolerance(spec.key, spec, asked)
     base = params_of(spec, params)
     held = {a.place.name: a.values[0] for a in _held(at, known, spec)}
@@ -65,7 +71,7 @@ def make_plan(
     twice = [name for name in given if given.count(name) > 1]
     if twice:
         raise ParameterError(f"{twice[0]}: is given twice, allowed: varied or held, once")
-    plan = _assemble(spec, rung, base, held, rows, lines, [known[name] for name in order])
+    plan = _assemble(part, rung, base, held, rows, lines, [known[name] for name in order])
     return plan if tolerance is None else _chosen(plan, tolerance)
 
 
@@ -163,11 +169,11 @@ def _checked(place: Place, i: int, value: Any) -> Any:
 
 
 def _assemble(
-    spec: ModelSpec, fidelity: str, base: Any, held: dict[str, Any], rows: dict[str, Any],
+    part: PartFile, fidelity: str, base: Any, held: dict[str, Any], rows: dict[str, Any],
     starts: NDArray[np.int64], order: list[Place],
 ) -> Plan:  # fmt: skip
     """Fill in what is not varied and give every line its parameters."""
-    n = int(starts[-1])
+    n, spec = int(starts[-1]), part.spec
     varied = [place.name for place in order if not place.is_input]
     fixed = {k: v for k, v in held.items() if k in spec.params.__dataclass_fields__}
     params, params_of = _parameters(base, fixed, [rows[name] for name in varied], varied, starts)
@@ -176,9 +182,15 @@ def _assemble(
         if "load" in rows or "load" in held:
             raise ParameterError("power: allowed: instead of load, not beside it")
         shown["power"] = rows["power"] if "power" in rows else np.full(n, float(held["power"]))
-    inputs = np.empty((n, len(spec.inputs)))
+    inputs, starts_at = np.empty((n, len(spec.inputs))), part.starts
+    plain = find_part(spec.key).starts
+    box: dict[str, float] = {}
+    default: dict[str, float] = {}
     for i, s in enumerate(spec.inputs):
-        inputs[:, i] = rows[s.name] if s.name in rows else held.get(s.name, s.usual)
+        inputs[:, i] = rows[s.name] if s.name in rows else held.get(s.name, starts_at[s.name])
+        if not (s.name in rows or s.name in held or (s.name == "load" and "power" in shown)):
+            mine = from_box(part, s.name, starts_at[s.name], plain[s.name])
+            (box if mine else default)[s.name] = starts_at[s.name]
         shown[s.name] = inputs[:, i]
     if "power" in shown:
         largest = next(s.high for s in spec.inputs if s.name == "load") or 0.0
@@ -190,9 +202,26 @@ def _assemble(
     for name in varied:
         shown[name] = rows[name]
         units[name] = next(p.unit for p in order if p.name == name)
-    plan = Plan(spec, fidelity, inputs, shown, units, starts, params, params_of)
+    plan = Plan(
+        spec, fidelity, inputs, shown, units, starts, params, params_of,
+        taken=taken_text(box, default, spec.inputs), warnings=tuple(_outside(part, inputs)),
+    )  # fmt: skip
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
+
+
+def _outside(part: PartFile, inputs: Array) -> Iterator[str]:
+    """Yield a warning for each input of which some points lie outside the part's box."""
+    for i, s in enumerate(part.spec.inputs):
+        if s.name not in part.box:
+            continue
+        low, high = part.box[s.name]
+        column = inputs[:, i][np.isfinite(inputs[:, i])]
+        beyond = column[(column < low) | (column > high)]
+        if len(beyond):
+            yield (f"{len(beyond)} of {len(inputs)} points, as {quantity_text(s, beyond[0])}, are "
+                   f"outside {range_text(s, (low, high))}, the part's box: solved all the same, "
+                   "but not what the part is meant for")  # fmt: skip
 
 
 def _parameters(

@@ -30,7 +30,8 @@ class SweepTable:
     ``columns`` maps names to arrays in the order of the rows, as ``pandas.DataFrame`` takes them.
     ``choice`` says why the rung ``fidelity`` was chosen, if it was not asked for by name.
     Outputs of a failed point are NaN, "" or False; ``status`` says why;
-    ``counts`` are the points by status.
+    ``counts`` are the points by status. ``taken`` names the inputs that were not given and where
+    their values come from, ``outside`` those of which points lie outside the part's box.
     """
 
     columns: dict[str, NDArray[Any]]
@@ -38,6 +39,17 @@ class SweepTable:
     fidelity: str = ""
     choice: str = ""
     counts: Mapping[str, int] = field(default_factory=dict)
+    taken: str = ""
+    outside: tuple[str, ...] = ()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a reader must not miss: points outside the part's box, and those with an advice."""
+        advised = (
+            f"{n} of {len(self)} points {name}: {Status[name].advice}"
+            for name, n in sorted(self.counts.items()) if name != "OK"
+        )  # fmt: skip
+        return (*self.outside, *advised)
 
     def __len__(self) -> int:
         return sum(self.counts.values())
@@ -74,7 +86,9 @@ def make_table(
         names[status] = status.name
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
-    return SweepTable(columns, units, plan.fidelity, plan.choice, counts)
+    return SweepTable(
+        columns, units, plan.fidelity, plan.choice, counts, plan.taken, plan.warnings
+    )  # fmt: skip
 
 
 def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:

@@ -31,6 +31,12 @@ COUPLING = {
     "capacity": "the packs send the torque they can hold; stick and slip are decided in here",
     "torque": "the packs send their friction torque: the plain loop, limited in step size",
 }
+SHAFT = {
+    "sun": "the sun and what turns with it",
+    "carrier": "the carrier, the output",
+    "ring": "the ring and what turns with it",
+    "case": "the case, which stands",
+}
 
 
 def _planet_teeth(p: Any) -> str:
@@ -85,6 +91,20 @@ def _order(name: str) -> Rule:
     return Rule(f"{name}_time_2 = {{{name}_time_2}} s, allowed: rising from point to point", exact)
 
 
+BEARINGS = ("sun_bearing", "ring_bearing")
+
+
+def _two_ends(name: str) -> Rule:
+    return Rule(f"{name}_shaft_2 = {{{name}_shaft_2}}, allowed: another shaft than "
+                f"{name}_shaft_1 ({' or '.join(SHAFT)})")  # fmt: skip
+
+
+def _rubbing(name: str) -> Rule:
+    return Rule(f"{name}_mean_radius = {{{name}_mean_radius}} m, allowed: with {name}_coefficient "
+                f"({{{name}_coefficient}}) x tan(helix_angle) up to a tenth of the sun's pitch "
+                "radius, or the bearing takes more than the teeth give")  # fmt: skip
+
+
 RULES = (
     Rule("ring_teeth = {ring_teeth}, allowed: above sun_teeth ({sun_teeth})"),
     Rule("planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
@@ -102,6 +122,8 @@ RULES = (
     Rule("piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
          "({piston_outer_radius} m)"),
     *map(_order, COURSES),
+    *map(_two_ends, BEARINGS),
+    *map(_rubbing, BEARINGS),
 )  # fmt: skip
 
 
@@ -203,6 +225,20 @@ class _TransmissionParams:
     ring_mesh: bool = flag(
         False, "ring_mesh_torque is the ring meshes' loss (False: mesh_torque stands for both)"
     )
+    sun_bearing_shaft_1: str = choice("sun", SHAFT, "Shaft", "of the sun's thrust bearing: one end")
+    sun_bearing_shaft_2: str = choice("carrier", SHAFT, "Shaft", "and the other end")
+    sun_bearing_coefficient: float = quantity(
+        0.0, "1", 0.0, 0.1, "friction of the sun's thrust bearing (0: no bearing)"
+    )
+    sun_bearing_mean_radius: float = quantity(0.025, "m", 1e-3, 1.0, "of the sun's thrust bearing")
+    ring_bearing_shaft_1: str = choice("ring", SHAFT, "Shaft", "of the ring's thrust bearing: one")
+    ring_bearing_shaft_2: str = choice("case", SHAFT, "Shaft", "and the other end")
+    ring_bearing_coefficient: float = quantity(
+        0.0, "1", 0.0, 0.1, "friction of the ring's thrust bearing (0: no bearing)"
+    )
+    ring_bearing_mean_radius: float = quantity(
+        0.033, "m", 1e-3, 1.0, "of the ring's thrust bearing"
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -302,7 +338,7 @@ OUTPUTS = (
     output("shaft_twist", "rad", 0.1, "twist of the output shaft, carrier before vehicle"),
     output("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
     output("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
-    output("output_torque", "N.m", 100.0, "torque of the gears on the carrier", _TORQUES),
+    output("output_torque", "N.m", 100.0, "torque of gears and bearings on the carrier", _TORQUES),
     output("output_acceleration", "rad/s2", 10.0, "acceleration of the vehicle, at the output",
            _TORQUES),
     output("clutch_hub_speed", "rad/s", 100.0, "speed of the clutch's hub, the driven gear"),
@@ -315,6 +351,11 @@ OUTPUTS = (
       for pack in ("clutch", "brake")),
     *(output(f"{pack}_kiss_time", "s", 1.0, f"time the {pack}'s piston last touched (-1: never)")
       for pack in ("clutch", "brake")),
+    *(output(f"{gear}_bearing_torque", "N.m", 0.1,
+             f"friction of the {gear}'s thrust bearing against its first shaft", _TORQUES)
+      for gear in ("sun", "ring")),
+    output("bearing_power", "W", 100.0, "heat of both thrust bearings, mean of the step", _TORQUES),
+    output("bearing_heat", "J", 100.0, "heat of both thrust bearings since the start"),
     Signal(name="clutch_locked", unit="1", kind="boolean", depends=_TORQUES,
            help="the clutch sticks, its slip is exactly zero",
            events=("clutch locked", "clutch broke away")),

@@ -16,7 +16,7 @@ from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import BODIES, SPEC, WasherParams, property_of
-from .solve import RANGES, resolve_grid
+from .solve import RANGES, check_far_face, resolve_grid
 
 __all__ = ["CourseError", "WasherCourse", "follow_washer"]
 
@@ -33,6 +33,7 @@ class WasherCourse:
     speed: Array
     tilt: Array
     oil_temperature: Array
+    far_face_temperature: Array
     friction_torque: Array
     temperature: Array
     film_thickness: Array
@@ -73,8 +74,8 @@ class CourseError(SolveError):
 
 def follow_washer(
     params: WasherParams, *, time: ArrayLike, load: ArrayLike, speed: ArrayLike, tilt: ArrayLike,
-    oil_temperature: ArrayLike = 297.15, fidelity: str = "field",
-    grid: tuple[int, int] | None = None,
+    oil_temperature: ArrayLike = 297.15, far_face_temperature: ArrayLike = 0.0,
+    fidelity: str = "field", grid: tuple[int, int] | None = None,
 ) -> WasherCourse:  # fmt: skip
     """Return friction, temperature and film of a washer whose inputs are given over time.
 
@@ -83,8 +84,9 @@ def follow_washer(
     params : the washer; ``thermal_mode`` says if its bodies store heat, ``thermal_start`` how warm
         they are at the first point
     time : (n,) points [s], rising, at least two
-    load, speed, tilt, oil_temperature : (n,) values [N], [rad/s], [rad], [K] at the points, or one
-        number each
+    load, speed, tilt, oil_temperature, far_face_temperature : (n,) values [N], [rad/s], [rad], [K],
+        [K] at the points, or one number each; the last with ``gear_far_face = "bulk"``, all or none
+        of it 0 (the oil's)
     fidelity : "coarse", "field" or "fine"
     grid : (n_r, n_theta), overrides the nodes of the fidelity
 
@@ -113,13 +115,20 @@ def follow_washer(
     columns = [
         course_of(name, given, unit, low, high, len(points))
         for (name, unit, low, high), given in zip(
-            RANGES, (load, speed, tilt, oil_temperature), strict=True
+            RANGES, (load, speed, tilt, oil_temperature, far_face_temperature), strict=True
         )
     ]
+    far_face = columns[-1]
+    check_far_face(params, float(far_face.max()))
+    check_far_face(params, float(far_face.min()))
+    if far_face.min() == 0.0 < far_face.max():
+        raise ParameterError(
+            "far_face_temperature = 0 at some points, allowed: at all of them (the oil's) or none"
+        )
     if fidelity == "map":
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'coarse', 'field' or 'fine'")
     inputs = np.column_stack(columns)
-    run = _Run(params, resolve_grid(fidelity, grid))
+    run = Follower(params, resolve_grid(fidelity, grid))
     rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
     said: list[Status] = []
 
@@ -154,8 +163,11 @@ def _settling(params: WasherParams, body: str) -> float:
     return density * heat * thickness**2 / conductivity
 
 
-class _Run:
-    """A washer with its memory, stepped by the kernel."""
+class Follower:
+    """A washer with its memory, stepped by the kernel from point to point.
+
+    ``state`` is all that it remembers: a copy of it is a point to go back to.
+    """
 
     def __init__(self, params: WasherParams, grid: tuple[int, int]) -> None:
         self.grid, self.in_time = grid, params.thermal_mode == "transient"
@@ -168,9 +180,11 @@ class _Run:
         self.piece = PIECE * max(_settling(params, body) for body in BODIES)
 
     def go(self, before: Array, now: Array, duration: float) -> int:
-        """Come to the inputs ``now``; return the status."""
+        """Come to the inputs ``now``; return the status. The first point takes no time."""
         if duration == 0.0 or not self.in_time:
-            return self._step(now, duration or 1e-12)
+            code = self._step(now, duration or 1e-12)
+            self.state[L.S_SUBSTEP] = 0.0  # that of the first point is none to go on with
+            return code
         if (before == now).all():
             return self._step(now, duration)
         n = min(max(math.ceil(duration / self.piece), 1), MOST_PIECES)

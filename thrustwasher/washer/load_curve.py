@@ -1,7 +1,7 @@
 """The whole curve of a washer's solutions over load, with its folds: continuation in the film."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,11 +18,12 @@ from .kernels.constants import washer_model
 from .kernels.heat import set_steady
 from .kernels.newton import LOAD, NO_FLOOR, newton
 from .kernels.outputs import outputs_at
+from .kernels.regime_and_status import point_of
 from .kernels.solve import remember_state
-from .kernels.workspace import Point, fields_of, size_of_state, size_of_work, workspace_of
+from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import WasherParams
 from .solve import ERRORS, check_point, resolve_grid, result_from
-from .washer_result import BRANCH_NAMES, Fold, WasherResult
+from .washer_result import BRANCH_NAMES, Fold, WasherResult, lost_text
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
@@ -43,11 +44,26 @@ class LoadCurve:
     points: list[WasherResult]  # ordered by falling film_thickness
     folds: list[Fold]  # empty if the curve is single-valued
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a reader must not miss: of each kind the point of least load; folds tell the rest.
+
+        The last point, beyond the range that was asked for, does not count.
+        """
+        found: dict[str, list[str]] = {}
+        points = sorted(self.points[:-1], key=lambda p: p.load)
+        for p in points:
+            for text in p.warnings[p.distress :]:
+                told = f"at load = {p.load:.4g} N: {text}"
+                found.setdefault(text.partition(" = ")[0], []).append(told)
+        n = len(points)
+        return tuple(f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
+
 
 def load_curve(
     params: WasherParams, *, speed: float, tilt: float, oil_temperature: float = 297.15,
-    fidelity: str = "field", grid: tuple[int, int] | None = None, load_min: float = 20.0,
-    load_max: float = 3000.0,
+    far_face_temperature: float = 0.0, fidelity: str = "field", grid: tuple[int, int] | None = None,
+    load_min: float = 20.0, load_max: float = 3000.0,
 ) -> LoadCurve:  # fmt: skip
     """Return all solutions between two loads and the folds where the film is lost and regained.
 
@@ -56,7 +72,8 @@ def load_curve(
 
     Parameters
     ----------
-    params, speed [rad/s], tilt [rad], oil_temperature [K], fidelity, grid : as in solve_washer
+    params, speed [rad/s], tilt [rad], oil_temperature [K], far_face_temperature [K], fidelity, grid
+        as in solve_washer
     load_min, load_max : ends of the curve [N]
 
     Returns
@@ -82,7 +99,7 @@ def load_curve(
     nodes = resolve_grid(fidelity, grid)
     check_number("load_min", load_min, "N", 1.0, 1e4)
     check_number("load_max", load_max, "N", load_min, 1e4)
-    point = Point(*check_point(load_min, speed, tilt, oil_temperature))
+    point = check_point(params, load_min, speed, tilt, oil_temperature, far_face_temperature)
     here = Continuation(params, point, nodes)
     here.enter(load_min)
     points: list[WasherResult] = [here.result(fidelity)]
@@ -140,26 +157,35 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
             branch = "unstable" if passed % 2 else "contact" if passed else "film"
         else:
             branch = "film" if p.film_ratio >= 3.0 else "contact"
-        distress = (bool(folds) and branch == "contact") or (
-            p.temperature - p.oil_temperature > 200.0
-        )
+        rise = p.temperature - p.oil_temperature
+        distress = (bool(folds) and branch == "contact") or rise > 200.0
+        told = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
         p._state[L.S_BRANCH] = _NUMBERS[branch]
         p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
-        named.append(dataclasses.replace(p, branch=branch, distress=distress))
+        named.append(dataclasses.replace(p, branch=branch, distress=distress, warnings=told))
     return named
 
 
 class Continuation:
     """A place on the curve of solutions, which moves as its film thickness is prescribed."""
 
-    def __init__(self, params: WasherParams, point: Point, nodes: tuple[int, int]) -> None:
-        self.params, self.pt, self.nodes = params, point, nodes
+    def __init__(
+        self, params: WasherParams, point: Sequence[float], nodes: tuple[int, int]
+    ) -> None:
+        """Begin anywhere; ``point`` (5,) holds the inputs."""
         par = constants(params, nodes)
+        self.params, self.nodes = params, nodes
+        self.move(point)
         self.work = work_array(("washer", nodes), L.N_HEAD + size_of_work(*nodes))
         self.w = workspace_of(par, self.work)
         self.m, self.f = washer_model(par), fields_of(self.w)
-        set_steady(self.m, self.f)
+        set_steady(self.m, self.pt, self.f)
         self.w.curve[L.ACCURACY] = 1e-8
+
+    def move(self, point: Sequence[float]) -> None:
+        """Take other inputs; the solution stays that of those before."""
+        self.inputs = point
+        self.pt = point_of(constants(self.params, self.nodes), np.array(point))
 
     @property
     def film(self) -> float:
@@ -281,7 +307,8 @@ class Continuation:
         state[L.S_RATIO] = self.outputs()[L.O_RATIO]
         state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
         state[L.S_SCAN_OIL] = pt.oil_temperature
+        _, speed, tilt, oil, far = self.inputs
         return result_from(
-            self.params, pt, fidelity, self.nodes, state, self.work, Status.OK,
-            L.FILM_BRANCH, False, ERRORS[fidelity],
+            self.params, (pt.load, speed, tilt, oil, far), fidelity, self.nodes, state, self.work,
+            Status.OK, L.FILM_BRANCH, False, ERRORS[fidelity],
         )  # fmt: skip

@@ -1,16 +1,26 @@
 """Parameters of the thrust washer; ``interface.toml`` has its inputs and outputs."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
-from ..model.parameters import check_ranges, check_rules, choice, flag, quantity
+from ..errors import ParameterError
+from ..model.parameters import (
+    check_number,
+    check_ranges,
+    check_rules,
+    choice,
+    flag,
+    quantity,
+    renewed,
+)
 from ..model.part_file import made_of
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
 FRICTION_LAWS = {
-    "load": "falls with the logarithm of the total contact force (Jackson & Green Eq 18)",
+    "load": "falls with the logarithm of the mean contact pressure (Jackson & Green Eq 18)",
     "constant": "the constant dry_friction",
 }
 HEIGHT_LAWS = {
@@ -29,6 +39,11 @@ CONDUCTION = {
 CAVITY_SHEAR = {
     "full": "as if oil filled the gap everywhere, in shear and heat exchange (the paper's torque)",
     "liquid": "both count by the share of the gap that liquid fills",
+}
+GEAR_FAR_FACE = {
+    "oil": "as warm as the oil",
+    "insulated": "no heat passes, as in the middle of a planet between two washers",
+    "bulk": "at the input far_face_temperature, such as a mesh's bulk temperature",
 }
 BODY_STORAGE = {
     "slab": "heat takes its time through the thickness of carrier and gear",
@@ -56,6 +71,10 @@ MATERIAL = {  # property of each body: unit, default, least, largest, what it is
 }
 
 
+RADII = ("inner_radius", "outer_radius")
+OF_SIZE: dict[str, Any] = {"belongs_to": RADII, "when": ("friction_law", "load")}
+
+
 def _own(name: str, common: str, unit: str, least: float, largest: float) -> Rule:
     """Return the rule of a body's own value: 0, or in the range of the common one."""
     unit = "" if unit == "1" else f" {unit}"
@@ -73,7 +92,9 @@ def _body(name: str) -> Any:
     """Return the field of one body's own property, 0 if it has the common one."""
     common, body = name.rsplit("_", 1)
     unit, _, _, largest, text = MATERIAL[common]
-    return quantity(0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})")
+    return quantity(
+        0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})", overrides=(common,)
+    )  # fmt: skip
 
 
 def property_of(params: Any, name: str, body: str) -> float:
@@ -87,8 +108,8 @@ RULES = (
          "and outer_radius {outer_radius} m"),
     Rule("outer_radius = {outer_radius} m, allowed: up to 20 x inner_radius ({inner_radius} m)"),
     *(_own(f"roughness_{body}", "roughness", "m", LEAST_ROUGHNESS, 1e-5) for body in BODIES),
-    Rule("friction_load_min = {friction_load_min} N, allowed: below friction_load_max "
-         "({friction_load_max} N)"),
+    Rule("friction_pressure_min = {friction_pressure_min} Pa, allowed: below "
+         "friction_pressure_max ({friction_pressure_max} Pa)"),
     Rule("asperity_density x asperity_radius = {asperity_density} 1/m2 x {asperity_radius} m "
          "leaves no scatter of the summits at roughness = {roughness} m; raise either, or use "
          "asperity_height_law = 'surface'"),
@@ -104,9 +125,66 @@ RULES = (
     Rule("cavity_shear = liquid, allowed: with oil_cooling, which knows where the liquid is"),
     Rule("thermal_mode = transient, allowed: with fidelity coarse, field or fine; a map has "
          "no bodies that could store heat"),
+    Rule("gear_far_face = bulk, allowed: with fidelity coarse, field or fine; a map is for oil or "
+         "insulated"),
 )  # fmt: skip
 
 
+INNER, OUTER = 0.0111, 0.0227  # [m] radii of Jackson & Green's washer
+# They measured dry friction over the load on its face, f = 0.48 - 0.05 ln F.
+PAPER_FACE = math.pi * (OUTER**2 - INNER**2)  # [m^2]
+MEGAPASCAL = 1e6  # [Pa]
+NEWTONS = {  # parameters of the dry friction law over the load: unit, least, largest, what it is
+    "friction_constant": ("1", 0.0, 2.0, "dry friction at 1 N"),
+    "friction_load_min": ("N", 1.0, 1e5, "lower end of the law's range"),
+    "friction_load_max": ("N", 1.0, 1e5, "upper end of the law's range"),
+}
+OVER_PRESSURE = {
+    "friction_constant": "friction_reference",
+    "friction_load_min": "friction_pressure_min",
+    "friction_load_max": "friction_pressure_max",
+}
+
+
+def face_of(inner_radius: float, outer_radius: float) -> float:
+    """Return the area of a washer's face [m^2]."""
+    return math.pi * (outer_radius**2 - inner_radius**2)
+
+
+def _over_pressure(given: dict[str, Any]) -> dict[str, Any]:
+    """Return parameters with a friction law over the load turned into one over the pressure.
+
+    The loads are those on the face of the washer that they are given for. What is given of the
+    law over the load makes the whole law that of the paper over the load, as it was in newtons.
+    """
+    own = {name: given[name] for name in NEWTONS if name in given}
+    if not own:
+        return given
+    full = {"friction_constant": 0.48, "friction_load_min": 260.5, "friction_load_max": 1725.6}
+    full |= own
+    values = {k: v for k, v in given.items() if k not in NEWTONS}
+    for name, value in own.items():
+        unit, low, high, _ = NEWTONS[name]
+        check_number(name, value, unit, low, high)
+        if OVER_PRESSURE[name] in values:
+            raise ParameterError(
+                f"{name} beside {OVER_PRESSURE[name]}, allowed: a law over the load or one over "
+                "the mean pressure"
+            )
+    if not full["friction_load_min"] < full["friction_load_max"]:
+        raise ParameterError(
+            f"friction_load_min = {full['friction_load_min']:g} N, allowed: below "
+            f"friction_load_max ({full['friction_load_max']:g} N)"
+        )
+    face = face_of(values.get("inner_radius", INNER), values.get("outer_radius", OUTER))
+    slope = values.get("friction_slope", 0.05)
+    values["friction_reference"] = full["friction_constant"] - slope * math.log(MEGAPASCAL * face)
+    values["friction_pressure_min"] = full["friction_load_min"] / face
+    values["friction_pressure_max"] = full["friction_load_max"] / face
+    return values
+
+
+@renewed(NEWTONS, _over_pressure)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WasherParams:
     """Geometry, surfaces, oil and friction of a thrust washer between carrier and gear.
@@ -115,18 +193,26 @@ class WasherParams:
     asperity radius and density, the heat split; see docs/theory/washer.md.
     """
 
-    inner_radius: float = quantity(0.0111, "m", 2e-3, 0.05, "inner radius of the washer")
-    outer_radius: float = quantity(0.0227, "m", 3e-3, 0.06, "outer radius of washer and gear face")
-    gear_inner_radius: float = quantity(0.0156, "m", 2e-3, 0.06, "inner radius of the gear face")
+    inner_radius: float = quantity(INNER, "m", 2e-3, 0.05, "inner radius of the washer")
+    outer_radius: float = quantity(OUTER, "m", 3e-3, 0.06, "outer radius of washer and gear face")
+    gear_inner_radius: float = quantity(
+        0.0156, "m", 2e-3, 0.06, "inner radius of the gear face", belongs_to=RADII
+    )
     carrier_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the carrier plate")
     washer_thickness: float = quantity(6.35e-4, "m", 1e-4, 0.02, "thickness of the washer")
     gear_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the gear's web")
     roughness: float = quantity(
         5.15e-7, "m", LEAST_ROUGHNESS, 1e-5, "RMS roughness of every surface"
     )
-    roughness_carrier: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the carrier (0: roughness)")
-    roughness_washer: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the washer (0: roughness)")
-    roughness_gear: float = quantity(0.0, "m", 0.0, 1e-5, "RMS of the gear face (0: roughness)")
+    roughness_carrier: float = quantity(
+        0.0, "m", 0.0, 1e-5, "RMS of the carrier (0: roughness)", overrides=("roughness",)
+    )
+    roughness_washer: float = quantity(
+        0.0, "m", 0.0, 1e-5, "RMS of the washer (0: roughness)", overrides=("roughness",)
+    )
+    roughness_gear: float = quantity(
+        0.0, "m", 0.0, 1e-5, "RMS of the gear face (0: roughness)", overrides=("roughness",)
+    )
     youngs_modulus: float = _material("youngs_modulus")
     youngs_modulus_carrier: float = _body("youngs_modulus_carrier")
     youngs_modulus_washer: float = _body("youngs_modulus_washer")
@@ -154,6 +240,9 @@ class WasherParams:
     conduction: str = choice(
         "carrier", CONDUCTION, "Conduction", "bodies with a 2-D temperature field"
     )
+    gear_far_face: str = choice(
+        "oil", GEAR_FAR_FACE, "GearFarFace", "what the gear's far face borders on"
+    )
     oil_conductivity: float = quantity(0.145, "W/(m.K)", 0.01, 1.0, "conductivity of the oil")
     viscosity_constant: float = quantity(3.545, "1", 1.0, 6.0, "G_o of the Roelands law")
     viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
@@ -172,10 +261,17 @@ class WasherParams:
     pressure_flow_shear: bool = flag(True, "whether pressure flow counts in torque and heat")
     friction_law: str = choice("load", FRICTION_LAWS, "FrictionLaw", "law of the dry friction")
     dry_friction: float = quantity(0.15, "1", 0.0, 1.0, "dry friction of the constant law")
-    friction_constant: float = quantity(0.48, "1", 0.0, 2.0, "constant of the dry friction law")
+    friction_reference: float = quantity(
+        0.48 - 0.05 * math.log(MEGAPASCAL * PAPER_FACE), "1", -2.0, 2.0,
+        "dry friction at a mean contact pressure of 1 MPa",
+    )  # fmt: skip
     friction_slope: float = quantity(0.05, "1", 0.0, 0.2, "slope of the dry friction law")
-    friction_load_min: float = quantity(260.5, "N", 1.0, 1e5, "lower end of the law's range")
-    friction_load_max: float = quantity(1725.6, "N", 1.0, 1e5, "upper end of the law's range")
+    friction_pressure_min: float = quantity(
+        260.5 / PAPER_FACE, "Pa", 1.0, 1e9, "lower end of the law's range"
+    )
+    friction_pressure_max: float = quantity(
+        1725.6 / PAPER_FACE, "Pa", 1.0, 1e9, "upper end of the law's range"
+    )
     heat_split: float = quantity(
         0.5, "1", 0.0, 1.0, "share of the heat that enters the carrier", tunable=True
     )

@@ -19,6 +19,7 @@ from ..numerics.jit import Array
 from .kernel_arguments import Recent, constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
+from .kernels.regime_and_status import LEAST_TEMPERATURE
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
 from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_of
@@ -33,6 +34,10 @@ GRIDS = {
 # (tests/washer/test_washer_accuracy.py measures it again)
 ERRORS = {"map": 6e-3, "coarse": 3e-2, "field": 1e-2, "fine": 2e-3}
 UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
+BOTH = (
+    "load = {:.4g} N lies between two folds: with friction_torque = {:.4g} N m the branch {!r} has "
+    "a solution too, which one a washer is on depends on how it came there; this one is {!r}"
+)
 OK = Status.OK
 LARGEST_GRID = (129, 512)
 
@@ -64,23 +69,41 @@ RANGES = tuple(
     (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
     for s in SPEC.inputs
 )
+Inputs = tuple[float, float, float, float, float]
+
+
+def check_far_face(params: WasherParams, far_face_temperature: float) -> None:
+    """Raise ParameterError if a temperature at the gear's far face is too cold or in vain."""
+    if far_face_temperature == 0.0:
+        return
+    if params.gear_far_face != "bulk":
+        raise ParameterError(
+            f"far_face_temperature = {far_face_temperature:g} K, allowed: with gear_far_face = "
+            f"'bulk' (here {params.gear_far_face!r}), or 0"
+        )
+    if far_face_temperature < LEAST_TEMPERATURE:
+        raise ParameterError(
+            f"far_face_temperature = {far_face_temperature:g} K, allowed: 0 (the oil's) or "
+            f"{LEAST_TEMPERATURE:g} .. {RANGES[-1][3]:g} K"
+        )
 
 
 def check_point(
-    load: float, speed: float, tilt: float, oil_temperature: float
-) -> tuple[float, float, float, float]:
+    params: WasherParams, load: float, speed: float, tilt: float, oil_temperature: float,
+    far_face_temperature: float = 0.0,
+) -> Inputs:  # fmt: skip
     """Return the operating point as floats, or raise ParameterError for the first bad one."""
-    a, b, c, d = (
+    given = load, speed, tilt, oil_temperature, far_face_temperature
+    a, b, c, d, e = (
         check_number(name, value, unit, low, high)
-        for (name, unit, low, high), value in zip(
-            RANGES, (load, speed, tilt, oil_temperature), strict=True
-        )
+        for (name, unit, low, high), value in zip(RANGES, given, strict=True)
     )
-    return a, b, c, d
+    check_far_face(params, e)
+    return a, b, c, d, e
 
 
 def result_from(
-    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    params: WasherParams, point: Inputs, fidelity: str,
     grid: tuple[int, int], state: Array, work: Array, status: Status, branch: float, lost: bool,
     error: float,
 ) -> WasherResult:  # fmt: skip
@@ -94,8 +117,9 @@ def result_from(
 
 def solve_washer(
     params: WasherParams, *, load: float, speed: float, tilt: float,
-    oil_temperature: float = 297.15, fidelity: str = "field", grid: tuple[int, int] | None = None,
-    branch: str | None = None, start: WasherResult | None = None, throw: bool = True,
+    oil_temperature: float = 297.15, far_face_temperature: float = 0.0, fidelity: str = "field",
+    grid: tuple[int, int] | None = None, branch: str | None = None,
+    start: WasherResult | None = None, throw: bool = True,
 ) -> WasherResult:  # fmt: skip
     """Return friction torque, temperature and film thickness of a thrust washer.
 
@@ -106,6 +130,7 @@ def solve_washer(
     speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15
+    far_face_temperature : [K] at the gear's far face, with ``gear_far_face = "bulk"``; 0: the oil's
     fidelity : "field" (10 x 32 nodes), "fine" (19 x 64), "coarse" (8 x 20) or "map", which
         answers outside its box with the field; the result says so
     grid : (n_r, n_theta), overrides the nodes of the fidelity
@@ -137,7 +162,7 @@ def solve_washer(
     '0.258 N m, film ratio 20.8, film'
     """
     nodes = resolve_grid(fidelity, grid)
-    point = check_point(load, speed, tilt, oil_temperature)
+    point = check_point(params, load, speed, tilt, oil_temperature, far_face_temperature)
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     wanted = BRANCHES[branch] if branch is not None else 0.0
@@ -167,6 +192,15 @@ def solve_washer(
     return result
 
 
+def other_branch(result: WasherResult) -> str:
+    """Return a warning if a point has a solution on the other branch too; it takes a solve."""
+    other = "contact" if result.branch == "film" else "film"
+    found = _solve(result.params, result.point(), "field", GRIDS["field"], BRANCHES[other], None)
+    if found.status.is_failure or found.branch != other:
+        return ""
+    return BOTH.format(result.load, found.friction_torque, other, result.branch)
+
+
 @cache
 def _map_solver() -> Any:
     """Return what solves by look-up; maps are read only where they are wanted."""
@@ -181,7 +215,7 @@ class _Prepared:
     def __init__(self, params: WasherParams, nodes: tuple[int, int]) -> None:
         par = constants(params, nodes)
         self.work = work_array(("washer", nodes), L.N_HEAD + size_of_work(*nodes))
-        self.inp, self.iout = np.zeros(5), np.zeros(3, np.int32)
+        self.inp, self.iout = np.zeros(kernel.NINP + 1), np.zeros(3, np.int32)
         self.step = bound(
             kernel.step, par=par, inp=self.inp, work=self.work, out=np.zeros(kernel.NOUT),
             iout=self.iout,
@@ -192,7 +226,7 @@ _prepared = Recent(_Prepared)
 
 
 def _solve(
-    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    params: WasherParams, point: Inputs, fidelity: str,
     nodes: tuple[int, int], wanted: float, start: WasherResult | None, card: bool = False,
 ) -> WasherResult:  # fmt: skip
     """Solve on a mesh; ``card``: the rung is one whose cards know its error."""
@@ -226,7 +260,7 @@ def _continues(start: WasherResult, params: WasherParams, nodes: tuple[int, int]
 
 
 def _prefer(
-    params: WasherParams, point: tuple[float, float, float, float], fidelity: str,
+    params: WasherParams, point: Inputs, fidelity: str,
     nodes: tuple[int, int], wanted: float, card: bool = False,
 ) -> WasherResult:  # fmt: skip
     """Solve from nothing on a preferred branch, on the other if it does not exist."""
@@ -239,7 +273,7 @@ def _prefer(
 def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:
     """Replace the error estimate by the change from a grid of half the intervals."""
     half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
-    point = (result.load, result.speed, result.tilt, result.oil_temperature)
+    point = result.point()
     coarse = _prefer(result.params, point, result.fidelity, half, BRANCHES.get(result.branch, 0.0))
     estimate = math.inf
     if not coarse.status.is_failure and coarse.branch == result.branch:

@@ -1,5 +1,6 @@
 """What a washer solve returns, and the error to expect of it."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -7,20 +8,36 @@ import numpy as np
 
 from ..errors import ParameterError, Status
 from ..ladder.card import error_estimate
+from ..model.advice import warnings_of
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
 from .kernels.constants import WasherModel, washer_model
 from .kernels.newton import evaluate_here
 from .kernels.outputs import outputs_at
-from .kernels.workspace import Fields, Point, fields_of, size_of_work, workspace_of
-from .parameters import WasherParams
+from .kernels.regime_and_status import point_of
+from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
+from .parameters import SPEC, WasherParams, face_of
 
+HOT_LIMIT = 523.0  # [K] above it oil and washer are lost
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
     "gap 2 cannot hold the washer: its dry friction takes {:.2g} times the friction torque, so the "
     "washer would slip on the gear; here both turn together"
 )
+PRESSED = (
+    "film_thickness = {:.3g} um: below 0 the mean surfaces would overlap, asperities alone carry "
+    "and wear; lower the load or raise roughness or viscosity"
+)
+INPUTS = tuple(signal.name for signal in SPEC.inputs)
+Inputs = tuple[float, float, float, float, float]  # of a solution, in that order
+COUNTS = 0.1  # share of the torque from which dry friction counts
+BEYOND = (
+    "dry friction was measured for mean contact pressures of {:.3g} .. {:.3g} Pa; here {:.3g} Pa: "
+    "it is held at the end, {:.3g}; give data for this pressure (friction_reference, "
+    "friction_slope, friction_pressure_min, friction_pressure_max) or friction_law = 'constant'"
+)
+LOAD, SPEED, TILT, OIL = (signal.verified for signal in SPEC.inputs[:4])
 BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
 
 
@@ -89,8 +106,11 @@ class WasherResult:
     speed: float  # [rad/s]
     tilt: float  # [rad]
     oil_temperature: float  # [K]
+    far_face_temperature: float  # [K] at the gear's far face; 0: the oil's
     params: WasherParams = field(repr=False, compare=False)
     _state: Array = field(repr=False, compare=False)
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     @property
     def error_estimate(self) -> float:
@@ -103,6 +123,12 @@ class WasherResult:
             branch=self.branch, film_ratio=self.film_ratio,
         )  # fmt: skip
         return float(self._error) if known is None else known
+
+    def point(self) -> Inputs:
+        """Return load, speed, tilt, oil temperature, temperature at the gear's far face."""
+        return (
+            self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature
+        )  # fmt: skip
 
     def fields(self) -> WasherFields:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""
@@ -118,7 +144,7 @@ class WasherResult:
         pressure = L.S_FIELDS + f.temp.size
         f.temp[:], f.p[:] = kept[L.S_FIELDS : pressure], kept[pressure:][: f.p.size]
         w.q[:] = kept[L.S_POSITIONS :][:4]
-        point = Point(self.load, self.speed, self.tilt, self.oil_temperature)
+        point = point_of(par, np.array(self.point()))
         evaluate_here(w, point)
         outputs_at(w, point)
 
@@ -153,7 +179,7 @@ class WasherResult:
 
 
 def result_of(
-    params: WasherParams, point: tuple[float, float, float, float], x: Sequence[float],
+    params: WasherParams, point: Inputs, x: Sequence[float],
     tilts: Sequence[float], branch: str, distress: bool, status: Status, iterations: int,
     fidelity: str, grid: tuple[int, int], error: float, state: Array,
 ) -> WasherResult:  # fmt: skip
@@ -164,12 +190,54 @@ def result_of(
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
         x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, status, iterations, fidelity,
         grid, error, *point, params, state,
+        washer_warnings(params, point, x, distress, status),
     )  # fmt: skip
 
 
-def hold_warning(result: WasherResult) -> str:
-    """Return a warning if gap 2 cannot hold the washer, else nothing."""
-    return SLIPS.format(result.stick_margin) if result.stick_margin < 1.0 else ""
+def lost_text(ratio: float, rise: float) -> str:
+    """Return the warning of a washer without a film: its film ratio and mean rise [K]."""
+    return f"film_ratio = {ratio:.3g}, mean rise {rise:.0f} K: {Status.DISTRESS.advice}"
+
+
+def washer_warnings(
+    params: WasherParams, point: Sequence[float], x: Sequence[float], distress: bool, status: Status
+) -> tuple[str, ...]:
+    """Return the warnings of a solution with these outputs of the kernels."""
+    load, speed, tilt, oil, _ = point
+    hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
+    verified = load <= LOAD[1] and SPEED[0] <= speed <= SPEED[1] and tilt <= TILT[1]
+    verified = verified and OIL[0] <= oil <= OIL[1]
+    friction = friction_warning(params, x)
+    if verified and not (hot or distress or ratio < 0.0 or margin < 1.0 or status or friction):
+        return ()
+    more = [friction] if friction else []
+    if distress:
+        more.append(lost_text(ratio, x[L.O_MEAN] - oil))
+    if ratio < 0.0:
+        more.append(PRESSED.format(1e6 * x[L.O_FILM]))
+    if margin < 1.0:
+        more.append(f"stick_margin = {margin:.3g}: {SLIPS.format(margin)}")
+    inputs = dict(zip(INPUTS, point, strict=False))
+    outputs = {"temperature_max": x[L.O_PEAK]}
+    return warnings_of(SPEC, status, inputs, outputs, more)
+
+
+def friction_warning(params: WasherParams, x: Sequence[float]) -> str:
+    """Return a warning if contacts that count press outside the data of their dry friction."""
+    contact, torque = x[L.O_CONTACT_LOAD], abs(x[L.O_TORQUE])
+    if params.friction_law != "load" or not contact > 0.0:
+        return ""
+    face = face_of(params.inner_radius, params.outer_radius)
+    low, high = params.friction_pressure_min, params.friction_pressure_max
+    pressure = contact / face
+    if low * (1.0 - 1e-9) <= pressure <= high * (1.0 + 1e-9):
+        return ""
+    held = min(max(pressure, low), high)
+    friction = params.friction_reference - params.friction_slope * math.log(held / 1e6)
+    mean_radius = 0.5 * (params.inner_radius + params.outer_radius)
+    if friction * contact * mean_radius < COUNTS * torque:
+        return ""
+    return BEYOND.format(low, high, pressure, friction)
 
 
 def _liquid_flow(m: WasherModel, f: Fields) -> tuple[Array, Array]:

@@ -3,6 +3,7 @@
 import re
 from html.parser import HTMLParser
 
+import needed
 import pytest
 from markupsafe import escape
 from toy.spec import SPEC as TOY
@@ -151,7 +152,7 @@ def test_markup_knows_headings_lists_code_and_paragraphs():
 )
 def test_the_notices_of_a_target_are_these(target, platforms, names):
     if "win64" in platforms:
-        pytest.importorskip("ziglang", reason="pip install ziglang to link for Windows")
+        needed.package("ziglang")
     found = {
         path.removeprefix(f"{PLACE}/"): text for path, text in licences(target, platforms).items()
     }

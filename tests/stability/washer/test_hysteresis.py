@@ -94,7 +94,7 @@ def test_an_fmu_goes_round_the_same_loop_twice():
     for _ in range(2):
         torques = []
         for load in path(41):
-            inp = np.array([load, 545.0, 0.002, 297.15])
+            inp = np.array([load, 545.0, 0.002, 297.15, 0.0])
             assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) < 10
             torques.append(out[0])
         rounds.append(torques)

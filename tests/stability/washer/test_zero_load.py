@@ -49,7 +49,7 @@ def test_a_washer_in_a_scene_goes_on_when_the_load_is_gone():
     out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
     torques = []
     for load in (300.0, 20.0, 1.0, 0.0, -30.0, 1.0, 20.0, 300.0):
-        inp = np.array([load, 545.0, 0.002, 297.15])
+        inp = np.array([load, 545.0, 0.002, 297.15, 0.0])
         assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) == Status.OK
         torques.append(out[0])
     assert torques[2:6] == pytest.approx([torques[2]] * 4, rel=1e-6)

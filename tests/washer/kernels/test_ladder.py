@@ -9,10 +9,17 @@ from thrustwasher.model.parameters import as_numbers
 from thrustwasher.washer.kernels import ladder
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.constants import derive_grid, size_of_par, washer_model
-from thrustwasher.washer.kernels.workspace import Workspace, fields_of, size_of_work, workspace_of
+from thrustwasher.washer.kernels.workspace import (
+    Point,
+    Workspace,
+    fields_of,
+    size_of_work,
+    workspace_of,
+)
 from thrustwasher.washer.parameters import WasherParams
 
 GRID = (6, 8)
+HERE = Point(300.0, 545.0, 2e-3, 297.15, 297.15)  # all as warm as the oil outside
 FLUX = 1e5
 ODD = np.arange(1, 2001, 2)
 RATES = (0.5 * np.pi * ODD) ** 2
@@ -39,9 +46,9 @@ class Bodies:
         """Bring all bodies through ``dt`` with a flux that is linear in time."""
         f = self.f
         f.begin[:] = f.temp
-        ladder.set_stage(self.w, dt)
+        ladder.set_stage(self.w, HERE, dt)
         self.heat(first + ladder.STAGE * (last - first))
-        ladder.set_end(self.w, dt)
+        ladder.set_end(self.w, HERE, dt)
         self.heat(last)
         ladder.advance_terms(self.w, dt)
 
@@ -120,11 +127,11 @@ def test_what_is_not_stored_leaves_through_the_far_faces(storage):
         before = b.f.ladder.copy()
         for body in (ladder.body_of(b.m, L.OF_CARRIER), ladder.body_of(b.m, L.OF_GEAR)):
             for k in range(L.N_TERMS):
-                resistance, time, _ = ladder.term(body, k)
+                t = ladder.term(body, k)
                 for j in range(body.columns):
                     at = body.at + j * body.step
                     part = slice(at + body.first, at + b.m.n_r)
-                    b.f.ladder[k, part] = (resistance * FLUX - before[k, part]) / time
+                    b.f.ladder[k, part] = (t.resistance * FLUX - before[k, part]) / t.time
         kept = b.f.temp.copy()
         b.f.temp[:] = 0.0
         assert FLUX * (one + two) - ladder.stored_heat(b.w) == pytest.approx(far, rel=1e-12)
@@ -148,7 +155,7 @@ def test_heat_stored_is_that_of_a_slab_but_for_a_few_percent():
 def test_a_steady_body_passes_on_what_enters():
     b = bodies()
     b.f.temp[:] = 30.0
-    ladder.start_terms(b.w)
+    ladder.start_terms(b.w, HERE)
     one, two = b.areas()
     out = 30.0 * (b.m.carrier_conductivity / b.m.carrier_thickness * one
                   + b.m.gear_conductivity / b.m.gear_thickness * two)  # fmt: skip
@@ -172,7 +179,7 @@ def test_a_lumped_body_follows_the_exponential_of_its_time():
 
 def test_a_face_follows_warmer_oil_as_that_of_a_slab():
     b = bodies()
-    ladder.shift_terms(b.w, 10.0)
+    ladder.shift_terms(b.w, 10.0, 10.0)
     assert b.f.temp[b.carrier] == pytest.approx(-10.0)
     assert b.f.ladder[:, b.carrier].sum(axis=0) == pytest.approx(-10.0, rel=1e-12)
     now = 0.0
@@ -197,9 +204,9 @@ def test_the_washer_stores_all_it_takes():
 @pytest.mark.parametrize("h", [1e-4, 1e-2, 1.0, 1e4])
 def test_both_stages_have_nearly_the_same_coefficient(h):
     b = bodies()
-    ladder.set_stage(b.w, h)
+    ladder.set_stage(b.w, HERE, h)
     first = b.f.small[L.OUT_CARRIER : L.OUT_SIZE].copy()
-    ladder.set_end(b.w, h)
+    ladder.set_end(b.w, HERE, h)
     assert b.f.small[L.OUT_CARRIER : L.OUT_SIZE] == pytest.approx(first, rel=0.25)
 
 
@@ -211,3 +218,53 @@ def test_a_change_that_lasts_for_a_long_step_is_a_steady_one():
     assert b.f.small[L.OUT_OIL] == pytest.approx(0.0, abs=1e-12)
     ladder.set_held(b.w, 1e-6)
     assert b.f.small[L.OUT_OIL : L.OUT_OIL + 3] == pytest.approx(1.0, abs=1e-3)
+
+
+# A gear whose far face is insulated: all heat stays in it.
+WHOLE = np.arange(1, 2001)
+
+
+def kept(fourier):
+    """Return the rise of an insulated slab's heated face over flux x thickness/conductivity."""
+    shape = np.exp(-((np.pi * WHOLE) ** 2) * fourier) / WHOLE**2
+    return fourier + 1.0 / 3.0 - 2.0 / np.pi**2 * np.sum(shape)
+
+
+def gear(b):
+    return slice(b.m.gear_at, b.m.gear_at + b.m.n_r - b.m.i_g)
+
+
+@pytest.mark.parametrize("steps", [(0.062,), (1e-4, 0.02, 0.0419), (0.0124,) * 5])
+def test_the_face_of_an_insulated_slab_warms_as_the_series_says(steps):
+    b = bodies(gear_far_face="insulated")
+    now, per_flux = 0.0, b.m.gear_thickness / b.m.gear_conductivity
+    for h in (*steps, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 300.0):
+        b.go(h)
+        now += h
+        if number(now, b.m) > 0.01:
+            exact = FLUX * per_flux * kept(number(now, b.m))
+            assert b.f.temp[gear(b)] == pytest.approx(exact, rel=1.5e-3)
+
+
+@pytest.mark.parametrize("storage", ["slab", "lumped"])
+def test_an_insulated_body_stores_all_that_enters(storage):
+    b, entered = bodies(gear_far_face="insulated", body_storage=storage), 0.0
+    body = ladder.body_of(b.m, L.OF_GEAR)
+    for h, first, last in ((1e-3, FLUX, FLUX), (0.2, 0.0, FLUX), (2.0, FLUX, -FLUX / 2)):
+        b.go(h, first, last)
+        entered += 0.5 * h * (first + last) * b.areas()[1]
+        flow, stored = ladder._through(b.m, body, b.f)
+        assert flow == 0.0
+        assert stored == pytest.approx(entered, rel=1e-12)
+
+
+def test_an_insulated_body_stays_as_warm_when_the_oil_warms_up():
+    b = bodies(gear_far_face="insulated")
+    b.go(1.0)
+    before = b.f.temp[gear(b)].copy()
+    ladder.shift_terms(b.w, 10.0, 10.0)
+    b.go(0.5, 0.0, 0.0)
+    mean = b.f.ladder[0, gear(b)]
+    warmed = FLUX * 1.0 / ladder.body_of(b.m, L.OF_GEAR).storage
+    assert mean == pytest.approx(warmed - 10.0, rel=1e-12)
+    assert np.all(b.f.temp[gear(b)] < before - 10.0)  # heat goes on into the body's depth

@@ -76,7 +76,7 @@ def test_steps_go_on_from_their_memory_and_fail_without_harming_it():
     out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
     loads = []
     for load in (300.0, 320.0):
-        inp = np.array([load, 545.0, 2e-3, 297.15, 0.0])
+        inp = np.array([load, 545.0, 2e-3, 297.15, 0.0, 0.0])
         assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) == Status.OK
         loads.append(out[0])
     assert loads[0] != loads[1]

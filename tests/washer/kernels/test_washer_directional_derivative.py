@@ -8,12 +8,24 @@ from thrustwasher.model.prepare import filled
 from thrustwasher.numerics.status import OK, SINGULAR
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels import step as k
+from thrustwasher.washer.kernels.heat import set_steady
 from thrustwasher.washer.kernels.newton import LOAD, NO_FLOOR, newton
 from thrustwasher.washer.kernels.outputs import outputs_at
-from thrustwasher.washer.kernels.workspace import Point, fields_of, forget_factor, workspace_of
+from thrustwasher.washer.kernels.regime_and_status import point_of
+from thrustwasher.washer.kernels.workspace import (
+    fields_of,
+    forget_factor,
+    model_of,
+    workspace_of,
+)
 from thrustwasher.washer.parameters import SPEC, WasherParams
 
 STEPS = (1e-3, 1e-3, 2e-3)  # of load, speed, tilt, relative
+
+
+def inputs(*given):
+    """Return inputs or a direction; the far face of the gear is at 0, as the oil, if left out."""
+    return np.array([*given, 0.0][: k.NINP], float)
 
 
 class Washer:
@@ -25,13 +37,14 @@ class Washer:
         self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
 
     def step(self, inp):
-        self.inp = np.array(inp, float)
+        self.inp = inputs(*inp)
         return k.step(self.par, self.inp, self.state, self.work, self.out, self.iout, 0.0, 1e-3)
 
     def polish(self, inp, keep_factor=False):
         """Converge the solution in ``work`` at ``inp``; return the real outputs."""
-        w, pt = workspace_of(self.par, self.work), Point(*inp)
+        w, pt = workspace_of(self.par, self.work), point_of(self.par, inputs(*inp))
         f = fields_of(w)
+        set_steady(model_of(w), pt, f)
         factor = [a.copy() for a in (f.tag, f.factor, f.following)]
         for _ in range(3):
             forget_factor(w)
@@ -57,7 +70,7 @@ class Washer:
 
     def sens(self, inp, seed):
         dout = np.full(k.NOUT, np.nan)
-        return k.sens(self.par, np.array(inp, float), self.state, self.work, seed, dout), dout
+        return k.sens(self.par, inputs(*inp), self.state, self.work, inputs(*seed), dout), dout
 
 
 POINTS = {
@@ -102,15 +115,20 @@ def test_derivatives_agree_with_differences_of_converged_solutions(place, factor
         {"cavity_shear": "liquid"},
         {"oil_supply_temperature": 330.0},
         preset_part(SPEC, "paper").parameters,
+        {"gear_far_face": "insulated"},
+        {"gear_far_face": "bulk"},
+        {"gear_far_face": "bulk", "oil_cooling": False, "conduction": "all"},
     ],
     ids=str,
 )
 def test_derivatives_of_all_outputs_hold_for_other_parameters(changes):
     washer, inp = Washer(**changes), np.array((600.0, 700.0, 0.0012, 320.0))
+    if changes.get("gear_far_face") == "bulk":
+        inp = np.append(inp, 330.0)
     assert washer.step(inp) == OK
     washer.polish(inp, keep_factor=True)
     scale = np.abs(washer.work[L.AT_OUTPUTS :][: k.NOUT])
-    for i, seed in enumerate(np.eye(4)):
+    for i, seed in enumerate(np.eye(inp.size)):
         status, dout = washer.sens(inp, seed)
         assert status == OK
         expected = washer.differences(inp, i)

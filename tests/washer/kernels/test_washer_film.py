@@ -277,7 +277,7 @@ def test_speed_and_wedge_mirror_each_other():
     for speed, gx in ((545.0, -1e-4), (-545.0, 1e-4)):
         b = bench((10, 32))
         q = tilted(b.m, 5.0, gx=gx)
-        pt = Point(300.0, speed, 0.002, 297.15)
+        pt = Point(300.0, speed, 0.002, 297.15, 297.15)
         evaluate_gaps(b.m, pt, q, b.f)
         b.f.mu[:], b.f.fluidity[:] = MU, 1.0 / MU
         evaluate_film(b.m, pt, q, b.f)

@@ -175,7 +175,7 @@ def test_change_of_the_residual_is_the_difference(name, speed):
     rng = np.random.default_rng(5)
     dq = rng.normal(size=4) * m.sigma1 * np.array([1.0, 1.0, 0.3 / m.outer_radius, 10.0])
     dtemp = rng.normal(size=temp.size)
-    change = Point(0.0, 50.0, 1e-4, 3.0)
+    change = Point(0.0, 50.0, 1e-4, 3.0, 3.0)
     evaluate(m, base, q, f, False)
     let_film_follow(m, base, change, q, dq, dtemp, f)
     told = np.empty(temp.size)
@@ -232,6 +232,6 @@ def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
 
 def test_a_washer_at_rest_stays_at_oil_temperature():
     b = bench((10, 32))
-    pt = Point(300.0, 0.0, 0.002, 297.15)
+    pt = Point(300.0, 0.0, 0.002, 297.15, 297.15)
     settle(b.m, pt, touching(b), b.f)
     assert np.all(b.f.temp == 0.0)

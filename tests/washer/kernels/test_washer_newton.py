@@ -141,7 +141,7 @@ def test_load_slope_is_the_slope_of_the_curve(changes, close):
 def residuals_from_near_by(**changes):
     """Return the residuals after 1, 2, ... full steps, each with a factor made there."""
     b = bench(GRID, **changes)
-    pt = Point(300.0, 953.0, 0.002, 297.15)
+    pt = Point(300.0, 953.0, 0.002, 297.15, 297.15)
     q, info, status = converged(LOAD, 300.0, b, pt, ratio=15.0)
     assert status == OK
     b.w.q[:], residuals = q * np.array([1.03, 1.03, 1.0, 1.0]), []
@@ -175,7 +175,7 @@ def test_solution_is_the_same_from_thin_and_thick_starts():
 def test_equal_annuli_at_rest_share_the_tilt():
     """Without film and with equal faces the washer stands half way: gy/gt = 0.5, gx = 0."""
     b = full_gear(GRID)
-    pt = Point(2000.0, 0.0, 0.002, 297.15)
+    pt = Point(2000.0, 0.0, 0.002, 297.15, 297.15)
     q, info, status = converged(LOAD, 2000.0, b, pt, ratio=1.0)
     assert status == OK, info
     assert q[3] / pt.tilt == pytest.approx(0.5, abs=5e-4)
@@ -221,7 +221,7 @@ def test_iterations_end_at_their_limit():
 def test_newton_starts_from_a_thick_film():
     """Thicker than 8.3 sigma everywhere it has no stiffness unless it starts with a pressure."""
     b = bench(GRID)
-    pt = Point(300.0, 953.0, 0.002, 297.15)
+    pt = Point(300.0, 953.0, 0.002, 297.15, 297.15)
     cold_start(b.w, pt, 15.0)
     assert newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-9, 40.0) == OK
 

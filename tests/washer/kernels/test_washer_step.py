@@ -10,7 +10,7 @@ from thrustwasher.washer.kernels import step as kernel
 from thrustwasher.washer.kernels.regime_and_status import BOUNDARY, FILM
 from thrustwasher.washer.parameters import WasherParams
 
-BASE = np.array([300.0, 545.0, 0.002, 297.15])
+BASE = np.array([300.0, 545.0, 0.002, 297.15, 0.0])
 
 
 def parameters(fidelity=float(L.FIELD)):
@@ -41,13 +41,14 @@ def ramp(k, seed=1):
     rng = np.random.default_rng(seed + k)
     load = [250.0, 800.0, 1100.0, 800.0, 300.0, 20.0][k // 4 % 6] * rng.uniform(0.97, 1.03)
     speed = 545.0 * np.cos(0.05 * k) * rng.uniform(0.99, 1.01)
-    return np.array([load, speed, 0.002 * rng.uniform(0.98, 1.02), 297.15 + rng.uniform(-1, 1)])
+    tilt, oil = 0.002 * rng.uniform(0.98, 1.02), 297.15 + rng.uniform(-1, 1)
+    return np.array([load, speed, tilt, oil, 0.0])
 
 
 def test_a_look_leaves_the_state_to_the_bit():
     """dt = 0 from nothing, after a solution, and on another branch."""
     washer = Instance()
-    for inputs in (BASE, BASE * [3.8, 1, 1, 1], BASE * [0.5, -1, 1, 1]):
+    for inputs in (BASE, BASE * [3.8, 1, 1, 1, 1], BASE * [0.5, -1, 1, 1, 1]):
         before = washer.state.copy()
         status, out, _ = washer.step(inputs, dt=0.0)
         assert status == Status.OK and np.all(np.isfinite(out))
@@ -135,7 +136,7 @@ def test_distress_and_regime_are_told():
     washer = Instance()
     told = []
     for load in (300.0, 800.0, 1100.0, 800.0, 500.0):
-        _, _, iout = washer.step(np.array([load, 545.0, 0.002, 297.15]))
+        _, _, iout = washer.step(np.array([load, 545.0, 0.002, 297.15, 0.0]))
         told.append((int(iout[L.IO_REGIME]), int(iout[L.IO_STATUS])))
     film, boundary = (FILM, Status.OK), (BOUNDARY, Status.DISTRESS)
     assert told[0] == film and told[1] == film and told[2] == boundary and told[3] == boundary
@@ -143,8 +144,8 @@ def test_distress_and_regime_are_told():
 
 
 def test_outside_the_verified_range_is_told():
-    status, _, iout = Instance().step(np.array([5000.0, 545.0, 0.002, 297.15]))
+    status, _, iout = Instance().step(np.array([5000.0, 545.0, 0.002, 297.15, 0.0]))
     assert status == Status.OK
     assert iout[L.IO_STATUS] in (Status.OUTSIDE_VERIFIED, Status.DISTRESS)
-    _, _, iout = Instance().step(np.array([100.0, 545.0, 0.002, 250.0]))
+    _, _, iout = Instance().step(np.array([100.0, 545.0, 0.002, 250.0, 0.0]))
     assert iout[L.IO_STATUS] == Status.OUTSIDE_VERIFIED

@@ -14,6 +14,7 @@ from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels import step as k
 from thrustwasher.washer.kernels.constants import derive_grid, size_of_par, washer_model
 from thrustwasher.washer.kernels.heat import conduct, set_steady
+from thrustwasher.washer.kernels.regime_and_status import point_of
 from thrustwasher.washer.kernels.workspace import (
     fields_of,
     size_of_state,
@@ -40,8 +41,8 @@ class Washer:
         self.work = np.zeros(L.N_HEAD + size_of_work(*grid))
         self.out, self.iout = np.zeros(k.NOUT), np.zeros(3, np.int32)
 
-    def go(self, dt, load=300.0, speed=545.0, tilt=2e-3, oil=OIL):
-        inp = np.array((load, speed, tilt, oil))
+    def go(self, dt, load=300.0, speed=545.0, tilt=2e-3, oil=OIL, far_face=0.0):
+        inp = self.inp = np.array((load, speed, tilt, oil, far_face))
         return k.step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
 
     def fields(self):
@@ -80,7 +81,7 @@ def matrices(w):
     """Return the conductances [W/K] and capacities [J/K] of the present gaps, bodies lumped."""
     f, n = w.fields(), w.rises().size
     conductances, capacities = np.empty((n, n)), np.zeros(n)
-    set_steady(w.m, f)
+    set_steady(w.m, point_of(w.par, w.inp), f)
     for i in range(n):
         unit, heat = np.zeros(n), np.zeros(n)
         unit[i] = 1.0
@@ -103,7 +104,7 @@ def test_capacities_are_those_of_three_annuli():
     heat *= p.density * p.specific_heat
     assert matrices(w)[1].sum() == pytest.approx(heat, rel=1e-12)
     w.fields().temp[:] = 1.0
-    ladder.start_terms(workspace_of(w.par, w.work))
+    ladder.start_terms(workspace_of(w.par, w.work), point_of(w.par, w.inp))
     assert w.stored() == pytest.approx(heat, rel=1e-12)
 
 

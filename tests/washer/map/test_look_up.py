@@ -117,7 +117,7 @@ def test_derivatives_are_those_of_the_map(small, load, speed, tilt, branch):
     w, numbers, found = np.zeros(N_MAP_WORK), np.zeros(N_ALL), np.zeros(2)
 
     def outputs(x):
-        assert look_up(small.data, Point(*x), wanted, np.zeros(40), w, numbers, found) == 0
+        assert look_up(small.data, Point(*x, x[3]), wanted, np.zeros(40), w, numbers, found) == 0
         return numbers[:NOUT].copy()
 
     step = 1e-3

@@ -58,6 +58,22 @@ class Variable:
         return low, LARGEST if self.high is None else self.high
 
 
+EVENT_OUTPUTS = ("film_ratio", "engine_speed", "temperature")  # beside the inputs in messages
+
+
+def ranges(spec: ModelSpec, room: int = 0) -> tuple[list[tuple[float, float]], ...]:
+    """Return the part's box and the verified range of every input, and of ``room`` places in all.
+
+    Where there is none it is as wide as numbers are.
+    """
+    wide = (-LARGEST, LARGEST)
+    found = (
+        [spec.box.get(s.name, wide) for s in spec.inputs],
+        [(s.verified[0], s.verified[1]) if s.verified else wide for s in spec.inputs],
+    )
+    return tuple(own + [wide] * (room - len(own)) for own in found)
+
+
 _made: dict[int, tuple[ModelSpec, tuple[Variable, ...]]] = {}
 
 

@@ -22,7 +22,7 @@ from typing import Any
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
-from ...errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, SolveError, Status
+from ...errors import EnvironmentProblem, ParameterError, SolveError, Status
 from ...model.registry import find_spec
 from ..description.model_description import LOG_CATEGORIES
 from ..model_kernels import content_digest, package_version
@@ -102,7 +102,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             logging.getLogger("thrustwasher").error("%s", problem)
             raise problem
         self.core = Core(spec)
-        self.warned = 0
 
     @_safe
     def setup_experiment(
@@ -198,12 +197,9 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             self.core.latch = Status.BAD_INPUT
 
     def _warn(self) -> None:
-        """Warn once when the solution begins to need care."""
-        status = self.core.status
-        if status != self.warned and Status.OK < status < FIRST_FAILURE:
-            self.tell(f"{self.core.spec.name} at t = {self.core.time:g} s: {status.name}: "
-                      f"{status.advice}", Fmi2Status.warning, "logStatusWarning")  # fmt: skip
-        self.warned = status
+        """Warn once when an input leaves its range or the solution begins to need care."""
+        for text in self.core.advice():
+            self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
 
 def _settle_library(folder: str | None, model: str) -> None:

@@ -13,9 +13,16 @@ from ...model.prepare import fill_table, wants_table
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...native.load import bound
-from ..description.interface import Variable, enumerations, variables
+from ..description.interface import EVENT_OUTPUTS, Variable, enumerations, ranges, variables
 from ..model_kernels import content_digest, count_places
 from .snapshot import Snapshot
+
+# What is said of an input outside the part's box, and outside what was verified: before it, behind.
+RANGES = (
+    ("", "the part's box: solved all the same, but it is not what the part is meant for; change "
+         "the input, or [box] in the part file"),
+    ("OUTSIDE_VERIFIED: ", "for which the accuracy was verified; use with care"),
+)  # fmt: skip
 
 
 class Mode(IntEnum):
@@ -53,6 +60,10 @@ class Core:
         self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
         self.status_slot = next((v.slot for v in self.variables if v.type_name == "SolverStatus"
                                  and v.store == "iout"), None)  # fmt: skip
+        self._inputs = [v for v in self.variables if v.causality == "input"]
+        self._ranges = ranges(spec, len(self._inputs))
+        self._beyond = [[False] * len(own) for own in self._ranges]
+        self._warned = 0  # the status that was last told
         self.time, self.mode = 0.0, Mode.INSTANTIATED
         self.dirty, self.prepared = True, False
         self.latch = 0  # the failure to be seen in solver_status until something changes
@@ -270,11 +281,30 @@ class Core:
         point = self._point(show=())
         return f"{self.spec.name} at {where}, {point}: {Status(rc).name}: {Status(rc).advice}"
 
-    def _point(self, show: tuple[str, ...] = ("film_ratio", "engine_speed")) -> str:
+    def _point(self, show: tuple[str, ...] = EVENT_OUTPUTS) -> str:
         """Return the inputs in words, and those of the outputs in ``show`` that there are."""
         wanted = [v for v in self.variables if v.causality == "input" or v.name in show]
         values = [(v, self._value(v)) for v in wanted]
         return ", ".join(f"{v.name} = {x:g} {v.unit}".removesuffix(" 1") for v, x in values)
+
+    def advice(self) -> list[str]:
+        """Return what the host has to be warned of now, each once until it has passed."""
+        said, unverified, begin = [], False, f"{self.spec.name} at t = {self.time:g} s: "
+        for k, (name, words) in enumerate(RANGES):
+            for i, (v, (low, high)) in enumerate(zip(self._inputs, self._ranges[k], strict=True)):
+                value, unit = self.inp.item(v.slot), f" {v.unit}".removesuffix(" 1")
+                beyond = value < low or value > high
+                unverified |= bool(k) and beyond
+                if beyond and not self._beyond[k][i]:
+                    span = f"is outside {low:g} .. {high:g}{unit}, {words}"
+                    said.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
+                self._beyond[k][i] = beyond
+        status, found = self.status, [text for *_, text in sorted(said)]
+        told = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
+        if not told and Status.OK < status < FIRST_FAILURE:
+            found.append(f"{begin}{status.name}: {status.advice}; {self._point()}")
+        self._warned = status
+        return found
 
     @property
     def status(self) -> Status:

@@ -13,7 +13,7 @@ from ...errors import FIRST_FAILURE, Status
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...native.shipped import digest_now
-from ..description.interface import Variable, enumerations, variables
+from ..description.interface import EVENT_OUTPUTS, Variable, enumerations, ranges, variables
 from ..description.model_description import LOG_CATEGORIES, TYPES, log_categories
 from ..model_kernels import count_places, has_derivatives
 from . import call_table
@@ -26,7 +26,7 @@ SHELL_FILES = (
     "fmi2.c", "fmi2_values.c", "fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c",
 )  # fmt: skip
 VERSIONS = (2, 3)  # of FMI, both in one library
-PART, MAGIC, WORD = "part.bin", b"twpart1\0", 64  # as in shell.h
+PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
 
 
 def sources(spec: ModelSpec) -> dict[str, str]:
@@ -38,14 +38,18 @@ def sources(spec: ModelSpec) -> dict[str, str]:
 
 
 def part_file(spec: ModelSpec, guid: str) -> bytes:
-    """Return resources/part.bin: build of the library, identifier, name and start values.
+    """Return resources/part.bin: build of the library, identifier, name, start values, ranges.
 
     ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
     build = sources(spec)["model.h"].partition('#define BUILD "')[2][:16]
     words = (text.encode().ljust(WORD, b"\0") for text in (guid, spec.name))
     starts = [v.start or 0.0 for v in variables(spec)]
-    body = b"".join((MAGIC, build.encode(), *words, struct.pack(f"<{len(starts)}d", *starts)))
+    ends = [
+        x for pairs in ranges(spec, max(kernel_of(spec).NINP, 1)) for pair in pairs for x in pair
+    ]
+    numbers = [*starts, *ends]
+    body = b"".join((MAGIC, build.encode(), *words, struct.pack(f"<{len(numbers)}d", *numbers)))
     return body + struct.pack("<I", zlib.crc32(body))
 
 
@@ -112,7 +116,7 @@ def _header(spec: ModelSpec, lists: dict[str, tuple[str, list[str]]]) -> str:
         "HAS_RULES": int(hasattr(kernel, "broken_rule")),
         "HAS_SENS": int(has_derivatives(spec)),
     }  # fmt: skip
-    shown = [v for v in found if v.causality == "input" or v.name in ("film_ratio", "engine_speed")]
+    shown = [v for v in found if v.causality == "input" or v.name in EVENT_OUTPUTS]
     return "\n".join([
         "/* Generated: what the shell knows about this model. */",
         "#ifndef THRUSTWASHER_MODEL_H", "#define THRUSTWASHER_MODEL_H", "",

@@ -56,5 +56,8 @@ def heat_split(record: Record, part: str) -> HeatSplit | None:
 
 def heat_splits(record: Record) -> list[HeatSplit]:
     """Return the heat of every part that makes more than LEAST_HEAT."""
-    found = (heat_split(record, part) for part in OWNERS)
+    found = [heat_split(record, part) for part in OWNERS]
+    bearings = record.series("transmission.bearing_heat")
+    if bearings is not None:  # whose heat is the oil's at once
+        found.append(HeatSplit("thrust bearings of sun and ring", bearings, None, bearings))
     return [split for split in found if split is not None and split.made[-1] > LEAST_HEAT]

@@ -6,7 +6,6 @@ from typing import Any
 
 from ...units import format_quantity as say
 from ..html import Page, Plot, Section, Table
-from . import summary
 from .live_washer import live_washer
 from .overview_plot import overview_figure
 from .shift_data import page_data, run_data
@@ -26,7 +25,7 @@ def sequence_page(result: Any) -> Page:
         f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
         f"{say(oil[-1], 'K', digits=3)}."
     )
-    warnings = summary.warnings_of_all(records)
+    warnings = list(result.warnings)
     run = run_data(whole, {}, room=ROOM, said=([said], warnings))
     run |= {"slip": None, "shifts": len(records)}
     sections = [

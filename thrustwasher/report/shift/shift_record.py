@@ -102,6 +102,10 @@ class Record:
     costs: Sequence[Cost]
     wall_time: float
     messages: Sequence[str] = ()
+    found: Sequence[str] = ()
+    """Warnings of the run and of the checks after it."""
+    step_error: Any = None
+    """What the communication step errs by (``shift.checks.step_estimate``); None: not checked."""
     judder: Any = None
     """How the output shaft swings (``shift.oscillation.judder.Judder``); None: not at all."""
     chatter: Sequence[Any] = ()
@@ -203,6 +207,8 @@ def record_of(result: Any) -> Record:
         ],
         wall_time=result.wall_time,
         messages=result.messages,
+        found=result.found,
+        step_error=result.step_error,
         judder=result.judder,
         chatter=result.chatter,
         selection=result.selection,

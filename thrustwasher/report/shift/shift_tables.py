@@ -34,6 +34,7 @@ def energy_table(record: Record) -> Table:
         ("heat in the brake", book["brake"]),
         ("heat in all thrust washers", book["washers"]),
         ("heat in all gear meshes", book["meshes"]),
+        ("heat in the thrust bearings of sun and ring", book.get("bearings", 0.0)),
         ("heat in the output shaft's damping", book.get("shaft", 0.0)),
         ("energy the output shaft's spring gained", book.get("spring", 0.0)),
         ("residual: what the book cannot account for", book["residual"]),

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...templates import environment
 from ...units import format_quantity
-from .shift_record import PACKS, Record
+from .shift_record import PACKS, Record, record_of
 from .shift_tables import source_texts
 from .usual import of_meshes
 from .worst_moments import highest, least_margin
@@ -45,8 +45,15 @@ def sentences(record: Record) -> list[str]:
 
 
 def warnings(record: Record) -> list[str]:
-    """Return what a reader must not miss."""
-    return paragraphs("warnings", record)
+    """Return what a reader must not miss: doubts about the figures, then faults they show."""
+    return [*record.found, *paragraphs("warnings", record)]
+
+
+def warnings_of(result: Any) -> list[str]:
+    """Return what a reader of a shift's or a sequence's result must not miss."""
+    if result.scene.sequence:
+        return [*result.found, *warnings_of_all([record_of(shift) for shift in result.shifts])]
+    return warnings(record_of(result))
 
 
 def warnings_of_all(records: Sequence[Record]) -> list[str]:

@@ -12,17 +12,22 @@ from ...errors import ParameterError, SolveError
 from ...numerics.jit import way
 from ..scene.connections import COMMAND
 from .loop import Run
+from .recorded import Recorded
 from .schedule import Correct, Pull
 from .system import capable, renamed
 
 
 def can_compile(run: Run) -> bool:
-    """Tell if every part gives its addresses, every action is a call, and kernels are compiled."""
+    """Tell if every part gives its addresses or plays a record, and if kernels are compiled.
+
+    A schedule with corrections runs in Python.
+    """
     if way() == "python" or sys.maxsize < 2**32:
         return False
     if any(isinstance(action, Correct) for action in run.schedule):
         return False
-    return all(hasattr(p.instance, "machine") for p in run.system.parts.values())
+    instances = [part.instance for part in run.system.parts.values()]
+    return all(hasattr(one, "machine") or isinstance(one, Recorded) for one in instances)
 
 
 class CompiledLoop:
@@ -41,13 +46,16 @@ class CompiledLoop:
         self._told, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
         self._clock, tick = wall_clock(self._ticks)
         self._now = np.zeros(recorder.rows.shape[1])
-        columns = (self._operations, self._places, [a.third for a in self.addresses],
-                   [a.said for a in self.addresses])  # fmt: skip
+        columns = (self._operations, self._places, [a.third if a else 0 for a in self.addresses],
+                   [a.said if a else 0 for a in self.addresses])  # fmt: skip
+        played = [p.instance.at(run.time[:-1]) for p in self.parts
+                  if isinstance(p.instance, Recorded)]  # fmt: skip
+        recorded = np.concatenate(played, axis=1) if played else np.zeros((1, 1))
         self._arguments: list[Any] = [
             *(np.array(column, np.int64) for column in columns), self._now, *self._buffers,
             self._told.ctypes.data, self._clock, tick, self._ticks, self._begun, self._spent,
             self._calls, run.time, run.h, run.commands,
-            recorder.input_place(hub, hub.input_names.index(COMMAND)), recorder.rows,
+            recorder.input_place(hub, hub.input_names.index(COMMAND)), recorder.rows, recorded,
         ]  # fmt: skip
         self._run(0)  # compiled or loaded before time counts
 
@@ -59,13 +67,17 @@ class CompiledLoop:
         """List the operations of one communication step, and make the buffers they use."""
         c = self.codes
         self._kinds = {"real": c.REAL, "int32": c.INT32, "int64": c.INT64, "byte": c.BYTE}
-        self.addresses = [capable(p.instance).machine() for p in self.parts]
+        self.addresses: list[Any] = [
+            None if isinstance(p.instance, Recorded) else capable(p.instance).machine()
+            for p in self.parts
+        ]
         room = sum(len(p.input_names) + len(p.output_names) for p in self.parts)
         types = (np.float64, np.int32, np.int64, np.uint8)
         self._buffers: list[NDArray[Any]] = [np.zeros(room, t) for t in types]
         self._used = [0] * len(self._buffers)
         self._places: list[int] = []
         self._operations: list[list[int]] = []
+        self._played = 0  # columns of what is recorded
         for action in self.run.schedule:
             number = self.parts.index(action.part)
             if isinstance(action, Pull):
@@ -93,6 +105,12 @@ class CompiledLoop:
     def _step(self, number: int) -> None:
         c, part, addresses = self.codes, self.parts[number], self.addresses[number]
         recorder = self.run.recorder
+        if addresses is None:
+            count = len(part.output_names)
+            self._add(c.REPLAY, number, count=count, offset=self._played,
+                      first=recorder.output_place(part, 0))  # fmt: skip
+            self._played += count
+            return
         self._add(c.BEGIN, number)
         for group in addresses.setters:
             self._call(c.SET, number, group, recorder.input_place(part, 0))

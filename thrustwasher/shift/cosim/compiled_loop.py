@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from ...numerics.jit import kernel, way
 
 # Kinds of operations
-PULL, BEGIN, SET, STEP, GET, END = range(6)
+PULL, BEGIN, SET, STEP, GET, END, REPLAY = range(7)
 # Columns of an operation. REFERENCES .. FIRST: of a group of values of one type; PULL: how many
-# pairs of places, and where in ``places`` they begin.
+# pairs of places, and where in ``places`` they begin; REPLAY: how many values, the first one's
+# place and column.
 KIND, PART, FUNCTION, COMPONENT, REFERENCES, COUNT, BUFFER, OFFSET, TYPE, FIRST = range(10)
 WIDTH = 10
 REAL, INT32, INT64, BYTE = range(4)  # types of values
@@ -167,13 +168,15 @@ def run_operations(
     told: int, clock: NDArray[np.int64], tick: float, ticks: NDArray[np.int64],
     begun: NDArray[np.float64], spent: NDArray[np.float64], calls: NDArray[np.int64],
     time: NDArray[np.float64], h: float, commands: NDArray[np.float64], command: int,
-    rows: NDArray[np.float64], stop: int, report: NDArray[np.int64],
+    rows: NDArray[np.float64], recorded: NDArray[np.float64], stop: int,
+    report: NDArray[np.int64],
 ) -> int:  # fmt: skip
     """Work through the operations for the points from ``report[AT_POINT]`` to ``stop``.
 
     Returns DONE, or REPORTED if the call before operation ``report[AT_OPERATION]`` had a status
     above WARNING or its part said something (the number at its address in ``said`` is not 0).
-    ``now`` holds the present values of all parts, ``rows`` gets them at every point.
+    ``now`` holds the present values of all parts, ``rows`` gets them at every point; ``recorded``
+    has a row for each step, what parts give that only play a record.
     """
     n = len(operations)
     while report[AT_POINT] < stop:
@@ -186,6 +189,10 @@ def run_operations(
             if kind == PULL:
                 for j in range(op[FIRST], op[FIRST] + 2 * op[COUNT], 2):
                     now[places[j]] = now[places[j + 1]]
+                continue
+            if kind == REPLAY:
+                for j in range(op[COUNT]):
+                    now[op[FIRST] + j] = recorded[i, op[OFFSET] + j]
                 continue
             if kind == BEGIN:
                 begun[part] = _seconds(clock, tick, ticks)

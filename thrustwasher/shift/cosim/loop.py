@@ -66,15 +66,6 @@ class Steps(NamedTuple):
     located: int  # events that became communication points
     forced: int  # steps of the least length, taken although they err more than the tolerance
 
-    def words(self) -> list[str]:
-        """Say what a reader has to know."""
-        if not self.forced:
-            return []
-        return [
-            f"{self.forced} steps of the least length err more than master_tolerance; something "
-            "jumps there"
-        ]
-
 
 class Run(NamedTuple):
     """What a loop works on."""

@@ -43,6 +43,9 @@ class Stepping(Protocol):
 class Capable(Stepping, Protocol):
     """All that an instance may be able to do; ask before: ``saves_state`` and the like."""
 
+    def reset(self) -> None:
+        """Go back to the parameters of the start, to be initialized again."""
+
     def get_state(self) -> Any:
         """Return a handle of the complete state."""
 

@@ -8,15 +8,17 @@ from .events_and_phases import Event, Signals, find_phases
 from .figure_list import Found
 
 JERK_TIME = 0.01  # s over which a change of acceleration counts
-SETTLED = 0.1  # s after lock-up: the new gear's acceleration
+SETTLED = 0.1  # s after the shift's end: the new gear's acceleration
 
 
 def phase_figures(scene: Scene, signals: Signals, events: list[Event], lock: float | None) -> Found:
     """Return how long torque and inertia phase last, and when the engaging piston was full."""
-    lasts = {p.name: p.end - p.start for p in find_phases(scene, signals, events)}
+    lasts: dict[str, float] = {}
+    for p in find_phases(scene, signals, events):
+        lasts[p.name] = lasts.get(p.name, 0.0) + p.end - p.start
     found: Found = {}
-    if "torque phase" in lasts:
-        found["torque_phase"] = (lasts["torque phase"], None)
+    if "torque phase" in lasts or "inertia phase" in lasts:
+        found["torque_phase"] = (lasts.get("torque phase"), None)
         found["inertia_phase"] = (lasts.get("inertia phase") if lock is not None else None, None)
     if scene.kiss_end is not None:
         kind = f"{scene.engaging}_filled"
@@ -24,8 +26,16 @@ def phase_figures(scene: Scene, signals: Signals, events: list[Event], lock: flo
     return found
 
 
-def comfort_figures(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Found:
-    """Return jerk and torque hole of the vehicle, and the engine's flare; without one none."""
+def comfort_figures(
+    scene: Scene, time: Array, signals: Signals, lock: float | None, end: float | None = None
+) -> Found:
+    """Return jerk and torque hole of the vehicle, and the engine's flare; without one none.
+
+    The hole is what is missing to the smaller of two accelerations, that at the start of the shift
+    and that settled after it. In an upshift this is the one after, in a downshift the one before:
+    what the new gear gives or takes for good is no hole. The shift ends at ``end`` [s], where the
+    later pack's slip does; without one at lock-up.
+    """
     if scene.vehicle is None:
         return {}
     felt = scene.vehicle.reach * signals["transmission.output_acceleration"]
@@ -37,15 +47,16 @@ def comfort_figures(scene: Scene, time: Array, signals: Signals, lock: float | N
         "peak_jerk": (float(change[at]) / JERK_TIME, float(time[at])),
         "torque_hole": (None, None),
     }
-    end = time[-1] if lock is None else lock
     high = signals["transmission.engine_speed"] - ratio * signals["transmission.output_speed"]
-    during = np.flatnonzero((time >= begin) & (time <= end))
+    during = np.flatnonzero((time >= begin) & (time <= (time[-1] if lock is None else lock)))
     if len(during):
         at = during[int(np.argmax(high[during]))]
         found["flare"] = (max(0.0, float(high[at])), float(time[at]))
-    if lock is not None and lock + SETTLED <= time[-1]:
-        during = np.flatnonzero((time >= begin) & (time <= lock + SETTLED))
-        at = during[int(np.argmin(felt[during]))]
-        settled = float(np.interp(lock + SETTLED, time, felt))
-        found["torque_hole"] = (max(0.0, settled - float(felt[at])), float(time[at]))
+    if lock is not None:
+        settled = max(lock, lock if end is None else end) + SETTLED
+        during = np.flatnonzero((time >= begin) & (time <= settled))
+        if len(during) and settled <= time[-1]:
+            at = during[int(np.argmin(felt[during]))]
+            smaller = float(np.min(np.interp((begin, settled), time, felt)))
+            found["torque_hole"] = (max(0.0, smaller - float(felt[at])), float(time[at]))
     return found

@@ -112,7 +112,10 @@ def _standstill(time: Array, signals: Signals, i: int) -> float:
 def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phase]:
     """Return gear, fill, torque phase, inertia phase and locked, as far as the run got.
 
-    A pack that takes over from no other has no torque phase: it slips from the ramp on.
+    In the torque phase one pack takes the torque over from the other. In an upshift it comes first;
+    in a downshift under power the speeds change first, and the pack that has locked then takes
+    over, until the other is no longer pressed. A pack that takes over from no other has no torque
+    phase: it slips from the ramp on. Stick-slip that ends soon leaves the pack locked.
     """
     stop = scene.stop_time
     start = min(max(scene.shift_start, scene.start_time), stop)
@@ -122,7 +125,7 @@ def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phas
         return next((e.time for e in found if e.kind == kind and e.time >= start), stop)
 
     lock = first(f"{pack}_locked")
-    release = min(first(f"{other}_released"), lock)
+    release, free = min(first(f"{other}_released"), lock), lock
     if signals[f"transmission.{other}_locked"][0] > 0.5:
         kiss = start
         if scene.kiss_end is not None:
@@ -135,8 +138,18 @@ def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phas
             ("torque phase", kiss, release),
             ("inertia phase", release, lock),
         ]
+        opens = scene.shift_start + scene.shift_duration
+        if scene.kiss_end is not None:
+            opens = next((e.time for e in found if e.kind == f"{other}_emptied"), lock)
+        free = min(max(opens, lock), stop)
+        marks.append(("torque phase", lock, free))
     else:
         marks = [("free", scene.start_time, start), (SLIPPING[pack], start, lock)]
     locks = [e for e in found if e.kind == f"{pack}_locked" and e.time >= start]
-    marks.append(("locked" if len(locks) < FEW else "stick-slip", lock, stop))
+    last = free
+    if len(locks) >= FEW:
+        last = locks[-1].time
+        if stop - last <= last - lock:
+            last = stop
+    marks += [("stick-slip", free, last), ("locked", max(last, free), stop)]
     return [Phase(name, a, b) for name, a, b in marks if b > a]

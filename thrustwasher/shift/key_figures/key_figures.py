@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ...model.record import absent_outputs
 from ...numerics.jit import Array
+from ...transmission.parameters import BEARINGS
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.connections import MESHES, PACKS
 from ..scene.scene import Scene
@@ -36,7 +37,8 @@ def key_figures(
     start, pack, other = scene.shift_start, scene.engaging, scene.releasing
     lock = next((e.time for e in events if e.kind == f"{pack}_locked" and e.time >= start), None)
     middle = None if scene.kiss_end is not None else start + 0.5 * scene.shift_duration
-    release = next((e.time for e in events if e.kind == f"{other}_released"), None)
+    releases = (e.time for e in events if e.kind == f"{other}_released" and e.time >= start)
+    release, end = next(releases, None), slip_end(scene, time, signals)
     found: Found = {
         "lock_time": (lock, None),
         "lock_after_ramp_start": (None if lock is None else lock - start, None),
@@ -44,15 +46,17 @@ def key_figures(
         "release_time": (release, None),
         **read_off(scene, time, signals),
         **_slip(scene, time, signals, lock),
+        "shift_heat": (shift_heat(scene, time, signals, end), None),
         **friction_figures(scene, time, signals, lock),
         **pack_figures(scene, "clutch", time, signals),
         **pack_figures(scene, "brake", time, signals),
         **tie_up_figures(scene, time, signals),
         **phase_figures(scene, signals, events, lock),
-        **comfort_figures(scene, time, signals, lock),
+        **comfort_figures(scene, time, signals, lock, None if end is None else float(time[end])),
         **judder_figures(judder),
         **washer_figures(time, signals),
         **mesh_figures(scene, time, signals),
+        **bearing_figures(scene, time, signals),
     }
     if not scene.alone:
         found["lock_speed"] = (_engine_speed(scene, time, signals, lock), None)
@@ -60,14 +64,14 @@ def key_figures(
 
 
 def _engine_speed(scene: Scene, time: Array, signals: Signals, lock: float | None) -> float | None:
-    """Return the engine's speed at lock-up; the transmission itself keeps that of the clutch.
+    """Return the engine's speed at lock-up; the transmission itself keeps the clutch's last one.
 
     When the brake locks, the drum rests and the engine runs at 1 + r times the output.
     """
     if lock is None:
         return None
     if scene.engaging == "clutch":
-        return float(signals["transmission.lock_speed"][-1])
+        return float(signals["transmission.lock_speed"][np.searchsorted(time, lock)])
     gearbox = scene.parts["transmission"].params
     ratio = 1.0 + gearbox.ratio
     return float(ratio * np.interp(lock, time, signals["transmission.output_speed"]))
@@ -101,6 +105,27 @@ def _slip(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Fo
     return found
 
 
+def slip_end(scene: Scene, time: Array, signals: Signals) -> int | None:
+    """Return the point in time from which no pressed pack slips any more; None if one still does.
+
+    A pack without load may turn on: it drags, but takes no part in the shift.
+    """
+    slips = np.zeros(len(time), dtype=np.bool_)
+    for pack in PACKS:
+        load, slip = (signals[f"transmission.{pack}_{name}"] for name in ("load", "speed"))
+        slips |= (load > 0.0) & (slip != 0.0)
+    during = np.flatnonzero(slips & (time >= scene.shift_start))
+    return int(during[-1]) + 1 if len(during) and during[-1] + 1 < len(time) else None
+
+
+def shift_heat(scene: Scene, time: Array, signals: Signals, end: int | None) -> float | None:
+    """Return the heat [J] of both packs from the start of the shift to the end of its last slip."""
+    if end is None:
+        return None
+    heat = np.sum([signals[f"transmission.{pack}_heat"] for pack in PACKS], axis=0)
+    return float(heat[end] - np.interp(scene.shift_start, time, heat))
+
+
 def energy_balance(signals: Signals) -> dict[str, float]:
     """Return every entry of the energy balance [J] and its errors with their shares.
 
@@ -121,6 +146,7 @@ def energy_balance(signals: Signals) -> dict[str, float]:
         "brake": last("transmission.brake_heat"),
         "washers": last("transmission.washer_heat"),
         "meshes": last("transmission.mesh_heat"),
+        "bearings": last("transmission.bearing_heat"),
         "shaft": last("transmission.shaft_heat"),
         "spring": last("transmission.shaft_energy"),
         "residual": last("transmission.energy_residual"),
@@ -147,8 +173,7 @@ def least(values: Array, time: Array) -> tuple[float | None, float | None]:
     return (float(values[i]), float(time[i])) if np.isfinite(values[i]) else (None, None)
 
 
-# What a figure is of a signal. Torques are those of the pack itself: the driveline's overshoots for
-# a step where the extrapolated capacity has a corner.
+# What a figure is of a signal.
 READINGS: dict[str, Callable[[Array, Array], tuple[float | None, float | None]]] = {
     "greatest": peak,
     "least": least,
@@ -162,12 +187,25 @@ def in_use(pack: str, signals: Signals) -> bool:
     return bool(np.any(signals[f"{pack}.load"] > 0.0))
 
 
+def carried_torque(pack: str, signals: Signals) -> Array:
+    """Return the size of the torque that a pack carries [N m].
+
+    A locked pack carries what the driveline asks of it. A slipping one carries its own friction:
+    the driveline's reading of that overshoots for a step where the extrapolated capacity has a
+    corner.
+    """
+    locked = signals[f"transmission.{pack}_locked"] > 0.5
+    reaction, own = signals[f"transmission.{pack}_reaction"], signals[f"{pack}.friction_torque"]
+    return np.abs(np.where(locked, reaction, own))
+
+
 def pack_figures(scene: Scene, pack: str, time: Array, signals: Signals) -> Found:
     """Return the heat, flux and share of oil of one pack; of one in use only."""
     if not in_use(pack, signals):
         return {}
     area = scene.parts[pack].params.lining_area
     found: Found = {
+        f"peak_{pack}_torque": peak(carried_torque(pack, signals), time),
         f"{pack}_heat_per_area": (float(signals[f"transmission.{pack}_heat"][-1]) / area, None),
         f"peak_{pack}_heat_flux": peak(np.abs(signals[f"{pack}.friction_power"]) / area, time),
     }
@@ -210,7 +248,8 @@ def friction_figures(scene: Scene, time: Array, signals: Signals, lock: float | 
     if lock is not None:
         found["friction_lock"] = (float(coefficient[last]), float(time[last]))
         less = during[coefficient[during] < FULL * coefficient[last]]
-        if len(less) and less[-1] < last:
+        falls = np.max(coefficient[during]) * FULL <= coefficient[last]  # else nothing is full
+        if falls and len(less) and less[-1] < last:
             pair = slice(less[-1], less[-1] + 2)
             full = FULL * coefficient[last]
             speed, when = (np.interp(full, coefficient[pair], v[pair]) for v in (slip, time))
@@ -304,6 +343,17 @@ def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
         if own := of_all(f"stress_utilization_{steel}"):
             found[f"stress_margin_{steel}"] = least(1.0 - np.max(own, axis=0), time)
     return found
+
+
+def bearing_figures(scene: Scene, time: Array, signals: Signals) -> Found:
+    """Return heat and greatest power of the thrust bearings; nothing without one."""
+    gearbox = scene.parts["transmission"].params
+    if not any(getattr(gearbox, f"{name}_coefficient") for name in BEARINGS):
+        return {}
+    return {
+        "bearing_loss": (float(signals["transmission.bearing_heat"][-1]), None),
+        "peak_bearing_power": peak(signals["transmission.bearing_power"], time),
+    }
 
 
 def least_film(part: str, time: Array, signals: Signals) -> tuple[float | None, float | None]:

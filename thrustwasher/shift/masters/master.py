@@ -18,6 +18,7 @@ class Master(NamedTuple):
 
     schedule: Callable[[System], Schedule]
     torque_age: int  # how many steps the torques that the transmission receives are old
+    in_python: bool = False  # it works beside the instances in every step: no compiled loop
     adaptive: bool = False  # it chooses its steps itself; communication points then lie anywhere
 
 
@@ -27,7 +28,7 @@ MASTERS: dict[str, Master] = {
     # All parts step at once with the inputs of the last point.
     "jacobi": Master(schedule.jacobi, 1),
     # As gauss-seidel, torques corrected to the end of the step by their derivatives.
-    linearly_implicit.NAME: Master(linearly_implicit.schedule, 0),
+    linearly_implicit.NAME: Master(linearly_implicit.schedule, 0, in_python=True),
     # As gauss-seidel, steps as long as master_tolerance allows, with rollback.
-    step_doubling.NAME: Master(schedule.gauss_seidel, 0, adaptive=True),
+    step_doubling.NAME: Master(schedule.gauss_seidel, 0, in_python=True, adaptive=True),
 }

@@ -2,10 +2,9 @@
 
 ===================  ==============================================================================
 ``scene``            ``Scene`` and its parts, checked; which rung or tolerance is asked for
-``oil``              the one oil of all parts, from points of its viscosity
 ``scene_file``       TOML file -> ``Scene``; the built-in ones lie in ``../scenes``
-``scene_tables``     numbers with their units; engine, vehicle, pressures, oil
-``contradictions``   what the parts of a scene say against each other
+``scene_tables``     numbers with their units; engine, vehicle, pressures, thrust bearings
+``doubts``           what a scene says that is hardly meant
 ``sequence``         several shifts in one run, each as a scene
 ``connections``      which parts there are, of which models, and who passes what to whom
 ===================  ==============================================================================

@@ -1,7 +1,7 @@
 """The parts of a shift, who passes what to whom, and all else that is told part by part."""
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ...clutch import parameters
 from ...command import parameters as command_params
@@ -57,10 +57,19 @@ SOURCE = "command"  # the part that sends the shift command
 SOURCE_SPEC = command_params.SPEC  # its model
 
 
-def links(coupling: str, present: set[str]) -> list[Link]:
-    """Return the links between the parts present; ``coupling`` says what the packs send."""
+def wired(parts: Mapping[str, Any]) -> list[Link]:
+    """Return the links between the parts of a scene."""
+    far_face = parts["washer"].params.gear_far_face if "washer" in parts else ""
+    return links(parts["transmission"].params.coupling, set(parts), far_face)
+
+
+def links(coupling: str, present: set[str], far_face: str = "") -> list[Link]:
+    """Return the links between the parts present.
+
+    ``coupling`` says what the packs send, ``far_face`` what the gear behind a washer borders on.
+    """
     found = []
-    for table in ("signals", coupling, "more"):
+    for table in ("signals", coupling, "more", *(["bulk"] if far_face == "bulk" else [])):
         for given, taken in _TABLE[table].items():
             link = Link(*taken.split("."), *given.split("."))
             if link.input == "oil_temperature" and "sump" in present:

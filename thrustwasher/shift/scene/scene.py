@@ -12,10 +12,12 @@ from ...model.spec import ModelSpec
 from ...model.toml_tables import number
 from ...transmission.parameters import COURSES, course_points
 from ...transmission.vehicle import Vehicle
+from ...units import format_quantity
 from ..masters.master import MASTERS
 
 MAX_STEPS = 500_000  # all signals of so many steps still fit into memory
 STEP_RANGE = (1e-6, 1.0)  # s
+STEPS_OF_A_SHIFT = 20.0  # at least
 TOLERANCE_RANGE = (1e-9, 0.1)  # of master_tolerance
 
 
@@ -91,7 +93,7 @@ class Scene:
     notes: tuple[str, ...] = ()
     """What a reader of a run has to know of its making."""
     warnings: tuple[str, ...] = ()
-    """What its parts say against each other."""
+    """What is doubtful in the scene itself, one line each."""
     sequence: ShiftSequence | None = None
     """Several shifts in one run; None: the one that the scene's own ramp or courses make."""
 
@@ -113,6 +115,32 @@ class Scene:
     def releasing(self) -> str:
         """The pack that the ramp lets go."""
         return "brake" if self.engaging == "clutch" else "clutch"
+
+    @property
+    def longest_step(self) -> float:
+        """The longest communication step [s] that makes sense: a twentieth of the shift.
+
+        Where no pack hands over to the other, and where the command jumps, how long it takes is
+        known after the run only: there the time from the command's start to the end of the run
+        counts.
+        """
+        gearbox, lasts = self.parts["transmission"].params, self.shift_duration
+        hands_over = gearbox.actuation == "pressure" or (
+            gearbox.clutch_force > 0.0 and gearbox.brake_force > 0.0
+        )
+        if not (hands_over and lasts > 0.0):
+            lasts = self.stop_time - max(self.shift_start, self.start_time)
+            lasts = lasts if lasts > 0.0 else self.stop_time - self.start_time
+        return lasts / STEPS_OF_A_SHIFT
+
+    def check_step(self) -> None:
+        """Raise ParameterError if the step is too long for the shift."""
+        longest = self.longest_step
+        if self.step > longest * (1.0 + 1e-9):
+            raise ParameterError(
+                f"scene {self.name!r}: step = {format_quantity(self.step, 's', digits=4)}, allowed "
+                f"here: up to {format_quantity(longest, 's', digits=3)}, a twentieth of the shift"
+            )
 
     @property
     def alone(self) -> bool:
@@ -176,6 +204,8 @@ class Scene:
                 f"{where}: stop_time = {self.stop_time!r} s, allowed: start_time + 1 .. "
                 f"{MAX_STEPS} steps of {self.step!r} s (start_time = {self.start_time!r} s)"
             )
+        if not self.sequence:
+            self.check_step()
         for name, part in self.parts.items():
             with within(f"{where} [{name}]"):
                 check_together(part.spec, part.params, part.fidelity)
@@ -199,7 +229,7 @@ def _with(params: Any, **values: Any) -> Any:
     return replace(params, **new) if new else params
 
 
-def shift_of_pressures(gearbox: Any) -> dict[str, float]:
+def shift_of_pressures(gearbox: Any) -> dict[str, Any]:
     """Return the shift that courses of pressure make, as fields of a scene.
 
     The pack whose pressure ends higher than it began engages; the shift begins where its pressure

@@ -4,6 +4,7 @@ A number may carry its unit, "24 degC" or "3000 rpm"; a bare number is SI. A sce
 takes everything from that scene and changes what it names.
 """
 
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from importlib import resources
 from importlib.resources.abc import Traversable
@@ -12,14 +13,24 @@ from typing import Any
 
 from ...errors import ParameterError, suggestion, within
 from ...ladder.choose import rung_and_tolerance
-from ...model.parameters import other_names_of, plainly_named
+from ...model.oil import (
+    SHEET,
+    VISCOSITY,
+    Oil,
+    oil_table,
+    read_oil,
+    too_stiff,
+    viscosity_of,
+)
+from ...model.oil_laws import ZERO
+from ...model.parameters import earlier_of, other_names_of, plainly_named
 from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
+from ...transmission.parameters import BEARINGS
 from ..key_figures.figure_list import FIGURES
-from . import oil
 from .connections import MESHES, PARTS, REQUIRED
-from .contradictions import contradictions
+from .doubts import doubts
 from .scene import (
     STEP_RANGE,
     TOLERANCE_RANGE,
@@ -28,7 +39,7 @@ from .scene import (
     Scene,
     shift_of_pressures,
 )  # fmt: skip
-from .scene_tables import driveline_table, oil_of, vehicle_of
+from .scene_tables import driveline_table, vehicle_of
 from .sequence import checked_sequence, read_sequence
 
 # Key -> (unit, least, largest); texts have no unit.
@@ -40,6 +51,7 @@ NUMBERS = {
     "master_tolerance": ("1", *TOLERANCE_RANGE),
     "oil_temperature": ("K", 233.15, 473.15),
 }
+ONE_OIL = 1.2  # ratio of viscosities up to which parts may be said to have one oil
 ROLE = ("starts_pressed",)  # what a scene, not a part file, says of a part
 SHIFT = {
     "start": ("s", -1e6, 1e6),
@@ -47,7 +59,9 @@ SHIFT = {
     "from": ("1", 0.0, 1.0),
     "to": ("1", 0.0, 1.0),
 }
-TABLES = ("shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *PARTS)
+TABLES = (
+    "shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *BEARINGS, *PARTS
+)  # fmt: skip
 
 
 def builtin_scenes() -> list[str]:
@@ -60,19 +74,18 @@ def _folder() -> Traversable:
     return resources.files(__package__.rpartition(".")[0]) / "scenes"
 
 
-def load_scene(name_or_path: str | Path) -> Scene:
-    """Return a built-in scene by name, or the scene of a TOML file."""
+def load_scene(name_or_path: str | Path, oil: str | Mapping[str, Any] | None = None) -> Scene:
+    """Return a built-in scene by name, or the scene of a TOML file; with another ``oil``."""
     name = str(name_or_path)
-    table = _read(name)
-    if name.endswith(".toml"):
-        name = Path(name).stem
-    return _scene(name, table)
+    table = _read(name, {} if oil is None else {"oil": oil_table("oil", oil)})
+    own = name.endswith(".toml")
+    return _scene(Path(name).stem if own else name, table, own)
 
 
-def _read(name: str) -> dict[str, Any]:
-    """Return the merged tables of a scene and its bases."""
+def _read(name: str, top: dict[str, Any]) -> dict[str, Any]:
+    """Return the merged tables of a scene and its bases; ``top`` replaces what they say."""
     seen: list[str] = []
-    merged: dict[str, Any] = {}
+    merged = top
     while name or not seen:
         if name in seen:
             raise ParameterError(f"scene {name!r}: its bases go round in a circle")
@@ -99,6 +112,8 @@ def _parse(name: str) -> dict[str, Any]:
         raise ParameterError(
             f"scene = {name!r}, allowed: {', '.join(known)} or the path of a .toml file{hint}"
         )
+    if isinstance(table.get("oil"), str):
+        table["oil"] = oil_table("oil", table["oil"])
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
             own = table[part] = plainly_named(other_names_of(spec.params), table[part])
@@ -112,8 +127,10 @@ def _without_parts(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
     result = dict(base)
     for key, said in base.items():
         new = top.get(key)
-        if key == "oil" and isinstance(new, dict) and set(new) & set(oil.VISCOSITY):
-            result[key] = {k: x for k, x in said.items() if k not in oil.VISCOSITY}
+        if key == "oil" and isinstance(new, dict) and isinstance(said, dict):
+            gone = set(VISCOSITY) if set(new) & set(VISCOSITY) else set()
+            gone |= {"density"} if set(new) & {"name", *SHEET} else set()  # they give one
+            result[key] = {k: x for k, x in said.items() if k not in gone}
         if key in PARTS and isinstance(said, dict) and isinstance(new, dict):
             if "part" in new:
                 result[key] = {k: x for k, x in said.items() if k in ROLE}
@@ -131,7 +148,7 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
     return result
 
 
-def _scene(name: str, table: dict[str, Any]) -> Scene:
+def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
     where = f"scene {name!r}"
     nothing_else(where, table, [*TEXTS, *NUMBERS, *TABLES])
     for key, value in table.items():
@@ -145,11 +162,18 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
     for key in (*REQUIRED, moves, "stop_time"):
         if key not in table:
             raise ParameterError(f"{where}: {key!r} is missing")
-    numbers = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
+    numbers: dict[str, Any] = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
     numbers |= {k: number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
     vehicle = vehicle_of(f"{where} [vehicle]", table.get("vehicle"))
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
-    parts, notes = _parts(where, table, numbers["oil_temperature"])
+    given = read_oil(f"{where} [oil]", table.get("oil", {}))
+    parts, notes = _parts(where, table, given or Oil(), numbers["oil_temperature"])
+    if "washer" in parts and "mesh" not in parts:
+        if parts["washer"].params.gear_far_face == "bulk":
+            raise ParameterError(
+                f"{where} [washer]: gear_far_face = 'bulk', allowed: beside [mesh], whose bulk "
+                "temperature it takes"
+            )
     scene = Scene(
         name=name,
         title=table.get("title", name),
@@ -159,7 +183,7 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
         vehicle=vehicle,
         sequence=None,
         notes=tuple(notes),
-        warnings=contradictions(parts),
+        warnings=tuple(_oil_warnings(given, parts, numbers["oil_temperature"], own)),
         published=_published(f"{where} [published]", table.get("published")),
         **(
             _shift(f"{where} [shift]", table["shift"])
@@ -171,14 +195,14 @@ def _scene(name: str, table: dict[str, Any]) -> Scene:
     if "sequence" in table:
         where = f"{where} [sequence]"
         scene = checked_sequence(where, scene, read_sequence(where, scene, table["sequence"]))
-    return scene.checked()
+    scene = scene.checked()
+    return replace(scene, warnings=(*scene.warnings, *doubts(scene)))
 
 
 def _parts(
-    where: str, table: dict[str, Any], temperature: float
+    where: str, table: dict[str, Any], the_oil: Oil, temperature: float
 ) -> tuple[dict[str, Part], list[str]]:
-    """Return the parts of a scene, and what of them is not the scene's common oil."""
-    the_oil = oil_of(f"{where} [oil]", table.get("oil", {}))
+    """Return the parts of a scene, and what is to be known of their oil."""
     parts: dict[str, Part] = {}
     notes = []
     for key in PARTS:
@@ -187,7 +211,7 @@ def _parts(
             if "fidelity" in table and len(PARTS[key].fidelities) > 1:
                 given.setdefault("fidelity", table["fidelity"])  # the scene's word for all parts
             with within(f"{where} [oil]"):
-                common = oil.parameters_of(the_oil, PARTS[key])
+                common = the_oil.parameters_for(PARTS[key])
             if own := [name for name in common if name in given]:
                 notes.append(f"{key}: {', '.join(own)} of its own, not of the scene's oil")
             if key == "sump":
@@ -198,7 +222,33 @@ def _parts(
             if lost:
                 notes.append(f"{key}: {', '.join(lost)} of its part or preset give way to "
                              "the scene's oil; named in the scene they stay")  # fmt: skip
+    if the_oil.density_15:
+        notes.append(the_oil.words(*_specs(parts)))
     return parts, notes
+
+
+def _specs(parts: Mapping[str, Part]) -> list[ModelSpec]:
+    """Return the models of the parts, each once."""
+    return list({part.spec.key: part.spec for part in parts.values()}.values())
+
+
+def _oil_warnings(
+    given: Oil | None, parts: Mapping[str, Part], temperature: float, own: bool
+) -> list[str]:
+    """Return what is doubtful of the parts' oil; ``own``: the scene is none of the package's."""
+    stiff = [text for p in parts.values() for text in too_stiff(p.spec, p.params, temperature)]
+    if given and (given.density_15 or given.points):
+        return [*given.warnings(_specs(parts), temperature), *dict.fromkeys(stiff)]
+    known = {key: viscosity_of(p.spec, p.params, temperature) for key, p in parts.items()}
+    found = {key: x for key, x in known.items() if x}
+    if not own or not found or max(found.values()) < ONE_OIL * min(found.values()):
+        return stiff
+    told = ", ".join(f"{key} {1e3 * x:.3g} mPa.s" for key, x in found.items())
+    return [
+        f"no viscosity in [oil], so that each part has an oil of its own: {told} at "
+        f'{temperature - ZERO:.4g} degC; give the scene one, as in oil = "Dexron VI"',
+        *stiff,
+    ]
 
 
 def _sump(table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
@@ -212,7 +262,7 @@ def _mates(gearbox: Any) -> dict[str, int]:
     return {"mates_pinion": 2, "mates_gear": gearbox.planets}
 
 
-def _shift(where: str, table: dict[str, Any]) -> dict[str, float]:
+def _shift(where: str, table: dict[str, Any]) -> dict[str, Any]:
     """Return the ramp of the shift command, as fields of a scene."""
     nothing_else(where, table, SHIFT)
     given = {f"shift_{key}": number(where, key, x, SHIFT[key]) for key, x in table.items()}
@@ -249,6 +299,7 @@ def _part(
     ``usual`` are the scene's parameters where neither its table nor the part's file has its own.
     """
     known = {f.name: f.metadata for f in fields(spec.params)}
+    earlier = earlier_of(spec.params)
     given = dict(table)
     with within(where):
         values, rung, told = _start(spec, given.pop("part", None), given.pop("preset", None))
@@ -256,7 +307,8 @@ def _part(
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values = usual | values | common
     fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", rung))
-    nothing_else(where, given, ["fidelity", "part", "preset", *known])
+    nothing_else(where, given, ["fidelity", "part", "preset", *known, *earlier])
+    known |= earlier
     for key, value in given.items():
         if key in RESERVED:
             raise ParameterError(f"{where}: {key} cannot be set here; {RESERVED[key]}")

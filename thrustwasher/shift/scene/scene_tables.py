@@ -1,13 +1,12 @@
-"""Tables of a scene file: engine, vehicle, pressures and oil."""
+"""Tables of a scene file: engine, vehicle, pressures, thrust bearings and oil."""
 
 from dataclasses import fields
 from typing import Any
 
 from ...errors import ParameterError, within
-from ...model.toml_tables import nothing_else, number, quantity, read_value, unknown
-from ...transmission.parameters import COURSES, course_fields
+from ...model.toml_tables import nothing_else, quantity, read_value, unknown
+from ...transmission.parameters import BEARINGS, COURSES, SHAFT, course_fields
 from ...transmission.vehicle import Vehicle
-from . import oil
 from .connections import PACKS
 
 # Key of [pressure.clutch], [pressure.brake] -> parameter of the transmission, {} the pack.
@@ -19,6 +18,15 @@ TURNING = {
     "inner_radius": "piston_inner_radius", "outer_radius": "piston_outer_radius",
     "supply_radius": "piston_supply_radius", "balance_share": "balance_share",
 }  # fmt: skip
+
+NEEDLES = 0.004  # friction of a needle thrust bearing at its mean radius: an estimate
+# Of [transmission], what acts no more beside a table: key -> (table, what it says instead).
+USELESS = {
+    "engine_torque": ("engine", "its points"),
+    "engine_start_time": ("engine", "its points"),
+    "clutch_force": ("pressure", "courses of pressure"),
+    "brake_force": ("pressure", "courses of pressure"),
+}
 
 
 def pairs(
@@ -46,10 +54,6 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
                 more[name] = engine.pop(key)
         more |= points_of(f"{where} [engine]", "engine_torque", "torque", engine)
         nothing_else(f"{where} [engine]", engine, ["points", "speed", "inertia"])
-        if "engine_torque" in given:
-            raise ParameterError(
-                f"{where} [engine]: beside [transmission] engine_torque, allowed: one"
-            )
     for pack, own in table.get("pressure", {}).items():
         if pack not in PACKS or not isinstance(own, dict):
             raise unknown(f"{where} [pressure]", pack, list(PACKS))
@@ -59,13 +63,40 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
         more |= {name.format(pack): own.pop(key) for key, name in keys.items() if key in own}
         nothing_else(place, own, ["points", *keys])
         more["actuation"] = "pressure"
+    for name in BEARINGS:
+        if name in table:
+            more |= bearing_of(f"{where} [{name}]", name, table[name])
+    for name, (other, says) in USELESS.items():
+        if name in given and other in table:
+            raise ParameterError(
+                f"{where} [transmission]: {name} = {given[name]!r} beside [{other}], allowed: one "
+                f"of them ({says} would act alone)"
+            )
     for name in more:
         if name in given:
             raise ParameterError(
                 f"{where} [transmission]: {name} = {given[name]!r} beside a table that gives "
-                "it ([engine], [vehicle] or [pressure]), allowed: one of them"
+                "it ([engine], [vehicle], [pressure] or a bearing's), allowed: one of them"
             )
     return given | more
+
+
+def bearing_of(where: str, name: str, table: dict[str, Any]) -> dict[str, Any]:
+    """Return the parameters of a thrust bearing: the shafts it lies between, friction, radius."""
+    nothing_else(where, table, ["between", "coefficient", "mean_radius"])
+    more = {f"{name}_coefficient": table.get("coefficient", NEEDLES)}
+    if "mean_radius" in table:
+        more[f"{name}_mean_radius"] = table["mean_radius"]
+    if "between" in table:
+        ends = table["between"]
+        pair = isinstance(ends, list) and len(ends) == 2 and all(end in SHAFT for end in ends)
+        if not pair or ends[0] == ends[1]:
+            raise ParameterError(
+                f"{where}: between = {ends!r}, allowed: two different shafts of "
+                f'{", ".join(SHAFT)}, as in ["{next(iter(SHAFT))}", "carrier"]'
+            )
+        more |= {f"{name}_shaft_1": ends[0], f"{name}_shaft_2": ends[1]}
+    return more
 
 
 def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
@@ -86,22 +117,3 @@ def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[s
     )
     with within(where):
         return course_fields(name, points)
-
-
-def oil_of(where: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Return the scene's oil: numbers in SI units, the viscosity as points."""
-    nothing_else(where, table, [*oil.NUMBERS, *oil.VISCOSITY])
-    found: dict[str, Any] = {
-        k: number(where, k, table[k], oil.NUMBERS[k][:3]) for k in oil.NUMBERS if k in table
-    }
-    given = [k for k in oil.VISCOSITY if k in table]
-    if len(given) > 1:
-        raise ParameterError(f"{where}: viscosity beside kinematic_viscosity, allowed: one")
-    for key in given:
-        unit, factor = ("Pa.s", 1.0) if key == "viscosity" else (
-            "m2/s", found.setdefault("density", oil.DENSITY)
-        )  # fmt: skip
-        found["viscosity"] = [
-            (t, factor * x) for t, x in pairs(where, key, table[key], ("temperature", "K"), unit)
-        ]
-    return found

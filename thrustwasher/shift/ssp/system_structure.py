@@ -18,7 +18,7 @@ from ...model.spec import ModelSpec, Signal, tailored
 from ...model.toml_tables import table_beside
 from ..cosim.system import Stepping
 from ..run import connected
-from ..scene.connections import COMMAND, SOURCE, SOURCE_SPEC, Link, links
+from ..scene.connections import COMMAND, SOURCE, SOURCE_SPEC, Link, wired
 from ..scene.scene import Part, Scene
 
 MASTER = "jacobi"
@@ -81,10 +81,9 @@ def start_values(scene: Scene, instances: Mapping[str, Stepping]) -> Starts:
 def plan(scene: Scene, starts: Starts) -> Structure:
     """Return components, connections and outputs of a prepared scene."""
     parts = {SOURCE: _source(scene), **scene.parts}
-    coupling = scene.parts["transmission"].params.coupling
     # The oil's temperature is a number, not a signal: masters that start every connected input at
     # zero would send 0 K for a step.
-    used = [k for k in links(coupling, set(parts)) if k.input != OIL]
+    used = [k for k in wired(parts) if k.input != OIL]
     used.append(Link(SOURCE, "command", "transmission", COMMAND))
     return Structure(
         scene=scene,

@@ -2,9 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from ...errors import ParameterError, SolveError
 from ...ladder.own_tables import RUNS, build_where_it_pays
+from ..checks.guard import guarded
 from ..masters.master import MASTERS
 from ..run import Progress, run_shift
 from ..scene.connections import DIRECT
@@ -32,14 +34,16 @@ def run_auto(
     scene : what to simulate; ``tolerance`` of a part is the relative error asked for
     make : returns an instance of a part, of the fidelity that stands in it; whoever makes it closes
         it. One that has ``reset`` is used again
-    guard : check the choice after the run, and run again a rung higher where it does not hold
+    guard : check the run afterwards: its step by a second run with shorter ones, washers that were
+        taken as steady by following them in time, and rungs that were chosen; run again a rung
+        higher where one does not hold, or in time where a washer of a tolerance is not steady
     build_maps : build the map of a washer that no card speaks of where that pays, and keep it;
         ``make`` has to find it
     progress, compiled : as in ``run_shift``
 
     Returns
     -------
-    ShiftResult : with ``selection`` and, if it was checked, ``guard``
+    ShiftResult : with ``selection``, if rungs were chosen, and with what the checks found
 
     Raises
     ------
@@ -50,11 +54,14 @@ def run_auto(
     def run(now: Scene) -> ShiftResult:
         return run_shift(now, pool.all_of(now), progress=progress, compiled=compiled)
 
+    second, given = partial(run_shift, compiled=compiled), pool.all_but
+
     scene, remarks = _without_choice(scene)
     wanted = [p.tolerance for p in scene.parts.values() if p.tolerance]
     if not wanted:
         result = run(scene)
-        return replace(result, messages=[*result.messages, *remarks])
+        result = replace(result, messages=[*result.messages, *remarks])
+        return guarded(result, given, second) if guard else result
     if MASTERS[scene.master].adaptive:
         raise ParameterError(
             f"master = {scene.master!r}, allowed with a fidelity that is to be chosen: masters "
@@ -69,7 +76,36 @@ def run_auto(
     result = run(with_rungs(scene, {c.part: c.rung for c in chosen}))
     if guard:
         result = _checked(result, chosen, pool, run)
+        result = guarded(result, given, second)
+        if _to_follow(scene, result):
+            in_time = _without_choice(_in_time(scene))[0]
+            rungs = {n: p.fidelity for n, p in result.scene.parts.items() if n not in DIRECT}
+            again = guarded(run(with_rungs(in_time, rungs)), given, second)
+            record, words = result.guard, _words_again(result)
+            result = replace(again, guard=record, messages=[*again.messages, words])
     return replace(result, selection=selection, messages=[*result.messages, *remarks])
+
+
+def _to_follow(scene: Scene, result: ShiftResult) -> bool:
+    """Tell if a washer whose rung was to be chosen is not steady in the run."""
+    return any(scene.parts[n].tolerance and w.differences for n, w in result.in_time.items())
+
+
+def _in_time(scene: Scene) -> Scene:
+    """Return the scene with washers whose bodies store heat, at a rung that can follow it."""
+    parts = dict(scene.parts)
+    for name in DIRECT:
+        if (part := parts.get(name)) is not None:
+            params = replace(part.params, thermal_mode="transient")
+            rung = part.spec.default_fidelity if part.tolerance else part.fidelity
+            parts[name] = replace(part, params=params, fidelity=rung)
+    return replace(scene, parts=parts)
+
+
+def _words_again(result: ShiftResult) -> str:
+    """Say why a run was repeated with washers in time."""
+    said = [text for n, w in result.in_time.items() for text in w.warnings(n, "")]
+    return "; ".join(f"run again with thermal_mode transient: {t.rstrip(' ;')}" for t in said)
 
 
 def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:

@@ -52,7 +52,11 @@ class Pool:
 
     def all_of(self, scene: Scene) -> dict[str, Stepping]:
         """Return an instance for every part of a scene."""
-        return {name: self.take(name, part) for name, part in scene.parts.items()}
+        return self.all_but(scene, {})
+
+    def all_but(self, scene: Scene, given: Mapping[str, Stepping]) -> dict[str, Stepping]:
+        """Return an instance for every part of a scene, those that are given as they are."""
+        return {n: given.get(n) or self.take(n, part) for n, part in scene.parts.items()}
 
 
 class TrialRuns(NamedTuple):
@@ -87,7 +91,8 @@ def trial_runs(scene: Scene, pool: Pool, compiled: bool | None = None) -> TrialR
     open_ = {name: part.spec for name, part in scene.parts.items() if part.tolerance}
     rungs = {n: cheap_rung(n, scene.parts[n]) for n in open_}
     span = scene.stop_time - scene.start_time
-    step = min(STRIDE * scene.step, max(scene.step, span / LEAST_STEPS), STEP_RANGE[1] / 2.0)
+    most = min(STEP_RANGE[1], scene.longest_step) / 2.0
+    step = min(STRIDE * scene.step, max(scene.step, span / LEAST_STEPS), most)
 
     def run(h: float, taken: Mapping[str, str]) -> ShiftResult:
         now = with_rungs(scene, taken).with_options(step=min(h, span))

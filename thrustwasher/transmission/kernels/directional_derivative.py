@@ -14,7 +14,7 @@ from ...numerics.smoothing import sign_of
 from ...numerics.status import NOT_FINITE, OK
 from . import dynamics
 from . import layout as L
-from .dynamics import clutch_share, drum_speed
+from .dynamics import drum_speed
 from .piston import force
 
 LEAST_WASHER_LOAD = 1.0  # N
@@ -85,6 +85,31 @@ def share_change(
 
 
 @kernel
+def balance_change(
+    par: Array, work: Array, clutch: tuple[float, float], brake: tuple[float, float], drag: float,
+    engine: float, load: float, capacity: float, teeth: float,
+) -> tuple[float, float, float, float, float]:  # fmt: skip
+    """Return changes of tooth torque, clutch, brake, drag and the carrier's acceleration.
+
+    ``teeth``: the change of the tooth torque's size as the bearings feel it; ``capacity``: that of
+    the clutch now; the others as for ``torque_changes``.
+    """
+    r = par[L.D_RATIO]
+    drives = engine - teeth * work[L.W_BEARING_DRIVEN]
+    resists = load + teeth * work[L.W_BEARING_CARRIER]
+    x, held = torque_changes(par, work, clutch, brake, drag, drives, resists)
+    carried = share_change(work, clutch[0], clutch[1], x, capacity)
+    c, b = (1.0 + r) / r, 1.0 / r
+    on_driven, on_carrier = drives + b * held - c * x, c * (x - held) - resists
+    rate = par[L.D_INV_SS] * on_driven + par[L.D_INV_SC] * on_carrier
+    carrier_rate = par[L.D_INV_SC] * on_driven + par[L.D_INV_CC] * on_carrier
+    dragged = (x - carried) * c
+    tau = engine - carried - dragged - par[L.P_INPUT_INERTIA] * rate
+    tau -= teeth * work[L.W_BEARING_OWN]
+    return tau, carried, held, dragged, carrier_rate
+
+
+@kernel
 def pressed_change(par: Array, state: Array, work: Array, seed: Array, dout: Array) -> None:
     """Fill the changes of loads and pressures; a pressure that lags follows no input at once."""
     if par[L.P_ACTUATION] != L.PRESSURE:
@@ -126,18 +151,16 @@ def directional_derivative(
     engine, load = seed[L.I_ENGINE], seed[L.I_LOAD]
     rigid = not par[L.P_SHAFT_STIFFNESS] > 0.0
     shaft = load if rigid else 0.0
-    x, held = torque_changes(par, work, clutch, brake, resists, engine, shaft)
-    carried = share_change(work, clutch[0], clutch[1], x, capacity)
-
-    c, b = (1.0 + r) / r, 1.0 / r
-    inertia = par[L.P_INPUT_INERTIA]
-    on_driven, on_carrier = engine + b * held - c * x, c * (x - held) - shaft
-    rate = par[L.D_INV_SS] * on_driven + par[L.D_INV_SC] * on_carrier
-    carrier_rate = par[L.D_INV_SC] * on_driven + par[L.D_INV_CC] * on_carrier
-    drag = (x - carried) * c
-    tau = engine - carried - drag - inertia * rate
-    own = clutch_share(par, work, s)
-    torque = work[L.W_ENGINE] - own - (work[L.W_CLUTCH] - own) * c - inertia * work[L.W_INPUT_RATE]
+    # The bearings feel the size of the tooth torque, which feels the bearings.
+    side = sign_of(work[L.W_TEETH])
+    free = balance_change(par, work, clutch, brake, resists, engine, shaft, capacity, 0.0)[0]
+    none = (0.0, 0.0)
+    back = balance_change(par, work, none, none, 0.0, 0.0, 0.0, capacity, side)[0]
+    teeth = side * free / (1.0 - back)
+    tau, carried, held, drag, carrier_rate = balance_change(
+        par, work, clutch, brake, resists, engine, shaft, capacity, teeth
+    )
+    torque = work[L.W_TEETH]
     per_force = 1.0 / (par[L.P_PLANETS] * par[L.D_INPUT_RADIUS])
     per_couple = 2.0 * par[L.D_PLANET_RADIUS] * par[L.D_TAN_HELIX]
     per_load = par[L.P_THRUST_SHARE] / (2.0 * par[L.P_WASHER_RADIUS])
@@ -154,5 +177,12 @@ def directional_derivative(
     dout[L.O_CLUTCH_REACTION], dout[L.O_BRAKE_REACTION] = carried, held
     dout[L.O_INPUT_TOOTH_TORQUE], dout[L.O_DRAG_TORQUE] = tau, drag
     dout[L.O_TOOTH_FORCE], dout[L.O_TILTING_COUPLE] = force, couple
+    for k in range(2):
+        rubbing = dynamics.bearing_torque(par, work, k, L.W_Y)
+        dout[np.uintp(L.O_SUN_BEARING_TORQUE + k)] = teeth * rubbing
+    if state[L.S_STARTED] == 0.0:
+        slips = work[L.W_BEARING_DRIVEN] * work[L.W_Y + L.Y_INPUT]
+        slips += work[L.W_BEARING_CARRIER] * work[L.W_Y + L.Y_CARRIER]
+        dout[L.O_BEARING_POWER] = teeth * slips
     dout[L.O_SUN_THRUST] = force * par[L.P_PLANETS] * par[L.D_TAN_HELIX]
     return OK if are_finite(dout) else NOT_FINITE

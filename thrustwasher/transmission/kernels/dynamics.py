@@ -7,6 +7,10 @@ carrier; the drum follows from the teeth, so that a drum without inertia is an o
 and drag act on the same slip: the drag is carried along as the clutch torque that does the same
 work, X = T_clutch + T_drag r/(1 + r).
 
+Thrust bearings of sun and ring rub with a part of the tooth torque, which follows from the
+accelerations they take part in: an implicit relation, solved to rounding. The bearings take the
+same torque from the motion as they turn into heat.
+
 With a stiffness the shaft behind the carrier is a spring and a damper to the vehicle, which then
 has a speed of its own and meets the load. Without, the carrier is the vehicle.
 """
@@ -38,6 +42,10 @@ SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
 TWIST_SCALE = 0.01  # rad
 ENERGY_SCALE = 100.0  # J
 SLOW = 0.1  # rad/s: rolling resistance passes through zero over it
+BEARING_SLOW = 1.0  # rad/s: a bearing's torque passes through zero over it
+MAX_SECANTS = 12
+SAME = 1e-14  # of the tooth torque: rounding
+MOST_BEARING = 0.1  # torque of a bearing over that of the teeth on the sun
 
 
 @kernel
@@ -76,7 +84,69 @@ def derive(par: Array) -> int:
     supply = 2.0 * par[L.P_PISTON_SUPPLY_RADIUS] ** 2
     moment = outer**4 - inner**4 - supply * (outer**2 - inner**2)
     par[L.D_HEAD] = 0.25 * math.pi * par[L.P_OIL_DENSITY] * moment * (1.0 - par[L.P_BALANCE_SHARE])
+    derive_bearings(par)
     return OK if are_finite(par[L.N_PARAM :]) else NOT_FINITE
+
+
+@kernel
+def derive_bearings(par: Array) -> None:
+    """Fill the constants of both thrust bearings.
+
+    The sun's thrust is tan(helix)/r_A for every N m in the teeth of the driven gear A, and so is
+    the ring's, against it.
+    """
+    r, thrust = par[L.D_RATIO], par[L.D_TAN_HELIX] / par[L.D_INPUT_RADIUS]
+    driven = L.RING if par[L.P_ARRANGEMENT] == L.RING_INPUT else L.SUN
+    for k in range(2):
+        own, at = L.P_SUN_BEARING_SHAFT_1 + k * L.N_BEARING, L.D_BEARINGS + k * L.N_TURNING
+        slip_driven, slip_carrier, direct = 0.0, 0.0, 0.0
+        for end in range(2):
+            shaft, sign = par[np.uintp(own + end)], 1.0 - 2.0 * end
+            if shaft == driven:
+                slip_driven += sign
+                direct += sign
+            elif shaft == L.CARRIER:
+                slip_carrier += sign
+            elif shaft != L.CASE:  # the drum, from the teeth
+                slip_driven -= sign / r
+                slip_carrier += sign * (1.0 + r) / r
+        rubbing = par[np.uintp(own + 2)] * par[np.uintp(own + 3)]
+        par[np.uintp(at + L.BEARING_TORQUE)] = rubbing * thrust
+        par[np.uintp(at + L.BEARING_DRIVEN)] = slip_driven
+        par[np.uintp(at + L.BEARING_CARRIER)] = slip_carrier
+        par[np.uintp(at + L.BEARING_OWN)] = direct
+
+
+@kernel
+def bearing_slip(par: Array, work: Array, bearing: int, y: int) -> float:
+    """Return the speed of a bearing's first shaft against its second [rad/s] for ``work[y:]``."""
+    at = L.D_BEARINGS + bearing * L.N_TURNING
+    of_driven = par[np.uintp(at + L.BEARING_DRIVEN)] * work[np.uintp(y + L.Y_INPUT)]
+    return float(
+        of_driven + par[np.uintp(at + L.BEARING_CARRIER)] * work[np.uintp(y + L.Y_CARRIER)]
+    )
+
+
+@kernel
+def bearing_torque(par: Array, work: Array, bearing: int, y: int) -> float:
+    """Return a bearing's torque against its first shaft per tooth torque, for ``work[y:]``."""
+    rubbing = par[np.uintp(L.D_BEARINGS + bearing * L.N_TURNING + L.BEARING_TORQUE)]
+    if rubbing == 0.0:
+        return 0.0
+    return float(rubbing * math.tanh(bearing_slip(par, work, bearing, y) / BEARING_SLOW))
+
+
+@kernel
+def turn_bearings(par: Array, work: Array, y: int) -> None:
+    """Fill what both bearings take from driven gear and carrier, per size of the tooth torque."""
+    driven, carrier, direct = 0.0, 0.0, 0.0
+    for k in range(2):
+        torque, at = bearing_torque(par, work, k, y), L.D_BEARINGS + k * L.N_TURNING
+        driven += torque * par[np.uintp(at + L.BEARING_DRIVEN)]
+        carrier += torque * par[np.uintp(at + L.BEARING_CARRIER)]
+        direct += torque * par[np.uintp(at + L.BEARING_OWN)]
+    work[L.W_BEARING_DRIVEN], work[L.W_BEARING_CARRIER] = driven, carrier
+    work[L.W_BEARING_OWN] = direct
 
 
 @kernel
@@ -126,43 +196,6 @@ def capacity(work: Array, pack: int, s: float) -> float:
 
 
 @kernel
-def solve_torques(par: Array, work: Array, s: float, load: float) -> None:
-    """Fill the torques X and T_brake and the accelerations for the modes in ``work``.
-
-    A slipping pack has its capacity with the sign of its mode; a stuck one the torque that keeps
-    its slip acceleration at zero (a 2 x 2 system if both stick). ``load`` resists the carrier.
-    """
-    r = par[L.D_RATIO]
-    i_ss, i_sc, i_cc = par[L.D_INV_SS], par[L.D_INV_SC], par[L.D_INV_CC]
-    s_cc, s_cb, s_bb = par[L.D_SLIP_CC], par[L.D_SLIP_CB], par[L.D_SLIP_BB]
-    c, b = (1.0 + r) / r, 1.0 / r
-    engine = work[L.W_ENGINE_START] + work[L.W_ENGINE_SLOPE] * s
-    work[L.W_ENGINE] = engine
-    free_driven = i_ss * engine - i_sc * load
-    free_carrier = i_sc * engine - i_cc * load
-    free_clutch = c * (free_driven - free_carrier)
-    free_brake = c * free_carrier - b * free_driven
-
-    clutch_mode, brake_mode = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
-    x = work[L.W_CLUTCH_GIVEN] + clutch_mode * (capacity(work, 0, s) + work[L.W_DRAG])
-    brake = work[L.W_BRAKE_GIVEN] + brake_mode * capacity(work, 1, s)
-    if clutch_mode == L.STUCK and brake_mode == L.STUCK:
-        det = s_cc * s_bb - s_cb * s_cb
-        x = (s_bb * free_clutch - s_cb * free_brake) / det
-        brake = (s_cc * free_brake - s_cb * free_clutch) / det
-    elif clutch_mode == L.STUCK:
-        x = (free_clutch - s_cb * brake) / s_cc
-    elif brake_mode == L.STUCK:
-        brake = (free_brake - s_cb * x) / s_bb
-
-    driven_side = engine - c * x + b * brake
-    carrier_side = c * x - c * brake - load
-    work[L.W_CLUTCH], work[L.W_BRAKE] = x, brake
-    work[L.W_INPUT_RATE] = i_ss * driven_side + i_sc * carrier_side
-    work[L.W_CARRIER_RATE] = i_sc * driven_side + i_cc * carrier_side
-
-
-@kernel
 def clutch_share(par: Array, work: Array, s: float) -> float:
     """Return the part of X that the clutch itself carries [N m]; drag takes the rest.
 
@@ -178,6 +211,73 @@ def clutch_share(par: Array, work: Array, s: float) -> float:
 
 
 @kernel
+def solve_torques(par: Array, work: Array, s: float, y: int) -> None:
+    """Fill the torques X and T_brake and the accelerations for the modes in ``work``.
+
+    ``work[y:]`` are speeds and twist. With thrust bearings the size of the tooth torque is found
+    for which the balance gives that size; the map has a slope of 0.4 at most (``broken_rule``) and
+    no corner but that of the clutch's share, so a secant ends in two or three steps.
+    """
+    load = output_torque(par, work, y)
+    turn_bearings(par, work, y)
+    size = balance(par, work, s, load, 0.0)
+    if work[L.W_BEARING_DRIVEN] == 0.0 and work[L.W_BEARING_CARRIER] == 0.0:
+        return
+    last, last_gap = 0.0, size
+    for _ in range(MAX_SECANTS):
+        gap = balance(par, work, s, load, size) - size
+        if abs(gap) <= SAME * size or gap == last_gap:
+            return
+        size, last, last_gap = size - gap * (size - last) / (gap - last_gap), size, gap
+
+
+@kernel
+def balance(par: Array, work: Array, s: float, load: float, teeth: float) -> float:
+    """Fill torques and accelerations, bearings loaded by ``teeth`` [N m]; return the tooth torque.
+
+    A slipping pack has its capacity with the sign of its mode; a stuck one the torque that keeps
+    its slip acceleration at zero (a 2 x 2 system if both stick). ``load`` resists the carrier. What
+    is returned is the size of the torque in the driven gear's teeth.
+    """
+    r = par[L.D_RATIO]
+    i_ss, i_sc, i_cc = par[L.D_INV_SS], par[L.D_INV_SC], par[L.D_INV_CC]
+    s_cc, s_cb, s_bb = par[L.D_SLIP_CC], par[L.D_SLIP_CB], par[L.D_SLIP_BB]
+    c, b = (1.0 + r) / r, 1.0 / r
+    engine = work[L.W_ENGINE_START] + work[L.W_ENGINE_SLOPE] * s
+    work[L.W_ENGINE] = engine
+    drives = engine - teeth * work[L.W_BEARING_DRIVEN]
+    resists = load + teeth * work[L.W_BEARING_CARRIER]
+    free_driven = i_ss * drives - i_sc * resists
+    free_carrier = i_sc * drives - i_cc * resists
+    free_clutch = c * (free_driven - free_carrier)
+    free_brake = c * free_carrier - b * free_driven
+
+    clutch_mode, brake_mode = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
+    x = work[L.W_CLUTCH_GIVEN] + clutch_mode * (capacity(work, 0, s) + work[L.W_DRAG])
+    brake = work[L.W_BRAKE_GIVEN] + brake_mode * capacity(work, 1, s)
+    if clutch_mode == L.STUCK and brake_mode == L.STUCK:
+        det = s_cc * s_bb - s_cb * s_cb
+        x = (s_bb * free_clutch - s_cb * free_brake) / det
+        brake = (s_cc * free_brake - s_cb * free_clutch) / det
+    elif clutch_mode == L.STUCK:
+        x = (free_clutch - s_cb * brake) / s_cc
+    elif brake_mode == L.STUCK:
+        brake = (free_brake - s_cb * x) / s_bb
+
+    driven_side = drives - c * x + b * brake
+    carrier_side = c * x - c * brake - resists
+    work[L.W_CLUTCH], work[L.W_BRAKE] = x, brake
+    work[L.W_INPUT_RATE] = i_ss * driven_side + i_sc * carrier_side
+    work[L.W_CARRIER_RATE] = i_sc * driven_side + i_cc * carrier_side
+    own = clutch_share(par, work, s)
+    drag = (x - own) * (1.0 + r) / r
+    tau = engine - own - drag - par[L.P_INPUT_INERTIA] * work[L.W_INPUT_RATE]
+    work[L.W_BEARING_TEETH] = teeth
+    work[L.W_TEETH] = tau - teeth * work[L.W_BEARING_OWN]
+    return abs(work[L.W_TEETH])
+
+
+@kernel
 def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     """Write the time derivatives of the vector at ``work[y:]`` to ``work[slopes:]``.
 
@@ -185,8 +285,7 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     to the integrator's tolerance.
     """
     driven, carrier = work[np.uintp(y + L.Y_INPUT)], work[np.uintp(y + L.Y_CARRIER)]
-    resists = output_torque(par, work, y)
-    solve_torques(par, work, s, resists)
+    solve_torques(par, work, s, y)
     work[np.uintp(slopes + L.Y_INPUT)] = work[L.W_INPUT_RATE]
     work[np.uintp(slopes + L.Y_CARRIER)] = work[L.W_CARRIER_RATE]
     work[np.uintp(slopes + L.Y_ENGINE)] = work[L.W_ENGINE] * driven
@@ -196,7 +295,7 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     twisting, acceleration = 0.0, 0.0
     if par[L.P_SHAFT_STIFFNESS] > 0.0:
         twisting = carrier - vehicle
-        acceleration = (resists - load) / par[L.P_VEHICLE_INERTIA]
+        acceleration = (output_torque(par, work, y) - load) / par[L.P_VEHICLE_INERTIA]
     work[np.uintp(slopes + L.Y_VEHICLE)] = acceleration
     work[np.uintp(slopes + L.Y_TWIST)] = twisting
     work[np.uintp(slopes + L.Y_SHAFT)] = par[L.P_SHAFT_DAMPING] * twisting * twisting
@@ -213,6 +312,15 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     work[np.uintp(slopes + L.Y_BRAKE)] = brake_heat
     work[np.uintp(slopes + L.Y_WASHER)] = washer_heat
     work[np.uintp(slopes + L.Y_MESH)] = mesh_heat
+    work[np.uintp(slopes + L.Y_BEARING)] = bearing_power(par, work, y)
+
+
+@kernel
+def bearing_power(par: Array, work: Array, y: int) -> float:
+    """Return the heat of both bearings [W], after ``solve_torques`` for ``work[y:]``."""
+    driven, carrier = work[np.uintp(y + L.Y_INPUT)], work[np.uintp(y + L.Y_CARRIER)]
+    slips = work[L.W_BEARING_DRIVEN] * driven + work[L.W_BEARING_CARRIER] * carrier
+    return float(work[L.W_BEARING_TEETH] * slips)
 
 
 @kernel
@@ -269,6 +377,14 @@ def broken_rule(par: Array) -> int:
         for i in range(1, int(par[np.uintp(first)])):
             if not par[np.uintp(first + 1 + i)] > par[np.uintp(first + i)]:
                 return 9 + which
+    for k in range(2):
+        own = L.P_SUN_BEARING_SHAFT_1 + k * L.N_BEARING
+        if par[np.uintp(own)] == par[np.uintp(own + 1)]:
+            return 12 + k
+        radius = par[np.uintp(own + 2)] * par[np.uintp(own + 3)]
+        pitch = 0.5 * par[L.P_NORMAL_MODULE] / math.cos(par[L.P_HELIX_ANGLE]) * sun
+        if radius * math.tan(par[L.P_HELIX_ANGLE]) > MOST_BEARING * pitch:
+            return 14 + k
     return 0
 
 

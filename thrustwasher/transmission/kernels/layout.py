@@ -10,8 +10,13 @@
     P_OIL_TEMPERATURE, P_COUPLING, P_CAPACITY_EXTRAPOLATION, P_TORQUE_AGE, P_TOLERANCE,
     P_SHAFT_STIFFNESS, P_SHAFT_DAMPING, P_VEHICLE_INERTIA, P_INITIAL_TWIST, P_ACTUATION,
     P_PISTON_INNER_RADIUS, P_PISTON_OUTER_RADIUS, P_PISTON_SUPPLY_RADIUS, P_BALANCE_SHARE,
-    P_OIL_DENSITY, P_ROLLING_TORQUE, P_GRADE_TORQUE, P_RING_MESH, P_CLUTCH_PISTON_AREA,
-) = range(42)  # fmt: skip
+    P_OIL_DENSITY, P_ROLLING_TORQUE, P_GRADE_TORQUE, P_RING_MESH,
+    P_SUN_BEARING_SHAFT_1, P_SUN_BEARING_SHAFT_2, P_SUN_BEARING_COEFFICIENT,
+    P_SUN_BEARING_MEAN_RADIUS,
+    P_RING_BEARING_SHAFT_1, P_RING_BEARING_SHAFT_2, P_RING_BEARING_COEFFICIENT,
+    P_RING_BEARING_MEAN_RADIUS, P_CLUTCH_PISTON_AREA,
+) = range(50)  # fmt: skip
+N_BEARING = 4  # parameters of a bearing
 # From P_CLUTCH_PISTON_AREA on: N_OWN of the clutch's piston, as many of the brake's, three courses.
 OWN_SPRING, OWN_VOLUME, OWN_FLOW, OWN_LAG, N_OWN = range(1, 6)
 MAX_POINTS = 10
@@ -25,8 +30,13 @@ N_PARAM = P_FIDELITY + 1
 # accelerations (clutch, brake) fall with the torques of clutch and brake.
 (
     D_RATIO, D_SPIN, D_INPUT_RADIUS, D_PLANET_RADIUS, D_TAN_HELIX, D_MESHES,
-    D_INV_SS, D_INV_SC, D_INV_CC, D_SLIP_CC, D_SLIP_CB, D_SLIP_BB, D_HEAD, D_RING_MESHES, NPAR,
+    D_INV_SS, D_INV_SC, D_INV_CC, D_SLIP_CC, D_SLIP_CB, D_SLIP_BB, D_HEAD, D_RING_MESHES,
+    D_BEARINGS,
 ) = range(N_PARAM, N_PARAM + 15)  # fmt: skip
+# Of a bearing, from D_BEARINGS on: torque per torque in the driven gear's teeth, slip per speed of
+# driven gear and carrier, share of its torque that stands against the driven gear itself.
+BEARING_TORQUE, BEARING_DRIVEN, BEARING_CARRIER, BEARING_OWN, N_TURNING = range(5)
+NPAR = D_BEARINGS + 2 * N_TURNING
 
 (
     I_CLUTCH, I_BRAKE, I_WASHER, I_MESH, I_COMMAND, I_PRESSURE, I_BRAKE_PRESSURE, I_ENGINE, I_LOAD,
@@ -36,16 +46,16 @@ N_PARAM = P_FIDELITY + 1
 # The integrated quantities; in `state` they follow S_Y.
 (
     Y_INPUT, Y_CARRIER, Y_VEHICLE, Y_TWIST,
-    Y_ENGINE, Y_LOAD, Y_CLUTCH, Y_BRAKE, Y_WASHER, Y_MESH, Y_SHAFT, N_Y,
-) = range(12)  # fmt: skip
+    Y_ENGINE, Y_LOAD, Y_CLUTCH, Y_BRAKE, Y_WASHER, Y_MESH, Y_SHAFT, Y_BEARING, N_Y,
+) = range(13)  # fmt: skip
 
 S_STARTED = 0
 S_Y = 1
 (
     S_KINETIC_START, S_LAST_CLUTCH, S_LAST_BRAKE, S_LAST_DURATION, S_CLUTCH_NOW, S_BRAKE_NOW,
     S_CLUTCH_MODE, S_BRAKE_MODE, S_LOCK_TIME, S_LOCK_SPEED, S_RELEASE_TIME, S_EVENTS,
-    S_LAST_PRESSURE, S_LAST_BRAKE_PRESSURE, S_PISTON,
-) = range(S_Y + N_Y, S_Y + N_Y + 15)  # fmt: skip
+    S_LAST_PRESSURE, S_LAST_BRAKE_PRESSURE, S_BEARING_POWER, S_PISTON,
+) = range(S_Y + N_Y, S_Y + N_Y + 16)  # fmt: skip
 # Of a piston: pressure [Pa], volume of oil [m3], whether it is full, times [s] of two events.
 (
     PISTON_PRESSURE, PISTON_VOLUME, PISTON_FULL, PISTON_FILLED_TIME, PISTON_KISS_TIME, N_PISTON,
@@ -60,9 +70,12 @@ NSTATE = S_PISTON + 2 * N_PISTON
     W_ENGINE, W_CLUTCH_MODE, W_BRAKE_MODE, W_CLUTCH_ACTIVE, W_BRAKE_ACTIVE,
     W_CLUTCH, W_BRAKE, W_INPUT_RATE, W_CARRIER_RATE,  # results of solve_torques
     W_ENGINE_START, W_ENGINE_SLOPE, W_ENGINE_GIVEN, W_LOAD_GIVEN,  # torques from outside
-) = range(22)  # fmt: skip
-W_EVENTS = 22  # five slots: lock time, lock speed, release time, events, largest violation
-W_PISTON = 27
+    W_TEETH,  # torque in the driven gear's teeth
+    W_BEARING_TEETH,  # its size as the bearings feel it
+    W_BEARING_DRIVEN, W_BEARING_CARRIER, W_BEARING_OWN,  # per size of it: what the bearings take
+) = range(27)  # fmt: skip
+W_EVENTS = 27  # five slots: lock time, lock speed, release time, events, largest violation
+W_PISTON = 32
 W_Y = W_PISTON + 2 * N_PISTON
 W_NEW = W_Y + N_Y
 W_STAGE = W_NEW + N_Y
@@ -81,12 +94,14 @@ NWORK = W_SLOPES + N_STAGES * N_Y
     O_VEHICLE_SPEED, O_SHAFT_TORQUE, O_SHAFT_TWIST, O_SHAFT_HEAT, O_SHAFT_ENERGY,
     O_OUTPUT_TORQUE, O_OUTPUT_ACCELERATION, O_CLUTCH_HUB_SPEED, O_CLUTCH_DRUM_SPEED,
     O_BRAKE_HUB_SPEED, O_BRAKE_DRUM_SPEED, O_CLUTCH_PISTON_PRESSURE, O_BRAKE_PISTON_PRESSURE,
-    O_CLUTCH_FILLED_TIME, O_BRAKE_FILLED_TIME, O_CLUTCH_KISS_TIME, O_BRAKE_KISS_TIME, NOUT,
-) = range(52)  # fmt: skip
+    O_CLUTCH_FILLED_TIME, O_BRAKE_FILLED_TIME, O_CLUTCH_KISS_TIME, O_BRAKE_KISS_TIME,
+    O_SUN_BEARING_TORQUE, O_RING_BEARING_TORQUE, O_BEARING_POWER, O_BEARING_HEAT, NOUT,
+) = range(56)  # fmt: skip
 IO_CLUTCH_LOCKED, IO_BRAKE_LOCKED, IO_CLUTCH_FILLED, IO_BRAKE_FILLED = range(4)
 IO_EVENTS, IO_STATUS, NIOUT = range(4, 7)
 
 RING_INPUT = 2  # arrangement
 PRESSURE = 2  # actuation
 TORQUE_COUPLING = 2
+SUN, CARRIER, RING, CASE = range(1, 5)  # shafts of a bearing
 STUCK = 0.0  # modes of a pack: 1 slips forward, -1 slips backward, 0 sticks

@@ -19,6 +19,20 @@ derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_d
 
 
 @kernel
+def start_speeds(par: Array) -> tuple[float, float]:
+    """Return the speeds of driven gear and carrier at the start [rad/s].
+
+    With the drum at rest, or as fast as the driven gear, the slip of brake or clutch is zero to the
+    last bit, or nothing could stick.
+    """
+    driven, drum, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_DRUM_SPEED], par[L.D_RATIO]
+    if drum == driven:
+        return driven, driven
+    carrier = (driven + r * drum) / (1.0 + r)
+    return (1.0 + r) * carrier if drum == 0.0 else driven, carrier
+
+
+@kernel
 def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
     """Copy the memory, or the start values, to where the step works."""
     if state[L.S_STARTED] != 0.0:
@@ -28,11 +42,8 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
         copy(state[L.S_PISTON :], work[L.W_PISTON : L.W_Y])
         return
     clear(work[L.W_Y : L.W_NEW])
-    driven, drum, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_DRUM_SPEED], par[L.D_RATIO]
-    carrier = (driven + r * drum) / (1.0 + r)
-    work[L.W_Y + L.Y_CARRIER] = carrier
-    # With the drum at rest the slip must be zero to the last bit, or nothing can stick.
-    work[L.W_Y + L.Y_INPUT] = (1.0 + r) * carrier if drum == 0.0 else driven
+    driven, carrier = start_speeds(par)
+    work[L.W_Y + L.Y_INPUT], work[L.W_Y + L.Y_CARRIER] = driven, carrier
     work[L.W_Y + L.Y_VEHICLE], work[L.W_Y + L.Y_TWIST] = carrier, par[L.P_INITIAL_TWIST]
     work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = 1.0, 1.0
     work[L.W_EVENTS], work[L.W_EVENTS + 1], work[L.W_EVENTS + 2] = -1.0, 0.0, -1.0
@@ -100,15 +111,14 @@ def kinetic_start(par: Array, state: Array, dt: float) -> float:
         return float(state[L.S_KINETIC_START])
     if dt == 0.0:
         return -1.0
-    driven, drum, r = par[L.P_INITIAL_ENGINE_SPEED], par[L.P_INITIAL_DRUM_SPEED], par[L.D_RATIO]
-    carrier = (driven + r * drum) / (1.0 + r)
+    driven, carrier = start_speeds(par)
     return float(dynamics.kinetic_energy(par, driven, carrier, carrier))
 
 
 @kernel
-def keep(inp: Array, state: Array, work: Array, start: float, dt: float) -> None:
+def keep(inp: Array, state: Array, work: Array, start: float, dt: float, power: float) -> None:
     """Take the result of a step over into the memory."""
-    state[L.S_KINETIC_START] = start
+    state[L.S_KINETIC_START], state[L.S_BEARING_POWER] = start, power
     state[L.S_STARTED] = 1.0
     copy(work[L.W_Y :], state[L.S_Y : L.S_KINETIC_START])
     state[L.S_LAST_CLUTCH], state[L.S_LAST_BRAKE] = inp[L.I_CLUTCH], inp[L.I_BRAKE]
@@ -128,10 +138,10 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     r = par[L.D_RATIO]
     driven, carrier = work[L.W_Y + L.Y_INPUT], work[L.W_Y + L.Y_CARRIER]
     resists = dynamics.output_torque(par, work, L.W_Y)
-    dynamics.solve_torques(par, work, s, resists)
+    dynamics.solve_torques(par, work, s, L.W_Y)
     clutch = dynamics.clutch_share(par, work, s)
     drag = (work[L.W_CLUTCH] - clutch) * (1.0 + r) / r
-    tau = work[L.W_ENGINE] - clutch - drag - par[L.P_INPUT_INERTIA] * work[L.W_INPUT_RATE]
+    tau = work[L.W_TEETH]
     force = abs(tau) / (par[L.P_PLANETS] * par[L.D_INPUT_RADIUS])
     couple = 2.0 * par[L.D_PLANET_RADIUS] * force * par[L.D_TAN_HELIX]
     drum = dynamics.drum_speed(r, driven, carrier)
@@ -174,7 +184,21 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     out[L.O_INPUT_TOOTH_TORQUE], out[L.O_DRAG_TORQUE] = tau, drag
     out[L.O_TOOTH_FORCE], out[L.O_TILTING_COUPLE] = force, couple
     out[L.O_SUN_THRUST] = abs(tau) * par[L.D_TAN_HELIX] / par[L.D_INPUT_RADIUS]
+    for k in range(2):
+        rubbing = dynamics.bearing_torque(par, work, k, L.W_Y)
+        out[np.uintp(L.O_SUN_BEARING_TORQUE + k)] = work[L.W_BEARING_TEETH] * rubbing
     out[L.O_OIL_SUPPLY_TEMPERATURE] = par[L.P_OIL_TEMPERATURE]
+
+
+@kernel
+def mean_bearing_power(par: Array, state: Array, work: Array, dt: float) -> float:
+    """Return the heat of both bearings [W]: the step's mean, before any step that of now."""
+    if dt > 0.0:
+        before = state[L.S_Y + L.Y_BEARING] if state[L.S_STARTED] != 0.0 else 0.0
+        return float((work[L.W_Y + L.Y_BEARING] - before) / dt)
+    if state[L.S_STARTED] != 0.0:
+        return float(state[L.S_BEARING_POWER])
+    return dynamics.bearing_power(par, work, L.W_Y)
 
 
 @kernel
@@ -195,11 +219,12 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
     out[L.O_BRAKE_HEAT] = work[L.W_Y + L.Y_BRAKE]
     out[L.O_WASHER_HEAT] = work[L.W_Y + L.Y_WASHER]
     out[L.O_MESH_HEAT] = work[L.W_Y + L.Y_MESH]
+    out[L.O_BEARING_HEAT] = work[L.W_Y + L.Y_BEARING]
     out[L.O_SHAFT_HEAT] = work[L.W_Y + L.Y_SHAFT]
     out[L.O_SHAFT_ENERGY] = dynamics.spring_energy(par, work[L.W_Y + L.Y_TWIST])
     spent = out[L.O_KINETIC_CHANGE] + out[L.O_LOAD_WORK] + out[L.O_CLUTCH_HEAT]
     spent += out[L.O_BRAKE_HEAT] + out[L.O_WASHER_HEAT] + out[L.O_MESH_HEAT]
-    spent += out[L.O_SHAFT_HEAT] + out[L.O_SHAFT_ENERGY]
+    spent += out[L.O_SHAFT_HEAT] + out[L.O_SHAFT_ENERGY] + out[L.O_BEARING_HEAT]
     out[L.O_ENERGY_RESIDUAL] = out[L.O_ENGINE_WORK] - spent
     out[L.O_LOCK_TIME], out[L.O_LOCK_SPEED] = work[L.W_EVENTS], work[L.W_EVENTS + 1]
     out[L.O_RELEASE_TIME] = work[L.W_EVENTS + 2]
@@ -225,12 +250,14 @@ def step(
     start = kinetic_start(par, state, dt)
     show_motion(par, inp, work, out, dt)
     show_energy(par, start, work, out)
+    power = mean_bearing_power(par, state, work, dt)
+    out[L.O_BEARING_POWER] = power
     if status == OK:
         status = pressed
     if status == OK and not _is_finite(work, out, dt):
         status = NOT_FINITE
     if status == OK and dt > 0.0:
-        keep(inp, state, work, start, dt)
+        keep(inp, state, work, start, dt, power)
     clutch_holds = dynamics.capacity(work, 0, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0

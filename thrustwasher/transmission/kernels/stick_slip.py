@@ -12,7 +12,7 @@ import numpy as np
 
 from ...numerics.jit import Array, kernel
 from . import layout as L
-from .dynamics import capacity, clutch_slip, drum_speed, output_torque, solve_torques, trial_step
+from .dynamics import capacity, clutch_slip, drum_speed, solve_torques, trial_step
 
 MAX_ROOT_STEPS = 100
 
@@ -74,14 +74,13 @@ def decide(par: Array, work: Array, s: float, exclude: int) -> None:
     active_c, active_b = work[L.W_CLUTCH_ACTIVE] > 0.0, work[L.W_BRAKE_ACTIVE] > 0.0
     limit = 1e-12 * (capacity_of(work, 0, s) + capacity_of(work, 1, s) + abs(work[L.W_ENGINE]))
     best, best_c, best_b = math.inf, 1.0, 1.0
-    resists = output_torque(par, work, L.W_Y)
     for n in range(9):
         mode_c = candidate(slip_c, active_c, exclude == 0, n // 3)
         mode_b = candidate(slip_b, active_b, exclude == 1, n % 3)
         if mode_c == 9.0 or mode_b == 9.0 or best <= limit:
             continue
         work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE] = mode_c, mode_b
-        solve_torques(par, work, s, resists)
+        solve_torques(par, work, s, L.W_Y)
         wrong = max(
             violation(par, work, 0, s, slip_c != 0.0 or not active_c),
             violation(par, work, 1, s, slip_b != 0.0 or not active_b),
@@ -101,7 +100,7 @@ def guard(par: Array, work: Array, pack: int, s: float, y: int) -> float:
     mode = work[np.uintp(L.W_CLUTCH_MODE + pack)]
     if mode != L.STUCK:
         return mode * slip_of(par, work, pack, y)
-    solve_torques(par, work, s, output_torque(par, work, y))
+    solve_torques(par, work, s, y)
     return margin_of(work, pack, s) + 1e-12 * capacity_of(work, pack, s)
 
 

@@ -41,6 +41,7 @@ class WasherModel(NamedTuple):
     oil_storage: float  # [J/(m^3 K)] oil's density times specific heat; 0: it carries no heat
     film_exchange: float  # 12 oil_conductivity [W/(m K)]; 0 where the film is as warm as the walls
     pressure_shear: float  # 1 if pressure flow counts in torque and heat, else 0
+    is_insulated: bool  # the gear's far face
     only_liquid: bool  # the cavity counts by its liquid in shear and heat exchange
     n_r: int
     n_t: int
@@ -309,6 +310,7 @@ def washer_model(par: Array) -> WasherModel:
         oil_storage=storage,
         film_exchange=exchange,
         pressure_shear=shears,
+        is_insulated=par[L.P_GEAR_FAR_FACE] == L.INSULATED,
         only_liquid=par[L.P_CAVITY_SHEAR] == L.ONLY_LIQUID,
         n_r=n_r,
         n_t=n_t,

@@ -105,6 +105,7 @@ def _start(
     clear(dq)
     clear(dtemp)
     moved = abs(change.speed) + abs(change.tilt) + abs(change.oil_temperature)
+    moved += abs(change.far_face)
     if moved > 0.0:
         let_film_follow(m, pt, change, q, dq, dtemp, f)
         heat_change(m, pt, change, q, dq, dtemp, f, heat)
@@ -130,7 +131,7 @@ def _refine(
 ) -> int:
     """Improve CHANGE and ``dtemp`` until the residual ``heat`` is below ``enough`` [W]."""
     n = dtemp.size
-    none = Point(0.0, 0.0, 0.0, 0.0)
+    none = Point(0.0, 0.0, 0.0, 0.0, 0.0)
     dq, step = vector(f.small, L.CHANGE), vector(f.small, L.STEP)
     before, still = vector(f.small, L.STEP_BEFORE), vector(f.small, L.LOOSE)
     gain, old, old_gain = f.keep[n : 2 * n], f.keep[2 * n : 3 * n], f.trial

@@ -21,22 +21,31 @@ from .constants import WasherModel
 from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .workspace import Fields, Point, square, vector
 
+REFERENCE_PRESSURE = 1e6  # [Pa] of the dry friction law
 FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, and its stiffness
+
+
+@kernel
+def face_area(par: Array) -> float:
+    """Return the area of the washer's face [m^2], to which mean contact pressures refer."""
+    inner, outer = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
+    return math.pi * (outer * outer - inner * inner)
 
 
 @kernel
 def dry_friction(par: Array, contact_load: float) -> tuple[float, float]:
     """Return the dry friction coefficient and its slope over the contact force [1/N].
 
-    Source: Jackson & Green Eq 18 with the total contact force, f = a - b ln F, held constant
-    outside the range of the loads it was measured for; never negative.
+    Source: Jackson & Green Eq 18 with the total contact force over the washer's face, f = a - b ln
+    p, held constant outside the range of the pressures it was measured for; never negative.
     """
     if par[L.P_FRICTION_LAW] == L.CONSTANT_FRICTION:
         return par[L.P_DRY_FRICTION], 0.0
-    lo, hi = par[L.P_FRICTION_LOAD_MIN], par[L.P_FRICTION_LOAD_MAX]
+    face = face_area(par)
+    lo, hi = par[L.P_FRICTION_PRESSURE_MIN] * face, par[L.P_FRICTION_PRESSURE_MAX] * face
     f = min(max(contact_load, lo), hi)
     slope = par[L.P_FRICTION_SLOPE]
-    value = par[L.P_FRICTION_CONSTANT] - slope * math.log(f)
+    value = par[L.P_FRICTION_REFERENCE] - slope * math.log(f / (REFERENCE_PRESSURE * face))
     if value <= 0.0:
         return 0.0, 0.0
     return value, -slope / f if lo < contact_load < hi else 0.0

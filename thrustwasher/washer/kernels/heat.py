@@ -29,14 +29,27 @@ from .workspace import Fields, Point, vector
 
 
 @kernel
-def set_steady(m: WasherModel, f: Fields) -> None:
+def far_rise(pt: Point) -> float:
+    """Return how much warmer than the oil the gear's far face is kept [K]."""
+    return pt.far_face - pt.oil_temperature
+
+
+@kernel
+def set_steady(m: WasherModel, pt: Point, f: Fields) -> None:
     """Let heat flow out through carrier and gear as in steady state, none into the washer."""
     f.small[L.OUT_CARRIER] = m.carrier_conductivity / m.carrier_thickness
     f.small[L.OUT_WASHER] = 0.0
-    f.small[L.OUT_GEAR] = m.gear_conductivity / m.gear_thickness
+    f.small[L.OUT_GEAR] = 0.0 if m.is_insulated else m.gear_conductivity / m.gear_thickness
+    clear(f.small[L.OUT_OIL : L.FAR_CARRIER])
     f.small[L.FAR_CARRIER], f.small[L.FAR_CARRIER + 1] = f.small[L.OUT_CARRIER], 0.0
     f.small[L.FAR_GEAR], f.small[L.FAR_GEAR + 1] = f.small[L.OUT_GEAR], 0.0
     clear(f.outward)
+    outside = far_rise(pt)
+    if outside != 0.0:
+        for j in range(m.n_t):
+            gear = m.gear_at + j * m.gear_step - m.i_g
+            for i in range(m.i_g, m.n_r):
+                f.outward[np.uintp(gear + i)] = outside
 
 
 @kernel
@@ -191,7 +204,7 @@ def heat_residual(m: WasherModel, pt: Point, temp: Array, f: Fields) -> float:
     friction = f.small[L.FRICTION]
     conduct(m, temp, f, f.heat)
     f.small[L.OUT_SIZE] = 0.0
-    if f.small[L.OUT_WASHER] > 0.0:  # in time
+    if f.small[L.OUT_WASHER] > 0.0 or far_rise(pt) != 0.0:  # in time, or not to the oil
         f.small[L.OUT_SIZE] = _from_outside(m, f, f.heat)
     _make_heat(m, pt, temp, f)
     cooled = m.film_step > 0
@@ -289,10 +302,12 @@ def heat_change(
     dfriction = f.small[L.FRICTION_SLOPE] * contact_change(f.small, dq)
     conduct(m, dtemp, f, heat)
     # in time a rise above warmer oil is less: the body stays as warm as it was
+    less_far = change.oil_temperature - change.far_face
     warms = f.small[L.OUT_WASHER] > 0.0 and change.oil_temperature != 0.0
+    warms = warms or less_far != 0.0
     less_c = f.small[L.OUT_CARRIER] * f.small[L.OUT_OIL] * change.oil_temperature
     less_w = f.small[L.OUT_WASHER] * f.small[L.OUT_OIL + 1] * change.oil_temperature
-    less_g = f.small[L.OUT_GEAR] * f.small[L.OUT_OIL + 2] * change.oil_temperature
+    less_g = f.small[L.OUT_GEAR] * (f.small[L.OUT_OIL + 2] * change.far_face + less_far)
     cooled = m.film_step > 0
     by_pressure = m.pressure_shear > 0.0
     if by_pressure:

@@ -1,13 +1,18 @@
 """Heat into and through the thickness of a body: a ladder of first-order terms per node.
 
 The rise of a heated face is the sum of the ladder's terms, dM/dt = (R q - M)/tau with the heat flux
-q into the face; the far face stays at oil temperature. Shares and times are fitted to the exact
-rise of a slab, 1 - sum of 8/(pi m)^2 exp(-(pi m/2)^2 Fo) over odd m: 0.3 % off from Fo = 0.0081 on,
-0.05 s for 10 mm of steel, and exact when steady. The thin washer has one temperature.
+q into the face; the far face stays at oil temperature, or at one that is given. Shares and times
+are fitted to the exact rise of a slab, 1 - sum of 8/(pi m)^2 exp(-(pi m/2)^2 Fo) over odd m: 0.3 %
+off from Fo = 0.0081 on, 0.05 s for 10 mm of steel, and exact when steady. The thin washer has one
+temperature.
 
 Heat flow through the far face is the sum of c M/R over the terms. c gives the slab's slowest part,
 the heat stored when steady and no jump; by reciprocity it is also how a face follows when all of a
 slab is warmer than its far face. Before a slab is warmed through the heat stored is up to 6 % off.
+
+A slab whose far face is insulated keeps all heat. Its first term is its mean rise, dM/dt = q over
+the heat that warms it by 1 K; what its face is warmer is the sum of three more terms, fitted to
+Fo + 1/3 - sum of 2/(pi n)^2 exp(-(pi n)^2 Fo): 0.12 % off from Fo = 0.0081 on, and exact later.
 
 A step is taken in two stages (Alexander 1977): the flux at ``STAGE`` of it from one that is held so
 far, then the flux at its end from one that is linear through both. A body of one temperature then
@@ -23,12 +28,17 @@ from ...numerics.jit import Array, kernel
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .constants import WasherModel, of_body
-from .workspace import Fields, Workspace, fields_of, model_of
+from .heat import far_rise
+from .workspace import Fields, Point, Workspace, fields_of, model_of
 
 SHARES = (0.819646, 0.113430, 0.066924)  # R over thickness/conductivity
 TIMES = (0.399510, 0.032111, 0.003693)  # tau over thickness^2/diffusivity
 FAR_FIRST = (0.5 - TIMES[1]) / (TIMES[0] - TIMES[1])
 FAR = (FAR_FIRST, 1.0 - FAR_FIRST, 0.0)  # c: sum 1, with the times 1/2
+N_SLAB = 3
+# Of an insulated slab, behind its mean rise.
+KEPT_SHARES = (0.0, 1.0 / 3.0 - 0.122925, 0.068059, 0.054866)
+KEPT_TIMES = (0.0, 0.0988596, 0.0176834, 0.00281619)
 STAGE = 1.0 - 0.5**0.5  # where the first of two stages ends, as a share of a step
 HELD = 1e10  # [W/(m^2 K)] conductance that lets no temperature move
 LEAST_STEP = 1e-6  # [s] in which no temperature moves
@@ -47,6 +57,18 @@ class Body(NamedTuple):
     conductance: float  # conductivity over thickness [W/(m^2 K)]
     storage: float  # density x specific heat x thickness [J/(m^2 K)]
     is_lumped: bool
+    is_insulated: bool  # at the far face
+
+
+class Term(NamedTuple):
+    """A term of a ladder: dM/dt = (R q - M)/tau, or of an insulated body's mean rise q/storage."""
+
+    resistance: float  # R [m^2 K/W]; 0 of a mean rise
+    time: float  # tau [s]; 0 of a mean rise
+    far: float  # c/R [W/(m^2 K)]: heat through the far face over M
+    holds: float  # [J/(m^2 K)] heat stored over M
+    falls: float  # c: what M falls by as all outside becomes 1 K warmer
+    settled: float  # M over the rise of a face that has been as warm for long
 
 
 @kernel
@@ -71,48 +93,65 @@ def body_of(m: WasherModel, body: int) -> Body:
         conductance=conductivity / thickness,
         storage=density * heat * thickness,
         is_lumped=m.par[L.P_BODY_STORAGE] == L.LUMPED,
+        is_insulated=m.is_insulated and body == L.OF_GEAR,
     )
 
 
 @kernel
-def term(b: Body, k: int) -> tuple[float, float, float]:
-    """Return R [m^2 K/W] and tau [s] of a term, and c/R [W/(m^2 K)]."""
+def term(b: Body, k: int) -> Term:
+    """Return a term of a body's ladder."""
     time = b.storage / b.conductance
-    if not b.is_lumped:
-        return SHARES[k] / b.conductance, TIMES[k] * time, FAR[k] / SHARES[k] * b.conductance
-    if k == 0:
-        return 1.0 / b.conductance, time, b.conductance
-    return 0.0, time, 0.0
+    if b.is_insulated:
+        if k == 0:
+            return Term(0.0, 0.0, 0.0, b.storage, 1.0, 1.0)
+        share = 0.0 if b.is_lumped else KEPT_SHARES[k]
+        return Term(share / b.conductance, KEPT_TIMES[k] * time, 0.0, 0.0, 0.0, 0.0)
+    if b.is_lumped or k == N_SLAB:
+        share = 1.0 if k == 0 else 0.0
+        far = share * b.conductance
+        return Term(share / b.conductance, time, far, far * time, share, share)
+    time *= TIMES[k]
+    resistance, far = SHARES[k] / b.conductance, FAR[k] / SHARES[k] * b.conductance
+    return Term(resistance, time, far, far * time, far * resistance, resistance * b.conductance)
 
 
 @kernel
-def start_terms(w: Workspace) -> None:
-    """Fill the ladders for bodies that have been as warm as they are for long."""
+def start_terms(w: Workspace, pt: Point) -> None:
+    """Fill the ladders for bodies that have been as warm as they are for long.
+
+    Those that start as warm as the oil may have a warmer far face.
+    """
     m, f = model_of(w), fields_of(w)
+    from_oil = m.par[L.P_THERMAL_START] == L.FROM_OIL
     for k in range(L.N_TERMS):
         clear(f.ladder[k])
     for body in WITH_LADDER:
         b = body_of(m, body)
+        outside = _outside(pt, body)
         for k in range(L.N_TERMS):
-            resistance, _, _ = term(b, k)
-            share = resistance * b.conductance
+            t = term(b, k)
+            share = t.falls if from_oil else t.settled
             for j in range(b.columns):
                 for i in range(b.first, m.n_r):
                     node = np.uintp(b.at + j * b.step + i)
-                    f.ladder[k, node] = share * f.temp[node]
+                    f.ladder[k, node] = share * (f.temp[node] - outside)
 
 
 @kernel
-def shift_terms(w: Workspace, warmer: float) -> None:
-    """Let all of the bodies be less warm than the oil by ``warmer`` [K] more."""
+def shift_terms(w: Workspace, warmer: float, outside: float) -> None:
+    """Let the oil be warmer by ``warmer`` and the gear's far face by ``outside`` [K].
+
+    The bodies stay as warm as they are.
+    """
     m, f = model_of(w), fields_of(w)
     for body in WITH_LADDER:
         b = body_of(m, body)
+        far = outside if body == L.OF_GEAR else warmer
         for k in range(L.N_TERMS):
-            resistance, _, far = term(b, k)
+            falls = term(b, k).falls * far
             for j in range(b.columns):
                 for i in range(b.first, m.n_r):
-                    f.ladder[k, np.uintp(b.at + j * b.step + i)] -= far * resistance * warmer
+                    f.ladder[k, np.uintp(b.at + j * b.step + i)] -= falls
     for k in range(f.temp.size):
         f.temp[np.uintp(k)] -= warmer
 
@@ -123,9 +162,14 @@ def weigh(b: Body, k: int, dt: float) -> tuple[float, float, float]:
 
     For a flux that is linear over ``dt``; the latter two in m^2 K/W.
     """
-    resistance, time, _ = term(b, k)
-    z = dt / time
+    t = term(b, k)
+    resistance, z = t.resistance, 0.0
+    if t.time > 0.0:
+        z = dt / t.time
+    elif t.holds > 0.0:  # a mean rise
+        resistance = dt / t.holds
     kept, mean, rest = exponential_weights(z)
+    z = z if t.time > 0.0 else 1.0
     late, early = z * rest, z * (mean - rest)  # by the fluxes at the end and at the beginning
     early /= 1.0 - STAGE
     return kept, resistance * (late - STAGE * early), resistance * early
@@ -151,7 +195,7 @@ def hold_bodies(w: Workspace) -> None:
 
 
 @kernel
-def set_stage(w: Workspace, dt: float) -> None:
+def set_stage(w: Workspace, pt: Point, dt: float) -> None:
     """Set what bodies take up until the stage in a step of ``dt``, of a flux that is held.
 
     ``f.begin``: the rises at the start.
@@ -164,14 +208,14 @@ def set_stage(w: Workspace, dt: float) -> None:
         b = body_of(m, body)
         late, early = weigh_body(b, part)
         f.small[out_of(body)] = 1.0 / (late + early)
-        _add_terms(m, b, part, f)
+        _add_terms(m, b, _outside(pt, body), part, f)
     washer = body_of(m, L.OF_WASHER)
     f.small[L.OUT_WASHER] = washer.storage / part
     _add_washer(m, washer, 0.0, f)
 
 
 @kernel
-def set_end(w: Workspace, dt: float) -> None:
+def set_end(w: Workspace, pt: Point, dt: float) -> None:
     """Set what bodies take up in a step of ``dt`` that has been solved for until its stage.
 
     Fills ``f.flux`` with the flux there, and a guess of where the step ends.
@@ -183,7 +227,7 @@ def set_end(w: Workspace, dt: float) -> None:
         b = body_of(m, body)
         late, _ = weigh_body(b, dt)
         f.small[out_of(body)] = 1.0 / late
-        _add_terms(m, b, dt, f)
+        _add_terms(m, b, _outside(pt, body), dt, f)
         _guess(m, b, late, f)
     washer = body_of(m, L.OF_WASHER)
     late = STAGE * dt / washer.storage
@@ -219,8 +263,18 @@ def _guess(m: WasherModel, b: Body, late: float, f: Fields) -> None:
 
 
 @kernel
-def _add_terms(m: WasherModel, b: Body, dt: float, f: Fields) -> None:
-    """Add up the rises outside of a body."""
+def _outside(pt: Point, body: int) -> float:
+    """Return how much warmer than the oil a body's far face is kept [K]."""
+    return far_rise(pt) if body == L.OF_GEAR else 0.0
+
+
+@kernel
+def _add_terms(m: WasherModel, b: Body, outside: float, dt: float, f: Fields) -> None:
+    """Add up the rises outside of a body, whose far face is warmer than the oil by ``outside``."""
+    if outside != 0.0:
+        for j in range(b.columns):
+            for i in range(b.first, m.n_r):
+                f.outward[np.uintp(b.at + j * b.step + i)] += outside
     for k in range(L.N_TERMS):
         kept, _, early = weigh(b, k, dt)
         for j in range(b.columns):
@@ -262,12 +316,12 @@ def _held(b: Body, dt: float, through: Array) -> tuple[float, float]:
     """
     gain, falls, part, by_oil = 0.0, 0.0, 1.0, 0.0
     for k in range(L.N_TERMS):
-        resistance, time, far = term(b, k)
+        t = term(b, k)
         kept, late, early = weigh(b, k, dt)
         gain += late + early
-        falls += far * resistance * kept
-        part -= far * time / dt * (late + early)
-        by_oil -= far * far * resistance * (time / dt) * (1.0 - kept)
+        falls += t.falls * kept
+        part -= t.holds / dt * (late + early)
+        by_oil -= t.holds / dt * t.falls * (1.0 - kept)
     through[0] = part / gain
     through[1] = part / gain * falls + by_oil
     return 1.0 / gain, falls
@@ -325,7 +379,10 @@ def far_heat(m: WasherModel, f: Fields) -> float:
 
 @kernel
 def stored_heat(w: Workspace) -> float:
-    """Return the heat that the bodies hold above oil temperature [J]."""
+    """Return the heat that the bodies hold above the temperature at their far faces [J].
+
+    Of an insulated one above oil temperature, as of the washer.
+    """
     m, f = model_of(w), fields_of(w)
     washer = body_of(m, L.OF_WASHER)
     _, carrier = _through(m, body_of(m, L.OF_CARRIER), f)
@@ -344,12 +401,11 @@ def _through(m: WasherModel, b: Body, f: Fields) -> tuple[float, float]:
     """Return heat flow through the far face [W] and heat stored [J] of a body."""
     flow, stored = 0.0, 0.0
     for k in range(L.N_TERMS):
-        _, time, far = term(b, k)
-        part = 0.0
+        t, part = term(b, k), 0.0
         for j in range(b.columns):
             angle = _angle(m, b, j)
             for i in range(b.first, m.n_r):
                 part += b.weight[i] * angle * f.ladder[k, np.uintp(b.at + j * b.step + i)]
-        flow += far * part
-        stored += far * time * part
+        flow += t.far * part
+        stored += t.holds * part
     return flow, stored

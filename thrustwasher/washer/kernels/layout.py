@@ -25,19 +25,20 @@ P_YOUNGS_MODULUS, P_POISSON_RATIO, P_YIELD_STRENGTH = 10, 14, 18
 P_YIELD_STRAIN_LAW, P_ASPERITY_RADIUS, P_ASPERITY_DENSITY, P_ASPERITY_HEIGHT_LAW = range(22, 26)
 P_CONDUCTIVITY = 26
 (
-    P_CONDUCTION, P_OIL_CONDUCTIVITY, P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT,
+    P_CONDUCTION, P_GEAR_FAR_FACE, P_OIL_CONDUCTIVITY, P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT,
     P_VISCOSITY_SCALE, P_OIL_COOLING, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_SUPPLY_TEMPERATURE,
-    P_CAVITY_SHEAR, P_PRESSURE_FLOW_SHEAR, P_FRICTION_LAW, P_DRY_FRICTION, P_FRICTION_CONSTANT,
-    P_FRICTION_SLOPE, P_FRICTION_LOAD_MIN, P_FRICTION_LOAD_MAX, P_HEAT_SPLIT,
+    P_CAVITY_SHEAR, P_PRESSURE_FLOW_SHEAR, P_FRICTION_LAW, P_DRY_FRICTION, P_FRICTION_REFERENCE,
+    P_FRICTION_SLOPE, P_FRICTION_PRESSURE_MIN, P_FRICTION_PRESSURE_MAX, P_HEAT_SPLIT,
     P_FILM_HEAT_FRACTION, P_THERMAL_MODE,
-) = range(30, 50)  # fmt: skip
-P_DENSITY, P_SPECIFIC_HEAT = 50, 54
-P_BODY_STORAGE, P_THERMAL_START, P_FIDELITY, N_PARAM = range(58, 62)
+) = range(30, 51)  # fmt: skip
+P_DENSITY, P_SPECIFIC_HEAT = 51, 55
+P_BODY_STORAGE, P_THERMAL_START, P_FIDELITY, N_PARAM = range(59, 63)
 N_STEADY = P_THERMAL_MODE  # a steady solution depends on those before; what follows is of time
 OF_CARRIER, OF_WASHER, OF_GEAR = 1, 2, 3  # places of a body's own property behind the common one
 CONTACT_YIELD, SUMMIT_HEIGHTS, CONSTANT_FRICTION = 2.0, 2.0, 2.0  # values of the laws
 IN_ALL, ONLY_CARRIER, ONLY_ROTATING = 1.0, 2.0, 3.0  # of conduction
 ONLY_LIQUID, LUMPED = 2.0, 2.0  # of cavity_shear and body_storage
+INSULATED, BULK = 2.0, 3.0  # of gear_far_face
 QUASI_STEADY, TRANSIENT, FROM_OIL = 1.0, 2.0, 2.0
 MAP, COARSE, FIELD, FINE = range(1, 5)
 # Behind them: nodes, and the radial one at the gear's inner radius; RMS roughness of film 1 and
@@ -53,8 +54,8 @@ RADIUS, FACE, LOG_WIDTH, WEIGHT1, WEIGHT2, ALONG, GEAR_WIDTH, N_RADIAL = range(8
 COS, SIN, COS_FACE, SIN_FACE, WEIGHT_T, WIDTH_T, STEP_T, PER_STEP, N_AROUND = range(9)
 
 # `inp`; of the branch there is no input to an FMU.
-I_LOAD, I_SPEED, I_TILT, I_OIL, I_BRANCH = range(5)
-NINP = 4
+I_LOAD, I_SPEED, I_TILT, I_OIL, I_FAR_FACE, I_BRANCH = range(6)
+NINP = 5
 
 # `out`, in the order of the model's list; behind them what only Python shows.
 (
@@ -110,7 +111,7 @@ N_SMALL = 144
 AT_FIXED, OVER_POSITIONS = 0, 1
 N_PRESSED = 3  # of the forces: the film presses on all but the gear
 N_KEPT = 3  # solutions that ``remember`` has room for
-N_TERMS = 3  # of the ladder through the thickness of a body
+N_TERMS = 4  # of the ladder through the thickness of a body
 
 # `state`: last solution, inputs of the last descent (tilt < 0: none), where the factor was made (as
 # the tag begins).
@@ -122,4 +123,5 @@ S_MAP_BRANCH, S_MAP_RATIO = 24, 25  # of the last look-up, 0 if there is none
 S_FACTOR_OUT, S_SUBSTEP = 26, 29  # (3) as OUT_CARRIER; the next substep to try [s]
 S_TANGENT, S_LOAD_SLOPE = 30, 34  # dq/ds (4) and dload/ds [N/m] at the last solution, 0: unknown
 S_ENERGY, S_STORED_HEAT = 36, 37  # made and stored since the start [J]
-S_FIELDS = 38  # temperatures, pressures, temperatures of the factor, terms of the ladders
+S_FAR_FACE = 38  # [K] temperature at the gear's far face
+S_FIELDS = 39  # temperatures, pressures, temperatures of the factor, terms of the ladders

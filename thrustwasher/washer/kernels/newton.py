@@ -88,7 +88,7 @@ def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields, rou
 @kernel
 def refine_slopes(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
     """Improve the slopes dT/dq by one step with the factor, film and flows following."""
-    none = Point(0.0, 0.0, 0.0, 0.0)
+    none = Point(0.0, 0.0, 0.0, 0.0, 0.0)
     dq, heat = vector(f.small, L.STEP), f.trial
     for c in range(4):
         clear(dq)

@@ -9,7 +9,7 @@ from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .constants import WasherModel
 from .gap import dry_friction, film_change
-from .heat import contact_change
+from .heat import contact_change, far_rise
 from .ladder import far_heat
 from .layout import TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .newton import tilt_of
@@ -40,10 +40,11 @@ def stick_margin(m: WasherModel, f: Fields, torque: float) -> float:
 
 
 @kernel
-def _through_faces(m: WasherModel, f: Fields) -> float:
+def _through_faces(m: WasherModel, pt: Point, f: Fields) -> float:
     """Return the heat that leaves through the far faces in steady state [W]."""
     out_c = m.carrier_conductivity / m.carrier_thickness
-    out_g = m.gear_conductivity / m.gear_thickness
+    out_g = 0.0 if m.is_insulated else m.gear_conductivity / m.gear_thickness
+    outside = far_rise(pt)
     total = 0.0
     for j in range(m.n_t):
         carrier = m.carrier_at + j * m.carrier_step
@@ -51,7 +52,8 @@ def _through_faces(m: WasherModel, f: Fields) -> float:
         for i in range(m.n_r):
             total += m.weight1[i] * m.weight_t[j] * out_c * f.temp[np.uintp(carrier + i)]
             if i >= m.i_g:
-                total += m.weight2[i] * m.weight_t[j] * out_g * f.temp[np.uintp(gear + i)]
+                over = f.temp[np.uintp(gear + i)] - outside
+                total += m.weight2[i] * m.weight_t[j] * out_g * over
     return total
 
 
@@ -115,7 +117,7 @@ def outputs_at(w: Workspace, pt: Point) -> bool:
     if m.par[L.P_THERMAL_MODE] == L.TRANSIENT:
         faces = far_heat(m, f)
     else:
-        faces = _through_faces(m, f)
+        faces = _through_faces(m, pt, f)
     out[L.O_OIL_HEAT] = out[L.O_THROUGHFLOW_HEAT] + faces
     out[L.O_OUTLET] = pt.oil_temperature + warmer
     if flow > 0.0:
@@ -169,7 +171,7 @@ def change_of_outputs(
     fraction = 1.0 - m.film_heat_fraction
     far_c, far_g = vector(f.small, L.FAR_CARRIER), vector(f.small, L.FAR_GEAR)
     by_oil_c = far_c[1] * change.oil_temperature
-    by_oil_g = far_g[1] * change.oil_temperature
+    by_oil_g = far_g[0] * (change.oil_temperature - change.far_face) + far_g[1] * change.far_face
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         at = m.carrier_at + j * m.carrier_step

@@ -42,7 +42,7 @@ def broken_rule(par: Array) -> int:
     for k in range(3):
         if _too_small(par, L.P_ROUGHNESS + 1 + k, LEAST_ROUGHNESS):
             return 3 + k
-    if not par[L.P_FRICTION_LOAD_MIN] < par[L.P_FRICTION_LOAD_MAX]:
+    if not par[L.P_FRICTION_PRESSURE_MIN] < par[L.P_FRICTION_PRESSURE_MAX]:
         return 6
     sigma1, sigma2, _ = combined_roughness(par)
     _, _, first = summits(par, sigma1)
@@ -72,34 +72,47 @@ def broken_rule(par: Array) -> int:
     if not cooled and par[L.P_CAVITY_SHEAR] == L.ONLY_LIQUID:
         return 27
     # the fidelity may be unknown yet
-    if par.size >= L.N_PARAM and par[L.P_THERMAL_MODE] == L.TRANSIENT:
-        return 0 if par[L.P_FIDELITY] >= L.COARSE else 28
+    if par.size >= L.N_PARAM and not par[L.P_FIDELITY] >= L.COARSE:
+        if par[L.P_THERMAL_MODE] == L.TRANSIENT:
+            return 28
+        if par[L.P_GEAR_FAR_FACE] == L.BULK:
+            return 29
     return 0
 
 
 @kernel
 def is_bad(inp: Array) -> bool:
-    """Tell if an input is not finite, or the tilt negative."""
-    total = inp[L.I_LOAD] + inp[L.I_SPEED] + inp[L.I_TILT] + inp[L.I_OIL]
-    return not math.isfinite(total) or inp[L.I_TILT] < 0.0
+    """Tell if an input is not finite, the tilt negative, or the far face too cold."""
+    total = inp[L.I_LOAD] + inp[L.I_SPEED] + inp[L.I_TILT] + inp[L.I_OIL] + inp[L.I_FAR_FACE]
+    if not math.isfinite(total) or inp[L.I_TILT] < 0.0:
+        return True
+    return bool(inp[L.I_FAR_FACE] != 0.0 and inp[L.I_FAR_FACE] < LEAST_TEMPERATURE)
 
 
 @kernel
-def point_of(inp: Array) -> Point:
-    """Return the operating point: load, speed, tilt, oil temperature as they count."""
+def _follows_oil(par: Array, inp: Array) -> bool:
+    """Tell if the gear's far face counts as warm as the oil."""
+    return bool(par[L.P_GEAR_FAR_FACE] != L.BULK or inp[L.I_FAR_FACE] == 0.0)
+
+
+@kernel
+def point_of(par: Array, inp: Array) -> Point:
+    """Return the operating point: inputs as they count."""
     tilt = inp[L.I_TILT] if inp[L.I_TILT] > LEAST_TILT else 0.0
     speed = inp[L.I_SPEED]
     if 0.0 < abs(speed) < LEAST_SPEED:
         speed = math.copysign(LEAST_SPEED, speed)
-    return Point(max(inp[L.I_LOAD], LEAST_LOAD), speed, tilt, inp[L.I_OIL])
+    far_face = inp[L.I_OIL] if _follows_oil(par, inp) else inp[L.I_FAR_FACE]
+    return Point(max(inp[L.I_LOAD], LEAST_LOAD), speed, tilt, inp[L.I_OIL], far_face)
 
 
 @kernel
-def change_of(inp: Array, seed: Array) -> Point:
+def change_of(par: Array, inp: Array, seed: Array) -> Point:
     """Return how the operating point changes; an input held at its bound does not."""
     dload = seed[L.I_LOAD] if inp[L.I_LOAD] > LEAST_LOAD else 0.0
     dtilt = seed[L.I_TILT] if inp[L.I_TILT] > LEAST_TILT else 0.0
-    return Point(dload, seed[L.I_SPEED], dtilt, seed[L.I_OIL])
+    dfar_face = seed[L.I_OIL] if _follows_oil(par, inp) else seed[L.I_FAR_FACE]
+    return Point(dload, seed[L.I_SPEED], dtilt, seed[L.I_OIL], dfar_face)
 
 
 @kernel

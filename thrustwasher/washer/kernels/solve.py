@@ -59,7 +59,8 @@ def recall_state(w: Workspace, state: Array) -> None:
     if state[L.S_FACTOR_VALID] != 1.0:
         forget_factor(w)
     elif not _belongs(w.par, state, f.tag, of_factor):
-        pt = Point(1.0, state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT], state[L.S_FACTOR_OIL])
+        oil = state[L.S_FACTOR_OIL]
+        pt = Point(1.0, state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT], oil, oil)
         out = f.small[L.OUT_CARRIER : L.OUT_SIZE]
         now0, now1, now2 = out[0], out[1], out[2]
         copy(vector(state, L.S_FACTOR_POSITIONS), w.q)
@@ -85,6 +86,7 @@ def remember_state(w: Workspace, pt: Point, state: Array) -> None:
     state[L.S_VALID] = 1.0
     state[L.S_LOAD], state[L.S_SPEED] = pt.load, pt.speed
     state[L.S_TILT], state[L.S_OIL] = pt.tilt, pt.oil_temperature
+    state[L.S_FAR_FACE] = pt.far_face
     copy(w.q, vector(state, L.S_POSITIONS))
     copy(vector(f.small, L.TANGENT), vector(state, L.S_TANGENT))
     state[L.S_LOAD_SLOPE] = w.info[L.LOAD_SLOPE]
@@ -118,6 +120,7 @@ def _predict(w: Workspace, pt: Point, state: Array) -> None:
         pt.speed == state[L.S_SPEED]
         and pt.tilt == state[L.S_TILT]
         and pt.oil_temperature == state[L.S_OIL]
+        and pt.far_face == state[L.S_FAR_FACE]
     )
     if same and slope < 0.0 and state[L.S_FACTOR_VALID] == 1.0 and abs(change) < 0.2 * pt.load:
         step = change / slope

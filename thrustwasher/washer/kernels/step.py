@@ -68,7 +68,7 @@ def _in_time(
     Returns a status, the next substep [s], the heat made and what of it stays in the bodies [J].
     """
     if fresh:
-        start_terms(w)
+        start_terms(w, pt)
     else:
         w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
         take_up(w, pt, state)
@@ -100,8 +100,8 @@ def step(
 ) -> int:
     """Advance by ``dt`` (quasi-steady: solve at the present inputs) and write the outputs.
 
-    ``inp`` is load, speed, tilt, oil temperature; a fifth entry, if there is one, names the wanted
-    branch, otherwise the one that ``state`` remembers goes on. ``work`` begins with the head of the
+    ``inp`` is load, speed, tilt, oil temperature, that of the gear's far face (0: the oil's); a
+    sixth entry, if there is one, names the wanted branch, otherwise the one that ``state`` remembers goes on. ``work`` begins with the head of the
     layout: for Python's results.
     """
     fidelity = par[L.P_FIDELITY]
@@ -110,7 +110,7 @@ def step(
         return BAD_INPUT
     is_asked = inp.size > L.I_BRANCH
     wanted = inp[L.I_BRANCH] if is_asked else L.ANY
-    pt, w = point_of(inp), workspace_of(par, work)
+    pt, w = point_of(par, inp), workspace_of(par, work)
     if fidelity == L.MAP:
         w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
         work[BY_MAP] = 1.0
@@ -129,7 +129,7 @@ def step(
             wanted = state[L.S_MAP_BRANCH]
     in_time = par[L.P_THERMAL_MODE] == L.TRANSIENT
     fresh = state[L.S_VALID] != 1.0
-    set_steady(model_of(w), fields_of(w))
+    set_steady(model_of(w), pt, fields_of(w))
     if in_time and fresh and par[L.P_THERMAL_START] == L.FROM_OIL:
         start_cold(w)
     status = OK
@@ -173,7 +173,7 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     rest with contact, where the torque jumps.
     """
     fidelity = par[L.P_FIDELITY]
-    pt, change, w = point_of(inp), change_of(inp, seed), workspace_of(par, work)
+    pt, change, w = point_of(par, inp), change_of(par, inp, seed), workspace_of(par, work)
     if fidelity == L.MAP and work[BY_MAP] == 1.0:
         return map_sens(inp, seed, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)
     if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and w.outputs[L.O_CONTACT_LOAD] > 0.0:

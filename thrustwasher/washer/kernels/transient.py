@@ -106,9 +106,9 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
             if held:
                 ladder.hold_bodies(w)
             elif stage == 0:
-                ladder.set_stage(w, h)
+                ladder.set_stage(w, pt, h)
             else:
-                ladder.set_end(w, h)
+                ladder.set_end(w, pt, h)
             before, status = power, _arrive(w, pt)
             if status != OK or held:
                 break
@@ -144,8 +144,9 @@ def take_up(w: Workspace, pt: Point, state: Array) -> None:
     """Take the remembered state; the bodies stay as warm as they are when the oil changes."""
     recall_state(w, state)
     warmer = pt.oil_temperature - state[L.S_OIL]
-    if warmer != 0.0:
-        ladder.shift_terms(w, warmer)
+    outside = pt.far_face - state[L.S_FAR_FACE]
+    if warmer != 0.0 or outside != 0.0:
+        ladder.shift_terms(w, warmer, outside)
 
 
 @kernel
@@ -169,7 +170,7 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     out, branch = f.small[L.OUT_CARRIER : L.OUT_SIZE], w.found[L.BRANCH]
     carrier, washer, gear = out[0], out[1], out[2]
     copy(f.outward, f.begin)
-    set_steady(m, f)
+    set_steady(m, pt, f)
     status = descend(w, pt, L.CONTACT_BRANCH)
     w.found[L.BRANCH] = branch
     if status != OK and status != NO_BRANCH:

@@ -18,6 +18,7 @@ class Point(NamedTuple):
     speed: float  # [rad/s]
     tilt: float  # [rad]
     oil_temperature: float  # [K]
+    far_face: float  # [K] temperature at the gear's far face; the oil's, if it is not the bulk's
 
 
 class Workspace(NamedTuple):

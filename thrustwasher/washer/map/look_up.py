@@ -82,7 +82,7 @@ class WasherMap:
 
     def covers(self, *, load: float, speed: float, tilt: float, oil_temperature: float) -> bool:
         """Tell if a point lies in the box."""
-        return bool(map_covers(self.data, Point(load, speed, tilt, oil_temperature)))
+        return bool(map_covers(self.data, Point(load, speed, tilt, oil_temperature, 0.0)))
 
     def torque(
         self, load: float, speed: float, tilt: float, oil_temperature: float, branch: float = 0.0
@@ -133,7 +133,7 @@ class WasherMap:
         ------
         ParameterError : the point is outside the box
         """
-        point = Point(self.box["load"][0], speed, tilt, oil_temperature)
+        point = Point(self.box["load"][0], speed, tilt, oil_temperature, 0.0)
         if not map_covers(self.data, point):
             raise ParameterError(
                 f"speed = {speed:g} rad/s, tilt = {tilt:g} rad, oil_temperature = "
@@ -165,7 +165,7 @@ _solver = Recent(_Solver)
 
 
 def solve_by_map(
-    params: WasherParams, point: tuple[float, float, float, float], wanted: float,
+    params: WasherParams, point: tuple[float, float, float, float, float], wanted: float,
     start: WasherResult | None,
 ) -> WasherResult | None:  # fmt: skip
     """Return the state at a point by look-up, None where the map says nothing.
@@ -173,6 +173,11 @@ def solve_by_map(
     ``wanted`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
     ParameterError: there is no map for these parameters.
     """
+    if params.gear_far_face == "bulk":
+        raise ParameterError(
+            "fidelity = 'map' with gear_far_face = 'bulk', allowed: 'oil' or 'insulated'; a map has "
+            "no far_face_temperature: use fidelity 'field'"
+        )
     if point[2] <= LEAST_TILT:
         washer_map(params)  # there has to be one
         return None

@@ -9,7 +9,6 @@ import numpy as np
 
 from ...errors import BranchError, SolveError
 from ...processes import Run, run_here
-from ..kernels.workspace import Point
 from ..load_curve import Continuation
 from ..parameters import WasherParams
 from ..solve import GRIDS, solve_washer
@@ -160,7 +159,7 @@ def _off_folds(
     params: WasherParams, washer: WasherMap, place: dict[str, float], grid: tuple[int, int]
 ) -> list[float]:
     """Return the relative differences of the loads of two folds; none if the mesh has them not."""
-    curve = Continuation(params, Point(1.0, **place), grid)
+    curve = Continuation(params, (1.0, *place.values(), 0.0), grid)
     differences = []
     try:
         curve.start(6.0)

@@ -10,7 +10,6 @@ from ...errors import SolveError
 from ...numerics.jit import Array
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
-from ..kernels.workspace import Point
 from ..load_curve import Continuation
 from ..parameters import WasherParams
 from .map_plan import COARSE, ONSET
@@ -38,9 +37,9 @@ class LineTask:
     accuracy: float = 1e-7  # of Newton's method
 
     @property
-    def point(self) -> Point:
-        """Return the operating point, of no load."""
-        return Point(1.0, self.speed, self.tilt, self.oil_temperature)
+    def inputs(self) -> tuple[float, float, float, float, float]:
+        """Return the inputs, of no load."""
+        return 1.0, self.speed, self.tilt, self.oil_temperature, 0.0
 
 
 class Line:
@@ -48,7 +47,7 @@ class Line:
 
     def __init__(self, task: LineTask, grid: tuple[int, int]) -> None:
         self.task = task
-        self.at = Continuation(task.params, task.point, grid)
+        self.at = Continuation(task.params, task.inputs, grid)
         m = self.at.m
         self.sigma = m.sigma1
         self.weight2, self.moment1, self.moment2 = (
@@ -60,7 +59,8 @@ class Line:
 
     def take_over(self, task: LineTask, kept: list[Array]) -> None:
         """Go to another line, where a solution of this one was."""
-        self.task, self.at.pt = task, task.point
+        self.task = task
+        self.at.move(task.inputs)
         self.at.come_back(kept)
         self.to(self.ratio + NUDGE)
 

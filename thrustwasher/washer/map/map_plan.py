@@ -16,7 +16,7 @@ from ...tribology.viscosity import viscosity
 from ..kernel_arguments import constants
 from ..kernels.layout import D_SIGMA1, N_STEADY
 from ..kernels.map import map_layout as L
-from ..parameters import SPEC, WasherParams
+from ..parameters import SPEC, WasherParams, face_of
 
 INPUTS = ("load", "speed", "tilt", "oil_temperature")
 DEFAULT_BOX = {
@@ -151,6 +151,11 @@ def plan_map(
             f"oil_supply_temperature = {params.oil_supply_temperature:g} K, allowed for a map: 0 "
             "(as oil_temperature)"
         )
+    if params.gear_far_face == "bulk":
+        raise ParameterError(
+            "gear_far_face = 'bulk', allowed for a map: 'oil' or 'insulated' (a map has no "
+            "far_face_temperature)"
+        )
     check_number("tolerance", tolerance, "1", *TOLERANCES)
     ends = dict(DEFAULT_BOX)
     for name, pair in (box or {}).items():
@@ -217,7 +222,8 @@ def _axis_nodes(low: float, high: float, patches: int) -> list[float]:
 def _marks(params: WasherParams, load_max: float) -> tuple[float, float, float]:
     """Return contact loads that cut the curve: the ends of the dry friction law where they lie."""
     top = SPARE * load_max
-    corners = [params.friction_load_min, params.friction_load_max]
+    face = face_of(params.inner_radius, params.outer_radius)
+    corners = [face * params.friction_pressure_min, face * params.friction_pressure_max]
     inside = [x for x in corners if params.friction_law == "load" and 0.02 * top < x < 0.98 * top]
     if len(inside) == 2:
         return inside[0], inside[1], top

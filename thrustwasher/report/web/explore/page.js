@@ -232,6 +232,7 @@ function changes(from) {
 }
 
 function settled() {
+  byId("oil").value = Object.keys(ABOUT.oils).find((name) => Object.entries(ABOUT.oils[name]).every(([n, v]) => state.parameters[n] === v)) ?? "";
   const pairs = [...Object.entries(state.inputs), ...changes(ABOUT.given)];
   if (state.rung !== ABOUT.rung) pairs.push(["fidelity", state.rung]);
   if (state.branch) pairs.push(["branch", state.branch]);
@@ -323,6 +324,14 @@ function builtControls() {
   rungs.value = state.rung;
   rungs.addEventListener("change", () => { state.rung = rungs.value; parametersChanged(); });
   main.prepend(el("div", { class: "field" }, el("label", { for: "fidelity" }, "rung: mesh and laws", el("code", {}, "fidelity")), rungs));
+  const oils = el("select", { id: "oil" }, el("option", { value: "" }, "its own parameters"), ...Object.keys(ABOUT.oils).map((name) => el("option", {}, name)));
+  oils.addEventListener("change", () => {
+    quiet = true;
+    for (const name of Object.keys(Object.values(ABOUT.oils)[0])) fields[name].set((ABOUT.oils[oils.value] ?? ABOUT.given)[name]);
+    quiet = false;
+    parametersChanged();
+  });
+  main.append(el("div", { class: "field" }, el("label", { for: "oil" }, "oil: typical viscosity and density of its class", el("code", {}, "oil")), oils));
   byId("reset").addEventListener("click", () => { location.hash = ""; });
   for (const button of document.querySelectorAll("button[data-copy]")) {
     button.addEventListener("click", () => {

@@ -7,7 +7,7 @@ class Model {
   constructor(kernel, about) {
     Object.assign(this, { kernel, about, L: about.layout, meshes: {} });
     const { L } = this;
-    this.inp = kernel.array(5);
+    this.inp = kernel.array(L.NINP + 1);
     this.out = kernel.array(L.NOUT);
     this.iout = kernel.array(L.NIOUT, Int32Array);
   }
@@ -30,7 +30,7 @@ class Model {
     return broken;
   }
 
-  /** Solve at (load, speed, tilt, oil); `state` remembers. */
+  /** Solve at (load, speed, tilt, oil, far face); `state` remembers. */
   step(point, wanted, state) {
     this.inp.view.set([...point, wanted]);
     const { par, work } = this.mesh;
@@ -173,6 +173,8 @@ class Walker {
     washer.mesh = { ...mesh, work };
     washer.step(this.point, L.ANY, own);
     washer.mesh = mesh;
+    const bulk = par.view[L.P_GEAR_FAR_FACE] === L.BULK && point[L.I_FAR_FACE];
+    this.point[L.I_FAR_FACE] = bulk || point[L.I_OIL]; // as the kernels' point_of
     this.w = [
       par, work.part(L.N_HEAD), work.part(0, L.N_INFO), work.part(L.AT_FOUND, L.AT_CURVE),
       work.part(L.AT_CURVE, L.AT_OUTPUTS), work.part(L.AT_OUTPUTS, L.AT_POSITIONS), work.part(L.AT_POSITIONS, L.N_HEAD),

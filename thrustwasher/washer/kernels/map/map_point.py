@@ -188,7 +188,8 @@ def map_derivative(
     speed, speed_change = abs(pt.speed), side * change.speed
     mu, mu_slope = oil_viscosity(par, pt.oil_temperature)
     scale_change = mu_slope * change.oil_temperature * speed + mu * speed_change
-    forward = Point(change.load, speed_change, change.tilt, change.oil_temperature)
+    warmer = change.oil_temperature
+    forward = Point(change.load, speed_change, change.tilt, warmer, warmer)
     du, ratio_change = _change_of_curves(data, w, pt, forward, piece, u, scale_change)
     if not math.isfinite(du):
         return False

@@ -31,7 +31,7 @@ def single_look_up(
 
     ``w`` has N_MAP_WORK + L.N_ALL entries. Few arguments: each costs a call from Python 0.1 us.
     """
-    pt = Point(load, speed, tilt, oil_temperature)
+    pt = Point(load, speed, tilt, oil_temperature, oil_temperature)
     if place_without_memory(data, pt, wanted, w) <= 0.0:
         return math.nan
     out = w[N_MAP_WORK:]
@@ -52,7 +52,7 @@ def look_up_rows(
     found : (n, 2) branch (0 no such branch, -1 outside) and 2 where there are several, else 1
     """
     for i in range(rows.shape[0]):
-        pt = Point(rows[i, 0], rows[i, 1], rows[i, 2], rows[i, 3])
+        pt = Point(rows[i, 0], rows[i, 1], rows[i, 2], rows[i, 3], rows[i, 3])
         branch = place_without_memory(data, pt, wanted, w)
         found[i, 0], found[i, 1] = branch, 1.0
         if branch <= 0.0:
@@ -74,7 +74,7 @@ def map_folds(
     They come from the thick end: where the film is lost, where it is regained, and so on.
     """
     place = w[PLACE:]
-    scale = enter_map(data, Point(1.0, speed, tilt, oil_temperature), w)
+    scale = enter_map(data, Point(1.0, speed, tilt, oil_temperature, oil_temperature), w)
     read_edges(data, w)
     count, rising = 0, True
     best_piece, best_u, best = 0.0, 1.0, 0.0
@@ -97,7 +97,7 @@ def map_folds(
                     at, load = best_u, best
                 place[M.AT_PIECE], place[M.AT_U], place[M.AT_SCALE] = best_piece, at, scale
                 place[M.AT_RATIO] = ratio_at(w, int(best_piece), at)
-                pt = Point(load, speed, tilt, oil_temperature)
+                pt = Point(load, speed, tilt, oil_temperature, oil_temperature)
                 map_outputs(data, w, pt, place, folds[count])
                 folds[count, L.N_ALL] = load
                 count += 1

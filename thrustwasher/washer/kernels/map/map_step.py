@@ -140,7 +140,7 @@ def map_step(
     """
     if not map_fits(data, par, L.N_STEADY):
         return BAD_INPUT
-    pt = point_of(inp)
+    pt = point_of(par, inp)
     branch = w[N_MAP_WORK - N_VERDICT :]
     status = look_up(data, pt, wanted, state, w, numbers, branch)
     if status == NOT_HERE:
@@ -164,7 +164,8 @@ def map_step(
 @kernel
 def map_sens(inp: Array, seed: Array, numbers: Array, w: Array, data: Array, dout: Array) -> int:
     """Fill ``dout`` along ``seed`` after a look-up; SINGULAR at a fold."""
-    pt, change = point_of(inp), change_of(inp, seed)
+    par = data[M.PARAMS :]
+    pt, change = point_of(par, inp), change_of(par, inp, seed)
     if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and numbers[L.O_CONTACT_LOAD] > 0.0:
         return SINGULAR
     read_edges(data, w)

@@ -1,0 +1,201 @@
+"""Thrust bearings of sun and ring: against Newton's law for each body, and in the energy book."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.transmission.parameters import BEARINGS, SHAFT, TransmissionParams
+
+from test_transmission_step import FREE, Gearbox  # isort: skip
+
+SIMPSON = {"sun_teeth": 38, "planet_teeth": 18, "ring_teeth": 74, "arrangement": "ring-input"}
+BOTH = {"sun_bearing_coefficient": 0.004, "ring_bearing_coefficient": 0.004}
+
+
+def between(name, one, other, coefficient=0.004):
+    return {f"{name}_shaft_1": one, f"{name}_shaft_2": other, f"{name}_coefficient": coefficient}
+
+
+def newton(box, clutch, brake, engine=150.0, load=250.0):
+    """Return (tooth torque, clutch, brake) from an equation per body, solved by fixed point.
+
+    ``clutch`` and ``brake``: torque of a slipping pack, None for one that sticks. Bodies: driven
+    gear, drum, carrier; their torques in the teeth are as 1 : r : -(1 + r).
+    """
+    p = box.params
+    r, ring_driven = p.ratio, p.arrangement == "ring-input"
+    speed = {"carrier": box["output_speed"], "case": 0.0}
+    bodies = ("ring", "sun", "carrier") if ring_driven else ("sun", "ring", "carrier")
+    speed |= {bodies[0]: box["engine_speed"], bodies[1]: box["drum_speed"]}
+    driven_teeth = p.ring_teeth if ring_driven else p.sun_teeth
+    radius = 0.5 * p.normal_module * driven_teeth / math.cos(p.helix_angle)
+    load = load * (box["output_speed"] / p.load_speed) ** 2
+    teeth = 0.0
+    for _ in range(40):
+        thrust, takes = abs(teeth) * math.tan(p.helix_angle) / radius, dict.fromkeys(SHAFT, 0.0)
+        for name in BEARINGS:
+            one, other = (getattr(p, f"{name}_shaft_{i}") for i in (1, 2))
+            rubs = getattr(p, f"{name}_coefficient") * getattr(p, f"{name}_mean_radius") * thrust
+            torque = rubs * math.tanh(speed[one] - speed[other])
+            takes[one] += torque
+            takes[other] -= torque
+        # Unknown: three accelerations, tooth torque, clutch, brake.
+        rows = np.array([
+            [p.input_inertia, 0.0, 0.0, 1.0, 1.0, 0.0],
+            [0.0, p.drum_inertia, 0.0, r, -1.0, 1.0],
+            [0.0, 0.0, p.carrier_inertia, -(1.0 + r), 0.0, 0.0],
+            [1.0, r, -(1.0 + r), 0.0, 0.0, 0.0],
+            [1.0, -1.0, 0.0, 0.0, 0.0, 0.0] if clutch is None else [0, 0, 0, 0, 1.0, 0],
+            [0.0, 1.0, 0.0, 0.0, 0.0, 0.0] if brake is None else [0, 0, 0, 0, 0, 1.0],
+        ])  # fmt: skip
+        right = np.array([
+            engine - takes[bodies[0]], -takes[bodies[1]], -load - takes["carrier"], 0.0,
+            clutch or 0.0, brake or 0.0,
+        ])  # fmt: skip
+        found = np.linalg.solve(rows, right)
+        teeth = float(found[3])
+    return teeth, float(found[4]), float(found[5])
+
+
+def gearbox(**params):
+    box = Gearbox(**params)
+    box.params = TransmissionParams(**params)
+    return box
+
+
+@pytest.mark.parametrize("arrangement", [{}, SIMPSON])
+@pytest.mark.parametrize("ends", [("sun", "carrier"), ("ring", "case"), ("carrier", "ring"),
+                                  ("case", "sun")])  # fmt: skip
+@pytest.mark.parametrize("modes", ["brake sticks", "both slip", "clutch sticks"])
+def test_torques_are_those_of_newtons_law_for_every_body(arrangement, ends, modes):
+    """With friction 0.05 the bearings matter; the drum has an inertia of its own."""
+    more = {"drum_inertia": 0.02, **between("sun_bearing", *ends, 0.05),
+            **between("ring_bearing", "ring", "case", 0.05)}  # fmt: skip
+    more["initial_drum_speed"] = {"brake sticks": 0.0, "both slip": 90.0, "clutch sticks": 350.0}[
+        modes
+    ]
+    box = gearbox(**arrangement | more)
+    given = {"clutch": 60.0, "brake": 40.0}
+    free = {"clutch": 60.0, "brake": 40.0}
+    if modes != "both slip":
+        pack = modes.split()[0]
+        given[pack], free[pack] = 900.0, None
+    box.step(0.0, **given)
+    teeth, clutch, brake = newton(box, **free)
+    assert box["input_tooth_torque"] == pytest.approx(teeth, rel=1e-12)
+    assert box["clutch_reaction"] == pytest.approx(clutch, rel=1e-12)
+    assert box["brake_reaction"] == pytest.approx(brake, rel=1e-12)
+
+
+def test_where_both_ends_turn_alike_only_the_case_holds_back():
+    """With the clutch stuck all shafts turn alike: a bearing between two of them does nothing."""
+    found = []
+    for ends in (("sun", "carrier"), ("carrier", "ring"), ("ring", "case")):
+        box = Gearbox(initial_drum_speed=350.0, **between("sun_bearing", *ends))
+        box.step(0.0, clutch=900.0)
+        assert box["clutch_locked"] == 1.0
+        found.append(box["sun_bearing_torque"])
+    assert found[0] == found[1] == 0.0 and found[2] > 0.0
+
+
+def test_a_bearing_rubs_with_the_thrust_at_its_mean_radius():
+    box = Gearbox(**BOTH)
+    box.step(0.0, brake=900.0)
+    torque = 0.004 * box["sun_thrust"] * 0.025
+    assert box["sun_bearing_torque"] == pytest.approx(torque, rel=1e-13)
+    assert box["ring_bearing_torque"] == 0.0  # the drum is held, and so is the ring
+    slip = box["engine_speed"] - box["output_speed"]
+    assert box["bearing_power"] == pytest.approx(torque * slip, rel=1e-12)
+
+
+def test_power_is_the_mean_of_the_step_and_heat_their_sum():
+    box, heat = Gearbox(**BOTH), 0.0
+    for i in range(40):
+        box.step(5e-3, brake=400.0 - 10.0 * i, clutch=9.0 * i)
+        heat += 5e-3 * box["bearing_power"]
+        shown = box.out.copy()
+        box.step(0.0, brake=400.0 - 10.0 * i, clutch=9.0 * i)
+        assert box.out == pytest.approx(shown, rel=1e-12, abs=1e-9)
+    assert box["bearing_heat"] == pytest.approx(heat, rel=1e-12) and heat > 1.0
+
+
+def test_without_a_coefficient_nothing_acts():
+    plain, other = Gearbox(), Gearbox(**between("sun_bearing", "ring", "case", 0.0))
+    for i in range(30):
+        for box in (plain, other):
+            box.step(1e-2, clutch=10.0 * i, brake=380.0 - 13.0 * i, washer=0.03, mesh=0.1)
+    assert plain.out.tobytes() == other.out.tobytes() and plain["bearing_heat"] == 0.0
+
+
+def test_a_drum_that_a_bearing_turns_breaks_away_where_the_reaction_says():
+    """At constant torques the stuck brake carries the teeth and the bearing on its drum."""
+    box = gearbox(**FREE | {"engine_torque": 150.0, "initial_engine_speed": 300.0,
+                            **between("ring_bearing", "ring", "carrier", 0.05)})  # fmt: skip
+    box.step(0.01, brake=404.0)
+    reaction = abs(newton(box, 0.0, None, load=0.0)[2])
+    plain = abs(box.params.ratio * box["input_tooth_torque"])
+    assert abs(reaction - plain) > 0.1
+    n = 0
+    while box["brake_locked"]:
+        n += 1
+        assert n < 60 and box.step(0.01, brake=404.0 - 10.0 * n) == 0
+    assert box["release_time"] == pytest.approx((404.0 - reaction) / 1000.0, rel=1e-9)
+
+
+def test_lock_up_does_not_depend_on_the_communication_step():
+    times = []
+    for n in (1, 9, 100):
+        box = Gearbox(**BOTH | between("sun_bearing", "sun", "ring"))
+        for _ in range(n):
+            assert box.step(2.0 / n, clutch=350.0) == 0
+        assert box["clutch_speed"] == 0.0 == box["sun_bearing_torque"]
+        times.append(box["lock_time"])
+    assert times == pytest.approx([times[0]] * 3, rel=1e-10) and times[0] > 0.0
+
+
+shafts = st.permutations(list(SHAFT)).map(lambda found: found[:2])
+coefficients = st.sampled_from([0.0, 0.004, 0.05])
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    shafts, shafts, coefficients, coefficients, st.floats(-400.0, 400.0),
+    st.sampled_from([0.0, 90.0, -200.0]), st.sampled_from([0.0, 0.01]),
+    st.sampled_from(["sun-input", "ring-input"]), st.sampled_from([0.0, 2e3]),
+    st.lists(st.tuples(st.floats(1.0, 500.0), st.floats(1.0, 500.0), st.floats(-200.0, 200.0)),
+             min_size=3, max_size=25),
+)  # fmt: skip
+def test_bearings_only_take_energy_and_the_book_closes(
+    sun, ring, low, high, engine, drum, inertia, arrangement, stiffness, received
+):
+    box = Gearbox(
+        **between("sun_bearing", *sun, low), **between("ring_bearing", *ring, high),
+        initial_engine_speed=engine, initial_drum_speed=drum, drum_inertia=inertia,
+        arrangement=arrangement, shaft_stiffness=stiffness, engine_torque=0.0,
+    )  # fmt: skip
+    turnover, heat = 1.0, 0.0
+    for clutch, brake, torque in received:
+        assert (
+            box.step(5e-3, clutch=clutch, brake=brake, engine_torque_input=torque, washer=0.02) == 0
+        )
+        turnover = max(turnover, abs(box["engine_work"]) + box["kinetic_energy"])
+        assert box["bearing_heat"] >= heat - 1e-9 * turnover
+        heat = box["bearing_heat"]
+        assert abs(box["energy_residual"]) <= 1e-9 * turnover
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"sun_bearing_shaft_2": "sun"}, "another shaft than sun_bearing_shaft_1"),
+        ({"ring_bearing_shaft_1": "housing"}, "'sun' or 'carrier' or 'ring' or 'case'"),
+        ({"ring_bearing_coefficient": 0.1, "ring_bearing_mean_radius": 1.0}, "a tenth of the sun"),
+    ],
+)
+def test_bearings_that_cannot_be_are_refused(change, said):
+    with pytest.raises(ParameterError, match=said):
+        TransmissionParams(**change)

@@ -1,0 +1,159 @@
+"""What the gear's far face borders on: the oil, nothing, or the bulk of the gear."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thrustwasher import ParameterError, WasherParams, follow_washer, load_curve, solve_washer
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels.constants import washer_model
+from thrustwasher.washer.solve import constants
+
+BASE = {"load": 300.0, "speed": 545.0, "tilt": 2e-3}
+OIL = 297.15
+INSULATED = WasherParams(gear_far_face="insulated")
+BULK = WasherParams(gear_far_face="bulk")
+MODES = [
+    (far, conduction, cooled, split)
+    for far in ("insulated", "bulk")
+    for conduction, split in (("carrier", 0.5), ("rotating", 0.3), ("all", 0.8))
+    for cooled in (True, False)
+]
+
+
+def faces(r):
+    """Return the heat that leaves by the far faces of carrier and gear [W], from the fields."""
+    f, m, p = r.fields(), washer_model(constants(r.params, r.grid)), r.params
+    outside = r.far_face_temperature or r.oil_temperature
+    each = []
+    for field, weight, thickness, beyond in (
+        (f.carrier_temperature, m.weight1, p.carrier_thickness, r.oil_temperature),
+        (f.gear_temperature, m.weight2, p.gear_thickness, outside),
+    ):
+        over = np.nan_to_num(field - beyond)
+        each.append(p.conductivity / thickness * float(weight @ over @ m.weight_t))
+    return each
+
+
+@pytest.mark.parametrize(("far", "conduction", "cooled", "split"), MODES)
+def test_friction_power_leaves_by_the_far_faces_and_with_the_oil(far, conduction, cooled, split):
+    params = WasherParams(
+        gear_far_face=far, conduction=conduction, oil_cooling=cooled, heat_split=split
+    )
+    for load, speed in ((300.0, 953.0), (1361.0, -136.0), (700.0, 545.0)):
+        warm = {"far_face_temperature": 345.0} if far == "bulk" else {}
+        r = solve_washer(params, load=load, speed=speed, tilt=2e-3, **warm)
+        carrier, gear = faces(r)
+        gear = gear if far == "bulk" else 0.0
+        out = carrier + gear + r.throughflow_heat
+        assert out == pytest.approx(r.friction_power, rel=1e-8)
+        assert r.oil_heat == pytest.approx(r.friction_power, rel=1e-8)
+
+
+def test_a_far_face_as_warm_as_the_oil_is_that_of_the_oil():
+    oil, bulk, told = (
+        solve_washer(params, **BASE, **more)
+        for params, more in (
+            (WasherParams(), {}), (BULK, {}), (BULK, {"far_face_temperature": OIL}),
+        )
+    )  # fmt: skip
+    assert bulk.friction_torque == oil.friction_torque == told.friction_torque
+    assert bulk.temperature == oil.temperature == told.temperature
+
+
+def test_an_insulated_gear_is_between_none_and_one_as_warm_as_it_would_become():
+    """With the far face as warm as the insulated gear no heat passes it: the same washer."""
+    params = replace(INSULATED, conductivity_gear=400.0)  # its radial differences are small
+    free = solve_washer(params, **BASE)
+    gear = free.fields().gear_temperature
+    told = float(np.nanmean(gear))
+    bulk = solve_washer(
+        replace(params, gear_far_face="bulk"), **BASE, far_face_temperature=told
+    )  # fmt: skip
+    assert np.nanmax(gear) - np.nanmin(gear) < 0.5
+    assert bulk.friction_torque == pytest.approx(free.friction_torque, rel=2e-3)
+    assert free.temperature > solve_washer(WasherParams(), **BASE).temperature
+
+
+def test_even_heat_divides_as_two_resistances_say():
+    """A level washer on its asperities: heat is made evenly but for the radius."""
+    params = WasherParams(
+        oil_cooling=False, pressure_flow_shear=False, friction_law="constant", dry_friction=0.1,
+        conductivity=500.0, gear_inner_radius=0.01111,
+    )  # fmt: skip
+    place = {"load": 2000.0, "speed": 20.0, "tilt": 0.0}
+    for far, warm in (("oil", 0.0), ("insulated", 0.0), ("bulk", 330.0)):
+        r = solve_washer(replace(params, gear_far_face=far), **place, far_face_temperature=warm)
+        f = r.fields()
+        area = np.pi * (params.outer_radius**2 - params.inner_radius**2)
+        # mean rises of the nodes: carrier, washer, gear as a chain of resistances
+        out = params.conductivity / params.carrier_thickness
+        own = params.washer_thickness / (2.0 * params.conductivity)
+        par = constants(r.params, r.grid)
+        m = washer_model(par)
+        gap1 = f.film_thickness.mean()
+        from thrustwasher.tribology.flow_factors import mean_gap
+
+        first = mean_gap(gap1, par[L.D_SIGMA1])[0] / params.oil_conductivity + own
+        share = 0.5 * r.friction_power / area
+        gap2 = r._state[L.S_POSITIONS + L.Z_GEAR] - r._state[L.S_POSITIONS + L.Z_WASHER]
+        second = mean_gap(gap2, par[L.D_SIGMA2])[0] / params.oil_conductivity + own
+        out_gear = 0.0 if far == "insulated" else out
+        beyond = warm - OIL if far == "bulk" else 0.0
+        rows = [
+            [out + 1 / first, -1 / first, 0.0],
+            [-1 / first, 1 / first + 1 / second, -1 / second],
+            [0.0, -1 / second, 1 / second + out_gear],
+        ]
+        rises = np.linalg.solve(rows, [share, share, out_gear * beyond])
+        means = [
+            float(np.nan_to_num(t - OIL).T.dot(w).dot(m.weight_t) / area)
+            for t, w in ((f.carrier_temperature, m.weight1), (f.washer_temperature, m.weight1),
+                         (f.gear_temperature, m.weight2))
+        ]  # fmt: skip
+        assert means == pytest.approx(rises, rel=2e-3)
+
+
+def test_in_time_an_insulated_gear_ends_where_the_steady_one_is():
+    hot = replace(INSULATED, thermal_mode="transient", thermal_start="oil")
+    steady = solve_washer(INSULATED, **BASE)
+    course = follow_washer(hot, time=[0.0, 1.0, 3.0, 3000.0], load=300.0, speed=545.0, tilt=2e-3)
+    assert course.temperature[1] < course.temperature[2] < steady.temperature
+    assert course.friction_torque[-1] == pytest.approx(steady.friction_torque, rel=1e-4)
+
+
+@pytest.mark.parametrize("far", ["insulated", "bulk"])
+def test_in_time_heat_made_is_stored_or_reaches_the_oil(far):
+    params = WasherParams(gear_far_face=far, thermal_mode="transient", thermal_start="oil")
+    time = np.linspace(0.0, 2.0, 401)
+    warm = 340.0 if far == "bulk" else 0.0
+    c = follow_washer(
+        params, time=time, load=np.linspace(100.0, 400.0, time.size), speed=545.0, tilt=2e-3,
+        far_face_temperature=warm,
+    )  # fmt: skip
+    reached = np.trapezoid(c.oil_heat, time)
+    made = c.energy[-1] - c.energy[0]
+    assert made == pytest.approx(reached + c.stored_heat[-1] - c.stored_heat[0], rel=2e-3)
+    assert reached < made if far == "insulated" else c.stored_heat[-1] > 0.0
+
+
+def test_a_warmer_gear_loses_the_film_earlier():
+    lost = [
+        load_curve(BULK, speed=545.0, tilt=2e-3, far_face_temperature=t).folds[0].load
+        for t in (OIL, 330.0)
+    ]
+    assert lost[1] < 0.95 * lost[0]
+
+
+@pytest.mark.parametrize(
+    ("params", "more", "said"),
+    [
+        (WasherParams(), {"far_face_temperature": 330.0}, "with gear_far_face = 'bulk'"),
+        (BULK, {"far_face_temperature": 80.0}, "0 \\(the oil's\\) or 233.15"),
+        (BULK, {"fidelity": "map"}, "a map has no far_face_temperature"),
+    ],
+)
+def test_a_far_face_in_vain_is_refused(params, more, said):
+    with pytest.raises(ParameterError, match=said):
+        solve_washer(params, **BASE, **more)

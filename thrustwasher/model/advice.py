@@ -1,0 +1,48 @@
+"""What a reader of a result must not miss: warnings, one line each, the same everywhere."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ..errors import Status
+from ..units import format_quantity
+from .record import resolve
+from .spec import ModelSpec, Signal
+
+
+def quantity_text(signal: Signal, value: float) -> str:
+    """Return name and value of an input or output as a person reads them."""
+    return f"{signal.name} = {format_quantity(value, signal.unit, difference=signal.relative)}"
+
+
+def range_text(signal: Signal, ends: tuple[float, ...]) -> str:
+    """Return a range of values as a person reads it."""
+    texts = (format_quantity(x, signal.unit, difference=signal.relative) for x in ends)
+    return " .. ".join(texts)
+
+
+def warnings_of(
+    spec: ModelSpec, status: Status, inputs: Mapping[str, Any], outputs: Mapping[str, Any],
+    more: Iterable[str] = (),
+) -> tuple[str, ...]:  # fmt: skip
+    """Return the warnings of a solution: limits passed, ranges left, the advice of its status.
+
+    ``inputs`` and ``outputs`` hold values by the model's names; one that is not there is not
+    looked at. ``more`` is what the model says beside that.
+    """
+    found = [f"{status.name}: {status.advice}"] if status.is_failure else []
+    outside = [
+        f"{quantity_text(s, inputs[s.name])} is outside {range_text(s, s.verified)}, for which the "
+        "accuracy was verified; use with care"
+        for s in spec.inputs
+        if s.verified and s.name in inputs
+        and not s.verified[0] <= inputs[s.name] <= s.verified[1]
+    ]  # fmt: skip
+    hot = [
+        f"{quantity_text(s, outputs[s.name])}: {Status.HOT.advice}"
+        for s in spec.outputs
+        if s.limit and s.name in outputs and outputs[s.name] > resolve(s.limit)
+    ]
+    said = {Status.HOT: hot, Status.OUTSIDE_VERIFIED: [*outside, *more]}
+    if not status.is_failure and status is not Status.OK and not said.get(status):
+        found.append(f"{status.name}: {status.advice}")
+    return (*found, *hot, *more, *outside)

@@ -1,0 +1,152 @@
+"""An operating point of a part: what is given, what its box fixes, what is left to the defaults.
+
+The inputs are those of the model's command, which may have another in place of one of the model's
+own: a gear mesh takes power for torque.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from ..errors import ParameterError
+from .advice import quantity_text, range_text
+from .oil import Oil, too_stiff
+from .record import Command, Model, resolve
+from .registry import find_model
+from .spec import ModelSpec, Signal
+
+Values = dict[str, float]
+OUTSIDE = (
+    "{} is outside {}, the part's box: solved all the same, but it is not what the part is meant "
+    "for; change the point, or [box] in the part file"
+)
+
+
+class Boxed(Protocol):
+    """What a point needs of a part file."""
+
+    @property
+    def spec(self) -> ModelSpec:
+        """The model."""
+
+    @property
+    def box(self) -> Mapping[str, tuple[float, float]]:
+        """Range [SI] of each input that it is meant for."""
+
+    @property
+    def params(self) -> Any:
+        """All its parameters."""
+
+    @property
+    def oil(self) -> Oil | None:
+        """Its oil, if that has a name or a data sheet."""
+
+    def inside(self, name: str, value: float) -> float:
+        """Return the value of an input, moved into the box."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """Values [SI] of all inputs of a command, and where those come from that were not given."""
+
+    values: Values
+    box: Values  # fixed or moved by the part's box
+    default: Values  # the model's defaults
+    warnings: tuple[str, ...]  # of values outside the box
+    inputs: tuple[Signal, ...]
+
+    @property
+    def taken(self) -> str:
+        """In one line what was not given; "" if all was."""
+        return taken_text(self.box, self.default, self.inputs)
+
+
+def taken_text(box: Values, default: Values, inputs: Iterable[Signal]) -> str:
+    """Return a line that names what was taken from a box and by default; "" if nothing was."""
+    signals, said = list(inputs), []
+    for words, values in {"from the part's box": box, "by default": default}.items():
+        if values:
+            shown = (quantity_text(s, values[s.name]) for s in signals if s.name in values)
+            said.append(f"{words}: {', '.join(shown)}")
+    return f"taken {'; '.join(said)}" if said else ""
+
+
+def from_box(part: Boxed, name: str, value: float, usual: float) -> bool:
+    """Tell if the value of an input that is not given is the box's doing."""
+    low, high = part.box.get(name, (-math.inf, math.inf))
+    return low == high or value != usual
+
+
+def command_inputs(model: Model) -> list[Signal]:
+    """Return the inputs of a model's command, in the order of the model's own."""
+    instead = model.command.instead if model.command else {}
+    return [Signal(**instead[s.name]) if s.name in instead else s for s in model.spec.inputs]
+
+
+def own_inputs(part: Boxed, values: Values) -> Values:
+    """Return the model's own inputs [SI] at a point of its command."""
+    place, _ = _ways(find_model(part.spec.key).command)
+    return dict(place(values))
+
+
+def point_of(
+    part: Boxed, given: Mapping[str, float], inputs: Iterable[Signal] | None = None
+) -> Point:
+    """Return the point of a part at the inputs ``given`` [SI], the rest from its box or by default.
+
+    ``inputs`` are those of a command that has others than the model's own command. A value outside
+    the box is taken, with a warning.
+    """
+    model = find_model(part.spec.key)
+    inputs = tuple(command_inputs(model) if inputs is None else inputs)
+    names, own = {s.name for s in inputs}, {s.name: s for s in part.spec.inputs}
+    place, back = _ways(model.command)
+    values, box = dict(given), {}
+    for s in inputs:
+        if s.name not in given:
+            values[s.name] = part.inside(s.name, s.usual)
+            if from_box(part, s.name, values[s.name], s.usual):
+                box[s.name] = values[s.name]
+    other = {n: values.pop(n) for n in given if n not in names}  # the model's own, as it is
+    if other:
+        if both := names & given.keys() - own.keys():
+            raise ParameterError(f"{both.pop()} and {', '.join(other)}: allowed: one of both")
+        values = back({n: v for n, v in values.items() if n in own} | other)
+        given = {**given, **{n: v for n, v in values.items() if n not in own}}
+    there = place(values)
+    for name in [n for n in values if n not in own and n not in given]:
+        moved = {n: _moved(part, n, v) for n, v in there.items()}
+        if moved != there:  # the box of the model's own input decides the one instead of it
+            there, values = moved, back(moved)
+            box[name] = values[name]
+    outside = [
+        OUTSIDE.format(quantity_text(own[n], there[n]), range_text(own[n], ends))
+        for n, ends in part.box.items()
+        if n in there and _moved(part, n, there[n]) != there[n]
+    ]  # fmt: skip
+    if "oil_temperature" in there:
+        oil = there["oil_temperature"]
+        outside += part.oil.warnings([part.spec], oil) if part.oil else []
+        outside += too_stiff(part.spec, part.params, oil)
+    default = {n: v for n, v in values.items() if n not in given and n not in box}
+    return Point(
+        values=values, box=box, default=default, warnings=tuple(outside), inputs=inputs
+    )  # fmt: skip
+
+
+def _ways(command: Command | None) -> tuple[Callable[..., Values], Callable[..., Values]]:
+    """Return the ways from the command's inputs to the model's own, and back."""
+    if command is None or not command.place:
+        return dict, dict
+    return resolve(command.place), resolve(command.back)
+
+
+def _moved(part: Boxed, name: str, value: float) -> float:
+    """Return a value moved into the box; where another input stands for it only its size counts."""
+    inside, command = part.inside(name, value), find_model(part.spec.key).command
+    if inside == value or command is None or name not in command.instead or not command.place:
+        return inside
+    return value if part.inside(name, -value) == -value else abs(inside)

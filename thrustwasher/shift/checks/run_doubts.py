@@ -1,0 +1,83 @@
+"""What a scene and the signals of its run show without a further run: warnings."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from ...errors import Status
+from ...numerics.jit import Array
+from ...units import format_quantity as say
+from ..cosim.loop import Steps
+from ..scene.scene import Scene
+
+Signals = Mapping[str, Array]
+OTHER_STEP = 0.01  # of the step asked for: by so much another is worth a word
+ROOM = 1e-6  # of a box's width
+
+
+def doubts(scene: Scene, step: float, steps: Steps, time: Array, signals: Signals) -> Iterator[str]:
+    """Yield what must not be missed, a line each."""
+    yield from scene.warnings
+    yield from _of_times(scene, step, steps)
+    yield from _of_solvers(time, signals)
+    yield from _of_boxes(scene, signals)
+
+
+def _of_times(scene: Scene, step: float, steps: Steps) -> Iterator[str]:
+    begin, end = scene.shift_start, scene.shift_start + scene.shift_duration
+    if begin < scene.start_time:
+        yield (
+            f"The shift begins at {begin:.4g} s, before the run does at {scene.start_time:.4g} s: "
+            "the run starts amid it, with locked or pressed packs as the scene says; set an "
+            "earlier start_time or later pressures"
+        )
+    if begin >= scene.stop_time:
+        yield (
+            f"The shift begins at {begin:.4g} s, after the run ends at {scene.stop_time:.4g} s: "
+            "nothing shifts; set a later stop_time"
+        )
+    elif end > scene.stop_time:
+        yield (
+            f"The run ends at {scene.stop_time:.4g} s, before the pressures of the shift have "
+            f"settled at {end:.4g} s: figures are those so far; set a later stop_time"
+        )
+    if steps.shortest == steps.longest and abs(step / scene.step - 1.0) > OTHER_STEP:
+        yield (
+            f"The step is {say(step, 's', digits=4)}, not {say(scene.step, 's', digits=4)}: whole "
+            "steps end at the stop time"
+        )
+    if steps.forced:
+        yield (
+            f"{steps.forced} steps of the least length err more than master_tolerance: something "
+            "jumps there; take a larger master_tolerance or coupling 'capacity'"
+        )
+
+
+def _of_solvers(time: Array, signals: Signals) -> Iterator[str]:
+    """Yield the advice behind every solver status that occurred, with its first time."""
+    for name, values in signals.items():
+        if name.endswith(".solver_status"):
+            for code in np.unique(values[values > 0.0]):
+                i, status = int(np.argmax(values == code)), Status(int(code))
+                part = name.partition(".")[0]
+                if status != Status.DISTRESS:  # the film's loss is told with its time
+                    yield f"{part} from t = {time[i]:.4g} s: {status.advice} ({status.name})"
+
+
+def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:
+    """Yield the inputs that left what a part's file is meant for."""
+    for name, part in scene.parts.items():
+        for key, (low, high) in part.told.get("box", {}).items():
+            values, room = signals.get(f"{name}.{key}"), ROOM * max(high - low, abs(high), abs(low))
+            if values is None:
+                continue
+            least, most = float(values.min()), float(values.max())
+            if least < low - room or most > high + room:
+                unit = next(s.unit for s in part.spec.inputs if s.name == key)
+                seen, meant = (
+                    f"{say(a, unit)} .. {say(b, unit)}" for a, b in ((least, most), (low, high))
+                )
+                yield (
+                    f"{name}: {key} of {seen} in this run leaves the {meant} that its part file is "
+                    "meant for ([box]); widen the box or take another part"
+                )

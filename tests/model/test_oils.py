@@ -209,6 +209,8 @@ def test_a_scenes_oil_is_replaced_as_a_whole():
     assert scene.parts["washer"].params.oil_heat_capacity == 2050.0  # the scene's own stays
     assert "given beside it: heat_capacity, conductivity, pressure_viscosity" in scene.notes[0]
     assert scene.warnings == () and load_scene("planetary").notes == ()
+    assert load_scene("brake-test").published
+    assert load_scene("brake-test", oil="ISO VG 46").published is None
 
 
 def test_a_scene_may_name_its_oil_and_one_without_is_a_warning(tmp_path):

@@ -5,6 +5,7 @@
 ``record``      all that the rest of the package knows of a model: what ``model.toml`` holds
 ``registry``    the models and their kernels by name
 ``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
+``oil``         an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
 ``prepare``     from parameters to what a kernel takes: rules, constants, tables
 ==============  ===============================================================================
 

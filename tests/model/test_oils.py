@@ -145,6 +145,14 @@ def test_oil_that_is_all_but_solid_is_a_warning(capsys):
     assert too_stiff(find_model("gearmesh").spec, GearMeshParams(), 263.15) == []
 
 
+def test_a_sweep_into_the_cold_warns_of_its_oil(capsys):
+    words = ["sweep", "gearmesh", "--oil", "VG 460", "--over"]
+    assert main([*words, "oil_temperature [degC]=-20,80"]) == 0
+    assert capsys.readouterr().err.count("warning: oil_temperature = -20 degC") == 2
+    assert main([*words, "oil_temperature=300,350"]) == 0
+    assert "warning" not in capsys.readouterr().err
+
+
 # Files, commands, scenes, FMUs
 
 

@@ -78,6 +78,8 @@ def load_scene(name_or_path: str | Path, oil: str | Mapping[str, Any] | None = N
     """Return a built-in scene by name, or the scene of a TOML file; with another ``oil``."""
     name = str(name_or_path)
     table = _read(name, {} if oil is None else {"oil": oil_table("oil", oil)})
+    if oil is not None:
+        table.pop("published", None)  # figures of the scene's own oil
     own = name.endswith(".toml")
     return _scene(Path(name).stem if own else name, table, own)
 

@@ -59,15 +59,15 @@ def _build(arguments: argparse.Namespace) -> int:
     from ..washer.map.map_build import make_map
     from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE
 
-    if left := [s for s in SPEC.inputs if s.name not in box]:
-        spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
-        _output.note(f"taken by default: {', '.join(spans)}")
     tolerance = TOLERANCE
     if arguments.tolerance is not None:
         tolerance = parse_quantity(arguments.tolerance, "1", "tolerance")
     card = make_map(params, Path(out), box=box, tolerance=tolerance, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
                     progress=_output.time_left)  # fmt: skip
+    if left := [s for s in SPEC.inputs if s.name not in box]:
+        spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
+        _output.note(f"taken by default: {', '.join(spans)}")
     plain = not arguments.fidelity and not any(getattr(arguments, s.name) for s in SPEC.inputs)
     if arguments.file and plain and not serves(TABLES, params, box, tolerance):
         keep_own(params, lambda path: write(path, Path(out).read_bytes()))

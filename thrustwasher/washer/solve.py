@@ -38,6 +38,10 @@ BOTH = (
     "load = {:.4g} N lies between two folds: with friction_torque = {:.4g} N m the branch {!r} has "
     "a solution too, which one a washer is on depends on how it came there; this one is {!r}"
 )
+NOT_IN_MAP = (
+    "fidelity = 'map' has no answer here, outside its box or without tilt: solved with 'field', "
+    "which takes some ten times as long; build a map for a larger box, or choose 'field'"
+)
 OK = Status.OK
 LARGEST_GRID = (129, 512)
 
@@ -166,13 +170,16 @@ def solve_washer(
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     wanted = BRANCHES[branch] if branch is not None else 0.0
-    found = None
+    found: WasherResult | None = None
+    asked = fidelity
     if fidelity == "map":
         if grid is not None:
             raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
         found = _map_solver()(params, point, wanted, start)
         fidelity = "map" if found else "field"  # outside the map
     result = found or _solve(params, point, fidelity, nodes, wanted, start, grid is None)
+    if fidelity != asked:
+        result = replace(result, warnings=(NOT_IN_MAP, *result.warnings))
     if result.status is OK and grid is None:
         return result
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:

@@ -6,8 +6,8 @@ import pytest
 
 from thrustwasher import ParameterError, WasherParams, load_part, solve_washer
 from thrustwasher.model.parameters import as_numbers
-from thrustwasher.washer.kernels.gap import dry_friction
 from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels.gap import dry_friction
 
 GRID = (10, 32)
 HALF = {"inner_radius": 0.00555, "outer_radius": 0.01135, "gear_inner_radius": 0.0078}
@@ -63,7 +63,10 @@ def test_a_part_file_of_the_earlier_form_reads_as_before(tmp_path):
     [
         ({"friction_load_min": 2000.0}, "friction_load_min = 2000 N, allowed: below"),
         ({"friction_load_min": -1.0}, "friction_load_min"),
-        ({"friction_load_min": 100.0, "friction_pressure_min": 1e5}, "beside friction_pressure_min"),
+        (
+            {"friction_load_min": 100.0, "friction_pressure_min": 1e5},
+            "beside friction_pressure_min",
+        ),
         ({"friction_pressure_min": 2e6}, "friction_pressure_min"),
     ],
 )

@@ -90,7 +90,9 @@ def solve_on(result: WasherResult, grid: tuple[int, int]) -> WasherResult:
     nothing. A failure is told by the status; ``error_estimate`` is that of the named rung.
     """
     wanted = BRANCHES.get(result.branch, 0.0)
-    return _solve(result.params, result.point(), "field", grid, wanted, interpolate_to_mesh(result, grid))
+    return _solve(
+        result.params, result.point(), "field", grid, wanted, interpolate_to_mesh(result, grid)
+    )
 
 
 def interpolate_to_mesh(result: WasherResult, grid: tuple[int, int]) -> WasherResult:

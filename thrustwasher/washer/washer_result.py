@@ -18,6 +18,7 @@ from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .parameters import WasherParams, face_of
 
+Inputs = tuple[float, float, float, float, float]  # in the order of the model's list
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
     "gap 2 cannot hold the washer: its dry friction takes {:.2g} times the friction torque, so the "
@@ -115,8 +116,8 @@ class WasherResult:
         )  # fmt: skip
         return float(self._error) if known is None else known
 
-    def point(self) -> tuple[float, float, float, float, float]:
-        """The inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
+    def point(self) -> Inputs:
+        """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
         return (
             self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature
         )  # fmt: skip
@@ -170,7 +171,7 @@ class WasherResult:
 
 
 def result_of(
-    params: WasherParams, point: tuple[float, ...], x: Sequence[float],
+    params: WasherParams, point: Inputs, x: Sequence[float],
     tilts: Sequence[float], branch: str, distress: bool, status: Status, iterations: int,
     fidelity: str, grid: tuple[int, int], error: float, state: Array,
 ) -> WasherResult:  # fmt: skip

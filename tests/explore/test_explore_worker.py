@@ -47,11 +47,11 @@ def test_a_hundred_points_of_the_washer_are_those_of_python():
         assert apart(got["outputs"], wanted) <= (BESIDE_FOLDS if beside else SAME), point
 
 
-NAMES = ("load", "speed", "tilt", "oil_temperature")
+NAMES = ("load", "speed", "tilt", "oil_temperature", "far_face_temperature")
 
 
 def test_both_folds_are_those_of_load_curve():
-    point = [300.0, 545.0, 2e-3, 297.15]
+    point = [300.0, 545.0, 2e-3, 297.15, 0.0]
     (curve,), _ = answers("washer", [["curve", point, 20.0, 3000.0]])
     wanted = load_curve(WasherParams(), speed=545.0, tilt=2e-3)
     assert [f["kind"] for f in curve["folds"]] == ["film_lost", "film_regained"]
@@ -65,7 +65,7 @@ def test_both_folds_are_those_of_load_curve():
 
 
 def test_loaded_up_and_down_again_the_washer_takes_the_other_branch():
-    speed = [545.0, 2e-3, 297.15]
+    speed = [545.0, 2e-3, 297.15, 0.0]
     loads = [*np.linspace(300.0, 1100.0, 9), *np.linspace(1100.0, 500.0, 7)]
     found, _ = answers("washer", [["solve", [load, *speed], False, ""] for load in loads])
     seen = {}
@@ -75,7 +75,8 @@ def test_loaded_up_and_down_again_the_washer_takes_the_other_branch():
 
 
 def test_a_branch_that_is_asked_for_is_kept_fresh_and_its_absence_is_told():
-    point, light = [800.0, 545.0, 2e-3, 297.15], [300.0, 545.0, 2e-3, 297.15]
+    rest = [545.0, 2e-3, 297.15, 0.0]
+    point, light = [800.0, *rest], [300.0, *rest]
     (held, lost), _ = answers(
         "washer", [["solve", point, True, "contact"], ["solve", light, True, "contact"]]
     )
@@ -173,6 +174,6 @@ def test_a_rule_between_parameters_is_told_by_its_number():
 
 def test_what_a_card_promises_is_in_the_page():
     card = next(c for c in about("washer")["cards"] if c["fidelity"] == "field")
-    assert set(card["envelope"]) == set(NAMES) and len(card["worst"]) == len(card["n"])
+    assert set(card["envelope"]) == set(NAMES[:4]) and len(card["worst"]) == len(card["n"])
     point = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
     assert error_estimate("washer", "field", WasherParams(), point) is not None

@@ -22,7 +22,7 @@ from .kernels import step as kernel
 from .kernels.regime_and_status import LEAST_TEMPERATURE
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_of
+from .washer_result import BRANCH_NAMES, BRANCHES, Inputs, Unread, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
@@ -73,7 +73,6 @@ RANGES = tuple(
     (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
     for s in SPEC.inputs
 )
-Inputs = tuple[float, float, float, float, float]
 
 
 def check_far_face(params: WasherParams, far_face_temperature: float) -> None:

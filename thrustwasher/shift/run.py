@@ -11,7 +11,6 @@ from ..errors import ParameterError, Status
 from ..model.parameters import as_numbers
 from ..model.record import resolve
 from ..model.registry import all_models
-from ..transmission.parameters import BEARINGS
 from .cosim.loop import Recorder, Run, Steps, advance_in_python
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, Stepping, System, capable
@@ -261,8 +260,7 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
 
 def thrust_remarks(scene: Scene, signals: Mapping[str, NDArray[np.float64]]) -> list[str]:
     """Say which thrusts of a finished run rest on no bearing in the model."""
-    gearbox = scene.parts["transmission"].params
-    free = [n for n in BEARINGS if not getattr(gearbox, f"{n}_coefficient")]
+    free = [name for name, there in scene.bearings.items() if not there]
     thrust = float(np.max(signals["transmission.sun_thrust"]))
     if not free or thrust == 0.0:
         return []

@@ -3,17 +3,15 @@
 from collections.abc import Iterator
 from typing import Any
 
-from ...transmission.parameters import BEARINGS, COURSES, course_points
+from ...transmission.parameters import COURSES, course_points
 from .scene import Scene
-
-GEAR = dict(zip(BEARINGS, ("sun", "ring"), strict=True))  # whose thrust a bearing takes
 
 
 def doubts(scene: Scene) -> Iterator[str]:
     """Say what is doubtful, one line each; nothing of a scene that fits together."""
     gearbox = scene.parts["transmission"].params
     yield from _of_washers(scene, gearbox)
-    yield from _of_bearings(gearbox)
+    yield from _of_bearings(scene, gearbox)
     for name in COURSES:
         last = [t for t, _ in course_points(gearbox, name)][-1:]
         if last and last[0] > scene.stop_time:
@@ -40,11 +38,10 @@ def _of_washers(scene: Scene, gearbox: Any) -> Iterator[str]:
         )
 
 
-def _of_bearings(gearbox: Any) -> Iterator[str]:
-    for name, gear in GEAR.items():
+def _of_bearings(scene: Scene, gearbox: Any) -> Iterator[str]:
+    for name in (name for name, there in scene.bearings.items() if there):
+        gear = name.removesuffix("_bearing")
         ends = [getattr(gearbox, f"{name}_shaft_{i}") for i in (1, 2)]
-        if not getattr(gearbox, f"{name}_coefficient"):
-            continue
         if gearbox.helix_angle == 0.0:
             yield f"[{name}]: helix_angle = 0, spur teeth give no thrust: the bearing does nothing"
         elif gear not in ends:

@@ -237,6 +237,7 @@ def test_a_tolerance_asked_for_leaves_nothing_open_in_the_result(monkeypatch):
 
 
 def test_trial_runs_keep_within_the_steps_a_scene_may_have():
-    scene = auto("auto:0.01", stop=60.0).with_options(step=0.2)
+    scene = auto("auto:0.01").with_options(step=0.01)
     found = trial_runs(scene, Pool(made([])))
-    assert (found.coarse.step, found.fine.step) == (1.0, 0.5)
+    assert scene.longest_step == pytest.approx(0.015)
+    assert (found.coarse.step, found.fine.step) == pytest.approx((0.015, 0.0075), rel=0.02)

@@ -140,7 +140,7 @@ class Scene:
         if self.step > longest * (1.0 + 1e-9):
             raise ParameterError(
                 f"scene {self.name!r}: step = {format_quantity(self.step, 's', digits=4)}, allowed "
-                f"here: up to {format_quantity(longest, 's', digits=3)}, a twentieth of the shift"
+                f"here: up to {format_quantity(longest, 's', digits=4)}, a twentieth of the shift"
             )
 
     @property

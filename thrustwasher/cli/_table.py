@@ -93,7 +93,9 @@ def _find(
         match = re.fullmatch(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", cell)
         name = match[1].lower().replace(" ", "_") if match else ""
         if match is None or name not in units:
-            hint = suggestion(name, set(units) - {*found}, "did you mean {}? ")
+            hint = suggestion(
+                name, set(units) - {*found}, "did you mean {}? ", likeness=0.6 if strict else 0.75
+            )  # fmt: skip
             if cell and not cell.startswith("_"):
                 if strict or hint:
                     raise ParameterError(f"{path}: column {cell!r} is not known; {hint}begin its "

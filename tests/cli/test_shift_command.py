@@ -230,7 +230,7 @@ def test_two_shifts_are_compared_a_report_and_a_scene(msl, tmp_path, capsys):
     words = ["shift", "--compare", str(folder), "msl", "--step", "4 ms", "--out", str(out)]
     assert main(words) == 0
     text, err = capsys.readouterr()
-    assert [line[:19] for line in err.splitlines()] == [f"warning: {n}: Tie-up" for n in "AB"]
+    assert [line[:18] for line in err.splitlines()] == [f"warning: {n}: Tie-up" for n in "AB"]
     assert [path.name for path in out.iterdir()] == ["compare.html"]
     locks = next(line for line in text.splitlines() if line.startswith("clutch locks: "))
     assert locks.startswith("clutch locks: A 2.11") and ", B 2.11" in locks

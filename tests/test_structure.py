@@ -49,6 +49,7 @@ PLACES = {
         "shift.scene.scene_tables": {"transmission"},
         "shift.scene.sequence": {"transmission"},
         "shift.several_shifts": {"transmission"},
+        "shift.checks.washer_in_time": {"washer"},
         "shift.oscillation.chatter": {"transmission"},
         "shift.oscillation.torsion": {"clutch"},
     },

@@ -1,27 +1,19 @@
-"""The clutch's friction law over its constants: values, derivatives, a problem of least squares."""
+"""The clutch's friction law over its constants: values, derivatives, shear of the settled film."""
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
-from itertools import product
 from typing import Any
 
 import numpy as np
 
-from ...calibration.least_squares import Problem
-from ...errors import ParameterError
 from ...numerics.jit import Array
 from ..kernels.pack_friction import ploughing, settled_slope, viscous_slopes
 from ..parameters import ClutchParams
 from ..solve import prepare
 
-WANG_CONSTANTS = (
-    "plough_weight", "shear_floor", "stick_speed", "decay_speed", "hardness_ratio", "indentation",
-)  # fmt: skip
+SHAPE = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
+WANG_CONSTANTS = (*SHAPE, "hardness_ratio", "indentation")
 CONSTANT_LAW = ("constant_friction",)
-N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
-N_STARTS = 4  # best of them, refined
-_LINEAR = ("plough_weight", "shear_floor")
 STEEPEST = 1.0 - 1e-9  # the derivative over the indentation is infinite at 1
 
 
@@ -43,19 +35,6 @@ def settled_shear(params: ClutchParams, slip: Array, load: Array, oil: Array) ->
         viscous_slopes(par, w, 0.0, settled_slope(par, f, 1.0)[0], t)[0] for w, f, t in points
     ]
     return np.asarray(np.array(torque) / lever)
-
-
-def without_shear(friction: Array, shear: Array) -> Array:
-    """Return the friction of the asperities; refuse points that are mostly the oil's shear."""
-    bad = shear > 0.5 * friction
-    if bad.any():
-        i = int(np.argmax(bad))
-        raise ParameterError(
-            f"friction[{i}] = {float(friction[i])!r}: shear of the settled film makes "
-            f"{shear[i]:.3g} of it, allowed with friction_data = 'boundary': up to half; leave the "
-            "point out, or take friction_data = 'total'"
-        )
-    return friction - shear
 
 
 def shares(values: Mapping[str, float]) -> tuple[float, float]:
@@ -131,88 +110,3 @@ def _decay(values: Mapping[str, float], speed: Array) -> tuple[Array, Array, Arr
         beyond = np.maximum(beyond, 0.0)
     decay = np.exp(-np.minimum(beyond / length, 700.0))
     return decay, decay * active / length, decay * beyond / length**2
-
-
-@dataclass(frozen=True, kw_only=True)
-class LawProblem(Problem):
-    """Measured friction and the constants of the friction law; ``base``: every number of it."""
-
-    speed: Array  # (points,) slip speed [m/s], not negative
-    load: Array  # [N]; the law does not know it
-    is_constant: bool = False  # the constant law instead of Wang, Wei & Wu's
-
-    def curve(self, guess: Array, speed: Array | None = None) -> Array:
-        """Return the coefficients [-] at the measured or other slip speeds."""
-        at = self.speed if speed is None else speed
-        return friction_over(self.values(guess), at, self.is_constant)
-
-    def slopes_of_curve(self, guess: Array) -> Array:
-        """Return the derivatives of the curve, (points, constants)."""
-        return friction_slopes(self.values(guess), self.speed, self.names)
-
-    def starts(self, first: Array) -> list[Array]:
-        """Return the best points of a coarse search; the two weights follow by linear fits."""
-        if self.is_constant:
-            return []
-        grids = [self._candidates(i, float(first[i])) for i in range(len(self.names))]
-        linear = [i for i, name in enumerate(self.names) if name in _LINEAR]
-        tried = []
-        for point in product(*grids):
-            guess = np.array(point)
-            if linear:
-                columns = self.slopes(guess)[:, linear]
-                step = np.linalg.lstsq(columns, -self.misfit(guess), rcond=1e-10)[0]
-                guess[linear] += step
-            guess = np.clip(guess, self.low, self.high)
-            tried.append((self.cost(guess), tuple(guess)))
-        return [np.array(point) for _, point in sorted(tried)[:N_STARTS]]
-
-    def _candidates(self, index: int, first: float) -> list[float]:
-        """Return the values of one constant that the coarse search tries."""
-        name, low, high = self.names[index], self.low[index], self.high[index]
-        speeds = np.unique(self.speed)
-        if name in _LINEAR:
-            return [0.5]
-        if name == "stick_speed":  # between neighbouring speeds the sum of squares is smooth
-            middles = 0.5 * (speeds[1:] + speeds[:-1])
-            ranks = np.linspace(0.0, 1.0, N_STICK)
-            picked = np.quantile(middles, ranks) if len(middles) else speeds
-            values: Any = [first, *picked]
-        elif name == "decay_speed":
-            values = np.geomspace(0.03, 3.0, N_DECAY) * max(float(speeds[-1]), 1e-3)
-        elif name == "indentation":
-            values = [first, 0.03, 0.3]
-        else:
-            values = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
-        return [float(v) for v in np.unique(np.clip(values, low, high))]
-
-    def why_bound(self, best: Array, i: int, side: str) -> str:
-        """Return what would free the weight of the ploughing share."""
-        if self.names[i] != "plough_weight" or side != "lower":
-            return ""
-        return (
-            f" (friction at rest cannot be below the adhesive share alone, "
-            f"{shares(self.values(best))[1]:.4g}; a larger hardness_ratio lowers that)"
-        )
-
-    def why_not(self, best: Array, i: int) -> tuple[str, bool]:
-        """Return what the points' speeds leave out."""
-        name, fastest, slowest = self.names[i], self.speed.max(), self.speed.min()
-        stick = self.values(best)["stick_speed"]
-        if name in ("shear_floor", "decay_speed", "stick_speed") and fastest <= stick:
-            return (
-                f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} "
-                "m/s), where friction does not change with speed"
-            ), True
-        if fastest == slowest:
-            return f"all points have one slip speed ({fastest:.4g} m/s)", False
-        if name == "stick_speed" and slowest >= stick:
-            return f"all points lie above it (slowest slip {slowest:.4g} m/s)", False
-        return "", False
-
-
-def bounds_of(names: Sequence[str]) -> tuple[Array, Array]:
-    """Return the least and the largest value that ClutchParams allows."""
-    meta = {f.name: f.metadata for f in fields(ClutchParams)}
-    limits = np.array([(meta[n]["min"], meta[n]["max"]) for n in names], float)
-    return limits[:, 0], limits[:, 1]

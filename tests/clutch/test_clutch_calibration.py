@@ -79,18 +79,6 @@ def test_any_two_of_the_constants_behind_the_two_ends_can_be_fitted(truth):
     assert told(found) == set(truth)
 
 
-def test_the_constant_law_gives_the_weighted_mean():
-    found = calibrate(
-        ClutchParams(friction_law="constant"),
-        {"speed": [1, 2, 3], "load": 1e3, "friction": [0.1, 0.13, 0.12]},
-        friction_error=np.array([1e-3, 2e-3, 1e-3]),
-    )
-    assert found.params.constant_friction == pytest.approx((0.1 + 0.13 / 4 + 0.12) / 2.25)
-    assert found["constant_friction"].standard_error == pytest.approx(1e-3 / 1.5)
-    low, high = found["constant_friction"].profile_interval
-    assert high - low == pytest.approx(2 * 1.959964 * 1e-3 / 1.5, rel=1e-2)
-
-
 @sizes(30, 200)
 def test_95_percent_intervals_hold_the_truth_in_95_percent_of_experiments(n):
     """Between the 0.05 % and 99.95 % quantiles of the binomial distribution."""

@@ -23,15 +23,13 @@ class Estimate:
     name: str
     unit: str
     value: float
-    standard_error: float
-    """Infinite where the points do not tell it."""
+    standard_error: float  # infinite where the points do not tell it
     interval: tuple[float, float]
     """Linearised, within the allowed range; that whole range if not identifiable."""
     profile_interval: tuple[float, float] | None
     """From the rise of the sum of squares, the other constants refitted; None if not computed."""
     identifiable: bool
-    at_bound: str
-    """ "lower", "upper" or "" (inside the allowed range)."""
+    at_bound: str  # "lower", "upper" or "" (inside the allowed range)
     reason: str
     """Why it is not identifiable, or what stops it at a bound; "" if there is nothing to say."""
 
@@ -52,28 +50,21 @@ class Series(NamedTuple):
 class Calibration:
     """Parameters fitted to measurements; ``str()`` of it is a summary in sentences."""
 
-    params: Any
-    """The part with the fitted values, to solve and for FMUs."""
+    params: Any  # the part with the fitted values, to solve and for FMUs
     points: Measured
-    fitted: Array
-    """(n,) computed outputs, in the order of ``points.value``."""
-    estimates: tuple[Estimate, ...]
-    """In the order of ``fit``."""
-    derived: tuple[Estimate, ...] = ()
-    """What follows from the constants; often told where they are not."""
-    correlation: Array
-    """(constants, constants); NaN where a constant is not told."""
+    fitted: Array  # (n,) computed outputs, in the order of ``points.value``
+    estimates: tuple[Estimate, ...]  # in the order of ``fit``
+    derived: tuple[Estimate, ...] = ()  # follow from the constants; often told where they are not
+    correlation: Array  # (constants, constants); NaN where a constant is not told
     confounded: tuple[str, ...]
     """Combinations of constants that the points cannot tell apart, a sentence each."""
     singular_values: tuple[float, ...]
     """Of the scaled derivatives over the scatter, falling; 0: nothing is known of a direction."""
-    residuals: Array
-    """(n,) measured less fitted value [SI unit of its output]."""
+    residuals: Array  # (n,) measured less fitted value [SI unit of its output]
     rms: float
     """Of the residuals [SI]; it has a unit where one output is fitted, ``rms_of`` tells each."""
     degrees_of_freedom: int
-    reduced_chi_square: float | None
-    """None without given errors."""
+    reduced_chi_square: float | None  # None without given errors
     confidence: float
     warnings: tuple[str, ...] = ()
     """Sentences on points that the fit cannot follow, the gravest first; empty for a sound fit."""
@@ -160,11 +151,12 @@ def _size_text(found: Calibration) -> str:
     """Say how many constants were fitted to what, and how well."""
     points, units = found.points, output_units(found.points.plan.spec)
     parts = ", ".join(f"{points.output.count(name)} {name}" for name in points.names)
+    rung = f", rung {points.plan.fidelity}" if found._problem.by_rung else ""
     rms = (f"{found.rms_of(n):.3g} {units[n]}".removesuffix(" 1") for n in points.names)
     return (
         f"{counted(len(found.estimates), 'constant')} fitted to "
         f"{counted(len(points.value), found._problem.counted_as)} ({parts})"
-        f"{found._problem.computed_by}, rms residual {', '.join(rms)}, "
+        f"{rung}, rms residual {', '.join(rms)}, "
         f"{counted(found.degrees_of_freedom, 'degree')} of freedom."
     )
 

@@ -35,6 +35,7 @@ class ModelProblem(Problem):
     points: Measured
     kept: dict[tuple[Any, ...], Array] = field(default_factory=dict, repr=False)
 
+    by_rung: ClassVar[bool] = True  # what computes the outputs, else a closed form
     profiles: ClassVar[bool] = False  # are so quick that they need not be asked for
     typical: ClassVar[float] = 0.0  # size of a value; 0: the mean of those measured
     instead: ClassVar[str] = ""  # what to take where the points cannot be followed
@@ -68,10 +69,7 @@ class ModelProblem(Problem):
 
     @classmethod
     def of(
-        cls,
-        points: Measured,
-        names: tuple[str, ...],
-        bounds: Mapping[str, tuple[float, float]],
+        cls, points: Measured, names: tuple[str, ...], bounds: Mapping[str, tuple[float, float]]
     ) -> tuple[Self, Array]:
         """Return what is to be solved and the guess before the fit."""
         metas = {f.name: f.metadata for f in fields(points.plan.spec.params)}
@@ -99,11 +97,6 @@ class ModelProblem(Problem):
             known_errors=points.error is not None,
         )
         return problem, first
-
-    @property
-    def computed_by(self) -> str:
-        """What computes the outputs, for the summary."""
-        return f", rung {self.points.plan.fidelity}"
 
     def curve(self, guess: Array) -> Array:
         """Return the outputs, in the order of the measured values; NaN where a point fails."""

@@ -112,7 +112,7 @@ class FrictionProblem(ModelProblem):
 
     rough, fine, resolution, evaluations = 1e-7, 1e-14, 1e-9, 250
     law, subject, counted_as, error_name = "law", "friction", "point", "friction_error"
-    profiles, typical, instead, computed_by = True, 1.0, TABLE, ""
+    by_rung, profiles, typical, instead = False, True, 1.0, TABLE
 
     @classmethod
     def asked(

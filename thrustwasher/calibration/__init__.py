@@ -9,7 +9,6 @@ friction), and outputs that no solution at a point has as ``OwnOutputs`` (the wa
 ``fit``              a fit with values, intervals and verdicts
 ``estimates``        what comes out: numbers, sentences, plain data
 ``measured``         measured points of a model, checked
-``model_problem``    a model's outputs over its parameters, warnings of what it cannot follow
-``model_fit``        ``calibrate``
+``model_fit``        a model's outputs over its parameters, what it cannot follow, ``calibrate``
 ===================  ===========================================================================
 """

@@ -10,33 +10,23 @@ of them: at most two of these four can be fitted at once. Load does not act at a
 gives way to the law, ``friction_scale`` to 1: the law is that of the points.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import cached_property
-from itertools import product
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...calibration.estimates import Calibration, Estimate
-from ...calibration.fit import chosen_names
 from ...calibration.identifiability import Information, Verdict
-from ...calibration.measured import Measured
-from ...calibration.model_problem import ModelProblem
-from ...errors import ParameterError
 from ...model.record import OwnOutputs
-from ...model.spec import ModelSpec
 from ...numerics.jit import Array
 from ...storage.digests import finite
 from . import friction_law as law
-from .reach import TABLE, hidden_fall, out_of_reach, rising
+from .friction_law import FrictionProblem
+from .reach import hidden_fall, out_of_reach, rising
 
 FRICTION = OwnOutputs(units={"friction": "1"})
-LARGEST_FRICTION = 2.0
-SPEEDS, LINEAR = ("stick_speed", "decay_speed"), ("plough_weight", "shear_floor")
-N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
-N_STARTS = 4  # best of them, refined
 SAME_LOAD = 1e-6  # relative spread of loads below which there is nothing to compare
 FOLLOWS = 1e-4  # share of the load's spread that the law's constants must leave free
 
@@ -107,162 +97,8 @@ class LawCalibration(Calibration):
 
 
 @dataclass(frozen=True, kw_only=True)
-class FrictionProblem(ModelProblem):
-    """Measured friction and the constants of the friction law; ``base``: every number of it."""
-
-    rough, fine, resolution, evaluations = 1e-7, 1e-14, 1e-9, 250
-    law, subject, counted_as, error_name = "law", "friction", "point", "friction_error"
-    by_rung, profiles, typical, instead = False, True, 1.0, TABLE
-
-    @classmethod
-    def asked(
-        cls, spec: ModelSpec, params: Any, fit: Sequence[str] | None, given: set[str]
-    ) -> tuple[Any, tuple[str, ...]]:
-        """Return the pack with the law, and the constants to fit."""
-        law_of = "wang" if params.friction_law == "table" else params.friction_law
-        acting = law.CONSTANT_LAW if law_of == "constant" else law.WANG_CONSTANTS
-        usual = acting[: len(law.SHAPE)]
-        words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
-        if params.friction_data == "boundary" and "oil_temperature" not in given:
-            raise ParameterError(
-                "oil_temperature is missing, wanted with friction_data = 'boundary': shear of the "
-                "oil is taken off the measured friction"
-            )
-        params = replace(params, friction_law=law_of, friction_scale=1.0)
-        return params, chosen_names(usual if fit is None else fit, acting, words)
-
-    @classmethod
-    def checked(cls, points: Measured, names: tuple[str, ...]) -> Measured:
-        """Return the points without what is not the law's, or name the first that is of no use."""
-        if points.names != ("friction",) or len(points.plan.params) > 1:
-            raise ParameterError("friction: allowed: without other outputs, all points of one pack")
-        load, mu, mean = points.input("load"), points.value, points.value.mean()
-        _refuse(points, "load", load, load == 0.0, "above 0 N")
-        most = LARGEST_FRICTION
-        _refuse(points, "friction", mu, np.abs(mu) > most, f"{-most:g} .. {most:g}")
-        if mean <= 0.0:
-            raise ParameterError(
-                f"friction is {mean:.3g} on average, allowed: above 0 (for either sign of speed)"
-            )
-        params = points.plan.params[0]
-        if params.friction_data == "total":
-            return points
-        speed, oil = points.input("speed"), points.input("oil_temperature")
-        shear = law.settled_shear(params, speed, load, oil)
-        cure = (
-            "twice the shear of the settled film or more with friction_data = 'boundary'; leave "
-            "the point out, or take friction_data = 'total'"
-        )
-        _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
-        return replace(points, value=mu - shear)
-
-    @classmethod
-    def change_of(cls, points: Measured, name: str) -> float:
-        """Return the fastest slip for a speed, the mean for a coefficient, 1 for a ratio."""
-        if name in SPEEDS:
-            slip = np.abs(points.input("speed")) * points.plan.params[0].friction_radius
-            return float(slip.max()) or 1.0
-        return float(points.value.mean()) if name in law.CONSTANT_LAW else 1.0
-
-    @classmethod
-    def held(cls, params: Any) -> dict[str, Any]:
-        """Return every number of the law."""
-        return law.law_values(params)
-
-    @property
-    def is_constant(self) -> bool:
-        """True for the constant law instead of Wang, Wei & Wu's."""
-        return bool(self.points.plan.params[0].friction_law == "constant")
-
-    @cached_property
-    def speed(self) -> Array:
-        """Slip speed of the points [m/s], not negative."""
-        slip = np.abs(self.points.input("speed"))
-        return np.asarray(slip * self.points.plan.params[0].friction_radius)
-
-    @cached_property
-    def load(self) -> Array:
-        """Load of the points [N]; the law does not know it."""
-        return self.points.input("load")
-
-    def curve(self, guess: Array) -> Array:
-        """Return the coefficients [-] at the measured slip speeds."""
-        return self.curve_over(self.values(guess), self.speed)
-
-    def curve_over(self, values: Mapping[str, float], speed: Array) -> Array:
-        """Return the coefficients [-] of a law at slip speeds [m/s]."""
-        return law.friction_over(values, speed, self.is_constant)
-
-    def slopes_of_curve(self, guess: Array) -> Array:
-        """Return the derivatives of the curve, (points, constants)."""
-        return law.friction_slopes(self.values(guess), self.speed, self.names)
-
-    def starts(self, first: Array) -> list[Array]:
-        """Return the best points of a coarse search; the two weights follow by linear fits."""
-        if self.is_constant:
-            return []
-        grids = [self._candidates(i, float(first[i])) for i in range(len(self.names))]
-        linear = [i for i, name in enumerate(self.names) if name in LINEAR]
-        tried = []
-        for point in product(*grids):
-            guess = np.array(point)
-            if linear:
-                columns = self.slopes(guess)[:, linear]
-                guess[linear] += np.linalg.lstsq(columns, -self.misfit(guess), rcond=1e-10)[0]
-            guess = np.clip(guess, self.low, self.high)
-            tried.append((self.cost(guess), tuple(guess)))
-        return [np.array(point) for _, point in sorted(tried)[:N_STARTS]]
-
-    def missed_because(self, judged: list[Verdict]) -> str:
-        """Return what keeps the law from the points."""
-        if self.is_constant:
-            return 'friction changes with speed, take friction_law = "wang"'
-        return super().missed_because(judged)
-
-    def _candidates(self, index: int, first: float) -> list[float]:
-        """Return the values of one constant that the coarse search tries."""
-        name, low, high = self.names[index], self.low[index], self.high[index]
-        speeds = np.unique(self.speed)
-        values: Any = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
-        if name in LINEAR:
-            return [0.5]
-        if name == "stick_speed":  # between neighbouring speeds the sum of squares is smooth
-            middles = 0.5 * (speeds[1:] + speeds[:-1])
-            ranks = np.linspace(0.0, 1.0, N_STICK)
-            values = [first, *(np.quantile(middles, ranks) if len(middles) else speeds)]
-        elif name == "decay_speed":
-            values = np.geomspace(0.03, 3.0, N_DECAY) * max(float(speeds[-1]), 1e-3)
-        elif name == "indentation":
-            values = [first, 0.03, 0.3]
-        return [float(v) for v in np.unique(np.clip(values, low, high))]
-
-    def why_bound(self, best: Array, i: int, side: str) -> str:
-        """Return what would free the weight of the ploughing share."""
-        if self.names[i] != "plough_weight" or side != "lower":
-            return ""
-        return (
-            f" (friction at rest cannot be below the adhesive share alone, "
-            f"{law.shares(self.values(best))[1]:.4g}; a larger hardness_ratio lowers that)"
-        )
-
-    def why_not(self, best: Array, i: int) -> tuple[str, bool]:
-        """Return what the points' speeds leave out."""
-        name, fastest, slowest = self.names[i], self.speed.max(), self.speed.min()
-        stick = self.values(best)["stick_speed"]
-        if name in ("shear_floor", *SPEEDS) and fastest <= stick:
-            return (
-                f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} "
-                "m/s), where friction does not change with speed"
-            ), True
-        if fastest == slowest:
-            return f"all points have one slip speed ({fastest:.4g} m/s)", False
-        if name == "stick_speed" and slowest >= stick:
-            return f"all points lie above it (slowest slip {slowest:.4g} m/s)", False
-        return "", False
-
-    def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
-        """Return slip speed and load of the points."""
-        return {"slip speed": ("m/s", self.speed), "load": ("N", self.load)}
+class FrictionFit(FrictionProblem):
+    """The law's fit with what is said of it."""
 
     def result(
         self, params: Any, found: Mapping[str, Any], first: Array, judged: list[Verdict]
@@ -291,16 +127,6 @@ class FrictionProblem(ModelProblem):
         far, poor = self.misses(best, judged, scatter)
         grave = [text for text in grave if text] or [*far, *filter(None, [hidden])]
         return (*grave, *poor)
-
-
-def _refuse(
-    points: Measured, name: str, values: Array, bad: NDArray[np.bool_], allowed: str
-) -> None:
-    """Name the first value that cannot be used."""
-    if bad.any():
-        i = int(np.argmax(bad))
-        where = f"{name}: point {points.row[i] + 1} is {float(values[i]):.6g}"
-        raise ParameterError(f"{where}, allowed: {allowed}")
 
 
 def _end_estimates(problem: FrictionProblem, best: Array, told: Information) -> tuple[Any, ...]:

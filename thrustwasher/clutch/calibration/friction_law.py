@@ -1,11 +1,21 @@
-"""The clutch's friction law over its constants: values, derivatives, shear of the settled film."""
+"""The clutch's friction law over its constants: values, derivatives, what is fitted to points."""
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ...calibration.fit import chosen_names
+from ...calibration.identifiability import Verdict
+from ...calibration.measured import Measured
+from ...calibration.model_fit import ModelProblem
+from ...errors import ParameterError
+from ...model.spec import ModelSpec
 from ...numerics.jit import Array
 from ..kernels.pack_friction import ploughing, settled_slope, viscous_slopes
 from ..parameters import ClutchParams
@@ -14,6 +24,14 @@ from ..solve import prepare
 SHAPE = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
 WANG_CONSTANTS = (*SHAPE, "hardness_ratio", "indentation")
 CONSTANT_LAW = ("constant_friction",)
+LARGEST_FRICTION = 2.0
+SPEEDS, LINEAR = ("stick_speed", "decay_speed"), ("plough_weight", "shear_floor")
+N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
+N_STARTS = 4  # best of them, refined
+TABLE = (
+    'take friction_law = "table" (ClutchParams.with_table), which follows a measured curve '
+    "in up to six points"
+)
 STEEPEST = 1.0 - 1e-9  # the derivative over the indentation is infinite at 1
 
 
@@ -110,3 +128,172 @@ def _decay(values: Mapping[str, float], speed: Array) -> tuple[Array, Array, Arr
         beyond = np.maximum(beyond, 0.0)
     decay = np.exp(-np.minimum(beyond / length, 700.0))
     return decay, decay * active / length, decay * beyond / length**2
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrictionProblem(ModelProblem):
+    """Measured friction and the constants of the friction law; ``base``: every number of it."""
+
+    rough, fine, resolution, evaluations = 1e-7, 1e-14, 1e-9, 250
+    law, subject, counted_as, error_name = "law", "friction", "point", "friction_error"
+    by_rung, profiles, typical, instead = False, True, 1.0, TABLE
+
+    @classmethod
+    def asked(
+        cls, spec: ModelSpec, params: Any, fit: Sequence[str] | None, given: set[str]
+    ) -> tuple[Any, tuple[str, ...]]:
+        """Return the pack with the law, and the constants to fit."""
+        law_of = "wang" if params.friction_law == "table" else params.friction_law
+        acting = CONSTANT_LAW if law_of == "constant" else WANG_CONSTANTS
+        usual = acting[: len(SHAPE)]
+        words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
+        if params.friction_data == "boundary" and "oil_temperature" not in given:
+            raise ParameterError(
+                "oil_temperature is missing, wanted with friction_data = 'boundary': shear of the "
+                "oil is taken off the measured friction"
+            )
+        params = replace(params, friction_law=law_of, friction_scale=1.0)
+        return params, chosen_names(usual if fit is None else fit, acting, words)
+
+    @classmethod
+    def checked(cls, points: Measured, names: tuple[str, ...]) -> Measured:
+        """Return the points without what is not the law's, or name the first that is of no use."""
+        if points.names != ("friction",) or len(points.plan.params) > 1:
+            raise ParameterError("friction: allowed: without other outputs, all points of one pack")
+        load, mu, mean = points.input("load"), points.value, points.value.mean()
+        _refuse(points, "load", load, load == 0.0, "above 0 N")
+        most = LARGEST_FRICTION
+        _refuse(points, "friction", mu, np.abs(mu) > most, f"{-most:g} .. {most:g}")
+        if mean <= 0.0:
+            raise ParameterError(
+                f"friction is {mean:.3g} on average, allowed: above 0 (for either sign of speed)"
+            )
+        params = points.plan.params[0]
+        if params.friction_data == "total":
+            return points
+        speed, oil = points.input("speed"), points.input("oil_temperature")
+        shear = settled_shear(params, speed, load, oil)
+        cure = (
+            "twice the shear of the settled film or more with friction_data = 'boundary'; leave "
+            "the point out, or take friction_data = 'total'"
+        )
+        _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
+        return replace(points, value=mu - shear)
+
+    @classmethod
+    def change_of(cls, points: Measured, name: str) -> float:
+        """Return the fastest slip for a speed, the mean for a coefficient, 1 for a ratio."""
+        if name in SPEEDS:
+            slip = np.abs(points.input("speed")) * points.plan.params[0].friction_radius
+            return float(slip.max()) or 1.0
+        return float(points.value.mean()) if name in CONSTANT_LAW else 1.0
+
+    @classmethod
+    def held(cls, params: Any) -> dict[str, Any]:
+        """Return every number of the law."""
+        return law_values(params)
+
+    @property
+    def is_constant(self) -> bool:
+        """True for the constant law instead of Wang, Wei & Wu's."""
+        return bool(self.points.plan.params[0].friction_law == "constant")
+
+    @cached_property
+    def speed(self) -> Array:
+        """Slip speed of the points [m/s], not negative."""
+        slip = np.abs(self.points.input("speed"))
+        return np.asarray(slip * self.points.plan.params[0].friction_radius)
+
+    @cached_property
+    def load(self) -> Array:
+        """Load of the points [N]; the law does not know it."""
+        return self.points.input("load")
+
+    def curve(self, guess: Array) -> Array:
+        """Return the coefficients [-] at the measured slip speeds."""
+        return self.curve_over(self.values(guess), self.speed)
+
+    def curve_over(self, values: Mapping[str, float], speed: Array) -> Array:
+        """Return the coefficients [-] of a law at slip speeds [m/s]."""
+        return friction_over(values, speed, self.is_constant)
+
+    def slopes_of_curve(self, guess: Array) -> Array:
+        """Return the derivatives of the curve, (points, constants)."""
+        return friction_slopes(self.values(guess), self.speed, self.names)
+
+    def starts(self, first: Array) -> list[Array]:
+        """Return the best points of a coarse search; the two weights follow by linear fits."""
+        if self.is_constant:
+            return []
+        grids = [self._candidates(i, float(first[i])) for i in range(len(self.names))]
+        linear = [i for i, name in enumerate(self.names) if name in LINEAR]
+        tried = []
+        for point in product(*grids):
+            guess = np.array(point)
+            if linear:
+                columns = self.slopes(guess)[:, linear]
+                guess[linear] += np.linalg.lstsq(columns, -self.misfit(guess), rcond=1e-10)[0]
+            guess = np.clip(guess, self.low, self.high)
+            tried.append((self.cost(guess), tuple(guess)))
+        return [np.array(point) for _, point in sorted(tried)[:N_STARTS]]
+
+    def missed_because(self, judged: list[Verdict]) -> str:
+        """Return what keeps the law from the points."""
+        if self.is_constant:
+            return 'friction changes with speed, take friction_law = "wang"'
+        return super().missed_because(judged)
+
+    def _candidates(self, index: int, first: float) -> list[float]:
+        """Return the values of one constant that the coarse search tries."""
+        name, low, high = self.names[index], self.low[index], self.high[index]
+        speeds = np.unique(self.speed)
+        values: Any = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
+        if name in LINEAR:
+            return [0.5]
+        if name == "stick_speed":  # between neighbouring speeds the sum of squares is smooth
+            middles = 0.5 * (speeds[1:] + speeds[:-1])
+            ranks = np.linspace(0.0, 1.0, N_STICK)
+            values = [first, *(np.quantile(middles, ranks) if len(middles) else speeds)]
+        elif name == "decay_speed":
+            values = np.geomspace(0.03, 3.0, N_DECAY) * max(float(speeds[-1]), 1e-3)
+        elif name == "indentation":
+            values = [first, 0.03, 0.3]
+        return [float(v) for v in np.unique(np.clip(values, low, high))]
+
+    def why_bound(self, best: Array, i: int, side: str) -> str:
+        """Return what would free the weight of the ploughing share."""
+        if self.names[i] != "plough_weight" or side != "lower":
+            return ""
+        return (
+            f" (friction at rest cannot be below the adhesive share alone, "
+            f"{shares(self.values(best))[1]:.4g}; a larger hardness_ratio lowers that)"
+        )
+
+    def why_not(self, best: Array, i: int) -> tuple[str, bool]:
+        """Return what the points' speeds leave out."""
+        name, fastest, slowest = self.names[i], self.speed.max(), self.speed.min()
+        stick = self.values(best)["stick_speed"]
+        if name in ("shear_floor", *SPEEDS) and fastest <= stick:
+            return (
+                f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} "
+                "m/s), where friction does not change with speed"
+            ), True
+        if fastest == slowest:
+            return f"all points have one slip speed ({fastest:.4g} m/s)", False
+        if name == "stick_speed" and slowest >= stick:
+            return f"all points lie above it (slowest slip {slowest:.4g} m/s)", False
+        return "", False
+
+    def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
+        """Return slip speed and load of the points."""
+        return {"slip speed": ("m/s", self.speed), "load": ("N", self.load)}
+
+
+def _refuse(
+    points: Measured, name: str, values: Array, bad: NDArray[np.bool_], allowed: str
+) -> None:
+    """Name the first value that cannot be used."""
+    if bad.any():
+        i = int(np.argmax(bad))
+        where = f"{name}: point {points.row[i] + 1} is {float(values[i]):.6g}"
+        raise ParameterError(f"{where}, allowed: {allowed}")

@@ -1,30 +1,20 @@
 """Warnings of points that no constants of the friction law can follow, in plain sentences."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import fields
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...calibration.identifiability import listed
-from ...calibration.model_problem import MATERIAL, SCATTERS
+from ...calibration.model_fit import MATERIAL, SCATTERS
 from ...numerics.jit import Array
 from ..parameters import ClutchParams
-from .friction_law import end_frictions, friction_over
-
-if TYPE_CHECKING:
-    from .friction_fit import FrictionProblem
+from .friction_law import TABLE, FrictionProblem, end_frictions, friction_over
 
 RISE = 0.05  # of the mean friction: a smaller rise with speed is not worth one
 CHANCE = 1e-4  # probability below which a rise is not the scatter's; the place is searched for
 FEWEST = 4  # points that can show a rise
 SEEN, HIDDEN = 0.5, 0.05  # of the fall still to come at the slowest point: before, after the fit
-TABLE = (
-    'take friction_law = "table" (ClutchParams.with_table), which follows a measured curve '
-    "in up to six points"
-)
 # Friction grows with each of these all over its range, or falls; so the bounds are the extremes.
 GROWING = ("plough_weight", "shear_floor", "stick_speed", "decay_speed", "indentation")
 GROWS = dict.fromkeys((*GROWING, "adhesion_factor"), 1) | {"hardness_ratio": -1}

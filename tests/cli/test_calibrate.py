@@ -65,8 +65,10 @@ def test_options_reach_the_fit(table, capsys):
     assert (record["confidence"], record["parameters"]["plough_weight"]) == (0.9, 0.2)
 
 
-def test_the_constant_law_is_fitted_by_its_one_constant(table, capsys):
-    record = json.loads(run(capsys, table, "--set", "friction_law=constant", "--json").out)
+@pytest.mark.parametrize("part", [[], ["clutch"]])
+def test_the_constant_law_is_fitted_by_its_one_constant(part, table, capsys):
+    words = [*part, table, "--set", "friction_law=constant", "--json"]
+    record = json.loads(run(capsys, *words).out)
     assert record["fitted"] == {"constant_friction": pytest.approx(FRICTION.mean())}
 
 

@@ -46,20 +46,20 @@ class ModelProblem(Problem):
 
     @classmethod
     def asked(
-        cls, spec: ModelSpec, params: Any, fit: Sequence[str] | None, given: set[str]
-    ) -> tuple[Any, tuple[str, ...]]:
-        """Return the parameters before the fit and those to fit; ``given`` are known inputs."""
-        real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
-        return params, chosen_names(fit or (), real, f"real parameters of {spec.name}")
+        cls, points: Measured, fit: Sequence[str] | None, given: set[str]
+    ) -> tuple[Measured, tuple[str, ...]]:
+        """Return the points as they are fitted, and the parameters to fit, or refuse them.
 
-    @classmethod
-    def checked(cls, points: Measured, names: tuple[str, ...]) -> Measured:
-        """Return the points as they are fitted; ParameterError if they cannot be."""
+        ``given`` are the inputs that the points have.
+        """
+        spec = points.plan.spec
+        real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
+        names = chosen_names(fit or (), real, f"real parameters of {spec.name}")
         if len(points.value) < len(names):
             told = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
             raise ParameterError(f"data: {told}, allowed: as many values as parameters, or more")
-        check_rung(points.plan.spec, points.plan.fidelity, points.plan.params[0])
-        return points
+        check_rung(spec, points.plan.fidelity, points.plan.params[0])
+        return points, names
 
     @classmethod
     def change_of(cls, points: Measured, name: str) -> float:
@@ -310,13 +310,12 @@ def calibrate(
     own = own_outputs(spec)
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
     kind: type[ModelProblem] = resolve(find_model(spec.key).fits.law) if is_law else ModelProblem
-    params, names = kind.asked(spec, params, fit, {*data, *at})
+    points = measured(spec, params, data, at, errors or {}, fidelity or rung)
+    points, names = kind.asked(points, fit, {*data, *at})
     if twice := set(names) & set(data):
         raise ParameterError(
             f"fit = {twice.pop()!r}: is a column of the data, allowed: one of both"
         )
-    points = measured(spec, params, data, at, errors or {}, fidelity or rung)
-    points = kind.checked(points, names)
     problem, first = kind.of(points, names, bounds or {})
     problem.check_first(first)
     found, judged = fitted(

@@ -15,7 +15,6 @@ from ...calibration.identifiability import Verdict
 from ...calibration.measured import Measured
 from ...calibration.model_fit import ModelProblem
 from ...errors import ParameterError
-from ...model.spec import ModelSpec
 from ...numerics.jit import Array
 from ..kernels.pack_friction import ploughing, settled_slope, viscous_slopes
 from ..parameters import ClutchParams
@@ -140,45 +139,43 @@ class FrictionProblem(ModelProblem):
 
     @classmethod
     def asked(
-        cls, spec: ModelSpec, params: Any, fit: Sequence[str] | None, given: set[str]
-    ) -> tuple[Any, tuple[str, ...]]:
-        """Return the pack with the law, and the constants to fit."""
-        law_of = "wang" if params.friction_law == "table" else params.friction_law
-        acting = CONSTANT_LAW if law_of == "constant" else WANG_CONSTANTS
-        usual = acting[: len(SHAPE)]
-        words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
-        if params.friction_data == "boundary" and "oil_temperature" not in given:
-            raise ParameterError(
-                "oil_temperature is missing, wanted with friction_data = 'boundary': shear of the "
-                "oil is taken off the measured friction"
-            )
-        params = replace(params, friction_law=law_of, friction_scale=1.0)
-        return params, chosen_names(usual if fit is None else fit, acting, words)
+        cls, points: Measured, fit: Sequence[str] | None, given: set[str]
+    ) -> tuple[Measured, tuple[str, ...]]:
+        """Return the points of a pack with the law, without what is not the law's; the constants.
 
-    @classmethod
-    def checked(cls, points: Measured, names: tuple[str, ...]) -> Measured:
-        """Return the points without what is not the law's, or name the first that is of no use."""
+        A table gives way to the law, ``friction_scale`` to 1: the law is that of the points.
+        """
         if points.names != ("friction",) or len(points.plan.params) > 1:
             raise ParameterError("friction: allowed: without other outputs, all points of one pack")
+        params = points.plan.params[0]
+        law_of = "wang" if params.friction_law == "table" else params.friction_law
+        acting = CONSTANT_LAW if law_of == "constant" else WANG_CONSTANTS
+        words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
+        names = chosen_names(acting[: len(SHAPE)] if fit is None else fit, acting, words)
         load, mu, mean = points.input("load"), points.value, points.value.mean()
+        most, shear = LARGEST_FRICTION, np.zeros(len(mu))
         _refuse(points, "load", load, load == 0.0, "above 0 N")
-        most = LARGEST_FRICTION
         _refuse(points, "friction", mu, np.abs(mu) > most, f"{-most:g} .. {most:g}")
         if mean <= 0.0:
             raise ParameterError(
                 f"friction is {mean:.3g} on average, allowed: above 0 (for either sign of speed)"
             )
-        params = points.plan.params[0]
-        if params.friction_data == "total":
-            return points
-        speed, oil = points.input("speed"), points.input("oil_temperature")
-        shear = settled_shear(params, speed, load, oil)
-        cure = (
-            "twice the shear of the settled film or more with friction_data = 'boundary'; leave "
-            "the point out, or take friction_data = 'total'"
-        )
-        _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
-        return replace(points, value=mu - shear)
+        params = replace(params, friction_law=law_of, friction_scale=1.0)
+        if params.friction_data == "boundary":
+            if "oil_temperature" not in given:
+                raise ParameterError(
+                    "oil_temperature is missing, wanted with friction_data = 'boundary': shear of "
+                    "the oil is taken off the measured friction"
+                )
+            oil = points.input("oil_temperature")
+            shear = settled_shear(params, points.input("speed"), load, oil)
+            cure = (
+                "twice the shear of the settled film or more with friction_data = 'boundary'; "
+                "leave the point out, or take friction_data = 'total'"
+            )
+            _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
+        plan = replace(points.plan, params=(params,))
+        return replace(points, plan=plan, value=mu - shear), names
 
     @classmethod
     def change_of(cls, points: Measured, name: str) -> float:

@@ -116,12 +116,8 @@ def test_a_steady_solve_does_not_ask_for_the_thermal_mode():
     assert one.friction_torque == other.friction_torque
 
 
-def test_an_interval_without_a_change_is_no_trouble_at_its_start():
-    """The first point takes no time: its substep is none to go on with."""
-    washer = WasherParams(
-        thermal_mode="transient", inner_radius=5.55e-3, gear_inner_radius=7.8e-3,
-        outer_radius=11.35e-3, washer_thickness=0.635e-3,
-    )  # fmt: skip
-    c = follow_washer(washer, time=[0.0, 0.11], load=49.73, speed=503.9, tilt=1e-3,
-                      oil_temperature=358.15, fidelity="coarse")  # fmt: skip
-    assert c.film_ratio[1] == pytest.approx(c.film_ratio[0], rel=1e-4)
+def test_the_first_point_takes_no_time_and_leaves_no_substep_to_go_on_with():
+    here = np.array([50.0, 500.0, 1e-3, 350.0])
+    washer = follow.Follower(IN_TIME, GRID)
+    assert washer.go(here, here, 0.0) == 0 and washer.state[follow.L.S_SUBSTEP] == 0.0
+    assert washer.go(here, here, 0.1) == 0 and washer.state[follow.L.S_SUBSTEP] >= 0.1

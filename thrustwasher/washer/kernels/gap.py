@@ -1,4 +1,3 @@
-# mypy: disable-error-code="no-any-return"
 """Film 1 and gap 2 at the nodes: gaps, contact pressures, viscosity, and what they balance.
 
 symbol | meaning                                   | unit

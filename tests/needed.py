@@ -11,6 +11,7 @@ from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.native import link
 
 IN_CI = bool(os.environ.get("CI"))
+LACKS = (link.MISSING, "needs the package")  # what the package says of it
 DEV = 'pip install -e ".[dev]"'
 
 

@@ -54,7 +54,7 @@ def test_the_command_solves_one_point(run, solved):
     assert math.isclose(solved["friction_torque"], petroff, rel_tol=1e-14)
     assert 12.5e-6 < solved["film_thickness"] < 25e-6 and solved["status"] == "OK"
     text = run("journal", "--load", "2 kN", "--speed", "9000 rpm", "--set", "clearance=1e-4")
-    assert "least film thickness" in text and "use with care" in text
+    assert "least film thickness" in text and "OUTSIDE_VERIFIED; " in text
 
 
 def test_help_comes_from_the_lists(run):

@@ -22,11 +22,13 @@ class EnvironmentProblem(RuntimeError):
     """Something this machine lacks (a package, a writable folder); the message says what to do."""
 
 
-def suggestion(name: str, known: Iterable[str], words: str, otherwise: str = "") -> str:
+def suggestion(
+    name: str, known: Iterable[str], words: str, otherwise: str = "", *, likeness: float = 0.6
+) -> str:
     """Return words with the known name in them that was probably meant, else the other ones."""
     from difflib import get_close_matches  # late: it is for mistakes alone
 
-    near = get_close_matches(name, list(known), 1)
+    near = get_close_matches(name, list(known), 1, likeness)
     return words.format(near[0]) if near else otherwise
 
 

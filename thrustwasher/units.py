@@ -86,9 +86,7 @@ def meant(value: float, unit: str, low: float, high: float, *, difference: bool 
     for written in _MEANT.get(unit, []):
         si = parse_quantity(f"{value!r} {written}", unit, "")
         if low <= si <= high and si != 0.0:
-            shown = "" if unit == "1" else f" {unit}"
-            space = "" if written == "%" else " "
-            return f"; did you mean {si:.6g}{shown} ({value:g}{space}{written})?"
+            return f"; did you mean {si:.6g} {unit} ({value:g} {written})?"
     return ""
 
 

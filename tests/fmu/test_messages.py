@@ -5,8 +5,11 @@ import ctypes
 import pytest
 from fmpy.fmi1 import FMICallException
 
+from thrustwasher import load_part
 from thrustwasher.errors import Status
+from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.model_description import log_categories
+from thrustwasher.fmu.running.core import Core, Mode
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
 from thrustwasher.model.registry import all_specs
 
@@ -135,3 +138,45 @@ def test_every_category_that_is_declared_can_be_heard():
         "GearMesh": always | {"logNonlinearSystems"},
         "OilSump": always,
     }
+
+
+BOXED = """
+model = "gearmesh"
+name = "Boxed"
+fidelity = "closed"
+[box]
+load = ["0 N.m", "50 N.m"]
+"""
+
+
+def test_an_input_that_leaves_box_or_verified_range_is_told_once_and_solved(tmp_path):
+    path = tmp_path / "boxed.toml"
+    path.write_text(BOXED)
+    (native,) = build([str(path)], out=tmp_path, platforms=["linux64"])
+    mesh, core = Listener(native), Core(load_part(path).model)
+    course = [(40.0, 300.0), (60.0, 300.0), (61.0, 430.0), (40.0, 430.0), (60.0, 300.0)]
+    mesh.begin(load=40.0, speed=180.0, oil_temperature=300.0)
+    core.mode = Mode.INITIALIZING
+    _set(core, [40.0, 180.0, 300.0])
+    core.leave_initialization()
+    core.mode = Mode.STEPPING
+    said = core.advice()
+    for i, (load, oil) in enumerate(course):
+        mesh.set(load=load, oil_temperature=oil)
+        mesh.fmu.doStep(i * H, H)
+        _set(core, [load, 180.0, oil])
+        core.advance(i * H, H)
+        said += core.advice()
+    assert mesh.heard("logStatusWarning") == said and len(said) == 3
+    at = [
+        "0.002 s: load = 60 N.m",
+        "0.003 s: OUTSIDE_VERIFIED: oil_temperature = 430 K",
+        "0.005 s: ",
+    ]
+    assert all(begin in text for begin, text in zip(at, said, strict=True))
+    assert "is outside 0 .. 50 N.m, the part's box: solved all the same" in said[0]
+    assert "is outside 253.15 .. 423.15 K, for which the accuracy was verified" in said[1]
+
+
+def _set(core, inputs):
+    core.set([v.reference for v in core.variables if v.causality == "input"], inputs, "Real")

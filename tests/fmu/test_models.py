@@ -185,7 +185,8 @@ def test_exactly_the_listed_inputs_move_an_output_at_once(name):
     for case in range(CASES[name]):
         given = standings[case % len(standings)]
         if name == "ShiftTransmission":
-            given = given | {"ring_mesh": True}
+            bearings = {f"{gear}_bearing_coefficient": 0.02 for gear in ("sun", "ring")}
+            given = given | {"ring_mesh": True} | bearings
         with DirectInstance(spec, parameters=given) as direct:
             point = drawn(spec, rng)
             direct.initialize(inputs=dict(zip(direct.input_names, point, strict=True)))

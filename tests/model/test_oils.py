@@ -145,6 +145,14 @@ def test_oil_that_is_all_but_solid_is_a_warning(capsys):
     assert too_stiff(find_model("gearmesh").spec, GearMeshParams(), 263.15) == []
 
 
+def test_a_sweep_into_the_cold_warns_of_its_oil(capsys):
+    words = ["sweep", "gearmesh", "--oil", "VG 460", "--over"]
+    assert main([*words, "oil_temperature [degC]=-20,80"]) == 0
+    assert capsys.readouterr().err.count("warning: oil_temperature = -20 degC") == 2
+    assert main([*words, "oil_temperature=300,350"]) == 0
+    assert "warning" not in capsys.readouterr().err
+
+
 # Files, commands, scenes, FMUs
 
 
@@ -209,6 +217,8 @@ def test_a_scenes_oil_is_replaced_as_a_whole():
     assert scene.parts["washer"].params.oil_heat_capacity == 2050.0  # the scene's own stays
     assert "given beside it: heat_capacity, conductivity, pressure_viscosity" in scene.notes[0]
     assert scene.warnings == () and load_scene("planetary").notes == ()
+    assert load_scene("brake-test").published
+    assert load_scene("brake-test", oil="ISO VG 46").published is None
 
 
 def test_a_scene_may_name_its_oil_and_one_without_is_a_warning(tmp_path):

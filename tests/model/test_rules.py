@@ -76,6 +76,10 @@ BROKEN = {
         {"piston_inner_radius": 0.05},
         {"piston_supply_radius": 0.05},
         *({f"{name}_points": 2} for name in transmission_params.COURSES),
+        {"sun_bearing_shaft_2": "sun"},
+        {"ring_bearing_shaft_1": "case"},
+        {"sun_bearing_coefficient": 0.1, "sun_bearing_mean_radius": 0.5},
+        {"ring_bearing_coefficient": 0.1, "ring_bearing_mean_radius": 0.5},
     ),
 }
 CASES = [(spec, n, change) for spec in SPECS for n, change in enumerate(BROKEN[spec.key], 1)]

@@ -9,6 +9,7 @@ import platform
 import subprocess
 import sys
 
+import needed
 import numpy as np
 import pytest
 from kernel_runs import MODELS, Jit, Native, Run, anything, course, parameters
@@ -181,6 +182,7 @@ print("same")
 
 
 def test_the_hosts_rounding_and_traps_neither_act_nor_change():
+    needed.linker()
     code = HARSH.format(path=sys.path, level=HERE)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout == "same\n", done.stderr

@@ -136,6 +136,7 @@ def test_without_any_compiler_one_line_says_what_to_install(without_zig):
 
 
 def test_what_the_compiler_refuses_is_said_in_one_line():
+    needed.linker()
     with pytest.raises(EnvironmentProblem, match=r"cannot build a\.so: a\.c:1:.*error") as caught:
         link.shared_library({"a.c": "int a = ;"}, platform=PLATFORMS["linux64"], name="a")
     assert "\n" not in str(caught.value)

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import needed
 import pytest
 
 from ship import pack
@@ -147,6 +148,7 @@ print("llvmlite" in sys.modules, "numba" in sys.modules)
 @linux
 @pytest.mark.parametrize("no_linker", [False, True])
 def test_without_a_library_it_is_linked_or_loaded_by_llvmlite_and_kept(tmp_path, no_linker):
+    needed.linker()
     shown = child(WITHOUT.format(no_linker="False"), tmp_path / "a")
     assert shown.returncode == 0, shown.stderr
     done = child(WITHOUT.format(no_linker=no_linker), tmp_path / "b")
@@ -199,6 +201,7 @@ def test_a_home_that_cannot_be_written_serves_with_one_line(tmp_path):
 
 @linux
 def test_a_full_disk_is_said_in_one_line_and_the_library_loads_all_the_same(tmp_path):
+    needed.linker()
     full = (
         "from thrustwasher.native import files\n"
         "true = files.keep\n"

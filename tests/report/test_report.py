@@ -78,7 +78,7 @@ def test_page_carries_every_chapter_and_the_numbers(record):
     assert titles == ["Beside what is usual", "The shift over time", "Friction of the clutch",
                       "The thrust washer", "Energy", "Key figures", "Time spent",
                       "What was simulated", "How far to trust it"]  # fmt: skip
-    for words in ("1.75 s", "99 rad/s", "Thermo-viscous distress", "upper bound", "half the size",
+    for words in ("1.75 s", "99 rad/s", "Thermo-viscous distress", "steady state", "half the size",
                   "a remark of the run", "Jackson", "roughness_carrier"):  # fmt: skip
         assert words in text
 

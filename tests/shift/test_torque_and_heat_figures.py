@@ -43,8 +43,8 @@ def test_a_hole_is_settled_after_the_later_packs_slip():
     assert hole(1.5, 0.8, 1.2) == pytest.approx(0.4)
     assert hole(1.5, 0.8, 1.2, end=END) == pytest.approx(0.4)
     felt = np.interp(TIME, [0.1, 0.4, LOCK + 0.1, END + 0.1], [1.5, 0.8, 0.9, 1.4])
-    signals = {f"transmission.{n}": x for n, x in (
-        ("output_acceleration", felt / 0.1), ("output_speed", TIME), ("engine_speed", TIME))}  # fmt: skip
+    read = {"output_acceleration": felt / 0.1, "output_speed": TIME, "engine_speed": TIME}
+    signals = {f"transmission.{name}": values for name, values in read.items()}
     early, late = (comfort_figures(load_scene("planetary"), TIME, signals, LOCK, end)
                    for end in (None, END))  # fmt: skip
     assert early["torque_hole"][0] == pytest.approx(0.1)

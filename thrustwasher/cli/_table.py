@@ -33,7 +33,7 @@ def read_columns(
     head = lines[0][1]
     separator = max(",;\t", key=head.count)
     names = _cells(head, separator)
-    where = _find(path, names, units, optional, strict)
+    where, passed = _find(path, names, units, optional, strict)
     columns: dict[str, list[Any]] = {name: [] for name in where}
     for number, line in lines[1:]:
         cells = _cells(line, separator)
@@ -50,6 +50,8 @@ def read_columns(
             columns[name].append(_number(place, cells[index].strip(), written, units[name]))
     if len(lines) == 1:
         raise ParameterError(f"{path}: has column names but no line of numbers")
+    if passed:
+        note(f"{path}: passed over, as no column that counts: {', '.join(passed)}")
     return columns
 
 
@@ -83,15 +85,17 @@ def _cells(line: str, separator: str) -> list[str]:
 
 def _find(
     path: str, head: list[str], units: Mapping[str, str], optional: tuple[str, ...], strict: bool
-) -> dict[str, tuple[int, str]]:
-    """Return the place and the written unit of every column wanted."""
+) -> tuple[dict[str, tuple[int, str]], list[str]]:
+    """Return the place and the written unit of every column wanted, and those passed over."""
     found: dict[str, tuple[int, str]] = {}
     passed = []
     for index, cell in enumerate(head):
         match = re.fullmatch(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", cell)
         name = match[1].lower().replace(" ", "_") if match else ""
         if match is None or name not in units:
-            hint = suggestion(name, set(units) - {*found}, "did you mean {}? ")
+            hint = suggestion(
+                name, set(units) - {*found}, "did you mean {}? ", likeness=0.6 if strict else 0.75
+            )  # fmt: skip
             if cell and not cell.startswith("_"):
                 if strict or hint:
                     raise ParameterError(f"{path}: column {cell!r} is not known; {hint}begin its "
@@ -110,9 +114,7 @@ def _find(
         raise ParameterError(
             f"{path}: column {missing[0]} is missing; wanted: {', '.join(units)}; found: {names}"
         )
-    if passed:
-        note(f"{path}: passed over, as no column that counts: {', '.join(passed)}")
-    return found
+    return found, passed
 
 
 def _number(place: str, text: str, written: str, unit: str) -> float:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
+from ..model.advice import range_text
 from ..model.part_file import is_part
 from ..units import parse_quantity
 from ..washer.parameters import SPEC
@@ -56,7 +57,7 @@ def _build(arguments: argparse.Namespace) -> int:
     from ..native.files import write
     from ..washer.map.look_up import TABLES, keep_own
     from ..washer.map.map_build import make_map
-    from ..washer.map.map_plan import TOLERANCE
+    from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE
 
     tolerance = TOLERANCE
     if arguments.tolerance is not None:
@@ -64,6 +65,9 @@ def _build(arguments: argparse.Namespace) -> int:
     card = make_map(params, Path(out), box=box, tolerance=tolerance, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
                     progress=_output.time_left)  # fmt: skip
+    if left := [s for s in SPEC.inputs if s.name not in box]:
+        spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
+        _output.note(f"taken by default: {', '.join(spans)}")
     plain = not arguments.fidelity and not any(getattr(arguments, s.name) for s in SPEC.inputs)
     if arguments.file and plain and not serves(TABLES, params, box, tolerance):
         keep_own(params, lambda path: write(path, Path(out).read_bytes()))

@@ -159,6 +159,8 @@ def _step_words(record: Any) -> str:
 
 def _say_sequence(result: Any) -> None:
     """Print a line per shift of a scene of several."""
+    from ..report.shift import summary
+
     oil = result.oil_temperature - 273.15
     print(f"{result.scene.title}: {len(result.shifts)} shifts, oil {oil[0]:.1f} .. {oil[-1]:.1f} "
           "degC")  # fmt: skip
@@ -167,7 +169,7 @@ def _say_sequence(result: Any) -> None:
         locked = "does not lock" if lock is None else f"locks {lock:.3f} s after the shift began"
         begin = f"{shift.scene.shift_start:8.1f} s"
         print(f"  {begin}  {way:4}  {locked}, {1e-3 * (heat or 0.0):.2f} kJ")
-    for text in result.messages:
+    for text in [*summary.step_words(result), *result.messages]:
         print(text)
 
 

@@ -9,6 +9,7 @@
 ``advice``      warnings of a solution, one line each
 ``kept``        what a part keeps of its preset though what it belongs to was changed
 ``point``       an operating point: what is given, what a part's box fixes, what is left to defaults
+``oil``         an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
 ``prepare``     from parameters to what a kernel takes: rules, constants, tables
 ==============  ===============================================================================
 

@@ -9,7 +9,6 @@ import numpy as np
 from ..errors import ParameterError
 from ..model.parameters import as_numbers
 from ..numerics.jit import Array
-from ..transmission.parameters import BEARINGS
 from .checks.run_doubts import doubts
 from .cosim.loop import Recorder, Run, Steps, advance_in_python
 from .cosim.schedule import Correct
@@ -263,8 +262,7 @@ def _remarks(made_for: Scene, scene: Scene) -> list[str]:
 
 def thrust_remarks(scene: Scene, signals: Mapping[str, Array]) -> list[str]:
     """Say which thrusts of a finished run rest on no bearing in the model."""
-    gearbox = scene.parts["transmission"].params
-    free = [n for n in BEARINGS if not getattr(gearbox, f"{n}_coefficient")]
+    free = [name for name, there in scene.bearings.items() if not there]
     thrust = float(np.max(signals["transmission.sun_thrust"]))
     if not free or thrust == 0.0:
         return []

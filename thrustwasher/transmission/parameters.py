@@ -18,6 +18,7 @@ from ..model.parameters import (
     quantity,
 )  # fmt: skip
 from ..model.spec import ModelSpec, Rule, Signal, Terminal, output
+from .bearings import BEARINGS, bearing_fields, rubbing, two_ends
 
 ARRANGEMENT = {
     "sun-input": "the sun is driven, the brake holds the ring: first gear 1 + z_r/z_s",
@@ -30,12 +31,6 @@ ACTUATION = {
 COUPLING = {
     "capacity": "the packs send the torque they can hold; stick and slip are decided in here",
     "torque": "the packs send their friction torque: the plain loop, limited in step size",
-}
-SHAFT = {
-    "sun": "the sun and what turns with it",
-    "carrier": "the carrier, the output",
-    "ring": "the ring and what turns with it",
-    "case": "the case, which stands",
 }
 
 
@@ -91,20 +86,6 @@ def _order(name: str) -> Rule:
     return Rule(f"{name}_time_2 = {{{name}_time_2}} s, allowed: rising from point to point", exact)
 
 
-BEARINGS = ("sun_bearing", "ring_bearing")
-
-
-def _two_ends(name: str) -> Rule:
-    return Rule(f"{name}_shaft_2 = {{{name}_shaft_2}}, allowed: another shaft than "
-                f"{name}_shaft_1 ({' or '.join(SHAFT)})")  # fmt: skip
-
-
-def _rubbing(name: str) -> Rule:
-    return Rule(f"{name}_mean_radius = {{{name}_mean_radius}} m, allowed: with {name}_coefficient "
-                f"({{{name}_coefficient}}) x tan(helix_angle) up to a tenth of the sun's pitch "
-                "radius, or the bearing takes more than the teeth give")  # fmt: skip
-
-
 RULES = (
     Rule("ring_teeth = {ring_teeth}, allowed: above sun_teeth ({sun_teeth})"),
     Rule("planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
@@ -122,8 +103,8 @@ RULES = (
     Rule("piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
          "({piston_outer_radius} m)"),
     *map(_order, COURSES),
-    *map(_two_ends, BEARINGS),
-    *map(_rubbing, BEARINGS),
+    *map(two_ends, BEARINGS),
+    *map(rubbing, BEARINGS),
 )  # fmt: skip
 
 
@@ -225,20 +206,6 @@ class _TransmissionParams:
     ring_mesh: bool = flag(
         False, "ring_mesh_torque is the ring meshes' loss (False: mesh_torque stands for both)"
     )
-    sun_bearing_shaft_1: str = choice("sun", SHAFT, "Shaft", "of the sun's thrust bearing: one end")
-    sun_bearing_shaft_2: str = choice("carrier", SHAFT, "Shaft", "and the other end")
-    sun_bearing_coefficient: float = quantity(
-        0.0, "1", 0.0, 0.1, "friction of the sun's thrust bearing (0: no bearing)"
-    )
-    sun_bearing_mean_radius: float = quantity(0.025, "m", 1e-3, 1.0, "of the sun's thrust bearing")
-    ring_bearing_shaft_1: str = choice("ring", SHAFT, "Shaft", "of the ring's thrust bearing: one")
-    ring_bearing_shaft_2: str = choice("case", SHAFT, "Shaft", "and the other end")
-    ring_bearing_coefficient: float = quantity(
-        0.0, "1", 0.0, 0.1, "friction of the ring's thrust bearing (0: no bearing)"
-    )
-    ring_bearing_mean_radius: float = quantity(
-        0.033, "m", 1e-3, 1.0, "of the ring's thrust bearing"
-    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -263,7 +230,8 @@ class _TransmissionParams:
         return self.planets * (1.0 + (1.0 / planet - 1.0 / ring) / (1.0 / planet + 1.0 / sun))
 
 
-_MORE = _piston("clutch") | _piston("brake")
+_MORE = {k: x for name in BEARINGS for k, x in bearing_fields(name).items()}
+_MORE |= _piston("clutch") | _piston("brake")
 for _name, _about in COURSES.items():
     _MORE |= _course(_name, *_about)
 TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionParams", _MORE))

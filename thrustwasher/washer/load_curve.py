@@ -1,7 +1,7 @@
 """The whole curve of a washer's solutions over load, with its folds: continuation in the film."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import SolveError, Status
 from ..model.parameters import check_number
+from ..model.record import OwnOutputs
 from ..numerics.jit import Array
 from ..numerics.status import OK
 from .kernel_arguments import constants, work_array
@@ -23,7 +24,7 @@ from .kernels.solve import remember_state
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import WasherParams
 from .solve import ERRORS, check_point, resolve_grid, result_from
-from .washer_result import BRANCH_NAMES, Fold, WasherResult, lost_text
+from .washer_result import BRANCH_NAMES, Fold, Inputs, WasherResult, lost_text
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
@@ -148,6 +149,14 @@ def fold_loads(params: WasherParams, point: Mapping[str, float], fidelity: str) 
     return {names[kind]: load for kind, load in found.items()}
 
 
+FOLDS = OwnOutputs(
+    units={"film_loss_load": "N", "film_regain_load": "N"},
+    computed=fold_loads,
+    without="load",
+    none="no such fold on the load curve",
+)
+
+
 def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:
     """Name each point's branch: by the folds, or on a single-valued curve by the film ratio."""
     named = []
@@ -169,9 +178,7 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
 class Continuation:
     """A place on the curve of solutions, which moves as its film thickness is prescribed."""
 
-    def __init__(
-        self, params: WasherParams, point: Sequence[float], nodes: tuple[int, int]
-    ) -> None:
+    def __init__(self, params: WasherParams, point: Inputs, nodes: tuple[int, int]) -> None:
         """Begin anywhere; ``point`` (5,) holds the inputs."""
         par = constants(params, nodes)
         self.params, self.nodes = params, nodes
@@ -182,7 +189,7 @@ class Continuation:
         set_steady(self.m, self.pt, self.f)
         self.w.curve[L.ACCURACY] = 1e-8
 
-    def move(self, point: Sequence[float]) -> None:
+    def move(self, point: Inputs) -> None:
         """Take other inputs; the solution stays that of those before."""
         self.inputs = point
         self.pt = point_of(constants(self.params, self.nodes), np.array(point))
@@ -307,8 +314,7 @@ class Continuation:
         state[L.S_RATIO] = self.outputs()[L.O_RATIO]
         state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
         state[L.S_SCAN_OIL] = pt.oil_temperature
-        _, speed, tilt, oil, far = self.inputs
         return result_from(
-            self.params, (pt.load, speed, tilt, oil, far), fidelity, self.nodes, state, self.work,
+            self.params, (pt.load, *self.inputs[1:]), fidelity, self.nodes, state, self.work,
             Status.OK, L.FILM_BRANCH, False, ERRORS[fidelity],
         )  # fmt: skip

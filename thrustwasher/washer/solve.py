@@ -22,7 +22,7 @@ from .kernels import step as kernel
 from .kernels.regime_and_status import LEAST_TEMPERATURE
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, Unread, WasherResult, result_of
+from .washer_result import BRANCH_NAMES, BRANCHES, Inputs, Unread, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
@@ -37,6 +37,10 @@ UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
 BOTH = (
     "load = {:.4g} N lies between two folds: with friction_torque = {:.4g} N m the branch {!r} has "
     "a solution too, which one a washer is on depends on how it came there; this one is {!r}"
+)
+NOT_IN_MAP = (
+    "fidelity = 'map' has no answer here, outside its box or without tilt: solved with 'field', "
+    "which takes some ten times as long; build a map for a larger box, or choose 'field'"
 )
 OK = Status.OK
 LARGEST_GRID = (129, 512)
@@ -69,7 +73,6 @@ RANGES = tuple(
     (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
     for s in SPEC.inputs
 )
-Inputs = tuple[float, float, float, float, float]
 
 
 def check_far_face(params: WasherParams, far_face_temperature: float) -> None:
@@ -166,13 +169,16 @@ def solve_washer(
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     wanted = BRANCHES[branch] if branch is not None else 0.0
-    found = None
+    found: WasherResult | None = None
+    asked = fidelity
     if fidelity == "map":
         if grid is not None:
             raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
         found = _map_solver()(params, point, wanted, start)
         fidelity = "map" if found else "field"  # outside the map
     result = found or _solve(params, point, fidelity, nodes, wanted, start, grid is None)
+    if fidelity != asked:
+        result = replace(result, warnings=(NOT_IN_MAP, *result.warnings))
     if result.status is OK and grid is None:
         return result
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:

@@ -125,7 +125,7 @@ class WasherResult:
         return float(self._error) if known is None else known
 
     def point(self) -> Inputs:
-        """Return load, speed, tilt, oil temperature, temperature at the gear's far face."""
+        """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
         return (
             self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature
         )  # fmt: skip

@@ -231,7 +231,7 @@ def test_dependencies_of_fmi_3_are_those_of_the_list():
     (lambda data: data[:-1], "damaged"),
     (lambda data: data + b"0", "damaged"),
     (lambda data: data.replace(b"ShellToy", b"ShellTop"), "damaged"),
-    (lambda data: b"twpart2" + data[7:], "damaged"),
+    (lambda data: b"twpart0" + data[7:], "damaged"),
     (lambda data: summed(data[:8] + b"another build..." + data[24:-4]), "another build"),
 ])  # fmt: skip
 def test_without_its_part_there_is_no_instance_and_the_folder_is_named(fmi, spoil, said, tmp_path):

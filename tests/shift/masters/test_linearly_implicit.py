@@ -22,7 +22,7 @@ def test_a_shaft_that_judders_is_neither_damped_nor_fed():
 
 def test_capacities_that_go_on_by_themselves_are_not_corrected():
     """Without drag there is nothing to correct: the run is that of gauss-seidel to the bit."""
-    implicit, plain = (shift("msl", step=0.01, master=m) for m in (MASTER, "gauss-seidel"))
+    implicit, plain = (shift("msl", step=0.005, master=m) for m in (MASTER, "gauss-seidel"))
     assert all(np.array_equal(implicit.signals[k], plain.signals[k]) for k in plain.signals)
 
 

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.transmission.parameters import BEARINGS, SHAFT, TransmissionParams
+from thrustwasher.transmission.bearings import BEARINGS, SHAFT
+from thrustwasher.transmission.parameters import TransmissionParams
 
 from test_transmission_step import FREE, Gearbox  # isort: skip
 

@@ -4,16 +4,10 @@ import numpy as np
 import pytest
 
 from thrustwasher.model.parameters import as_numbers
+from thrustwasher.transmission.bearings import BEARINGS, SHAFT
 from thrustwasher.transmission.kernels import layout as L
 from thrustwasher.transmission.kernels import step as k
-from thrustwasher.transmission.parameters import (
-    ACTUATION,
-    BEARINGS,
-    COUPLING,
-    SHAFT,
-    SPEC,
-    TransmissionParams,
-)
+from thrustwasher.transmission.parameters import ACTUATION, COUPLING, SPEC, TransmissionParams
 
 from slopes import Unit, disagreement  # isort: skip
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from ...units import format_quantity as say
 from ..html import Page, Plot, Section, Table
+from . import summary
 from .live_washer import live_washer
 from .overview_plot import overview_figure
 from .shift_data import page_data, run_data
@@ -37,8 +38,9 @@ def sequence_page(result: Any) -> Page:
     washer = live_washer(whole)
     if washer:
         sections.insert(1, Section("washer", "The thrust washer", widgets=["discs"]))
-    if result.messages:
-        texts = [f"The run says: {message}." for message in result.messages]
+    texts = [f"{words}." for words in summary.step_words(result)]
+    texts += [f"The run says: {message}." for message in result.messages]
+    if texts:
         sections.append(Section("trust", "How far to trust it", texts=texts))
     return Page(
         title=whole.title,

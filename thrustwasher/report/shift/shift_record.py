@@ -1,7 +1,7 @@
 """What the report needs from a finished shift, as plain data."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -106,6 +106,8 @@ class Record:
     """Warnings of the run and of the checks after it."""
     step_error: Any = None
     """What the communication step errs by (``shift.checks.step_estimate``); None: not checked."""
+    in_time: Mapping[str, Any] = field(default_factory=dict)
+    """Washers taken as steady, followed in time (``shift.checks.washer_in_time``), if checked."""
     judder: Any = None
     """How the output shaft swings (``shift.oscillation.judder.Judder``); None: not at all."""
     chatter: Sequence[Any] = ()
@@ -209,6 +211,7 @@ def record_of(result: Any) -> Record:
         messages=result.messages,
         found=result.found,
         step_error=result.step_error,
+        in_time=result.in_time,
         judder=result.judder,
         chatter=result.chatter,
         selection=result.selection,

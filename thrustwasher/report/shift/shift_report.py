@@ -113,7 +113,11 @@ def _cards(record: Record) -> list[Card]:
         for name in names if (f := known.get(name)) is not None and f.value is not None
     ]  # fmt: skip
     share = f"{record.energy['residual_share']:.1e}"
-    return [*cards, Card(f"energy missing, of {record.whole_name}", share)]
+    cards.append(Card(f"energy missing, of {record.whole_name}", share))
+    if record.step_error is not None:
+        errs = f"{100.0 * record.step_error.relative:.2g} %"
+        cards.append(Card("error of the step, in lock-up time or heat", errs))
+    return cards
 
 
 def _friction_sections(record: Record) -> list[Section]:

@@ -68,6 +68,12 @@ def warnings_of_all(records: Sequence[Record]) -> list[str]:
     ]
 
 
+def step_words(result: Any) -> list[str]:
+    """Return what the step errs by in the shifts of a sequence that were checked."""
+    return [f"Error of the step in shift {i + 1}: {error.words()}"
+            for i, error in result.step_errors.items()]  # fmt: skip
+
+
 def trust_texts(record: Record) -> list[str]:
     """Return what the numbers are worth."""
     rungs = {part.parameters.get("fidelity") for part in record.parts

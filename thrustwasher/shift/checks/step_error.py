@@ -21,6 +21,7 @@ from ..shift_result import ShiftResult
 from .step_estimate import LIMITS, StepError, excess
 
 SAFE = 0.8  # of a limit: what an advice has to keep
+TRIED = 2.0  # of the step that the error's order says would do: the longest that is tried
 LEAST, ENOUGH = 4, 4000  # the second run: steps as short at least; so many of them do
 LEAST_HEAT, LEAST_JERK = 1e-4, 1.0  # of the work done, m/s3: shares of less say nothing
 LESS = 0.25  # of master_tolerance, whose root the error goes with
@@ -42,7 +43,8 @@ def step_error(result: ShiftResult, make: Make, run: Run) -> StepError:
         return run(other, make(other, played))
 
     if MASTERS[scene.master].adaptive:
-        return by_tolerance(result, again(master_tolerance=LESS * scene.master_tolerance))
+        less = LESS * scene.master_tolerance
+        return by_tolerance(result, again(master_tolerance=less, step=LESS**0.5 * scene.step))
     parts = parts_of_a_step(scene, result.step, result.steps.accepted)
     finer = again(step=result.step / parts)
     return by_step(result, finer, lambda step: again(step=step))
@@ -76,34 +78,36 @@ def by_step(
 ) -> StepError:
     """Return the errors of a run by one with shorter steps; ``again`` tries a step that would do.
 
-    The errors found go with the step; where they are too large the advice is tried in a run of its
-    own, and halved as long as it errs too much.
+    Where errors are too large the advice is tried in a run of its own, and halved as long as it
+    errs too much.
     """
     h, fine = result.step, finer.step
     errors = errors_between(result, finer, h / abs(h - fine))
     advice, over = h, excess(errors)
     if over > 1.0:
-        advice = rounded(SAFE * h / over)
+        advice = min(rounded(TRIED * h / over), rounded(0.99 * h))
         while again and advice > 2.0 * fine:
             tried = errors_between(again(advice), finer, advice / (advice - fine))
             if excess(tried) <= SAFE:
                 break
             advice = rounded(0.5 * advice)
+        advice = advice if again else rounded(SAFE * h / over)
     return StepError(step=h, compared_with=fine, advice=advice, **errors)
 
 
 def by_tolerance(result: ShiftResult, finer: ShiftResult) -> StepError:
     """Return the errors of a run whose steps follow ``master_tolerance``, by one with less of it.
 
-    Steps go with its square root, and so do errors of first order.
+    Steps go with its square root or, where they are as long as can be, with the first step; so do
+    errors of first order.
     """
-    ratio = (finer.scene.master_tolerance / result.scene.master_tolerance) ** 0.5
-    errors = errors_between(result, finer, 1.0 / (1.0 - ratio))
-    tolerance, over = result.scene.master_tolerance, excess(errors)
+    errors = errors_between(result, finer, 1.0 / (1.0 - LESS**0.5))
+    tolerance, step, over = result.scene.master_tolerance, result.scene.step, excess(errors)
     if over > 1.0:
         tolerance = max(rounded(tolerance * (SAFE / over) ** 2), TOLERANCE_RANGE[0])
+        step = rounded(step * SAFE / over)
     return StepError(
-        step=result.step, compared_with=finer.step, advice=result.step, tolerance=tolerance,
+        step=result.step, compared_with=finer.step, advice=step, tolerance=tolerance,
         **errors,
     )  # fmt: skip
 

@@ -14,7 +14,7 @@ class StepError(NamedTuple):
 
     ``lock_time`` is relative to the time from the shift's start to lock-up, 1 where only one of
     both runs locks; ``heat`` is that of the engaging pack; ``advice`` is a step [s] that would do,
-    the run's own if it does.
+    the scene's own if it does.
     """
 
     step: float
@@ -24,7 +24,8 @@ class StepError(NamedTuple):
     lock_time: float | None = None
     peak_jerk: float | None = None
     tolerance: float | None = None
-    """master_tolerance that would do, of a master that chooses its steps; None: others."""
+    """master_tolerance that would do, with ``advice`` as its first step, of a master that chooses
+    its steps; None: others."""
 
     @property
     def relative(self) -> float:
@@ -52,12 +53,13 @@ class StepError(NamedTuple):
         """Return what must not be missed."""
         if self.suffices:
             return []
+        step, advice = (say(x, "s", digits=4) for x in (self.step, self.advice))
         if self.tolerance is not None:
             return [
                 f"master_tolerance is too large: the steps err by about {self.words()}; "
-                f"{self.tolerance:.2g} would do (--master-tolerance)"
+                f"{self.tolerance:.2g} with a first step of {advice} would do "
+                "(--master-tolerance, --step)"
             ]
-        step, advice = (say(x, "s", digits=4) for x in (self.step, self.advice))
         return [
             f"The communication step of {step} is too long: it errs by about {self.words()}; "
             f"{advice} would do (--step)"

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from ...model.record import absent_outputs
 from ...numerics.jit import Array
-from ...transmission.parameters import BEARINGS
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.connections import MESHES, PACKS
 from ..scene.scene import Scene
@@ -347,8 +346,7 @@ def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
 
 def bearing_figures(scene: Scene, time: Array, signals: Signals) -> Found:
     """Return heat and greatest power of the thrust bearings; nothing without one."""
-    gearbox = scene.parts["transmission"].params
-    if not any(getattr(gearbox, f"{name}_coefficient") for name in BEARINGS):
+    if not any(scene.bearings.values()):
         return {}
     return {
         "bearing_loss": (float(signals["transmission.bearing_heat"][-1]), None),

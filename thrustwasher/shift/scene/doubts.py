@@ -6,11 +6,10 @@ from typing import Any
 
 from ...gearmesh.doubts import doubts_of_parameters
 from ...gearmesh.parameters import GearMeshParams
-from ...transmission.parameters import BEARINGS, COURSES, course_points
+from ...transmission.parameters import COURSES, course_points
 from .connections import MESHES
 from .scene import Part, Scene
 
-GEAR = dict(zip(BEARINGS, ("sun", "ring"), strict=True))  # whose thrust a bearing takes
 APART = 0.01  # of the centre distance, which may come from rounded transverse numbers
 TURNED = 1e-3  # rad
 
@@ -19,7 +18,7 @@ def doubts(scene: Scene) -> Iterator[str]:
     """Say what is doubtful, one line each; nothing of a scene that fits together."""
     gearbox = scene.parts["transmission"].params
     yield from _of_washers(scene, gearbox)
-    yield from _of_bearings(gearbox)
+    yield from _of_bearings(scene, gearbox)
     yield from _of_meshes(scene)
     for name in COURSES:
         last = [t for t, _ in course_points(gearbox, name)][-1:]
@@ -47,11 +46,10 @@ def _of_washers(scene: Scene, gearbox: Any) -> Iterator[str]:
         )
 
 
-def _of_bearings(gearbox: Any) -> Iterator[str]:
-    for name, gear in GEAR.items():
+def _of_bearings(scene: Scene, gearbox: Any) -> Iterator[str]:
+    for name in (name for name, there in scene.bearings.items() if there):
+        gear = name.removesuffix("_bearing")
         ends = [getattr(gearbox, f"{name}_shaft_{i}") for i in (1, 2)]
-        if not getattr(gearbox, f"{name}_coefficient"):
-            continue
         if gearbox.helix_angle == 0.0:
             yield f"[{name}]: helix_angle = 0, spur teeth give no thrust: the bearing does nothing"
         elif gear not in ends:

@@ -10,6 +10,7 @@ from ...ladder.choose import rung_and_tolerance
 from ...model.prepare import check_together
 from ...model.spec import ModelSpec
 from ...model.toml_tables import number
+from ...transmission.bearings import BEARINGS
 from ...transmission.parameters import COURSES, course_points
 from ...transmission.vehicle import Vehicle
 from ...units import format_quantity
@@ -139,7 +140,7 @@ class Scene:
         if self.step > longest * (1.0 + 1e-9):
             raise ParameterError(
                 f"scene {self.name!r}: step = {format_quantity(self.step, 's', digits=4)}, allowed "
-                f"here: up to {format_quantity(longest, 's', digits=3)}, a twentieth of the shift"
+                f"here: up to {format_quantity(longest, 's', digits=4)}, a twentieth of the shift"
             )
 
     @property
@@ -150,6 +151,12 @@ class Scene:
         if gearbox.actuation == "pressure" or gearbox.engine_torque_points:
             return False
         return not (gearbox.engine_torque or gearbox.load_torque or other)
+
+    @property
+    def bearings(self) -> dict[str, bool]:
+        """Whether there is a thrust bearing of the sun and of the ring, by its name."""
+        gearbox = self.parts["transmission"].params
+        return {name: getattr(gearbox, f"{name}_coefficient") > 0.0 for name in BEARINGS}
 
     def corners(self) -> set[float]:
         """Return the times [s] at which a ramp or a course has a corner."""

@@ -27,7 +27,6 @@ from ...model.parameters import earlier_of, other_names_of, plainly_named
 from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
-from ...transmission.parameters import BEARINGS
 from ..key_figures.figure_list import FIGURES
 from .connections import MESHES, PARTS, REQUIRED
 from .doubts import doubts
@@ -39,7 +38,7 @@ from .scene import (
     Scene,
     shift_of_pressures,
 )  # fmt: skip
-from .scene_tables import driveline_table, vehicle_of
+from .scene_tables import BEARING_TABLES, driveline_table, vehicle_of
 from .sequence import checked_sequence, read_sequence
 
 # Key -> (unit, least, largest); texts have no unit.
@@ -60,7 +59,8 @@ SHIFT = {
     "to": ("1", 0.0, 1.0),
 }
 TABLES = (
-    "shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *BEARINGS, *PARTS
+    "shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *BEARING_TABLES,
+    *PARTS,
 )  # fmt: skip
 
 
@@ -78,6 +78,8 @@ def load_scene(name_or_path: str | Path, oil: str | Mapping[str, Any] | None = N
     """Return a built-in scene by name, or the scene of a TOML file; with another ``oil``."""
     name = str(name_or_path)
     table = _read(name, {} if oil is None else {"oil": oil_table("oil", oil)})
+    if oil is not None:
+        table.pop("published", None)  # figures of the scene's own oil
     own = name.endswith(".toml")
     return _scene(Path(name).stem if own else name, table, own)
 

@@ -5,7 +5,8 @@ from typing import Any
 
 from ...errors import ParameterError, within
 from ...model.toml_tables import nothing_else, quantity, read_value, unknown
-from ...transmission.parameters import BEARINGS, COURSES, SHAFT, course_fields
+from ...transmission.bearings import BEARINGS, SHAFT
+from ...transmission.parameters import COURSES, course_fields
 from ...transmission.vehicle import Vehicle
 from .connections import PACKS
 
@@ -20,6 +21,7 @@ TURNING = {
 }  # fmt: skip
 
 NEEDLES = 0.004  # friction of a needle thrust bearing at its mean radius: an estimate
+BEARING_TABLES = tuple(BEARINGS)
 # Of [transmission], what acts no more beside a table: key -> (table, what it says instead).
 USELESS = {
     "engine_torque": ("engine", "its points"),
@@ -63,7 +65,7 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
         more |= {name.format(pack): own.pop(key) for key, name in keys.items() if key in own}
         nothing_else(place, own, ["points", *keys])
         more["actuation"] = "pressure"
-    for name in BEARINGS:
+    for name in BEARING_TABLES:
         if name in table:
             more |= bearing_of(f"{where} [{name}]", name, table[name])
     for name, (other, says) in USELESS.items():

@@ -34,15 +34,15 @@ Make = Callable[[str, Part], Stepping]
 
 
 class Pool:
-    """Instances by part and rung; one that has been used is reset."""
+    """Instances by part, rung and parameters; one that has been used is reset."""
 
     def __init__(self, make: Make) -> None:
         self._make = make
-        self._made: dict[tuple[str, str], Stepping] = {}
+        self._made: dict[tuple[str, str, Any], Stepping] = {}
 
     def take(self, name: str, part: Part) -> Stepping:
         """Return an instance that has not been started."""
-        key = name, part.fidelity
+        key = name, part.fidelity, part.params
         used: Any = self._made.get(key)
         if used is not None and hasattr(used, "reset"):
             used.reset()

@@ -3,6 +3,7 @@
 ==========================  =======================================================================
 ``layout``                  places in the arrays of a step
 ``dynamics``                torques and accelerations for given modes of clutch and brake
+``thrust_bearings``         what the bearings of sun and ring take from their shafts
 ``stick_slip``              which modes are consistent, and when they end
 ``integrate_step``          stretches of smooth motion between the instants where something changes
 ``piston``                  courses of pressure, filling, lag, centrifugal head

@@ -16,6 +16,7 @@ from . import dynamics
 from . import layout as L
 from .dynamics import drum_speed
 from .piston import force
+from .thrust_bearings import bearing_torque
 
 LEAST_WASHER_LOAD = 1.0  # N
 
@@ -178,7 +179,7 @@ def directional_derivative(
     dout[L.O_INPUT_TOOTH_TORQUE], dout[L.O_DRAG_TORQUE] = tau, drag
     dout[L.O_TOOTH_FORCE], dout[L.O_TILTING_COUPLE] = force, couple
     for k in range(2):
-        rubbing = dynamics.bearing_torque(par, work, k, L.W_Y)
+        rubbing = bearing_torque(par, work, k, L.W_Y)
         dout[np.uintp(L.O_SUN_BEARING_TORQUE + k)] = teeth * rubbing
     if state[L.S_STARTED] == 0.0:
         slips = work[L.W_BEARING_DRIVEN] * work[L.W_Y + L.Y_INPUT]

@@ -23,6 +23,7 @@ from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
+from .thrust_bearings import bearing_power, broken_bearing, derive_bearings, turn_bearings
 
 # Dormand & Prince (1980): stage times, stage weights row by row, and fifth minus fourth order.
 C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
@@ -42,10 +43,8 @@ SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
 TWIST_SCALE = 0.01  # rad
 ENERGY_SCALE = 100.0  # J
 SLOW = 0.1  # rad/s: rolling resistance passes through zero over it
-BEARING_SLOW = 1.0  # rad/s: a bearing's torque passes through zero over it
 MAX_SECANTS = 12
 SAME = 1e-14  # of the tooth torque: rounding
-MOST_BEARING = 0.1  # torque of a bearing over that of the teeth on the sun
 
 
 @kernel
@@ -86,67 +85,6 @@ def derive(par: Array) -> int:
     par[L.D_HEAD] = 0.25 * math.pi * par[L.P_OIL_DENSITY] * moment * (1.0 - par[L.P_BALANCE_SHARE])
     derive_bearings(par)
     return OK if are_finite(par[L.N_PARAM :]) else NOT_FINITE
-
-
-@kernel
-def derive_bearings(par: Array) -> None:
-    """Fill the constants of both thrust bearings.
-
-    The sun's thrust is tan(helix)/r_A for every N m in the teeth of the driven gear A, and so is
-    the ring's, against it.
-    """
-    r, thrust = par[L.D_RATIO], par[L.D_TAN_HELIX] / par[L.D_INPUT_RADIUS]
-    driven = L.RING if par[L.P_ARRANGEMENT] == L.RING_INPUT else L.SUN
-    for k in range(2):
-        own, at = L.P_SUN_BEARING_SHAFT_1 + k * L.N_BEARING, L.D_BEARINGS + k * L.N_TURNING
-        slip_driven, slip_carrier, direct = 0.0, 0.0, 0.0
-        for end in range(2):
-            shaft, sign = par[np.uintp(own + end)], 1.0 - 2.0 * end
-            if shaft == driven:
-                slip_driven += sign
-                direct += sign
-            elif shaft == L.CARRIER:
-                slip_carrier += sign
-            elif shaft != L.CASE:  # the drum, from the teeth
-                slip_driven -= sign / r
-                slip_carrier += sign * (1.0 + r) / r
-        rubbing = par[np.uintp(own + 2)] * par[np.uintp(own + 3)]
-        par[np.uintp(at + L.BEARING_TORQUE)] = rubbing * thrust
-        par[np.uintp(at + L.BEARING_DRIVEN)] = slip_driven
-        par[np.uintp(at + L.BEARING_CARRIER)] = slip_carrier
-        par[np.uintp(at + L.BEARING_OWN)] = direct
-
-
-@kernel
-def bearing_slip(par: Array, work: Array, bearing: int, y: int) -> float:
-    """Return the speed of a bearing's first shaft against its second [rad/s] for ``work[y:]``."""
-    at = L.D_BEARINGS + bearing * L.N_TURNING
-    of_driven = par[np.uintp(at + L.BEARING_DRIVEN)] * work[np.uintp(y + L.Y_INPUT)]
-    return float(
-        of_driven + par[np.uintp(at + L.BEARING_CARRIER)] * work[np.uintp(y + L.Y_CARRIER)]
-    )
-
-
-@kernel
-def bearing_torque(par: Array, work: Array, bearing: int, y: int) -> float:
-    """Return a bearing's torque against its first shaft per tooth torque, for ``work[y:]``."""
-    rubbing = par[np.uintp(L.D_BEARINGS + bearing * L.N_TURNING + L.BEARING_TORQUE)]
-    if rubbing == 0.0:
-        return 0.0
-    return float(rubbing * math.tanh(bearing_slip(par, work, bearing, y) / BEARING_SLOW))
-
-
-@kernel
-def turn_bearings(par: Array, work: Array, y: int) -> None:
-    """Fill what both bearings take from driven gear and carrier, per size of the tooth torque."""
-    driven, carrier, direct = 0.0, 0.0, 0.0
-    for k in range(2):
-        torque, at = bearing_torque(par, work, k, y), L.D_BEARINGS + k * L.N_TURNING
-        driven += torque * par[np.uintp(at + L.BEARING_DRIVEN)]
-        carrier += torque * par[np.uintp(at + L.BEARING_CARRIER)]
-        direct += torque * par[np.uintp(at + L.BEARING_OWN)]
-    work[L.W_BEARING_DRIVEN], work[L.W_BEARING_CARRIER] = driven, carrier
-    work[L.W_BEARING_OWN] = direct
 
 
 @kernel
@@ -316,14 +254,6 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
 
 
 @kernel
-def bearing_power(par: Array, work: Array, y: int) -> float:
-    """Return the heat of both bearings [W], after ``solve_torques`` for ``work[y:]``."""
-    driven, carrier = work[np.uintp(y + L.Y_INPUT)], work[np.uintp(y + L.Y_CARRIER)]
-    slips = work[L.W_BEARING_DRIVEN] * driven + work[L.W_BEARING_CARRIER] * carrier
-    return float(work[L.W_BEARING_TEETH] * slips)
-
-
-@kernel
 def kinetic_energy(par: Array, driven: float, carrier: float, vehicle: float) -> float:
     """Return the kinetic energy of driven, drum, carrier and vehicle [J]."""
     drum = drum_speed(par[L.D_RATIO], driven, carrier)
@@ -377,15 +307,7 @@ def broken_rule(par: Array) -> int:
         for i in range(1, int(par[np.uintp(first)])):
             if not par[np.uintp(first + 1 + i)] > par[np.uintp(first + i)]:
                 return 9 + which
-    for k in range(2):
-        own = L.P_SUN_BEARING_SHAFT_1 + k * L.N_BEARING
-        if par[np.uintp(own)] == par[np.uintp(own + 1)]:
-            return 12 + k
-        radius = par[np.uintp(own + 2)] * par[np.uintp(own + 3)]
-        pitch = 0.5 * par[L.P_NORMAL_MODULE] / math.cos(par[L.P_HELIX_ANGLE]) * sun
-        if radius * math.tan(par[L.P_HELIX_ANGLE]) > MOST_BEARING * pitch:
-            return 14 + k
-    return 0
+    return broken_bearing(par)
 
 
 @kernel

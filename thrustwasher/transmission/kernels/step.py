@@ -12,6 +12,7 @@ from . import dynamics, piston
 from . import layout as L
 from .directional_derivative import LEAST_WASHER_LOAD, directional_derivative
 from .integrate_step import is_at_rest, run
+from .thrust_bearings import bearing_power, bearing_torque
 
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
@@ -185,7 +186,7 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
     out[L.O_TOOTH_FORCE], out[L.O_TILTING_COUPLE] = force, couple
     out[L.O_SUN_THRUST] = abs(tau) * par[L.D_TAN_HELIX] / par[L.D_INPUT_RADIUS]
     for k in range(2):
-        rubbing = dynamics.bearing_torque(par, work, k, L.W_Y)
+        rubbing = bearing_torque(par, work, k, L.W_Y)
         out[np.uintp(L.O_SUN_BEARING_TORQUE + k)] = work[L.W_BEARING_TEETH] * rubbing
     out[L.O_OIL_SUPPLY_TEMPERATURE] = par[L.P_OIL_TEMPERATURE]
 
@@ -198,7 +199,7 @@ def mean_bearing_power(par: Array, state: Array, work: Array, dt: float) -> floa
         return float((work[L.W_Y + L.Y_BEARING] - before) / dt)
     if state[L.S_STARTED] != 0.0:
         return float(state[L.S_BEARING_POWER])
-    return dynamics.bearing_power(par, work, L.W_Y)
+    return bearing_power(par, work, L.W_Y)
 
 
 @kernel

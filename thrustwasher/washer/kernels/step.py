@@ -101,8 +101,8 @@ def step(
     """Advance by ``dt`` (quasi-steady: solve at the present inputs) and write the outputs.
 
     ``inp`` is load, speed, tilt, oil temperature, that of the gear's far face (0: the oil's); a
-    sixth entry, if there is one, names the wanted branch, otherwise the one that ``state`` remembers goes on. ``work`` begins with the head of the
-    layout: for Python's results.
+    sixth entry, if there is one, names the wanted branch, otherwise the one that ``state``
+    remembers goes on. ``work`` begins with the head of the layout: for Python's results.
     """
     fidelity = par[L.P_FIDELITY]
     iout[L.IO_REGIME], iout[L.IO_DISTRESS], iout[L.IO_STATUS] = BOUNDARY, 0, BAD_INPUT

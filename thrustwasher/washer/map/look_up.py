@@ -26,7 +26,7 @@ from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
 from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import SPEC, WasherParams
-from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Unread, WasherResult, result_of
+from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Inputs, Unread, WasherResult, result_of
 from . import map_file
 from .map_plan import INPUTS, TOLERANCES, coverable, least_of, lines_about
 
@@ -165,7 +165,7 @@ _solver = Recent(_Solver)
 
 
 def solve_by_map(
-    params: WasherParams, point: tuple[float, float, float, float, float], wanted: float,
+    params: WasherParams, point: Inputs, wanted: float,
     start: WasherResult | None,
 ) -> WasherResult | None:  # fmt: skip
     """Return the state at a point by look-up, None where the map says nothing.
@@ -175,8 +175,8 @@ def solve_by_map(
     """
     if params.gear_far_face == "bulk":
         raise ParameterError(
-            "fidelity = 'map' with gear_far_face = 'bulk', allowed: 'oil' or 'insulated'; a map has "
-            "no far_face_temperature: use fidelity 'field'"
+            "fidelity = 'map' with gear_far_face = 'bulk', allowed: 'oil' or 'insulated'; a map "
+            "has no far_face_temperature: use fidelity 'field'"
         )
     if point[2] <= LEAST_TILT:
         washer_map(params)  # there has to be one

@@ -159,7 +159,8 @@ def _off_folds(
     params: WasherParams, washer: WasherMap, place: dict[str, float], grid: tuple[int, int]
 ) -> list[float]:
     """Return the relative differences of the loads of two folds; none if the mesh has them not."""
-    curve = Continuation(params, (1.0, *place.values(), 0.0), grid)
+    inputs = 1.0, place["speed"], place["tilt"], place["oil_temperature"], 0.0
+    curve = Continuation(params, inputs, grid)
     differences = []
     try:
         curve.start(6.0)

@@ -21,7 +21,7 @@ const Live = (() => {
 
   /* Of the branches that exist the one nearest to the recorded film ratio, as the report's moments. */
   async function solve(ask, { about, least_load: least }, inputs, recorded) {
-    const point = ["load", "speed", "tilt", "oil_temperature"].map((name) => inputs[name]);
+    const point = ["load", "speed", "tilt", "oil_temperature", "far_face_temperature"].map((name) => inputs[name]);
     point[0] = Math.max(point[0], least);
     const away = (one) => Math.abs(one.outputs.film_ratio - recorded);
     const found = [];

@@ -1,0 +1,113 @@
+"""What a run says of its communication step is what a converged run shows."""
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from scene_runs import instances, shift, slow_without_jit
+
+from thrustwasher import ParameterError
+from thrustwasher.shift import load_scene, run_shift
+from thrustwasher.shift.checks.step_error import (
+    errors_between,
+    parts_of_a_step,
+    recorded_parts,
+    rounded,
+    step_error,
+)
+from thrustwasher.shift.checks.step_estimate import StepError, excess
+from thrustwasher.shift.scene.scene import MAX_STEPS
+
+pytestmark = slow_without_jit
+
+
+def made(scene, given):
+    return {**instances(scene), **given}
+
+
+@cache
+def at(name, step):
+    return shift(name, step=step)
+
+
+@pytest.mark.parametrize(
+    ("name", "step"), [("planetary", 0.01), ("planetary", 0.02), ("msl", 5e-3), ("msl", 2e-3)]
+)
+def test_predicted_errors_are_within_a_factor_of_two_of_the_true_ones(name, step):
+    run, true = at(name, step), at(name, 1e-4 if name == "planetary" else 2.5e-4)
+    said, known = step_error(run, made, run_shift).errors(), errors_between(run, true, 1.0)
+    for figure in ("lock_time", "heat"):
+        assert 0.5 * known[figure] < said[figure] < 2.0 * known[figure]
+
+
+def test_a_step_that_is_too_long_is_told_with_one_that_does():
+    found = step_error(at("planetary", 0.02), made, run_shift)
+    (words,) = found.warnings()
+    assert found.relative > 0.01 and f"{1e3 * found.advice:g} ms would do" in words
+    again = step_error(at("planetary", found.advice), made, run_shift)
+    assert again.suffices and again.warnings() == [] and again.advice == found.advice
+
+
+def test_the_default_step_does():
+    found = step_error(at("planetary", 1e-3), made, run_shift)
+    assert found.suffices and found.relative < 1e-3
+
+
+def test_a_replayed_washer_gives_the_same_run():
+    run = at("planetary", 2e-3)
+    played = recorded_parts(run.scene, run.time, run.signals)
+    again = run_shift(run.scene, made(run.scene, played))
+    assert again.figures["lock_time"] == pytest.approx(run.figures["lock_time"], rel=1e-9)
+
+
+def test_a_step_above_a_twentieth_of_the_shift_is_refused_with_the_longest():
+    scene = load_scene("planetary")
+    assert scene.longest_step == pytest.approx(0.835 / 20.0)
+    with pytest.raises(ParameterError, match=r"step = 500 ms, allowed here: up to 41.75 ms"):
+        scene.with_options(step=0.5)
+    with pytest.raises(ParameterError, match="up to 5 ms"):
+        load_scene("msl").with_options(step=0.01)
+
+
+def test_where_nothing_is_handed_over_the_time_from_the_ramp_to_the_end_counts():
+    scene = load_scene("brake-test")
+    assert scene.longest_step == pytest.approx((1.6 - 0.1) / 20.0)
+    jump = replace(load_scene("msl"), shift_duration=0.0)
+    assert jump.longest_step == pytest.approx((5.0 - 2.0) / 20.0)
+
+
+def test_a_run_that_is_locked_in_one_of_both_errs_by_all_of_it():
+    run = at("msl", 5e-3)
+    open_ = replace(run, key_figures=[f for f in run.key_figures if f.name != "lock_time"])
+    assert errors_between(run, open_, 1.0)["lock_time"] == 1.0
+    assert "lock_time" not in errors_between(open_, open_, 1.0)
+
+
+def test_second_runs_stay_within_the_steps_a_run_may_have():
+    scene = load_scene("msl")
+    assert parts_of_a_step(scene, 1e-3, 5000) == 4.0
+    assert parts_of_a_step(scene, 0.1, 50) == 128.0
+    assert parts_of_a_step(scene, 1e-3, MAX_STEPS) == 0.5
+    assert parts_of_a_step(scene, 1e-6, 100) == 0.5
+
+
+def test_steps_by_tolerance_are_judged_by_a_smaller_tolerance():
+    scene = load_scene("msl").with_options(
+        master="step-doubling", master_tolerance=1e-2, stop_time=2.3
+    )
+    run = run_shift(scene, instances(scene))
+    found = step_error(run, made, run_shift)
+    true = errors_between(run, shift("msl", step=2.5e-4, stop_time=2.3), 1.0)
+    assert found.tolerance is not None and found.relative > 0.3 * max(true.values())
+
+
+def test_advice_is_1_2_or_5():
+    assert [rounded(x) for x in (0.011, 0.049, 2e-3, 0.99)] == pytest.approx(
+        [0.01, 0.02, 2e-3, 0.5]
+    )
+
+
+def test_the_worst_error_beside_its_limit_counts():
+    assert excess({"heat": 0.005, "peak_jerk": 0.1}) == pytest.approx(2.0)
+    found = StepError(step=1.0, compared_with=0.25, advice=0.1, heat=0.02, lock_time=0.001)
+    assert found.relative == 0.02 and "2 % in heat" in found.warnings()[0]

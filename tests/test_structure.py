@@ -43,7 +43,7 @@ PLACES = {
             "command",
             "sump",
         },
-        "shift.scene.doubts": {"transmission"},
+        "shift.scene.doubts": {"gearmesh", "transmission"},
         "shift.scene.scene": {"transmission"},
         "shift.scene.scene_file": {"sump"},
         "shift.scene.scene_tables": {"transmission"},

@@ -100,9 +100,13 @@ def _rows(
     known |= {name: (*words, False) for name, words in model.extra.items()}
     apart = model.variants.fields() if model.variants else set()
     for name, value in _output.scalars(result).items():
-        if name in known and name not in point and name not in apart and value is not None:
-            unit, words, difference = known[name]
+        if name not in known or name in point or name in apart:
+            continue
+        unit, words, difference = known[name]
+        if value is not None:
             yield name, _output.shown(getattr(result, name), unit, difference), words
+        elif name in model.extra:
+            yield name, "not known", words
 
 
 def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, Any]) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import SolveError, Status
+from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import course_of, rising
 from ..model.spec import REGIMES
@@ -166,5 +167,8 @@ def engage_clutch(
             for u, slip in zip(columns["film_ratio"], slips, strict=True)
         ],
         status=status,
-        warnings=pack_warnings(status, float(columns["film_ratio"].min()), hottest),
+        warnings=(
+            *idle_warnings(SPEC.key, params, fidelity),
+            *pack_warnings(status, float(columns["film_ratio"].min()), hottest),
+        ),
     )  # fmt: skip

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.advice import warnings_of
+from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.registry import find_model
@@ -252,7 +253,10 @@ def solve_clutch(
         status=status,
         iterations=int(turns + s.iterations),
         fidelity=fidelity,
-        warnings=pack_warnings(status, ratio, s.hottest),
+        warnings=(
+            *idle_warnings(SPEC.key, params, fidelity),
+            *pack_warnings(status, ratio, s.hottest),
+        ),
     )
 
 

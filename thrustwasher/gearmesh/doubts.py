@@ -1,7 +1,6 @@
 """What to doubt in the numbers of a gear mesh: one line each, with what to do about it."""
 
 import math
-from dataclasses import fields
 from typing import Any
 
 from ..units import format_quantity
@@ -16,8 +15,8 @@ APART = 2.0  # factor between roughness parameters from which they describe two 
 
 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
-    """Return what contradicts itself in parameters, and what has no effect beside the others."""
-    return [*_roughness(p), *_fouling(p), *_idle(p)]
+    """Return what contradicts itself in parameters."""
+    return [*_roughness(p), *_fouling(p)]
 
 
 def doubts_of_point(
@@ -109,36 +108,3 @@ def _involute(angle: float) -> float:
 
 def _differ(a: float, b: float) -> bool:
     return not 1.0 / APART <= a / b <= APART
-
-
-def _idle(p: GearMeshParams) -> list[str]:
-    """Return a line for each parameter off its default that the others leave without effect."""
-    loss, own = p.film_heat == "loss", {f.name: f.default for f in fields(p)}
-    limited = p.friction_law == "mixed" or (not loss and p.traction_law == "limited")
-    idle = {
-        "load_share": (loss, "film_heat = 'loss' shares the load by contact and overlap ratio"),
-        "heat_partition": (loss, "film_heat = 'loss' makes both flanks equally hot"),
-        "partition_share": (loss, "film_heat = 'loss' makes both flanks equally hot"),
-        "traction_law": (loss, "with film_heat = 'loss' friction_law says what shears"),
-        "film_viscosity": (loss, "with film_heat = 'loss' viscosity_at says it"),
-        "bulk_conductance": (not loss, "film_heat = 'atan' has no bodies"),
-        "bulk_heat_capacity": (not loss, "film_heat = 'atan' has no bodies"),
-        "lubrication_factor": (
-            not loss or p.bulk_conductance > 0.0,
-            "bulk_conductance is given" if loss else "film_heat = 'atan' has no bodies",
-        ),
-        "eyring_stress": (p.friction_law != "mixed", "it is of friction_law = 'mixed'"),
-        "limiting_traction": (
-            not limited, "it is of friction_law = 'mixed' and of traction_law = 'limited'"
-        ),
-        "effective_roughness": (
-            p.friction_law != "li-seireg", "it is of friction_law = 'li-seireg'"
-        ),
-        "area_ratio": (p.area_law != "constant", "it is of area_law = 'constant'"),
-        "centre_distance": (p.normal_module > 0.0, "normal_module gives the centre distance"),
-    }  # fmt: skip
-    return [
-        f"{name} = {getattr(p, name)!r} has no effect: {why}"
-        for name, (is_idle, why) in idle.items()
-        if is_idle and getattr(p, name) not in (own[name], 0.0)
-    ]

@@ -1,7 +1,7 @@
 """The rows of a sweep in their order, cut into lines: one line is one walk of warm starts."""
 
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -12,6 +12,7 @@ from ..errors import ParameterError
 from ..ladder import choose as chooser
 from ..ladder.own_tables import build_where_it_pays
 from ..model.advice import quantity_text, range_text
+from ..model.idle import idle_warnings
 from ..model.parameters import params_of
 from ..model.part_file import PartFile, find_part
 from ..model.point import from_box, taken_text
@@ -204,10 +205,17 @@ def _assemble(
         units[name] = next(p.unit for p in order if p.name == name)
     plan = Plan(
         spec, fidelity, inputs, shown, units, starts, params, params_of,
-        taken=taken_text(box, default, spec.inputs), warnings=tuple(_outside(part, inputs)),
+        taken=taken_text(box, default, spec.inputs),
+        warnings=(*_idle(params, fidelity, spec.key), *_outside(part, inputs)),
     )  # fmt: skip
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
+
+
+def _idle(params: Sequence[Any], fidelity: str, model: str) -> Iterator[str]:
+    """Yield a warning for each choice that leaves parameters unread, at the first row or last."""
+    lines = [t for p in (params[0], params[-1]) for t in idle_warnings(model, p, fidelity)]
+    yield from {text.partition(" = ")[0]: text for text in lines}.values()
 
 
 def _outside(part: PartFile, inputs: Array) -> Iterator[str]:

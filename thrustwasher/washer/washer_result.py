@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import ParameterError, Status
 from ..ladder.card import error_estimate
 from ..model.advice import warnings_of
+from ..model.idle import idle_warnings
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
@@ -29,6 +30,7 @@ PRESSED = (
     "film_thickness = {:.3g} um: below 0 the mean surfaces would overlap, asperities alone carry "
     "and wear; lower the load or raise roughness or viscosity"
 )
+BY_CARD = -1.0  # in place of an error: a card is looked at when somebody asks
 INPUTS = tuple(signal.name for signal in SPEC.inputs)
 Inputs = tuple[float, float, float, float, float]  # of a solution, in that order
 COUNTS = 0.1  # share of the torque from which dry friction counts
@@ -70,10 +72,6 @@ class Fold:
     friction_torque: float  # [N m]
 
 
-class Unread(float):
-    """The error of a rung in general; the card may know better for the point at hand."""
-
-
 @dataclass(frozen=True, slots=True)
 class WasherResult:
     """Steady state of the washer at one operating point; SI units."""
@@ -101,7 +99,7 @@ class WasherResult:
     iterations: int
     fidelity: str
     grid: tuple[int, int]
-    _error: float = field(repr=False)  # [-] relative, of friction_torque
+    _error: float | None = field(repr=False)  # as error_estimate, or BY_CARD
     load: float  # [N] as solved for
     speed: float  # [rad/s]
     tilt: float  # [rad]
@@ -113,16 +111,18 @@ class WasherResult:
     """What a reader must not miss, a line each."""
 
     @property
-    def error_estimate(self) -> float:
-        """[-] relative, of friction_torque; its card is looked at when somebody asks."""
-        if type(self._error) is not Unread:
+    def error_estimate(self) -> float | None:
+        """[-] relative, of friction_torque; by a card or, with ``grid``, a second solve, else None.
+
+        Cards were measured for their own parameters and box; nobody knows it elsewhere.
+        """
+        if self._error != BY_CARD:
             return self._error
         names = ("load", "speed", "tilt", "oil_temperature")
-        known = error_estimate(
+        return error_estimate(
             "washer", self.fidelity, self.params, {n: getattr(self, n) for n in names},
             branch=self.branch, film_ratio=self.film_ratio,
         )  # fmt: skip
-        return float(self._error) if known is None else known
 
     def point(self) -> Inputs:
         """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
@@ -181,7 +181,7 @@ class WasherResult:
 def result_of(
     params: WasherParams, point: Inputs, x: Sequence[float],
     tilts: Sequence[float], branch: str, distress: bool, status: Status, iterations: int,
-    fidelity: str, grid: tuple[int, int], error: float, state: Array,
+    fidelity: str, grid: tuple[int, int], error: float | None, state: Array,
 ) -> WasherResult:  # fmt: skip
     """Return the result with the kernels' outputs ``x`` and the washer's tilts about x and y."""
     return WasherResult(
@@ -207,9 +207,9 @@ def washer_warnings(
     hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
     verified = load <= LOAD[1] and SPEED[0] <= speed <= SPEED[1] and tilt <= TILT[1]
     verified = verified and OIL[0] <= oil <= OIL[1]
-    friction = friction_warning(params, x)
+    friction, idle = friction_warning(params, x), idle_warnings(SPEC.key, params)
     if verified and not (hot or distress or ratio < 0.0 or margin < 1.0 or status or friction):
-        return ()
+        return idle
     more = [friction] if friction else []
     if distress:
         more.append(lost_text(ratio, x[L.O_MEAN] - oil))
@@ -219,7 +219,7 @@ def washer_warnings(
         more.append(f"stick_margin = {margin:.3g}: {SLIPS.format(margin)}")
     inputs = dict(zip(INPUTS, point, strict=False))
     outputs = {"temperature_max": x[L.O_PEAK]}
-    return warnings_of(SPEC, status, inputs, outputs, more)
+    return (*idle, *warnings_of(SPEC, status, inputs, outputs, more))
 
 
 def friction_warning(params: WasherParams, x: Sequence[float]) -> str:

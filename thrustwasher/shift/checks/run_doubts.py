@@ -8,6 +8,7 @@ from ...errors import Status
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..cosim.loop import Steps
+from ..scene.doubts import idle_parameters
 from ..scene.scene import Scene
 
 Signals = Mapping[str, Array]
@@ -17,7 +18,7 @@ ROOM = 1e-6  # of a box's width
 
 def doubts(scene: Scene, step: float, steps: Steps, time: Array, signals: Signals) -> Iterator[str]:
     """Yield what must not be missed, a line each."""
-    yield from scene.warnings
+    yield from dict.fromkeys((*scene.warnings, *idle_parameters(scene)))
     yield from _of_times(scene, step, steps)
     yield from _of_solvers(time, signals)
     yield from _of_boxes(scene, signals)

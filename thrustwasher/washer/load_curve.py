@@ -25,7 +25,7 @@ from .kernels.solve import remember_state
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams
 from .solve import GRIDS, check_point, resolve_grid, result_from
-from .washer_result import BRANCH_NAMES, BY_CARD, Fold, Inputs, WasherResult, lost_text
+from .washer_result import BRANCH_NAMES, BY_CARD, Fold, Inputs, WasherResult, advised, lost_text
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
@@ -166,7 +166,10 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
         told = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
         p._state[L.S_BRANCH] = _NUMBERS[branch]
         p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
-        named.append(dataclasses.replace(p, branch=branch, distress=distress, warnings=told))
+        status = advised(p.point(), distress, Status.OK)
+        named.append(
+            dataclasses.replace(p, branch=branch, distress=distress, status=status, warnings=told)
+        )
     return named
 
 

@@ -174,8 +174,6 @@ def solve_washer(
     result = found or _solve(params, point, fidelity, nodes, wanted, start, grid is None)
     if fidelity != asked:
         result = replace(result, warnings=(NOT_IN_MAP, *result.warnings))
-    if result.status is OK and grid is None:
-        return result
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
         result = _with_embedded_estimate(result, wanted)
     if throw and result.status is Status.NO_BRANCH:

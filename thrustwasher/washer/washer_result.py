@@ -33,6 +33,11 @@ PRESSED = (
 BY_CARD = -1.0  # in place of an error: a card is looked at when somebody asks
 INPUTS = tuple(signal.name for signal in SPEC.inputs)
 Inputs = tuple[float, float, float, float, float]  # of a solution, in that order
+FULL_FILM = 3.0  # film ratio above which regime and branch are called film
+DRY = (
+    "film_ratio = {:.3g} is that of a full film, but asperities carry {:.4g} of {:.4g} N: parallel "
+    "faces build no pressure; friction and wear are those of dry contact. Give the tilt there is"
+)
 COUNTS = 0.1  # share of the torque from which dry friction counts
 BEYOND = (
     "dry friction was measured for mean contact pressures of {:.3g} .. {:.3g} Pa; here {:.3g} Pa: "
@@ -188,10 +193,26 @@ def result_of(
         x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
         x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], x[L.O_POWER], x[L.O_OIL_FLOW],
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
-        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, status, iterations, fidelity,
+        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, advised(point, distress, status), iterations, fidelity,
         grid, error, *point, params, state,
         washer_warnings(params, point, x, distress, status),
     )  # fmt: skip
+
+
+def advised(point: Sequence[float], distress: bool, status: Status) -> Status:
+    """Return a status, or the advice in its place, as the kernel gives it in a step."""
+    if status is not Status.OK:
+        return status
+    if distress:
+        return Status.DISTRESS
+    return Status.OK if _verified(point) else Status.OUTSIDE_VERIFIED
+
+
+def _verified(point: Sequence[float]) -> bool:
+    load, speed, tilt, oil, _ = point
+    return (
+        load <= LOAD[1] and abs(speed) <= SPEED[1] and tilt <= TILT[1] and OIL[0] <= oil <= OIL[1]
+    )
 
 
 def lost_text(ratio: float, rise: float) -> str:
@@ -203,16 +224,19 @@ def washer_warnings(
     params: WasherParams, point: Sequence[float], x: Sequence[float], distress: bool, status: Status
 ) -> tuple[str, ...]:
     """Return the warnings of a solution with these outputs of the kernels."""
-    load, speed, tilt, oil, _ = point
+    load, speed, _, oil, _ = point
     hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
-    verified = load <= LOAD[1] and SPEED[0] <= speed <= SPEED[1] and tilt <= TILT[1]
-    verified = verified and OIL[0] <= oil <= OIL[1]
+    dry = speed != 0.0 and ratio > FULL_FILM and x[L.O_CONTACT_LOAD] > 0.5 * load
     friction, idle = friction_warning(params, x), idle_warnings(SPEC.key, params)
-    if verified and not (hot or distress or ratio < 0.0 or margin < 1.0 or status or friction):
+    if _verified(point) and not (
+        hot or dry or distress or ratio < 0.0 or margin < 1.0 or status or friction
+    ):
         return idle
     more = [friction] if friction else []
     if distress:
         more.append(lost_text(ratio, x[L.O_MEAN] - oil))
+    if dry:
+        more.append(DRY.format(ratio, x[L.O_CONTACT_LOAD], load))
     if ratio < 0.0:
         more.append(PRESSED.format(1e6 * x[L.O_FILM]))
     if margin < 1.0:

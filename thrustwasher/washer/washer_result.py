@@ -193,8 +193,8 @@ def result_of(
         x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
         x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], x[L.O_POWER], x[L.O_OIL_FLOW],
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
-        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, advised(point, distress, status), iterations, fidelity,
-        grid, error, *point, params, state,
+        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress,
+        advised(point, distress, status), iterations, fidelity, grid, error, *point, params, state,
         washer_warnings(params, point, x, distress, status),
     )  # fmt: skip
 
@@ -228,9 +228,8 @@ def washer_warnings(
     hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
     dry = speed != 0.0 and ratio > FULL_FILM and x[L.O_CONTACT_LOAD] > 0.5 * load
     friction, idle = friction_warning(params, x), idle_warnings(SPEC.key, params)
-    if _verified(point) and not (
-        hot or dry or distress or ratio < 0.0 or margin < 1.0 or status or friction
-    ):
+    plain = not (hot or dry or distress or ratio < 0.0 or margin < 1.0)
+    if plain and _verified(point) and not (status or friction):
         return idle
     more = [friction] if friction else []
     if distress:

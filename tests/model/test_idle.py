@@ -46,6 +46,6 @@ def test_a_value_that_is_read_is_not_told():
 
 def test_a_rung_that_passes_the_law_over_says_so_in_its_result():
     params = ClutchParams(table_friction_0=0.05)
-    assert solve_clutch(params, load=5e3, speed=20.0, fidelity="field").warnings == ()
-    (line,) = solve_clutch(params, load=5e3, speed=20.0, fidelity="closed").warnings
+    assert solve_clutch(params, load=1e3, speed=2.0, fidelity="field").warnings == ()
+    (line,) = solve_clutch(params, load=1e3, speed=2.0, fidelity="closed").warnings
     assert "fidelity is closed" in line

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import SolveError, Status
-from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import course_of, rising
 from ..model.spec import REGIMES
@@ -16,7 +15,7 @@ from .kernels import advance as clutch_advance
 from .kernels import layout as k
 from .kernels import pack_friction, pack_outputs, rates
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
-from .solve import pack_warnings, prepare
+from .solve import doubts_of_pack, pack_warnings, prepare
 
 Course = tuple[float, float, float, float, float, float, float, float]
 
@@ -168,7 +167,7 @@ def engage_clutch(
         ],
         status=status,
         warnings=(
-            *idle_warnings(SPEC.key, params, fidelity),
+            *doubts_of_pack(params, fidelity),
             *pack_warnings(status, float(columns["film_ratio"].min()), hottest),
         ),
     )  # fmt: skip

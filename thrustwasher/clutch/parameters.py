@@ -180,7 +180,14 @@ class ClutchParams:
     permeability: float = quantity(
         1e-13, "m2", 0.0, 1e-9, "permeability of the lining along its plane"
     )
-    land_share: float = quantity(0.8, "1", 0.05, 1.0, "share of a face that is not groove")
+    land_share: float = quantity(
+        0.8,
+        "1",
+        0.05,
+        1.0,
+        "share of a face that is not groove",
+        belongs_to=("groove_count", "groove_width"),
+    )
     groove_count: int = count(
         24,
         0,

@@ -254,10 +254,22 @@ def solve_clutch(
         iterations=int(turns + s.iterations),
         fidelity=fidelity,
         warnings=(
-            *idle_warnings(SPEC.key, params, fidelity),
+            *doubts_of_pack(params, fidelity),
             *pack_warnings(status, ratio, s.hottest),
         ),
     )
+
+
+def doubts_of_pack(params: ClutchParams, fidelity: str) -> tuple[str, ...]:
+    """Return what contradicts itself in parameters, and what has no effect beside the others."""
+    radius, faces = params.effective_radius, (params.inner_radius, params.outer_radius)
+    found = list(idle_warnings(SPEC.key, params, fidelity))
+    if radius and not faces[0] <= radius <= faces[1] and fidelity != "closed":
+        found.append(
+            f"effective_radius = {radius:g} m is off the faces of {faces[0]:g} .. {faces[1]:g} m: "
+            "torque and slip speed are those of another pack; give one between, or 0"
+        )
+    return tuple(found)
 
 
 def pack_warnings(status: Status, ratio: float, hottest: float) -> tuple[str, ...]:

@@ -16,7 +16,8 @@ from ..model.idle import idle_warnings
 from ..model.parameters import params_of
 from ..model.part_file import PartFile, find_part
 from ..model.point import from_box, taken_text
-from ..model.registry import spec_of
+from ..model.record import resolve
+from ..model.registry import find_model, spec_of
 from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
 
@@ -206,7 +207,10 @@ def _assemble(
     plan = Plan(
         spec, fidelity, inputs, shown, units, starts, params, params_of,
         taken=taken_text(box, default, spec.inputs),
-        warnings=(*_idle(params, fidelity, spec.key), *_outside(part, inputs)),
+        warnings=(
+            *_idle(params, fidelity, spec.key), *_outside(part, inputs),
+            *_doubt(spec, fidelity, params, inputs),
+        ),
     )  # fmt: skip
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
@@ -214,8 +218,16 @@ def _assemble(
 
 def _idle(params: Sequence[Any], fidelity: str, model: str) -> Iterator[str]:
     """Yield a warning for each choice that leaves parameters unread, at the first row or last."""
-    lines = [t for p in (params[0], params[-1]) for t in idle_warnings(model, p, fidelity)]
+    lines = [t for p in (params[0], params[-1]) if p for t in idle_warnings(model, p, fidelity)]
     yield from {text.partition(" = ")[0]: text for text in lines}.values()
+
+
+def _doubt(spec: ModelSpec, fidelity: str, params: Sequence[Any], inputs: Array) -> Iterator[str]:
+    """Yield what the model says of all rows, if they are of one part."""
+    doubt = find_model(spec.key).sweep.doubt
+    if doubt and len(params) == 1 and params[0] is not None:
+        if text := resolve(doubt)(params[0], fidelity, inputs[np.isfinite(inputs).all(1)]):
+            yield text
 
 
 def _outside(part: PartFile, inputs: Array) -> Iterator[str]:

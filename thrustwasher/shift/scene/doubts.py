@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from ...clutch.parameters import ClutchParams
+from ...clutch.solve import doubts_of_pack
 from ...gearmesh.doubts import doubts_of_parameters
 from ...gearmesh.parameters import GearMeshParams
 from ...model.idle import idle_warnings
@@ -34,7 +36,12 @@ def doubts(scene: Scene) -> Iterator[str]:
 def idle_parameters(scene: Scene) -> Iterator[str]:
     """Say which parameters have no effect beside others, or on the rung of their part."""
     for name, part in scene.parts.items():
-        for line in idle_warnings(part.spec.key, part.params, part.fidelity):
+        is_pack = isinstance(part.params, ClutchParams)
+        for line in (
+            doubts_of_pack(part.params, part.fidelity)
+            if is_pack
+            else idle_warnings(part.spec.key, part.params, part.fidelity)
+        ):
             yield f"[{name}] {line}"
 
 

@@ -4,6 +4,7 @@ import math
 import os
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
@@ -201,6 +202,34 @@ def solve_by_map(
     lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
     return result_of(params, point, numbers, tilts, BRANCH_NAMES[branch], lost, Status.OK, 0, "map",
                      NO_MESH, BY_CARD, state)  # fmt: skip
+
+
+def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:
+    """Return a warning if more than a share of points lie outside the map: ``field`` solves there.
+
+    ``points`` (n, 4): load [N], speed [rad/s], tilt [rad] and oil temperature [K].
+    """
+    box = washer_map(params).box
+    there = np.abs(points)
+    outside = there[:, 2] <= LEAST_TILT
+    for i, (low, high) in enumerate(box.values()):
+        outside |= (there[:, i] < low * (1.0 - 1e-9)) | (there[:, i] > high * (1.0 + 1e-9))
+    if np.mean(outside) <= most:
+        return ""
+    return (
+        f"fidelity = 'map': {outside.sum()} of {len(points)} {what} are outside the map's box or "
+        "without tilt and were solved by 'field', with its accuracy and time; build a map for a "
+        "larger box, or choose 'field'"
+    )
+
+
+def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
+    """Return a warning of a sweep's points that its map leaves to the field."""
+    if fidelity != "map" or not len(points):
+        return ""
+    with suppress(ParameterError):  # without a map nothing is solved
+        return outside_text(params, points, "points")
+    return ""
 
 
 def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) -> map_file.MapFile:

@@ -64,7 +64,8 @@ def test_a_part_is_solved_inside_its_box_on_the_command_line_and_in_python(boxed
     assert record["friction_torque"] == expected.friction_torque
     assert record["taken"] == {"box": FIXED, "default": {"load": 300.0}}
     assert part.solve(speed=300.0).friction_torque == expected.friction_torque
-    assert part.starts == {"load": 300.0, "speed": 545.0, **FIXED}
+    far = {"far_face_temperature": 0.0}
+    assert part.starts == {"load": 300.0, "speed": 545.0, **FIXED, **far}
     plain = solve_washer(WasherParams(), load=300.0, speed=300.0, tilt=2e-3)
     assert (plain.branch, expected.branch) == ("film", "contact")  # the box decides the branch
 

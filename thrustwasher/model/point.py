@@ -66,10 +66,10 @@ class Point:
 
 def taken_text(box: Values, default: Values, inputs: Iterable[Signal]) -> str:
     """Return a line that names what was taken from a box and by default; "" if nothing was."""
-    signals, said = list(inputs), []
+    signals, said = [s for s in inputs if not s.optional], []
     for words, values in {"from the part's box": box, "by default": default}.items():
-        if values:
-            shown = (quantity_text(s, values[s.name]) for s in signals if s.name in values)
+        shown = [quantity_text(s, values[s.name]) for s in signals if s.name in values]
+        if shown:
             said.append(f"{words}: {', '.join(shown)}")
     return f"taken {'; '.join(said)}" if said else ""
 

@@ -10,7 +10,7 @@ from ..errors import ParameterError
 from ..model.part_file import PartFile, part_text, usual_name
 from ..model.registry import models_with_points
 from ..sweep.axes import find_place, places, split_settings
-from ..units import parse_quantity
+from ..units import format_quantity, parse_quantity
 from . import _options, _output, _table
 
 HELP = "fit parameters of a model to measured outputs, or the clutch's friction law to friction"
@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _doubts(found: Any) -> list[str]:
     """Return a line for each sign that nothing was fitted."""
     lines = [
-        f"{e.name} = {e.value:.5g} {e.unit} is at its {e.at_bound} bound: the points ask for more; "
+        f"{e.name} = {format_quantity(e.value, e.unit)} is at its {e.at_bound} bound: the points ask for more; "
         "check their units and signs, or give --bounds"
         for e in found.estimates if e.at_bound
     ]  # fmt: skip

@@ -22,6 +22,7 @@ PRESSED = (
     "film_ratio = {:.3g}: the lining is pressed beyond the reach of the law of contact; lower the "
     "load or check the lining's modulus"
 )
+LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
@@ -255,6 +256,7 @@ def solve_clutch(
         fidelity=fidelity,
         warnings=(
             *doubts_of_pack(params, fidelity),
+            *_light(params, load, fidelity),
             *pack_warnings(status, ratio, s.hottest),
         ),
     )
@@ -270,6 +272,19 @@ def doubts_of_pack(params: ClutchParams, fidelity: str) -> tuple[str, ...]:
             "torque and slip speed are those of another pack; give one between, or 0"
         )
     return tuple(found)
+
+
+def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
+    """Return a line if friction of a pressed pack stands for one that is hardly pressed."""
+    pressure = load * params.faces / params.lining_area
+    held = params.friction_data == "total" and fidelity in ("field", "fine")
+    if not held or not k.OPEN_PRESSURE <= pressure < LEAST_PRESSURE:
+        return []
+    return [
+        f"load = {load:g} N is {pressure:.3g} Pa on the faces: friction of settled packs is "
+        f"measured above some {LEAST_PRESSURE:g} Pa; shear of the oil beside it is left out, with "
+        "friction_data = 'boundary' it counts"
+    ]
 
 
 def pack_warnings(status: Status, ratio: float, hottest: float) -> tuple[str, ...]:

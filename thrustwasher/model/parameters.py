@@ -170,6 +170,8 @@ def check_value(name: str, value: Any, m: Mapping[str, Any]) -> None:
 def check_number(name: str, value: float, unit: str, low: float, high: float) -> float:
     """Return ``value`` as a float, or raise ParameterError naming it, its unit and its range."""
     try:
+        if isinstance(value, bool | str):
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError):
         raise ParameterError(f"{name} = {value!r}, a number in {unit} is wanted") from None

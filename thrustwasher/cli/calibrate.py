@@ -91,8 +91,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _doubts(found: Any) -> list[str]:
     """Return a line for each sign that nothing was fitted."""
     lines = [
-        f"{e.name} = {format_quantity(e.value, e.unit)} is at its {e.at_bound} bound: the points ask for more; "
-        "check their units and signs, or give --bounds"
+        f"{e.name} = {format_quantity(e.value, e.unit)} is at its {e.at_bound} bound: "
+        "the points ask for more; check their units and signs, or give --bounds"
         for e in found.estimates if e.at_bound
     ]  # fmt: skip
     reduced = found.reduced_chi_square or 0.0

@@ -42,7 +42,7 @@ TABLE = [
     ("washer --tilt 0.1", "did you mean 0.00174533 rad (0.1 deg)?"),
     ("washer --load -5", "load = -5.0 N, allowed: 0 .. 10000 N"),
     ("washer --load 0", "load = 0.0 N, allowed: 1 .. 10000 N"),
-    ("washer --load '300 K'", "allowed: a finite number in N, or one in kN, MN, lbf"),
+    ("washer --load '300 K'", "allowed: a finite number in N, or one in kN, MN, daN"),
     ("washer --load abc", "load = 'abc', allowed: a finite number in N"),
     ("washer --load '1,5 kN'", "; the decimal sign is a point"),
     ("washer --laod 300", "; did you mean --load?"),

@@ -11,7 +11,6 @@ from thrustwasher.ladder import card as cards
 from thrustwasher.ladder.card import files_of
 from thrustwasher.ladder.card_parts import ByFilmRatio, Cells
 from thrustwasher.storage import digests
-from thrustwasher.washer.solve import ERRORS
 
 POINT = {"load": 100.0, "speed": 500.0, "tilt": 2e-3, "oil_temperature": 300.0}
 
@@ -195,9 +194,11 @@ def test_the_card_of_the_branch_speaks_whatever_the_sign_of_the_speed(branches):
 
 
 def test_where_no_card_speaks_the_general_bound_holds(branches):
-    assert estimate(tilt=3.5e-3) == estimate(load=19.0) == ERRORS["field"]
-    assert estimate(fidelity="fine") == ERRORS["fine"]
+    assert estimate(tilt=3.5e-3) is None
+    assert estimate(load=19.0) is None
+    assert estimate(fidelity="fine") is None
 
 
 def test_a_mesh_of_ones_own_has_its_embedded_estimate(branches):
-    assert estimate(grid=(9, 32)) not in (ERRORS["field"], pytest.approx(1.5e-3))
+    assert estimate(grid=(9, 32)) not in (None, pytest.approx(1.5e-3))
+    assert estimate(grid=(6, 12)) is None

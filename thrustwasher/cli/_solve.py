@@ -1,6 +1,7 @@
 """The command that solves a model at one operating point, made from the model's record."""
 
 import argparse
+import math
 import time
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -62,7 +63,7 @@ class PointCommand:
             _output.print_json(told)
             return 0
         where = ", ".join(
-            f"{s.name} {_output.shown(point[s.name], s.unit)}"
+            f"{s.name} {_output.shown(point[s.name], s.unit)}{_turns(point[s.name], s.unit)}"
             for s in inputs
             if not s.optional or point[s.name] != s.start
         )
@@ -75,6 +76,11 @@ class PointCommand:
         said = result.status.advice if result.status is Status.OK else result.status.name
         print(f"  {said}; {model.closing.format(**found)}, {wall_time:.3g} s")
         return 0
+
+
+def _turns(value: float, unit: str) -> str:
+    """Return a speed in rpm as well; "" for other quantities."""
+    return f" ({value * 30.0 / math.pi:.5g} rpm)" if unit == "rad/s" and value else ""
 
 
 def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:
@@ -100,9 +106,13 @@ def _rows(
     known |= {name: (*words, False) for name, words in model.extra.items()}
     apart = model.variants.fields() if model.variants else set()
     for name, value in _output.scalars(result).items():
-        if name in known and name not in point and name not in apart and value is not None:
-            unit, words, difference = known[name]
+        if name not in known or name in point or name in apart:
+            continue
+        unit, words, difference = known[name]
+        if value is not None:
             yield name, _output.shown(getattr(result, name), unit, difference), words
+        elif name in model.extra:
+            yield name, "not known", words
 
 
 def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, Any]) -> None:

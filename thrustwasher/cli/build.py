@@ -3,6 +3,7 @@
 import argparse
 
 from ..errors import ParameterError
+from ..model.idle import idle_warnings
 from ..model.oil import sheet_oil
 from ..model.part_file import is_part, load_part
 from ..model.registry import all_models
@@ -29,8 +30,11 @@ def run(arguments: argparse.Namespace) -> int:
     oil = None if arguments.oil is None else sheet_oil("--oil", arguments.oil)
     if oil:
         _output.note(f"oil {oil}")
+    parts = [load_part(name) for name in filter(is_part, arguments.models)]
+    idle = [t for p in parts for t in idle_warnings(p.spec.key, p.params, p.fidelity)]
+    _output.warn(idle)
     if arguments.target == "native" and not arguments.no_maps:
-        for part in map(load_part, filter(is_part, arguments.models)):
+        for part in parts:
             part = part if oil is None else part.with_oil(oil)
             if problem := build_missing(part, tolerance, _output.time_left):
                 _output.note(problem)
@@ -42,7 +46,8 @@ def run(arguments: argparse.Namespace) -> int:
     )  # fmt: skip
     findings = [f"{path}: {finding}" for path in paths for finding in validate(path)]
     if arguments.json:
-        _output.print_json({"fmus": [str(path) for path in paths], "findings": findings})
+        found = {"fmus": [str(path) for path in paths], "findings": findings, "warnings": idle}
+        _output.print_json(found)
     else:
         for path in paths:
             print(path)

@@ -10,7 +10,7 @@ from ..errors import ParameterError
 from ..model.part_file import PartFile, part_text, usual_name
 from ..model.registry import models_with_points
 from ..sweep.axes import find_place, places, split_settings
-from ..units import parse_quantity
+from ..units import format_quantity, parse_quantity
 from . import _options, _output, _table
 
 HELP = "fit parameters of a model to measured outputs, or the clutch's friction law to friction"
@@ -19,6 +19,7 @@ LAW_UNITS = {
 }  # fmt: skip
 LAW_OPTIONAL = ("friction_error", "oil_temperature")
 FIGURE = "thrustwasher.report.model_plots.fit_plot:calibration_figure"
+MISFIT = 25.0  # reduced chi-square from which a fit is none: five errors on average
 SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH"}
 
 
@@ -66,18 +67,42 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     found = calibrate(part, **options)
     wall_time = time.perf_counter() - began
-    _output.warn(found.warnings)
+    doubts = _doubts(found)
+    _output.warn([*found.warnings, *doubts])
     targets.draw(FIGURE, found)
     if target:
         _write(target, part, found, data)
     if arguments.json:
         pack = {"parameters": _output.parameters_of(found.params)}
         inputs = {"data": data, "fit": [e.name for e in found.estimates], **columns}
-        _output.print_json({**inputs, **found.as_dict(), **pack, "wall_time": wall_time})
+        record = {**inputs, **found.as_dict(), **pack, "wall_time": wall_time}
+        _output.print_json(record | {"warnings": [*found.warnings, *doubts]})
         return 0
     print(found)
-    print(f"Use it: thrustwasher {part.spec.key} {_settings(found)}")
+    if doubts or not all(e.identifiable for e in found.estimates):
+        print("These values are none to use; the lines above say why.")
+        return 0
+    rung = arguments.fidelity or part.fidelity
+    more = f" --fidelity {rung}" if given and rung != part.spec.default_fidelity else ""
+    print(f"Use it: thrustwasher {part.spec.key} {_settings(found)}{more}")
     return 0
+
+
+def _doubts(found: Any) -> list[str]:
+    """Return a line for each sign that nothing was fitted."""
+    lines = [
+        f"{e.name} = {format_quantity(e.value, e.unit)} is at its {e.at_bound} bound: "
+        "the points ask for more; check their units and signs, or give --bounds"
+        for e in found.estimates if e.at_bound
+    ]  # fmt: skip
+    reduced = found.reduced_chi_square or 0.0
+    if reduced > MISFIT:
+        lines.append(
+            f"reduced chi-square {reduced:.3g}: the points lie some {reduced**0.5:.2g} errors off "
+            "the fit, nothing fits; check the units and signs of the columns (a torque in N.mm is "
+            "1000 times that in N.m), --error, and that the model's output is what was measured"
+        )
+    return lines
 
 
 def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[str, Any]:

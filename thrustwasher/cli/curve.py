@@ -4,10 +4,11 @@ import argparse
 import time
 from typing import Any
 
+from ..errors import ParameterError
 from ..model.part_file import PartFile
 from ..model.point import point_of
 from ..model.registry import find_model
-from ..units import format_quantity
+from ..units import format_quantity, parse_quantity
 from ..washer.parameters import SPEC
 from . import _options, _output
 
@@ -30,6 +31,10 @@ LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, INPUTS)
+    parser.add_argument(
+        "--load", metavar="LOW:HIGH", help="ends of the curve [N], 1 .. 10000; default 20:3000, "
+        "wider if the part's [box] is",
+    )  # fmt: skip
     _options.add_parameters(parser, SPEC)
     _options.add_options(parser, GRID)
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
@@ -46,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..washer.load_curve import load_curve
 
     began = time.perf_counter()
-    asked: dict[str, Any] = {**point, **_of_part(part), **grid}
+    asked: dict[str, Any] = {**point, **_of_part(part), **_loads(arguments.load), **grid}
     curve = load_curve(params, **asked)
     wall_time = time.perf_counter() - began
     doubts = _options.doubts(arguments, INPUTS)
@@ -69,7 +74,8 @@ def run(arguments: argparse.Namespace) -> int:
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     if not curve.folds:
-        print("no fold: one solution at every load")
+        ends = " and ".join(format_quantity(asked[n], "N") for n in ("load_min", "load_max"))
+        print(f"no fold between {ends}: one solution at every load there; --load LOW:HIGH for more")
     for fold in curve.folds:
         words = fold.kind.replace("_", " ")
         print(
@@ -78,6 +84,18 @@ def run(arguments: argparse.Namespace) -> int:
             f"{format_quantity(fold.friction_torque, 'N.m')}"
         )
     return 0
+
+
+def _loads(text: str | None) -> dict[str, float]:
+    """Return the ends of the curve [N] that are asked for."""
+    if text is None:
+        return {}
+    ends = text.split(":")
+    if len(ends) != 2:
+        raise ParameterError(f"--load {text}: allowed: LOW:HIGH, e.g. 20:8kN")
+    names = ("load_min", "load_max")
+    found = [parse_quantity(end, "N", "load") for end in ends]
+    return dict(zip(names, found, strict=True))
 
 
 def _of_part(part: PartFile) -> dict[str, Any]:

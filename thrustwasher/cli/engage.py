@@ -87,7 +87,11 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
             f"step = {times['step']!r} s, allowed: duration/{MAX_POINTS} .. duration "
             f"({times['duration']!r} s)"
         )
+    times["step"] = times["duration"] / n  # the one that is used
     t = np.linspace(0.0, times["duration"], n + 1)
+    if times["ramp"] < times["duration"]:  # a point where the ramp ends, or it would end later
+        near = np.abs(t - times["ramp"]) < 1e-9 * times["duration"]
+        t = t if near.any() else np.sort(np.append(t, times["ramp"]))
     rise = np.minimum(t / times["ramp"], 1.0) if times["ramp"] > 0.0 else np.ones_like(t)
     return engage_clutch(
         params, time=t, load=point["load"] * rise, fidelity=rung,
@@ -98,6 +102,7 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
 
 def _print_summary(result: Any) -> None:
     """Say the largest torque and temperature, the heat, and when the asperities carry."""
+    import numpy as np
 
     def at(name: str, index: Any) -> str:
         return format_quantity(float(getattr(result, name)[index]), COLUMNS[name])
@@ -111,4 +116,5 @@ def _print_summary(result: Any) -> None:
         f"boundary lubrication {begin}"
     )
     said = result.status.advice if result.status is Status.OK else result.status.name
-    print(f"  {said}; {result.fidelity}, {result.substeps} substeps")
+    step = format_quantity(float(np.diff(result.time).max()), "s")
+    print(f"  {said}; {result.fidelity}, points every {step}, {result.substeps} substeps")

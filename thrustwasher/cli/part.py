@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import ParameterError
+from ..model.idle import idle_warnings
 from ..model.kept import kept_warnings
 from ..model.part_file import (
     PartFile,
@@ -71,7 +72,8 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
     """Say what a part file holds; first what of it no longer fits the rest."""
-    warnings = [*kept_warnings(part), *part.oil_warnings]
+    idle = idle_warnings(part.spec.key, part.params, part.fidelity)
+    warnings = [*kept_warnings(part), *idle, *part.oil_warnings]
     _output.warn(warnings)
     if arguments.json:
         _output.print_json({

@@ -15,7 +15,7 @@ from .kernels import advance as clutch_advance
 from .kernels import layout as k
 from .kernels import pack_friction, pack_outputs, rates
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
-from .solve import pack_warnings, prepare
+from .solve import doubts_of_pack, pack_warnings, prepare
 
 Course = tuple[float, float, float, float, float, float, float, float]
 
@@ -166,5 +166,8 @@ def engage_clutch(
             for u, slip in zip(columns["film_ratio"], slips, strict=True)
         ],
         status=status,
-        warnings=pack_warnings(status, float(columns["film_ratio"].min()), hottest),
+        warnings=(
+            *doubts_of_pack(params, fidelity),
+            *pack_warnings(status, float(columns["film_ratio"].min()), hottest),
+        ),
     )  # fmt: skip

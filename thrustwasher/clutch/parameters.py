@@ -35,14 +35,23 @@ FRICTION_DATA = {
 }
 
 N_TABLE = 5
+OF_TABLE = (("friction_law", "table"),)
+OF_WANG = (("friction_law", "wang"),)
+OVER_SPEED = (  # the rung closed has the constant law
+    *(("fidelity", rung) for rung in ("boundary", "stribeck", "field", "fine")),
+    ("friction_law", "constant"),
+)
+WITH_FILM = tuple(("fidelity", rung) for rung in ("field", "fine"))
 
 
 def _coefficient(value: float, where: str) -> Any:
-    return quantity(value, "1", 0.0, 2.0, f"coefficient of the table law {where}")
+    return quantity(value, "1", 0.0, 2.0, f"coefficient of the table law {where}", read_by=OF_TABLE)
 
 
 def _table_speed(value: float, place: int) -> Any:
-    return quantity(value, "m/s", 0.0, 1e4, f"slip speed of point {place} of the table law")
+    return quantity(
+        value, "m/s", 0.0, 1e4, f"slip speed of point {place} of the table law", read_by=OF_TABLE
+    )
 
 
 def _rising(place: int) -> Rule:
@@ -82,7 +91,11 @@ class ClutchParams:
         overrides=("inner_radius", "outer_radius"),
     )
     friction_law: str = choice(
-        "table", FRICTION_LAWS, "ClutchFrictionLaw", "law of friction over slip speed"
+        "table",
+        FRICTION_LAWS,
+        "ClutchFrictionLaw",
+        "law of friction over slip speed",
+        read_by=OVER_SPEED,
     )
     friction_data: str = choice(
         "total", FRICTION_DATA, "FrictionData", "what the law of friction was measured on"
@@ -90,7 +103,14 @@ class ClutchParams:
     friction_scale: float = quantity(
         1.0, "1", 0.1, 2.0, "factor on the coefficient of the law of friction", tunable=True
     )
-    constant_friction: float = quantity(0.12, "1", 0.0, 2.0, "coefficient of the constant law")
+    constant_friction: float = quantity(
+        0.12,
+        "1",
+        0.0,
+        2.0,
+        "coefficient of the constant law",
+        read_by=(("friction_law", "constant"), ("fidelity", "closed")),
+    )
     table_friction_0: float = _coefficient(0.112, "at standstill")
     table_speed_1: float = _table_speed(0.1, 1)
     table_friction_1: float = _coefficient(0.114, "at table_speed_1")
@@ -102,23 +122,55 @@ class ClutchParams:
     table_friction_4: float = _coefficient(0.129, "at table_speed_4")
     table_speed_5: float = _table_speed(30.0, 5)
     table_friction_5: float = _coefficient(0.126, "at table_speed_5 and above")
-    indentation: float = quantity(0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R")
-    plough_weight: float = quantity(0.085275, "1", 0.0, 1.0, "weight of the ploughing share")
-    hardness_ratio: float = quantity(6.0, "1", 1.0, 20.0, "hardness over shear strength of lining")
-    adhesion_factor: float = quantity(
-        1.0, "1", 0.1, 10.0, "factor on the adhesive share (1: as published; pi/2: full s/p)"
+    indentation: float = quantity(
+        0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R", read_by=OF_WANG
     )
-    shear_floor: float = quantity(0.30, "1", 0.0, 1.0, "shear ratio s/s_m at very high slip speed")
-    stick_speed: float = quantity(1.185, "m/s", 0.0, 50.0, "slip speed below which s/s_m is 1")
-    decay_speed: float = quantity(2.872, "m/s", 1e-3, 100.0, "decay of s/s_m above stick_speed")
+    plough_weight: float = quantity(
+        0.085275, "1", 0.0, 1.0, "weight of the ploughing share", read_by=OF_WANG
+    )
+    hardness_ratio: float = quantity(
+        6.0, "1", 1.0, 20.0, "hardness over shear strength of lining", read_by=OF_WANG
+    )
+    adhesion_factor: float = quantity(
+        1.0,
+        "1",
+        0.1,
+        10.0,
+        "factor on the adhesive share (1: as published; pi/2: full s/p)",
+        read_by=OF_WANG,
+    )
+    shear_floor: float = quantity(
+        0.30, "1", 0.0, 1.0, "shear ratio s/s_m at very high slip speed", read_by=OF_WANG
+    )
+    stick_speed: float = quantity(
+        1.185, "m/s", 0.0, 50.0, "slip speed below which s/s_m is 1", read_by=OF_WANG
+    )
+    decay_speed: float = quantity(
+        2.872, "m/s", 1e-3, 100.0, "decay of s/s_m above stick_speed", read_by=OF_WANG
+    )
     kink_width: float = quantity(
-        0.0, "m/s", 0.0, 1.0, "rounds the kink at stick_speed (0: sharp, as the law says)"
+        0.0,
+        "m/s",
+        0.0,
+        1.0,
+        "rounds the kink at stick_speed (0: sharp, as the law says)",
+        read_by=OF_WANG,
     )
     shear_temperature_slope: float = quantity(
-        0.0, "1/K", -0.1, 0.1, "relative change of s/s_m per kelvin (0: none, as published)"
+        0.0,
+        "1/K",
+        -0.1,
+        0.1,
+        "relative change of s/s_m per kelvin (0: none, as published)",
+        read_by=OF_WANG,
     )
     reference_temperature: float = quantity(
-        313.15, "K", 233.15, 523.15, "interface temperature the speed law of s/s_m holds at"
+        313.15,
+        "K",
+        233.15,
+        523.15,
+        "interface temperature the speed law of s/s_m holds at",
+        read_by=OF_WANG,
     )
     roughness: float = quantity(8.41e-6, "m", 1e-8, 1e-4, "combined RMS roughness of lining, steel")
     contact_modulus: float = quantity(2.7e7, "Pa", 1e5, 1e11, "contact modulus of the lining")
@@ -128,7 +180,14 @@ class ClutchParams:
     permeability: float = quantity(
         1e-13, "m2", 0.0, 1e-9, "permeability of the lining along its plane"
     )
-    land_share: float = quantity(0.8, "1", 0.05, 1.0, "share of a face that is not groove")
+    land_share: float = quantity(
+        0.8,
+        "1",
+        0.05,
+        1.0,
+        "share of a face that is not groove",
+        belongs_to=("groove_count", "groove_width"),
+    )
     groove_count: int = count(
         24,
         0,
@@ -145,9 +204,12 @@ class ClutchParams:
     film_dynamics: bool = flag(
         True,
         "field rung: oil takes time to leave and resists shear (False: film settled, no shear)",
+        read_by=WITH_FILM,
     )
     shear_heating: bool = flag(
-        True, "field rung: oil between the faces is thinned by its own shear (False: as the faces)"
+        True,
+        "field rung: oil between the faces is thinned by its own shear (False: as the faces)",
+        read_by=WITH_FILM,
     )
     oil_flow: float = quantity(
         1e-3 / 60.0, "m3/s", 0.0, 1.0,

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.advice import warnings_of
+from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.registry import find_model
@@ -21,6 +22,7 @@ PRESSED = (
     "film_ratio = {:.3g}: the lining is pressed beyond the reach of the law of contact; lower the "
     "load or check the lining's modulus"
 )
+LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
@@ -252,8 +254,37 @@ def solve_clutch(
         status=status,
         iterations=int(turns + s.iterations),
         fidelity=fidelity,
-        warnings=pack_warnings(status, ratio, s.hottest),
+        warnings=(
+            *doubts_of_pack(params, fidelity),
+            *_light(params, load, fidelity),
+            *pack_warnings(status, ratio, s.hottest),
+        ),
     )
+
+
+def doubts_of_pack(params: ClutchParams, fidelity: str) -> tuple[str, ...]:
+    """Return what contradicts itself in parameters, and what has no effect beside the others."""
+    radius, faces = params.effective_radius, (params.inner_radius, params.outer_radius)
+    found = list(idle_warnings(SPEC.key, params, fidelity))
+    if radius and not faces[0] <= radius <= faces[1] and fidelity != "closed":
+        found.append(
+            f"effective_radius = {radius:g} m is off the faces of {faces[0]:g} .. {faces[1]:g} m: "
+            "torque and slip speed are those of another pack; give one between, or 0"
+        )
+    return tuple(found)
+
+
+def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
+    """Return a line if friction of a pressed pack stands for one that is hardly pressed."""
+    pressure = load * params.faces / params.lining_area
+    held = params.friction_data == "total" and fidelity in ("field", "fine")
+    if not held or not k.OPEN_PRESSURE <= pressure < LEAST_PRESSURE:
+        return []
+    return [
+        f"load = {load:g} N is {pressure:.3g} Pa on the faces: friction of settled packs is "
+        f"measured above some {LEAST_PRESSURE:g} Pa; shear of the oil beside it is left out, with "
+        "friction_data = 'boundary' it counts"
+    ]
 
 
 def pack_warnings(status: Status, ratio: float, hottest: float) -> tuple[str, ...]:

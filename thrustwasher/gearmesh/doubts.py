@@ -18,8 +18,8 @@ FASTEST = 100.0  # m/s at the pitch line; faster gears have losses that are not 
 
 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
-    """Return what contradicts itself in parameters, and what has no effect beside the others."""
-    return [*_teeth(p), *_roughness(p), *_fouling(p), *_idle(p)]
+    """Return what contradicts itself in parameters."""
+    return [*_teeth(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
 
 
 def doubts_of_point(
@@ -151,37 +151,10 @@ def _differ(a: float, b: float) -> bool:
     return not 1.0 / APART <= a / b <= APART
 
 
-def _idle(p: GearMeshParams) -> list[str]:
-    """Return a line for each parameter off its default that the others leave without effect."""
-    loss = p.film_heat == "loss"
-    limited = p.friction_law == "mixed" or (not loss and p.traction_law == "limited")
-    idle = {
-        "load_share": (loss, "film_heat = 'loss' shares the load by contact and overlap ratio"),
-        "heat_partition": (loss, "film_heat = 'loss' makes both flanks equally hot"),
-        "partition_share": (loss, "film_heat = 'loss' makes both flanks equally hot"),
-        "traction_law": (loss, "with film_heat = 'loss' friction_law says what shears"),
-        "film_viscosity": (loss, "with film_heat = 'loss' viscosity_at says it"),
-        "bulk_conductance": (not loss, "film_heat = 'atan' has no bodies"),
-        "bulk_heat_capacity": (not loss, "film_heat = 'atan' has no bodies"),
-        "lubrication_factor": (
-            not loss or p.bulk_conductance > 0.0,
-            "bulk_conductance is given" if loss else "film_heat = 'atan' has no bodies",
-        ),
-        "eyring_stress": (p.friction_law != "mixed", "it is of friction_law = 'mixed'"),
-        "limiting_traction": (
-            not limited, "it is of friction_law = 'mixed' and of traction_law = 'limited'"
-        ),
-        "effective_roughness": (
-            p.friction_law != "li-seireg", "it is of friction_law = 'li-seireg'"
-        ),
-        "area_ratio": (p.area_law != "constant", "it is of area_law = 'constant'"),
-    }  # fmt: skip
-    found = [
+def _load_factor(p: GearMeshParams) -> list[str]:
+    if p.load_factor == 1.0 or p.film_heat == "loss":
+        return []
+    return [
         f"load_factor = {p.load_factor:g} moves pitting_stress and pitting_safety alone: with "
         "film_heat = 'atan' pressures, film and temperatures are those of 1; raise power instead"
-    ] if p.load_factor != 1.0 and not loss else []  # fmt: skip
-    return found + [
-        f"{name} = {getattr(p, name)!r} has no effect: {why}"
-        for name, (is_idle, why) in idle.items()
-        if is_idle and getattr(p, name) not in (default_of(name), 0.0)
     ]

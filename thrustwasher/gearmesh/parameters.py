@@ -156,6 +156,13 @@ RULES = (
 )  # fmt: skip
 
 
+OF_ATAN = (("film_heat", "atan"),)
+OF_LOSS = (("film_heat", "loss"),)
+OVER_PATH = (  # the rung closed has the constant law
+    *(("fidelity", rung) for rung in ("stribeck", "field", "fine")),
+    ("friction_law", "constant"),
+)
+BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed"))
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
 
 
@@ -172,7 +179,9 @@ class GearMeshParams:
 
     gear_ratio: float = quantity(2.0, "1", 1.0, 20.0, "teeth of the gear over those of the pinion")
     pinion_teeth: int = count(20, 5, 500, "number of teeth of the pinion")
-    centre_distance: float = quantity(0.254, "m", 5e-3, 10.0, "distance of the two gear axes")
+    centre_distance: float = quantity(
+        0.254, "m", 5e-3, 10.0, "distance of the two gear axes", read_by=(("normal_module", 0.0),)
+    )
     normal_module: float = quantity(
         0.0,
         "m",
@@ -197,7 +206,12 @@ class GearMeshParams:
         1.0, "1", 0.5, 5.0, "load factor K of pressure, flash, body temperature and pitting stress"
     )
     load_share: float = quantity(
-        1.0, "1", 0.05, 1.0, "share of load on the pair that starts, for film_heat atan"
+        1.0,
+        "1",
+        0.05,
+        1.0,
+        "share of load on the pair that starts, for film_heat atan",
+        read_by=OF_ATAN,
     )
     surface: str = choice("rough", SURFACES, "Surface", "finish of the two flanks")
     sigma_rms: float = quantity(
@@ -215,6 +229,7 @@ class GearMeshParams:
         1e-4,
         "effective roughness S of Li and Seireg (0: that of the surface)",
         overrides=("surface",),
+        read_by=(("friction_law", "li-seireg"),),
     )
     mean_roughness: float = quantity(
         0.0,
@@ -224,12 +239,29 @@ class GearMeshParams:
         "Ra for the ISO law (0: composite RMS over sqrt 2)",
         overrides=("surface", "sigma_rms"),
     )
-    friction_law: str = choice("iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
-    f0: float = quantity(0.12, "1", 0.0, 1.0, "coefficient of friction without any film")
-    constant_friction: float = quantity(
-        0.05, "1", 0.0, 1.0, "coefficient of the constant law", tunable=True
+    friction_law: str = choice(
+        "iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction", read_by=OVER_PATH
     )
-    eyring_stress: float = quantity(5e6, "Pa", 1e5, 1e8, "Eyring stress of the film, mixed law")
+    f0: float = quantity(
+        0.12, "1", 0.0, 1.0, "coefficient of friction without any film", read_by=BY_FILM
+    )
+    constant_friction: float = quantity(
+        0.05,
+        "1",
+        0.0,
+        1.0,
+        "coefficient of the constant law",
+        tunable=True,
+        read_by=(("friction_law", "constant"), ("fidelity", "closed")),
+    )
+    eyring_stress: float = quantity(
+        5e6,
+        "Pa",
+        1e5,
+        1e8,
+        "Eyring stress of the film, mixed law",
+        read_by=(("friction_law", "mixed"),),
+    )
     film_heat: str = choice("loss", FILM_HEAT, "FilmHeat", "heat that warms the flanks")
     thermal_mode: str = choice(
         "transient", THERMAL_MODES, "ThermalMode", "how the bodies follow the inputs in time"
@@ -244,6 +276,7 @@ class GearMeshParams:
         1e5,
         "heat of this mesh's bodies to the oil per kelvin (0: by the flash)",
         belongs_to=SIZE,
+        read_by=OF_LOSS,
     )
     bulk_heat_capacity: float = quantity(
         0.0,
@@ -252,9 +285,15 @@ class GearMeshParams:
         1e8,
         "heat capacity of this mesh's bodies (0: by masses over mates)",
         belongs_to=SIZE,
+        read_by=OF_LOSS,
     )
     lubrication_factor: float = quantity(
-        1.0, "1", 0.1, 3.0, "factor X_S of the bulk temperature: 1 dip, 1.2 spray"
+        1.0,
+        "1",
+        0.1,
+        3.0,
+        "factor X_S of the bulk temperature: 1 dip, 1.2 spray",
+        read_by=(("bulk_conductance", 0.0),),
     )
     mates_pinion: int = count(
         1, 1, 100, "gears that mesh with the pinion; a planet of a set has 2, sun and ring"
@@ -293,27 +332,49 @@ class GearMeshParams:
         "surface", VISCOSITY_AT, "ViscosityAt", "temperature that sets the viscosity"
     )
     film_viscosity: str = choice(
-        "surface", FILM_VISCOSITY, "FilmViscosity", "viscosity that the film thickness follows"
+        "surface",
+        FILM_VISCOSITY,
+        "FilmViscosity",
+        "viscosity that the film thickness follows",
+        read_by=OF_ATAN,
     )
     pressure_viscosity: float = quantity(
         2.2e-8, "1/Pa", 1e-9, 1e-7, "pressure coefficient of the viscosity"
     )
     heat_partition: str = choice(
-        "constant", HEAT_PARTITION, "HeatPartition", "how heat divides between the flanks"
+        "constant",
+        HEAT_PARTITION,
+        "HeatPartition",
+        "how heat divides between the flanks",
+        read_by=OF_ATAN,
     )
-    partition_share: float = quantity(0.5, "1", 0.0, 1.0, "share of the heat into the pinion")
+    partition_share: float = quantity(
+        0.5,
+        "1",
+        0.0,
+        1.0,
+        "share of the heat into the pinion",
+        read_by=(("heat_partition", "constant"),),
+    )
     traction_law: str = choice(
-        "ambient", TRACTION_LAWS, "TractionLaw", "shear stress of the oil film"
+        "ambient", TRACTION_LAWS, "TractionLaw", "shear stress of the oil film", read_by=OF_ATAN
     )
     limiting_traction: float = quantity(
-        0.07, "1", 0.01, 0.2, "largest shear stress over the mean pressure"
+        0.07,
+        "1",
+        0.01,
+        0.2,
+        "largest shear stress over the mean pressure",
+        read_by=(("friction_law", "mixed"), ("traction_law", "limited")),
     )
     asperity_group: float = quantity(
         0.05, "1", 1e-3, 1.0, "asperities per area x radius x scatter of heights"
     )
     hardness_factor: float = quantity(2.84, "1", 1.0, 10.0, "hardness over ultimate strength")
     area_law: str = choice("bounded", AREA_LAWS, "AreaLaw", "nominal over real contact area")
-    area_ratio: float = quantity(30.0, "1", 1.0, 1e6, "area ratio of the constant law")
+    area_ratio: float = quantity(
+        30.0, "1", 1.0, 1e6, "area ratio of the constant law", read_by=(("area_law", "constant"),)
+    )
     switch: str = choice("smooth", SWITCHES, "ContactSwitch", "film ratio where asperities heat")
     asperity_base: str = choice(
         "surface", ASPERITY_BASES, "AsperityBase", "temperature the asperity's rise is added to"

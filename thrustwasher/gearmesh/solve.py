@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.advice import warnings_of
+from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from .doubts import doubts_of_parameters, doubts_of_point
@@ -194,7 +195,10 @@ def solve_gearmesh(
             f"power = {power:g} W, speed = {speed:g} rad/s, oil_temperature = {oil:g} K: "
             f"{status.advice}"
         )
-    doubts = doubts_of_parameters(params) + doubts_of_point(params, par, field, torque, speed, oil)
+    doubts = [
+        *idle_warnings(SPEC.key, params, fidelity), *doubts_of_parameters(params),
+        *doubts_of_point(params, par, field, torque, speed, oil),
+    ]  # fmt: skip
     absent = dict.fromkeys(absent_outputs(params))
     said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
     point = {"status": status, "fidelity": fidelity, "limits": limits_assumed(params)} | _size(

@@ -22,7 +22,7 @@ def quantity(default: float, unit: str, low: float, high: float, text: str, **ex
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
-    ``when``: see ``model.kept``.
+    ``when``: see ``model.kept``; ``read_by``: see ``model.idle``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
@@ -170,6 +170,8 @@ def check_value(name: str, value: Any, m: Mapping[str, Any]) -> None:
 def check_number(name: str, value: float, unit: str, low: float, high: float) -> float:
     """Return ``value`` as a float, or raise ParameterError naming it, its unit and its range."""
     try:
+        if isinstance(value, bool | str):
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError):
         raise ParameterError(f"{name} = {value!r}, a number in {unit} is wanted") from None

@@ -66,10 +66,10 @@ class Point:
 
 def taken_text(box: Values, default: Values, inputs: Iterable[Signal]) -> str:
     """Return a line that names what was taken from a box and by default; "" if nothing was."""
-    signals, said = list(inputs), []
+    signals, said = [s for s in inputs if not s.optional], []
     for words, values in {"from the part's box": box, "by default": default}.items():
-        if values:
-            shown = (quantity_text(s, values[s.name]) for s in signals if s.name in values)
+        shown = [quantity_text(s, values[s.name]) for s in signals if s.name in values]
+        if shown:
             said.append(f"{words}: {', '.join(shown)}")
     return f"taken {'; '.join(said)}" if said else ""
 
@@ -131,7 +131,8 @@ def point_of(
         oil = there["oil_temperature"]
         outside += part.oil.warnings([part.spec], oil) if part.oil else []
         outside += too_stiff(part.spec, part.params, oil)
-    default = {n: v for n, v in values.items() if n not in given and n not in box}
+    left_out = {s.name for s in inputs if s.optional} | given.keys() | box.keys()
+    default = {n: v for n, v in values.items() if n not in left_out}
     return Point(
         values=values, box=box, default=default, warnings=tuple(outside), inputs=inputs
     )  # fmt: skip

@@ -126,6 +126,7 @@ class Sweep:
     walk: str = ""  # dotted name of what fills the rows of a line
     not_shown: tuple[str, ...] = ()  # outputs that make no sense there
     more_inputs: tuple[Mapping[str, Any], ...] = ()  # fields of signals it takes as well
+    doubt: str = ""  # dotted name: (parameters, fidelity, inputs) to a warning or ""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,7 +1,7 @@
 """The rows of a sweep in their order, cut into lines: one line is one walk of warm starts."""
 
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -12,10 +12,12 @@ from ..errors import ParameterError
 from ..ladder import choose as chooser
 from ..ladder.own_tables import build_where_it_pays
 from ..model.advice import quantity_text, range_text
+from ..model.idle import idle_warnings
 from ..model.parameters import params_of
 from ..model.part_file import PartFile, find_part
 from ..model.point import from_box, taken_text
-from ..model.registry import spec_of
+from ..model.record import resolve
+from ..model.registry import find_model, spec_of
 from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
 
@@ -204,10 +206,28 @@ def _assemble(
         units[name] = next(p.unit for p in order if p.name == name)
     plan = Plan(
         spec, fidelity, inputs, shown, units, starts, params, params_of,
-        taken=taken_text(box, default, spec.inputs), warnings=tuple(_outside(part, inputs)),
+        taken=taken_text(box, default, spec.inputs),
+        warnings=(
+            *_idle(params, fidelity, spec.key), *_outside(part, inputs),
+            *_doubt(spec, fidelity, params, inputs),
+        ),
     )  # fmt: skip
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
+
+
+def _idle(params: Sequence[Any], fidelity: str, model: str) -> Iterator[str]:
+    """Yield a warning for each choice that leaves parameters unread, at the first row or last."""
+    lines = [t for p in (params[0], params[-1]) if p for t in idle_warnings(model, p, fidelity)]
+    yield from {text.partition(" = ")[0]: text for text in lines}.values()
+
+
+def _doubt(spec: ModelSpec, fidelity: str, params: Sequence[Any], inputs: Array) -> Iterator[str]:
+    """Yield what the model says of all rows, if they are of one part."""
+    doubt = find_model(spec.key).sweep.doubt
+    if doubt and len(params) == 1 and params[0] is not None:
+        if text := resolve(doubt)(params[0], fidelity, inputs[np.isfinite(inputs).all(1)]):
+            yield text
 
 
 def _outside(part: PartFile, inputs: Array) -> Iterator[str]:

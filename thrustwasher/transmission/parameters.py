@@ -174,8 +174,22 @@ class _TransmissionParams:
     engine_start_time: float = quantity(0.0, "s", -1e9, 1e9, "time the engine torque is turned on")
     load_torque: float = quantity(250.0, "N.m", 0.0, 1e6, "load torque at load_speed, grows as w^2")
     load_speed: float = quantity(100.0, "rad/s", 1e-3, 1e4, "output speed load_torque belongs to")
-    clutch_force: float = quantity(5898.0, "N", 0.0, 1e6, "clutch load at shift_command = 1")
-    brake_force: float = quantity(5898.0, "N", 0.0, 1e6, "brake load at shift_command = 0")
+    clutch_force: float = quantity(
+        5898.0,
+        "N",
+        0.0,
+        1e6,
+        "clutch load at shift_command = 1",
+        read_by=(("actuation", "command"),),
+    )
+    brake_force: float = quantity(
+        5898.0,
+        "N",
+        0.0,
+        1e6,
+        "brake load at shift_command = 0",
+        read_by=(("actuation", "command"),),
+    )
     washers: int = count(8, 0, 100, "number of thrust washers on all planets together")
     washer_radius: float = quantity(0.0085, "m", 1e-3, 1.0, "radius the washer's load acts at")
     thrust_share: float = quantity(0.1, "1", 0.0, 1.0, "share of tilting couple washers take")

@@ -1,6 +1,7 @@
 """The whole curve of a washer's solutions over load, with its folds: continuation in the film."""
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -8,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import SolveError, Status
+from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.record import OwnOutputs
 from ..numerics.jit import Array
@@ -22,9 +24,9 @@ from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.solve import remember_state
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
-from .parameters import WasherParams
-from .solve import ERRORS, check_point, resolve_grid, result_from
-from .washer_result import BRANCH_NAMES, Fold, Inputs, WasherResult, lost_text
+from .parameters import SPEC, WasherParams
+from .solve import GRIDS, check_point, resolve_grid, result_from
+from .washer_result import BRANCH_NAMES, BY_CARD, Fold, Inputs, WasherResult, advised, lost_text
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
@@ -51,14 +53,16 @@ class LoadCurve:
 
         The last point, beyond the range that was asked for, does not count.
         """
+        idle = idle_warnings(SPEC.key, self.points[0].params)
         found: dict[str, list[str]] = {}
         points = sorted(self.points[:-1], key=lambda p: p.load)
         for p in points:
-            for text in p.warnings[p.distress :]:
+            for text in [w for w in p.warnings if w not in idle][p.distress :]:
                 told = f"at load = {p.load:.4g} N: {text}"
-                found.setdefault(text.partition(" = ")[0], []).append(told)
+                found.setdefault(re.split(r"[=\d]", text)[0], []).append(told)
         n = len(points)
-        return tuple(f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
+        lines = (f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
+        return (*idle, *lines)
 
 
 def load_curve(
@@ -171,7 +175,10 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
         told = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
         p._state[L.S_BRANCH] = _NUMBERS[branch]
         p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
-        named.append(dataclasses.replace(p, branch=branch, distress=distress, warnings=told))
+        status = advised(p.point(), distress, Status.OK)
+        named.append(
+            dataclasses.replace(p, branch=branch, distress=distress, status=status, warnings=told)
+        )
     return named
 
 
@@ -316,5 +323,6 @@ class Continuation:
         state[L.S_SCAN_OIL] = pt.oil_temperature
         return result_from(
             self.params, (pt.load, *self.inputs[1:]), fidelity, self.nodes, state, self.work,
-            Status.OK, L.FILM_BRANCH, False, ERRORS[fidelity],
+            Status.OK, L.FILM_BRANCH, False,
+            BY_CARD if self.nodes == GRIDS[fidelity] else None,
         )  # fmt: skip

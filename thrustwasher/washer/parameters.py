@@ -72,7 +72,8 @@ MATERIAL = {  # property of each body: unit, default, least, largest, what it is
 
 
 RADII = ("inner_radius", "outer_radius")
-OF_SIZE: dict[str, Any] = {"belongs_to": RADII, "when": ("friction_law", "load")}
+TRANSIENT = (("thermal_mode", "transient"),)
+OVER_LOAD = (("friction_law", "load"),)
 
 
 def _own(name: str, common: str, unit: str, least: float, largest: float) -> Rule:
@@ -82,18 +83,19 @@ def _own(name: str, common: str, unit: str, least: float, largest: float) -> Rul
                 f"{least:g} .. {largest:g}{unit}")  # fmt: skip
 
 
-def _material(name: str) -> Any:
+def _material(name: str, **extra: Any) -> Any:
     """Return the field of a property that all bodies share."""
     unit, default, least, largest, text = MATERIAL[name]
-    return quantity(default, unit, least, largest, f"{text} of the bodies")
+    return quantity(default, unit, least, largest, f"{text} of the bodies", **extra)
 
 
-def _body(name: str) -> Any:
+def _body(name: str, **extra: Any) -> Any:
     """Return the field of one body's own property, 0 if it has the common one."""
     common, body = name.rsplit("_", 1)
     unit, _, _, largest, text = MATERIAL[common]
     return quantity(
-        0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})", overrides=(common,)
+        0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})", overrides=(common,),
+        **extra,
     )  # fmt: skip
 
 
@@ -253,24 +255,37 @@ class WasherParams:
         2000.0, "J/(kg.K)", 500.0, 5000.0, "specific heat of the oil"
     )
     oil_supply_temperature: float = quantity(
-        0.0, "K", 0.0, 473.15, "temperature of the oil that is drawn in (0: oil_temperature)"
+        0.0,
+        "K",
+        0.0,
+        473.15,
+        "temperature of the oil that is drawn in (0: oil_temperature)",
+        read_by=(("oil_cooling", True),),
     )
     cavity_shear: str = choice(
         "full", CAVITY_SHEAR, "CavityShear", "what the cavity counts as in shear and heat exchange"
     )
     pressure_flow_shear: bool = flag(True, "whether pressure flow counts in torque and heat")
     friction_law: str = choice("load", FRICTION_LAWS, "FrictionLaw", "law of the dry friction")
-    dry_friction: float = quantity(0.15, "1", 0.0, 1.0, "dry friction of the constant law")
+    dry_friction: float = quantity(
+        0.15,
+        "1",
+        0.0,
+        1.0,
+        "dry friction of the constant law",
+        read_by=(("friction_law", "constant"),),
+    )
     friction_reference: float = quantity(
         0.48 - 0.05 * math.log(MEGAPASCAL * PAPER_FACE), "1", -2.0, 2.0,
-        "dry friction at a mean contact pressure of 1 MPa",
-    )  # fmt: skip
-    friction_slope: float = quantity(0.05, "1", 0.0, 0.2, "slope of the dry friction law")
+        "dry friction at a mean contact pressure of 1 MPa", read_by=OVER_LOAD)  # fmt: skip
+    friction_slope: float = quantity(
+        0.05, "1", 0.0, 0.2, "slope of the dry friction law", read_by=OVER_LOAD
+    )
     friction_pressure_min: float = quantity(
-        260.5 / PAPER_FACE, "Pa", 1.0, 1e9, "lower end of the law's range"
+        260.5 / PAPER_FACE, "Pa", 1.0, 1e9, "lower end of the law's range", read_by=OVER_LOAD
     )
     friction_pressure_max: float = quantity(
-        1725.6 / PAPER_FACE, "Pa", 1.0, 1e9, "upper end of the law's range"
+        1725.6 / PAPER_FACE, "Pa", 1.0, 1e9, "upper end of the law's range", read_by=OVER_LOAD
     )
     heat_split: float = quantity(
         0.5, "1", 0.0, 1.0, "share of the heat that enters the carrier", tunable=True
@@ -281,19 +296,27 @@ class WasherParams:
     thermal_mode: str = choice(
         "quasi_steady", THERMAL_MODES, "ThermalMode", "how temperatures follow the inputs in time"
     )
-    density: float = _material("density")
-    density_carrier: float = _body("density_carrier")
-    density_washer: float = _body("density_washer")
-    density_gear: float = _body("density_gear")
-    specific_heat: float = _material("specific_heat")
-    specific_heat_carrier: float = _body("specific_heat_carrier")
-    specific_heat_washer: float = _body("specific_heat_washer")
-    specific_heat_gear: float = _body("specific_heat_gear")
+    density: float = _material("density", read_by=TRANSIENT)
+    density_carrier: float = _body("density_carrier", read_by=TRANSIENT)
+    density_washer: float = _body("density_washer", read_by=TRANSIENT)
+    density_gear: float = _body("density_gear", read_by=TRANSIENT)
+    specific_heat: float = _material("specific_heat", read_by=TRANSIENT)
+    specific_heat_carrier: float = _body("specific_heat_carrier", read_by=TRANSIENT)
+    specific_heat_washer: float = _body("specific_heat_washer", read_by=TRANSIENT)
+    specific_heat_gear: float = _body("specific_heat_gear", read_by=TRANSIENT)
     body_storage: str = choice(
-        "slab", BODY_STORAGE, "BodyStorage", "how carrier and gear store heat, if transient"
+        "slab",
+        BODY_STORAGE,
+        "BodyStorage",
+        "how carrier and gear store heat, if transient",
+        read_by=TRANSIENT,
     )
     thermal_start: str = choice(
-        "steady", THERMAL_STARTS, "ThermalStart", "temperatures at the start, if transient"
+        "steady",
+        THERMAL_STARTS,
+        "ThermalStart",
+        "temperatures at the start, if transient",
+        read_by=TRANSIENT,
     )
 
     @classmethod

@@ -4,7 +4,6 @@ Average-flow Reynolds equation with cavitation, elasto-plastic asperity contact,
 carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/theory/washer.md.
 """
 
-import math
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -22,7 +21,7 @@ from .kernels import step as kernel
 from .kernels.regime_and_status import LEAST_TEMPERATURE
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, Inputs, Unread, WasherResult, result_of
+from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, Inputs, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
@@ -30,10 +29,6 @@ GRIDS = {
     "map": kernel.FIELD_GRID, "coarse": kernel.COARSE_GRID, "field": kernel.FIELD_GRID,
     "fine": kernel.FINE_GRID,
 }  # fmt: skip
-# largest error of friction_torque against the grid-converged value over the verified range
-# (tests/washer/test_washer_accuracy.py measures it again)
-ERRORS = {"map": 6e-3, "coarse": 3e-2, "field": 1e-2, "fine": 2e-3}
-UNREAD = {fidelity: Unread(error) for fidelity, error in ERRORS.items()}
 BOTH = (
     "load = {:.4g} N lies between two folds: with friction_torque = {:.4g} N m the branch {!r} has "
     "a solution too, which one a washer is on depends on how it came there; this one is {!r}"
@@ -108,7 +103,7 @@ def check_point(
 def result_from(
     params: WasherParams, point: Inputs, fidelity: str,
     grid: tuple[int, int], state: Array, work: Array, status: Status, branch: float, lost: bool,
-    error: float,
+    error: float | None,
 ) -> WasherResult:  # fmt: skip
     """Build the result from what the kernel left at the head of ``work``."""
     x, q = work[L.AT_OUTPUTS : L.AT_POSITIONS].tolist(), work[L.AT_POSITIONS : L.N_HEAD].tolist()
@@ -179,8 +174,6 @@ def solve_washer(
     result = found or _solve(params, point, fidelity, nodes, wanted, start, grid is None)
     if fidelity != asked:
         result = replace(result, warnings=(NOT_IN_MAP, *result.warnings))
-    if result.status is OK and grid is None:
-        return result
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
         result = _with_embedded_estimate(result, wanted)
     if throw and result.status is Status.NO_BRANCH:
@@ -254,7 +247,7 @@ def _solve(
             state[L.S_POSITIONS :][:4] = estimate
     return result_from(
         params, point, fidelity, nodes, state, work, status, float(work[L.AT_FOUND]),
-        bool(ready.iout[1]), UNREAD[fidelity] if card else ERRORS[fidelity],
+        bool(ready.iout[1]), BY_CARD if card else None,
     )  # fmt: skip
 
 
@@ -281,7 +274,7 @@ def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult
     half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
     point = result.point()
     coarse = _prefer(result.params, point, result.fidelity, half, BRANCHES.get(result.branch, 0.0))
-    estimate = math.inf
+    estimate = None
     if not coarse.status.is_failure and coarse.branch == result.branch:
         change = abs(result.friction_torque - coarse.friction_torque)
         # order 1.3, the lowest seen (boundary lubrication; 2.2 in full film): error = change/1.46

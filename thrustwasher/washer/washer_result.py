@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import ParameterError, Status
 from ..ladder.card import error_estimate
 from ..model.advice import warnings_of
+from ..model.idle import idle_warnings
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
@@ -29,8 +30,14 @@ PRESSED = (
     "film_thickness = {:.3g} um: below 0 the mean surfaces would overlap, asperities alone carry "
     "and wear; lower the load or raise roughness or viscosity"
 )
+BY_CARD = -1.0  # in place of an error: a card is looked at when somebody asks
 INPUTS = tuple(signal.name for signal in SPEC.inputs)
 Inputs = tuple[float, float, float, float, float]  # of a solution, in that order
+FULL_FILM = 3.0  # film ratio above which regime and branch are called film
+DRY = (
+    "film_ratio = {:.3g} is that of a full film, but asperities carry {:.4g} of {:.4g} N: parallel "
+    "faces build no pressure; friction and wear are those of dry contact. Give the tilt there is"
+)
 COUNTS = 0.1  # share of the torque from which dry friction counts
 BEYOND = (
     "dry friction was measured for mean contact pressures of {:.3g} .. {:.3g} Pa; here {:.3g} Pa: "
@@ -70,10 +77,6 @@ class Fold:
     friction_torque: float  # [N m]
 
 
-class Unread(float):
-    """The error of a rung in general; the card may know better for the point at hand."""
-
-
 @dataclass(frozen=True, slots=True)
 class WasherResult:
     """Steady state of the washer at one operating point; SI units."""
@@ -101,7 +104,7 @@ class WasherResult:
     iterations: int
     fidelity: str
     grid: tuple[int, int]
-    _error: float = field(repr=False)  # [-] relative, of friction_torque
+    _error: float | None = field(repr=False)  # as error_estimate, or BY_CARD
     load: float  # [N] as solved for
     speed: float  # [rad/s]
     tilt: float  # [rad]
@@ -113,16 +116,18 @@ class WasherResult:
     """What a reader must not miss, a line each."""
 
     @property
-    def error_estimate(self) -> float:
-        """[-] relative, of friction_torque; its card is looked at when somebody asks."""
-        if type(self._error) is not Unread:
+    def error_estimate(self) -> float | None:
+        """[-] relative, of friction_torque; by a card or, with ``grid``, a second solve, else None.
+
+        Cards were measured for their own parameters and box; nobody knows it elsewhere.
+        """
+        if self._error != BY_CARD:
             return self._error
         names = ("load", "speed", "tilt", "oil_temperature")
-        known = error_estimate(
+        return error_estimate(
             "washer", self.fidelity, self.params, {n: getattr(self, n) for n in names},
             branch=self.branch, film_ratio=self.film_ratio,
         )  # fmt: skip
-        return float(self._error) if known is None else known
 
     def point(self) -> Inputs:
         """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
@@ -181,17 +186,33 @@ class WasherResult:
 def result_of(
     params: WasherParams, point: Inputs, x: Sequence[float],
     tilts: Sequence[float], branch: str, distress: bool, status: Status, iterations: int,
-    fidelity: str, grid: tuple[int, int], error: float, state: Array,
+    fidelity: str, grid: tuple[int, int], error: float | None, state: Array,
 ) -> WasherResult:  # fmt: skip
     """Return the result with the kernels' outputs ``x`` and the washer's tilts about x and y."""
     return WasherResult(
         x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
         x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], x[L.O_POWER], x[L.O_OIL_FLOW],
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
-        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress, status, iterations, fidelity,
-        grid, error, *point, params, state,
+        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress,
+        advised(point, distress, status), iterations, fidelity, grid, error, *point, params, state,
         washer_warnings(params, point, x, distress, status),
     )  # fmt: skip
+
+
+def advised(point: Sequence[float], distress: bool, status: Status) -> Status:
+    """Return a status, or the advice in its place, as the kernel gives it in a step."""
+    if status is not Status.OK:
+        return status
+    if distress:
+        return Status.DISTRESS
+    return Status.OK if _verified(point) else Status.OUTSIDE_VERIFIED
+
+
+def _verified(point: Sequence[float]) -> bool:
+    load, speed, tilt, oil, _ = point
+    return (
+        load <= LOAD[1] and abs(speed) <= SPEED[1] and tilt <= TILT[1] and OIL[0] <= oil <= OIL[1]
+    )
 
 
 def lost_text(ratio: float, rise: float) -> str:
@@ -203,23 +224,25 @@ def washer_warnings(
     params: WasherParams, point: Sequence[float], x: Sequence[float], distress: bool, status: Status
 ) -> tuple[str, ...]:
     """Return the warnings of a solution with these outputs of the kernels."""
-    load, speed, tilt, oil, _ = point
+    load, speed, _, oil, _ = point
     hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
-    verified = load <= LOAD[1] and SPEED[0] <= speed <= SPEED[1] and tilt <= TILT[1]
-    verified = verified and OIL[0] <= oil <= OIL[1]
-    friction = friction_warning(params, x)
-    if verified and not (hot or distress or ratio < 0.0 or margin < 1.0 or status or friction):
-        return ()
+    dry = speed != 0.0 and ratio > FULL_FILM and x[L.O_CONTACT_LOAD] > 0.5 * load
+    friction, idle = friction_warning(params, x), idle_warnings(SPEC.key, params)
+    plain = not (hot or dry or distress or ratio < 0.0 or margin < 1.0)
+    if plain and _verified(point) and not (status or friction):
+        return idle
     more = [friction] if friction else []
     if distress:
         more.append(lost_text(ratio, x[L.O_MEAN] - oil))
+    if dry:
+        more.append(DRY.format(ratio, x[L.O_CONTACT_LOAD], load))
     if ratio < 0.0:
         more.append(PRESSED.format(1e6 * x[L.O_FILM]))
     if margin < 1.0:
         more.append(f"stick_margin = {margin:.3g}: {SLIPS.format(margin)}")
     inputs = dict(zip(INPUTS, point, strict=False))
     outputs = {"temperature_max": x[L.O_PEAK]}
-    return warnings_of(SPEC, status, inputs, outputs, more)
+    return (*idle, *warnings_of(SPEC, status, inputs, outputs, more))
 
 
 def friction_warning(params: WasherParams, x: Sequence[float]) -> str:

@@ -8,19 +8,22 @@ from ...errors import Status
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..cosim.loop import Steps
+from ..scene.doubts import idle_parameters
 from ..scene.scene import Scene
 
 Signals = Mapping[str, Array]
 OTHER_STEP = 0.01  # of the step asked for: by so much another is worth a word
+MOST_OUTSIDE = 0.05  # share of a run's points that a map may leave to the field
 ROOM = 1e-6  # of a box's width
 
 
 def doubts(scene: Scene, step: float, steps: Steps, time: Array, signals: Signals) -> Iterator[str]:
     """Yield what must not be missed, a line each."""
-    yield from scene.warnings
+    yield from dict.fromkeys((*scene.warnings, *idle_parameters(scene)))
     yield from _of_times(scene, step, steps)
     yield from _of_solvers(time, signals)
     yield from _of_boxes(scene, signals)
+    yield from _of_maps(scene, signals)
 
 
 def _of_times(scene: Scene, step: float, steps: Steps) -> Iterator[str]:
@@ -81,3 +84,16 @@ def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:
                     f"{name}: {key} of {seen} in this run leaves the {meant} that its part file is "
                     "meant for ([box]); widen the box or take another part"
                 )
+
+
+def _of_maps(scene: Scene, signals: Signals) -> Iterator[str]:
+    """Yield how much of a run a washer's map did not answer."""
+    part = scene.parts.get("washer")
+    names = [f"washer.{n}" for n in ("load", "speed", "tilt", "oil_temperature")]
+    if part is None or part.fidelity != "map" or any(n not in signals for n in names):
+        return
+    from ...washer.map.look_up import outside_text
+
+    points = np.column_stack([signals[n] for n in names])
+    if text := outside_text(part.params, points, "steps", MOST_OUTSIDE):
+        yield f"washer: {text}"

@@ -4,8 +4,11 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from ...clutch.parameters import ClutchParams
+from ...clutch.solve import doubts_of_pack
 from ...gearmesh.doubts import doubts_of_parameters
 from ...gearmesh.parameters import GearMeshParams
+from ...model.idle import idle_warnings
 from ...transmission.parameters import COURSES, course_points
 from .connections import MESHES
 from .scene import Part, Scene
@@ -20,6 +23,7 @@ def doubts(scene: Scene) -> Iterator[str]:
     yield from _of_washers(scene, gearbox)
     yield from _of_bearings(scene, gearbox)
     yield from _of_meshes(scene)
+    yield from idle_parameters(scene)
     for name in COURSES:
         last = [t for t, _ in course_points(gearbox, name)][-1:]
         if last and last[0] > scene.stop_time:
@@ -27,6 +31,18 @@ def doubts(scene: Scene) -> Iterator[str]:
                 f"{name}: the last point is at {last[0]:g} s, the run ends at {scene.stop_time:g} "
                 "s: the shift is cut off; a later stop_time shows all of it"
             )
+
+
+def idle_parameters(scene: Scene) -> Iterator[str]:
+    """Say which parameters have no effect beside others, or on the rung of their part."""
+    for name, part in scene.parts.items():
+        is_pack = isinstance(part.params, ClutchParams)
+        for line in (
+            doubts_of_pack(part.params, part.fidelity)
+            if is_pack
+            else idle_warnings(part.spec.key, part.params, part.fidelity)
+        ):
+            yield f"[{name}] {line}"
 
 
 def _of_washers(scene: Scene, gearbox: Any) -> Iterator[str]:

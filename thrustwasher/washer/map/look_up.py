@@ -4,6 +4,7 @@ import math
 import os
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
@@ -26,12 +27,11 @@ from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
 from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import SPEC, WasherParams
-from ..washer_result import BRANCH_NAMES, BRANCHES, Fold, Inputs, Unread, WasherResult, result_of
+from ..washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, Fold, Inputs, WasherResult, result_of
 from . import map_file
 from .map_plan import INPUTS, TOLERANCES, coverable, least_of, lines_about
 
 MAKER = "thrustwasher.washer.map.map_build:make_map"  # by name: it looks up too
-ERROR = Unread(2e-3)  # of friction_torque where no card says better
 OUTPUTS = (*SPEC.real_outputs[: L.O_ENERGY], "fluid_load", "contact_load")
 PLACES = (*range(L.O_ENERGY), L.O_FLUID_LOAD, L.O_CONTACT_LOAD)  # of them
 NOTHING = (math.nan,) * L.N_ALL
@@ -193,7 +193,7 @@ def solve_by_map(
     if status != Status.OK:
         state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
         return result_of(params, point, NOTHING, NOTHING, "film", False, Status(status), 0, "map",
-                         NO_MESH, ERROR, state)  # fmt: skip
+                         NO_MESH, BY_CARD, state)  # fmt: skip
     solver.tilt()
     numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
     tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
@@ -201,7 +201,35 @@ def solve_by_map(
     lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
     lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
     return result_of(params, point, numbers, tilts, BRANCH_NAMES[branch], lost, Status.OK, 0, "map",
-                     NO_MESH, ERROR, state)  # fmt: skip
+                     NO_MESH, BY_CARD, state)  # fmt: skip
+
+
+def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:
+    """Return a warning if more than a share of points lie outside the map: ``field`` solves there.
+
+    ``points`` (n, 4): load [N], speed [rad/s], tilt [rad] and oil temperature [K].
+    """
+    box = washer_map(params).box
+    there = np.abs(points)
+    outside = there[:, 2] <= LEAST_TILT
+    for i, (low, high) in enumerate(box.values()):
+        outside |= (there[:, i] < low * (1.0 - 1e-9)) | (there[:, i] > high * (1.0 + 1e-9))
+    if np.mean(outside) <= most:
+        return ""
+    return (
+        f"fidelity = 'map': {outside.sum()} of {len(points)} {what} are outside the map's box or "
+        "without tilt and were solved by 'field', with its accuracy and time; build a map for a "
+        "larger box, or choose 'field'"
+    )
+
+
+def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
+    """Return a warning of a sweep's points that its map leaves to the field."""
+    if fidelity != "map" or not len(points):
+        return ""
+    with suppress(ParameterError):  # without a map nothing is solved
+        return outside_text(params, points, "points")
+    return ""
 
 
 def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) -> map_file.MapFile:

@@ -26,12 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
-    if arguments.no_report and arguments.out != FOLDER:
-        raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
     if arguments.list:
         return _list(arguments.json)
     if arguments.compare:
         return _compare.run(arguments, _scene, _one_shift)
+    if arguments.no_report and arguments.out != FOLDER:
+        raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
     scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
         _check_sequence(arguments, scene)

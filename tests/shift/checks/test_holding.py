@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scene_runs import instances, slow_without_jit
 
+from thrustwasher.cli import main
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.shift import load_scene, run_shift
 from thrustwasher.shift.checks.holding import _in_turn, _of_washers
@@ -156,3 +157,16 @@ def test_the_window_of_a_sequence_holds_the_whole_shift(tmp_path):
 @slow_without_jit
 def test_the_default_shift_has_nothing_to_tell(tmp_path):
     assert run(tmp_path, "").warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--master-tolerance", "0.1", "--no-report"], "--master step-doubling"),
+        (["--out", "somewhere", "--no-report"], "--no-report writes no files"),
+        (["--platforms", "local", "--no-report"], "--ssp"),
+    ],
+)
+def test_options_that_would_not_act_are_refused(capsys, words, said):
+    assert main(["shift", *words]) == 2
+    assert said in capsys.readouterr().err

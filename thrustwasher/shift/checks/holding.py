@@ -9,7 +9,7 @@ from ...numerics.jit import Array
 from ...transmission.kernels.directional_derivative import LEAST_WASHER_LOAD
 from ...units import format_quantity as say
 from ..cosim.loop import Recorder
-from ..key_figures.events_and_phases import STANDSTILL, Event, lock_up, locks_of, wanted_until
+from ..key_figures.events_and_phases import STANDSTILL, Event, lock_up, locks_of
 from ..key_figures.figure_list import KeyFigure
 from ..oscillation.judder import FEW
 from ..scene.connections import PACKS
@@ -78,7 +78,7 @@ def _neutral(
 ) -> Iterator[str]:
     flare = next((f for f in figures if f.name == "flare"), None)
     most = flare.value or 0.0 if flare else 0.0
-    free = _open(signals) & (time >= scene.shift_start) & (time <= wanted_until(scene))
+    free = _open(signals) & (time >= scene.shift_start) & (time <= scene.wanted_until)
     if not free.any() and most <= FLARE:
         return
     if free.any():
@@ -112,7 +112,7 @@ def _at_the_end(scene: Scene, time: Array, signals: Signals, events: list[Event]
     if gone and not any(signals[f"transmission.{pack}_locked"][-1] > 0.5 for pack in PACKS):
         yield (
             f"At the end no pack holds: the {scene.engaging}, locked at {held:.4g} s, lets go at "
-            f"{gone[-1]:.4g} s, where its pressure falls from {wanted_until(scene):.4g} s on; let "
+            f"{gone[-1]:.4g} s, where its pressure falls from {scene.wanted_until:.4g} s on; let "
             "its course end at the pressure that holds"
         )
 

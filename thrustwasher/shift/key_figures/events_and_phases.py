@@ -9,14 +9,12 @@ from numpy.typing import NDArray
 from ...model.record import resolve
 from ...model.toml_tables import table_beside
 from ...numerics.jit import Array
-from ...transmission.parameters import course_points
 from ..oscillation.judder import FEW
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 
 Signals = dict[str, Array]
 STANDSTILL = 1.0  # rad/s
-PRESSED = 0.9  # of the greatest pressure: below it a pack that lets go is meant to
 CHANGES = table_beside(__file__, "changes.toml")
 GEARS = {"brake": "first gear", "clutch": "second gear"}  # what holds when a pack is locked
 SLIPPING = {"brake": "braking", "clutch": "engaging"}  # a pack that takes over from no other
@@ -111,20 +109,9 @@ def _standstill(time: Array, signals: Signals, i: int) -> float:
     return min(end, begin + 2.0 * float(heat[i] - heat[i - 1]) / power)
 
 
-def wanted_until(scene: Scene) -> float:
-    """Return the time [s] up to which the engaging pack is meant to hold: its pressure falls."""
-    gearbox = scene.parts["transmission"].params
-    points = course_points(gearbox, f"{scene.engaging}_pressure")
-    if gearbox.actuation == "pressure" and points:
-        enough = PRESSED * max(p for _, p in points)
-        if points[-1][1] < enough:
-            return min(max(t for t, p in points if p >= enough), scene.stop_time)
-    return scene.stop_time
-
-
 def locks_of(scene: Scene, found: list[Event]) -> list[float]:
     """Return when the engaging pack locked [s], while it was meant to hold."""
-    until = wanted_until(scene)
+    until = scene.wanted_until
     kind = f"{scene.engaging}_locked"
     return [e.time for e in found if e.kind == kind and scene.shift_start <= e.time <= until]
 
@@ -135,7 +122,7 @@ def lock_up(scene: Scene, found: list[Event]) -> float | None:
     None if it does not: it slips at last, or still sticks and slips in turn for as long as it
     already did.
     """
-    locks, until = locks_of(scene, found), wanted_until(scene)
+    locks, until = locks_of(scene, found), scene.wanted_until
     kind = f"{scene.engaging}_released"
     if not locks or any(e.kind == kind and locks[-1] <= e.time <= until for e in found):
         return None

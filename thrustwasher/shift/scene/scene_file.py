@@ -171,16 +171,7 @@ def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
     given = read_oil(f"{where} [oil]", table.get("oil", {}))
     parts, notes = _parts(where, table, given or Oil(), numbers["oil_temperature"])
-    gearbox = parts["transmission"].params
-    for key, z in (("sun_teeth", gearbox.sun_teeth), ("planet_teeth", gearbox.planet_teeth)):
-        if gearbox.planet_teeth and z < LEAST_TEETH:
-            raise ParameterError(
-                f"{where} [transmission]: {key} = {z}, allowed: from {LEAST_TEETH} on, or "
-                "planet_teeth = 0, an ideal set"
-            )
-    if "washer" in parts and not gearbox.washers:
-        del parts["washer"]
-        notes.append("[washer] is left out: washers = 0 in [transmission]")
+    notes += _without_what_is_not_there(f"{where} [transmission]", parts)
     if "washer" in parts and "mesh" not in parts:
         if parts["washer"].params.gear_far_face == "bulk":
             raise ParameterError(
@@ -238,6 +229,21 @@ def _parts(
     if the_oil.density_15:
         notes.append(the_oil.words(*_specs(parts)))
     return parts, notes
+
+
+def _without_what_is_not_there(where: str, parts: dict[str, Part]) -> list[str]:
+    """Refuse gears that are none; drop the washer where there are none, and return that."""
+    gearbox = parts["transmission"].params
+    for key in ("sun_teeth", "planet_teeth") if gearbox.planet_teeth else ():
+        if (z := getattr(gearbox, key)) < LEAST_TEETH:
+            raise ParameterError(
+                f"{where}: {key} = {z}, allowed: from {LEAST_TEETH} on, or planet_teeth = 0, an "
+                "ideal set"
+            )
+    if "washer" not in parts or gearbox.washers:
+        return []
+    del parts["washer"]
+    return ["[washer] is left out: washers = 0 in [transmission]"]
 
 
 def _specs(parts: Mapping[str, Part]) -> list[ModelSpec]:

@@ -43,6 +43,7 @@ PLACES = {
             "command",
             "sump",
         },
+        "shift.checks.holding": {"transmission"},
         "shift.scene.doubts": {"gearmesh", "transmission"},
         "shift.scene.scene": {"transmission"},
         "shift.scene.scene_file": {"sump"},

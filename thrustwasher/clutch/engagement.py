@@ -168,6 +168,6 @@ def engage_clutch(
         status=status,
         warnings=(
             *doubts_of_pack(params, fidelity),
-            *pack_warnings(status, float(columns["film_ratio"].min()), hottest),
+            *pack_warnings(status, float(columns["film_ratio"].min()), hottest, hottest),
         ),
     )  # fmt: skip

@@ -14,6 +14,7 @@ from ..model.prepare import filled
 from ..model.registry import find_model
 from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
+from ..units import format_quantity
 from .kernels import layout as k
 from .kernels import pack_friction, rates, steady
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
@@ -257,7 +258,7 @@ def solve_clutch(
         warnings=(
             *doubts_of_pack(params, fidelity),
             *_light(params, load, fidelity),
-            *pack_warnings(status, ratio, s.hottest),
+            *pack_warnings(status, ratio, s.temperature, s.hottest),
         ),
     )
 
@@ -287,10 +288,14 @@ def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
     ]
 
 
-def pack_warnings(status: Status, ratio: float, hottest: float) -> tuple[str, ...]:
-    """Return the warnings of a pack with this film ratio and this hottest interface [K]."""
+def pack_warnings(
+    status: Status, ratio: float, temperature: float, hottest: float
+) -> tuple[str, ...]:
+    """Return the warnings of a pack: film ratio, interface [K] and hottest ring of it [K]."""
     more = [PRESSED.format(ratio)] if ratio < k.LEAST_RATIO else []
-    return warnings_of(SPEC, status, {}, {"temperature": hottest}, more)
+    if temperature <= k.HOT_LIMIT < hottest:
+        more.append(f"hottest ring = {format_quantity(hottest, 'K')}: {Status.HOT.advice}")
+    return warnings_of(SPEC, status, {}, {"temperature": temperature}, more)
 
 
 def walk_steady(

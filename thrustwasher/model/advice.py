@@ -20,6 +20,17 @@ def range_text(signal: Signal, ends: tuple[float, ...]) -> str:
     return " .. ".join(texts)
 
 
+def outside_verified(spec: ModelSpec, inputs: Mapping[str, Any]) -> list[str]:
+    """Return a line for each input outside the range that the accuracy was verified for."""
+    return [
+        f"{quantity_text(s, inputs[s.name])} is outside {range_text(s, s.verified)}, for which the "
+        "accuracy was verified; use with care"
+        for s in spec.inputs
+        if s.verified and s.name in inputs
+        and not s.verified[0] <= inputs[s.name] <= s.verified[1]
+    ]  # fmt: skip
+
+
 def warnings_of(
     spec: ModelSpec, status: Status, inputs: Mapping[str, Any], outputs: Mapping[str, Any],
     more: Iterable[str] = (),
@@ -30,13 +41,7 @@ def warnings_of(
     looked at. ``more`` is what the model says beside that.
     """
     found = [f"{status.name}: {status.advice}"] if status.is_failure else []
-    outside = [
-        f"{quantity_text(s, inputs[s.name])} is outside {range_text(s, s.verified)}, for which the "
-        "accuracy was verified; use with care"
-        for s in spec.inputs
-        if s.verified and s.name in inputs
-        and not s.verified[0] <= inputs[s.name] <= s.verified[1]
-    ]  # fmt: skip
+    outside = outside_verified(spec, inputs)
     hot = [
         f"{quantity_text(s, outputs[s.name])}: {Status.HOT.advice}"
         for s in spec.outputs

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from math import ceil
 from time import perf_counter
 
 import numpy as np
@@ -119,7 +120,7 @@ def run_adaptive(scene: Scene, system: System, progress: Progress | None) -> tup
 def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
     """Return times, commands, schedule and rows of a run; say it if the step had to be adapted."""
     span = scene.stop_time - scene.start_time
-    n = max(1, round(span / scene.step))
+    n = max(1, ceil(span / scene.step - 1e-9))  # none is longer than asked for
     h = span / n
     if abs(h / scene.step - 1.0) > 1e-9:
         messages.append(f"the step is {h:.9g} s so that {n} steps end at the stop time")

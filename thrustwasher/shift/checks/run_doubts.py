@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ...errors import Status
+from ...model.advice import outside_verified
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..cosim.loop import Steps
@@ -21,7 +22,7 @@ def doubts(scene: Scene, step: float, steps: Steps, time: Array, signals: Signal
     """Yield what must not be missed, a line each."""
     yield from dict.fromkeys((*scene.warnings, *idle_parameters(scene)))
     yield from _of_times(scene, step, steps)
-    yield from _of_solvers(time, signals)
+    yield from _of_solvers(scene, time, signals)
     yield from _of_boxes(scene, signals)
     yield from _of_maps(scene, signals)
 
@@ -56,15 +57,20 @@ def _of_times(scene: Scene, step: float, steps: Steps) -> Iterator[str]:
         )
 
 
-def _of_solvers(time: Array, signals: Signals) -> Iterator[str]:
+def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
     """Yield the advice behind every solver status that occurred, with its first time."""
     for name, values in signals.items():
         if name.endswith(".solver_status"):
             for code in np.unique(values[values > 0.0]):
                 i, status = int(np.argmax(values == code)), Status(int(code))
                 part = name.partition(".")[0]
-                if status != Status.DISTRESS:  # the film's loss is told with its time
-                    yield f"{part} from t = {time[i]:.4g} s: {status.advice} ({status.name})"
+                if status == Status.DISTRESS:  # the film's loss is told with its time
+                    continue
+                spec = scene.parts[part].spec
+                now = {s.name: float(signals[f"{part}.{s.name}"][i]) for s in spec.inputs}
+                found = outside_verified(spec, now) if status == Status.OUTSIDE_VERIFIED else []
+                for text in found or [f"{status.advice} ({status.name})"]:
+                    yield f"{part} from t = {time[i]:.4g} s: {text}"
 
 
 def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:

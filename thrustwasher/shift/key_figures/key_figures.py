@@ -285,11 +285,12 @@ def tie_up_figures(scene: Scene, time: Array, signals: Signals) -> Found:
     begin = float(np.interp(0.0, against[first - 1 : first + 1], time[first - 1 : first + 1]))
     free = np.flatnonzero((time > time[first]) & ~(pressed & (against > 0.0)))
     last = int(free[0]) if len(free) else len(time) - 1
-    most = first + int(np.argmax(against[first : last + 1]))
+    carried = np.copysign(carried_torque(other, signals), torque)
+    most = first + int(np.argmax(-np.sign(held) * carried[first : last + 1]))
     heat = signals[f"transmission.{other}_heat"]
     return {
         "tie_up_duration": (float(time[last]) - begin, begin),
-        "tie_up_torque": (float(torque[most]), float(time[most])),
+        "tie_up_torque": (float(carried[most]), float(time[most])),
         "tie_up_heat": (float(heat[last] - heat[first - 1]), None),
     }
 

@@ -21,8 +21,8 @@ PINNED = {
     "ex09_package": 2.1107706965,  # s
     "ex10_sweep": 940.0,  # N, the last step of 20 N below the fold of ex08
     "ex11_overload": [3.75, 0.575, 0.125],  # s
-    "ex12_engine_and_vehicle": 0.88137,  # s, the scene's own engine and vehicle: 0.881375
-    "ex13_engine_and_vehicle_ssp": 0.88137,  # s
+    "ex12_engine_and_vehicle": 0.88015,  # s, the scene's own engine and vehicle: 0.880148
+    "ex13_engine_and_vehicle_ssp": 0.88015,  # s
     "ex14_jackson_green": 0.1437,  # share of the film's heat that the solids take
 }
 TOLERANCE = {

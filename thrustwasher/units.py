@@ -29,6 +29,7 @@ _MEANT: dict[str, list[str]] = _TABLES["meant"]
 # More units that a number may be exact in.
 _EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",),
           "m2/s": ("mm2/s",)}  # fmt: skip
+LEAST_PERCENT = 2.0  # 1.5 is rather a share that is too large than 1.5 %
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
@@ -84,6 +85,8 @@ def meant(value: float, unit: str, low: float, high: float, *, difference: bool 
     if not math.isfinite(value) or (difference and unit == "K"):
         return ""
     for written in _MEANT.get(unit, []):
+        if written == "%" and abs(value) < LEAST_PERCENT:
+            continue
         si = parse_quantity(f"{value!r} {written}", unit, "")
         if low <= si <= high and si != 0.0:
             return f"; did you mean {si:.6g} {unit} ({value:g} {written})?"

@@ -120,5 +120,7 @@ def test_a_part_above_the_limit_of_its_temperature_is_an_event():
     scene, time = load_scene("planetary-sun"), np.array([0.0, 0.5, 1.0])
     signals = {f"{pack}.temperature": np.full(3, 300.0) for pack in ("clutch", "brake")}
     signals["clutch.temperature"] = np.array([300.0, 523.5, 530.0])
+    parts = {n: scene.parts[n] for n in ("transmission", "clutch", "brake")}
+    scene = replace(scene, parts=parts)
     hot = [e for e in find_events(scene, time, signals) if e.kind.endswith("hot")]
     assert hot == [(0.5, "clutch_hot", "clutch is hotter than 523 K")]

@@ -31,6 +31,7 @@ class Request:
     tol: float
     n_calls: float
     safety: float
+    loaded: bool = False
 
 
 def checked_box(spec: ModelSpec, box: Mapping[str, float | tuple[float, float]]) -> Box:

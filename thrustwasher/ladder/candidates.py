@@ -54,10 +54,12 @@ class Candidate:
         """Seconds per call, of the slowest chart."""
         return max(c.cost.call_median_s for c in self.cards)
 
-    @property
-    def setup(self) -> float:
+    def setup(self, loaded: bool) -> float:
         """Seconds spent once: loading and compiling, building what is not shipped."""
-        return max(c.cost.first_call_s + (0.0 if c.built else c.cost.build_s) for c in self.cards)
+        return max(
+            (0.0 if loaded else c.cost.first_call_s) + (0.0 if c.built else c.cost.build_s)
+            for c in self.cards
+        )
 
     def spread(self, n_calls: float) -> float:
         """Seconds within which two costs count as equal."""
@@ -208,7 +210,7 @@ def _plan(
         outside = after[0] if after else _unverified(request, rung, others, seen)
     share = sum(p.share for p in parts)
     calls = request.n_calls * max(share - left, 0.0)
-    seconds = calls * rung.call + rung.setup
+    seconds = calls * rung.call + rung.setup(request.loaded)
     return Plan(rung, seen, seconds, rung.spread(calls), share, _where(parts), outside)
 
 

@@ -85,6 +85,7 @@ def choose(
     safety: float = 1.5,
     params: Any = None,
     among: Sequence[str] | None = None,
+    loaded: bool = False,
 ) -> Choice:
     """Return the cheapest rung whose verified error stays within ``tol`` over a box of inputs.
 
@@ -99,6 +100,7 @@ def choose(
     safety : factor on the largest held-out error, at least 1
     params : the parameter object; default: the model's defaults
     among : rungs to choose from; default: all that can have cards
+    loaded : the model has been used before, so that no rung costs a first call
 
     Returns
     -------
@@ -120,7 +122,7 @@ def choose(
     rungs = [name for name in spec.fidelities if name in ladder.kernels]
     request = Request(
         spec, checked_box(spec, box), quantity, _above("tol", tol, 0.0, False),
-        _above("n_calls", n_calls, 1.0), _above("safety", safety, 1.0),
+        _above("n_calls", n_calls, 1.0), _above("safety", safety, 1.0), loaded,
     )  # fmt: skip
     if quantity not in QUANTITIES:
         raise ParameterError(f"quantity = {quantity!r}, allowed: {' or '.join(QUANTITIES)}")

@@ -179,7 +179,7 @@ def test_a_higher_run_that_fails_loses_nothing(run):
 
 def test_what_has_a_past_follows_the_whole_record(run):
     steps = [0.0, 0.1, 0.2, 0.3]
-    inputs = np.array([[1.0, 5.0, 0.0, 300.0]] * 4)
+    inputs = np.array([[1.0, 5.0, 0.0, 300.0, 0.0]] * 4)
     made = Liar()
     solved, failed = rung_check._solved(lambda: made, np.array(steps), inputs, [1, 3], False)
     assert [t for t, *_ in made.log] == pytest.approx(steps[:-1])

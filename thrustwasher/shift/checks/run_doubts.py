@@ -1,10 +1,11 @@
 """What a scene and the signals of its run show without a further run: warnings."""
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 
 import numpy as np
 
-from ...errors import Status
+from ...errors import ParameterError, Status
 from ...model.advice import outside_verified
 from ...numerics.jit import Array
 from ...units import format_quantity as say
@@ -101,5 +102,6 @@ def _of_maps(scene: Scene, signals: Signals) -> Iterator[str]:
     from ...washer.map.look_up import outside_text
 
     points = np.column_stack([signals[n] for n in names])
-    if text := outside_text(part.params, points, "steps", MOST_OUTSIDE):
-        yield f"washer: {text}"
+    with suppress(ParameterError):  # another's washer: it answered without a map of ours
+        if text := outside_text(part.params, points, "steps", MOST_OUTSIDE):
+            yield f"washer: {text}"

@@ -111,7 +111,10 @@ def follow_recorded(
     shortest : what lasts no longer [s] is no difference
     """
     params = replace(params, thermal_mode="transient", thermal_start="steady")
-    inputs = np.column_stack([signals[s.name] for s in SPEC.inputs])
+    unset = np.zeros(len(time))  # an input that may be left out is 0 there
+    inputs = np.column_stack(
+        [signals.get(s.name, unset) if s.optional else signals[s.name] for s in SPEC.inputs]
+    )
     steady = np.column_stack([signals[name] for name in COMPARED])
     greatest = float(np.abs(steady[:, 0]).max())
     turning = np.abs(signals["speed"]) >= FILM_SPEED

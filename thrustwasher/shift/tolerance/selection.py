@@ -121,7 +121,7 @@ def _choose(
     try:
         return choose(
             part.spec.key, box, quantity=quantity, tol=tolerance, n_calls=steps, safety=safety,
-            params=part.params, among=[only] if only else None,
+            params=part.params, among=[only] if only else None, loaded=True,  # by the trial runs
         )  # fmt: skip
     except (ParameterError, SolveError) as problem:
         raise type(problem)(f"part {name!r}, {quantity}: {problem}") from problem

@@ -75,8 +75,7 @@ class Field {
       const share = this.log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
       if (from !== this.slider) this.slider.value = 1000 * Math.min(Math.max(share, 0), 1);
       this.slider.setAttribute("aria-valuetext", shown(value, unit, relative));
-      const text = unit === "1" ? "" : unit === "rad/s" ? `${digits((value * 30) / Math.PI)} rpm` : shown(value, unit, relative);
-      this.more.textContent = text;
+      this.more.textContent = unit === "1" ? "" : unit === "rad/s" ? `${digits((value * 30) / Math.PI)} rpm` : shown(value, unit, relative);
     }
   }
 
@@ -227,9 +226,7 @@ function verified() {
 }
 
 /** Return the parameters that differ from some values. */
-function changes(from) {
-  return ABOUT.parameters.filter((f) => state.parameters[f.name] !== from[f.name]).map((f) => [f.name, state.parameters[f.name]]);
-}
+const changes = (from) => ABOUT.parameters.filter((f) => state.parameters[f.name] !== from[f.name]).map((f) => [f.name, state.parameters[f.name]]);
 
 function settled() {
   byId("oil").value = Object.keys(ABOUT.oils).find((name) => Object.entries(ABOUT.oils[name]).every(([n, v]) => state.parameters[n] === v)) ?? "";
@@ -326,10 +323,8 @@ function builtControls() {
   main.prepend(el("div", { class: "field" }, el("label", { for: "fidelity" }, "rung: mesh and laws", el("code", {}, "fidelity")), rungs));
   const oils = el("select", { id: "oil" }, el("option", { value: "" }, "its own parameters"), ...Object.keys(ABOUT.oils).map((name) => el("option", {}, name)));
   oils.addEventListener("change", () => {
-    quiet = true;
     for (const name of Object.keys(Object.values(ABOUT.oils)[0])) fields[name].set((ABOUT.oils[oils.value] ?? ABOUT.given)[name]);
-    quiet = false;
-    parametersChanged();
+    setParameters(); // `set` itself tells nobody
   });
   main.append(el("div", { class: "field" }, el("label", { for: "oil" }, "oil: typical viscosity and density of its class", el("code", {}, "oil")), oils));
   byId("reset").addEventListener("click", () => { location.hash = ""; });

@@ -317,7 +317,8 @@ def test_every_conduction_option_keeps_the_energy(option):
 @pytest.mark.parametrize("gear", [0.0112, 0.0125, 0.0200, 0.0220])
 def test_any_size_of_the_gear_face_is_meshed(gear):
     r = solve({"load": 200.0, "speed": 300.0}, gear_inner_radius=gear)
-    assert not r.status.is_failure and r.fluid_load + r.contact_load == pytest.approx(200.0, rel=1e-7)
+    assert not r.status.is_failure
+    assert r.fluid_load + r.contact_load == pytest.approx(200.0, rel=1e-7)
 
 
 def test_results_are_frozen_and_say_where_they_come_from():

@@ -38,7 +38,7 @@ class PetroffWasher:
         self.wall_time += perf_counter() - begin
 
     def outputs(self):
-        _, speed, _, oil = self.values
+        _, speed, _, oil, *_ = self.values
         known = {"friction_torque": 7.5e-5 * speed, "temperature": oil, "temperature_max": oil,
                  "film_ratio": 6.0, "friction_power": 7.5e-5 * speed**2, "regime": 1.0}  # fmt: skip
         return [known.get(n, 0.0) for n in self.output_names]

@@ -6,10 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thrustwasher import GearMeshParams, load_part, run_sweep
-from thrustwasher import calibrate as calibrate_model
+from thrustwasher import GearMeshParams, calibrate, load_part, run_sweep
 from thrustwasher.cli import main
-from thrustwasher.clutch.calibration.calibration import calibrate
 from thrustwasher.clutch.calibration.friction_law import (
     friction_over,
     law_values,
@@ -67,8 +65,10 @@ def test_options_reach_the_fit(table, capsys):
     assert (record["confidence"], record["parameters"]["plough_weight"]) == (0.9, 0.2)
 
 
-def test_the_constant_law_is_fitted_by_its_one_constant(table, capsys):
-    record = json.loads(run(capsys, table, "--set", "friction_law=constant", "--json").out)
+@pytest.mark.parametrize("part", [[], ["clutch"]])
+def test_the_constant_law_is_fitted_by_its_one_constant(part, table, capsys):
+    words = [*part, table, "--set", "friction_law=constant", "--json"]
+    record = json.loads(run(capsys, *words).out)
     assert record["fitted"] == {"constant_friction": pytest.approx(FRICTION.mean())}
 
 
@@ -132,7 +132,7 @@ def test_a_plot_is_drawn_whatever_the_points_tell(fastest, tmp_path, capsys):
         ("speed;load;friction\n1;2;0.1;7\n", ["line 2", "4 cells, the head names 3\n"]),
         ("speed [kg],load,friction\n1,2,0.1\n", ["speed", "kg", "rpm"]),
         ("speed,load,friction,speed\n1,2,0.1,1\n", ["two columns speed"]),
-        ("speed,load,friction\n1,0,0.1\n", ["load[0] = 0 N", "above 0"]),
+        ("speed,load,friction\n1,0,0.1\n", ["load: point 1 is 0", "above 0"]),
         ("speed,load,friction\n1,2,\0\n", ["line 2", "not text"]),
     ],
 )
@@ -191,7 +191,7 @@ def of(mesh, *more):
 def test_a_model_s_parameters_are_fitted_as_by_the_api(mesh, capsys):
     record = json.loads(run(capsys, *of(mesh, "--error", "friction_torque=2%", "--json")).out)
     data = {"power": POWER, "speed": SPEED, "friction_torque": LOSS}
-    found = calibrate_model(GearMeshParams(friction_law="constant"), data, fit="constant_friction",
+    found = calibrate(GearMeshParams(friction_law="constant"), data, fit="constant_friction",
                             errors={"friction_torque": "2 %"})  # fmt: skip
     assert record["fitted"] == {"constant_friction": found.params.constant_friction}
     assert record["error"] == pytest.approx(0.02 * LOSS)

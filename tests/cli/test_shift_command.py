@@ -30,8 +30,10 @@ def msl(tmp_path_factory):
 
 def test_json_is_one_object_and_nothing_else(msl):
     _, done = msl
-    assert (done.returncode, done.stderr) == (0, "")
     record = json.loads(done.stdout)
+    assert done.returncode == 0
+    assert done.stderr.splitlines() == [f"warning: {text}" for text in record["warnings"]]
+    assert 0.0 < record["step_error"] < 1e-3 and record["step_advice"] == record["step"]
     assert {"lock_time", "energy", "energy_residual", "events", "cost", "wall_time"} <= set(record)
     assert record["lock_time"] == pytest.approx(2.1107904, abs=2e-4)
     assert [text[:6] for text in record["warnings"]] == ["Tie-up"]
@@ -73,14 +75,14 @@ def test_summary_names_lock_and_report(tmp_path, capsys):
     out = tmp_path / "r"
     assert main(["shift", "--scene", "msl", "--step", "4 ms", "--out", str(out)]) == 0
     text, err = capsys.readouterr()
-    assert err == "", "no progress bar in a pipe"
+    assert err.startswith("warning: Tie-up") and err.count("\n") == 1, "no progress bar in a pipe"
     assert "the clutch locked at 2.11" in text and str(out / "report.html") in text
 
 
 def test_numbers_alone_leave_no_file_and_load_no_tables(tmp_path):
     for model in ("ShiftTransmission", "WetClutch"):
         built_fmu(model, local=True)
-    words = ["shift", "--scene", "msl", "--step", "10 ms", "--no-report", "--json"]
+    words = ["shift", "--scene", "msl", "--step", "5 ms", "--no-report", "--json"]
     code = (
         "import sys; from thrustwasher.cli import main; "
         f"status = main({words!r}); "
@@ -90,7 +92,7 @@ def test_numbers_alone_leave_no_file_and_load_no_tables(tmp_path):
         [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
     )  # fmt: skip
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0 and done.stderr.startswith("warning: Tie-up")
     assert json.loads(done.stdout)["out"] is None
     assert list(tmp_path.iterdir()) == []
 
@@ -125,14 +127,14 @@ def test_a_failure_leaves_nothing_behind(tmp_path, capsys, monkeypatch):
 
     monkeypatch.setattr("thrustwasher.shift.ShiftResult.write_csv", fail)
     out = tmp_path / "new" / "r"
-    assert main(["shift", "--scene", "msl", "--step", "10 ms", "--out", str(out)]) == 2
+    assert main(["shift", "--scene", "msl", "--step", "5 ms", "--out", str(out)]) == 2
     assert "No space left" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
 def test_files_that_were_there_stay(tmp_path, capsys):
     (tmp_path / "notes.txt").write_text("mine")
-    assert main(["shift", "--scene", "msl", "--step", "10 ms", "--out", str(tmp_path)]) == 0
+    assert main(["shift", "--scene", "msl", "--step", "5 ms", "--out", str(tmp_path)]) == 0
     assert (tmp_path / "notes.txt").read_text() == "mine"
     capsys.readouterr()
 
@@ -170,7 +172,8 @@ def test_a_tolerance_is_answered_with_a_rung_and_its_reason_for_every_part(tmp_p
     words = ["shift", "--scene", "msl", "--step", "4 ms", "--out", str(tmp_path / "r")]
     assert main([*words, "--fidelity", "auto:0.01"]) == 0
     text, err = capsys.readouterr()
-    assert not err or re.fullmatch(r"built [\w, ]+ in \d+ s\n", err)
+    said = [line for line in err.splitlines() if not re.fullmatch(r"built [\w, ]+ in \d+ s", line)]
+    assert len(said) == 1 and said[0].startswith("warning: Tie-up")
     for part in ("clutch", "brake"):
         assert any(line.startswith(f"{part}: ") for line in text.splitlines()), part
     assert "communication step 4 ms" in text
@@ -205,13 +208,32 @@ def test_a_package_takes_rungs_by_name_only(tmp_path, capsys):
     assert "a rung by name" in capsys.readouterr().err
 
 
+def test_a_step_that_is_too_long_is_a_warning_before_the_figures(capsys):
+    words = ["shift", "--scene", "planetary", "--step", "20 ms", "--no-report"]
+    assert main([*words, "--json"]) == 0
+    out, err = capsys.readouterr()
+    told = json.loads(out)
+    (said,) = [text for text in told["warnings"] if text.startswith("The communication step")]
+    assert f"warning: {said}" in err and told["step_advice"] < told["step"] == 0.02
+    assert 0.01 < told["step_error"] < 0.03
+    assert main([*words, "--no-guard", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["step_error"] is None and told["warnings"] == []
+
+
+def test_a_step_above_a_twentieth_of_the_shift_is_refused(capsys):
+    assert main(["shift", "--step", "0.5", "--no-report"]) == 2
+    assert "up to 41.75 ms, a twentieth of the shift" in capsys.readouterr().err
+
+
 def test_two_shifts_are_compared_a_report_and_a_scene(msl, tmp_path, capsys):
     folder, _ = msl
     out = tmp_path / "both"
     words = ["shift", "--compare", str(folder), "msl", "--step", "4 ms", "--out", str(out)]
     assert main(words) == 0
     text, err = capsys.readouterr()
-    assert err == "" and [path.name for path in out.iterdir()] == ["compare.html"]
+    assert [line[:18] for line in err.splitlines()] == [f"warning: {n}: Tie-up" for n in "AB"]
+    assert [path.name for path in out.iterdir()] == ["compare.html"]
     locks = next(line for line in text.splitlines() if line.startswith("clutch locks: "))
     assert locks.startswith("clutch locks: A 2.11") and ", B 2.11" in locks
     page = (out / "compare.html").read_text("utf-8")

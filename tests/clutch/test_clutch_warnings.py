@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
+from thrustwasher import calibrate
 from thrustwasher.calibration.estimates import spanned
-from thrustwasher.clutch.calibration.calibration import calibrate
 from thrustwasher.clutch.calibration.friction_law import (
     friction_over,
     law_values,

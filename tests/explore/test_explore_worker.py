@@ -28,7 +28,7 @@ def washer_points(n):
     """Return load, speed, tilt, oil temperature at random."""
     low, high = np.array([20.0, 50.0, 1e-3, 290.0]), np.array([1850.0, 1400.0, 3e-3, 400.0])
     share = np.random.default_rng(17).random((n, 4))
-    return (low * (high / low) ** share).tolist()
+    return [[*point, 0.0] for point in (low * (high / low) ** share).tolist()]
 
 
 def apart(found, wanted):
@@ -92,7 +92,7 @@ def test_a_branch_that_is_asked_for_is_kept_fresh_and_its_absence_is_told():
 @pytest.mark.parametrize("oil_cooling", [True, False])
 def test_fields_are_those_of_python(rung, conduction, oil_cooling):
     params = WasherParams(conduction=conduction, oil_cooling=oil_cooling)
-    point = [600.0, 700.0, 2e-3, 320.0]
+    point = [600.0, 700.0, 2e-3, 320.0, 0.0]
     (got,), _ = answers("washer", [["solve", point, True, ""]], params=params, rung=rung)
     wanted = solve_washer(params, **dict(zip(NAMES, point, strict=True)), fidelity=rung).fields()
     for name in ("radius", "angle"):
@@ -177,3 +177,16 @@ def test_what_a_card_promises_is_in_the_page():
     assert set(card["envelope"]) == set(NAMES[:4]) and len(card["worst"]) == len(card["n"])
     point = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
     assert error_estimate("washer", "field", WasherParams(), point) is not None
+
+
+def test_a_gear_with_a_far_face_of_its_own_is_that_of_python():
+    for far, warm in (("insulated", 0.0), ("bulk", 340.0)):
+        params, point = WasherParams(gear_far_face=far), [300.0, 545.0, 2e-3, 297.15, warm]
+        (got, curve), _ = answers(
+            "washer", [["solve", point, True, ""], ["curve", point, 20.0, 2000.0]], params=params
+        )
+        wanted = solve_washer(params, **dict(zip(NAMES, point, strict=True)))
+        assert apart(got["outputs"], wanted) <= SAME
+        folds = load_curve(params, **dict(zip(NAMES[1:], point[1:], strict=True))).folds
+        for fold, own in zip(curve["folds"], folds, strict=True):
+            assert fold["load"] == pytest.approx(own.load, rel=BESIDE_FOLDS)

@@ -146,7 +146,7 @@ def test_a_sweep_leaves_out_what_has_no_value():
     [
         ({"mean_roughness": 3e-7}, {}, "mean_roughness = 3e-07 m beside .*2.26e-06 m .surface 'r"),
         ({"load_share": 0.5}, {}, "load_share = 0.5 has no effect: read by film_heat = atan only"),
-        ({"normal_module": 3e-3, "centre_distance": 0.1}, {}, "centre_distance = 100 mm has no ef"),
+        ({"normal_module": 3e-3, "centre_distance": 0.1}, {}, "centre_distance = 0.1 m has no"),
         ({"bulk_conductance": 9.0, "lubrication_factor": 1.2}, {}, "lubrication_factor = 1.2 has"),
         ({}, {"power": 0.0}, "power = 0 W: hardly any load"),
         ({}, {"speed": 0.2, "power": 10.0}, "speed = 0.2 rad/s: the flanks roll .* takes 0.1 m/s"),

@@ -310,3 +310,29 @@ def test_what_cannot_be_is_refused_in_one_line(changes, message):
 def test_mixed_friction_needs_the_heat_of_the_loss():
     with pytest.raises(ParameterError, match="friction_law = 'mixed': the paper has a spur pair"):
         GearMeshParams.preset("paper", friction_law="mixed")
+
+
+@pytest.mark.parametrize("celsius", [-10.0, 0.0, 10.0, 26.7, 60.0, 120.0])
+def test_a_film_is_no_hotter_than_its_shear_makes_it(celsius):
+    params, oil = GearMeshParams(), 273.15 + celsius
+    r = solve_gearmesh(params, power=7500.0, speed=180.0, oil_temperature=oil)
+    rise, at = r.film_temperature - r.surface_temperature, r.surface_temperature - 273.15
+    warm = at + params.viscosity_c
+    viscosity = params.viscosity_scale * math.exp(params.viscosity_b / warm)
+    # u^2 mu/(8 k) with mu = mu_0 exp(-beta dT): the middle of a film between equal walls
+    beta, free = params.viscosity_b / warm**2, viscosity * r.sliding_speed**2 / (8.0 * 0.13)
+    sheared = math.log1p(beta * free) / beta
+    mean = r.sliding_speed / r.slide_roll_ratio
+    line = 0.25 * math.pi * r.hertz_pressure * r.hertz_width
+    heat = r.friction_coefficient * line * r.sliding_speed
+    carried = heat / (880.0 * 2010.0 * r.film_thickness * mean)
+    assert 0.0 < rise < min(sheared, carried)
+    assert rise == pytest.approx(1.0 / (1.0 / sheared + 1.0 / carried), rel=1e-6)
+
+
+def test_hotter_oil_makes_a_hotter_film():
+    found = [
+        solve_gearmesh(SUN, power=5e4, speed=SPEED, oil_temperature=oil).film_temperature
+        for oil in np.linspace(235.0, 420.0, 38)
+    ]
+    assert np.all(np.diff(found) > 0.0)

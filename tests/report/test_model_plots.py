@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 import washer_stand_in
 
-from thrustwasher import GearMeshParams, solve_gearmesh
-from thrustwasher import calibrate as calibrate_model
-from thrustwasher.clutch.calibration.calibration import calibrate
+from thrustwasher import GearMeshParams, calibrate, solve_gearmesh
 from thrustwasher.clutch.solve import ClutchParams, boundary_friction, solve_clutch
 from thrustwasher.report.model_plots.clutch_plot import clutch_figure
 from thrustwasher.report.model_plots.fit_plot import calibration_figure
@@ -155,7 +153,7 @@ def test_a_calibration_s_films_are_drawn_in_micrometres():
         "speed": [180.0] * 3,
         "film_thickness": [3e-7, 2.5e-7, 2e-7],
     }
-    found = calibrate_model("gearmesh", points, fit="viscosity_scale")
+    found = calibrate("gearmesh", points, fit="viscosity_scale")
     axes = calibration_figure(found).axes
     assert axes[0].get_ylabel() == "[µm]" and "[µm]" in axes[1].get_ylabel()
     assert axes[0].lines[0].get_ydata() == pytest.approx([0.3, 0.25, 0.2])

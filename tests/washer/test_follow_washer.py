@@ -114,3 +114,10 @@ def test_a_steady_solve_does_not_ask_for_the_thermal_mode():
     heavy = replace(IN_TIME, density=2e4, thermal_start="oil")
     one, other = solve_washer(STEADY, **at), solve_washer(heavy, **at)
     assert one.friction_torque == other.friction_torque
+
+
+def test_the_first_point_takes_no_time_and_leaves_no_substep_to_go_on_with():
+    here = np.array([50.0, 500.0, 1e-3, 350.0])
+    washer = follow.Follower(IN_TIME, GRID)
+    assert washer.go(here, here, 0.0) == 0 and washer.state[follow.L.S_SUBSTEP] == 0.0
+    assert washer.go(here, here, 0.1) == 0 and washer.state[follow.L.S_SUBSTEP] >= 0.1

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from closed_forms.heat_times import stack_times
 
-from thrustwasher.washer.closed_forms import stack_times
 from thrustwasher.washer.kernels.ladder import SHARES, TIMES
 
 K, C = 60.5, 7850.0 * 475.0

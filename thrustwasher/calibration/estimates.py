@@ -10,7 +10,7 @@ import numpy as np
 from ..numerics.jit import Array
 from ..storage.digests import finite
 from .identifiability import Information, counted
-from .least_squares import Problem
+from .measured import Measured, output_units
 
 NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
 CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
@@ -23,15 +23,13 @@ class Estimate:
     name: str
     unit: str
     value: float
-    standard_error: float
-    """Infinite where the points do not tell it."""
+    standard_error: float  # infinite where the points do not tell it
     interval: tuple[float, float]
     """Linearised, within the allowed range; that whole range if not identifiable."""
     profile_interval: tuple[float, float] | None
     """From the rise of the sum of squares, the other constants refitted; None if not computed."""
     identifiable: bool
-    at_bound: str
-    """ "lower", "upper" or "" (inside the allowed range)."""
+    at_bound: str  # "lower", "upper" or "" (inside the allowed range)
     reason: str
     """Why it is not identifiable, or what stops it at a bound; "" if there is nothing to say."""
 
@@ -52,42 +50,47 @@ class Series(NamedTuple):
 class Calibration:
     """Parameters fitted to measurements; ``str()`` of it is a summary in sentences."""
 
-    params: Any
-    """The part with the fitted values, to solve and for FMUs."""
-    estimates: tuple[Estimate, ...]
-    """In the order of ``fit``."""
-    correlation: Array
-    """(constants, constants); NaN where a constant is not told."""
+    params: Any  # the part with the fitted values, to solve and for FMUs
+    points: Measured
+    fitted: Array  # (n,) computed outputs, in the order of ``points.value``
+    estimates: tuple[Estimate, ...]  # in the order of ``fit``
+    derived: tuple[Estimate, ...] = ()  # follow from the constants; often told where they are not
+    correlation: Array  # (constants, constants); NaN where a constant is not told
     confounded: tuple[str, ...]
     """Combinations of constants that the points cannot tell apart, a sentence each."""
     singular_values: tuple[float, ...]
     """Of the scaled derivatives over the scatter, falling; 0: nothing is known of a direction."""
-    residuals: Array
-    """(n,) measured less fitted value [SI unit of its output]."""
+    residuals: Array  # (n,) measured less fitted value [SI unit of its output]
     rms: float
     """Of the residuals [SI]; it has a unit where one output is fitted, ``rms_of`` tells each."""
     degrees_of_freedom: int
-    reduced_chi_square: float | None
-    """None without given errors."""
+    reduced_chi_square: float | None  # None without given errors
     confidence: float
     warnings: tuple[str, ...] = ()
-    """Sentences on points that the law cannot follow, the gravest first; empty for a sound fit."""
-    _problem: Any = field(repr=False)
+    """Sentences on points that the fit cannot follow, the gravest first; empty for a sound fit."""
+    _problem: Any = field(repr=False)  # the ModelProblem, which knows what is drawn and said
     _best: Array = field(repr=False)
     _told: Information = field(repr=False)
 
-    @property
-    def all_estimates(self) -> tuple[Estimate, ...]:
-        """The fitted constants, and what follows from them."""
-        return self.estimates
-
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of one constant."""
-        return next(e for e in self.all_estimates if e.name == name)
+        return next(e for e in (*self.estimates, *self.derived) if e.name == name)
+
+    def residuals_of(self, output: str) -> Array:
+        """Return measured less fitted values of one output [SI]."""
+        return self.residuals[self.points.of(output)]
+
+    def rms_of(self, output: str) -> float:
+        """Return the root mean square of an output's residuals [SI]."""
+        return float(np.sqrt(np.mean(self.residuals_of(output) ** 2)))
 
     def as_dict(self) -> dict[str, Any]:
         """Return what JSON can hold; None stands for infinite and for not known."""
+        points = self.points
+        same = ("degrees_of_freedom", "reduced_chi_square", "confidence")
         return {
+            "model": points.plan.spec.key,
+            "fidelity": points.plan.fidelity,
             "warnings": list(self.warnings),
             "fitted": {e.name: e.value for e in self.estimates},
             "estimates": [finite(asdict(e)) for e in self.estimates],
@@ -95,33 +98,28 @@ class Calibration:
             "confounded": list(self.confounded),
             "singular_values": list(self.singular_values),
             "residuals": self.residuals.tolist(),
-            "rms": self.rms,
-            "degrees_of_freedom": self.degrees_of_freedom,
-            "reduced_chi_square": self.reduced_chi_square,
-            "confidence": self.confidence,
+            "rms": {name: self.rms_of(name) for name in points.names},
+            **{name: getattr(self, name) for name in same},
+            "point": (points.row + 1).tolist(),
+            "output": list(points.output),
+            "measured": points.value.tolist(),
+            "computed": self.fitted.tolist(),
+            "error": None if points.error is None else points.error.tolist(),
         }
 
-    def summary(self) -> list[str]:
-        """Return sentences on what was fitted to what."""
-        raise NotImplementedError
-
     def shown(self) -> list[Series]:
-        """Return the outputs to be drawn."""
-        raise NotImplementedError
-
-    def series(
-        self,
-        name: str,
-        unit: str,
-        inputs: Mapping[str, tuple[str, Array]],
-        chosen: Any = slice(None),
-    ) -> Series:
-        """Return one output to be drawn, of the values chosen."""
-        problem, best = self._problem, self._best
-        half = [self._told.half_width_of(row) for row in problem.slopes_of_curve(best)[chosen]]
-        error = 1.0 / problem.weight[chosen] if problem.known_errors else None
-        return Series(name, unit, inputs, problem.measured[chosen], error,
-                      problem.curve(best)[chosen], np.array(half))  # fmt: skip
+        """Return the outputs to be drawn over their inputs."""
+        points, found = self.points, []
+        slopes = self._problem.slopes_of_curve(self._best)
+        half = np.array([self._told.half_width_of(row) for row in slopes])
+        for name, unit in output_units(points.plan.spec).items():
+            if name in points.names:
+                at, known = points.of(name), points.error
+                error = None if known is None else known[at]
+                inputs = {n: (u, x[at]) for n, (u, x) in self._problem.drawn_over(name).items()}
+                values = (points.value[at], error, self.fitted[at], half[at])
+                found.append(Series(name, unit, inputs, *values))
+        return found
 
     def remarks(self) -> list[str]:
         """Return sentences on what else the points tell."""
@@ -129,26 +127,36 @@ class Calibration:
 
     def __str__(self) -> str:
         """Return the calibration in sentences and one table."""
-        share, problem = f"{100 * self.confidence:g} %", self._problem
-        lines = [f"WARNING. {text}" for text in self.warnings] + self.summary()
+        problem, lines = self._problem, [f"WARNING. {text}" for text in self.warnings]
+        reasons = dict.fromkeys(e.reason for e in self.estimates if e.reason)
+        lines.append(_size_text(self))
+        for text in self.confounded:
+            if " apart" in text and text not in " ".join(reasons):
+                lines.append(f"Together: {text}.")
         if self.reduced_chi_square is not None:
-            lines.append(_chi_text(self, problem))
-        lines += [_row(e, share) for e in self.all_estimates]
-        for reason in dict.fromkeys(e.reason for e in self.estimates if e.reason):
+            lines.append(_chi_text(self, self.reduced_chi_square))
+        lines += [_row(e, self.confidence) for e in (*self.estimates, *self.derived)]
+        for reason in reasons:
             names = [e.name for e in self.estimates if e.reason == reason]
             lines.append(f"{', '.join(names)}: {reason}.")
-        lines += filter(None, map(_curved, self.estimates))
-        lines += self.remarks()
+        lines += [*filter(None, map(_curved, self.estimates)), *self.remarks()]
         errors = "the given errors" if problem.known_errors else "the points' scatter"
-        doubt = "; they suppose a law that can follow the points" if self.warnings else ""
-        lines.append(f"Intervals: linearised covariance with {errors}{doubt}.")
-        return "\n".join(lines)
+        doubt = (
+            f"; they suppose a {problem.law} that can follow the points" if self.warnings else ""
+        )
+        return "\n".join([*lines, f"Intervals: linearised covariance with {errors}{doubt}."])
 
 
-def size_text(found: Calibration, fitted_to: str, rms: str) -> str:
+def _size_text(found: Calibration) -> str:
     """Say how many constants were fitted to what, and how well."""
+    points, units = found.points, output_units(found.points.plan.spec)
+    parts = ", ".join(f"{points.output.count(name)} {name}" for name in points.names)
+    rung = f", rung {points.plan.fidelity}" if found._problem.by_rung else ""
+    rms = (f"{found.rms_of(n):.3g} {units[n]}".removesuffix(" 1") for n in points.names)
     return (
-        f"{counted(len(found.estimates), 'constant')} fitted to {fitted_to}, rms residual {rms}, "
+        f"{counted(len(found.estimates), 'constant')} fitted to "
+        f"{counted(len(points.value), found._problem.counted_as)} ({parts})"
+        f"{rung}, rms residual {', '.join(rms)}, "
         f"{counted(found.degrees_of_freedom, 'degree')} of freedom."
     )
 
@@ -162,32 +170,32 @@ def spanned(low: float, high: float) -> str:
     return f"{low:.{digits}g} .. {high:.{digits}g}"
 
 
-def _row(e: Estimate, share: str) -> str:
+def _row(e: Estimate, confidence: float) -> str:
     unit = "" if e.unit == "1" else f" {e.unit}"
+    row = f"  {e.name:18} {e.value:<10.5g}{unit:4}  "
     if not e.identifiable:
-        bound = f"at its {e.at_bound} bound; " if e.at_bound else ""
-        return f"  {e.name:18} {e.value:<10.5g}{unit:4}  {bound}not told by these points"
-    return (
-        f"  {e.name:18} {e.value:<10.5g}{unit:4}  +- {e.standard_error:<9.2g}"
-        f"  {share}: {spanned(*e.interval)}{unit}"
-    )
+        return (
+            row + (f"at its {e.at_bound} bound; " * bool(e.at_bound)) + "not told by these points"
+        )
+    share = f"{100 * confidence:g} %: {spanned(*e.interval)}{unit}"
+    return f"{row}+- {e.standard_error:<9.2g}  {share}"
 
 
-def _chi_text(found: Calibration, problem: Problem) -> str:
+def _chi_text(found: Calibration, reduced: float) -> str:
     """Say whether the given errors explain the residuals."""
     from scipy.stats import chi2
 
-    reduced, freedom = found.reduced_chi_square or 0.0, found.degrees_of_freedom
-    chance = float(chi2.sf(reduced * freedom, freedom))
-    text, errors = f"Reduced chi-square {reduced:.3g}", problem.error_name
+    chance = float(chi2.sf(reduced * found.degrees_of_freedom, found.degrees_of_freedom))
+    name = found._problem.error_name
+    text = f"Reduced chi-square {reduced:.3g}: the residuals are "
     if chance < 0.01:
         return (
-            f"{text}: the residuals are larger than {errors} allows; the law does not fit, "
-            "or the errors are too small and so are the intervals."
+            f"{text}larger than {name} allows; the {found._problem.law} does not fit, or the "
+            "errors are too small and so are the intervals."
         )
     if chance > 0.99:
-        return text + f": the residuals are smaller than {errors} says; it may be too large."
-    return text + f": the residuals are as large as {errors} says."
+        return f"{text}smaller than {name} says; it may be too large."
+    return f"{text}as large as {name} says."
 
 
 def _curved(e: Estimate) -> str:

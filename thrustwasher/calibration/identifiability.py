@@ -22,16 +22,22 @@ class Information:
     directions: Array  # (constants, constants) one direction per row, scaled constants
     quantile: float
     """Half width of an interval in standard errors; infinite where no scatter can be judged."""
-    rank: int
     freedom: int  # points less independent constants
     deviation: float  # standard deviation of one weighted point
 
-    def covariance(self) -> Array:
-        """Return the covariance of the constants without the directions that are lost."""
-        inverse = np.divide(1.0, self.strength, out=np.zeros_like(self.strength),
-                            where=self.strength > 0.0)  # fmt: skip
-        half = self.directions * inverse[:, None] * self.scale
-        return np.asarray(half.T @ half)
+    @property
+    def rank(self) -> int:
+        """Number of directions that are not lost."""
+        return int(np.count_nonzero(self.strength))
+
+    def correlation(self) -> Array:
+        """Return the correlation of the constants that are told, NaN for the others."""
+        kept = self.strength > 0.0
+        half = self.directions[kept] / self.strength[kept, None] * self.scale
+        covariance = half.T @ half
+        width = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+        known = [np.isfinite(self.error_of(row)) for row in np.eye(len(width))]
+        return np.where(np.outer(known, known), covariance / np.outer(width, width), np.nan)
 
     def error_of(self, gradient: Array) -> float:
         """Return the standard error of a quantity from its gradient; infinite if not told."""
@@ -63,23 +69,19 @@ def information(problem: Problem, best: Array, confidence: float) -> Information
     slopes = problem.slopes(best) * problem.scale
     n, p = slopes.shape
     singular, directions = np.linalg.svd(slopes, full_matrices=True)[1:]
-    size = float(np.linalg.norm(problem.measured * problem.weight))
+    weighted = problem.measured * problem.weight
     singular = np.concatenate([singular, np.zeros(p - len(singular))])
-    singular[singular <= problem.resolution * max(singular[0], VANISHES * size)] = 0.0
-    rank = int(np.count_nonzero(singular))
-    freedom = n - rank
-    tail = 0.5 + 0.5 * confidence
+    size = VANISHES * float(np.linalg.norm(weighted))
+    singular[singular <= problem.resolution * max(singular[0], size)] = 0.0
+    freedom, tail = n - int(np.count_nonzero(singular)), 0.5 + 0.5 * confidence
+    deviation, quantile = 0.0, np.inf
     if problem.known_errors:
         deviation, quantile = 1.0, float(norm.ppf(tail))
     elif freedom > 0:
-        deviation, quantile = np.sqrt(problem.cost(best) / freedom), float(t.ppf(tail, freedom))
-    else:
-        deviation, quantile = 0.0, np.inf
-    floor = 1e-16 * float(np.abs(problem.measured * problem.weight).max())
-    strength = singular / max(float(deviation), floor, 1e-300)
-    return Information(
-        problem.scale, strength, directions, quantile, rank, freedom, float(deviation)
-    )
+        deviation = float(np.sqrt(problem.cost(best) / freedom))
+        quantile = float(t.ppf(tail, freedom))
+    strength = singular / max(deviation, 1e-16 * float(np.abs(weighted).max()), 1e-300)
+    return Information(problem.scale, strength, directions, quantile, freedom, deviation)
 
 
 def members(problem: Problem, direction: Array) -> list[int]:
@@ -95,11 +97,10 @@ def combination(problem: Problem, best: Array, direction: Array) -> str:
         return f"no {problem.counted_as} says enough about {names[named[0]]}"
     change = direction / direction[named[0]] * 0.01 * problem.scale[named[0]]
     change = change * problem.stretch(best)
-    parts = [f"{names[i]} {change[i]:+.3g}" for i in named]
+    parts = listed([f"{names[i]} {change[i]:+.3g}" for i in named], "and")
     return (
         f"the points cannot tell {listed([names[i] for i in named], 'and')} apart: changed "
-        f"together by {listed(parts, 'and')} they move the {problem.subject} at no point beyond "
-        "its scatter"
+        f"together by {parts} they move the {problem.subject} at no point beyond its scatter"
     )
 
 
@@ -113,23 +114,20 @@ class Verdict:
     reason: str
 
 
-def verdicts(
-    problem: Problem, best: Array, told: Information, weak: Array | None = None
-) -> list[Verdict]:
+def verdicts(problem: Problem, best: Array, told: Information, weak: Array) -> list[Verdict]:
     """Return the verdict on every constant.
 
     A constant counts as identifiable where the half width of its interval is below a change that
     would certainly matter (``scale`` of the problem). Those marked in ``weak`` do not, whatever the
     slopes at this place say.
     """
-    blurred = told.blurred()
     found = []
-    for i in range(len(best)):
-        half = told.half_width_of(np.eye(len(best))[i])
-        known = bool(half <= problem.scale[i]) and not (weak is not None and weak[i])
+    for i, row in enumerate(np.eye(len(best))):
+        half = told.half_width_of(row)
+        known = bool(half <= problem.scale[i]) and not weak[i]
         low, high = best[i] <= problem.low[i], best[i] >= problem.high[i]
         side = "lower" if low else "upper" if high else ""
-        words = [] if known else [_why_not(problem, best, told, i, half, blurred)]
+        words = [] if known else [_why_not(problem, best, told, i, half)]
         if side:
             words.append(_bound_text(problem, best, i, side))
         found.append(Verdict(half, known, side, "; ".join(words)))
@@ -145,19 +143,16 @@ def _bound_text(problem: Problem, best: Array, i: int, side: str) -> str:
     return f"{text}: the points pull beyond it{problem.why_bound(best, i, side)}"
 
 
-def _why_not(
-    problem: Problem, best: Array, told: Information, i: int, half: float, blurred: list[Array]
-) -> str:
+def _why_not(problem: Problem, best: Array, told: Information, i: int, half: float) -> str:
     """Return the reason why the points do not tell a constant, the most tangible one first."""
     count = len(problem.measured)
     few = f"{counted(count, problem.counted_as)} for {counted(len(best), 'constant')}"
     lead, is_all = problem.why_not(best, i)
     if is_all:
         return lead
-    if count < len(best):
-        lead = few
+    lead = few if count < len(best) else lead
     lead += "; " * bool(lead)
-    about = [direction for direction in blurred if i in members(problem, direction)]
+    about = [direction for direction in told.blurred() if i in members(problem, direction)]
     if about:
         return lead + combination(problem, best, about[0])
     if not np.isfinite(told.quantile):

@@ -36,10 +36,10 @@ class Problem:
     known_errors: bool = False
     """The weights are one over known standard deviations; else the residuals' scatter counts."""
 
-    rough, fine = 1e-7, 1e-14  # tolerances while starts compete, and for those that are as good
-    evaluations = 250  # most of them in one search
-    resolution = 1e-9  # a singular value this small beside the largest is rounding
-    subject, counted_as, error_name = "friction", "point", "friction_error"
+    rough, fine = 1e-5, 1e-8  # tolerances while starts compete, and for those that are as good
+    evaluations = 80  # most of them in one search
+    resolution = 1e-7  # a singular value this small beside the largest is rounding
+    law, subject, counted_as, error_name = "model", "outputs", "value", "their error"
 
     def curve(self, guess: Array) -> Array:
         """Return the computed values, (n,); NaN where there is none."""
@@ -90,12 +90,9 @@ class Problem:
         """Return the same problem with one constant fixed."""
         keep = np.arange(len(self.names)) != i
         values = np.where(keep, self.low, place)
-        return replace(
-            self, base={**self.base, self.names[i]: float(self.shown(values)[i])},
-            names=tuple(n for n, kept in zip(self.names, keep, strict=True) if kept),
-            low=self.low[keep], high=self.high[keep], scale=self.scale[keep],
-            logarithmic=self.logarithmic[keep],
-        )  # fmt: skip
+        parts = {n: getattr(self, n)[keep] for n in ("low", "high", "scale", "logarithmic")}
+        base = {**self.base, self.names[i]: float(self.shown(values)[i])}
+        return replace(self, base=base, names=self.names[:i] + self.names[i + 1 :], **parts)
 
 
 def best_fit(problem: Problem, first: Array, more: Sequence[Array] = ()) -> Array:
@@ -114,7 +111,7 @@ def best_fit(problem: Problem, first: Array, more: Sequence[Array] = ()) -> Arra
         is_new = all(np.abs((guess - g) / problem.scale).max() > SAME for g in good)
         if is_new and problem.cost(guess) <= least * (1.0 + AS_GOOD) + 1e6 * noise:
             good.append(guess)
-    fine = [_refine(problem, guess) for guess in good]  # a valley may be too flat for it
+    fine = [_refine(problem, guess, problem.fine) for guess in good]  # None: a valley too flat
     found = [
         _on_bounds(problem, g if f is None or problem.cost(f) > problem.cost(g) else f)
         for g, f in zip(good, fine, strict=True)
@@ -139,7 +136,7 @@ def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation:
     """
     floor = 1e-6 * float(np.abs(problem.measured * problem.weight).max())
     pull = weak * max(deviation, floor) / problem.scale
-    found = [_refine(problem, s, problem.fine, pull, first) for s in (best, first)]
+    found = [_refine(problem, s, problem.fine, (pull, first)) for s in (best, first)]
     reached = [f for f in found if f is not None]
     pulled = [problem.cost(f) + float(np.sum((pull * (f - first)) ** 2)) for f in reached]
     if not reached:
@@ -175,36 +172,29 @@ def profile_end(problem: Problem, best: Array, index: int, end: float, wanted: f
 
 
 def _refine(
-    problem: Problem,
-    start: Array,
-    tolerance: float | None = None,
-    pull: Array | None = None,
-    anchor: Array | float = 0.0,
+    problem: Problem, start: Array, tolerance: float, pull: tuple[Array, Array] | None = None
 ) -> Array | None:
     """Return the local optimum beside a start, or None if it was not reached.
 
-    With ``pull`` the differences from ``anchor``, weighted by it, count as further points.
+    With ``pull`` (weights, values) the differences from these values count as further points.
     """
     from scipy.optimize import least_squares
 
-    tolerance = problem.fine if tolerance is None else tolerance
-
     def misfit(guess: Array) -> Array:
         own = problem.misfit(guess)
-        return own if pull is None else np.concatenate([own, pull * (guess - anchor)])
+        return own if pull is None else np.concatenate([own, pull[0] * (guess - pull[1])])
 
     def slopes(guess: Array) -> Array:
         own = problem.slopes(guess)
-        return own if pull is None else np.vstack([own, np.diag(pull)])
+        return own if pull is None else np.vstack([own, np.diag(pull[0])])
 
     begin = np.clip(start, problem.low, problem.high)
     if not np.isfinite(misfit(begin)).all():
         return None
-    found = least_squares(
-        misfit, begin, jac=slopes,
-        bounds=(problem.low, problem.high), x_scale=problem.scale, max_nfev=problem.evaluations,
-        ftol=tolerance, xtol=tolerance, gtol=tolerance,
-    )  # fmt: skip
+    ends = (problem.low, problem.high)
+    options: dict[str, Any] = {"ftol": tolerance, "xtol": tolerance, "gtol": tolerance}
+    options |= {"x_scale": problem.scale, "max_nfev": problem.evaluations}
+    found = least_squares(misfit, begin, jac=slopes, bounds=ends, **options)
     return np.asarray(found.x) if found.status > 0 and np.isfinite(found.cost) else None
 
 
@@ -214,7 +204,8 @@ def _on_bounds(problem: Problem, guess: Array) -> Array:
         for bound in (problem.low[i], problem.high[i]):
             if 0.0 < abs(guess[i] - bound) < AT_BOUND * problem.scale[i]:
                 held = problem.holding(i, float(bound))
-                rest = _refine(held, np.delete(guess, i)) if held.names else np.zeros(0)
+                others = np.delete(guess, i)
+                rest = _refine(held, others, problem.fine) if held.names else others
                 if rest is not None and held.cost(rest) <= problem.cost(guess) * (1.0 + 1e-12):
                     guess = np.insert(rest, i, bound)
     return _on_bounds_exactly(problem, guess)

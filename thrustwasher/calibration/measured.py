@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status, suggestion
 from ..model.part_file import PartFile
-from ..model.record import resolve
+from ..model.record import OwnOutputs, resolve
 from ..model.registry import find_model
 from ..model.spec import ModelSpec
 from ..numerics.jit import Array
@@ -19,6 +19,13 @@ from ..sweep.sweep_plan import Plan, make_plan
 from ..units import parse_quantity
 
 ERROR = "_error"  # ending of the column with an output's standard deviation
+
+
+def own_outputs(spec: ModelSpec) -> OwnOutputs:
+    """Return the outputs that a model's record adds."""
+    name = find_model(spec.key).fits.outputs
+    found: OwnOutputs = resolve(name) if name else OwnOutputs(units={})
+    return found
 
 
 @dataclass(frozen=True)
@@ -36,16 +43,23 @@ class Measured:
         """The measured outputs."""
         return tuple(dict.fromkeys(self.output))
 
+    def of(self, output: str) -> NDArray[np.bool_]:
+        """Return which values are those of an output, (n,)."""
+        return np.array([name == output for name in self.output])
+
+    def input(self, name: str) -> Array:
+        """Return an input of every value's point, (n,)."""
+        place = [s.name for s in self.plan.spec.inputs].index(name)
+        return np.asarray(self.plan.inputs[self.row, place])
+
     def computed(self, changes: Mapping[str, float]) -> tuple[Array, dict[int, Status]]:
         """Return the outputs [SI] with changed parameters, (n,), and the rows that failed, why."""
-        plan, starts = self.plan, self.plan.starts
-        fits, inputs = find_model(plan.spec.key).fits, [s.name for s in plan.spec.inputs]
+        plan, own = self.plan, own_outputs(self.plan.spec)
         sets = [_changed(params, changes) for params in plan.params]
-        params = [sets[i] for i in plan.params_of]
-        numbers, flags = solve_task(
-            Task(plan.spec.key, plan.fidelity, 0, plan.inputs, tuple(starts.tolist()),
-                 tuple(params))
-        )  # fmt: skip
+        params = tuple(sets[i] for i in plan.params_of)
+        starts = tuple(plan.starts.tolist())
+        task = Task(plan.spec.key, plan.fidelity, 0, plan.inputs, starts, params)
+        numbers, flags = solve_task(task)
         known = [s.name for s in output_signals(plan.spec)[0]]
         failed = {i: Status(int(s)) for i, s in enumerate(flags[:, -1]) if s >= FIRST_FAILURE}
         curves: dict[int, Mapping[str, float]] = {}
@@ -53,12 +67,13 @@ class Measured:
         for k, (row, name) in enumerate(zip(self.row.tolist(), self.output, strict=True)):
             if name in known:
                 found[k] = numbers[row, known.index(name)]
-                continue
-            if row not in curves:
-                point = dict(zip(inputs, plan.inputs[row].tolist(), strict=True))
-                own = params[int(np.searchsorted(starts, row, "right")) - 1]
-                curves[row] = resolve(fits.curve)(own, point, plan.fidelity) if own else {}
-            found[k] = curves[row].get(name, np.nan)
+            elif own.computed:
+                part = params[int(np.searchsorted(plan.starts, row, "right")) - 1]
+                if row not in curves:
+                    names = (s.name for s in plan.spec.inputs)
+                    point = dict(zip(names, plan.inputs[row].tolist(), strict=True))
+                    curves[row] = own.computed(part, point, plan.fidelity) if part else {}
+                found[k] = curves[row].get(name, np.nan)
         return found, failed
 
 
@@ -72,8 +87,7 @@ def _changed(params: Any, changes: Mapping[str, float]) -> Any:
 
 def output_units(spec: ModelSpec) -> dict[str, str]:
     """Return the unit of every output that can be measured."""
-    more = {name: unit for name, (unit, _) in find_model(spec.key).fits.more.items()}
-    return {s.name: s.unit for s in output_signals(spec)[0]} | more
+    return {s.name: s.unit for s in output_signals(spec)[0]} | dict(own_outputs(spec).units)
 
 
 def column_units(spec: ModelSpec) -> dict[str, str]:
@@ -85,32 +99,40 @@ def column_units(spec: ModelSpec) -> dict[str, str]:
 
 
 def measured(
-    part: PartFile, params: Any, data: Mapping[str, Sequence[Any]], at: Mapping[str, Any],
-    errors: Mapping[str, float | str], fidelity: str,
-) -> Measured:  # fmt: skip
+    part: PartFile,
+    params: Any,
+    data: Mapping[str, Any],
+    at: Mapping[str, Any],
+    errors: Mapping[str, float | str],
+    fidelity: str,
+) -> Measured:
     """Return measured points, or name the first thing that cannot be used."""
     spec = part.spec
-    units, known, fits = output_units(spec), column_units(spec), find_model(spec.key).fits
-    columns = {name: list(column) for name, column in data.items()}
-    for name in columns:
+    units, known, own = output_units(spec), column_units(spec), own_outputs(spec)
+    for name in data:
         if name not in known:
-            hint = suggestion(name, known, "did you mean {}? ")
-            raise ParameterError(f"column {name}: is no input, parameter or output of {spec.name}; "
-                                 f"{hint}outputs: {', '.join(units)}")  # fmt: skip
-    lengths = {name: len(column) for name, column in columns.items()}
+            hint = suggestion(name, known, "did you mean {}? ") + f"outputs: {', '.join(units)}"
+            raise ParameterError(
+                f"column {name}: is no input, parameter or output of {spec.name}; {hint}"
+            )
+    lengths = {name: len(column) for name, column in data.items() if np.ndim(column)}
     if len(set(lengths.values())) > 1:
         raise ParameterError(f"data: columns of {lengths}, allowed: one length for all")
-    found = [(row, name, _number(name, row, x)) for name, column in columns.items()
-             if name in units for row, x in enumerate(column) if x is not None]  # fmt: skip
+    count = next(iter(lengths.values()), 1)
+    columns = {n: list(c) if n in lengths else [c] * count for n, c in data.items()}
+    found = []
+    for name in (n for n in columns if n in units):
+        values = enumerate(columns[name])
+        found += [(row, name, _number(name, row, x)) for row, x in values if x is not None]
     points = {n: c for n, c in columns.items() if n.removesuffix(ERROR) not in units}
     if not found or not set(points) - {"line"}:
         what = "input or parameter" if found else f"measured output, allowed: {', '.join(units)}"
         raise ParameterError(f"data: no {what}")
     row, output, value = zip(*found, strict=True)
-    wanted = {i for i, name in zip(row, output, strict=True) if name not in fits.more}
+    needed = {i for i, name in zip(row, output, strict=True) if name not in own.units}
     for name, column in points.items():
         for i, x in enumerate(column):
-            if x is None and (name != fits.without or i in wanted):
+            if x is None and (name != own.without or i in needed):
                 raise ParameterError(f"{name}: point {i + 1} has none")
         points[name] = [part.starts[name] if x is None else x for x in column]
     plan = make_plan(part, {}, at, points, params, fidelity)
@@ -133,9 +155,11 @@ def _number(name: str, row: int, value: Any) -> float:
 
 
 def _deviations(
-    units: Mapping[str, str], columns: Mapping[str, list[Any]],
-    errors: Mapping[str, float | str], found: Sequence[tuple[int, str, float]],
-) -> Array | None:  # fmt: skip
+    units: Mapping[str, str],
+    columns: Mapping[str, list[Any]],
+    errors: Mapping[str, float | str],
+    found: Sequence[tuple[int, str, float]],
+) -> Array | None:
     """Return the standard deviation of every value; None if none is given."""
     names = tuple(dict.fromkeys(name for _, name, _ in found))
     for name in errors:

@@ -1,41 +1,105 @@
-"""Fit parameters of any model that is solved at operating points to measured outputs."""
+"""Fit parameters of a model, or a law of its own, to measured outputs."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError
 from ..model.parameters import allowed
 from ..model.part_file import PartFile, find_part
-from ..model.record import absent_outputs, resolve
+from ..model.record import resolve
 from ..model.registry import find_model, models_with_points
 from ..numerics.jit import Array
 from ..sweep.solve_rows import check_rung
-from .estimates import Calibration, Series, size_text
+from .estimates import Calibration
 from .fit import chosen_names, fitted
-from .identifiability import counted
+from .identifiability import Verdict, counted
 from .least_squares import Problem
-from .measured import Measured, measured, output_units
+from .measured import Measured, measured, output_units, own_outputs
 
+ModelCalibration = Calibration  # its name while a law's fit was another one
 STEP = 1e-3  # of a parameter's scale, for differences of converged solutions
 DECADE = 10.0  # a range this wide, above 0, is one of logarithms
 LEAST_SHARE = 0.1  # of half the range: the least change that would certainly matter
 ELSEWHERE = "(0:"  # in the meaning of a parameter whose 0 stands for another one's value
 INSIDE = 1e-13  # of a logarithmic range: rounding does not lead out of it
 MOST_KEPT = 200
+POOR = 0.2  # of an output's mean: an rms residual above it is always worth a warning
+MATERIAL = 0.02  # of the mean: less is not worth a warning
+SCATTERS = 3.0  # a value further off than this many standard deviations is off
 
 
 @dataclass(frozen=True, kw_only=True)
 class ModelProblem(Problem):
-    """Measured outputs of a model and its parameters; ``base``: parameters that are held."""
+    """Measured outputs of a model and its parameters; ``base``: what is held."""
 
     points: Measured
     kept: dict[tuple[Any, ...], Array] = field(default_factory=dict, repr=False)
 
-    rough, fine, resolution, evaluations = 1e-5, 1e-8, 1e-7, 80
-    subject, counted_as, error_name = "outputs", "value", "their error"
+    by_rung: ClassVar[bool] = True  # what computes the outputs, else a closed form
+    profiles: ClassVar[bool] = False  # are so quick that they need not be asked for
+    typical: ClassVar[float] = 0.0  # size of a value; 0: the mean of those measured
+    instead: ClassVar[str] = ""  # what to take where the points cannot be followed
+
+    @classmethod
+    def asked(
+        cls, points: Measured, fit: Sequence[str] | None, given: set[str]
+    ) -> tuple[Measured, tuple[str, ...]]:
+        """Return the points as they are fitted, and the parameters to fit, or refuse them.
+
+        ``given`` are the inputs that the points have.
+        """
+        spec = points.plan.spec
+        real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
+        names = chosen_names(fit or (), real, f"real parameters of {spec.name}")
+        if len(points.value) < len(names):
+            told = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
+            raise ParameterError(f"data: {told}, allowed: as many values as parameters, or more")
+        check_rung(spec, points.plan.fidelity, points.plan.params[0])
+        return points, names
+
+    @classmethod
+    def change_of(cls, points: Measured, name: str) -> float:
+        """Return a change of a parameter that would certainly matter; 0: as its range says."""
+        return 0.0
+
+    @classmethod
+    def held(cls, params: Any) -> dict[str, Any]:
+        """Return what the outputs depend on beside the fitted parameters and the points' own."""
+        return {}
+
+    @classmethod
+    def of(
+        cls, points: Measured, names: tuple[str, ...], bounds: Mapping[str, tuple[float, float]]
+    ) -> tuple[Self, Array]:
+        """Return what is to be solved and the guess before the fit."""
+        metas = {f.name: f.metadata for f in fields(points.plan.spec.params)}
+        for name in bounds:
+            if name not in names:
+                raise ParameterError(f"bounds of {name}: allowed: of {', '.join(names)}, as fitted")
+        params, rows = points.plan.params[0], []
+        for name in names:
+            start, change = getattr(params, name), cls.change_of(points, name)
+            rows.append(_range_of(name, metas[name], start, bounds.get(name), change))
+        low, high, first, scale, by_logarithm = np.array(rows).T
+        usual = cls.typical or np.abs(points.value).mean() or 1.0
+        even = np.full(len(points.value), 1.0 / usual)
+        problem = cls(
+            base=cls.held(params),
+            names=names,
+            measured=points.value,
+            points=points,
+            weight=even if points.error is None else 1.0 / points.error,
+            low=low,
+            high=high,
+            scale=scale,
+            logarithmic=by_logarithm > 0.0,
+            units={name: metas[name]["unit"] for name in names},
+            known_errors=points.error is not None,
+        )
+        return problem, first
 
     def curve(self, guess: Array) -> Array:
         """Return the outputs, in the order of the measured values; NaN where a point fails."""
@@ -61,103 +125,173 @@ class ModelProblem(Problem):
                 places.append(np.where(np.isfinite(there), end, guess[i]))
             width = places[1] - places[0]
             if not width.any():
-                name, rung = self.names[i], self.points.plan.fidelity
                 raise SolveError(
-                    f"fit = {name!r}: beside {self.shown(guess)[i]:g} no point has a solution with "
-                    f"rung {rung!r}; choose another rung or start"
+                    f"fit = {self.names[i]!r}: beside {self.shown(guess)[i]:g} no point has a "
+                    f"solution with rung {self.points.plan.fidelity!r}; choose another rung or "
+                    "start"
                 )
-            columns.append(np.where(width > 0.0, values[1] - values[0], 0.0)
-                           / np.where(width > 0.0, width, 1.0))  # fmt: skip
+            rise = np.where(width > 0.0, values[1] - values[0], 0.0)
+            columns.append(rise / np.where(width > 0.0, width, 1.0))
         return np.column_stack(columns)
 
+    def check_first(self, first: Array) -> None:
+        """Raise an error for the first point that the parameters before the fit do not solve."""
+        points, plan = self.points, self.points.plan
+        computed = self.curve(first)
+        if np.isfinite(computed).all():
+            return
+        failed = points.computed(self.values(first))[1]
+        i = int(np.argmin(np.isfinite(computed)))
+        row, name, own = int(points.row[i]), points.output[i], own_outputs(plan.spec)
+        inputs = (f"{key} {plan.shown[key][row]:g}" for key in plan.shown if key in plan.units)
+        where = f"point {row + 1} ({', '.join(inputs)}): {name}"
+        if name in own.units:
+            cure = "leave it out, or start nearer with --set NAME=VALUE"
+            raise SolveError(f"{where} has no solution: {own.none}; {cure}")
+        if row in failed:
+            raise SolveError(f"{where} has no solution: {failed[row].advice}")
+        raise ParameterError(f"{where} is {computed[i]}, allowed: finite outputs")
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class ModelCalibration(Calibration):
-    """Parameters of a model fitted to measured outputs; ``str()`` of it is a summary."""
+    def result(
+        self, params: Any, found: Mapping[str, Any], first: Array, judged: list[Verdict]
+    ) -> Calibration:
+        """Return the calibration of parameters with fitted values; ``first`` are those before."""
+        warnings = self.warnings(found["_best"], first, judged)
+        return Calibration(params=params, points=self.points, warnings=warnings, **found)
 
-    points: Measured
-    fitted: Array
-    """(n,) computed outputs, in the order of ``points.value``."""
+    def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
+        """Return unit and values of the inputs of all measured values, over which one is drawn."""
+        plan, own = self.points.plan, own_outputs(self.points.plan.spec)
+        left_out = own.without if output in own.units else ""
+        names = (name for name in plan.units if name != left_out)
+        return {name: (plan.units[name], plan.shown[name][self.points.row]) for name in names}
 
-    def residuals_of(self, output: str) -> Array:
-        """Return measured less fitted values of one output [SI]."""
-        found: Array = self.residuals[np.array(self.points.output) == output]
-        return found
+    def warnings(self, best: Array, first: Array, judged: list[Verdict]) -> tuple[str, ...]:
+        """Return what is wrong with the fit as a whole, the gravest first: "headline: details"."""
+        far, poor = self.misses(best, judged, 1.0 / self.weight if self.known_errors else None)
+        return (*self.doubts(), *far, *poor)
 
-    def rms_of(self, output: str) -> float:
-        """Return the root mean square of an output's residuals [SI]."""
-        return float(np.sqrt(np.mean(self.residuals_of(output) ** 2)))
+    def doubts(self) -> tuple[str, ...]:
+        """Return what is doubtful about the points themselves."""
+        count, few = len(self.names), tuple[str, ...]()
+        if len(self.measured) == count:
+            few = (
+                f"as many values as parameters ({count}): the fit goes through all points, and "
+                "nothing tells how good it is; measure more",
+            )
+        return (*self.points.plan.warnings, *few)
 
-    def as_dict(self) -> dict[str, Any]:
-        """Return what JSON can hold; None stands for infinite and for not known."""
-        points = self.points
-        return {
-            **super().as_dict(),
-            "model": points.plan.spec.key,
-            "fidelity": points.plan.fidelity,
-            "rms": {name: self.rms_of(name) for name in points.names},
-            "point": (points.row + 1).tolist(),
-            "output": list(points.output),
-            "measured": points.value.tolist(),
-            "computed": self.fitted.tolist(),
-            "error": None if points.error is None else points.error.tolist(),
-        }
+    def missed_because(self, judged: list[Verdict]) -> str:
+        """Return what keeps the fit from the points."""
+        stops = (
+            f"{name} is at its {verdict.reason.rpartition('at its ')[2]}"
+            for name, verdict in zip(self.names, judged, strict=True)
+            if "pull beyond" in verdict.reason
+        )
+        return "; ".join(stops) or "its curve has another shape than theirs"
 
-    def shown(self) -> list[Series]:
-        """Return the outputs to be drawn over their inputs."""
-        points, plan, found = self.points, self.points.plan, []
-        fits = find_model(plan.spec.key).fits
+    def misses(
+        self, best: Array, judged: list[Verdict], scatter: Array | None
+    ) -> tuple[list[str], list[str]]:
+        """Return sentences on outputs that are missed by more than the points scatter, if known.
+
+        And on those whose residuals are a large part of the output itself.
+        """
+        far, poor, units = [], [], output_units(self.points.plan.spec)
+        residuals, points = self.curve(best) - self.measured, self.points
+        why = self.missed_because(judged)
         for name in points.names:
-            chosen = np.array(points.output) == name
-            left_out = fits.without if name in fits.more else ""
-            known = {n: unit for n, unit in plan.units.items() if n != left_out}
-            inputs = {n: (unit, plan.shown[n][points.row[chosen]]) for n, unit in known.items()}
-            found.append(self.series(name, output_units(plan.spec)[name], inputs, chosen))
-        return found
+            chosen, unit = points.of(name), f" {units[name]}".removesuffix(" 1")
+            rms = float(np.sqrt(np.mean(residuals[chosen] ** 2)))
+            mean = float(np.abs(self.measured[chosen]).mean()) or 1.0
+            usual = np.inf if scatter is None else float(np.sqrt(np.mean(scatter[chosen] ** 2)))
+            share = f"{100 * rms / mean:.0f} % of the mean {name}"
+            if rms > max(SCATTERS * usual, MATERIAL * mean):
+                far.append(
+                    f"The {self.law} misses the points by more than they scatter (rms residual "
+                    f"{rms:.3g}{unit}, {share}; scatter about {usual:.2g}{unit}): "
+                    f"{why}{self.instead and '; or ' + self.instead}."
+                )
+            if rms > POOR * mean:
+                poor.append(
+                    f"The rms residual is {share}: values and intervals describe the nearest curve "
+                    f"of this {self.law}, not the part"
+                    f"{self.instead and '; if they do not just scatter, ' + self.instead}."
+                )
+        return far, poor
 
-    def summary(self) -> list[str]:
-        """Return sentences on what was fitted to what."""
-        points, units = self.points, output_units(self.points.plan.spec)
-        parts = ", ".join(f"{points.output.count(name)} {name}" for name in points.names)
-        told = f"{counted(len(points.value), 'value')} ({parts}), rung {points.plan.fidelity}"
-        rms = (f"{self.rms_of(n):.3g} {units[n]}".removesuffix(" 1") for n in points.names)
-        said = " ".join(e.reason for e in self.estimates)
-        blurred = [f"Together: {text}." for text in self.confounded if text not in said]
-        return [size_text(self, told, ", ".join(rms)), *blurred]
+
+def _range_of(
+    name: str,
+    meta: Mapping[str, Any],
+    start: float,
+    bounds: tuple[float, float] | None,
+    change: float,
+) -> tuple[float, float, float, float, bool]:
+    """Return least, largest and first guess of a parameter, its scale, and if by its logarithm."""
+    least, largest, elsewhere = meta["min"], meta["max"], ELSEWHERE in meta["help"]
+    if elsewhere and start == 0.0:
+        raise ParameterError(
+            f"fit = {name!r}: is 0, which stands for another value ({meta['help']}); "
+            "give the value to start from"
+        )
+    low, high = bounds or (1e-3 * start if elsewhere else least, largest)
+    if not least <= low < high <= largest:
+        raise ParameterError(
+            f"bounds of {name} = {low:g}:{high:g}, allowed: low < high in {allowed(meta)}"
+        )
+    start = min(max(start, low), high)
+    if change > 0.0:
+        return low, high, start, change, False
+    if low > 0.0 and (high >= DECADE * low or largest >= DECADE * least > 0.0):
+        a, b, c = np.log([low, high, start]).tolist()
+        a, b = a + INSIDE, b - INSIDE
+        return a, b, min(max(c, a), b), min(1.0, 0.5 * (b - a)), True
+    half = 0.5 * (high - low)
+    return low, high, start, max(min(abs(start) or half, half), LEAST_SHARE * half), False
 
 
 def calibrate(
-    part: Any, data: Mapping[str, Sequence[Any]] | None = None, *,
-    fit: Sequence[str] | None = None, errors: Mapping[str, float | str] | None = None,
-    bounds: Mapping[str, tuple[float, float]] | None = None, at: Mapping[str, Any] | None = None,
-    fidelity: str | None = None, confidence: float = 0.95, profile: bool | None = None,
-    **law: Any,
-) -> Any:  # fmt: skip
+    part: Any,
+    data: Mapping[str, Any] | None = None,
+    *,
+    fit: Sequence[str] | None = None,
+    errors: Mapping[str, float | str] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    at: Mapping[str, Any] | None = None,
+    fidelity: str | None = None,
+    confidence: float = 0.95,
+    profile: bool | None = None,
+    **columns: Any,
+) -> Any:
     """Fit parameters of a model to measured outputs, and say what the points can tell.
 
-    Without ``data`` the model's own law is fitted: the clutch's friction law to ``speed``,
-    ``load`` and ``friction`` (see thrustwasher.clutch.calibration.calibration.calibrate).
+    Measured ``friction`` [-] of a clutch gives constants of its law of friction (see
+    thrustwasher.clutch.calibration.friction_fit).
 
     Parameters
     ----------
     part : parameters, a part (``load_part``), or the key of a model with its defaults; the first
         guess, and what is not fitted
-    data : columns of one length by name [SI]: inputs and parameters of the points, measured
-        outputs (None where not measured), ``<output>_error``: their standard deviation. Points
-        with the same number in a column ``line`` are walked as a sweep does. A washer's folds are
-        ``film_loss_load`` and ``film_regain_load`` [N]
-    fit : names of real parameters
+    data : columns of one length by name [SI], also as keywords: inputs and parameters of the
+        points (one number is that of all), measured outputs (None where not measured),
+        ``<output>_error``: their standard deviation. Points with the same number in a column
+        ``line`` are walked as a sweep does. A washer's folds are ``film_loss_load`` and
+        ``film_regain_load`` [N]
+    fit : names of real parameters; of a law, by default those that a curve can tell
     errors : standard deviation by output, for all points: a number [SI], or a text with a unit;
         "2 %" is of the measured value. Several outputs need errors; without, scatter of one counts
     bounds : narrower range by parameter [SI]
     at : inputs and parameters that all points share; of what is fitted, the first guess
     fidelity : rung of the model, default that of the part
     confidence : probability of the intervals, above 0 and below 1
-    profile : also compute profile intervals, which takes several times as long
+    profile : also compute profile intervals, which takes several times as long; a law's are quick
+        and computed unless False
 
     Returns
     -------
-    ModelCalibration : fitted ``params``; value, interval and verdict of every parameter
+    Calibration : fitted ``params``; value, interval and verdict of every parameter; ``warnings`` of
+        points that the fit cannot follow
 
     Raises
     ------
@@ -174,7 +308,7 @@ def calibrate(
     >>> truth = GearMeshParams(friction_law="constant", constant_friction=0.06)
     >>> power = [2e3, 5e3, 9e3]
     >>> loss = [solve_gearmesh(truth, power=p, speed=180.0).friction_torque for p in power]
-    >>> data = {"power": power, "speed": [180.0] * 3, "friction_torque": loss}
+    >>> data = {"power": power, "speed": 180.0, "friction_torque": loss}
     >>> start = GearMeshParams(friction_law="constant")
     >>> found = calibrate(start, data, fit=["constant_friction"])
     >>> round(found.params.constant_friction, 6)
@@ -182,44 +316,23 @@ def calibrate(
     """
     start, params = _start(part)
     spec = start.spec
-    if data is None:
-        own = find_model(spec.key).fits.law
-        if not own:
-            raise ParameterError(f"data is missing: measured points of {spec.name}")
-        profile = profile is None or profile
-        return resolve(own)(params, **law, fit=fit, confidence=confidence, profile=profile)
-    if law:
-        raise ParameterError(f"{next(iter(law))}: allowed: without data, for a law of friction")
-    real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
-    names = chosen_names(fit or (), real, f"real parameters of {spec.name}")
+    data, at = {**(data or {}), **columns}, at or {}
+    own = own_outputs(spec)
+    is_law = not own.computed and not own.units.keys().isdisjoint(data)
+    kind: type[ModelProblem] = resolve(find_model(spec.key).fits.law) if is_law else ModelProblem
+    points = measured(start, params, data, at, errors or {}, fidelity or start.fidelity)
+    points, names = kind.asked(points, fit, {*data, *at})
     if twice := set(names) & set(data):
         raise ParameterError(
             f"fit = {twice.pop()!r}: is a column of the data, allowed: one of both"
         )
-    points = measured(
-        start, params, data, at or {}, errors or {}, fidelity or start.fidelity
-    )  # fmt: skip
-    if len(points.value) < len(names):
-        told = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
-        raise ParameterError(f"data: {told}, allowed: as many values as parameters, or more")
-    check_rung(spec, points.plan.fidelity, points.plan.params[0])
-    problem, first = _problem(points, names, bounds or {})
-    _check_first(points, problem.values(first))
-    found, _ = fitted(problem, first, confidence, bool(profile))
+    problem, first = kind.of(points, names, bounds or {})
+    problem.check_first(first)
+    found, judged = fitted(
+        problem, first, confidence, kind.profiles if profile is None else profile
+    )
     changes = {e.name: e.value for e in found["estimates"]}
-    return ModelCalibration(
-        params=replace(points.plan.params[0], **changes), points=points,
-        warnings=tuple(_doubts(points, len(names))),
-        fitted=problem.curve(found["_best"]), **found,
-    )  # fmt: skip
-
-
-def _doubts(points: Measured, unknowns: int) -> Iterator[str]:
-    """Yield what a reader of a fit must not miss beside its verdicts."""
-    yield from points.plan.warnings
-    if len(points.value) == unknowns:
-        yield (f"as many values as parameters ({unknowns}): the fit goes through all points, and "
-               "nothing tells how good it is; measure more")  # fmt: skip
+    return problem.result(replace(points.plan.params[0], **changes), found, first, judged)
 
 
 def _start(part: Any) -> tuple[PartFile, Any]:
@@ -232,66 +345,3 @@ def _start(part: Any) -> tuple[PartFile, Any]:
             return find_part(model.key), part
     known = ", ".join(models_with_points())
     raise ParameterError(f"part: {type(part).__name__}, allowed: a part or parameters of {known}")
-
-
-def _problem(
-    points: Measured, names: tuple[str, ...], bounds: Mapping[str, tuple[float, float]]
-) -> tuple[ModelProblem, Array]:
-    """Return what is to be solved and the guess before the fit."""
-    metas = {f.name: f.metadata for f in fields(points.plan.spec.params)}
-    for name in bounds:
-        if name not in names:
-            raise ParameterError(f"bounds of {name}: allowed: of {', '.join(names)}, the fitted")
-    start = points.plan.params[0]
-    rows = [_range_of(n, metas[n], getattr(start, n), bounds.get(n)) for n in names]
-    low, high, first, scale, by_logarithm = np.array(rows).T
-    known = points.error is not None
-    weight = np.full(len(points.value), 1.0 / (np.abs(points.value).mean() or 1.0))
-    problem = ModelProblem(
-        base={}, names=names, measured=points.value, points=points, known_errors=known,
-        weight=weight if points.error is None else 1.0 / points.error, low=low, high=high,
-        scale=scale, logarithmic=by_logarithm > 0.0, units={n: metas[n]["unit"] for n in names},
-    )  # fmt: skip
-    return problem, first
-
-
-def _range_of(
-    name: str, meta: Mapping[str, Any], start: float, bounds: tuple[float, float] | None
-) -> tuple[float, float, float, float, bool]:
-    """Return least, largest and first guess of a parameter, its scale, and if by its logarithm."""
-    least, largest, elsewhere = meta["min"], meta["max"], ELSEWHERE in meta["help"]
-    if elsewhere and start == 0.0:
-        raise ParameterError(f"fit = {name!r}: is 0, which stands for another value "
-                             f"({meta['help']}); give the value to start from")  # fmt: skip
-    low, high = bounds or (1e-3 * start if elsewhere else least, largest)
-    if not least <= low < high <= largest:
-        raise ParameterError(
-            f"bounds of {name} = {low:g}:{high:g}, allowed: low < high in {allowed(meta)}"
-        )
-    start = min(max(start, low), high)
-    if low > 0.0 and (high >= DECADE * low or largest >= DECADE * least > 0.0):
-        a, b, c = np.log([low, high, start]).tolist()
-        a, b = a + INSIDE, b - INSIDE
-        return a, b, min(max(c, a), b), min(1.0, 0.5 * (b - a)), True
-    half = 0.5 * (high - low)
-    return low, high, start, max(min(abs(start) or half, half), LEAST_SHARE * half), False
-
-
-def _check_first(points: Measured, values: Mapping[str, float]) -> None:
-    """Raise an error for the first point that the parameters before the fit do not solve."""
-    computed, failed = points.computed(values)
-    if np.isfinite(computed).all():
-        return
-    i = int(np.argmin(np.isfinite(computed)))
-    row, name, plan = int(points.row[i]), points.output[i], points.plan
-    inputs = (f"{key} {plan.shown[key][row]:g}" for key in plan.shown if key in plan.units)
-    where = f"point {row + 1} ({', '.join(inputs)}): {name}"
-    if name in find_model(plan.spec.key).fits.more:
-        raise SolveError(f"{where} has no solution: no such fold on the load curve; leave it "
-                         "out, or start nearer with --set NAME=VALUE")  # fmt: skip
-    if row in failed:
-        raise SolveError(f"{where} has no solution: {failed[row].advice}")
-    if name in absent_outputs(plan.spec, plan.params[0]):
-        about = next(s.help for s in plan.spec.outputs if s.name == name)
-        raise ParameterError(f"{name}: has no value with these parameters ({about})")
-    raise ParameterError(f"{where} is {computed[i]}, allowed: finite outputs")

@@ -15,7 +15,7 @@ from . import _compare, _options, _output
 from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
-REPORT, TABLE = "report.html", "shift.csv"
+REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,6 +30,8 @@ def run(arguments: argparse.Namespace) -> int:
         return _list(arguments.json)
     if arguments.compare:
         return _compare.run(arguments, _scene, _one_shift)
+    if arguments.no_report and arguments.out != FOLDER:
+        raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
     scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
         _check_sequence(arguments, scene)
@@ -85,6 +87,7 @@ def _load_report() -> None:
 def _scene(arguments: argparse.Namespace, name: str) -> Any:
     """Return the scene of that name with what the options change."""
     from ..shift import load_scene, with_fidelities
+    from ..shift.masters.master import MASTERS
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
     tolerance = arguments.master_tolerance
@@ -92,6 +95,10 @@ def _scene(arguments: argparse.Namespace, name: str) -> Any:
         step=step, master=arguments.master,
         master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
     )  # fmt: skip
+    if tolerance is not None and not MASTERS[scene.master].adaptive:
+        raise ParameterError(
+            f"--master-tolerance with master {scene.master}, allowed: with --master step-doubling"
+        )
     return with_fidelities(scene, arguments.fidelity)
 
 

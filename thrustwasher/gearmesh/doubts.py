@@ -9,14 +9,17 @@ from .kernels import layout as k
 from .kernels.mesh_point import LEAST_LINE_LOAD, LEAST_SPEED
 from .kernels.operating_point import LEAST_RISE
 from .kernels.path_friction import LEAST_ROLLING
-from .parameters import GearMeshParams
+from .parameters import GearMeshParams, centre_distance, default_of
 
 APART = 2.0  # factor between roughness parameters from which they describe two surfaces
+WHOLE = 1e-6  # of a tooth, that a number of teeth may be off
+AGREE = 1e-3  # between a centre distance and that of module and teeth
+FASTEST = 100.0  # m/s at the pitch line; faster gears have losses that are not in the model
 
 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
     """Return what contradicts itself in parameters."""
-    return [*_roughness(p), *_fouling(p)]
+    return [*_teeth(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
 
 
 def doubts_of_point(
@@ -30,7 +33,7 @@ def doubts_of_point(
         ]
     if abs(speed) < 2.0 * LEAST_SPEED:
         return [f"speed = {speed:g} rad/s: the film is that of {LEAST_SPEED:g} rad/s"]
-    found = []
+    found = _stretched(p, par, field, speed)
     rolling, by_iso = par[k.D_ROLLING] * abs(speed), p.friction_law in ("iso", "mixed")
     if p.film_heat == "loss" and by_iso and rolling < LEAST_ROLLING:
         found.append(
@@ -48,6 +51,44 @@ def doubts_of_point(
         found.append(
             f"scuffing_safety counts a rise of {LEAST_RISE:g} K, the contact is {rise:.2g} K above "
             "the oil; read scuffing_margin instead"
+        )
+    return found
+
+
+def _stretched(p: GearMeshParams, par: Any, field: Any, speed: float) -> list[str]:
+    """Return lines on a film that no gap has, and on gears that no model of a mesh alone covers."""
+    found = []
+    film, width = field[k.F_FILM], field[k.F_WIDTH]
+    if film > width:
+        found.append(
+            f"film_thickness = {film:.3g} m beside a contact {width:.3g} m wide: no law of the "
+            "film holds there (real teeth starve); loss, film and safeties are no forecast; take "
+            "warmer or thinner oil, or more power"
+        )
+    radius = par[k.D_CENTRE] / (p.gear_ratio + par[k.D_SIDE])
+    if abs(speed) * radius > FASTEST:
+        found.append(
+            f"speed = {speed:g} rad/s: {abs(speed) * radius:.3g} m/s at the pitch line, above "
+            f"{FASTEST:g}: windage and dynamic tooth loads are not in the model; check the size"
+        )
+    return found
+
+
+def _teeth(p: GearMeshParams) -> list[str]:
+    """Return lines on teeth that cannot be, and on a centre distance that is not theirs."""
+    found, teeth = [], p.pinion_teeth * p.gear_ratio
+    if abs(teeth - round(teeth)) > WHOLE * teeth:
+        near = [n for n in (math.floor(teeth), math.ceil(teeth)) if n >= p.pinion_teeth]
+        ratios = " or ".join(f"{n / p.pinion_teeth:.10g} ({n} teeth)" for n in near)
+        found.append(
+            f"gear_ratio = {p.gear_ratio:g}: a gear of {teeth:.6g} teeth; with pinion_teeth = "
+            f"{p.pinion_teeth} give {ratios}"
+        )
+    given, made = p.centre_distance, centre_distance(p)
+    if given != default_of("centre_distance") and abs(given - made) > AGREE * made:
+        found.append(
+            f"centre_distance = {given:g} m has no effect: normal_module = {p.normal_module:g} m "
+            f"and the teeth give {made:.6g} m (profile shift is not in the model)"
         )
     return found
 
@@ -108,3 +149,12 @@ def _involute(angle: float) -> float:
 
 def _differ(a: float, b: float) -> bool:
     return not 1.0 / APART <= a / b <= APART
+
+
+def _load_factor(p: GearMeshParams) -> list[str]:
+    if p.load_factor == 1.0 or p.film_heat == "loss":
+        return []
+    return [
+        f"load_factor = {p.load_factor:g} moves pitting_stress and pitting_safety alone: with "
+        "film_heat = 'atan' pressures, film and temperatures are those of 1; raise power instead"
+    ]

@@ -1,7 +1,7 @@
 """Parameters of the gear mesh: a pair of gears, its surfaces, oil, steel and the laws to apply."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, flag, quantity
@@ -398,6 +398,28 @@ class GearMeshParams:
         """
         made: GearMeshParams = made_of(SPEC, name, changes)
         return made
+
+
+def default_of(name: str) -> Any:
+    """Return the default of a parameter."""
+    return next(f.default for f in fields(GearMeshParams) if f.name == name)
+
+
+def centre_distance(params: GearMeshParams) -> float:
+    """Return the distance of the axes [m] as it counts: by module and teeth, or as given."""
+    from .kernels.constants import section
+
+    return float(section(_numbers(params))[1])
+
+
+def limits_assumed(params: GearMeshParams) -> str:
+    """Return in words what the safeties rest on, and what of it nobody gave."""
+    from .kernels.constants import LIMITS
+
+    limit = params.contact_limit or LIMITS[list(STEELS).index(params.steel)]
+    pitting = "" if params.contact_limit else f" (assumed, {params.steel})"
+    scuffing = "" if params.fzg_stage != default_of("fzg_stage") else " (assumed)"
+    return f"contact limit {1e-6 * limit:g} MPa{pitting}, FZG stage {params.fzg_stage}{scuffing}"
 
 
 STEELS_OF_THE_PAPER = ("aisi1020", "aisi4340")

@@ -16,7 +16,7 @@ from .doubts import doubts_of_parameters, doubts_of_point
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.operating_point import solve_point
-from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs
+from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs, limits_assumed
 
 SAFETIES = {
     "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "
@@ -70,14 +70,23 @@ class GearMeshResult:
     bulk_temperature: float  # [K] of the gears' bodies, steady
     oil_heat: float  # [W] that reaches the oil
     stored_heat: float  # [J] 0: the bodies are steady
-    contact_pressure_max: float  # [Pa] greatest Hertz pressure along the path, load factor included
+    contact_pressure_max: float
+    """[Pa] greatest Hertz pressure along the path, load factor included; "atan": without it, where
+    contact starts."""
     pitting_stress: float  # [Pa] sigma_H of the pitting calculation
     pitting_safety: float
     scuffing_safety: float
-    """[-] scuffing temperature over that of the contact, both above the oil's."""
+    """[-] scuffing temperature over that of the contact, both above the oil's; the latter counts at
+    least 1 K, which bounds it."""
     scuffing_margin: float  # [K] scuffing temperature less that of the contact
-    film_ratio_gf: float  # [-] least film along the path over the mean Ra
+    film_ratio_gf: float  # [-] least film along the path over the mean Ra; "atan": at its start
     micropitting_safety: float | None
+    normal_module: float  # [m] of the teeth, as given or by centre distance and teeth
+    centre_distance: float  # [m] of the axes
+    pinion_diameter: float  # [m] of the pitch circle
+    gear_diameter: float  # [m] of the pitch circle
+    limits: str
+    """What pitting_safety and scuffing_safety rest on; "assumed" if it is a default."""
     start_of_contact: float
     """[-] x_s along the line of action, from the pinion's base tangent point."""
     contact_ratio: float
@@ -192,9 +201,23 @@ def solve_gearmesh(
     ]  # fmt: skip
     absent = dict.fromkeys(absent_outputs(params))
     said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
-    point = {"status": status, "fidelity": fidelity}
+    point = {"status": status, "fidelity": fidelity, "limits": limits_assumed(params)} | _size(
+        params, par
+    )
     result = _result(par, field.tolist(), torque, speed, absent | point)
     return replace(result, warnings=(*said, *_failures(result), *doubts))
+
+
+def _size(p: GearMeshParams, par: Any) -> dict[str, float]:
+    """Return the lengths of the pair that module and centre distance make."""
+    centre, side = float(par[k.D_CENTRE]), float(par[k.D_SIDE])
+    pinion = 2.0 * centre / (p.gear_ratio + side)
+    return {
+        "normal_module": pinion / p.pinion_teeth * math.cos(p.helix_angle),
+        "centre_distance": centre,
+        "pinion_diameter": pinion,
+        "gear_diameter": pinion * p.gear_ratio,
+    }
 
 
 def _shown(f: list[float]) -> dict[str, Any]:

@@ -6,7 +6,7 @@ What lies above a model (plots, commands, reference values) stands there as data
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, is_dataclass
 from functools import cache
 from importlib import import_module
@@ -130,14 +130,22 @@ class Sweep:
 
 
 @dataclass(frozen=True, kw_only=True)
+class OwnOutputs:
+    """Outputs of a model that can be measured beside those of its solutions at points."""
+
+    units: Mapping[str, str]
+    computed: Callable[[Any, Mapping[str, float], str], Mapping[str, float]] | None = None
+    """Of parameters, point and rung, those that there are; None: a law of its own has them."""
+    without: str = ""  # the input that these do not depend on
+    none: str = ""  # what a point means that has none of them
+
+
+@dataclass(frozen=True, kw_only=True)
 class Fits:
     """What can be fitted to measurements beside the model's outputs at its points."""
 
-    curve: str = ""
-    """Dotted name: called with (parameters, point, fidelity), returns the outputs of ``more``."""
-    more: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # unit and meaning
-    without: str = ""  # the input that these do not depend on
-    law: str = ""  # dotted name of what fits a law of the model to columns of its own
+    outputs: str = ""  # dotted name of ``OwnOutputs``
+    law: str = ""  # dotted name of the ``ModelProblem`` that fits these by a law of the model's own
 
 
 @dataclass(frozen=True, kw_only=True)

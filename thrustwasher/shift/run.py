@@ -6,9 +6,10 @@ from time import perf_counter
 
 import numpy as np
 
-from ..errors import ParameterError
+from ..errors import ParameterError, SolveError
 from ..model.parameters import as_numbers
 from ..numerics.jit import Array
+from .checks.holding import doubts_of_packs, failed_because
 from .checks.run_doubts import doubts
 from .cosim.loop import Recorder, Run, Steps, advance_in_python
 from .cosim.schedule import Correct
@@ -80,7 +81,12 @@ def run_shift(
         advance, n = advance_of(run, compiled), len(run.time) - 1
         steps = Steps(n, 0, run.h, run.h, 0, 0)
         begin = perf_counter()
-        _drive(advance, n, progress)
+        try:
+            _drive(advance, n, progress)
+        except (ParameterError, SolveError) as problem:
+            why = failed_because(scene, run.time, run.recorder)
+            said = str(problem).rstrip(".")
+            raise type(problem)(f"{said}; {why}" if why else str(problem)) from problem
     wall = perf_counter() - begin
     cost = _costs(scene, system, before, wall)
     result = result_of(scene, run, steps, wall, cost, messages, found)
@@ -147,6 +153,7 @@ def result_of(
     time, signals = run.time, run.recorder.signals()
     events = find_events(scene, time, signals)
     judder = find_judder(scene, time, signals)
+    figures = key_figures(scene, time, signals, events, judder)
     corrections = [action.change for action in run.schedule if isinstance(action, Correct)]
     return ShiftResult(
         scene=scene,
@@ -158,7 +165,7 @@ def result_of(
         events=events,
         phases=find_phases(scene, signals, events),
         energy=energy_balance(signals),
-        key_figures=key_figures(scene, time, signals, events, judder),
+        key_figures=figures,
         cost=cost,
         wall_time=wall,
         overhead=wall - sum(c.wall_time for c in cost),
@@ -168,7 +175,11 @@ def result_of(
             *(line for change in corrections for line in change.words()),
             *thrust_remarks(scene, signals),
         ],
-        found=(*found, *doubts(scene, run.h, steps, time, signals)),
+        found=(
+            *found,
+            *doubts(scene, run.h, steps, time, signals),
+            *doubts_of_packs(scene, time, signals, events, figures),
+        ),
         judder=judder,
         chatter=find_chatter(scene, time, signals, run.h),
     )

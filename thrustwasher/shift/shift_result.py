@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
-from ..model.record import resolve
+from ..model.record import absent_outputs, resolve
 from ..storage.whole_files import whole_file
 from .checks.step_estimate import StepError
 from .cosim.loop import Steps
@@ -144,11 +144,13 @@ class ShiftResult:
         }
 
     def write_csv(self, path: str | Path) -> None:
-        """Write time and all signals; the column heads carry the units. All of it or nothing."""
+        """Write time and all signals with a value; heads carry the units. All of it or nothing."""
         target = Path(path)
-        units = self.units()
-        head = ["time [s]", *(f"{name} [{units[name]}]" for name in self.signals)]
-        columns = [self.time.tolist(), *(s.tolist() for s in self.signals.values())]
+        units, parts = self.units(), self.scene.parts.items()
+        absent = {f"{n}.{own}" for n, p in parts for own in absent_outputs(p.spec, p.params)}
+        signals = {name: s for name, s in self.signals.items() if name not in absent}
+        head = ["time [s]", *(f"{name} [{units[name]}]" for name in signals)]
+        columns = [self.time.tolist(), *(s.tolist() for s in signals.values())]
         try:
             target.parent.stat()  # a folder that is missing is not made
             with whole_file(target) as part, part.open("w", encoding="utf-8", newline="\n") as file:

@@ -8,7 +8,6 @@
 ``load_curve``        all solutions over load, with the folds: continuation in the film
 ``follow``            inputs are given over time, friction and heat follow
 ``map``               solutions on both branches, charted for look-up
-``closed_forms``      an exact solution that a shift uses
 ``kernels``           compiled code
 ====================  =========================================================================
 """

@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import SolveError, Status
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
+from ..model.record import OwnOutputs
 from ..numerics.jit import Array
 from ..numerics.status import OK
 from .kernel_arguments import constants, work_array
@@ -150,6 +151,14 @@ def fold_loads(params: WasherParams, point: Mapping[str, float], fidelity: str) 
     found = {fold.kind: fold.load for fold in reversed(folds)}
     names = {"film_lost": "film_loss_load", "film_regained": "film_regain_load"}
     return {names[kind]: load for kind, load in found.items()}
+
+
+FOLDS = OwnOutputs(
+    units={"film_loss_load": "N", "film_regain_load": "N"},
+    computed=fold_loads,
+    without="load",
+    none="no such fold on the load curve",
+)
 
 
 def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:

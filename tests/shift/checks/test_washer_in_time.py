@@ -61,9 +61,9 @@ def test_the_default_washer_is_steady_and_so_is_one_that_rests():
     assert found.differences == [] and not found.stopped and found.worst < 0.6
     assert len(found.time) < 40
     time = np.array([0.0, 0.5, 1.0])
-    still = {n: np.full(3, x) for n, x in
-             (("load", 50.0), ("speed", 0.0), ("tilt", 1e-3), ("oil_temperature", 350.0),
-              ("friction_torque", 0.0), ("film_ratio", 2.5), ("temperature_max", 350.0))}  # fmt: skip
+    inputs = {"load": 50.0, "speed": 0.0, "tilt": 1e-3, "oil_temperature": 350.0}
+    outputs = {"friction_torque": 0.0, "film_ratio": 2.5, "temperature_max": 350.0}
+    still = {n: np.full(3, x) for n, x in (inputs | outputs).items()}
     assert follow_recorded(WasherParams(), "coarse", time, still, 5e-3).differences == []
 
 

@@ -125,7 +125,7 @@ def test_accepted_and_rejected_steps_are_told():
     calls = {c["part"]: c["steps"] for c in told["cost"]}
     assert calls["transmission"] > 1.5 * steps["accepted"]
     fixed = shift("msl", step=0.005).as_dict()
-    assert fixed["steps"]["rejected"] == 0 and fixed["steps"]["accepted"] == 500
+    assert fixed["steps"]["rejected"] == 0 and fixed["steps"]["accepted"] == 1000
     assert fixed["master_tolerance"] is None
 
 

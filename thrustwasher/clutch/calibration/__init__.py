@@ -1,8 +1,8 @@
-"""The friction law fitted to measurements: what it has beside every calibration.
+"""The friction law, fitted by the method that all models share: what is its own.
 
-===================  ============================================================================
-``calibration``      what is asked, checked; the fit, coefficients at both ends, whether load acts
-``friction_law``     the law over its constants: derivatives, a problem of least squares, starts
-``data_warnings``    points that the law cannot follow, in plain sentences
-===================  ============================================================================
+================  ==============================================================================
+``friction_law``  the law over its constants: values, derivatives, what is fitted to the points
+``friction_fit``  what the fit says: ends of the curve, whether load acts, warnings
+``reach``         warnings of points that no constants of the law can follow
+================  ==============================================================================
 """

@@ -1,27 +1,36 @@
-"""The clutch's friction law over its constants: values, derivatives, a problem of least squares."""
+"""The clutch's friction law over its constants: values, derivatives, what is fitted to points."""
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import product
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...calibration.least_squares import Problem
+from ...calibration.fit import chosen_names
+from ...calibration.identifiability import Verdict
+from ...calibration.measured import Measured
+from ...calibration.model_fit import ModelProblem
 from ...errors import ParameterError
 from ...numerics.jit import Array
 from ..kernels.pack_friction import ploughing, settled_slope, viscous_slopes
 from ..parameters import ClutchParams
 from ..solve import prepare
 
-WANG_CONSTANTS = (
-    "plough_weight", "shear_floor", "stick_speed", "decay_speed", "hardness_ratio", "indentation",
-)  # fmt: skip
+SHAPE = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
+WANG_CONSTANTS = (*SHAPE, "hardness_ratio", "indentation")
 CONSTANT_LAW = ("constant_friction",)
+LARGEST_FRICTION = 2.0
+SPEEDS, LINEAR = ("stick_speed", "decay_speed"), ("plough_weight", "shear_floor")
 N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
 N_STARTS = 4  # best of them, refined
-_LINEAR = ("plough_weight", "shear_floor")
+TABLE = (
+    'take friction_law = "table" (ClutchParams.with_table), which follows a measured curve '
+    "in up to six points"
+)
 STEEPEST = 1.0 - 1e-9  # the derivative over the indentation is infinite at 1
 
 
@@ -43,19 +52,6 @@ def settled_shear(params: ClutchParams, slip: Array, load: Array, oil: Array) ->
         viscous_slopes(par, w, 0.0, settled_slope(par, f, 1.0)[0], t)[0] for w, f, t in points
     ]
     return np.asarray(np.array(torque) / lever)
-
-
-def without_shear(friction: Array, shear: Array) -> Array:
-    """Return the friction of the asperities; refuse points that are mostly the oil's shear."""
-    bad = shear > 0.5 * friction
-    if bad.any():
-        i = int(np.argmax(bad))
-        raise ParameterError(
-            f"friction[{i}] = {float(friction[i])!r}: shear of the settled film makes "
-            f"{shear[i]:.3g} of it, allowed with friction_data = 'boundary': up to half; leave the "
-            "point out, or take friction_data = 'total'"
-        )
-    return friction - shear
 
 
 def shares(values: Mapping[str, float]) -> tuple[float, float]:
@@ -134,17 +130,89 @@ def _decay(values: Mapping[str, float], speed: Array) -> tuple[Array, Array, Arr
 
 
 @dataclass(frozen=True, kw_only=True)
-class LawProblem(Problem):
+class FrictionProblem(ModelProblem):
     """Measured friction and the constants of the friction law; ``base``: every number of it."""
 
-    speed: Array  # (points,) slip speed [m/s], not negative
-    load: Array  # [N]; the law does not know it
-    is_constant: bool = False  # the constant law instead of Wang, Wei & Wu's
+    rough, fine, resolution, evaluations = 1e-7, 1e-14, 1e-9, 250
+    law, subject, counted_as, error_name = "law", "friction", "point", "friction_error"
+    by_rung, profiles, typical, instead = False, True, 1.0, TABLE
 
-    def curve(self, guess: Array, speed: Array | None = None) -> Array:
-        """Return the coefficients [-] at the measured or other slip speeds."""
-        at = self.speed if speed is None else speed
-        return friction_over(self.values(guess), at, self.is_constant)
+    @classmethod
+    def asked(
+        cls, points: Measured, fit: Sequence[str] | None, given: set[str]
+    ) -> tuple[Measured, tuple[str, ...]]:
+        """Return the points of a pack with the law, without what is not the law's; the constants.
+
+        A table gives way to the law, ``friction_scale`` to 1: the law is that of the points.
+        """
+        if points.names != ("friction",) or len(points.plan.params) > 1:
+            raise ParameterError("friction: allowed: without other outputs, all points of one pack")
+        params = points.plan.params[0]
+        law_of = "wang" if params.friction_law == "table" else params.friction_law
+        acting = CONSTANT_LAW if law_of == "constant" else WANG_CONSTANTS
+        words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
+        names = chosen_names(acting[: len(SHAPE)] if fit is None else fit, acting, words)
+        load, mu, mean = points.input("load"), points.value, points.value.mean()
+        most, shear = LARGEST_FRICTION, np.zeros(len(mu))
+        _refuse(points, "load", load, load == 0.0, "above 0 N")
+        _refuse(points, "friction", mu, np.abs(mu) > most, f"{-most:g} .. {most:g}")
+        if mean <= 0.0:
+            raise ParameterError(
+                f"friction is {mean:.3g} on average, allowed: above 0 (for either sign of speed)"
+            )
+        params = replace(params, friction_law=law_of, friction_scale=1.0)
+        if params.friction_data == "boundary":
+            if "oil_temperature" not in given:
+                raise ParameterError(
+                    "oil_temperature is missing, wanted with friction_data = 'boundary': shear of "
+                    "the oil is taken off the measured friction"
+                )
+            oil = points.input("oil_temperature")
+            shear = settled_shear(params, points.input("speed"), load, oil)
+            cure = (
+                "twice the shear of the settled film or more with friction_data = 'boundary'; "
+                "leave the point out, or take friction_data = 'total'"
+            )
+            _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
+        plan = replace(points.plan, params=(params,))
+        return replace(points, plan=plan, value=mu - shear), names
+
+    @classmethod
+    def change_of(cls, points: Measured, name: str) -> float:
+        """Return the fastest slip for a speed, the mean for a coefficient, 1 for a ratio."""
+        if name in SPEEDS:
+            slip = np.abs(points.input("speed")) * points.plan.params[0].friction_radius
+            return float(slip.max()) or 1.0
+        return float(points.value.mean()) if name in CONSTANT_LAW else 1.0
+
+    @classmethod
+    def held(cls, params: Any) -> dict[str, Any]:
+        """Return every number of the law."""
+        return law_values(params)
+
+    @property
+    def is_constant(self) -> bool:
+        """True for the constant law instead of Wang, Wei & Wu's."""
+        return bool(self.points.plan.params[0].friction_law == "constant")
+
+    @cached_property
+    def speed(self) -> Array:
+        """Slip speed of the points [m/s], not negative."""
+        slip = np.abs(self.points.input("speed"))
+        return np.asarray(slip * self.points.plan.params[0].friction_radius)
+
+    @cached_property
+    def load(self) -> Array:
+        """Load of the points [N]; the law does not know it."""
+        return self.points.input("load")
+
+    def curve(self, guess: Array) -> Array:
+        """Return the coefficients [-] at the measured slip speeds."""
+        return self.curve_over(self.values(guess), self.speed)
+
+    def curve_over(self, values: Mapping[str, float], speed: Array) -> Array:
+        """Return the coefficients [-] of a law at slip speeds [m/s]."""
+        return friction_over(values, speed, self.is_constant)
 
     def slopes_of_curve(self, guess: Array) -> Array:
         """Return the derivatives of the curve, (points, constants)."""
@@ -155,35 +223,38 @@ class LawProblem(Problem):
         if self.is_constant:
             return []
         grids = [self._candidates(i, float(first[i])) for i in range(len(self.names))]
-        linear = [i for i, name in enumerate(self.names) if name in _LINEAR]
+        linear = [i for i, name in enumerate(self.names) if name in LINEAR]
         tried = []
         for point in product(*grids):
             guess = np.array(point)
             if linear:
                 columns = self.slopes(guess)[:, linear]
-                step = np.linalg.lstsq(columns, -self.misfit(guess), rcond=1e-10)[0]
-                guess[linear] += step
+                guess[linear] += np.linalg.lstsq(columns, -self.misfit(guess), rcond=1e-10)[0]
             guess = np.clip(guess, self.low, self.high)
             tried.append((self.cost(guess), tuple(guess)))
         return [np.array(point) for _, point in sorted(tried)[:N_STARTS]]
+
+    def missed_because(self, judged: list[Verdict]) -> str:
+        """Return what keeps the law from the points."""
+        if self.is_constant:
+            return 'friction changes with speed, take friction_law = "wang"'
+        return super().missed_because(judged)
 
     def _candidates(self, index: int, first: float) -> list[float]:
         """Return the values of one constant that the coarse search tries."""
         name, low, high = self.names[index], self.low[index], self.high[index]
         speeds = np.unique(self.speed)
-        if name in _LINEAR:
+        values: Any = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
+        if name in LINEAR:
             return [0.5]
         if name == "stick_speed":  # between neighbouring speeds the sum of squares is smooth
             middles = 0.5 * (speeds[1:] + speeds[:-1])
             ranks = np.linspace(0.0, 1.0, N_STICK)
-            picked = np.quantile(middles, ranks) if len(middles) else speeds
-            values: Any = [first, *picked]
+            values = [first, *(np.quantile(middles, ranks) if len(middles) else speeds)]
         elif name == "decay_speed":
             values = np.geomspace(0.03, 3.0, N_DECAY) * max(float(speeds[-1]), 1e-3)
         elif name == "indentation":
             values = [first, 0.03, 0.3]
-        else:
-            values = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
         return [float(v) for v in np.unique(np.clip(values, low, high))]
 
     def why_bound(self, best: Array, i: int, side: str) -> str:
@@ -199,7 +270,7 @@ class LawProblem(Problem):
         """Return what the points' speeds leave out."""
         name, fastest, slowest = self.names[i], self.speed.max(), self.speed.min()
         stick = self.values(best)["stick_speed"]
-        if name in ("shear_floor", "decay_speed", "stick_speed") and fastest <= stick:
+        if name in ("shear_floor", *SPEEDS) and fastest <= stick:
             return (
                 f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} "
                 "m/s), where friction does not change with speed"
@@ -210,9 +281,16 @@ class LawProblem(Problem):
             return f"all points lie above it (slowest slip {slowest:.4g} m/s)", False
         return "", False
 
+    def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
+        """Return slip speed and load of the points."""
+        return {"slip speed": ("m/s", self.speed), "load": ("N", self.load)}
 
-def bounds_of(names: Sequence[str]) -> tuple[Array, Array]:
-    """Return the least and the largest value that ClutchParams allows."""
-    meta = {f.name: f.metadata for f in fields(ClutchParams)}
-    limits = np.array([(meta[n]["min"], meta[n]["max"]) for n in names], float)
-    return limits[:, 0], limits[:, 1]
+
+def _refuse(
+    points: Measured, name: str, values: Array, bad: NDArray[np.bool_], allowed: str
+) -> None:
+    """Name the first value that cannot be used."""
+    if bad.any():
+        i = int(np.argmax(bad))
+        where = f"{name}: point {points.row[i] + 1} is {float(values[i]):.6g}"
+        raise ParameterError(f"{where}, allowed: {allowed}")

@@ -12,7 +12,7 @@ from ...tribology.lumped_body import rise_after, rise_changes
 from . import layout as L
 from .contact import hertz_width
 from .directional_derivative import asperity_changes, flash_change
-from .flank_temperature import LOWEST_OIL, film_factor
+from .flank_temperature import LOWEST_OIL
 from .mesh_point import (
     HOT_FILM,
     LEAST_LINE_LOAD,
@@ -117,6 +117,23 @@ def heat_of_loss(
 
 
 @kernel
+def _sheared_rise(par: Array, flank: float, sliding: float) -> tuple[float, float, float]:
+    """Return how much hotter than its flanks [K] sheared oil gets, and the slopes of that.
+
+    ln(1 + beta Q)/beta, Q = mu u^2/(8 k), with mu(T) of slope beta at the flank's temperature and
+    ambient pressure (Nahme; Gruntfest): no thickness, no load. Slopes over ``flank`` [K] and over
+    the log of the ``sliding`` speed.
+    """
+    free = viscosity_at(par, flank) * sliding * sliding / (8.0 * par[L.P_OIL_CONDUCTIVITY])
+    beta = -thinning(par, flank)
+    if beta == 0.0:
+        return free, 0.0, 2.0 * free
+    rise, eased = math.log1p(beta * free) / beta, free / (1.0 + beta * free)
+    turn = -2.0 / (flank - 273.15 + par[L.P_VISCOSITY_C])  # relative slope of beta
+    return rise, eased * (turn - beta) - rise * turn, 2.0 * eased
+
+
+@kernel
 def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: Array) -> None:
     """Fill contact, film, temperatures and stresses of the hottest position, path's extremes."""
     place, factor = int(work[L.W_PLACE]), par[L.P_LOAD_FACTOR]
@@ -138,11 +155,11 @@ def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: 
     flash *= rubbing / quarter * math.sqrt(turning)
     work[L.F_FLASH] = work[L.F_FLASH_MAX] = flash
     work[L.F_SURFACE] = work[L.F_BULK] + flash
-    share = math.sqrt(v1) / (math.sqrt(v1) + math.sqrt(v2))
-    work[L.F_FILM_RISE] = share * friction * borne * rubbing * abs(v1 - v2) * film_factor(
-        film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
-        par[L.D_OIL_CAPACITY],
-    )  # fmt: skip
+    sheared = _sheared_rise(par, work[L.F_SURFACE], work[L.F_SLIDING])[0]
+    carried = friction * borne * rubbing * work[L.F_SLIDING]
+    carried /= 0.5 * (v1 + v2) * film * par[L.D_OIL_CAPACITY]
+    both = sheared + carried
+    work[L.F_FILM_RISE] = sheared * carried / both if both > 0.0 else 0.0
     work[L.F_FILM_TEMPERATURE] = work[L.F_SURFACE] + work[L.F_FILM_RISE]
     work[L.F_WEIGHT] = contact_weight(par, work[L.F_RATIO])
     stress_asperities(par, work[L.F_BULK], work)
@@ -194,23 +211,22 @@ def loss_changes(
     dout[L.F_FILM_GF] = work[L.F_FILM_GF] * film
     dout[L.F_PRESSURE_MAX] = 0.5 * work[L.F_PRESSURE_MAX] * load
     surface = dafter + flash
-    hotter = surface + _film_change(par, work, torque, turning, film, load, faster, seed, hottest)
+    hotter = surface + _film_change(par, work, torque, film, surface, faster, seed, hottest)
     asperity_changes(par, work, dafter, film, surface, hotter, flash, hottest, load, dout)
 
 
 @kernel
 def _film_change(
-    par: Array, work: Array, torque: float, turning: float, film: float, load: float, speed: float,
+    par: Array, work: Array, torque: float, film: float, surface: float, speed: float,
     seed: Array, friction: float,
 ) -> float:  # fmt: skip
     """Return the change of the film's rise over the flank [K]."""
     line, corner = torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD
-    rubbing = soft_size(line, corner)
-    if not (rubbing > 0.0 and work[L.F_FRICTION] > 0.0):
+    rubbing, rise = soft_size(line, corner), work[L.F_FILM_RISE]
+    if not rise > 0.0:
         return 0.0
     grows = soft_size_slope(line, corner) * par[L.D_LINE] * seed[L.I_LOAD] / rubbing
-    _, v1, _ = flanks_at(par, par[np.uintp(L.D_POSITION + int(work[L.W_PLACE]))])
-    half = 0.5 * v1 * turning * work[L.F_FILM] / par[L.P_OIL_CONDUCTIVITY]
-    power = -(0.013 + 9e-4 * par[L.D_OIL_CAPACITY] * half) * (speed + film)
-    power -= 1.003 * (0.5 * load - film)
-    return work[L.F_FILM_RISE] * (friction / work[L.F_FRICTION] + grows + speed + power)
+    sheared, warmer, faster = _sheared_rise(par, work[L.F_SURFACE], work[L.F_SLIDING])
+    part = rise / sheared  # that of the carried heat; the rest is the shear's
+    carried = friction / work[L.F_FRICTION] + grows - film
+    return part * part * (warmer * surface + faster * speed) + (1.0 - part) * rise * carried

@@ -19,12 +19,13 @@ class Recorder:
         for part in self.parts:
             self.first[part.name] = width
             width += len(part.input_names) + len(part.output_names)
-        self.rows: NDArray[np.float64] = np.empty((n, width))
+        # NaN: not reached.
+        self.rows: NDArray[np.float64] = np.full((n, width), np.nan)
 
     def keep(self, i: int) -> None:
         """Copy the present values to row ``i``; in some runs the number of points is not known."""
         if i >= len(self.rows):
-            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
+            self.rows = np.concatenate([self.rows, np.full_like(self.rows, np.nan)])
         row, at = self.rows[i], 0
         for part in self.parts:
             for values in (part.inputs, part.outputs):

@@ -47,7 +47,9 @@ def comfort_figures(
         "peak_jerk": (float(change[at]) / JERK_TIME, float(time[at])),
         "torque_hole": (None, None),
     }
-    high = signals["transmission.engine_speed"] - ratio * signals["transmission.output_speed"]
+    engine = signals["transmission.engine_speed"]
+    way = -1.0 if np.interp(begin, time, engine) < 0.0 else 1.0
+    high = way * (engine - ratio * signals["transmission.output_speed"])
     during = np.flatnonzero((time >= begin) & (time <= (time[-1] if lock is None else lock)))
     if len(during):
         at = during[int(np.argmax(high[during]))]

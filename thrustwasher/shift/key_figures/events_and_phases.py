@@ -109,24 +109,52 @@ def _standstill(time: Array, signals: Signals, i: int) -> float:
     return min(end, begin + 2.0 * float(heat[i] - heat[i - 1]) / power)
 
 
+def locks_of(scene: Scene, found: list[Event]) -> list[float]:
+    """Return when the engaging pack locked [s], while it was meant to hold."""
+    until = scene.wanted_until
+    kind = f"{scene.engaging}_locked"
+    return [e.time for e in found if e.kind == kind and scene.shift_start <= e.time <= until]
+
+
+def lock_up(scene: Scene, found: list[Event]) -> float | None:
+    """Return the lock [s] after which the engaging pack holds, to the end or its wanted release.
+
+    None if it does not: it slips at last, or still sticks and slips in turn for as long as it
+    already did.
+    """
+    locks, until = locks_of(scene, found), scene.wanted_until
+    kind = f"{scene.engaging}_released"
+    if not locks or any(e.kind == kind and locks[-1] <= e.time <= until for e in found):
+        return None
+    if len(locks) >= FEW and until - locks[-1] <= locks[-1] - locks[0]:
+        return None
+    return locks[-1]
+
+
 def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phase]:
     """Return gear, fill, torque phase, inertia phase and locked, as far as the run got.
 
     In the torque phase one pack takes the torque over from the other. In an upshift it comes first;
     in a downshift under power the speeds change first, and the pack that has locked then takes
     over, until the other is no longer pressed. A pack that takes over from no other has no torque
-    phase: it slips from the ramp on. Stick-slip that ends soon leaves the pack locked.
+    phase: it slips from the ramp on. The inertia phase ends where the pack holds; one that sticks
+    and slips in turn to the end has a phase of its own.
     """
     stop = scene.stop_time
     start = min(max(scene.shift_start, scene.start_time), stop)
     pack, other = scene.engaging, scene.releasing
 
-    def first(kind: str) -> float:
-        return next((e.time for e in found if e.kind == kind and e.time >= start), stop)
+    def first(kind: str, after: float = start) -> float:
+        return next((e.time for e in found if e.kind == kind and e.time >= after), stop)
 
-    lock = first(f"{pack}_locked")
+    locks, held = locks_of(scene, found), lock_up(scene, found)
+    lock = held if held is not None else min([*locks[:1], stop])
     release, free = min(first(f"{other}_released"), lock), lock
-    if signals[f"transmission.{other}_locked"][0] > 0.5:
+    was = [e.kind for e in found if e.time <= start and e.kind in (f"{other}_locked",
+           f"{other}_released")]  # fmt: skip
+    if (was[-1] if was else "") == f"{other}_locked" or (
+        not was and signals[f"transmission.{other}_locked"][0] > 0.5
+    ):
         kiss = start
         if scene.kiss_end is not None:
             full = next((e.time for e in found if e.kind == f"{pack}_filled"), start)
@@ -145,11 +173,7 @@ def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phas
         marks.append(("torque phase", lock, free))
     else:
         marks = [("free", scene.start_time, start), (SLIPPING[pack], start, lock)]
-    locks = [e for e in found if e.kind == f"{pack}_locked" and e.time >= start]
-    last = free
-    if len(locks) >= FEW:
-        last = locks[-1].time
-        if stop - last <= last - lock:
-            last = stop
-    marks += [("stick-slip", free, last), ("locked", max(last, free), stop)]
+    last = free if held is not None else stop
+    gone = first(f"{pack}_released", max(last, free))
+    marks += [("stick-slip", free, last), ("locked", max(last, free), gone), ("open", gone, stop)]
     return [Phase(name, a, b) for name, a, b in marks if b > a]

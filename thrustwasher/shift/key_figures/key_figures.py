@@ -11,7 +11,7 @@ from ..oscillation.judder import Judder, judder_figures
 from ..scene.connections import MESHES, PACKS
 from ..scene.scene import Scene
 from .comfort import comfort_figures, phase_figures
-from .events_and_phases import Event, Signals, turning
+from .events_and_phases import Event, Signals, lock_up, turning
 from .figure_list import FIGURES, FILM_SPEED, Found, KeyFigure, assemble
 
 FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
@@ -34,7 +34,7 @@ def key_figures(
 ) -> list[KeyFigure]:
     """Return the numbers a shift is judged by, SI units; None where there is no such thing."""
     start, pack, other = scene.shift_start, scene.engaging, scene.releasing
-    lock = next((e.time for e in events if e.kind == f"{pack}_locked" and e.time >= start), None)
+    lock = lock_up(scene, events)
     middle = None if scene.kiss_end is not None else start + 0.5 * scene.shift_duration
     releases = (e.time for e in events if e.kind == f"{other}_released" and e.time >= start)
     release, end = next(releases, None), slip_end(scene, time, signals)

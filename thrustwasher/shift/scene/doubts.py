@@ -15,6 +15,7 @@ from .scene import Part, Scene
 
 APART = 0.01  # of the centre distance, which may come from rounded transverse numbers
 TURNED = 1e-3  # rad
+ROOT = 1.25  # modules from pitch to root
 
 
 def doubts(scene: Scene) -> Iterator[str]:
@@ -60,6 +61,16 @@ def _of_washers(scene: Scene, gearbox: Any) -> Iterator[str]:
             f"of {washer.inner_radius:g} .. {washer.outer_radius:g} m: its load is wrong by about "
             "their ratio; give [transmission] washer_radius the washer's mean radius"
         )
+
+    teeth = gearbox.planet_teeth
+    if teeth:
+        root = 0.5 * teeth * gearbox.normal_module / math.cos(gearbox.helix_angle)
+        root -= ROOT * gearbox.normal_module
+        if washer.outer_radius > root:
+            yield (
+                f"[washer] outer_radius = {washer.outer_radius:g} m, but the planet of {teeth} "
+                f"teeth has a root radius of {root:.4g} m: the washer does not fit beside it"
+            )
 
 
 def _of_bearings(scene: Scene, gearbox: Any) -> Iterator[str]:

@@ -19,6 +19,7 @@ from ..masters.master import MASTERS
 MAX_STEPS = 500_000  # all signals of so many steps still fit into memory
 STEP_RANGE = (1e-6, 1.0)  # s
 STEPS_OF_A_SHIFT = 20.0  # at least
+PRESSED = 0.9  # of the greatest pressure: below it a pack that lets go is meant to
 TOLERANCE_RANGE = (1e-9, 0.1)  # of master_tolerance
 
 
@@ -181,6 +182,17 @@ class Scene:
         while i + 1 < len(points) and points[i + 1][1] <= points[i][1]:
             i += 1
         return points[i][0]
+
+    @property
+    def wanted_until(self) -> float:
+        """The time [s] up to which the engaging pack is meant to hold: its pressure falls then."""
+        gearbox = self.parts["transmission"].params
+        points = course_points(gearbox, f"{self.engaging}_pressure")
+        if gearbox.actuation == "pressure" and points:
+            enough = PRESSED * max(p for _, p in points)
+            if points[-1][1] < enough:
+                return min(max(t for t, p in points if p >= enough), self.stop_time)
+        return self.stop_time
 
     def with_options(
         self,

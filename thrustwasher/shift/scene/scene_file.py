@@ -51,6 +51,7 @@ NUMBERS = {
     "oil_temperature": ("K", 233.15, 473.15),
 }
 ONE_OIL = 1.2  # ratio of viscosities up to which parts may be said to have one oil
+LEAST_TEETH = 5  # of sun and planet: fewer make no gear
 ROLE = ("starts_pressed",)  # what a scene, not a part file, says of a part
 SHIFT = {
     "start": ("s", -1e6, 1e6),
@@ -170,6 +171,7 @@ def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
     given = read_oil(f"{where} [oil]", table.get("oil", {}))
     parts, notes = _parts(where, table, given or Oil(), numbers["oil_temperature"])
+    notes += _without_what_is_not_there(f"{where} [transmission]", parts)
     if "washer" in parts and "mesh" not in parts:
         if parts["washer"].params.gear_far_face == "bulk":
             raise ParameterError(
@@ -218,7 +220,7 @@ def _parts(
                 notes.append(f"{key}: {', '.join(own)} of its own, not of the scene's oil")
             if key == "sump":
                 gearbox = replace(parts["transmission"].params, ring_mesh="ring_mesh" in table)
-                given = _sump(given, gearbox, temperature)
+                given = _sump(f"{where} [sump]", given, gearbox, temperature)
             usual = _mates(parts["transmission"].params) if key in MESHES else {}
             parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
             if lost:
@@ -227,6 +229,21 @@ def _parts(
     if the_oil.density_15:
         notes.append(the_oil.words(*_specs(parts)))
     return parts, notes
+
+
+def _without_what_is_not_there(where: str, parts: dict[str, Part]) -> list[str]:
+    """Refuse gears that are none; drop the washer where there are none, and return that."""
+    gearbox = parts["transmission"].params
+    for key in ("sun_teeth", "planet_teeth") if gearbox.planet_teeth else ():
+        if (z := getattr(gearbox, key)) < LEAST_TEETH:
+            raise ParameterError(
+                f"{where}: {key} = {z}, allowed: from {LEAST_TEETH} on, or planet_teeth = 0, an "
+                "ideal set"
+            )
+    if "washer" not in parts or gearbox.washers:
+        return []
+    del parts["washer"]
+    return ["[washer] is left out: washers = 0 in [transmission]"]
 
 
 def _specs(parts: Mapping[str, Part]) -> list[ModelSpec]:
@@ -253,9 +270,14 @@ def _oil_warnings(
     ]
 
 
-def _sump(table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
+def _sump(where: str, table: dict[str, Any], gearbox: Any, oil: float) -> dict[str, Any]:
     """Return the sump's table with the oil's temperature and the numbers of parts alike."""
     alike = {"factor_3": gearbox.washers, "factor_4": gearbox.meshes, "factor_5": gearbox.planets}
+    if "initial_temperature" in table:
+        raise ParameterError(
+            f"{where}: initial_temperature cannot be set here; the scene's own oil_temperature "
+            "sets it: all parts and the report start from it"
+        )
     return {"initial_temperature": oil, **alike, **table}
 
 

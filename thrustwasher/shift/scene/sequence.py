@@ -87,6 +87,18 @@ def checked_sequence(where: str, whole: Scene, sequence: ShiftSequence) -> Scene
                 f"one before and before stop_time, here {a + sequence.window:g} .. {ends[1]:g} s"
             )
     gearbox = whole.parts["transmission"]
+    for way in dict.fromkeys(way for _, way in sequence.shifts):
+        params = replace(gearbox.params, **sequence.courses[way])
+        if params.actuation == "pressure":
+            courses = [course_points(params, name) for name in COURSES if "pressure" in name]
+            last = max(points[-1][0] for points in courses if points)
+        else:
+            last = sequence.ramp["shift_start"] + sequence.ramp["shift_duration"]
+        if last > sequence.window:
+            raise ParameterError(
+                f"{where}: window = {sequence.window:g} s, allowed: from {last:g} s on, where the "
+                f"pressures of a shift {way} have settled; steps grow long behind the window"
+            )
     none = {f"{name}_points": 0 for name in COURSES}
     if gearbox.params.engine_torque_points:
         none["engine_torque"] = 0

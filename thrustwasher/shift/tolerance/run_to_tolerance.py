@@ -6,6 +6,7 @@ from functools import partial
 
 from ...errors import ParameterError, SolveError
 from ...ladder.own_tables import RUNS, build_where_it_pays
+from ..checks import step_error
 from ..checks.guard import guarded
 from ..masters.master import MASTERS
 from ..run import Progress, run_shift
@@ -76,19 +77,31 @@ def run_auto(
     result = run(with_rungs(scene, {c.part: c.rung for c in chosen}))
     if guard:
         result = _checked(result, chosen, pool, run)
-        result = guarded(result, given, second)
-        if _to_follow(scene, result):
-            in_time = _without_choice(_in_time(scene))[0]
-            rungs = {n: p.fidelity for n, p in result.scene.parts.items() if n not in DIRECT}
-            again = guarded(run(with_rungs(in_time, rungs)), given, second)
-            record, words = result.guard, _words_again(result)
-            result = replace(again, guard=record, messages=[*again.messages, words])
+        result = _followed(scene, guarded(result, given, second), run, given, second)
     return replace(result, selection=selection, messages=[*result.messages, *remarks])
 
 
-def _to_follow(scene: Scene, result: ShiftResult) -> bool:
-    """Tell if a washer whose rung was to be chosen is not steady in the run."""
-    return any(scene.parts[n].tolerance and w.differences for n, w in result.in_time.items())
+def _followed(
+    scene: Scene, result: ShiftResult, run: Callable[[Scene], ShiftResult], given: step_error.Make,
+    second: step_error.Run,
+) -> ShiftResult:  # fmt: skip
+    """Repeat a run in time where a washer whose rung was to be chosen is not steady in it.
+
+    Where that fails the run before it counts, with its warning, and why.
+    """
+    if not any(scene.parts[n].tolerance and w.differences for n, w in result.in_time.items()):
+        return result
+    rungs = {n: p.fidelity for n, p in result.scene.parts.items() if n not in DIRECT}
+    try:
+        again = guarded(run(with_rungs(_in_time(scene), rungs)), given, second)
+    except (ParameterError, SolveError) as problem:
+        words = f"A run with thermal_mode transient failed ({problem}); the one before it counts"
+        return replace(result, found=(*result.found, words))
+    words = "; ".join(text for n, w in result.in_time.items() for text in w.warnings(n, "so"))
+    return replace(
+        again, guard=result.guard,
+        messages=[*again.messages, f"{words} the run was repeated with thermal_mode transient"],
+    )  # fmt: skip
 
 
 def _in_time(scene: Scene) -> Scene:
@@ -98,14 +111,8 @@ def _in_time(scene: Scene) -> Scene:
         if (part := parts.get(name)) is not None:
             params = replace(part.params, thermal_mode="transient")
             rung = part.spec.default_fidelity if part.tolerance else part.fidelity
-            parts[name] = replace(part, params=params, fidelity=rung)
+            parts[name] = replace(part, params=params, fidelity=rung, tolerance=None)
     return replace(scene, parts=parts)
-
-
-def _words_again(result: ShiftResult) -> str:
-    """Say why a run was repeated with washers in time."""
-    said = [text for n, w in result.in_time.items() for text in w.warnings(n, "")]
-    return "; ".join(f"run again with thermal_mode transient: {t.rstrip(' ;')}" for t in said)
 
 
 def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:

@@ -1,4 +1,3 @@
-# mypy: disable-error-code="no-any-return"
 """Film 1 and gap 2 at the nodes: gaps, contact pressures, viscosity, and what they balance.
 
 symbol | meaning                                   | unit
@@ -30,7 +29,7 @@ FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, a
 def face_area(par: Array) -> float:
     """Return the area of the washer's face [m^2], to which mean contact pressures refer."""
     inner, outer = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS]
-    return math.pi * (outer * outer - inner * inner)
+    return float(math.pi * (outer * outer - inner * inner))
 
 
 @kernel

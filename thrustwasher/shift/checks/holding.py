@@ -1,0 +1,153 @@
+"""Whether the packs hold when they should: warnings from the signals of a run."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.jit import Array
+from ...transmission.kernels.directional_derivative import LEAST_WASHER_LOAD
+from ...units import format_quantity as say
+from ..cosim.loop import Recorder
+from ..key_figures.events_and_phases import STANDSTILL, Event, lock_up, locks_of
+from ..key_figures.figure_list import KeyFigure
+from ..oscillation.judder import FEW
+from ..scene.connections import PACKS
+from ..scene.scene import Scene
+
+Signals = Mapping[str, Array]
+TURNS_SHARE = 0.02  # of the time to lock-up: shorter sticking in turn changes no figure
+NUMERICAL = 10.0  # steps between two lock-ups, at most
+KISS = 0.1  # of the greatest load: a pack that lets go later has more
+SETTLED = 0.995  # of it: a pack that engages is pressed already
+FLARE = 10.0  # rad/s, some 100 rpm: felt and heard
+
+
+def doubts_of_packs(
+    scene: Scene, time: Array, signals: Signals, events: list[Event], figures: Sequence[KeyFigure]
+) -> Iterator[str]:
+    """Yield what shows that packs do not hold as a shift takes for granted, a line each."""
+    yield from _at_the_start(scene, time, signals)
+    yield from _in_turn(scene, time, events)
+    if not scene.alone:
+        yield from _neutral(scene, time, signals, figures)
+        yield from _at_the_end(scene, time, signals, events)
+    yield from _of_washers(signals)
+
+
+def _at_the_start(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
+    before = time <= max(scene.shift_start, time[0])
+    for pack in PACKS:
+        load, slip = (signals[f"transmission.{pack}_{name}"] for name in ("load", "speed"))
+        least = SETTLED if pack == scene.engaging else KISS
+        slips = (load > least * load.max()) & (np.abs(slip) > STANDSTILL) & before
+        if slips.any():
+            i = int(np.argmax(slips))
+            yield (
+                f"Before the shift begins, at {time[i]:.4g} s, the {pack} is pressed with "
+                f"{say(float(load[i]), 'N')} and slips with {say(abs(float(slip[i])), 'rad/s')}: "
+                "the initial speeds do not belong to this gear, or the pack takes its load too "
+                "late; its heat is counted as the shift's. Set initial_engine_speed and "
+                "initial_drum_speed of this gear, and starts_pressed"
+            )
+
+
+def _in_turn(scene: Scene, time: Array, events: list[Event]) -> Iterator[str]:
+    locks, held = locks_of(scene, events), lock_up(scene, events)
+    if held is None or len(locks) < FEW:
+        return
+    first = locks[0]
+    if held - first <= TURNS_SHARE * (held - scene.shift_start):
+        return
+    between = np.diff(time[(time >= first) & (time <= held)])
+    step = float(np.median(between)) if len(between) else scene.step
+    every = (held - first) / ((len(locks) - 1) * step)
+    why = (
+        f"a lock-up every {every:.2g} steps, which is numerical: their number follows the step"
+        if every <= NUMERICAL
+        else "the driveline asks for more than the pack can hold"
+    )
+    yield (
+        f"The {scene.engaging} sticks and slips in turn from {first:.4g} to {held:.4g} s "
+        f"({len(locks)} lock-ups), before it holds: {why}. Lock-up is the last of them"
+    )
+
+
+def _neutral(
+    scene: Scene, time: Array, signals: Signals, figures: Sequence[KeyFigure]
+) -> Iterator[str]:
+    flare = next((f for f in figures if f.name == "flare"), None)
+    most = flare.value or 0.0 if flare else 0.0
+    free = _open(signals) & (time >= scene.shift_start) & (time <= scene.wanted_until)
+    if not free.any() and most <= FLARE:
+        return
+    if free.any():
+        begin = int(np.argmax(free))
+        end = begin + int(np.argmin(free[begin:])) if not free[begin:].all() else len(time) - 1
+        cause = (
+            f"From {time[begin]:.4g} to {time[end]:.4g} s neither pack is pressed: the engine is "
+            f"free; the {scene.engaging} fills or closes too late, or the {scene.releasing} lets "
+            "go too early"
+        )
+        yield cause + (f". The engine flares by {say(most, 'rad/s')}" if most > FLARE else "")
+    else:
+        at = flare.time if flare and flare.time is not None else scene.shift_start
+        yield (
+            f"The engine flares by {say(most, 'rad/s')} at {at:.4g} s: the {scene.releasing} lets "
+            f"go before the {scene.engaging} carries its torque; let it go later or press the "
+            f"{scene.engaging} earlier"
+        )
+
+
+def _open(signals: Signals) -> NDArray[np.bool_]:
+    """Return where neither pack is pressed, once one was."""
+    pressed = np.logical_or(*(signals[f"transmission.{pack}_load"] > 0.0 for pack in PACKS))
+    return np.asarray(~pressed & np.logical_or.accumulate(pressed))
+
+
+def _at_the_end(scene: Scene, time: Array, signals: Signals, events: list[Event]) -> Iterator[str]:
+    held = lock_up(scene, events)
+    kind = f"{scene.engaging}_released"
+    gone = [e.time for e in events if e.kind == kind and held is not None and e.time >= held]
+    if gone and not any(signals[f"transmission.{pack}_locked"][-1] > 0.5 for pack in PACKS):
+        yield (
+            f"At the end no pack holds: the {scene.engaging}, locked at {held:.4g} s, lets go at "
+            f"{gone[-1]:.4g} s, where its pressure falls from {scene.wanted_until:.4g} s on; let "
+            "its course end at the pressure that holds"
+        )
+
+
+def _of_washers(signals: Signals) -> Iterator[str]:
+    load = signals.get("transmission.washer_load")
+    if load is None or "washer.friction_torque" not in signals or load.max() > LEAST_WASHER_LOAD:
+        return
+    heat = float(signals["transmission.washer_heat"][-1])
+    if heat > 0.0:
+        yield (
+            f"No tilting couple loads the washers (thrust_share = 0, or spur teeth): each is "
+            f"solved with {LEAST_WASHER_LOAD:g} N, the least load; the {say(heat, 'J')} they took "
+            "and their film are of that load. Leave out [washer] or set washers = 0"
+        )
+
+
+def failed_because(scene: Scene, time: Array, recorder: Recorder) -> str:
+    """Return what may have made a run fail: nothing pressed at the last point, doubts before it.
+
+    Rows of points that were not reached are NaN.
+    """
+    signals = recorder.signals()
+    done = np.flatnonzero(np.isfinite(signals["transmission.clutch_load"]))
+    told = list(scene.warnings)
+    if len(done):
+        reached = {name: values[: done[-1] + 1] for name, values in signals.items()}
+        locked = np.logical_or(*(reached[f"transmission.{p}_locked"] > 0.5 for p in PACKS))
+        if not locked[-1]:
+            held = np.flatnonzero(locked)
+            since = float(time[held[-1]]) if len(held) else float(time[0])
+            now = "neither is pressed" if _open(reached)[-1] else "they only slip"
+            speed = float(reached["transmission.engine_speed"][-1])
+            told.insert(0, (
+                f"since {since:.4g} s no pack held ({now} at {time[done[-1]]:.4g} s) and the "
+                f"engine reached {say(speed, 'rad/s')}: look at the pressures of both packs"
+            ))  # fmt: skip
+    return "; ".join(told)

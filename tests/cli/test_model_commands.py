@@ -77,7 +77,7 @@ def test_json_has_every_result_and_input_in_full_precision(command, capsys):
             "clutch",
             ["friction pack at load 5 kN", "shear_ratio", "interface temperature", "field,"],
         ),
-        ("gearmesh", ["20 teeth, ratio 2, at power 7.5 kW, speed 180 rad/s, oil_temperature 26.7"]),
+        ("gearmesh", ["20 teeth, ratio 2, at power 7.5 kW, speed 180 rad/s (1718.9 rpm), oil_t"]),
     ],
 )
 def test_a_bare_call_answers_with_a_table_for_a_person(command, words, capsys):

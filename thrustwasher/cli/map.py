@@ -12,6 +12,7 @@ from ..units import parse_quantity
 from ..washer.parameters import SPEC
 from . import _options, _output
 
+INPUTS = [signal for signal in SPEC.inputs if not signal.optional]  # a map has no others
 HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
 
 
@@ -22,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="relative error of the torque allowed, default 0.005")  # fmt: skip
     parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     group = parser.add_argument_group("box of a map to build: LOW:HIGH, or one value to fix")
-    for signal in SPEC.inputs:
+    for signal in INPUTS:
         group.add_argument(
             _options.option_name(signal.name), dest=signal.name, metavar="LOW:HIGH",
             help=f"{signal.help} [{signal.unit}]",
@@ -51,7 +52,7 @@ def _build(arguments: argparse.Namespace) -> int:
     part = _options.read_part(arguments, SPEC)
     params, box = part.params, dict(part.box)
     box |= {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
-            for s in SPEC.inputs if getattr(arguments, s.name)}  # fmt: skip
+            for s in INPUTS if getattr(arguments, s.name)}  # fmt: skip
 
     from ..ladder.own_tables import serves
     from ..native.files import write
@@ -65,10 +66,10 @@ def _build(arguments: argparse.Namespace) -> int:
     card = make_map(params, Path(out), box=box, tolerance=tolerance, fidelity=arguments.fidelity,
                     workers=arguments.workers, points=arguments.points,
                     progress=_output.time_left)  # fmt: skip
-    if left := [s for s in SPEC.inputs if s.name not in box]:
+    if left := [s for s in INPUTS if s.name not in box]:
         spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
         _output.note(f"taken by default: {', '.join(spans)}")
-    plain = not arguments.fidelity and not any(getattr(arguments, s.name) for s in SPEC.inputs)
+    plain = not arguments.fidelity and not any(getattr(arguments, s.name) for s in INPUTS)
     if arguments.file and plain and not serves(TABLES, params, box, tolerance):
         keep_own(params, lambda path: write(path, Path(out).read_bytes()))
     _show(card, str(out), arguments.json)
@@ -129,7 +130,7 @@ def _show(card: dict[str, Any], path: str, as_json: bool) -> None:
         return
     from ..washer.map.map_check import mesh_of
 
-    units = {s.name: s.unit for s in SPEC.inputs}
+    units = {s.name: s.unit for s in INPUTS}
     box = ", ".join(
         f"{name} {ends[0]:g} .. {ends[1]:g} {units[name]}" for name, ends in card["box"].items()
     )

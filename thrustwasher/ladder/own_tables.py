@@ -47,7 +47,8 @@ def build_where_it_pays(
             known = tables.box(params)
             if serves(tables, params, needed or box, tol):
                 return ""
-            box = {n: (min(a, known[n][0]), max(b, known[n][1])) for n, (a, b) in box.items()}
+            box = {n: (min(a, known[n][0]), max(b, known[n][1])) for n, (a, b) in box.items()
+                   if n in known}  # fmt: skip
         lines = tables.lines(params, box, tol / SAFETY)
         takes = (lines * LINE + POINTS * POINT) / usable_cores() + ONCE
         if calls * CALL < takes:
@@ -94,4 +95,5 @@ def serves(tables: Tables, params: Any, box: Box, tol: float) -> bool:
     return tables.find(params).card["tolerance"] <= tol and all(
         known[n][0] <= max(low, tables.least(n)) and high <= known[n][1]
         for n, (low, high) in box.items()
+        if n in known  # a part that any other acts on has no map
     )

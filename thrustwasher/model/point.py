@@ -7,7 +7,7 @@ own: a gear mesh takes power for torque.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -64,11 +64,12 @@ class Point:
         return taken_text(self.box, self.default, self.inputs)
 
 
-def taken_text(box: Values, default: Values, inputs: Iterable[Signal]) -> str:
+def taken_text(box: Values, default: Values, inputs: Sequence[Signal]) -> str:
     """Return a line that names what was taken from a box and by default; "" if nothing was."""
-    signals, said = [s for s in inputs if not s.optional], []
+    default = {s.name: default[s.name] for s in inputs if s.name in default and not s.optional}
+    said = []
     for words, values in {"from the part's box": box, "by default": default}.items():
-        shown = [quantity_text(s, values[s.name]) for s in signals if s.name in values]
+        shown = [quantity_text(s, values[s.name]) for s in inputs if s.name in values]
         if shown:
             said.append(f"{words}: {', '.join(shown)}")
     return f"taken {'; '.join(said)}" if said else ""

@@ -209,7 +209,7 @@ def _assemble(
         taken=taken_text(box, default, spec.inputs),
         warnings=(
             *_idle(params, fidelity, spec.key), *_outside(part, inputs),
-            *_doubt(spec, fidelity, params, inputs),
+            *_doubt(spec, fidelity, params, np.repeat(params_of, np.diff(starts)), inputs),
         ),
     )  # fmt: skip
     plan.identity.update(_identity(plan, base, fixed, varied))
@@ -222,12 +222,26 @@ def _idle(params: Sequence[Any], fidelity: str, model: str) -> Iterator[str]:
     yield from {text.partition(" = ")[0]: text for text in lines}.values()
 
 
-def _doubt(spec: ModelSpec, fidelity: str, params: Sequence[Any], inputs: Array) -> Iterator[str]:
-    """Yield what the model says of all rows, if they are of one part."""
-    doubt = find_model(spec.key).sweep.doubt
-    if doubt and len(params) == 1 and params[0] is not None:
-        if text := resolve(doubt)(params[0], fidelity, inputs[np.isfinite(inputs).all(1)]):
+def _doubt(
+    spec: ModelSpec, fidelity: str, params: Sequence[Any], part_of: Array, inputs: Array
+) -> Iterator[str]:
+    """Yield what the model says of all rows; of several parts what it says of the first of them.
+
+    ParameterError: the only part has no answer to a row; of several that is a warning.
+    """
+    doubt, sound = find_model(spec.key).sweep.doubt, np.isfinite(inputs).all(1)
+    for k, part in enumerate(params if doubt else ()):
+        if part is None:
+            continue
+        try:
+            text = resolve(doubt)(part, fidelity, inputs[sound & (part_of == k)])
+        except ParameterError as problem:
+            if len(params) == 1:
+                raise
+            text = str(problem)
+        if text:
             yield text
+            return
 
 
 def _outside(part: PartFile, inputs: Array) -> Iterator[str]:

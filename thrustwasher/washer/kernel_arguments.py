@@ -84,5 +84,5 @@ class Recent(Generic[T]):
         return made
 
     def forget(self) -> None:
-        """Make all anew: files that something was made of have changed."""
+        """Make all anew: a file that something was made of has changed."""
         self.local = threading.local()

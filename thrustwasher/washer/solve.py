@@ -4,6 +4,7 @@ Average-flow Reynolds equation with cavitation, elasto-plastic asperity contact,
 carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/theory/washer.md.
 """
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -206,6 +207,21 @@ def _map_solver() -> Any:
     from .map.look_up import solve_by_map
 
     return solve_by_map
+
+
+def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
+    """Return a warning of a sweep's points (n, 5) that its map leaves to the field.
+
+    ParameterError: a temperature at the gear's far face is too cold or in vain.
+    """
+    far = points[:, -1]
+    check_far_face(params, float(min(far[far != 0.0], default=0.0)))
+    if fidelity == "map" and len(points):
+        from .map.look_up import outside_text
+
+        with suppress(ParameterError):  # without a map nothing is solved
+            return outside_text(params, points, "points")
+    return ""
 
 
 class _Prepared:

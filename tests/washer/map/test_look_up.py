@@ -7,9 +7,11 @@ import pytest
 
 from thrustwasher.errors import BranchError, ParameterError, Status
 from thrustwasher.washer.kernels.layout import N_ALL, NOUT
+from thrustwasher.washer.kernels.map import map_layout as L
 from thrustwasher.washer.kernels.map.map_step import N_MAP_WORK, look_up, map_sens
 from thrustwasher.washer.kernels.workspace import Point
 from thrustwasher.washer.load_curve import load_curve
+from thrustwasher.washer.map.map_file import VARIABLE, pack, read_map
 from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
 
@@ -96,7 +98,8 @@ def test_outside_its_box_a_map_says_nothing_and_the_field_answers(found_first, s
         assert math.isnan(small.torque(*point.values()))
         assert small.look_up(**point)["branch"] == -1.0
         result = solve_washer(PARAMS, **point, fidelity="map")
-        assert result.fidelity == "field" and result.status is Status.OK
+        assert result.fidelity == "field"
+        assert result.status is (Status.DISTRESS if result.distress else Status.OK)
         assert result.friction_torque == solve_washer(PARAMS, **point).friction_torque
 
 
@@ -108,6 +111,34 @@ def test_a_level_washer_has_no_map(found_first):
 def test_without_a_map_for_the_parameters_the_message_says_how_to_make_one(found_first):
     with pytest.raises(ParameterError, match="thrustwasher map build"):
         solve_washer(WasherParams(roughness=4.1e-7), load=300.0, **PLACE, fidelity="map")
+
+
+def test_a_map_that_comes_goes_or_is_written_anew_is_seen_at_once(map_path, tmp_path, monkeypatch):
+    """The washer and its parameters stay the same; the answer is the map's that is there now."""
+
+    def answered():
+        result = solve_washer(PARAMS, load=300.0, **PLACE, fidelity="map")
+        return result.fidelity, result.friction_torque
+
+    def write(data):
+        draft = tmp_path / "draft"
+        draft.write_bytes(pack(data, small.card))
+        draft.replace(tmp_path / "mine.twm")
+
+    shipped, small = answered(), read_map(map_path)
+    monkeypatch.setenv(VARIABLE, str(tmp_path))
+    assert answered() == shipped  # no map there yet
+    write(small.data)
+    first = answered()
+    assert first[0] == "map" and first != shipped
+    narrow = small.data.copy()
+    narrow[L.BOX + 1] = 250.0  # N, the highest load
+    write(narrow)
+    assert answered()[0] == "field"
+    (tmp_path / "mine.twm").write_bytes(pack(small.data, small.card))  # in its place
+    assert answered() == first
+    (tmp_path / "mine.twm").unlink()
+    assert answered() == shipped
 
 
 @pytest.mark.parametrize(("load", "speed", "tilt", "branch"), OFF_NODES)

@@ -4,8 +4,7 @@ import math
 import os
 import threading
 from collections.abc import Callable, Mapping
-from contextlib import suppress
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -151,8 +150,9 @@ class WasherMap:
 class _Solver:
     """A washer's map, ready to be looked up again: memory and the kernels."""
 
-    def __init__(self, params: WasherParams) -> None:
-        data = washer_map(params).data
+    def __init__(self, params: WasherParams, _maps: object) -> None:
+        file = map_for(params)
+        data, self.path, self.stamp = file.data, str(file.path), map_file.stamp_of(file.path)
         work, self.state = np.zeros(N_MAP_WORK), np.zeros(L.S_FIELDS)
         self.numbers, self.branch, self.tilts = np.zeros(L.N_ALL), np.zeros(2), np.zeros(2)
         self.look_up = bound(
@@ -161,7 +161,17 @@ class _Solver:
         self.tilt = bound(map_tilts, data=data, w=work, tilts=self.tilts)
 
 
-_solver = Recent(_Solver)
+_known = Recent(_Solver)
+
+
+def _solver(params: WasherParams) -> _Solver:
+    """Return what looks up in the map that is found now: folders and file may have changed."""
+    state = map_file.state_of_maps()
+    solver = _known(params, state)
+    if solver.stamp == map_file.stamp_of(solver.path):
+        return solver
+    _known.forget()  # written anew in its place
+    return _known(params, state)
 
 
 def solve_by_map(
@@ -179,7 +189,7 @@ def solve_by_map(
             "has no far_face_temperature: use fidelity 'field'"
         )
     if point[2] <= LEAST_TILT:
-        washer_map(params)  # there has to be one
+        _solver(params)  # there has to be one
         return None
     solver, state = _solver(params), np.zeros(L.S_FIELDS)
     before, ratio = 0.0, 0.0
@@ -209,7 +219,7 @@ def outside_text(params: WasherParams, points: Array, what: str, most: float = 0
 
     ``points`` (n, 4): load [N], speed [rad/s], tilt [rad] and oil temperature [K].
     """
-    box = washer_map(params).box
+    box = WasherMap(params).box
     there = np.abs(points)
     outside = there[:, 2] <= LEAST_TILT
     for i, (low, high) in enumerate(box.values()):
@@ -221,15 +231,6 @@ def outside_text(params: WasherParams, points: Array, what: str, most: float = 0
         "without tilt and were solved by 'field', with its accuracy and time; build a map for a "
         "larger box, or choose 'field'"
     )
-
-
-def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
-    """Return a warning of a sweep's points that its map leaves to the field."""
-    if fidelity != "map" or not len(points):
-        return ""
-    with suppress(ParameterError):  # without a map nothing is solved
-        return outside_text(params, points, "points")
-    return ""
 
 
 def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) -> map_file.MapFile:
@@ -247,12 +248,6 @@ def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) ->
             "`thrustwasher map build`, or use fidelity 'field'"
         )
     return found
-
-
-@lru_cache(maxsize=8)
-def washer_map(params: WasherParams) -> WasherMap:
-    """Return the map of a washer, read once; see ``WasherMap``."""
-    return WasherMap(params)
 
 
 def build_own(
@@ -273,8 +268,6 @@ def keep_own(params: WasherParams, make: Callable[[Path], Any]) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     make(path)
     map_file.forget_unused()
-    washer_map.cache_clear()
-    _solver.forget()
 
 
 def kept_maps() -> str:

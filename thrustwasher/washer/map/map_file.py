@@ -102,7 +102,7 @@ def expected_size(head: Array) -> float:
 
 
 @lru_cache(maxsize=16)
-def _read(path: str, _changed: int, _size: int) -> MapFile:
+def _read(path: str, _stamp: tuple[int, ...]) -> MapFile:
     try:
         with zipfile.ZipFile(path) as archive:
             if archive.getinfo(NUMBERS).file_size > LARGEST:
@@ -124,8 +124,16 @@ def read_map(path: str | os.PathLike[str]) -> MapFile:
     file = Path(path)
     if not file.is_file():
         raise ParameterError(f"map = {str(file)!r}, allowed: an existing file")
-    status = file.stat()
-    return _read(str(file.resolve()), status.st_mtime_ns, status.st_size)
+    return _read(str(file.resolve()), stamp_of(file))
+
+
+def stamp_of(path: str | Path) -> tuple[int, ...]:
+    """Return what changes when a file or folder is written to; empty if it is gone."""
+    try:
+        status = os.stat(path)
+    except OSError:
+        return ()
+    return status.st_mtime_ns, status.st_size, status.st_ino
 
 
 def own_folder() -> Path:
@@ -135,8 +143,18 @@ def own_folder() -> Path:
 
 def map_folders() -> list[Path]:
     """Return the folders that are looked through, the shipped one last."""
-    named = os.environ.get(VARIABLE, "")
-    return [Path(p) for p in named.split(os.pathsep) if p] + [own_folder(), SHIPPED]
+    return [Path(folder) for folder in _folders(os.environ.get(VARIABLE, ""), user_cache())]
+
+
+@lru_cache(maxsize=16)
+def _folders(named: str, _cache: Path) -> tuple[str, ...]:
+    return *filter(None, named.split(os.pathsep)), str(own_folder()), str(SHIPPED)
+
+
+def state_of_maps() -> tuple[object, ...]:
+    """Return what changes as soon as other folders are looked through or a map comes or goes."""
+    folders = _folders(os.environ.get(VARIABLE, ""), user_cache())
+    return folders, *map(stamp_of, folders)
 
 
 def map_paths(shipped: bool = False) -> list[Path]:

@@ -198,8 +198,8 @@ def least_of(name: str) -> float:
 
 
 def coverable(box: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    """Return a box cut at what a map can cover."""
-    return {name: (max(low, least_of(name)), high) for name, (low, high) in box.items()}
+    """Return a box cut at what a map can cover, without what a map has no axis for."""
+    return {n: (max(low, least_of(n)), high) for n, (low, high) in box.items() if n in INPUTS}
 
 
 def lines_about(params: WasherParams, box: dict[str, tuple[float, float]], tolerance: float) -> int:

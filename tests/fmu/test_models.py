@@ -25,7 +25,7 @@ TYPICAL = {
 }  # fmt: skip
 GEAR = {"load": (-200.0, 200.0), "speed": (-700.0, 700.0), "oil_temperature": (240.0, 440.0)}
 WASHER = {"load": (100.0, 1200.0), "speed": (-700.0, 700.0), "tilt": (1e-3, 3e-3),
-          "far_face_temperature": (0.0, 0.0)}  # fmt: skip
+          "far_face_temperature": (290.0, 360.0)}  # fmt: skip
 
 
 def drawn(spec, rng):
@@ -157,6 +157,7 @@ UNSEEN = {
 }  # fmt: skip
 # Parameters under which different inputs act at once.
 STANDINGS = {
+    "ThrustWasher": [{"gear_far_face": "bulk"}, {"gear_far_face": "oil"}],
     # every mode of both packs
     "ShiftTransmission": [
         {"initial_engine_speed": 300.0},  # first gear: the brake holds

@@ -39,7 +39,9 @@ def washer():
 def course():
     """Return inputs up over the fold, back, and out of the box."""
     loads = [300.0 + 15.0 * k for k in range(55)] + [1125.0 - 15.0 * k for k in range(55)]
-    return [[load, 545.0 + 0.1 * k, 0.002, 297.15, 0.0] for k, load in enumerate([*loads, 95.0, 300.0])]
+    return [
+        [load, 545.0 + 0.1 * k, 0.002, 297.15, 0.0] for k, load in enumerate([*loads, 95.0, 300.0])
+    ]
 
 
 @each_fmi

@@ -24,7 +24,8 @@ TYPICAL = {
     **{f"heat_{i}": (0.0, 3e3) for i in range(1, 7)},
 }  # fmt: skip
 GEAR = {"load": (-200.0, 200.0), "speed": (-700.0, 700.0), "oil_temperature": (240.0, 440.0)}
-WASHER = {"load": (100.0, 1200.0), "speed": (-700.0, 700.0), "tilt": (1e-3, 3e-3)}
+WASHER = {"load": (100.0, 1200.0), "speed": (-700.0, 700.0), "tilt": (1e-3, 3e-3),
+          "far_face_temperature": (290.0, 360.0)}  # fmt: skip
 
 
 def drawn(spec, rng):
@@ -156,6 +157,7 @@ UNSEEN = {
 }  # fmt: skip
 # Parameters under which different inputs act at once.
 STANDINGS = {
+    "ThrustWasher": [{"gear_far_face": "bulk"}, {"gear_far_face": "oil"}],
     # every mode of both packs
     "ShiftTransmission": [
         {"initial_engine_speed": 300.0},  # first gear: the brake holds
@@ -222,7 +224,7 @@ def test_a_washer_repeats_to_the_bit_across_both_of_its_folds(natives):
                 washer.set_state(state)
             runs.append([])
             for i, load in enumerate(loads):
-                washer.set_inputs([load, *point.values()])
+                washer.set_inputs([load, *point.values(), 0.0])
                 washer.step((i + 1) * H, H)
                 runs[-1].append(washer.outputs())
         washer.free_state(state)
@@ -233,7 +235,7 @@ def test_a_washer_repeats_to_the_bit_across_both_of_its_folds(natives):
         other.free_state(state)
         runs.append([])
         for i, load in enumerate(loads):
-            other.set_inputs([load, *point.values()])
+            other.set_inputs([load, *point.values(), 0.0])
             other.step((i + 1) * H, H)
             runs[-1].append(other.outputs())
     lost = [row[washer.output_names.index("distress")] for row in runs[0]]

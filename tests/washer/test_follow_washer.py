@@ -117,7 +117,7 @@ def test_a_steady_solve_does_not_ask_for_the_thermal_mode():
 
 
 def test_the_first_point_takes_no_time_and_leaves_no_substep_to_go_on_with():
-    here = np.array([50.0, 500.0, 1e-3, 350.0])
+    here = np.array([50.0, 500.0, 1e-3, 350.0, 0.0])
     washer = follow.Follower(IN_TIME, GRID)
     assert washer.go(here, here, 0.0) == 0 and washer.state[follow.L.S_SUBSTEP] == 0.0
     assert washer.go(here, here, 0.1) == 0 and washer.state[follow.L.S_SUBSTEP] >= 0.1

@@ -40,7 +40,7 @@ def test_load_rises_on_stable_branches_and_falls_between(curve):
 
 def test_every_point_is_a_solution(curve):
     for p in curve.points:
-        assert p.status is Status.OK
+        assert p.status is (Status.DISTRESS if p.distress else Status.OK)
         assert p.fluid_load + p.contact_load == pytest.approx(p.load, rel=1e-6)
         assert p.temperature_max >= p.temperature >= p.oil_temperature
         assert p.distress == (p.branch == "contact" or p.temperature - 297.15 > 200.0)
@@ -72,8 +72,8 @@ def test_bisection_in_load_finds_the_fold_of_the_continuation(curve, kind):
         middle = 0.5 * (there + gone)
         r = solve_washer(WasherParams(), load=fold.load + middle, speed=545.0, tilt=0.002,
                          branch=branch, throw=False)  # fmt: skip
-        assert r.status in (Status.OK, Status.NO_BRANCH)
-        if r.status is Status.OK:
+        assert r.status is Status.NO_BRANCH or not r.status.is_failure
+        if not r.status.is_failure:
             there = middle
         else:
             gone = middle

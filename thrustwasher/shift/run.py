@@ -87,7 +87,8 @@ def run_shift(
         except (ParameterError, SolveError) as problem:
             why = failed_because(scene, run.time, run.recorder)
             said = str(problem).rstrip(".")
-            raise type(problem)(f"{said}; {why}" if why else str(problem)) from problem
+            told = f"{said}; {why}" if why else str(problem)
+            raise type(problem)(told) from (problem.__cause__ or problem)
     wall = perf_counter() - begin
     cost = _costs(scene, system, before, wall)
     result = result_of(scene, run, steps, wall, cost, messages, found)

@@ -39,7 +39,9 @@ def washer():
 def course():
     """Return inputs up over the fold, back, and out of the box."""
     loads = [300.0 + 15.0 * k for k in range(55)] + [1125.0 - 15.0 * k for k in range(55)]
-    return [[load, 545.0 + 0.1 * k, 0.002, 297.15] for k, load in enumerate([*loads, 95.0, 300.0])]
+    return [
+        [load, 545.0 + 0.1 * k, 0.002, 297.15, 0.0] for k, load in enumerate([*loads, 95.0, 300.0])
+    ]
 
 
 @each_fmi
@@ -72,14 +74,14 @@ def test_a_state_taken_to_another_instance_brings_the_map_with_it(washer):
     fmu = washer(2)
     with Instance(fmu, parameters=MAP) as first, Instance(fmu, parameters=MAP) as second:
         first.initialize(0.0, POINT)
-        first.set_inputs([600.0, 545.0, 0.002, 297.15])
+        first.set_inputs([600.0, 545.0, 0.002, 297.15, 0.0])
         first.step(0.0, 1e-3)
         state = first.get_state()
         data = first.serialize(state)
         assert len(data) < 1_000_000  # the map is no part of it
         second.set_state(second.deserialize(data))
         for instance in (first, second):
-            instance.set_inputs([610.0, 545.0, 0.002, 297.15])
+            instance.set_inputs([610.0, 545.0, 0.002, 297.15, 0.0])
             instance.step(1e-3, 1e-3)
         assert first.outputs() == second.outputs()
 

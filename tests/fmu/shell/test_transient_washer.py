@@ -19,9 +19,9 @@ def washer(fmi):
 
 def course():
     """Return durations and inputs: beyond the fold, and back to light load in warmer oil."""
-    rows = [(0.2, [650.0 + 40.0 * k, 545.0, 0.002, 297.15]) for k in range(10)]
-    rows += [(1.0, [1050.0, 545.0, 0.002, 297.15])] * 5
-    return rows + [(0.5, [200.0, -545.0, 0.002, 310.0])] * 5
+    rows = [(0.2, [650.0 + 40.0 * k, 545.0, 0.002, 297.15, 0.0]) for k in range(10)]
+    rows += [(1.0, [1050.0, 545.0, 0.002, 297.15, 0.0])] * 5
+    return rows + [(0.5, [200.0, -545.0, 0.002, 310.0, 0.0])] * 5
 
 
 @pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
@@ -46,7 +46,7 @@ def test_setting_inputs_warms_nothing():
     washer.initialize(0.0, POINT)
     washer.step(0.0, 0.1)
     before = washer.outputs()
-    washer.set_inputs([900.0, 545.0, 0.002, 297.15])
+    washer.set_inputs([900.0, 545.0, 0.002, 297.15, 0.0])
     after = washer.outputs()
     assert abs(after[MEAN] - before[MEAN]) < 0.02
     assert after[TORQUE] > 1.05 * before[TORQUE]  # the film follows at once

@@ -13,7 +13,7 @@ import math
 import numpy as np
 import pytest
 
-from thrustwasher import Status, WasherParams, solve_washer
+from thrustwasher import WasherParams, solve_washer
 from thrustwasher.errors import BranchError
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.washer.map.look_up import WasherMap
@@ -54,7 +54,7 @@ def test_inside_and_outside_of_the_rim_agree_and_bear_their_names(shipped):
         place = {**MIDDLE, name: rim * (1.0 + 2e-8 * out)}
         first = solve_washer(WasherParams(), **place, fidelity="map")
         assert (last.fidelity, first.fidelity) == ("map", "field"), name
-        assert last.status is first.status is Status.OK
+        assert last.status is first.status and not last.status.is_failure
         assert last.friction_torque == pytest.approx(first.friction_torque, rel=5e-3), name
 
 

@@ -2,7 +2,7 @@
 
 import math
 
-from thrustwasher import Status, WasherParams, solve_washer
+from thrustwasher import WasherParams, solve_washer
 
 
 def solve(load=300.0, speed=545.0, tilt=0.002, **more):
@@ -22,7 +22,7 @@ def is_sound(r):
     """Tell if a result is a solution that obeys what every solution must."""
     numbers = (r.friction_torque, r.temperature, r.temperature_max, r.film_thickness, r.fluid_load)
     return (
-        r.status is Status.OK
+        not r.status.is_failure
         and all(math.isfinite(x) for x in numbers)
         and r.friction_torque * r.speed >= 0.0
         and r.temperature_max >= r.temperature >= r.oil_temperature - 1e-9

@@ -26,7 +26,8 @@ def solve(**changes):
 @pytest.mark.parametrize(("point", "branch"), [(FILM, "film"), (CONTACT, "contact")])
 def test_both_branches_carry_their_load(point, branch):
     r = solve(**point)
-    assert (r.status, r.branch) == (Status.OK, branch)
+    said = Status.DISTRESS if branch == "contact" else Status.OK
+    assert (r.status, r.branch) == (said, branch)
     assert r.fluid_load + r.contact_load == pytest.approx(r.load, rel=1e-6)
     assert r.temperature_max > r.temperature > r.oil_temperature
 

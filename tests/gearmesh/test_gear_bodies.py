@@ -9,9 +9,9 @@ import pytest
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
 from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.gearmesh.doubts import doubts_of_parameters
 from thrustwasher.gearmesh.kernels import layout as L
 from thrustwasher.gearmesh.parameters import ENDURANCE, SPEC, absent_outputs
+from thrustwasher.gearmesh.plausibility import doubts_of_parameters
 from thrustwasher.gearmesh.solve import prepare
 from thrustwasher.shift import load_scene
 from thrustwasher.sweep.run_sweep import run_sweep

@@ -78,14 +78,19 @@ def run(arguments: argparse.Namespace) -> int:
         record = {**inputs, **found.as_dict(), **pack, "wall_time": wall_time}
         _output.print_json(record | {"warnings": [*found.warnings, *doubts]})
         return 0
+    rung = arguments.fidelity or part.fidelity
+    _say(part, found, doubts, rung if given else part.spec.default_fidelity)
+    return 0
+
+
+def _say(part: PartFile, found: Any, doubts: list[str], rung: str) -> None:
+    """Print the fit, and the command that takes its values where they can be used."""
     print(found)
     if doubts or not all(e.identifiable for e in found.estimates):
         print("These values are none to use; the lines above say why.")
-        return 0
-    rung = arguments.fidelity or part.fidelity
-    more = f" --fidelity {rung}" if given and rung != part.spec.default_fidelity else ""
+        return
+    more = f" --fidelity {rung}" if rung != part.spec.default_fidelity else ""
     print(f"Use it: thrustwasher {part.spec.key} {_settings(found)}{more}")
-    return 0
 
 
 def _doubts(found: Any) -> list[str]:

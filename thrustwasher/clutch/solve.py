@@ -231,13 +231,9 @@ def solve_clutch(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
         )
     s = steady_pack(par, load, speed, drum, oil, ratio)
-    status = max(Status(film), Status(s.status))
+    status = _status(max(Status(film), Status(s.status)), ratio, s.hottest)
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
-    if not status.is_failure and ratio < k.LEAST_RATIO:
-        status = Status.OUTSIDE_VERIFIED
-    if not status.is_failure and s.hottest > k.HOT_LIMIT:
-        status = Status.HOT
     sign, torque = float(np.sign(speed)), float(np.sign(speed)) * (s.contact + s.viscous)
     return ClutchResult(
         friction_torque=torque,
@@ -261,6 +257,15 @@ def solve_clutch(
             *pack_warnings(status, ratio, s.temperature, s.hottest),
         ),
     )
+
+
+def _status(solved: Status, ratio: float, hottest: float) -> Status:
+    """Return the status of a solution with this film ratio and this hottest interface [K]."""
+    if solved.is_failure:
+        return solved
+    if hottest > k.HOT_LIMIT:
+        return Status.HOT
+    return Status.OUTSIDE_VERIFIED if ratio < k.LEAST_RATIO else solved
 
 
 def doubts_of_pack(params: ClutchParams, fidelity: str) -> tuple[str, ...]:

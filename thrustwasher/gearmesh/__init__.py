@@ -3,7 +3,7 @@
 ================  ===========================================================================
 ``parameters``    a pair, its surfaces, oil, steel, laws; ``interface.toml``: inputs, outputs
 ``solve``         loss, heat, temperatures, contact, thermal stress, safety
-``doubts``        what to doubt: parameters that contradict each other, points below least values
+``plausibility``  what to doubt: parameters that contradict each other, points below least values
 ``kernels``       compiled code
 ================  ===========================================================================
 """

@@ -179,9 +179,7 @@ class GearMeshParams:
 
     gear_ratio: float = quantity(2.0, "1", 1.0, 20.0, "teeth of the gear over those of the pinion")
     pinion_teeth: int = count(20, 5, 500, "number of teeth of the pinion")
-    centre_distance: float = quantity(
-        0.254, "m", 5e-3, 10.0, "distance of the two gear axes", read_by=(("normal_module", 0.0),)
-    )
+    centre_distance: float = quantity(0.254, "m", 5e-3, 10.0, "distance of the two gear axes")
     normal_module: float = quantity(
         0.0,
         "m",

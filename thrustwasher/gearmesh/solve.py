@@ -12,11 +12,11 @@ from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
-from .doubts import doubts_of_parameters, doubts_of_point
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.operating_point import solve_point
 from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs, limits_assumed
+from .plausibility import doubts_of_parameters, doubts_of_point
 
 SAFETIES = {
     "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "

@@ -6,8 +6,8 @@ from typing import Any
 
 from ...clutch.parameters import ClutchParams
 from ...clutch.solve import doubts_of_pack
-from ...gearmesh.doubts import doubts_of_parameters
 from ...gearmesh.parameters import GearMeshParams
+from ...gearmesh.plausibility import doubts_of_parameters
 from ...model.idle import idle_warnings
 from ...transmission.parameters import COURSES, course_points
 from .connections import MESHES

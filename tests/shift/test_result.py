@@ -92,8 +92,8 @@ def test_a_part_that_fails_is_named_with_the_time():
 
 def test_a_step_that_does_not_divide_the_time_is_adapted_and_said():
     r = shift("msl", stop_time=0.1, step=3e-3)
-    assert len(r.time) == 34 and r.time[-1] == pytest.approx(0.1, rel=1e-15)
-    assert any("33 steps" in m for m in r.messages)
+    assert len(r.time) == 35 and r.time[-1] == pytest.approx(0.1, rel=1e-15)
+    assert any("34 steps" in m for m in r.messages)
 
 
 def test_a_stall_is_said():

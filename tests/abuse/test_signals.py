@@ -83,7 +83,7 @@ def test_a_shift_that_is_stopped_leaves_the_folder_as_it_was(tmp_path, number, s
     (tmp_path / "r" / "shift.csv").write_text("of an earlier run")
     drafts = tmp_path / "r"
     begun = lambda: len(list(drafts.iterdir())) > 1  # noqa: E731 (the report is being written)
-    words = ["shift", "--scene", "msl", "--step", "10 ms", "--out", "r"]
+    words = ["shift", "--scene", "msl", "--step", "5 ms", "--out", "r"]
     code, lines = stopped(words, tmp_path, begun, number)
     assert code == status and len(lines) == 1
     assert [p.name for p in drafts.iterdir()] == ["shift.csv"]

@@ -142,7 +142,7 @@ def test_an_fmu_that_does_not_fit_is_not_half_written(out):
 
 @pytest.mark.abuse
 def test_a_report_that_does_not_fit_leaves_the_folder_as_it_was(out, tmp_path):
-    words = ["shift", "--scene", "msl", "--step", "50 ms", "--out"]
+    words = ["shift", "--scene", "msl", "--step", "5 ms", "--out"]
     assert command(*words, tmp_path / "first")[0] == 0  # built and compiled while there is room
     (out / "overview.png").write_text("of an earlier run")
     with full_disk(20_000):

@@ -94,7 +94,12 @@ def test_a_field_takes_what_the_command_line_takes(opened, name, text):
         ("speed", "1e5 rpm", "speed = 1e5 rpm, allowed: -19098.6 .. 19098.6 rpm"),
         ("load", "", "load: a number is missing; allowed: 1 .. 10000 N"),
         ("load", "1,5", "load = 1,5: a decimal point is wanted, no comma; allowed: 1 .. 10000 N"),
-        ("load", "3 m", "load = 3 m: a number is wanted, in N or kN or MN; allowed: 1 .. 10000 N"),
+        (
+            "load",
+            "3 m",
+            "load = 3 m: a number is wanted, in N or kN or MN or daN or kgf or kp or lbf; "
+            "allowed: 1 .. 10000 N",
+        ),
     ],
 )
 def test_what_is_wrong_with_a_quantity_is_said_in_its_own_unit(opened, name, text, words):

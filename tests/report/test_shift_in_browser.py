@@ -19,7 +19,8 @@ from thrustwasher.report.shift.worst_moments import Moment, rung_with_fields
 
 pytestmark = pytest.mark.browser
 RECORD = shift_stand_in.record(mesh=True)
-POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15}
+POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15,
+         "far_face_temperature": 0.0}  # fmt: skip
 SHOWN = "document.querySelectorAll('.panel:not(.more)')"
 SCALES = "() => Plots.state.panels.filter((p) => p.visible && p.plot).map((p) => p.plot.scales.x)"
 
@@ -377,6 +378,7 @@ def cycle(tmp_path_factory):
     sequence = SimpleNamespace(shifts=[(0.0, "up"), (10.0, "down")])
     result = SimpleNamespace(
         shifts=[RECORD, later], time=time, signals=signals, oil_temperature=oil, messages=[],
+        warnings=(), step_errors={},
         wall_time=1.0, scene=SimpleNamespace(sequence=sequence, title="Two shifts"),
     )  # fmt: skip
     with pytest.MonkeyPatch.context() as patch:

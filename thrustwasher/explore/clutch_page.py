@@ -14,7 +14,7 @@ from ..model.record import resolve
 from ..model.spec import Signal
 from .view import Picture, View, numbers_of
 
-POINTS, HANDLES = 250, 9
+POINTS, HANDLES = 248, 9  # a point at every handle
 LARGEST, RISING = 5000.0, 0.25  # N; share of the time in which the load rises to it at the start
 RAMP = [LARGEST * min(i / (HANDLES - 1) / RISING, 1.0) for i in range(HANDLES)]
 DURATION = Signal(name="duration", unit="s", help="time from the start to zero slip",

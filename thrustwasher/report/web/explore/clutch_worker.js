@@ -1,7 +1,7 @@
 "use strict";
 /* The wet clutch: an engagement over time under a course of load that was drawn, as engage_clutch. */
 
-const POINTS = 250;
+const POINTS = 248; // a whole number for each straight piece of the ramp
 
 class Model extends PointModel {
   /** Begin at the oil's temperature; return a status. */

@@ -87,7 +87,10 @@ def meant(value: float, unit: str, low: float, high: float, *, difference: bool 
     for written in _MEANT.get(unit, []):
         if written == "%" and abs(value) < LEAST_PERCENT:
             continue
-        si = parse_quantity(f"{value!r} {written}", unit, "")
+        try:
+            si = parse_quantity(f"{value!r} {written}", unit, "")
+        except ParameterError:  # beyond all numbers in that unit
+            continue
         if low <= si <= high and si != 0.0:
             return f"; did you mean {si:.6g} {unit} ({value:g} {written})?"
     return ""

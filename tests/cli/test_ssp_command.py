@@ -125,4 +125,4 @@ def test_an_upshift_differs_by_what_fmpy_sends_first(package, tmp_path, capsys):
     peak = rows["clutch_temperature"].max()
     assert peak == pytest.approx(told["peak_clutch_temperature"], abs=0.5)
     flash = rows["mesh_temperature"].max()  # of the asperities
-    assert flash == pytest.approx(told["peak_flash_temperature"], abs=1.0)
+    assert flash == pytest.approx(told["peak_asperity_temperature"], abs=1.0)

@@ -184,11 +184,11 @@ def _at_case(
 ) -> ReferenceValues:
     """Return the reference's answer at a case of the charts, on the branch that leads there."""
     params, result = made_of(SPEC, preset, {}), None
-    for load, speed, tilt, oil in (*before, point):
+    for load, speed, tilt, oil, _ in (*before, point):
         result = solve_washer(
             params, load=load, speed=speed, tilt=tilt, oil_temperature=oil, start=result
         )
-    load, speed, tilt, oil = point
+    load, speed, tilt, oil, _ = point
     branch = result.branch if result else None
     return reference_washer(
         params, load=load, speed=speed, tilt=tilt, oil_temperature=oil, branch=branch

@@ -83,8 +83,16 @@ def _end_with(parent: Any) -> None:
 def _stop_now(executor: Any) -> None:
     """End the workers in the middle of their work; it is done again."""
     processes = list((getattr(executor, "_processes", None) or {}).values())
+    tasks, results = executor._call_queue, executor._result_queue  # gone after shutdown
     executor.shutdown(wait=False, cancel_futures=True)
     for process in processes:
         process.terminate()
     for process in processes:
         process.join(5.0)
+    # A worker that ended in the middle of a message leaves a thread of the executor waiting for its
+    # rest, and Python waits for that thread: the pipe has to end with its last writer. Nobody reads
+    # what is still on its way to the workers either.
+    if tasks is not None:
+        tasks.cancel_join_thread()
+    if results is not None:
+        results._writer.close()

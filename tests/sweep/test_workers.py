@@ -2,6 +2,7 @@
 
 import os
 import signal
+import struct
 import subprocess
 import sys
 import threading
@@ -13,6 +14,7 @@ import pytest
 
 from thrustwasher import run_sweep
 from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.processes import local_processes
 from thrustwasher.sweep import run_sweep as runs
 from thrustwasher.sweep.run_sweep import journal_of
 
@@ -100,6 +102,30 @@ def test_ctrl_c_leaves_a_state_that_the_same_command_goes_on_from(tmp_path):
 
         run_sweep("clutch", over, workers=1, out=out, progress=stop)
     assert 0 < seen[0] < 90_000
+
+
+def half_a_message(begun):
+    """Begin to send a result of 1000 bytes, as a worker that is stopped there; for a minute."""
+    frame = sys._getframe()
+    while "result_queue" not in frame.f_locals:
+        frame = frame.f_back
+    os.write(frame.f_locals["result_queue"]._writer.fileno(), struct.pack("!i", 1000))
+    begun.touch()
+    time.sleep(60.0)
+
+
+def test_a_worker_that_is_stopped_while_it_sends_keeps_nobody_waiting(tmp_path):
+    begun = tmp_path / "begun"
+    with pytest.raises(KeyboardInterrupt), local_processes(1) as executor:
+        executor.submit(half_a_message, begun)
+        thread = executor._executor_manager_thread
+        deadline = time.monotonic() + 60.0
+        while not begun.exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        time.sleep(0.1)  # by now that thread is waiting for the rest
+        raise KeyboardInterrupt
+    thread.join(30.0)
+    assert begun.exists() and not thread.is_alive()
 
 
 def test_a_script_without_a_guard_is_told_so(tmp_path):

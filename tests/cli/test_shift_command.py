@@ -79,6 +79,16 @@ def test_summary_names_lock_and_report(tmp_path, capsys):
     assert "the clutch locked at 2.11" in text and str(out / "report.html") in text
 
 
+def test_what_a_run_left_out_or_changed_is_said_on_the_screen(tmp_path, capsys):
+    scene = tmp_path / "mine.toml"
+    scene.write_text('base = "planetary"\n[sun_bearing]\ncoefficient = 0.0\n', "utf-8")
+    words = ["shift", "--scene", str(scene), "--step", "20 ms", "--no-guard", "--no-report"]
+    assert main(words) == 0
+    assert "the sun's thrust of up to" in capsys.readouterr().out
+    assert main([*words, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["messages"][0].startswith("the sun's thrust")
+
+
 def test_numbers_alone_leave_no_file_and_load_no_tables(tmp_path):
     for model in ("ShiftTransmission", "WetClutch"):
         built_fmu(model, local=True)

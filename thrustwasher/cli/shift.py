@@ -147,7 +147,7 @@ def _say(result: Any, folder: Path | None) -> None:
     from ..report.shift.shift_record import record_of
 
     record = record_of(result)
-    for text in result.selection.words() if result.selection else []:
+    for text in [*(result.selection.words() if result.selection else []), *result.messages]:
         print(text)
     for text in summary.sentences(record):
         print(text)

@@ -212,6 +212,17 @@ def test_a_shift_that_does_not_lock_is_said(record):
     assert render(shift_report.shift_page(slipping))
 
 
+def test_warnings_of_several_shifts_are_said_once_and_none_is_lost(record):
+    def told(load, speed):
+        return (f"washer: load of {load} leaves the 20 N of its part file",
+                f"washer: speed of {speed} leaves the 50 rad/s of its part file")  # fmt: skip
+
+    shifts = [replace(record, found=told(*x)) for x in (("30 N", "1 rad/s"), ("4 kN", "2 rad/s"))]
+    said = [text for text in summary.warnings_of_all(shifts) if "part file" in text]
+    likewise = ". Likewise shifts 2."
+    assert said == [f"Shift 1: {text}{likewise}" for text in told("30 N", "1 rad/s")]
+
+
 def test_energy_table_adds_up(record):
     rows = shift_tables.energy_table(record).rows
     joule = {row[0]: float(row[1].replace("\u2009", "")) for row in rows}

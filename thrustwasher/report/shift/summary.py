@@ -14,6 +14,8 @@ from .shift_tables import source_texts
 from .usual import of_meshes
 from .worst_moments import highest, least_margin
 
+QUANTITY = re.compile(r"-?\d\S*( [^\s\d.]\S*)?")  # a number, and a word behind it: mostly its unit
+
 
 @cache
 def words() -> Any:
@@ -57,15 +59,21 @@ def warnings_of(result: Any) -> list[str]:
 
 
 def warnings_of_all(records: Sequence[Record]) -> list[str]:
-    """Return what must not be missed, of the first shift that it is said of."""
+    """Return what must not be missed, of the first shift that it is said of.
+
+    Two texts say the same if they differ in numbers and units alone.
+    """
     found: dict[str, tuple[str, list[str]]] = {}
     for i, record in enumerate(records, 1):
         for text in warnings(record):
-            found.setdefault(text.partition(":")[0], (text, []))[1].append(str(i))
-    return [
-        f"Shift {own[0]}: {text}" + (f" Likewise shifts {', '.join(own[1:])}." if own[1:] else "")
-        for text, own in found.values()
-    ]
+            found.setdefault(QUANTITY.sub("#", text), (text, []))[1].append(str(i))
+    return [_said_of(text, list(dict.fromkeys(shifts))) for text, shifts in found.values()]
+
+
+def _said_of(text: str, shifts: list[str]) -> str:
+    """Return a warning with the shifts that it holds for."""
+    likewise = f"{'' if text.endswith('.') else '.'} Likewise shifts {', '.join(shifts[1:])}."
+    return f"Shift {shifts[0]}: {text}" + (likewise if len(shifts) > 1 else "")
 
 
 def step_words(result: Any) -> list[str]:

@@ -1,6 +1,7 @@
 """The calibrate command: tables as people write them, one line for what is wrong in them."""
 
 import json
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -102,6 +103,19 @@ def test_what_was_given_beside_the_fit_is_in_the_command_that_uses_it(table, cap
     out, _ = run(capsys, table, "--set", "hardness_ratio=7", "--set", "faces=6")
     last = out.splitlines()[-1]
     assert "--set hardness_ratio=7.0" in last and "--set faces=6" in last
+
+
+def test_what_the_box_decided_is_said_and_the_command_solves_the_same_part(tmp_path, capsys):
+    part, box = tmp_path / "mine.toml", 'tilt = "1.5 mrad"\noil_temperature = "80 degC"'
+    part.write_text(f'model = "washer"\nname = "Mine"\n[box]\n{box}\n', "utf-8")
+    data = write(tmp_path / "rig.csv", "load,speed,friction_torque", *np.array(
+        [(150.0, 200.0, 0.070), (200.0, 200.0, 0.25), (250.0, 200.0, 0.487)]
+    ).T)  # fmt: skip
+    out, _ = run(capsys, str(part), data, "--fit", "roughness")
+    assert "Taken from the part's box: tilt = 1.5 mrad, oil_temperature = 80 °C." in out
+    words = shlex.split(out.splitlines()[-1].removeprefix("Use it: thrustwasher "))
+    assert main([*words, "--load", "250", "--speed", "200", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["friction_torque"] == pytest.approx(0.487, rel=0.01)
 
 
 @pytest.mark.parametrize("fastest", [20.0, 160.0])

@@ -72,6 +72,11 @@ class Calibration:
     _best: Array = field(repr=False)
     _told: Information = field(repr=False)
 
+    @property
+    def taken(self) -> str:
+        """The inputs that the points do not have, and where their values come from."""
+        return str(self.points.plan.taken) if self._problem.by_rung else ""
+
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of one constant."""
         return next(e for e in (*self.estimates, *self.derived) if e.name == name)
@@ -91,6 +96,7 @@ class Calibration:
         return {
             "model": points.plan.spec.key,
             "fidelity": points.plan.fidelity,
+            "taken": self.taken,
             "warnings": list(self.warnings),
             "fitted": {e.name: e.value for e in self.estimates},
             "estimates": [finite(asdict(e)) for e in self.estimates],
@@ -130,6 +136,8 @@ class Calibration:
         problem, lines = self._problem, [f"WARNING. {text}" for text in self.warnings]
         reasons = dict.fromkeys(e.reason for e in self.estimates if e.reason)
         lines.append(_size_text(self))
+        if self.taken:
+            lines.append(f"{self.taken[0].upper()}{self.taken[1:]}.")
         for text in self.confounded:
             if " apart" in text and text not in " ".join(reasons):
                 lines.append(f"Together: {text}.")

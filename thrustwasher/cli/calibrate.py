@@ -1,13 +1,14 @@
 """``thrustwasher calibrate``: fit parameters of a model to measured outputs, or a friction law."""
 
 import argparse
+import shlex
 import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.part_file import PartFile, part_text, usual_name
+from ..model.part_file import PartFile, is_part, part_text, usual_name
 from ..model.registry import models_with_points
 from ..sweep.axes import find_place, places, split_settings
 from ..units import format_quantity, parse_quantity
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     with_law = next(key for key, model in models_with_points().items() if model.fits.law)
     part = _options.solvable(given[0] if given else with_law, arguments.preset)
     settings = split_settings(arguments.set, "--set", "NAME=VALUE")
-    part = _options.with_oil(arguments, part, settings)
+    part = base = _options.with_oil(arguments, part, settings)
     target, arguments.out = arguments.out and _output.new_part(arguments.out), None
     targets = _output.targets(arguments)
     options: dict[str, Any] = {
@@ -78,19 +79,28 @@ def run(arguments: argparse.Namespace) -> int:
         record = {**inputs, **found.as_dict(), **pack, "wall_time": wall_time}
         _output.print_json(record | {"warnings": [*found.warnings, *doubts]})
         return 0
-    rung = arguments.fidelity or part.fidelity
-    _say(part, found, doubts, rung if given else part.spec.default_fidelity)
+    _say(base, found, doubts, _command(arguments, base, given))
     return 0
 
 
-def _say(part: PartFile, found: Any, doubts: list[str], rung: str) -> None:
+def _command(arguments: argparse.Namespace, base: PartFile, given: list[str]) -> str:
+    """Return the command that solves the part with the rung of the fit."""
+    words = ["thrustwasher", base.spec.key]
+    if given and is_part(given[0]):
+        words += ["--part", shlex.quote(given[0])]
+    for option in ("preset", "oil", "fidelity"):
+        if value := getattr(arguments, option):
+            words += [f"--{option}", shlex.quote(value)]
+    return " ".join(words)
+
+
+def _say(base: PartFile, found: Any, doubts: list[str], command: str) -> None:
     """Print the fit, and the command that takes its values where they can be used."""
     print(found)
     if doubts or not all(e.identifiable for e in found.estimates):
         print("These values are none to use; the lines above say why.")
         return
-    more = f" --fidelity {rung}" if rung != part.spec.default_fidelity else ""
-    print(f"Use it: thrustwasher {part.spec.key} {_settings(found)}{more}")
+    print(f"Use it: {command} {_settings(found, base)}")
 
 
 def _doubts(found: Any) -> list[str]:
@@ -151,10 +161,10 @@ def _write(target: Path, part: PartFile, found: Any, data: str) -> None:
     _output.note(f"wrote {target}")
 
 
-def _settings(found: Any) -> str:
+def _settings(found: Any, base: PartFile) -> str:
     """Return the options for the fitted constants and for all that was given beside them."""
     values: dict[str, Any] = {e.name: f"{e.value:.10g}" for e in found.estimates}
-    usual = _output.parameters_of(type(found.params)())
+    usual = _output.parameters_of(base.params)
     for name, value in _output.parameters_of(found.params).items():
         if value != usual[name]:
             values.setdefault(name, value)

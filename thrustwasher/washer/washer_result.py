@@ -227,7 +227,8 @@ def washer_warnings(
     load, speed, _, oil, _ = point
     hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
     dry = speed != 0.0 and ratio > FULL_FILM and x[L.O_CONTACT_LOAD] > 0.5 * load
-    friction, idle = friction_warning(params, x), idle_warnings(SPEC.key, params)
+    friction = friction_warning(params, x[L.O_CONTACT_LOAD], abs(x[L.O_TORQUE]))
+    idle = idle_warnings(SPEC.key, params)
     plain = not (hot or dry or distress or ratio < 0.0 or margin < 1.0)
     if plain and _verified(point) and not (status or friction):
         return idle
@@ -245,9 +246,11 @@ def washer_warnings(
     return (*idle, *warnings_of(SPEC, status, inputs, outputs, more))
 
 
-def friction_warning(params: WasherParams, x: Sequence[float]) -> str:
-    """Return a warning if contacts that count press outside the data of their dry friction."""
-    contact, torque = x[L.O_CONTACT_LOAD], abs(x[L.O_TORQUE])
+def friction_warning(params: WasherParams, contact: float, torque: float) -> str:
+    """Return a warning if contacts that count press outside the data of their dry friction.
+
+    ``contact`` is the load that asperities carry [N], ``torque`` that of the washer [N m].
+    """
     if params.friction_law != "load" or not contact > 0.0:
         return ""
     face = face_of(params.inner_radius, params.outer_radius)

@@ -42,3 +42,9 @@ def test_a_guarded_run_needs_instances_that_can_be_reset():
     scene = load_scene("msl").with_options(stop_time=0.05)
     found = run_shift(scene, instances(scene), guard=True)
     assert found.step_error is not None and found.step_error.suffices
+
+
+def test_contacts_outside_the_data_of_their_dry_friction_are_told():
+    words = said("planetary-distressed", stop_time=0.02)
+    assert "points, first at 0 s: dry friction was measured for mean contact pressures" in words
+    assert "dry friction was" not in said("planetary", stop_time=0.02)

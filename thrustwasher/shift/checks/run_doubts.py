@@ -10,6 +10,7 @@ from ...model.advice import outside_verified
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..cosim.loop import Steps
+from ..key_figures.figure_list import FILM_SPEED
 from ..scene.doubts import idle_parameters
 from ..scene.scene import Scene
 
@@ -26,6 +27,7 @@ def doubts(scene: Scene, step: float, steps: Steps, time: Array, signals: Signal
     yield from _of_solvers(scene, time, signals)
     yield from _of_boxes(scene, signals)
     yield from _of_maps(scene, signals)
+    yield from _of_dry_friction(scene, time, signals)
 
 
 def _of_times(scene: Scene, step: float, steps: Steps) -> Iterator[str]:
@@ -105,3 +107,24 @@ def _of_maps(scene: Scene, signals: Signals) -> Iterator[str]:
     with suppress(ParameterError):  # another's washer: it answered without a map of ours
         if text := outside_text(part.params, points, "steps", MOST_OUTSIDE):
             yield f"washer: {text}"
+
+
+def _of_dry_friction(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
+    """Yield how often a washer's contacts press outside the data of their dry friction."""
+    part = scene.parts.get("washer")
+    names = [f"washer.{n}" for n in ("load", "speed", "fluid_load_share", "friction_torque")]
+    if part is None or any(n not in signals for n in names):
+        return
+    from ...washer.washer_result import friction_warning
+
+    load, speed, share, torque = (signals[n] for n in names)
+    contact = np.where(np.abs(speed) >= FILM_SPEED, load * (1.0 - share), 0.0)
+    texts = [
+        friction_warning(part.params, *point)
+        for point in zip(contact.tolist(), np.abs(torque).tolist(), strict=True)
+    ]
+    if n := sum(map(bool, texts)):
+        first = next(i for i, text in enumerate(texts) if text)
+        yield (
+            f"washer: at {n} of {len(texts)} points, first at {time[first]:.4g} s: {texts[first]}"
+        )

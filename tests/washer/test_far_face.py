@@ -60,6 +60,8 @@ def test_a_far_face_as_warm_as_the_oil_is_that_of_the_oil():
     )  # fmt: skip
     assert bulk.friction_torque == oil.friction_torque == told.friction_torque
     assert bulk.temperature == oil.temperature == told.temperature
+    said = "without a far_face_temperature: the oil's is taken"
+    assert said in bulk.warnings[0] and not oil.warnings and not told.warnings
 
 
 def test_an_insulated_gear_is_between_none_and_one_as_warm_as_it_would_become():

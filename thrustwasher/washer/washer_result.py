@@ -38,6 +38,10 @@ DRY = (
     "film_ratio = {:.3g} is that of a full film, but asperities carry {:.4g} of {:.4g} N: parallel "
     "faces build no pressure; friction and wear are those of dry contact. Give the tilt there is"
 )
+FAR_FACE = (
+    "gear_far_face = 'bulk' without a far_face_temperature: the oil's is taken, as with 'oil'; "
+    "give that of the gear"
+)
 COUNTS = 0.1  # share of the torque from which dry friction counts
 BEYOND = (
     "dry friction was measured for mean contact pressures of {:.3g} .. {:.3g} Pa; here {:.3g} Pa: "
@@ -224,11 +228,13 @@ def washer_warnings(
     params: WasherParams, point: Sequence[float], x: Sequence[float], distress: bool, status: Status
 ) -> tuple[str, ...]:
     """Return the warnings of a solution with these outputs of the kernels."""
-    load, speed, _, oil, _ = point
+    load, speed, _, oil, far = point
     hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
     dry = speed != 0.0 and ratio > FULL_FILM and x[L.O_CONTACT_LOAD] > 0.5 * load
     friction = friction_warning(params, x[L.O_CONTACT_LOAD], abs(x[L.O_TORQUE]))
     idle = idle_warnings(SPEC.key, params)
+    if params.gear_far_face == "bulk" and far == 0.0:
+        idle = (*idle, FAR_FACE)
     plain = not (hot or dry or distress or ratio < 0.0 or margin < 1.0)
     if plain and _verified(point) and not (status or friction):
         return idle

@@ -175,7 +175,7 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
         told = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
         p._state[L.S_BRANCH] = _NUMBERS[branch]
         p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
-        status = advised(p.point(), distress, Status.OK)
+        status = advised(p.point(), p.temperature_max, distress, Status.OK)
         named.append(
             dataclasses.replace(p, branch=branch, distress=distress, status=status, warnings=told)
         )

@@ -20,7 +20,6 @@ from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams, face_of
 
-HOT_LIMIT = 523.0  # [K] above it oil and washer are lost
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
     "gap 2 cannot hold the washer: its dry friction takes {:.2g} times the friction torque, so the "
@@ -198,17 +197,22 @@ def result_of(
         x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], x[L.O_POWER], x[L.O_OIL_FLOW],
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
         x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress,
-        advised(point, distress, status), iterations, fidelity, grid, error, *point, params, state,
+        advised(point, x[L.O_PEAK], distress, status), iterations, fidelity, grid, error, *point, params, state,
         washer_warnings(params, point, x, distress, status),
     )  # fmt: skip
 
 
-def advised(point: Sequence[float], distress: bool, status: Status) -> Status:
-    """Return a status, or the advice in its place, as the kernel gives it in a step."""
+def advised(point: Sequence[float], peak: float, distress: bool, status: Status) -> Status:
+    """Return a status, or the advice in its place, as the kernel gives it in a step.
+
+    ``peak`` is the temperature of the hottest spot [K].
+    """
     if status is not Status.OK:
         return status
     if distress:
         return Status.DISTRESS
+    if peak > L.HOT_LIMIT:
+        return Status.HOT
     return Status.OK if _verified(point) else Status.OUTSIDE_VERIFIED
 
 
@@ -229,7 +233,7 @@ def washer_warnings(
 ) -> tuple[str, ...]:
     """Return the warnings of a solution with these outputs of the kernels."""
     load, speed, _, oil, far = point
-    hot, ratio, margin = x[L.O_PEAK] > HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
+    hot, ratio, margin = x[L.O_PEAK] > L.HOT_LIMIT, x[L.O_RATIO], x[L.O_STICK_MARGIN]
     dry = speed != 0.0 and ratio > FULL_FILM and x[L.O_CONTACT_LOAD] > 0.5 * load
     friction = friction_warning(params, x[L.O_CONTACT_LOAD], abs(x[L.O_TORQUE]))
     idle = idle_warnings(SPEC.key, params)

@@ -65,6 +65,7 @@ NINP = 5
 ) = range(18)  # fmt: skip
 NOUT, N_ALL = 16, 18
 IO_REGIME, IO_DISTRESS, IO_STATUS, NIOUT = range(4)
+HOT_LIMIT = 523.0  # [K] of the hottest spot; above it oil and washer are lost
 
 # The head of `work`: counts and residuals of a solve, what was found, where the walk along the
 # curve of solutions stands, all outputs, the positions.

@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, Ints, kernel
-from ...numerics.status import DISTRESS, OK, OUTSIDE_VERIFIED
+from ...numerics.status import DISTRESS, HOT, OK, OUTSIDE_VERIFIED
 from . import layout as L
 from .constants import combined_roughness, contact_pair, summits
 from .workspace import Point
@@ -133,12 +133,14 @@ def regime_of(ratio: float) -> int:
 
 
 @kernel
-def judge(pt: Point, ratio: float, distressed: bool, status: int, iout: Ints) -> None:
-    """Fill ``iout``: regime, distress, and the status or the advice in its place."""
-    iout[L.IO_REGIME] = regime_of(ratio)
+def judge(pt: Point, out: Array, distressed: bool, status: int, iout: Ints) -> None:
+    """Fill ``iout`` for ``out``: regime, distress, and the status or the advice in its place."""
+    iout[L.IO_REGIME] = regime_of(out[L.O_RATIO])
     iout[L.IO_DISTRESS] = 1 if distressed else 0
     iout[L.IO_STATUS] = status
     if status == OK and distressed:
         iout[L.IO_STATUS] = DISTRESS
+    elif status == OK and out[L.O_PEAK] > L.HOT_LIMIT:
+        iout[L.IO_STATUS] = HOT
     elif status == OK and not is_verified(pt):
         iout[L.IO_STATUS] = OUTSIDE_VERIFIED

@@ -160,7 +160,7 @@ def step(
             look_for_folds(w, pt, state)
     if in_time and (dt > 0.0 or not fresh or par[L.P_THERMAL_START] == L.FROM_OIL):
         set_held(w, dt)
-    judge(pt, out[L.O_RATIO], is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
+    judge(pt, out, is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
     return status
 
 

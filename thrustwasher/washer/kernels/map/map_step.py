@@ -154,7 +154,7 @@ def map_step(
         return status
     hot = out[L.O_MEAN] - pt.oil_temperature > LARGEST_RISE
     distressed = hot or (branch[1] == 2.0 and branch[0] == L.CONTACT_BRANCH)
-    judge(pt, out[L.O_RATIO], distressed, OK, iout)
+    judge(pt, out, distressed, OK, iout)
     if dt > 0.0:
         state[L.S_VALID] = 0.0  # fields solved before count no more
         state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch[0], out[L.O_RATIO]

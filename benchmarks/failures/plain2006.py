@@ -282,14 +282,14 @@ class Method2006:
     def _at(self, case: ChartCase) -> tuple[Plain2006, Status]:
         washer, status = self._make(), Status.OK
         for point in path_to(case):
-            status = washer.solve(*point)
+            status = washer.solve(*point[:KNOWN])
         return washer, status
 
     def warm(self, case: ChartCase) -> Callable[[], object]:
         """Return a call that goes back and forth over one per cent of the load."""
         washer, _ = self._at(case)
         points = itertools.cycle(neighbours(case))
-        return lambda: washer.solve(*next(points))
+        return lambda: washer.solve(*next(points)[:KNOWN])
 
     def idle(self, case: ChartCase) -> None:
         """Return nothing: a call from Python is nothing beside a solve."""

@@ -191,18 +191,3 @@ def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, mo
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[2] - peaks[1] < 100 * (40_000 - 4_000)
-
-
-def test_points_beyond_a_limit_are_a_warning_with_the_furthest_value(tmp_path):
-    loads = {"load": [2.0, 300.0, 900.0, 1800.0]}
-    given = {"at": {"speed": 200.0, "tilt": 1.5e-3, "oil_temperature": 353.15}, "workers": 1}
-    table = run_sweep("washer", loads, **given)
-    hot, slips = table["temperature_max"], table["stick_margin"]
-    said = {text.partition(" = ")[0]: text for text in table.warnings}
-    assert said["2 of 4 points, up to temperature_max"].count(f"{hot.max() - 273.15:.1f} °C") == 1
-    assert f"{slips.min():.4g}" in said["1 of 4 points, down to stick_margin"]
-    streamed = run_sweep("washer", loads, **given, out=tmp_path / "w.csv", keep=False)
-    assert streamed.warnings == table.warnings
-    weak = run_sweep("gearmesh", {"load": [20.0, 8000.0]}, at={"speed": 100.0})
-    assert weak["pitting_safety"][1] < 1.0
-    assert any("pitting_safety" in text and "1 of 2" in text for text in weak.warnings)

@@ -127,8 +127,6 @@ class Sweep:
     not_shown: tuple[str, ...] = ()  # outputs that make no sense there
     more_inputs: tuple[Mapping[str, Any], ...] = ()  # fields of signals it takes as well
     doubt: str = ""  # dotted name: (parameters, fidelity, inputs) to a warning or ""
-    least: Mapping[str, tuple[float, str]] = field(default_factory=dict)
-    """By output: a value, below which it is a warning, and what that means."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -101,9 +101,8 @@ def run_sweep(
         Run(plan, *kept, journal, progress).solve(workers, cluster)
         table = make_table(plan, *kept)
         if target and journal:
-            blocks = journal.blocks(len(real), len(whole))
-            counts, passed = write_table(pieces(plan, blocks), target)
-            table = table if n else replace(table, columns={}, counts=counts, passed=passed)
+            counts = write_table(pieces(plan, journal.blocks(len(real), len(whole))), target)
+            table = table if n else replace(table, columns={}, counts=counts)
         finished = True
     finally:
         if journal:

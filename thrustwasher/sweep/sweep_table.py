@@ -6,42 +6,21 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
-from typing import IO, Any, NamedTuple
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
-from ..model.record import resolve
-from ..model.registry import find_model
 from ..model.spec import REGIMES
 from ..storage.journal import Block
 from ..storage.whole_files import whole_file
-from ..units import format_quantity
 from .solve_rows import output_signals
 from .sweep_plan import Plan
 
 SUFFIXES = (".csv", ".parquet")
 INSTALL = 'pip install "thrustwasher[sweep]"'
 CHUNK = 50_000  # rows made into text, or a group of Parquet, at a time
-
-
-class Passed(NamedTuple):
-    """How many points pass a limit of an output, the value furthest beyond it, and what it means.
-
-    Below a least value that is the least, above a greatest one the greatest.
-    """
-
-    points: int
-    value: float
-    means: str
-    below: bool
-
-    def with_more(self, other: "Passed") -> "Passed":
-        """Return both together."""
-        furthest = min if self.below else max
-        value = furthest(self.value, other.value)
-        return self._replace(points=self.points + other.points, value=value)
 
 
 @dataclass(frozen=True)
@@ -51,9 +30,8 @@ class SweepTable:
     ``columns`` maps names to arrays in the order of the rows, as ``pandas.DataFrame`` takes them.
     ``choice`` says why the rung ``fidelity`` was chosen, if it was not asked for by name.
     Outputs of a failed point are NaN, "" or False; ``status`` says why;
-    ``counts`` are the points by status, ``passed`` those beyond a limit of an output. ``taken``
-    names the inputs that were not given and where their values come from, ``outside`` those of
-    which points lie outside the part's box.
+    ``counts`` are the points by status. ``taken`` names the inputs that were not given and where
+    their values come from, ``outside`` those of which points lie outside the part's box.
     """
 
     columns: dict[str, NDArray[Any]]
@@ -63,21 +41,15 @@ class SweepTable:
     counts: Mapping[str, int] = field(default_factory=dict)
     taken: str = ""
     outside: tuple[str, ...] = ()
-    passed: Mapping[str, Passed] = field(default_factory=dict)
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What a reader must not miss: points outside the part's box, beyond limits, advices."""
+        """What a reader must not miss: points outside the part's box, and those with an advice."""
         advised = (
             f"{n} of {len(self)} points {name}: {Status[name].advice}"
             for name, n in sorted(self.counts.items()) if name != "OK"
         )  # fmt: skip
-        beyond = (
-            f"{p.points} of {len(self)} points, {'down' if p.below else 'up'} to {name} = "
-            f"{format_quantity(p.value, self.units[name])}: {p.means}"
-            for name, p in self.passed.items()
-        )
-        return (*self.outside, *beyond, *advised)
+        return (*self.outside, *advised)
 
     def __len__(self) -> int:
         return sum(self.counts.values())
@@ -115,27 +87,8 @@ def make_table(
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
     return SweepTable(
-        columns, units, plan.fidelity, plan.choice, counts, plan.taken, plan.warnings,
-        passed=_passed(plan, numbers, flags[:, -1]),
+        columns, units, plan.fidelity, plan.choice, counts, plan.taken, plan.warnings
     )  # fmt: skip
-
-
-def _passed(
-    plan: Plan, numbers: NDArray[np.float64], status: NDArray[np.int32]
-) -> dict[str, Passed]:
-    """Return which outputs pass their limits; a point whose status says HOT has said it."""
-    least, found = find_model(plan.spec.key).sweep.least, {}
-    cool = status != Status.HOT
-    for i, signal in enumerate(output_signals(plan.spec)[0]):
-        values = numbers[:, i]
-        if signal.limit and (hot := values[cool & (values > resolve(signal.limit))]).size:
-            advice = Status.HOT.advice
-            found[signal.name] = Passed(len(hot), float(hot.max()), advice, below=False)
-        elif signal.name in least:
-            low, means = least[signal.name]
-            if (few := values[values < low]).size:
-                found[signal.name] = Passed(len(few), float(few.min()), means, below=True)
-    return found
 
 
 def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:
@@ -162,13 +115,12 @@ def check_output(path: str | Path) -> Path:
     return target
 
 
-def write_table(tables: Iterator[SweepTable], path: Path) -> tuple[Counter[str], dict[str, Passed]]:
-    """Write CSV or Parquet, as the name ends, from pieces of a table.
+def write_table(tables: Iterator[SweepTable], path: Path) -> Counter[str]:
+    """Write CSV or Parquet, as the name ends, from pieces of a table; return points by status.
 
-    Returned are its points by status and those beyond limits. The file appears complete or not at
-    all.
+    The file appears complete or not at all.
     """
-    counts, first, passed = Counter[str](), next(tables), dict[str, Passed]()
+    counts, first = Counter[str](), next(tables)
     with whole_file(path) as draft, ExitStack() as stack:
         if is_parquet := path.suffix.lower() == ".parquet":
             group = _batch(first)
@@ -177,13 +129,11 @@ def write_table(tables: Iterator[SweepTable], path: Path) -> tuple[Counter[str],
             stream = stack.enter_context(draft.open("w", encoding="utf-8", newline=""))
         for table in chain([first], tables):
             counts.update(table.counts)
-            for name, more in table.passed.items():
-                passed[name] = passed[name].with_more(more) if name in passed else more
             if is_parquet:
                 writer.write_table(_batch(table).cast(group.schema))
             else:
                 write_csv(table, stream, head=table is first)
-    return counts, passed
+    return counts
 
 
 def write_csv(table: SweepTable, stream: IO[str], *, head: bool = True) -> None:

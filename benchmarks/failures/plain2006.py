@@ -39,6 +39,7 @@ from .plain2006_fields import Mesh, Settings, conductances, gap_at, heat, make_m
 
 Array = NDArray[np.float64]
 GRID = (9, 67)
+KNOWN = 4  # inputs that the paper knows; the far faces are as warm as the oil
 RELAXATION, HEAT_RELAXATION = 1.65, 1.9
 DIFFERENCE = 0.1  # [sigma]; less is lost in the pressures' stop test
 SHARE = 0.3  # 1 lands on the contact branch up to 28 % below the fold

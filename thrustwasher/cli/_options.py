@@ -145,12 +145,21 @@ def read_oil(
 
 
 def with_oil(arguments: argparse.Namespace, part: PartFile, others: Iterable[str]) -> PartFile:
-    """Return a part with the oil of ``--oil``, and say what its oil is, if it has one."""
-    oil = read_oil(arguments, part.spec, others)
-    part = part if oil is None else part.with_oil(oil)
+    """Return a part with the oil of ``--oil``; ``others`` that change its own leave it none."""
+    others = list(others)
+    if (oil := read_oil(arguments, part.spec, others)) is not None:
+        return part.with_oil(oil)
+    sets = part.oil.parameters_for(part.spec) if part.oil else {}
+    if changed := [name for name in others if name in sets]:
+        note(f"{', '.join(changed)}: given beside the oil of the part, which it is no more")
+        return replace(part, oil=None)
+    return part
+
+
+def tell_oil(part: PartFile) -> None:
+    """Say what the oil of a part is, if it has a name or a data sheet; called before figures."""
     if part.oil:
         note(part.oil_words)
-    return part
 
 
 def oil_record(part: PartFile) -> dict[str, Any]:

@@ -57,8 +57,12 @@ def _verify(arguments: argparse.Namespace) -> int:
 
     cards = make_own_cards(part.spec, part.params, part.box, tol=tol, points=arguments.points,
                            workers=arguments.workers, progress=_output.time_left)  # fmt: skip
+    warnings = part.oil_warnings
+    _options.tell_oil(part)
+    _output.warn(warnings)
     if arguments.json:
-        _output.print_json({"cards": [_record(card) for card in cards], "refused": {}})
+        found = {"cards": [_record(card) for card in cards], "refused": {}}
+        _output.print_json(found | {"warnings": warnings} | _options.oil_record(part))
         return 0
     _print_model(part.spec.key, cards)
     print(f"  {arguments.points} points and none beyond: with 95 % confidence at most "

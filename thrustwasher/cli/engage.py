@@ -48,6 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     wall_time = time.perf_counter() - began
     doubts = _options.doubts(arguments, SPEC.inputs)
     warnings = [*doubts, *there.warnings, *result.warnings]
+    _options.tell_oil(part)
     _output.warn(warnings)
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)

@@ -1,7 +1,7 @@
 """``thrustwasher map``: build a washer's map, list the maps there are, check one."""
 
 import argparse
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -69,10 +69,14 @@ def _build(arguments: argparse.Namespace) -> int:
     if left := [s for s in INPUTS if s.name not in box]:
         spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
         _output.note(f"taken by default: {', '.join(spans)}")
+    warnings = replace(part, box=box).oil_warnings
+    _options.tell_oil(part)
+    _output.warn(warnings)
     plain = not arguments.fidelity and not any(getattr(arguments, s.name) for s in INPUTS)
     if arguments.file and plain and not serves(TABLES, params, box, tolerance):
         keep_own(params, lambda path: write(path, Path(out).read_bytes()))
-    _show(card, str(out), arguments.json)
+    more = {"warnings": warnings, **_options.oil_record(part)}
+    _show({**card, **more} if arguments.json else card, str(out), arguments.json)
     return 0
 
 

@@ -181,6 +181,8 @@ def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
                 f"--set {setting}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
             )
+        if name in values:
+            raise ParameterError(f"--set {setting}: {name} is given twice")
         values[name] = Place(name, False, metadata[name]).check(text)
     return values
 
@@ -257,6 +259,22 @@ def add_listed(parser: Any, command: str, **words: str) -> None:
         if isinstance(said.get("default"), int):
             said["type"] = int
         parser.add_argument(name, **said | {"help": said["help"].format(**words)})
+
+
+def refuse_unused(
+    arguments: argparse.Namespace, what: str, options: Iterable[str], **usual: Any
+) -> None:
+    """Raise ParameterError if an option is given for which a command has no use there.
+
+    ``options`` are names in the parsed arguments, ``usual`` those that have a default, with it.
+    """
+    known: dict[str, Any] = {**dict.fromkeys(options), **usual}
+    for name, default in known.items():
+        value = getattr(arguments, name, default)
+        if value != default and value not in ([], False):
+            option = option_name({"settings": "set", "tolerance": "tol"}.get(name, name))
+            told = value if name == "file" else option
+            raise ParameterError(f"{told}: has no effect with {what}; leave it out")
 
 
 def read_grid(text: str) -> tuple[int, int]:

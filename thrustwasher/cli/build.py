@@ -12,6 +12,7 @@ from ..model.spec import ModelSpec
 from ..units import parse_quantity
 from . import _options, _output
 
+TOL = "0.01"  # by default
 HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"
 
 
@@ -30,6 +31,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     tolerance = parse_quantity(arguments.tol, "1", "tol")
     oil = None if arguments.oil is None else sheet_oil("--oil", arguments.oil)
+    if not any(map(is_part, arguments.models)):
+        _options.refuse_unused(arguments, "models without a part file", (), tol=TOL)
     parts = [load_part(name) for name in filter(is_part, arguments.models)]
     parts = parts if oil is None else [part.with_oil(oil) for part in parts]
     warnings = [

@@ -10,6 +10,7 @@ from ..model.registry import ladder_of, models_with_cards, spec_of
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
+TOL, POINTS = "0.01", 60  # by default
 HELP = "list the verified errors of all rungs, or verify those of a part file"
 
 
@@ -30,6 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _verify(arguments)
     if arguments.model and arguments.model not in models_with_cards():
         ladder_of(arguments.model)  # says which there are
+    _options.refuse_unused(arguments, "cards that are listed", ["workers"], tol=TOL, points=POINTS)
     wanted = [arguments.model] if arguments.model else list(models_with_cards())
     found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
     begin = f"{arguments.model}-" if arguments.model else ""

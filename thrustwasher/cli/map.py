@@ -13,6 +13,11 @@ from ..washer.parameters import SPEC
 from . import _options, _output
 
 INPUTS = [signal for signal in SPEC.inputs if not signal.optional]  # a map has no others
+BUILD = (  # options of a map to build alone
+    *("fidelity", "out", "tolerance", "part", "preset", "settings", "oil"),
+    *(signal.name for signal in INPUTS),
+)
+POINTS = 60  # by default
 HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
 
 
@@ -37,6 +42,11 @@ def run(arguments: argparse.Namespace) -> int:
         raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     if not 2 <= arguments.points <= 100_000:
         raise ParameterError(f"--points = {arguments.points}, allowed: 2 .. 100000")
+    usual: dict[str, Any] = {}
+    if arguments.deed == "list":
+        usual = {"points": POINTS, "file": None, "workers": None}
+    if arguments.deed != "build":
+        _options.refuse_unused(arguments, f"map {arguments.deed}", BUILD, **usual)
     return {"build": _build, "list": _list, "check": _check}[arguments.deed](arguments)
 
 

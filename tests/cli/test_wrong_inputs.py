@@ -49,6 +49,10 @@ TABLE = [
     ("washer --grid 9", "grid = '9', allowed: two node counts as in 9x32"),
     ("washer --branch up", "invalid choice: 'up'"),
     ("washer --fidelity feild", "'feild', allowed: 'map' or 'coarse' or 'field'"),
+    (
+        "washer --oil 'kinematic_viscosity_40=46cSt,kinematic_viscosity_100=7cSt,density_15=0.87'",
+        "did you mean 870 kg/m3 (0.87 g/cm3)?",
+    ),
     ("washer --set roughness=0.5", "did you mean 5e-07 m (0.5 um)?"),
     ("washer --set rougness=1um", "did you mean roughness?"),
     ("washer --set roughness", "allowed: NAME=VALUE"),
@@ -116,6 +120,24 @@ TABLE = [
     ("shift --ssp a.ssp --no-guard", "--no-guard: has no effect with --ssp"),
     ("doctor --speed 3", "unrecognized arguments: --speed 3"),
 ]  # fmt: skip
+
+
+STATED = [  # with the unit that was meant
+    "washer --speed '30000 rpm'", "washer --oil-temperature '-300 degC'", "curve --speed '5e5 rpm'",
+    "sweep washer --over 'speed [rpm]=30000'", "washer --set roughness=0.5mm",
+    "washer --part thick.toml",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("words", STATED)
+def test_a_unit_that_is_written_is_not_asked_for(words, tmp_path, monkeypatch, capsys):
+    (tmp_path / "thick.toml").write_text(
+        'model = "washer"\nname = "W"\n[parameters]\nroughness = "0.5 mm"\n'
+    )
+    monkeypatch.chdir(tmp_path)
+    assert main(shlex.split(words)) == 2
+    err = capsys.readouterr().err
+    assert "allowed: " in err and "did you mean" not in err
 
 
 @pytest.mark.parametrize(("words", "said"), TABLE, ids=[words for words, _ in TABLE])

@@ -21,7 +21,7 @@ from ..model.record import Option, resolve
 from ..model.registry import find_model, spec_of
 from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
-from ..units import parse_quantity
+from ..units import has_unit, parse_quantity
 from ._output import note
 
 LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
@@ -64,7 +64,8 @@ def doubts(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> list[st
 def read_input(text: str, signal: "Signal") -> float:
     """Return an input in SI units, in its range."""
     value = parse_quantity(text, signal.unit, signal.name, difference=signal.relative)
-    return check_number(signal.name, value, signal.unit, *signal.range)
+    stated = has_unit(text)
+    return check_number(signal.name, value, signal.unit, *signal.range, stated=stated)
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:

@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from .errors import ParameterError
 
@@ -72,6 +73,16 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
     if not math.isfinite(si):
         raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
     return si
+
+
+def has_unit(value: Any) -> bool:
+    """Tell if a quantity is written with a unit: there is no question then which was meant.
+
+    >>> has_unit("30000 rpm"), has_unit("30000")
+    (True, False)
+    """
+    match = _NUMBER.fullmatch(value) if isinstance(value, str) else None
+    return bool(match and match[2].strip())
 
 
 def meant(value: float, unit: str, low: float, high: float, *, difference: bool = False) -> str:

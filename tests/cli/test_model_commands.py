@@ -189,6 +189,13 @@ def test_an_engagement_is_a_table_and_a_summary(capsys):
     assert "largest torque" in text and "N·m" in text and "mixed" in text
 
 
+def test_a_ramp_that_does_not_end_is_a_warning(capsys):
+    assert main(["engage", "--load", "6 kN", "--ramp", "1 s", "--duration", "0.5 s"]) == 0
+    assert "the load ends at 3 kN of 6 kN" in capsys.readouterr().err
+    assert main(["engage", "--load", "6 kN", "--ramp", "0.5 s", "--duration", "0.5 s"]) == 0
+    assert "ramp" not in capsys.readouterr().err
+
+
 def test_an_engagement_is_written_whole(tmp_path):
     table, picture = tmp_path / "e.csv", tmp_path / "e.png"
     assert main([*ENGAGE, "--out", str(table), "--plot", str(picture)]) == 0

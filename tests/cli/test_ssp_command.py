@@ -108,11 +108,15 @@ def test_the_package_is_whole(package):
 
 
 def test_json_names_the_files(tmp_path, capsys):
-    path = tmp_path / "x.ssp"
-    words = ["shift", "--scene", "msl", "--ssp", str(path), "--platforms", "local", "--json"]
+    path, cold = tmp_path / "x.ssp", tmp_path / "cold.toml"
+    cold.write_text('base = "msl"\noil = "ISO VG 460"\noil_temperature = "-20 degC"\n')
+    words = ["shift", "--scene", str(cold), "--ssp", str(path), "--platforms", "local", "--json"]
     assert main(words) == 0
-    told = json.loads(capsys.readouterr().out)
+    out, err = capsys.readouterr()
+    told = json.loads(out)
     assert told["ssp"] == str(path) and "resources/clutch.fmu" in told["files"]
+    assert "ISO VG 460 does not flow" in told["warnings"][0]
+    assert all(f"warning: {text}" in err for text in told["warnings"])
 
 
 @pytest.mark.slow

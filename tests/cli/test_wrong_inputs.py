@@ -49,6 +49,10 @@ TABLE = [
     ("washer --grid 9", "grid = '9', allowed: two node counts as in 9x32"),
     ("washer --branch up", "invalid choice: 'up'"),
     ("washer --fidelity feild", "'feild', allowed: 'map' or 'coarse' or 'field'"),
+    (
+        "washer --oil 'kinematic_viscosity_40=46cSt,kinematic_viscosity_100=7cSt,density_15=0.87'",
+        "did you mean 870 kg/m3 (0.87 g/cm3)?",
+    ),
     ("washer --set roughness=0.5", "did you mean 5e-07 m (0.5 um)?"),
     ("washer --set rougness=1um", "did you mean roughness?"),
     ("washer --set roughness", "allowed: NAME=VALUE"),
@@ -100,8 +104,40 @@ TABLE = [
     ("shift --step fast", "step = 'fast', allowed: a finite number in s"),
     ("shift --fidelity wahser=map", "wahser"),
     ("chart --draw old.json", "is no chart.json of this version"),
+    ("washer --load 300 --load 500", "argument --load: is given twice"),
+    ("washer --oil '75W-90' --oil 'ISO VG 46'", "argument --oil: is given twice"),
+    ("washer --set roughness=5e-7 --set roughness=4e-7", "roughness is given twice"),
+    ("curve --load 300:300", "load_max = 300 N, allowed: above load_min"),
+    ("part check mesh.toml --set normal_module=3", "--set: has no effect with part check"),
+    ("part check mesh.toml --out new.toml", "--out: has no effect with part check"),
+    ("part list washer --preset bronze", "--preset: has no effect with part list"),
+    ("map list washer.toml", "washer.toml: has no effect with map list"),
+    ("map list --tol 0.1", "--tol: has no effect with map list"),
+    ("map check map.twm --load 20:300", "--load: has no effect with map check"),
+    ("cards washer --points 30", "--points: has no effect with cards that are listed"),
+    ("build GearMesh --tol 0.1", "--tol: has no effect with models without a part file"),
+    ("shift --list --scene msl", "--scene: has no effect with --list"),
+    ("shift --ssp a.ssp --no-guard", "--no-guard: has no effect with --ssp"),
     ("doctor --speed 3", "unrecognized arguments: --speed 3"),
 ]  # fmt: skip
+
+
+STATED = [  # with the unit that was meant
+    "washer --speed '30000 rpm'", "washer --oil-temperature '-300 degC'", "curve --speed '5e5 rpm'",
+    "sweep washer --over 'speed [rpm]=30000'", "washer --set roughness=0.5mm",
+    "washer --part thick.toml",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("words", STATED)
+def test_a_unit_that_is_written_is_not_asked_for(words, tmp_path, monkeypatch, capsys):
+    (tmp_path / "thick.toml").write_text(
+        'model = "washer"\nname = "W"\n[parameters]\nroughness = "0.5 mm"\n'
+    )
+    monkeypatch.chdir(tmp_path)
+    assert main(shlex.split(words)) == 2
+    err = capsys.readouterr().err
+    assert "allowed: " in err and "did you mean" not in err
 
 
 @pytest.mark.parametrize(("words", "said"), TABLE, ids=[words for words, _ in TABLE])

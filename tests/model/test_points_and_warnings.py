@@ -172,6 +172,10 @@ DOUBTFUL = {
         lambda: solve_gearmesh(GearMeshParams.preset("planet"), power=15e3, speed=180.0),
         "pitting_safety = ",
     ),
+    "micropitting mesh": (
+        lambda: solve_gearmesh(GearMeshParams(permissible_film_ratio=5.0), power=15e3, speed=180.0),
+        "micropitting_safety = ",
+    ),
     "hot oil of a mesh": (
         lambda: solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0, oil_temperature=470.0),
         "oil_temperature = 196.9 °C is outside",
@@ -192,6 +196,38 @@ def test_a_doubtful_result_says_so(name):
     warnings = solve().warnings
     assert isinstance(warnings, tuple) and any(words in text for text in warnings)
     assert all("\n" not in text for text in warnings)
+
+
+ROWS = [
+    ("washer", {"load": [700.0, 1500.0]}, {"speed": 545.0, "oil_temperature": 353.15},
+     "2 of 2 points, at worst temperature_max = "),
+    ("washer", {"load": [20.0, 100.0]}, {"speed": 1400.0},
+     "1 of 2 points, at worst stick_margin = "),
+    ("washer", {"load": [100.0, 3e3]}, {"speed": 1400.0},
+     "1 of 2 points, at worst film_thickness = -"),
+    ("clutch", {"load": [10.0, 1e5]}, {"speed": 0.1, "contact_modulus": 3e5},
+     "1 of 2 points, at worst film_ratio = -"),
+    ("gearmesh", {"load": [100.0, 5e3, 9e3]}, {"speed": 180.0},
+     "2 of 3 points, at worst scuffing_safety = "),
+    ("gearmesh", {"load": [100.0, 200.0]}, {"speed": 180.0, "permissible_film_ratio": 5.0},
+     "2 of 2 points, at worst micropitting_safety = "),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("model", "over", "at", "words"), ROWS)
+def test_a_sweep_says_what_is_beyond_a_bound_in_its_rows(tmp_path, model, over, at, words):
+    table = run_sweep(model, over, at=at)
+    assert any(text.startswith(words) for text in table.warnings)
+    to_file = run_sweep(model, over, at=at, out=tmp_path / "rows.csv", keep=False)
+    assert to_file.warnings == table.warnings
+
+
+def test_pieces_of_a_table_are_counted_together(monkeypatch, tmp_path):
+    monkeypatch.setattr("thrustwasher.sweep.sweep_table.CHUNK", 1)
+    over, at = {"load": [700.0, 1500.0], "tilt": [2e-3, 1e-3]}, {"oil_temperature": 353.15}
+    table = run_sweep("washer", over, at=at)
+    to_file = run_sweep("washer", over, at=at, out=tmp_path / "rows.csv", keep=False)
+    assert to_file.warnings == table.warnings != ()
 
 
 @pytest.mark.parametrize("model", models_with_points())

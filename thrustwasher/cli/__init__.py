@@ -112,6 +112,18 @@ class _Parser(argparse.ArgumentParser):
         super().__init__(prog, allow_abbrev=False, **options)
         self._negative_number_matcher = re.compile(r"-[0-9.]")
 
+    def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse; an option that takes one value is given once."""
+        seen: set[int] = set()
+        for word in args or ():
+            action = self._option_string_actions.get(word.partition("=")[0])
+            if action is None or action.nargs == 0 or isinstance(action.default, list):
+                continue
+            if id(action) in seen:
+                self.error(f"argument {'/'.join(action.option_strings)}: is given twice")
+            seen.add(id(action))
+        return super().parse_args(args, namespace)
+
     def error(self, message: str) -> NoReturn:
         """Raise instead of printing the usage and leaving; name what was probably meant."""
         wrong = re.search(r"unrecognized arguments: (--[\w-]+)|invalid choice: '([^']*)'", message)

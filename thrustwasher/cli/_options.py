@@ -21,7 +21,7 @@ from ..model.record import Option, resolve
 from ..model.registry import find_model, spec_of
 from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
-from ..units import parse_quantity
+from ..units import has_unit, parse_quantity
 from ._output import note
 
 LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
@@ -64,7 +64,8 @@ def doubts(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> list[st
 def read_input(text: str, signal: "Signal") -> float:
     """Return an input in SI units, in its range."""
     value = parse_quantity(text, signal.unit, signal.name, difference=signal.relative)
-    return check_number(signal.name, value, signal.unit, *signal.range)
+    stated = has_unit(text)
+    return check_number(signal.name, value, signal.unit, *signal.range, stated=stated)
 
 
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
@@ -145,12 +146,21 @@ def read_oil(
 
 
 def with_oil(arguments: argparse.Namespace, part: PartFile, others: Iterable[str]) -> PartFile:
-    """Return a part with the oil of ``--oil``, and say what its oil is, if it has one."""
-    oil = read_oil(arguments, part.spec, others)
-    part = part if oil is None else part.with_oil(oil)
+    """Return a part with the oil of ``--oil``; ``others`` that change its own leave it none."""
+    others = list(others)
+    if (oil := read_oil(arguments, part.spec, others)) is not None:
+        return part.with_oil(oil)
+    sets = part.oil.parameters_for(part.spec) if part.oil else {}
+    if changed := [name for name in others if name in sets]:
+        note(f"{', '.join(changed)}: given beside the oil of the part, which it is no more")
+        return replace(part, oil=None)
+    return part
+
+
+def tell_oil(part: PartFile) -> None:
+    """Say what the oil of a part is, if it has a name or a data sheet; called before figures."""
     if part.oil:
         note(part.oil_words)
-    return part
 
 
 def oil_record(part: PartFile) -> dict[str, Any]:
@@ -172,6 +182,8 @@ def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
                 f"--set {setting}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
             )
+        if name in values:
+            raise ParameterError(f"--set {setting}: {name} is given twice")
         values[name] = Place(name, False, metadata[name]).check(text)
     return values
 
@@ -248,6 +260,22 @@ def add_listed(parser: Any, command: str, **words: str) -> None:
         if isinstance(said.get("default"), int):
             said["type"] = int
         parser.add_argument(name, **said | {"help": said["help"].format(**words)})
+
+
+def refuse_unused(
+    arguments: argparse.Namespace, what: str, options: Iterable[str], **usual: Any
+) -> None:
+    """Raise ParameterError if an option is given for which a command has no use there.
+
+    ``options`` are names in the parsed arguments, ``usual`` those that have a default, with it.
+    """
+    known: dict[str, Any] = {**dict.fromkeys(options), **usual}
+    for name, default in known.items():
+        value = getattr(arguments, name, default)
+        if value != default and value not in ([], False):
+            option = option_name({"settings": "set", "tolerance": "tol"}.get(name, name))
+            told = value if name == "file" else option
+            raise ParameterError(f"{told}: has no effect with {what}; leave it out")
 
 
 def read_grid(text: str) -> tuple[int, int]:

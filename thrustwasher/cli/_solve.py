@@ -53,6 +53,7 @@ class PointCommand:
         warnings = [*doubts, *there.warnings, *result.warnings]
         if model.warning and not any(options.values()):
             warnings += filter(None, [resolve(model.warning)(result)])
+        _options.tell_oil(part)
         _output.warn(warnings)
         targets.draw(model.figure, result, point, params)
         found, parameters = _output.scalars(result), _output.parameters_of(params)

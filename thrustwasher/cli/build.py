@@ -1,15 +1,18 @@
 """``thrustwasher build``: make the FMUs."""
 
 import argparse
+from typing import Any
 
 from ..errors import ParameterError
 from ..model.idle import idle_warnings
 from ..model.oil import sheet_oil
-from ..model.part_file import is_part, load_part
-from ..model.registry import all_models
+from ..model.part_file import PartFile, is_part, load_part
+from ..model.registry import all_models, all_specs, find_spec
+from ..model.spec import ModelSpec
 from ..units import parse_quantity
 from . import _options, _output
 
+TOL = "0.01"  # by default
 HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"
 
 
@@ -28,14 +31,18 @@ def run(arguments: argparse.Namespace) -> int:
 
     tolerance = parse_quantity(arguments.tol, "1", "tol")
     oil = None if arguments.oil is None else sheet_oil("--oil", arguments.oil)
-    if oil:
-        _output.note(f"oil {oil}")
+    if not any(map(is_part, arguments.models)):
+        _options.refuse_unused(arguments, "models without a part file", (), tol=TOL)
     parts = [load_part(name) for name in filter(is_part, arguments.models)]
-    idle = [t for p in parts for t in idle_warnings(p.spec.key, p.params, p.fidelity)]
-    _output.warn(idle)
+    parts = parts if oil is None else [part.with_oil(oil) for part in parts]
+    warnings = [
+        text
+        for p in parts
+        for text in (*idle_warnings(p.spec.key, p.params, p.fidelity), *p.oil_warnings)
+    ]
+    _output.warn(warnings)
     if arguments.target == "native" and not arguments.no_maps:
         for part in parts:
-            part = part if oil is None else part.with_oil(oil)
             if problem := build_missing(part, tolerance, _output.time_left):
                 _output.note(problem)
     paths = build(
@@ -44,16 +51,29 @@ def run(arguments: argparse.Namespace) -> int:
         maps=not arguments.no_maps, terminals=arguments.terminals,
         oil=arguments.oil,
     )  # fmt: skip
+    specs = [spec for spec in _specs(arguments.models, parts) if oil and oil.parameters_for(spec)]
+    if oil:
+        _output.note(oil.words(*specs))
+    else:
+        for part in parts:
+            _options.tell_oil(part)
     findings = [f"{path}: {finding}" for path in paths for finding in validate(path)]
     if arguments.json:
-        found = {"fmus": [str(path) for path in paths], "findings": findings, "warnings": idle}
-        _output.print_json(found)
+        found: dict[str, Any] = {"fmus": [str(path) for path in paths], "findings": findings}
+        found |= {"oil": oil.as_dict(*specs)} if oil else {}
+        _output.print_json({**found, "warnings": warnings})
     else:
         for path in paths:
             print(path)
     for finding in findings:
         _output.note(finding)
     return 3 if findings else 0
+
+
+def _specs(names: list[str], parts: list[PartFile]) -> list[ModelSpec]:
+    """Return the models that are built, each once."""
+    specs = [find_spec(name) for name in names if not is_part(name)] if names else all_specs()
+    return list({s.key: s for s in [*specs, *(part.spec for part in parts)]}.values())
 
 
 def chosen_platforms(words: str | None, target: str) -> list[str] | None:

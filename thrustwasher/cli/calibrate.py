@@ -69,6 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = calibrate(part, **options)
     wall_time = time.perf_counter() - began
     doubts = _doubts(found)
+    _options.tell_oil(part)
     _output.warn([*found.warnings, *doubts])
     targets.draw(FIGURE, found)
     if target:
@@ -76,8 +77,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         pack = {"parameters": _output.parameters_of(found.params)}
         inputs = {"data": data, "fit": [e.name for e in found.estimates], **columns}
-        record = {**inputs, **found.as_dict(), **pack, "wall_time": wall_time}
-        _output.print_json(record | {"warnings": [*found.warnings, *doubts]})
+        record = {**inputs, **found.as_dict(), **pack, **_options.oil_record(part)}
+        told = {"wall_time": wall_time, "warnings": [*found.warnings, *doubts]}
+        _output.print_json(record | told)
         return 0
     _say(base, found, doubts, _command(arguments, base, given))
     return 0

@@ -10,6 +10,7 @@ from ..model.registry import ladder_of, models_with_cards, spec_of
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
+TOL, POINTS = "0.01", 60  # by default
 HELP = "list the verified errors of all rungs, or verify those of a part file"
 
 
@@ -30,6 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _verify(arguments)
     if arguments.model and arguments.model not in models_with_cards():
         ladder_of(arguments.model)  # says which there are
+    _options.refuse_unused(arguments, "cards that are listed", ["workers"], tol=TOL, points=POINTS)
     wanted = [arguments.model] if arguments.model else list(models_with_cards())
     found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
     begin = f"{arguments.model}-" if arguments.model else ""
@@ -57,8 +59,12 @@ def _verify(arguments: argparse.Namespace) -> int:
 
     cards = make_own_cards(part.spec, part.params, part.box, tol=tol, points=arguments.points,
                            workers=arguments.workers, progress=_output.time_left)  # fmt: skip
+    warnings = part.oil_warnings
+    _options.tell_oil(part)
+    _output.warn(warnings)
     if arguments.json:
-        _output.print_json({"cards": [_record(card) for card in cards], "refused": {}})
+        found = {"cards": [_record(card) for card in cards], "refused": {}}
+        _output.print_json(found | {"warnings": warnings} | _options.oil_record(part))
         return 0
     _print_model(part.spec.key, cards)
     print(f"  {arguments.points} points and none beyond: with 95 % confidence at most "

@@ -56,6 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     wall_time = time.perf_counter() - began
     doubts = _options.doubts(arguments, INPUTS)
     warnings = [*doubts, *there.warnings, *curve.warnings]
+    _options.tell_oil(part)
     _output.warn(warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)

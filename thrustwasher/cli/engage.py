@@ -47,7 +47,9 @@ def run(arguments: argparse.Namespace) -> int:
     result = _engage(params, point, times, arguments.fidelity or part.fidelity)
     wall_time = time.perf_counter() - began
     doubts = _options.doubts(arguments, SPEC.inputs)
+    doubts += _short(times, point["load"])
     warnings = [*doubts, *there.warnings, *result.warnings]
+    _options.tell_oil(part)
     _output.warn(warnings)
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
@@ -66,6 +68,18 @@ def run(arguments: argparse.Namespace) -> int:
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     _print_summary(result)
     return 0
+
+
+def _short(times: dict[str, float], load: float) -> list[str]:
+    """Return a warning of a load that does not come to its value."""
+    ramp, duration = times["ramp"], times["duration"]
+    if ramp <= duration:
+        return []
+    ends = format_quantity(load * duration / ramp, "N")
+    return [
+        f"ramp = {ramp:g} s is longer than duration = {duration:g} s: the load ends at {ends} of "
+        f"{format_quantity(load, 'N')}; give a shorter ramp or a longer duration"
+    ]
 
 
 def _seconds(name: str, text: str) -> float:

@@ -35,5 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     text = page(part)
     with _output.whole_file(target) as draft:
         draft.write_text(text, "utf-8")
+    _options.tell_oil(part)
+    _output.warn(part.oil_warnings)
     print(f"{out}: {len(text.encode()) / 1e6:.2f} MB; open it in a browser")
     return 0

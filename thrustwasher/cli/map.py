@@ -1,7 +1,7 @@
 """``thrustwasher map``: build a washer's map, list the maps there are, check one."""
 
 import argparse
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,11 @@ from ..washer.parameters import SPEC
 from . import _options, _output
 
 INPUTS = [signal for signal in SPEC.inputs if not signal.optional]  # a map has no others
+BUILD = (  # options of a map to build alone
+    *("fidelity", "out", "tolerance", "part", "preset", "settings", "oil"),
+    *(signal.name for signal in INPUTS),
+)
+POINTS = 60  # by default
 HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
 
 
@@ -37,6 +42,11 @@ def run(arguments: argparse.Namespace) -> int:
         raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     if not 2 <= arguments.points <= 100_000:
         raise ParameterError(f"--points = {arguments.points}, allowed: 2 .. 100000")
+    usual: dict[str, Any] = {}
+    if arguments.deed == "list":
+        usual = {"points": POINTS, "file": None, "workers": None}
+    if arguments.deed != "build":
+        _options.refuse_unused(arguments, f"map {arguments.deed}", BUILD, **usual)
     return {"build": _build, "list": _list, "check": _check}[arguments.deed](arguments)
 
 
@@ -69,10 +79,14 @@ def _build(arguments: argparse.Namespace) -> int:
     if left := [s for s in INPUTS if s.name not in box]:
         spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
         _output.note(f"taken by default: {', '.join(spans)}")
+    warnings = replace(part, box=box).oil_warnings
+    _options.tell_oil(part)
+    _output.warn(warnings)
     plain = not arguments.fidelity and not any(getattr(arguments, s.name) for s in INPUTS)
     if arguments.file and plain and not serves(TABLES, params, box, tolerance):
         keep_own(params, lambda path: write(path, Path(out).read_bytes()))
-    _show(card, str(out), arguments.json)
+    more = {"warnings": warnings, **_options.oil_record(part)}
+    _show({**card, **more} if arguments.json else card, str(out), arguments.json)
     return 0
 
 

@@ -23,6 +23,7 @@ from ..storage.whole_files import whole_file
 from . import _options, _output
 
 HELP = "write a part file of one's own (new), check one, list the presets"
+NEW = ("name", "preset", "settings", "out")  # of a new part alone
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -36,6 +37,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.deed != "list" and not arguments.subject:
         wanted = "a model, e.g. washer" if arguments.deed == "new" else "a part file"
         raise ParameterError(f"part {arguments.deed}: {wanted} is wanted")
+    unused = {"new": (), "check": NEW, "list": (*NEW, "oil")}[arguments.deed]
+    _options.refuse_unused(arguments, f"part {arguments.deed}", unused)
     {"new": _new, "check": _check, "list": _list}[arguments.deed](arguments)
     return 0
 

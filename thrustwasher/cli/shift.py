@@ -15,6 +15,8 @@ from . import _compare, _options, _output
 from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
+OF_A_RUN = ("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity",
+            "no_guard", "ssp", "platforms", "oil")  # fmt: skip
 REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
 
 
@@ -27,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Build what is missing, run the shift, write the report."""
     if arguments.list:
+        _options.refuse_unused(arguments, "--list", OF_A_RUN, out=FOLDER, fmu="native")
         return _list(arguments.json)
     if arguments.compare:
         return _compare.run(arguments, _scene, _one_shift)
@@ -230,6 +233,7 @@ def _write(result: Any, folder: Path) -> None:
 
 def _export(arguments: argparse.Namespace, scene: Any) -> int:
     """Write the shift as a package that any SSP master runs, and name it."""
+    _options.refuse_unused(arguments, "--ssp", ("no_report", "no_guard"), out=FOLDER)
     if arguments.fmu == "python":
         raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
     if arguments.master not in (None, "jacobi"):
@@ -242,12 +246,14 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     platforms = chosen_platforms(arguments.platforms, "native")
     began = time.perf_counter()
     parts = _package(scene, platforms)
+    _output.warn(scene.warnings)
 
     with _output.whole_file(target) as draft:
         draft.write_bytes(zipped(parts))
     if arguments.json:
         total = time.perf_counter() - began
-        _output.print_json({"ssp": str(target), "files": sorted(parts), "total_time": total})
+        told = {"ssp": str(target), "files": sorted(parts), "total_time": total}
+        _output.print_json(told | {"warnings": scene.warnings})
     else:
         print(target)
     return 0

@@ -7,10 +7,9 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..model.part_file import PartFile
 from ..model.registry import models_with_points, spec_of
 from ..model.spec import ModelSpec
-from ..sweep.axes import places, read_axis, split_settings
+from ..sweep.axes import places, split_settings
 from . import _options, _output
 from ._options import option_name
 from ._table import read_columns
@@ -42,8 +41,6 @@ def run(arguments: argparse.Namespace) -> int:
         arguments, part, (*at, *(n.partition("[")[0].strip() for n in over), *(points or ()))
     )
 
-    _output.warn(_oil_warnings(part, {**at, **over}, points or {}))
-
     from ..sweep.run_sweep import run_sweep
     from ..sweep.sweep_table import write_csv
 
@@ -55,6 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
     )  # fmt: skip
     for said in filter(None, [table.choice, table.taken]):
         _output.note(said)
+    _options.tell_oil(part)
     _output.warn(table.warnings)
     if not out:
         write_csv(table, sys.stdout)
@@ -81,19 +79,6 @@ def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
                 raise ParameterError(f"{option_name(name)}: {why}")
             held[name] = value
     return held
-
-
-def _oil_warnings(part: PartFile, given: dict[str, str], points: dict[str, Any]) -> list[str]:
-    """Return what is doubtful of the part's oil at the coldest and at the warmest point."""
-    found, known = list(points.get("oil_temperature", ())), places(part.spec)
-    for name, values in given.items():
-        if name.partition("[")[0].strip() == "oil_temperature":
-            found += read_axis(name, values, known, part.spec).values
-    if not (found and part.oil):
-        return []
-    texts = [*part.oil.warnings([part.spec], min(found)),
-             *part.oil.warnings([part.spec], max(found))]  # fmt: skip
-    return list(dict.fromkeys(texts))
 
 
 def _points(path: str, spec: ModelSpec) -> dict[str, Any]:

@@ -19,10 +19,12 @@ from .kernels import layout as k
 from .kernels import pack_friction, rates, steady
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 
-PRESSED = (
-    "film_ratio = {:.3g}: the lining is pressed beyond the reach of the law of contact; lower the "
-    "load or check the lining's modulus"
+BEYOND_LAW = (
+    "the lining is pressed beyond the reach of the law of contact; lower the load or check the "
+    "lining's modulus"
 )
+PRESSED = "film_ratio = {:.3g}: " + BEYOND_LAW
+LEAST = {"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)}  # of a sweep's rows
 LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 

@@ -22,7 +22,10 @@ SAFETIES = {
     "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "
     "harder gear",
     "scuffing_safety": "the flanks are expected to scuff; lower torque, speed or oil temperature",
+    "micropitting_safety": "the film is thinner than permissible_film_ratio allows, the flanks are "
+    "expected to micropit; take cooler or thicker oil or smoother flanks",
 }
+LEAST = {name: (1.0, f"below 1: {fails}") for name, fails in SAFETIES.items()}  # of a sweep's rows
 __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 

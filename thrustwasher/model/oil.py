@@ -118,6 +118,10 @@ class Oil:
                 known |= dict(zip(law, through(points), strict=True))
         return known
 
+    def is_in(self, spec: ModelSpec, params: Any) -> bool:
+        """Tell if a model's parameters are those that it sets."""
+        return all(getattr(params, n) == x for n, x in self.parameters_for(spec).items())
+
     def error(self, spec: ModelSpec, temperature: float) -> float:
         """Return how far a model's law lies above ASTM D341 at a temperature [K], relative."""
         law = law_of(spec)
@@ -349,6 +353,21 @@ def too_stiff(spec: ModelSpec, params: Any, temperature: float) -> list[str]:
         f"the law of the {spec.key}, above {STIFF:g} Pa.s no gear oil is used; give an oil that "
         "flows, or a warmer one"
     ]
+
+
+def oil_doubts(
+    given: Oil | None, spec: ModelSpec, params: Any, temperatures: Iterable[float]
+) -> list[str]:
+    """Return what is doubtful of a part's oil at temperatures [K], each line once.
+
+    An oil whose parameters were changed is not that oil any more: its law is not looked at.
+    """
+    found: dict[str, None] = {}
+    named = given if given and given.is_in(spec, params) else None
+    for t in temperatures:
+        lines = named.warnings([spec], t) if named else []
+        found |= dict.fromkeys([*lines, *too_stiff(spec, params, t)])
+    return list(found)
 
 
 def refuse_two_ways(what: str, given: Oil, spec: ModelSpec, others: Iterable[str]) -> None:

@@ -147,8 +147,11 @@ def check_ranges(params: Any) -> None:
         check_value(f.name, getattr(params, f.name), f.metadata)
 
 
-def check_value(name: str, value: Any, m: Mapping[str, Any]) -> None:
-    """Raise ParameterError if a value is not allowed by a field's metadata."""
+def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = False) -> None:
+    """Raise ParameterError if a value is not allowed by a field's metadata.
+
+    ``stated``: it came with its unit, so that no other one was meant.
+    """
     if m["kind"] == "enumeration":
         good = isinstance(value, str) and value in m["options"]
     elif m["kind"] == "boolean":
@@ -161,14 +164,19 @@ def check_value(name: str, value: Any, m: Mapping[str, Any]) -> None:
     if not good:
         unit = "" if m["unit"] == "1" else f" {m['unit']}"
         hint = ""
-        if m["kind"] == "real" and isinstance(value, int | float):
+        if m["kind"] == "real" and isinstance(value, int | float) and not stated:
             hint = meant(float(value), m["unit"], m["min"], m["max"],
                          difference=bool(m.get("relative")))  # fmt: skip
         raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}{hint}")
 
 
-def check_number(name: str, value: float, unit: str, low: float, high: float) -> float:
-    """Return ``value`` as a float, or raise ParameterError naming it, its unit and its range."""
+def check_number(
+    name: str, value: float, unit: str, low: float, high: float, *, stated: bool = False
+) -> float:
+    """Return ``value`` as a float, or raise ParameterError naming it, its unit and its range.
+
+    ``stated``: it came with its unit, so that no other one was meant.
+    """
     try:
         if isinstance(value, bool | str):
             raise TypeError
@@ -178,7 +186,7 @@ def check_number(name: str, value: float, unit: str, low: float, high: float) ->
     except OverflowError:
         number = math.inf
     if not low <= number <= high:
-        hint = meant(number, unit, low, high)
+        hint = "" if stated else meant(number, unit, low, high)
         unit = "" if unit == "1" else f" {unit}"
         raise ParameterError(f"{name} = {number!r}{unit}, allowed: {low:g} .. {high:g}{unit}{hint}")
     return number

@@ -29,7 +29,7 @@ from typing import Any
 
 from ..errors import ParameterError, within
 from ..units import exact_quantity, format_quantity
-from .oil import Oil, refuse_two_ways, sheet_oil, too_stiff
+from .oil import Oil, oil_doubts, refuse_two_ways, sheet_oil
 from .parameters import (
     allowed,
     check_number,
@@ -101,11 +101,8 @@ class PartFile:
     @property
     def oil_warnings(self) -> list[str]:
         """What is doubtful of its oil in its box."""
-        found: dict[str, None] = {}
-        for end in self.box.get("oil_temperature", ()):
-            named = self.oil.warnings([self.spec], end) if self.oil else []
-            found |= dict.fromkeys([*named, *too_stiff(self.spec, self.params, end)])
-        return list(found)
+        ends = self.box.get("oil_temperature", ())
+        return oil_doubts(self.oil, self.spec, self.params, ends)
 
     def with_oil(self, given: Oil) -> "PartFile":
         """Return the part with another oil."""
@@ -329,9 +326,8 @@ def _lines(part: PartFile) -> Iterator[str]:
     rungs = " or ".join(part.spec.fidelities)
     yield f"fidelity = {json.dumps(part.fidelity)}  # {rungs}"
     params = part.params
-    set_by_oil = part.oil.parameters_for(part.spec) if part.oil else {}
-    if any(getattr(params, name) != value for name, value in set_by_oil.items()):
-        set_by_oil = {}  # it is not this oil any more
+    is_in = part.oil and part.oil.is_in(part.spec, params)  # or it is not this oil any more
+    set_by_oil = part.oil.parameters_for(part.spec) if part.oil and is_in else {}
     if part.oil and set_by_oil:
         yield f"oil = {part.oil.as_toml()}  # sets {', '.join(set_by_oil)}"
     yield ""

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 from ..errors import ParameterError
 from .advice import quantity_text, range_text
-from .oil import Oil, too_stiff
+from .oil import Oil, oil_doubts
 from .record import Command, Model, resolve
 from .registry import find_model
 from .spec import ModelSpec, Signal
@@ -129,9 +129,7 @@ def point_of(
         if n in there and _moved(part, n, there[n]) != there[n]
     ]  # fmt: skip
     if "oil_temperature" in there:
-        oil = there["oil_temperature"]
-        outside += part.oil.warnings([part.spec], oil) if part.oil else []
-        outside += too_stiff(part.spec, part.params, oil)
+        outside += oil_doubts(part.oil, part.spec, part.params, [there["oil_temperature"]])
     left_out = {s.name for s in inputs if s.optional} | given.keys() | box.keys()
     default = {n: v for n, v in values.items() if n not in left_out}
     return Point(

@@ -127,6 +127,7 @@ class Sweep:
     not_shown: tuple[str, ...] = ()  # outputs that make no sense there
     more_inputs: tuple[Mapping[str, Any], ...] = ()  # fields of signals it takes as well
     doubt: str = ""  # dotted name: (parameters, fidelity, inputs) to a warning or ""
+    least: str = ""  # dotted name: output -> (value it should not be below, what it means there)
 
 
 @dataclass(frozen=True, kw_only=True)

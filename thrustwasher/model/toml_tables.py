@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError, suggestion, within
-from ..units import parse_quantity
-from .parameters import allowed, check_number
+from ..units import has_unit, parse_quantity
+from .parameters import allowed, check_number, check_value
 from .record import from_plain
 from .spec import ModelSpec, Rule
 
@@ -83,13 +83,17 @@ def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> 
     unit, low, high = rule
     found = quantity(where, key, value, unit)
     with within(where):
-        return check_number(key, found, unit, low, high)
+        return check_number(key, found, unit, low, high, stated=has_unit(value))
 
 
 def read_value(where: str, key: str, value: Any, meta: Any) -> Any:
     """Return the value of a parameter, of the kind that its metadata say."""
     if meta["kind"] == "real":
-        return quantity(where, key, value, meta["unit"])
+        found = quantity(where, key, value, meta["unit"])
+        if has_unit(value):
+            with within(where):
+                check_value(key, found, meta, stated=True)
+        return found
     wanted = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
     if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
         raise ParameterError(f"{where}: {key} = {value!r}, allowed: {allowed(meta)}")

@@ -10,7 +10,7 @@ from ..errors import ParameterError, suggestion
 from ..model.parameters import check_value
 from ..model.registry import find_model
 from ..model.spec import ModelSpec, Signal
-from ..units import parse_quantity
+from ..units import has_unit, parse_quantity
 
 MOST_POINTS = 4_000_000
 BOOLEANS = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
@@ -45,7 +45,7 @@ class Place:
             value if isinstance(value, str) else float(value), self.unit, self.name,
             difference=bool(self.meta.get("relative")),
         )  # fmt: skip
-        check_value(self.name, number, self.meta)
+        check_value(self.name, number, self.meta, stated=has_unit(value))
         return int(number) if self.kind == "integer" else number
 
 

@@ -101,8 +101,9 @@ def run_sweep(
         Run(plan, *kept, journal, progress).solve(workers, cluster)
         table = make_table(plan, *kept)
         if target and journal:
-            counts = write_table(pieces(plan, journal.blocks(len(real), len(whole))), target)
-            table = table if n else replace(table, columns={}, counts=counts)
+            blocks = journal.blocks(len(real), len(whole))
+            counts, found = write_table(pieces(plan, blocks), target)
+            table = table if n else replace(table, columns={}, counts=counts, beyond=found)
         finished = True
     finally:
         if journal:

@@ -13,6 +13,7 @@ from ..ladder import choose as chooser
 from ..ladder.own_tables import build_where_it_pays
 from ..model.advice import quantity_text, range_text
 from ..model.idle import idle_warnings
+from ..model.oil import oil_doubts
 from ..model.parameters import params_of
 from ..model.part_file import PartFile, find_part
 from ..model.point import from_box, taken_text
@@ -208,7 +209,8 @@ def _assemble(
         spec, fidelity, inputs, shown, units, starts, params, params_of,
         taken=taken_text(box, default, spec.inputs),
         warnings=(
-            *_idle(params, fidelity, spec.key), *_outside(part, inputs),
+            *_idle(params, fidelity, spec.key), *_of_oil(part, params, inputs),
+            *_outside(part, inputs),
             *_doubt(spec, fidelity, params, np.repeat(params_of, np.diff(starts)), inputs),
         ),
     )  # fmt: skip
@@ -220,6 +222,21 @@ def _idle(params: Sequence[Any], fidelity: str, model: str) -> Iterator[str]:
     """Yield a warning for each choice that leaves parameters unread, at the first row or last."""
     lines = [t for p in (params[0], params[-1]) if p for t in idle_warnings(model, p, fidelity)]
     yield from {text.partition(" = ")[0]: text for text in lines}.values()
+
+
+def _of_oil(part: PartFile, params: Sequence[Any], inputs: Array) -> Iterator[str]:
+    """Yield what is doubtful of the oil at the coldest and warmest point, at first row or last."""
+    names = [s.name for s in part.spec.inputs]
+    if "oil_temperature" not in names:
+        return
+    column = inputs[:, names.index("oil_temperature")]
+    if not np.isfinite(column).any():
+        return
+    ends = float(np.nanmin(column)), float(np.nanmax(column))
+    for own in filter(None, dict.fromkeys((params[0], params[-1]))):
+        if lines := oil_doubts(part.oil, part.spec, own, ends):
+            yield from lines
+            return
 
 
 def _doubt(

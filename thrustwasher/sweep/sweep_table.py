@@ -15,6 +15,7 @@ from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
 from ..model.spec import REGIMES
 from ..storage.journal import Block
 from ..storage.whole_files import whole_file
+from .row_doubts import Beyond, beyond, joined
 from .solve_rows import output_signals
 from .sweep_plan import Plan
 
@@ -31,7 +32,8 @@ class SweepTable:
     ``choice`` says why the rung ``fidelity`` was chosen, if it was not asked for by name.
     Outputs of a failed point are NaN, "" or False; ``status`` says why;
     ``counts`` are the points by status. ``taken`` names the inputs that were not given and where
-    their values come from, ``outside`` those of which points lie outside the part's box.
+    their values come from, ``outside`` those of which points lie outside the part's box,
+    ``beyond`` the outputs that are beyond what a part bears.
     """
 
     columns: dict[str, NDArray[Any]]
@@ -41,15 +43,17 @@ class SweepTable:
     counts: Mapping[str, int] = field(default_factory=dict)
     taken: str = ""
     outside: tuple[str, ...] = ()
+    beyond: tuple[Beyond, ...] = ()
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What a reader must not miss: points outside the part's box, and those with an advice."""
+        limits = (found.text(len(self)) for found in self.beyond)
         advised = (
             f"{n} of {len(self)} points {name}: {Status[name].advice}"
             for name, n in sorted(self.counts.items()) if name != "OK"
         )  # fmt: skip
-        return (*self.outside, *advised)
+        return (*self.outside, *advised, *limits)
 
     def __len__(self) -> int:
         return sum(self.counts.values())
@@ -87,7 +91,8 @@ def make_table(
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
     return SweepTable(
-        columns, units, plan.fidelity, plan.choice, counts, plan.taken, plan.warnings
+        columns, units, plan.fidelity, plan.choice, counts, plan.taken, plan.warnings,
+        tuple(beyond(plan.spec, columns, columns["status"])),
     )  # fmt: skip
 
 
@@ -115,12 +120,16 @@ def check_output(path: str | Path) -> Path:
     return target
 
 
-def write_table(tables: Iterator[SweepTable], path: Path) -> Counter[str]:
-    """Write CSV or Parquet, as the name ends, from pieces of a table; return points by status.
+def write_table(
+    tables: Iterator[SweepTable], path: Path
+) -> tuple[Counter[str], tuple[Beyond, ...]]:
+    """Write CSV or Parquet, as the name ends, from pieces of a table.
+
+    Return the points by status, and what is beyond its bound.
 
     The file appears complete or not at all.
     """
-    counts, first = Counter[str](), next(tables)
+    counts, first, found = Counter[str](), next(tables), list[Beyond]()
     with whole_file(path) as draft, ExitStack() as stack:
         if is_parquet := path.suffix.lower() == ".parquet":
             group = _batch(first)
@@ -129,11 +138,12 @@ def write_table(tables: Iterator[SweepTable], path: Path) -> Counter[str]:
             stream = stack.enter_context(draft.open("w", encoding="utf-8", newline=""))
         for table in chain([first], tables):
             counts.update(table.counts)
+            found = joined([*found, *table.beyond])
             if is_parquet:
                 writer.write_table(_batch(table).cast(group.schema))
             else:
                 write_csv(table, stream, head=table is first)
-    return counts
+    return counts, tuple(found)
 
 
 def write_csv(table: SweepTable, stream: IO[str], *, head: bool = True) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import SolveError, Status
+from ..errors import ParameterError, SolveError, Status
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.record import OwnOutputs
@@ -104,6 +104,10 @@ def load_curve(
     nodes = resolve_grid(fidelity, grid)
     check_number("load_min", load_min, "N", 1.0, 1e4)
     check_number("load_max", load_max, "N", load_min, 1e4)
+    if load_min == load_max:
+        raise ParameterError(
+            f"load_max = {load_max:g} N, allowed: above load_min; solve_washer gives one load"
+        )
     point = check_point(params, load_min, speed, tilt, oil_temperature, far_face_temperature)
     here = Continuation(params, point, nodes)
     here.enter(load_min)

@@ -205,8 +205,8 @@ def result_of(
         x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], x[L.O_POWER], x[L.O_OIL_FLOW],
         x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
         x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress,
-        advised(point, x[L.O_PEAK], distress, status), iterations, fidelity, grid, error, *point, params, state,
-        washer_warnings(params, point, x, distress, status),
+        advised(point, x[L.O_PEAK], distress, status), iterations, fidelity, grid, error, *point,
+        params, state, washer_warnings(params, point, x, distress, status),
     )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from thrustwasher import solve_washer
 from thrustwasher.errors import Status
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.washer.kernels import layout as L
@@ -141,6 +142,17 @@ def test_distress_and_regime_are_told():
     film, boundary = (FILM, Status.OK), (BOUNDARY, Status.DISTRESS)
     assert told[0] == film and told[1] == film and told[2] == boundary and told[3] == boundary
     assert told[4] == film
+
+
+def test_a_spot_above_250_degc_is_hot_unless_the_film_is_lost():
+    """On a single-valued curve; the result in Python has the same status."""
+    _, out, iout = Instance().step(np.array([1400.0, 300.0, 0.0012, 400.0, 0.0]))
+    assert out[L.O_PEAK] > L.HOT_LIMIT and not iout[L.IO_DISTRESS]
+    assert iout[L.IO_STATUS] == Status.HOT
+    point = {"load": 1400.0, "speed": 300.0, "tilt": 0.0012, "oil_temperature": 400.0}
+    r = solve_washer(WasherParams(), **point)
+    assert r.status is Status.HOT and r.temperature_max > L.HOT_LIMIT
+    assert Status.HOT.advice in " ".join(r.warnings)
 
 
 def test_outside_the_verified_range_is_told():

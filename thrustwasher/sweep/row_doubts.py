@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import Status
 from ..model.advice import quantity_text
@@ -31,17 +30,12 @@ class Beyond(NamedTuple):
         return f"{self.rows} of {of} points, at worst {value}: {self.advice}"
 
 
-def beyond(spec: ModelSpec, columns: Mapping[str, Any], status: NDArray[Any]) -> list[Beyond]:
-    """Return the outputs that are beyond a bound in some rows.
-
-    Rows that are HOT by their status are told by that.
-    """
-    cold, found = status != Status.HOT.name, []
+def beyond(spec: ModelSpec, columns: Mapping[str, Any]) -> list[Beyond]:
+    """Return the outputs that are beyond a bound in some rows."""
+    found = []
     for s, sign, bound, advice in _bounds(spec):
         values = columns[s.name]
         rows = sign * values > sign * bound  # never of a failed row, which has nan
-        if sign > 0.0:
-            rows &= cold
         if rows.any():
             worst = sign * float(np.max(sign * values[rows]))
             found.append(Beyond(s, sign, advice, int(rows.sum()), worst))

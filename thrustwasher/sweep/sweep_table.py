@@ -49,9 +49,11 @@ class SweepTable:
     def warnings(self) -> tuple[str, ...]:
         """What a reader must not miss: points outside the part's box, and those with an advice."""
         limits = (found.text(len(self)) for found in self.beyond)
+        hot = max((found.rows for found in self.beyond if found.sign > 0.0), default=0)
+        told = {"OK", *(["HOT"] if hot >= self.counts.get("HOT", 0) else [])}  # told with the worst
         advised = (
             f"{n} of {len(self)} points {name}: {Status[name].advice}"
-            for name, n in sorted(self.counts.items()) if name != "OK"
+            for name, n in sorted(self.counts.items()) if name not in told
         )  # fmt: skip
         return (*self.outside, *advised, *limits)
 
@@ -92,7 +94,7 @@ def make_table(
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
     return SweepTable(
         columns, units, plan.fidelity, plan.choice, counts, plan.taken, plan.warnings,
-        tuple(beyond(plan.spec, columns, columns["status"])),
+        tuple(beyond(plan.spec, columns)),
     )  # fmt: skip
 
 

@@ -91,12 +91,6 @@ def test_a_scene_says_how_many_mates_its_gears_have(tmp_path):
     assert (own.mates_pinion, own.mates_gear) == (3, 4)
 
 
-@pytest.mark.parametrize("name", ["mates_pinion", "mates_gear"])
-def test_a_gear_has_one_mate_at_least(name):
-    with pytest.raises(ParameterError, match=rf"{name} = 0, allowed: 1 .. 100, a whole number"):
-        GearMeshParams(**{name: 0})
-
-
 def test_a_safety_without_a_limit_is_none():
     r = solve_gearmesh(PLANET, **POINT)
     assert r.micropitting_safety is None and r.as_dict()["micropitting_safety"] is None

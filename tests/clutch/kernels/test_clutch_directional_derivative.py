@@ -68,7 +68,7 @@ def worn_in(unit, rng):
 def test_derivatives_are_those_of_differences_under_any_option(rung, seed):
     rng = np.random.default_rng(seed)
     for _ in range(20):
-        unit = random_pack(rng, [rung])
+        unit = random_pack(rng, [rung], friction_scale=(1.0, 1.0, 1.7)[seed])
         worn_in(unit, rng)
         point = random_point(rng)
         assert disagreement(unit, point, scale_at(point)).max() < 1e-6

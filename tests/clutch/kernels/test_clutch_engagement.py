@@ -96,18 +96,6 @@ def test_the_known_course_of_the_check_case():
     assert times[np.flatnonzero(late)[-1]] == pytest.approx(0.22, abs=0.01)
 
 
-@pytest.mark.parametrize("permeability", [0.0, 4e-12])
-def test_one_long_step_is_many_short_ones(permeability):
-    ends = []
-    for n in (1, 7, 200):
-        pack = Pack(permeability=permeability, contact_rise=True)
-        for _ in range(n):
-            assert pack.step(5898.0, 200.0, 0.2 / n) == 0
-        ends.append([pack.out[k.O_TORQUE], pack.out[k.O_TEMPERATURE], pack.out[k.O_ENERGY]])
-    assert ends[0] == pytest.approx(ends[2], rel=1e-6)
-    assert ends[1] == pytest.approx(ends[2], rel=1e-6)
-
-
 def test_smooth_tight_faces_close_in_the_squeeze_time():
     """Roughness and contact out of the way: t = 3 pi eta G/(4 F) (1/h^2 - 1/h0^2)."""
     params = {"roughness": 1e-8, "permeability": 0.0, "initial_film": 8e-5}
@@ -131,14 +119,6 @@ def test_the_squeeze_group_keeps_its_digits_in_a_narrow_ring(inner):
     exact = b * b - a * a - 2 * (b - a) ** 2 / mp.log(b / a)
     assert kernel_group(inner, 0.085) == pytest.approx(float(exact), rel=1e-13)
     assert squeeze_group(0.064, 0.085) == pytest.approx(9.21157e-7, rel=1e-5)
-
-
-def test_without_cooling_all_heat_stays_in_the_steel():
-    pack = Pack(heat_transfer=0.0, contact_rise=False)
-    for n in range(100):
-        pack.step(60.0 * n, 300.0 - n, H)
-    stored = 8 * pack.par[k.D_CAPACITY] * (pack.state[k.S_HEAT] - 297.15)
-    assert pack.out[k.O_ENERGY] == pytest.approx(stored, rel=1e-11)
 
 
 @pytest.mark.parametrize("fidelity", ["stribeck", "field"])
@@ -235,15 +215,6 @@ def test_oil_shear_is_the_published_one_down_to_touching_mean_planes_and_fades_s
                 for u in (-1.0 + 1e-6, -1.0 - 1e-6))  # fmt: skip
     assert slope == pytest.approx((up - down) / 2e-6 / value, rel=1e-6)
     assert sheared_share(cdf[-6.0], -6.0)[0] == pytest.approx(12.0 * cdf[-6.0] ** 2, rel=1e-6)
-
-
-def test_an_output_read_between_linear_steps_books_no_heat():
-    pack = Pack(input_course="linear")
-    for _ in range(5):
-        pack.step(3000.0, 200.0, H)
-    heat, warmth = pack.out[k.O_ENERGY], pack.out[k.O_TEMPERATURE]
-    pack.step(9000.0, 400.0, 0.0)
-    assert (pack.out[k.O_ENERGY], pack.out[k.O_TEMPERATURE]) == (heat, warmth)
 
 
 def test_a_pack_opens_with_its_time_constant():

@@ -17,6 +17,7 @@ from washer_setup import (  # isort: skip
     BASE, Bench, bench, bodies, full_gear, order, settle, tilted,
 )  # fmt: skip
 
+GRID = (7, 20)  # what is tested holds on any mesh; some of these kernels run as plain Python
 CONDUCTIVITY, OIL = 60.5, 0.145
 PAPER = preset_part(SPEC, "paper").parameters
 DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
@@ -98,7 +99,7 @@ def at_random(b, seed=1):
 @pytest.mark.parametrize("name", LAWS)
 def test_heat_made_is_heat_out_at_any_temperature(name):
     """What the residual adds up to is heat out less heat made: nothing is lost in between."""
-    b = bench((10, 32), **LAWS[name])
+    b = bench(GRID, **LAWS[name])
     m, f = b.m, b.f
     q, made = at_random(b)
     carrier, _, gear = bodies(b)
@@ -113,7 +114,7 @@ def test_heat_made_is_heat_out_at_any_temperature(name):
 @pytest.mark.parametrize("name", LAWS)
 def test_torque_times_speed_is_the_heat_made(name):
     """Pressure flow included: what it makes in all faces is its share of the torque."""
-    b = bench((10, 32), **LAWS[name])
+    b = bench(GRID, **LAWS[name])
     m, f = b.m, b.f
     _, made = at_random(b)
     area = np.outer(m.weight1, m.weight_t)
@@ -130,7 +131,7 @@ def test_torque_times_speed_is_the_heat_made(name):
 
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_only_the_wanted_share_of_film_heat_enters(share):
-    b = bench((10, 32), film_heat_fraction=share, **DRY)
+    b = bench(GRID, film_heat_fraction=share, **DRY)
     q = tilted(b.m, 20.0)  # no contact at all
     made = evaluate(b.m, BASE, q, b.f, False)
     whole = (
@@ -144,7 +145,7 @@ def test_only_the_wanted_share_of_film_heat_enters(share):
 @pytest.mark.parametrize("split", [0.5, 0.3, 0.0])
 def test_matrix_is_the_difference_of_the_residual(split, conduction):
     """solve(rhs) = x means: the residual changes by rhs along x, viscosity following."""
-    b = bench((10, 32), heat_split=split, film_heat_fraction=0.7, conduction=conduction, **DRY)
+    b = bench(GRID, heat_split=split, film_heat_fraction=0.7, conduction=conduction, **DRY)
     m, f = b.m, b.f
     touching(b)
     rng = np.random.default_rng(2)
@@ -167,7 +168,7 @@ def test_matrix_is_the_difference_of_the_residual(split, conduction):
 @pytest.mark.parametrize("name", LAWS)
 def test_change_of_the_residual_is_the_difference(name, speed):
     """Over positions, temperatures and the operating point, pressure, flows and liquid follow."""
-    b = bench((10, 32), **LAWS[name])
+    b = bench(GRID, **LAWS[name])
     m, f = b.m, b.f
     base = BASE._replace(speed=speed)
     q, _ = at_random(b, seed=4)
@@ -209,12 +210,14 @@ def test_dry_friction_has_its_published_ends_and_its_slope():
 @pytest.mark.parametrize("option", ["carrier", "rotating"])
 def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
     """At temperatures that a body of rings can have, the 2-D body's nodes add up to its rings."""
-    rings, whole = bench((10, 32), conduction=option), bench((10, 32), conduction="all")
+    rings, whole = bench(GRID, conduction=option), bench(GRID, conduction="all")
     q, _ = at_random(rings)
     column = whole.m.film_step
     whole.f.temp[:] = 0.0
     for j in range(rings.m.n_t):
-        whole.f.temp[j * column : j * column + 10] = rings.f.temp[j * rings.m.film_step :][:10]
+        whole.f.temp[j * column : j * column + GRID[0]] = rings.f.temp[j * rings.m.film_step :][
+            : GRID[0]
+        ]
     for part, values in zip(
         bodies(whole, np.arange(whole.f.temp.size)), bodies(rings), strict=True
     ):
@@ -231,7 +234,7 @@ def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
 
 
 def test_a_washer_at_rest_stays_at_oil_temperature():
-    b = bench((10, 32))
+    b = bench(GRID)
     pt = Point(300.0, 0.0, 0.002, 297.15, 297.15)
     settle(b.m, pt, touching(b), b.f)
     assert np.all(b.f.temp == 0.0)

@@ -71,6 +71,16 @@ def test_an_evenly_heated_stack_is_exact_on_every_grid(grid, split, conduction, 
         assert [24.0 + x[0, 0] for x in bodies(b)] == pytest.approx(tabled, abs=1e-8)
 
 
+@pytest.mark.parametrize("conduction", CONDUCTION)
+def test_with_an_insulated_gear_all_heat_leaves_through_the_carrier(conduction):
+    b = full_gear(GRID, heat_split=0.3, conduction=conduction, gear_far_face="insulated", **DRY)
+    heat_given(b, np.full(GRID, 1e5))
+    first = 1e5 * 0.01 / CONDUCTIVITY
+    last = first + 0.7 * 1e5 * (1e-5 / OIL + 6.35e-4 / (2.0 * CONDUCTIVITY))
+    for found, rise in zip(bodies(b), (first, last, last), strict=True):
+        np.testing.assert_allclose(found, rise, rtol=1e-10)
+
+
 @pytest.mark.parametrize("changes", [PAPER, {}])
 def test_an_annulus_alone_converges_with_order_two(changes):
     """Oil that conducts from wall to wall no more leaves the carrier on its own: Bessel."""

@@ -7,7 +7,6 @@ import pytest
 from scipy.linalg import expm
 
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.errors import Status
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.washer.kernels import ladder
 from thrustwasher.washer.kernels import layout as L
@@ -223,24 +222,6 @@ def test_a_lost_film_takes_its_time():
     assert reached["slab"][1.5] == pytest.approx(0.097, rel=0.03)
     assert reached["slab"][1.0] == pytest.approx(0.2325, rel=0.03)
     assert reached["lumped"][1.0] == pytest.approx(1.26, rel=0.03)
-
-
-def test_a_load_beyond_the_fold_is_borne_until_the_bodies_are_warm():
-    w, load = Washer(DRY, grid=(8, 20)), 1.3 * 773.0
-    assert w.go(1e-3, load=700.0) == 0
-    before = w.out[MEAN]
-    assert not w.iout[1] and w.go(1e-3, load=load) == 0
-    assert not w.iout[1] and w.out[MEAN] < before + 2.0
-    assert steady(DRY, load=load, grid=(8, 20)).distress
-    lost_at, now = None, 0.0
-    for _ in range(200):
-        assert w.go(0.1, load=load) == 0
-        now += 0.1
-        if w.iout[1]:
-            lost_at = now
-            break
-    assert lost_at is not None and 0.05 < lost_at < 20.0
-    assert w.iout[2] == Status.DISTRESS
 
 
 def test_a_look_without_time_moves_no_temperature_and_no_memory():

@@ -53,7 +53,7 @@ def stopped(words, folder, begun, *signals):
 )
 def test_a_sweep_that_is_stopped_ends_in_one_line_and_goes_on(tmp_path, number, status, word):
     journal = tmp_path / "t.csv.journal"
-    words = [*SWEEP, "--workers", "1", "--out", "t.csv"]
+    words = [*SWEEP, "--workers", "2", "--out", "t.csv"]
     begun = lambda: journal.exists() and journal.stat().st_size > 13_000  # noqa: E731
     assert stopped(words, tmp_path, begun, number) == (status, [f"thrustwasher sweep: {word}"])
     assert [p.name for p in tmp_path.iterdir()] == ["t.csv.journal"]

@@ -44,10 +44,6 @@ def vogel_viscosity(temperature: float, scale: float, slope: float, shift: float
     return scale * math.exp(slope / (temperature + shift))
 
 
-# Outside this range of the effective roughness number a changes sign or b has no decay.
-LEAST_ROUGHNESS, LARGEST_ROUGHNESS = 2.143e-5 / 2.873, 0.0864 / 1372.0
-
-
 def li_seireg(film_number: float, roughness_number: float, dry: float) -> float:
     """Return f = f_0 - a (1 - exp(b)) [-] for film and effective roughness over the radius.
 

@@ -60,8 +60,14 @@ def _alone(name):
     A logger that an earlier test gave to ``simulate_fmu`` is gone when FMPy calls it again.
     """
     script = f"import {name}\nprint(repr({name}.main()))"
-    done = subprocess.run([sys.executable, "-c", script], cwd=EXAMPLES, text=True,
-                          capture_output=True, check=True, timeout=900)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        cwd=EXAMPLES,
+        text=True,
+        capture_output=True,
+        check=True,
+        timeout=900,
+    )
     *printed, found = done.stdout.splitlines()
     return float(found), printed
 

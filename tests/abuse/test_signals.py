@@ -12,8 +12,20 @@ from thrustwasher.cli import Stopped, Watch, main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals of POSIX")
 SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x300", "--over", "speed=50:500:x150"]
-MAP = ["map", "build", "--load", "20:1800", "--speed", "50:1400", "--tilt", "0.001:0.003",
-       "--oil-temperature", "290:400", "--workers", "2"]  # fmt: skip
+MAP = [
+    "map",
+    "build",
+    "--load",
+    "20:1800",
+    "--speed",
+    "50:1400",
+    "--tilt",
+    "0.001:0.003",
+    "--oil-temperature",
+    "290:400",
+    "--workers",
+    "2",
+]
 
 
 def started(words, folder):
@@ -23,10 +35,15 @@ def started(words, folder):
     """
     unmeasured = {k: v for k, v in os.environ.items() if not k.startswith("COVERAGE_PROCESS")}
     return subprocess.Popen(
-        [sys.executable, "-m", "thrustwasher", *words], cwd=folder, text=True, env=unmeasured,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+        [sys.executable, "-m", "thrustwasher", *words],
+        cwd=folder,
+        text=True,
+        env=unmeasured,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )  # fmt: skip
+    )
 
 
 def stopped(words, folder, begun, *signals):

@@ -77,9 +77,14 @@ def even_share(speed_pinion: float, speed_gear: float) -> float:
 
 
 def blok_flash(
-    load: float, friction: float, speed_pinion: float, speed_gear: float, width: float,
-    effusivity: float, profile: float = EVEN,
-) -> float:  # fmt: skip
+    load: float,
+    friction: float,
+    speed_pinion: float,
+    speed_gear: float,
+    width: float,
+    effusivity: float,
+    profile: float = EVEN,
+) -> float:
     """Return Blok's flash temperature [K], the heat divided so that both flanks are equally hot.
 
     ``load`` [N/m], speeds of the flanks [m/s], full ``width`` of the band [m], ``profile`` is
@@ -95,9 +100,13 @@ def sheared_heat(viscosity: float, sliding: float, width: float, film: float) ->
 
 
 def surface_rise(
-    heat: float, speed: float, width: float, conductivity: float, density: float,
+    heat: float,
+    speed: float,
+    width: float,
+    conductivity: float,
+    density: float,
     heat_capacity: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the rise of the flank's surface above its bulk [K], Eq 7.
 
     ``heat`` [W/m] is the share that enters the flank, which moves at ``speed`` [m/s] through a
@@ -108,9 +117,15 @@ def surface_rise(
 
 
 def film_rise(
-    heat: float, speed: float, width: float, film: float, conductivity: float,
-    heat_content: float, oil_conductivity: float, oil_heat_content: float,
-) -> float:  # fmt: skip
+    heat: float,
+    speed: float,
+    width: float,
+    film: float,
+    conductivity: float,
+    heat_content: float,
+    oil_conductivity: float,
+    oil_heat_content: float,
+) -> float:
     """Return how much hotter the middle of the film is than the surface [K], Eq 6.
 
     Heat contents are density times heat capacity [J/(m3 K)]. As printed: the first group holds

@@ -24,9 +24,13 @@ def peak_pressure(load: float, radius: float, theta: float) -> float:
 
 
 def dowson_higginson(
-    load: float, radius: float, theta: float, viscosity: float, entrainment: float,
+    load: float,
+    radius: float,
+    theta: float,
+    viscosity: float,
+    entrainment: float,
     pressure_viscosity: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the least film thickness [m] of an elastohydrodynamic line contact.
 
     ``entrainment`` [m/s] is the mean of the two surface speeds, ``pressure_viscosity`` in 1/Pa,

@@ -59,8 +59,9 @@ def test_a_deep_body_warms_as_heat_conduction_says():
         flow = np.concatenate(([1.0], -between * np.diff(t), [0.0]))
         return -np.diff(flow) / (c * size)
 
-    run = solve_ivp(warming, (0.0, time), np.zeros(240), method="LSODA", lband=1, uband=1,
-                    rtol=1e-8, atol=1e-16)  # fmt: skip
+    run = solve_ivp(
+        warming, (0.0, time), np.zeros(240), method="LSODA", lband=1, uband=1, rtol=1e-8, atol=1e-16
+    )
     surface = run.y[0, -1] + 1.0 * middle[0] / k
     assert surface == pytest.approx(deep_body_rise(1.0, time, math.sqrt(k * c)), rel=1e-4)
 
@@ -70,8 +71,9 @@ def test_half_the_heat_overheats_the_slow_flank(m, n, ratio):
     mesh = Mesh(m, n, 0.254, PHI)
     flanks, load, width = contact(mesh)
     half = pinion_flash(mesh, POWER / SPEED, SPEED, FACE, 0.5 * 0.08, STEEL)
-    blok = blok_flash(load, 0.08, flanks.speed_pinion, flanks.speed_gear, width,
-                      STEEL.effusivity, ELLIPTIC)  # fmt: skip
+    blok = blok_flash(
+        load, 0.08, flanks.speed_pinion, flanks.speed_gear, width, STEEL.effusivity, ELLIPTIC
+    )
     assert half / blok == pytest.approx(ratio, abs=6e-3)
 
 
@@ -87,8 +89,10 @@ def test_the_films_own_rise_hardly_depends_on_the_load(load_factor):
     assert rise(load_factor * width) == pytest.approx(rise(width), rel=3e-3)
     leading = 1.14 * 0.5 * mu * slide**2 / (2.0 * 0.13)
     assert rise(width) == pytest.approx(leading, rel=0.2)
-    surface = [surface_rise(0.5 * sheared_heat(mu, slide, b, film), speed, b, 50.2, 7850.0, 475.0)
-               for b in (width, load_factor * width)]  # fmt: skip
+    surface = [
+        surface_rise(0.5 * sheared_heat(mu, slide, b, film), speed, b, 50.2, 7850.0, 475.0)
+        for b in (width, load_factor * width)
+    ]
     assert surface[1] / surface[0] == pytest.approx(math.sqrt(load_factor), rel=1e-12)
 
 
@@ -99,8 +103,9 @@ def test_without_the_cosine_in_eq_9_eq_12_would_not_follow():
     rise = atan_flash(mesh, POWER, SPEED, FACE, 0.4, STEEL)
     printed = contact_stress(load * math.cos(PHI), flanks.radius, E)
     short = modification_factor(thermal_stress(rise, E, NU, 12e-6), printed, HIGH_CARBON)
-    long = grouped_factor(mesh, POWER, SPEED, FACE, 0.4, HIGH_CARBON, E, NU, 12e-6,
-                          STEEL.effusivity)  # fmt: skip
+    long = grouped_factor(
+        mesh, POWER, SPEED, FACE, 0.4, HIGH_CARBON, E, NU, 12e-6, STEEL.effusivity
+    )
     assert max(short / long, long / short) == pytest.approx(1.064, abs=1e-3)
 
 

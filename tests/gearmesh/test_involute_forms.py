@@ -33,8 +33,7 @@ def on_line(mesh, x):
 @pytest.mark.parametrize("mesh", MESHES)
 def test_contact_starts_on_the_gears_tip_circle_and_ends_on_the_pinions(mesh):
     centre = np.array([mesh.centre_distance, 0.0])
-    tips = [r + tooth_module(mesh) for r in
-            (mesh.ratio * pinion_radius(mesh), pinion_radius(mesh))]  # fmt: skip
+    tips = [r + tooth_module(mesh) for r in (mesh.ratio * pinion_radius(mesh), pinion_radius(mesh))]
     gap = np.linalg.norm(on_line(mesh, start_of_contact(mesh)) - centre)
     assert gap == pytest.approx(tips[0], rel=1e-13)
     assert np.linalg.norm(on_line(mesh, end_of_contact(mesh))) == pytest.approx(tips[1], rel=1e-13)
@@ -78,8 +77,9 @@ def summed_loss(mesh):
     approach, recess = path_of_contact(mesh)
 
     def slid(phase):
-        pairs = [s for s in (phase - 2.0, phase - 1.0, phase, phase + 1.0)
-                 if -approach <= s <= recess]  # fmt: skip
+        pairs = [
+            s for s in (phase - 2.0, phase - 1.0, phase, phase + 1.0) if -approach <= s <= recess
+        ]
         return sum(abs(s) for s in pairs) / len(pairs)
 
     cuts = sorted({0.0, 1.0, *(c % 1.0 for c in (approach, recess, -approach, 0.0))})
@@ -88,8 +88,9 @@ def summed_loss(mesh):
     return total * (1.0 + 1.0 / mesh.ratio) * 2.0 * math.pi / mesh.pinion_teeth
 
 
-@pytest.mark.parametrize("mesh", [*MESHES, Mesh(3.0, 40, 0.2, math.radians(18.0), 0.9),
-                                  Mesh(2.0, 60, 0.2, PHI, 0.65)])  # fmt: skip
+@pytest.mark.parametrize(
+    "mesh", [*MESHES, Mesh(3.0, 40, 0.2, math.radians(18.0), 0.9), Mesh(2.0, 60, 0.2, PHI, 0.65)]
+)
 def test_loss_factor_is_the_sliding_summed_along_the_line_of_action(mesh):
     assert 1.0 < path_of_contact(mesh).contact_ratio < 2.0
     assert loss_factor(mesh) == pytest.approx(summed_loss(mesh), rel=1e-9)

@@ -48,9 +48,9 @@ CASES = [
 
 def good_inputs(spec, rng):
     """Return inputs in their ranges, closer to their start than to the ends."""
-    return np.array([
-        np.clip(s.start + rng.uniform(-1.0, 1.0) * s.nominal, s.low, s.high) for s in spec.inputs
-    ])  # fmt: skip
+    return np.array(
+        [np.clip(s.start + rng.uniform(-1.0, 1.0) * s.nominal, s.low, s.high) for s in spec.inputs]
+    )
 
 
 @sizes(5, 25)

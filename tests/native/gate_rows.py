@@ -133,10 +133,13 @@ PASSED = (plain_loop, tuples, read_slice, constant_table, arithmetic, functions,
 REFUSED = {
     zeros: "NRT_",
     reshaped: "numba_attempt_nocopy_reshape",
-    gamma: "numba_gamma", raises_a_number: "PyErr_", dot: "numba_xxdot",
-    prints: "numba_gil", random: "np.random",
+    gamma: "numba_gamma",
+    raises_a_number: "PyErr_",
+    dot: "numba_xxdot",
+    prints: "numba_gil",
+    random: "np.random",
     calls_an_address: "inttoptr",
-}  # fmt: skip
+}
 
 
 def judged(function):

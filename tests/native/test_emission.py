@@ -24,9 +24,12 @@ pytestmark = pytest.mark.skipif(
 HERE = this_level(this_platform()).name
 # The level of processors that suits this machine; the others count as other platforms.
 each_level = pytest.mark.parametrize(
-    "level", [level if level == HERE else pytest.param(level, marks=pytest.mark.platforms)
-              for level in ("v2", "v3")],
-)  # fmt: skip
+    "level",
+    [
+        level if level == HERE else pytest.param(level, marks=pytest.mark.platforms)
+        for level in ("v2", "v3")
+    ],
+)
 JITTED = [model for model in MODELS if model != "washer"]
 STEPS, TRIES = 300, 60
 
@@ -152,8 +155,9 @@ def test_derivatives_are_equal_to_the_bit(model, level):
             assert run.step(row, i * dt, dt) == run.step(row, (i + 1) * dt, 0.0) == 0
             for k in range(len(row)):
                 seed, dout = np.eye(len(row))[k], np.zeros(len(run.out))
-                status = run.entries.call("sens", run.par, row.copy(), run.state, run.work, seed,
-                                          dout)  # fmt: skip
+                status = run.entries.call(
+                    "sens", run.par, row.copy(), run.state, run.work, seed, dout
+                )
                 answers.append((k, status, dout.tobytes()))
         assert answers[: len(row)] == answers[len(row) :]
 

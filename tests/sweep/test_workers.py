@@ -130,8 +130,11 @@ def test_a_cluster_that_loses_a_worker_loses_no_point(tmp_path, monkeypatch):
                 killed.set()
 
         table = run_sweep(
-            "clutch", over, cluster=cluster.scheduler_address, out=tmp_path / "map.csv",
+            "clutch",
+            over,
+            cluster=cluster.scheduler_address,
+            out=tmp_path / "map.csv",
             progress=kill_one,
-        )  # fmt: skip
+        )
     assert killed.is_set() and once_each(firsts, len(table))
     assert same(table, run_sweep("clutch", over, workers=1))

@@ -54,9 +54,11 @@ def test_a_far_face_as_warm_as_the_oil_is_that_of_the_oil():
     oil, bulk, told = (
         solve_washer(params, **BASE, **more)
         for params, more in (
-            (WasherParams(), {}), (BULK, {}), (BULK, {"far_face_temperature": OIL}),
+            (WasherParams(), {}),
+            (BULK, {}),
+            (BULK, {"far_face_temperature": OIL}),
         )
-    )  # fmt: skip
+    )
     assert bulk.friction_torque == oil.friction_torque == told.friction_torque
     assert bulk.temperature == oil.temperature == told.temperature
 
@@ -67,9 +69,7 @@ def test_an_insulated_gear_is_between_none_and_one_as_warm_as_it_would_become():
     free = solve_washer(params, **BASE)
     gear = free.fields().gear_temperature
     told = float(np.nanmean(gear))
-    bulk = solve_washer(
-        replace(params, gear_far_face="bulk"), **BASE, far_face_temperature=told
-    )  # fmt: skip
+    bulk = solve_washer(replace(params, gear_far_face="bulk"), **BASE, far_face_temperature=told)
     assert np.nanmax(gear) - np.nanmin(gear) < 0.5
     assert bulk.friction_torque == pytest.approx(free.friction_torque, rel=2e-3)
     assert free.temperature > solve_washer(WasherParams(), **BASE).temperature

@@ -52,8 +52,9 @@ class Integral:
 
     def __call__(self, values, first=0):
         radius = self.f.radius[first:]
-        spline = CubicSpline(radius, (values * self.around).sum(axis=1) * radius,
-                             bc_type="not-a-knot")  # fmt: skip
+        spline = CubicSpline(
+            radius, (values * self.around).sum(axis=1) * radius, bc_type="not-a-knot"
+        )
         return float(spline.integrate(radius[0], radius[-1]))
 
 
@@ -76,10 +77,12 @@ def test_film_and_contact_carry_the_load_without_a_moment_left(name):
     assert total(f.contact_pressure) == pytest.approx(r.contact_load, rel=1e-3, abs=1e-4)
     z_w, z_g, gx, gy = r._state[10:14]
     second = (z_g - z_w) - x * (r.tilt - gy) - y * gx
-    p2 = np.array([
-        contact_pressure((h - m.mean_summit2) / m.summit_sigma2, m.table2)[0]
-        for h in second[m.i_g :].ravel()
-    ]).reshape(second[m.i_g :].shape)  # fmt: skip
+    p2 = np.array(
+        [
+            contact_pressure((h - m.mean_summit2) / m.summit_sigma2, m.table2)[0]
+            for h in second[m.i_g :].ravel()
+        ]
+    ).reshape(second[m.i_g :].shape)
     assert total(p2, m.i_g) == pytest.approx(point["load"], rel=1e-4)
     arm = point["load"] * m.outer_radius
     for lever in (x, y):

@@ -28,9 +28,12 @@ def test_friction_power_reaches_the_oil_at_every_point_of_the_box(name, n):
     worst = 0.0
     for _ in range(n):
         r = solve_washer(
-            LAWS[name], load=10.0 ** rng.uniform(0.0, 3.7), speed=rng.uniform(-2000.0, 2000.0),
-            tilt=rng.uniform(0.0, 4e-3), oil_temperature=rng.uniform(240.0, 420.0),
-        )  # fmt: skip
+            LAWS[name],
+            load=10.0 ** rng.uniform(0.0, 3.7),
+            speed=rng.uniform(-2000.0, 2000.0),
+            tilt=rng.uniform(0.0, 4e-3),
+            oil_temperature=rng.uniform(240.0, 420.0),
+        )
         assert r.friction_power == pytest.approx(r.friction_torque * r.speed, rel=1e-14)
         worst = max(worst, abs(r.oil_heat / r.friction_power - 1.0))
     assert worst < 1e-8

@@ -86,8 +86,11 @@ def test_the_known_course_of_the_check_case():
     times = np.linspace(0.0, 0.4, 4001)
     area = math.pi * (0.085**2 - 0.064**2)
     e = engage_clutch(
-        params, time=times, load=0.6e6 * area * (1.0 - np.exp(-times / 0.05)), speed=1e-3,
-    )  # fmt: skip
+        params,
+        time=times,
+        load=0.6e6 * area * (1.0 - np.exp(-times / 0.05)),
+        speed=1e-3,
+    )
     assert e.film_ratio[-1] == pytest.approx(0.5749, abs=2e-4)
     assert times[np.argmax(e.film_ratio < 3.0)] == pytest.approx(0.051, abs=1e-3)
     late = np.abs(e.film_ratio / 0.5749 - 1.0) > 0.01
@@ -123,9 +126,13 @@ def test_the_squeeze_group_keeps_its_digits_in_a_narrow_ring(inner):
 def test_the_contact_rise_is_that_of_a_thick_body_at_first_and_of_a_plate_later(fidelity):
     """Constant flux q: 2 q sqrt(t/(pi k rho c)), later the closed form of an insulated plate."""
     pack = Pack(
-        fidelity, contact_rise=True, heat_transfer=0.0, friction_law="constant",
-        film_dynamics=False, steel_thickness=4e-3,
-    )  # fmt: skip
+        fidelity,
+        contact_rise=True,
+        heat_transfer=0.0,
+        friction_law="constant",
+        film_dynamics=False,
+        steel_thickness=4e-3,
+    )
     body = (50.0, 7850.0, 475.0)
     for n in range(1, 301):
         pack.step(6000.0, 100.0, H)
@@ -181,10 +188,16 @@ def test_an_open_pack_drags_less_once_it_pumps_more_oil_than_it_gets():
     assert share < 0.5
 
 
-@pytest.mark.parametrize("change", [
-    {"roughness": 1e-7}, {"roughness": 1e-6}, {"asperity_density": 1e5}, {"asperity_density": 2e7},
-    {"contact_modulus": 1e5},
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"roughness": 1e-7},
+        {"roughness": 1e-6},
+        {"asperity_density": 1e5},
+        {"asperity_density": 2e7},
+        {"contact_modulus": 1e5},
+    ],
+)
 def test_faces_pressed_into_each_other_shear_no_oil(change):
     """Mean planes overlap: what oil is left fades out instead of exploding as 1/h_T."""
     pack = Pack(**change)
@@ -202,8 +215,10 @@ def test_oil_shear_is_the_published_one_down_to_touching_mean_planes_and_fades_s
     value, slope = sheared_share(cdf[-1e-6], -1e-6)
     assert value == pytest.approx(1.0, abs=1e-11) and abs(slope) < 1e-5
     value, slope = sheared_share(cdf[-1.0], -1.0)
-    up, down = (sheared_share(0.5 * math.erfc(-u / math.sqrt(2.0)), u)[0]
-                for u in (-1.0 + 1e-6, -1.0 - 1e-6))  # fmt: skip
+    up, down = (
+        sheared_share(0.5 * math.erfc(-u / math.sqrt(2.0)), u)[0]
+        for u in (-1.0 + 1e-6, -1.0 - 1e-6)
+    )
     assert slope == pytest.approx((up - down) / 2e-6 / value, rel=1e-6)
     assert sheared_share(cdf[-6.0], -6.0)[0] == pytest.approx(12.0 * cdf[-6.0] ** 2, rel=1e-6)
 

@@ -74,9 +74,11 @@ def test_film_and_surface_rises_are_those_printed():
 
 
 @given(
-    st.floats(233.15, 473.15), st.floats(-12.0, 8.0), st.sampled_from([0.0, 0.3, 1.0]),
+    st.floats(233.15, 473.15),
+    st.floats(-12.0, 8.0),
+    st.sampled_from([0.0, 0.3, 1.0]),
     st.floats(-6.0, 12.0),
-)  # fmt: skip
+)
 def test_the_root_is_bracketed_and_exact_from_freezing_to_absurd(bulk, decades, exponent, cap):
     rise, cap = 10.0**decades, 10.0**cap
     t, stress, status, n = root(bulk, rise, exponent, cap)

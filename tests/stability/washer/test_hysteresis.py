@@ -52,8 +52,11 @@ def test_the_loop_closes(fine):
 def test_the_film_goes_and_comes_back_at_the_two_folds(fine):
     loads, _, results = fine
     lost, regained = (f.load for f in traced().folds)
-    steps = [(a, b, r.branch) for (a, r0), (b, r) in pairwise(zip(loads, results, strict=True))
-             if r.branch != r0.branch]  # fmt: skip
+    steps = [
+        (a, b, r.branch)
+        for (a, r0), (b, r) in pairwise(zip(loads, results, strict=True))
+        if r.branch != r0.branch
+    ]
     (a, b, gone), (c, d, back) = steps
     assert (gone, back) == ("contact", "film")
     assert a < lost < b and d < regained < c

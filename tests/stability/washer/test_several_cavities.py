@@ -27,10 +27,11 @@ FILMS = {
     "two": lambda r, a: 1.0 + 0.6 * np.cos(2.0 * a),
     "five": lambda r, a: 1.0 + 0.5 * np.cos(5.0 * a) + 0.2 * np.cos(a),
     "dimple": lambda r, a: 1.0 + 0.8 * np.exp(-((r - 0.5) ** 2 + (a - 3.0) ** 2) / 0.1),
-    "dimple and waves": lambda r, a: (1.3 + 0.4 * np.cos(3.0 * a)
-                                      + 0.8 * np.exp(-((r - 0.5) ** 2 + (a - 3.0) ** 2) / 0.1)),
+    "dimple and waves": lambda r, a: (
+        1.3 + 0.4 * np.cos(3.0 * a) + 0.8 * np.exp(-((r - 0.5) ** 2 + (a - 3.0) ** 2) / 0.1)
+    ),
     "level": lambda r, a: 1.0 + 0.0 * a,
-}  # fmt: skip
+}
 
 
 def film(shape, speed=545.0, grid=(10, 32)):
@@ -73,8 +74,9 @@ def residual(m, f, p):
     fluid = 2.0 / MU
     ahead, behind = np.roll(p, -1, 0), np.roll(p, 1, 0)
     rest = fluid * (ct * (p - ahead) + np.roll(ct, 1, 0) * (p - behind))
-    rest[:, 1:-1] += fluid * (cr[:, 1:-1] * (p[:, 1:-1] - p[:, 2:])
-                              + cr[:, :-2] * (p[:, 1:-1] - p[:, :-2]))  # fmt: skip
+    rest[:, 1:-1] += fluid * (
+        cr[:, 1:-1] * (p[:, 1:-1] - p[:, 2:]) + cr[:, :-2] * (p[:, 1:-1] - p[:, :-2])
+    )
     return (rest + wedge - np.roll(wedge, 1, 0))[:, 1:-1], p[:, 1:-1]
 
 

@@ -121,9 +121,13 @@ def test_narrow_ring_carries_the_closed_form_load():
     for width in (0.002, 0.001, 0.0005):
         ri, ro = 0.02 - width / 2, 0.02 + width / 2
         b = at_constant_viscosity(
-            (25, 256), np.array([h0, 2 * h0, 0.0, e / 0.02]), BASE,
-            inner_radius=ri, gear_inner_radius=ri + width / 3, outer_radius=ro,
-        )  # fmt: skip
+            (25, 256),
+            np.array([h0, 2 * h0, 0.0, e / 0.02]),
+            BASE,
+            inner_radius=ri,
+            gear_inner_radius=ri + width / 3,
+            outer_radius=ro,
+        )
         load = (np.outer(b.m.weight1, b.m.weight_t) * solve_with_cavitation(b)).sum()
         errors.append(abs(load / narrow_ring_load(MU, BASE.speed, ri, ro, h0 - e, h0 + e) - 1.0))
     assert errors[-1] < 3e-3

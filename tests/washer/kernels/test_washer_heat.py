@@ -14,8 +14,15 @@ from thrustwasher.washer.kernels.workspace import Point
 from thrustwasher.washer.parameters import CONDUCTION, SPEC
 
 from washer_setup import (  # isort: skip
-    BASE, Bench, bench, bodies, full_gear, order, settle, tilted,
-)  # fmt: skip
+    BASE,
+    Bench,
+    bench,
+    bodies,
+    full_gear,
+    order,
+    settle,
+    tilted,
+)
 
 GRID = (7, 20)  # what is tested holds on any mesh; some of these kernels run as plain Python
 CONDUCTIVITY, OIL = 60.5, 0.145
@@ -145,9 +152,11 @@ def test_only_the_wanted_share_of_film_heat_enters(share):
     q = tilted(b.m, 20.0)  # no contact at all
     made = evaluate(b.m, BASE, q, b.f, False)
     whole = (
-        np.outer(b.m.weight1, b.m.weight_t) * (BASE.speed * b.radius) ** 2 * b.node("mu")
+        np.outer(b.m.weight1, b.m.weight_t)
+        * (BASE.speed * b.radius) ** 2
+        * b.node("mu")
         / b.node("ht")
-    ).sum()  # fmt: skip
+    ).sum()
     assert made == pytest.approx(share * whole, rel=1e-12)
 
 

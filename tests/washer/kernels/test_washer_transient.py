@@ -72,8 +72,14 @@ def bodies_of(m):
 
 
 def steady(params=IN_TIME, load=300.0, speed=545.0, tilt=2e-3, oil=OIL, grid=GRID):
-    return solve_washer(replace(params, thermal_mode="quasi_steady"), load=load, speed=speed,
-                        tilt=tilt, oil_temperature=oil, grid=grid)  # fmt: skip
+    return solve_washer(
+        replace(params, thermal_mode="quasi_steady"),
+        load=load,
+        speed=speed,
+        tilt=tilt,
+        oil_temperature=oil,
+        grid=grid,
+    )
 
 
 def matrices(w):
@@ -252,9 +258,11 @@ def test_it_goes_through_whatever_comes(params):
     for _ in range(80):
         place = rng.integers(4)
         inputs[place] = (
-            10.0 ** rng.uniform(0.0, 3.4), rng.choice((0.0, 1e-3, 50.0, 545.0, -545.0, 1300.0)),
-            rng.choice((0.0, 1e-4, 1e-3, 4e-3)), rng.uniform(260.0, 400.0),
-        )[place]  # fmt: skip
+            10.0 ** rng.uniform(0.0, 3.4),
+            rng.choice((0.0, 1e-3, 50.0, 545.0, -545.0, 1300.0)),
+            rng.choice((0.0, 1e-4, 1e-3, 4e-3)),
+            rng.uniform(260.0, 400.0),
+        )[place]
         assert w.go(10.0 ** rng.uniform(-5.0, 0.5), *inputs) == 0, inputs
         kept = w.taken() - ladder.far_heat(w.m, w.fields())
         flow = max(np.abs(w.fields().flux).max() * 1e-3, w.out[POWER])

@@ -47,10 +47,3 @@ def test_a_rounded_kink_has_no_corner_and_ends_on_the_same_law():
     ]
     assert slope[0] == pytest.approx(slope[1], rel=1e-3)
     assert shear_ratio(9.0, *round_) == pytest.approx(shear_ratio(9.0, *sharp), rel=1e-14)
-
-
-def test_harmonic_mean_of_friction_over_speed_is_0_053():
-    speed = np.linspace(0.0, 3000.0, 20001)[1:] - 0.075
-    law = (0.30, 1.185, 2.872, 0.0)
-    mu = [friction(0.1, shear_ratio(n * np.pi / 30 * 0.03772, *law), 0.085275, 6.0) for n in speed]
-    assert 1.0 / np.mean(1.0 / np.array(mu)) == pytest.approx(0.053, rel=2e-3)

@@ -32,3 +32,9 @@ def test_slope_is_the_difference(kelvin):
     differences = (viscosity(kelvin + e, *OIL)[0] - viscosity(kelvin - e, *OIL)[0]) / (2 * e)
     assert slope == pytest.approx(differences, rel=1e-6)
     assert slope < 0.0 < mu
+
+
+@pytest.mark.parametrize("kelvin", [-1e6, 0.0, 138.15, 1e6])
+def test_absurd_temperatures_stay_finite(kelvin):
+    mu, slope = viscosity(kelvin, *OIL)
+    assert 0.0 < mu <= 6.31e7 and math.isfinite(slope) and slope <= 0.0

@@ -21,7 +21,7 @@ import structure
 # All counts of lines are of files as ``ruff format`` leaves them with every "fmt: skip" ignored.
 SOURCE_LINES = 57_800  # of the package and fmu_src, all languages
 TEST_LINES = 37_000
-FILE_LINES, FUNCTION_LINES, FOLDER_FILES = 450, 110, 20
+FILE_LINES, FUNCTION_LINES, FOLDER_FILES = 600, 110, 20
 FORMAT_MARKS = {"sources": 600, "tests": 500}  # to be lowered, as the lines
 IN_CIRCLES = {  # modules that may still name each other in a circle as "module:NAME"
     f"thrustwasher.washer.{name}"
@@ -126,7 +126,9 @@ def test_a_circle_is_found():
 
 
 def test_no_file_is_long():
-    lengths = {name: structure.lines_of([path]) for name, path in structure.modules().items()}
+    needed.package("ruff")
+    texts = structure.formatted(structure.python_sources())
+    lengths = {str(path): len(text.splitlines()) for path, text in texts.items()}
     assert {name: n for name, n in lengths.items() if n > FILE_LINES} == {}
 
 

@@ -23,6 +23,7 @@ PACKAGE = ROOT / "thrustwasher"
 SUFFIXES = (".py", ".toml", ".jinja", ".js", ".css", ".c", ".h")
 FMI_HEADER = re.compile(r"fmi[23]\w*(Functions|FunctionTypes|TypesPlatform|PlatformTypes)\.h")
 FORMAT_MARK = re.compile(r"#\s*fmt:\s*(skip|off|on)\b")
+DOTTED = re.compile(r"(\w+(?:\.\w+)+):\w+")  # what is imported where it is needed: "module:NAME"
 LEAST_WIDTH, LINE_WIDTH = 0.09, 1.3e-5  # of a box, as shares of the picture; per line of code
 HALF_HEIGHT = 0.22  # of a box, in layers
 SPACE = 0.015  # between a box and an arrow that passes it
@@ -40,17 +41,43 @@ def modules() -> dict[str, Path]:
 
 
 @cache
+def tree_of(path: Path) -> ast.Module:
+    """Return the syntax of a Python file."""
+    return ast.parse(path.read_text("utf-8"))
+
+
+@cache
 def imports() -> dict[str, set[str]]:
     """Return which modules of the package each one imports, wherever in the file it does so."""
-    known = modules()
-    found: dict[str, set[str]] = {name: set() for name in known}
-    for name, path in known.items():
+    found: dict[str, set[str]] = {}
+    for name, path in modules().items():
         package = name if path.name == "__init__.py" else name.rpartition(".")[0]
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            for target in _targets(node, package):
-                if target in known and target != name:
-                    found[name].add(target)
+        targets = {t for node in ast.walk(tree_of(path)) for t in _targets(node, package)}
+        found[name] = (targets & modules().keys()) - {name}
     return found
+
+
+@cache
+def all_edges() -> dict[str, set[str]]:
+    """Return the imports, and as such what a module names as "module:NAME".
+
+    The names of a TOML file count for its package and for the modules beside it that read it.
+    """
+    found = {name: set(others) for name, others in imports().items()}
+    for name, path in modules().items():
+        nodes = (n for n in ast.walk(tree_of(path)) if isinstance(n, ast.Constant))
+        found[name] |= _dotted(str(n.value) for n in nodes if isinstance(n.value, str))
+        text = path.read_text("utf-8").replace("spec_beside(__file__", '"interface.toml"')
+        for table in path.parent.glob("*.toml"):
+            if path.name == "__init__.py" or f'"{table.name}"' in text:
+                found[name] |= _dotted(re.findall(r'"([^"\n]*)"', table.read_text("utf-8")))
+        found[name].discard(name)
+    return found
+
+
+def _dotted(texts: Iterable[str]) -> set[str]:
+    """Return the modules that texts name which are "module:NAME" and nothing else."""
+    return {m[1] for m in map(DOTTED.fullmatch, texts) if m} & modules().keys()
 
 
 def _targets(node: ast.AST, package: str) -> Iterable[str]:
@@ -128,26 +155,65 @@ def sources() -> list[Path]:
     )  # fmt: skip
 
 
-def source_lines() -> Counter[str]:
-    """Return the lines of the sources by suffix, Python as ``ruff format`` lays it out everywhere.
+def test_sources() -> list[Path]:
+    """Return the tests and what they share."""
+    return sorted((ROOT / "tests").rglob("*.py"))
+
+
+@cache
+def formatted(paths: tuple[Path, ...]) -> dict[Path, str]:
+    """Return Python files as ``ruff format`` lays them out everywhere: path -> text.
 
     Marks that keep it from doing so ("fmt: skip") are taken out first. FileNotFoundError: no ruff.
     """
-    found: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as name:
-        copies = []
-        for i, path in enumerate(sources()):
-            if path.suffix != ".py":
-                found[path.suffix] += lines_of([path])
-                continue
-            copies.append(Path(name, f"{i}.py"))
-            copies[-1].write_text(FORMAT_MARK.sub("", path.read_text("utf-8")), "utf-8")
+        copies = {path: Path(name, f"{i}.py") for i, path in enumerate(paths)}
+        for path, copy in copies.items():
+            copy.write_text(FORMAT_MARK.sub("", path.read_text("utf-8")), "utf-8")
         ruff = [sys.executable, "-m", "ruff", "format", "--quiet", "--no-cache", name]
         ruff += ["--config", str(ROOT / "pyproject.toml")]
         done = subprocess.run(ruff, capture_output=True, text=True)
         if done.returncode:
             raise FileNotFoundError(done.stderr.strip())
-        found[".py"] = lines_of(copies)
+        return {path: copy.read_text("utf-8") for path, copy in copies.items()}
+
+
+def python_sources() -> tuple[Path, ...]:
+    """Return those of the sources that are Python."""
+    return tuple(path for path in sources() if path.suffix == ".py")
+
+
+def source_lines() -> Counter[str]:
+    """Return the lines of the sources by suffix, Python as formatted."""
+    found: Counter[str] = Counter()
+    for path in sources():
+        if path.suffix != ".py":
+            found[path.suffix] += lines_of([path])
+    found[".py"] = lines_of_texts(formatted(python_sources()))
+    return found
+
+
+def lines_of_texts(texts: Mapping[Path, str]) -> int:
+    """Return the number of lines of all texts."""
+    return sum(len(text.splitlines()) for text in texts.values())
+
+
+def format_marks(paths: Iterable[Path]) -> int:
+    """Return how often files keep the formatter from its work."""
+    return sum(len(FORMAT_MARK.findall(path.read_text("utf-8"))) for path in paths)
+
+
+def function_lengths(texts: Mapping[Path, str]) -> Counter[str]:
+    """Return the lines of all functions without their docstrings, "file:name" -> lines."""
+    found: Counter[str] = Counter()
+    for path, text in texts.items():
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                first = node.body[0]
+                words = ast.get_docstring(node, clean=False) is not None
+                said = first.end_lineno - first.lineno + 1 if words else 0
+                name = f"{path.relative_to(ROOT).as_posix()}:{node.name}"
+                found[name] = max(found[name], node.end_lineno - node.lineno + 1 - said)
     return found
 
 
@@ -266,11 +332,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--draw", metavar="FILE", type=Path, help="draw the folders and imports")
     given = parser.parse_args()
-    found = circles(imports())
+    found = circles(all_edges())
     wide, n = folder_widths().most_common(1)[0]
     lines = source_lines()
-    told = ", ".join(f"{n} {suffix[1:]}" for suffix, n in lines.most_common())
-    print(f"{len(modules())} Python files; {lines.total()} lines of source, as formatted: {told}")
+    kinds = ", ".join(f"{count} {suffix[1:]}" for suffix, count in lines.most_common())
+    tests = lines_of_texts(formatted(tuple(test_sources())))
+    long, length = function_lengths(formatted(python_sources())).most_common(1)[0]
+    print(f"{len(modules())} Python files; {lines.total()} lines of source, as formatted: {kinds}")
+    print(f"{tests} lines of tests, as formatted")
+    print(f"longest function, as formatted: {length} lines, {long}")
+    print(f"marks for the formatter: {format_marks(python_sources())}")
     print(f"widest folder: {wide}, {n} files")
     print(f"import circles: {len(found)}", *(" ".join(group) for group in found), sep="\n  ")
     print(f"names that occur twice: {len(repeated_stems())}: {' '.join(repeated_stems())}")

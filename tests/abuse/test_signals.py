@@ -12,8 +12,20 @@ from thrustwasher.cli import Stopped, Watch, main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals of POSIX")
 SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x300", "--over", "speed=50:500:x150"]
-MAP = ["map", "build", "--load", "20:1800", "--speed", "50:1400", "--tilt", "0.001:0.003",
-       "--oil-temperature", "290:400", "--workers", "2"]  # fmt: skip
+MAP = [
+    "map",
+    "build",
+    "--load",
+    "20:1800",
+    "--speed",
+    "50:1400",
+    "--tilt",
+    "0.001:0.003",
+    "--oil-temperature",
+    "290:400",
+    "--workers",
+    "2",
+]
 
 
 def started(words, folder):
@@ -23,10 +35,15 @@ def started(words, folder):
     """
     unmeasured = {k: v for k, v in os.environ.items() if not k.startswith("COVERAGE_PROCESS")}
     return subprocess.Popen(
-        [sys.executable, "-m", "thrustwasher", *words], cwd=folder, text=True, env=unmeasured,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+        [sys.executable, "-m", "thrustwasher", *words],
+        cwd=folder,
+        text=True,
+        env=unmeasured,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )  # fmt: skip
+    )
 
 
 def stopped(words, folder, begun, *signals):
@@ -53,7 +70,7 @@ def stopped(words, folder, begun, *signals):
 )
 def test_a_sweep_that_is_stopped_ends_in_one_line_and_goes_on(tmp_path, number, status, word):
     journal = tmp_path / "t.csv.journal"
-    words = [*SWEEP, "--workers", "1", "--out", "t.csv"]
+    words = [*SWEEP, "--workers", "2", "--out", "t.csv"]
     begun = lambda: journal.exists() and journal.stat().st_size > 13_000  # noqa: E731
     assert stopped(words, tmp_path, begun, number) == (status, [f"thrustwasher sweep: {word}"])
     assert [p.name for p in tmp_path.iterdir()] == ["t.csv.journal"]

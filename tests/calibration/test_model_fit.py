@@ -54,7 +54,7 @@ def test_exact_data_give_the_parameters_back(model):
 
 
 @pytest.mark.parametrize("model", BY_MODEL)
-@sizes(10, 200)
+@sizes(5, 200)
 def test_95_percent_intervals_hold_the_truth_in_95_percent_of_experiments(model, n):
     """Between the 0.05 % and 99.95 % quantiles of the binomial distribution."""
     low, high = binom.interval(0.999, n, 0.95)

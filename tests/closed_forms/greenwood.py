@@ -1,4 +1,4 @@
-"""Elastic contact of rough surfaces: Greenwood & Williamson, Greenwood & Tripp for two sides."""
+"""Elastic contact of rough surfaces: Greenwood & Williamson."""
 
 import math
 
@@ -20,25 +20,6 @@ def height_integral(separation: float) -> float:
     return height_moment(1.5, separation)
 
 
-def tail_share(separation: float) -> float:
-    """Return F_0 = Q, the share of heights above ``separation``."""
-    return 0.5 * math.erfc(separation / math.sqrt(2.0))
-
-
-def first_moment(separation: float) -> float:
-    """Return F_1 = pdf - t Q in elementary functions; loses digits as t grows (1e-13 at 5)."""
-    return _density(separation) - separation * tail_share(separation)
-
-
-def second_moment(separation: float) -> float:
-    """Return F_2 = (1 + t^2) Q - t pdf; loses digits as t grows (1e-12 at 5)."""
-    return (1.0 + separation**2) * tail_share(separation) - separation * _density(separation)
-
-
-def _density(height: float) -> float:
-    return math.exp(-0.5 * height**2) / math.sqrt(2.0 * math.pi)
-
-
 def real_area_share(separation: float, group: float) -> float:
     """Return A_c/A_0 [-] = pi (eta beta sigma) F_1, ``group`` the product in brackets.
 
@@ -58,21 +39,3 @@ def elastic_pressure(
     """
     stiffness = 4.0 / 3.0 * contact_modulus * math.sqrt(radius)
     return density * stiffness * scatter * math.sqrt(scatter) * height_integral(separation)
-
-
-def two_sided_pressure(
-    separation: float, group: float, slope: float, contact_modulus: float
-) -> float:
-    """Return the pressure [Pa] at ``separation`` in units of the combined scatter of summits.
-
-    16 sqrt(2) pi/15 (eta beta sigma)^2 sqrt(sigma/beta) E' F_5/2. ``group`` is eta beta sigma
-    (density, tip radius, combined scatter), ``slope`` is sigma/beta, ``contact_modulus`` is
-    1/theta [Pa]. Source: Greenwood & Tripp 1970.
-    """
-    front = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * group**2 * math.sqrt(slope)
-    return front * contact_modulus * height_moment(2.5, separation)
-
-
-def two_sided_area_share(separation: float, group: float) -> float:
-    """Return A_c/A_0 [-] = pi^2 (eta beta sigma)^2 F_2. Source: Greenwood & Tripp 1970."""
-    return (math.pi * group) ** 2 * height_moment(2.0, separation)

@@ -24,9 +24,13 @@ def peak_pressure(load: float, radius: float, theta: float) -> float:
 
 
 def dowson_higginson(
-    load: float, radius: float, theta: float, viscosity: float, entrainment: float,
+    load: float,
+    radius: float,
+    theta: float,
+    viscosity: float,
+    entrainment: float,
     pressure_viscosity: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the least film thickness [m] of an elastohydrodynamic line contact.
 
     ``entrainment`` [m/s] is the mean of the two surface speeds, ``pressure_viscosity`` in 1/Pa,
@@ -42,10 +46,6 @@ def dowson_higginson(
 def vogel_viscosity(temperature: float, scale: float, slope: float, shift: float) -> float:
     """Return scale exp(slope/(T + shift)) [Pa s], the temperature T in degC."""
     return scale * math.exp(slope / (temperature + shift))
-
-
-# Outside this range of the effective roughness number a changes sign or b has no decay.
-LEAST_ROUGHNESS, LARGEST_ROUGHNESS = 2.143e-5 / 2.873, 0.0864 / 1372.0
 
 
 def li_seireg(film_number: float, roughness_number: float, dry: float) -> float:

@@ -140,15 +140,6 @@ def test_what_the_points_speeds_do_not_tell_is_named(speed, known, lost, words):
     assert found[lost].interval == (limits["min"], limits["max"])
 
 
-def test_points_on_the_plateau_alone_cannot_part_ploughing_from_the_floor():
-    fast = np.linspace(40.0, 60.0, 20)
-    mu = friction_over(law_values(TRUE_PACK), fast)
-    fit = ("plough_weight", "shear_floor")
-    found = fitted(mu, TRUE_PACK, speed=fast / RADIUS, fit=fit)
-    assert told(found) == set() and "cannot tell" in found["shear_floor"].reason
-    assert found["friction_at_speed"].identifiable and not found["friction_at_rest"].identifiable
-
-
 def test_as_many_points_as_constants_are_enough_with_their_errors():
     without = fitted(EXACT[::10], speed=SLIP[::10])
     assert "friction_error" in without["decay_speed"].reason and told(without) == set()

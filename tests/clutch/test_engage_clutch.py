@@ -35,11 +35,6 @@ def test_every_rung_answers_with_the_same_fields(fidelity):
     assert (e.friction_power >= 0.0).all() and (np.diff(e.energy) >= 0.0).all()
 
 
-def test_an_interface_above_523_k_is_said():
-    e = engage_clutch(PACK, time=[0.0, 5.0], load=9000.0, speed=300.0)
-    assert e.status is Status.HOT
-
-
 @pytest.mark.parametrize(
     ("given", "message"),
     [

@@ -7,8 +7,6 @@ import pytest
 
 from thrustwasher import ClutchParams, calibrate, solve_clutch
 from thrustwasher.clutch.parameters import FRICTION_LAWS, SPEC
-from thrustwasher.errors import ParameterError
-from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.ladder.card import load_cards
 
 POINT = {"load": 3000.0, "speed": 50.0, "oil_temperature": 350.0}
@@ -32,22 +30,6 @@ def test_shear_of_the_oil_is_not_scaled():
     assert opened[0].friction_torque == opened[1].friction_torque > 0.0
 
 
-@pytest.mark.parametrize("law", FRICTION_LAWS)
-def test_derivatives_are_those_of_the_scaled_pack(law):
-    given = {"friction_scale": 1.7, "friction_law": law}
-    with DirectInstance(SPEC, parameters=given) as pack:
-        pack.initialize(0.0, POINT)
-        for i in range(50):
-            pack.step(1e-3 * i, 1e-3)
-        exact = pack.directional_derivative(["friction_torque"], ["speed"], [1.0])[0]
-        place = pack.output_names.index("friction_torque")
-        found = []
-        for speed in (50.0 - 1e-4, 50.0 + 1e-4):
-            pack.set_inputs([POINT["load"], speed, POINT["oil_temperature"], 0.0])
-            found.append(pack.outputs()[place])
-    assert exact == pytest.approx((found[1] - found[0]) / 2e-4, rel=1e-6, abs=1e-6)
-
-
 def test_no_card_speaks_for_another_scale():
     assert load_cards("clutch", ClutchParams())
     assert load_cards("clutch", ClutchParams(friction_scale=0.9)) == []
@@ -63,9 +45,3 @@ def test_a_fitted_law_is_that_of_the_points_and_has_the_scale_one():
     data = {**{k: [v] for k, v in POINT.items()}, "friction_torque": [torque]}
     scale = calibrate(ClutchParams(), data, fit=["friction_scale"], errors={"friction_torque": 1.0})
     assert scale.params.friction_scale == pytest.approx(0.8, rel=1e-8)
-
-
-@pytest.mark.parametrize("value", [0.05, 2.1, float("nan")])
-def test_the_scale_has_a_range(value):
-    with pytest.raises(ParameterError, match=r"friction_scale = .*, allowed: 0.1 .. 2"):
-        ClutchParams(friction_scale=value)

@@ -1,13 +1,9 @@
 """The gear mesh as a library: numbers at the operating points of the paper, ranges, messages."""
 
-import itertools
-import json
 import math
-from dataclasses import fields
 from functools import partial
 
 import pytest
-from closed_forms import flash_temperature, involute_mesh, thermal_fatigue
 
 from thrustwasher import GearMeshParams, ParameterError, SolveError, solve_gearmesh
 from thrustwasher.errors import Status
@@ -16,12 +12,6 @@ from thrustwasher.model.part_file import preset_parts
 
 paper = partial(GearMeshParams.preset, "paper")
 POINT = {"power": 7500.0, "speed": 180.0}
-STEEL = flash_temperature.Body((1 - 0.3**2) / 205e9, 50.2, 7850.0, 475.0)
-LIMITS = {
-    "AISI1020": thermal_fatigue.Endurance(0.63, 0.77),
-    "AISI4340": thermal_fatigue.Endurance(0.53, 0.40),
-}
-LONG_FORM = 3.0 * math.pi**0.25 * 0.591 / 2.36  # Eq 12 prints the product rounded
 
 
 def at(ratio, teeth, preset="bounded", **changes):
@@ -47,25 +37,6 @@ def test_contact_film_and_flash_at_the_papers_points(ratio, teeth, xs, slide, p0
     assert rough.hertz_pressure == pytest.approx(p0 * 1e6, abs=6e4)
     assert (rough.film_ratio, fine.film_ratio) == pytest.approx((lr, lf), abs=6e-4)
     assert (rough.flash_rise, fine.flash_rise) == pytest.approx((fr, ff), abs=6e-3)
-
-
-# inlet viscosity: T_s and T_01 [degC]; viscosity at the surface: the same
-FILMS = [
-    (2, 20, 27.32, 44.57, 27.31, 43.76),
-    (2, 30, 26.89, 34.80, 26.89, 34.69),
-    (5, 20, 27.22, 30.60, 27.22, 30.46),
-    (5, 30, 26.83, 28.35, 26.83, 28.34),
-]
-
-
-@pytest.mark.parametrize(("ratio", "teeth", "ts", "t01", "ts_warm", "t01_warm"), FILMS)
-def test_flank_and_film_temperature_with_both_viscosities(
-    ratio, teeth, ts, t01, ts_warm, t01_warm
-):  # fmt: skip
-    inlet, warm = at(ratio, teeth, viscosity_at="inlet"), at(ratio, teeth)
-    found = [inlet.surface_temperature, inlet.film_temperature]
-    found += [warm.surface_temperature, warm.film_temperature]
-    assert [t - 273.15 for t in found] == pytest.approx([ts, t01, ts_warm, t01_warm], abs=6e-3)
 
 
 # bounded and literal reading: rise or temperature of asperities, K and allowable ratio, 1020, 4340
@@ -96,41 +67,11 @@ def test_asperities_and_allowable_ratios_of_both_steels(
     )
 
 
-@pytest.mark.parametrize(("ratio", "teeth"), list(itertools.product((1, 2, 5), (20, 30))))
-def test_flash_rise_and_k_are_those_of_the_printed_equations(ratio, teeth):
-    """Eq 3 and Eq 12 in full, with the power per metre of face width."""
-    r = at(ratio, teeth, "literal")
-    mesh = involute_mesh.Mesh(ratio, teeth, 0.254, math.radians(20.0))
-    heat = 0.5 * r.friction_coefficient
-    printed = flash_temperature.atan_flash(mesh, 7500.0, 180.0, 1.0, heat, STEEL)
-    assert r.flash_rise == pytest.approx(printed, rel=1e-12)
-    for steel, limits in LIMITS.items():
-        k = thermal_fatigue.grouped_factor(
-            mesh, 7500.0, 180.0, 1.0, 30.0 * heat, limits, 205e9, 0.3, 12e-6, STEEL.effusivity
-        )
-        found = getattr(r, f"modification_factor_{steel.lower()}")
-        assert k / found == pytest.approx(LONG_FORM**2, rel=1e-11)
-    assert LONG_FORM**-2 == pytest.approx(0.99961, abs=5e-6)
-
-
-def test_a_chain_worked_by_hand():
-    """Ratio 2, 30 teeth, 5 cm wide, f = 0.08 and ten times the nominal heat flux."""
-    r = at(2, 30, "literal", face_width=0.05, friction_law="constant", constant_friction=0.08,
-           area_ratio=10.0)  # fmt: skip
-    assert r.asperity_temperature - 299.85 == pytest.approx(100.7493, abs=5e-5)
-    assert (r.thermal_stress, r.contact_stress) == pytest.approx((118.0206e6, 178.2393e6), rel=3e-7)
-    found = r.modification_factor_aisi1020, r.modification_factor_aisi4340
-    assert found == pytest.approx((0.2934999, 0.7697331), abs=5e-8)
-
-
-CONSTANT = {"friction_law": "constant", "switch": "none", "viscosity_at": "inlet"}
-
-
 def test_flash_rise_grows_with_torque_and_speed_as_eq_3_says():
     """T^(3/4) om^(1/2), so P^(3/4) om^(-1/4) at a given power; C^(-1/2) at a given power."""
 
     def rise(power, speed, **changes):
-        params = paper(**CONSTANT, **changes)
+        params = paper(friction_law="constant", switch="none", viscosity_at="inlet", **changes)
         return solve_gearmesh(params, power=power, speed=speed).flash_rise
 
     base = rise(7500.0, 180.0)
@@ -143,27 +84,6 @@ def test_flash_rise_grows_with_torque_and_speed_as_eq_3_says():
 
 
 @pytest.mark.parametrize(
-    ("ratio", "teeth", "blok"), [(2, 20, 16.24), (2, 30, 9.16), (5, 20, 23.13), (5, 30, 11.60)]
-)
-def test_closed_rung_is_bloks_flash_temperature_with_constant_friction(ratio, teeth, blok):
-    f = at(ratio, teeth, viscosity_at="inlet").friction_coefficient
-    params = paper(gear_ratio=ratio, pinion_teeth=teeth, constant_friction=f)
-    r = solve_gearmesh(params, **POINT, fidelity="closed")
-    assert r.friction_coefficient == f and r.fidelity == "closed"
-    assert r.flash_rise == pytest.approx(blok, abs=6e-3)
-
-
-@pytest.mark.parametrize(("ratio", "teeth", "over"), [(2, 20, 1.67), (2, 30, 1.32), (5, 20, 1.73)])
-def test_half_the_heat_overheats_the_slow_pinion_against_blok(ratio, teeth, over):
-    r = at(ratio, teeth, **CONSTANT)
-    params = paper(gear_ratio=ratio, pinion_teeth=teeth, **CONSTANT)
-    blok = solve_gearmesh(params, **POINT, fidelity="closed")
-    assert r.flash_rise / blok.flash_rise == pytest.approx(over, abs=6e-3)
-    shared = at(ratio, teeth, **CONSTANT, heat_partition="velocity")
-    assert shared.flash_rise / blok.flash_rise == pytest.approx(1.0151, abs=1e-4)
-
-
-@pytest.mark.parametrize(
     ("ratio", "surface", "f"),
     [(2, "fine", 0.020), (2, "rough", 0.028), (5, "fine", 0.029), (5, "rough", 0.041)],
 )
@@ -171,63 +91,6 @@ def test_iso_friction_is_two_to_three_times_below_boundary_friction(ratio, surfa
     iso = at(ratio, 30, "iso", surface=surface).friction_coefficient
     assert iso == pytest.approx(f, abs=5e-4)
     assert 1.5 < at(ratio, 30, surface=surface).friction_coefficient / iso < 4.0
-
-
-def test_loss_is_friction_times_loss_factor_times_torque():
-    r = at(2, 20)
-    assert r.contact_ratio == pytest.approx(1.63519, abs=5e-6)
-    wanted = r.friction_coefficient * 0.166065 * 7500.0 / 180.0
-    assert r.friction_torque == pytest.approx(wanted, rel=3e-6)
-    assert r.friction_power == pytest.approx(r.friction_torque * 180.0, rel=1e-15)
-    turned = solve_gearmesh(paper(), power=7500.0, speed=-180.0)
-    assert turned.friction_torque == -r.friction_torque
-    assert turned.as_dict() | {"friction_torque": 0} == r.as_dict() | {"friction_torque": 0}
-
-
-def test_no_power_is_no_loss_at_any_speed():
-    for speed in (0.0, 180.0):
-        r = solve_gearmesh(paper(), power=0.0, speed=speed)
-        assert r.friction_torque == r.friction_power == 0.0 and r.status == Status.OK
-        assert all(math.isfinite(v) for v in r.as_dict().values() if isinstance(v, float))
-
-
-SWEEP = list(itertools.product((17, 18, 20, 25, 32, 45, 60), (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)))
-OILS = [
-    {}, {"viscosity_scale": 3e-5}, {"viscosity_b": 1100.0, "viscosity_scale": 5e-5},
-    {"traction_law": "limited"}, {"film_viscosity": "inlet"},
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("surface", ["rough", "fine"])
-@pytest.mark.parametrize("oil", OILS, ids=str)
-def test_every_pair_of_a_wide_sweep_is_solved_and_consistent(surface, oil):
-    for (teeth, ratio), degc in itertools.product(SWEEP, (-10.0, 27.0, 60.0, 120.0)):
-        params = paper(pinion_teeth=teeth, gear_ratio=ratio, surface=surface, **oil)
-        r = solve_gearmesh(params, **POINT, oil_temperature=degc + 273.15)
-        assert not r.status.is_failure and r.iterations <= 30
-        bulk = degc + 273.15
-        assert bulk <= r.surface_temperature <= r.film_temperature
-        assert r.surface_temperature <= r.asperity_temperature
-        assert 0.0 < r.allowable_ratio_aisi4340 <= r.allowable_ratio_aisi1020 <= 1.0
-        share = r.contact_stress / 689.5e6  # of the mechanical endurance limit
-        assert r.stress_utilization_aisi4340 == pytest.approx(
-            share / r.allowable_ratio_aisi4340, rel=1e-12
-        )
-
-
-def test_the_flanks_temperature_is_a_fixed_point_of_its_equation():
-    """The rise equals the heat of a film with the viscosity at that very temperature."""
-    for oil in OILS:
-        warm = solve_gearmesh(paper(**oil), power=2e5, speed=900.0)
-        base = {k: v for k, v in oil.items() if k != "film_viscosity"}
-        cold = solve_gearmesh(paper(**base, viscosity_at="inlet"), power=2e5, speed=900.0)
-        exponent = 1.0 if oil == {"film_viscosity": "inlet"} else 0.3
-        if "traction_law" in oil:
-            continue
-        ratio = (warm.viscosity / cold.viscosity) ** exponent
-        rise = warm.surface_temperature - 299.85
-        assert rise > 1.0
-        assert rise == pytest.approx((cold.surface_temperature - 299.85) * ratio, rel=1e-10)
 
 
 def test_sharp_switch_jumps_at_1_4_and_the_smooth_one_is_half_way_there():
@@ -267,22 +130,6 @@ def test_presets_are_named_sets_of_changes():
         GearMeshParams.preset("atan")
 
 
-def test_result_is_json():
-    assert json.loads(json.dumps(at(2, 20).as_dict()))["status"] == "OK"
-
-
-def test_no_parameter_is_called_like_an_input_or_an_output():
-    names = {f.name for f in fields(GearMeshParams)}
-    assert names.isdisjoint(s.name for s in (*SPEC.inputs, *SPEC.outputs))
-
-
-@pytest.mark.parametrize("f", fields(GearMeshParams), ids=lambda f: f.name)
-def test_values_out_of_range_are_refused_by_name(f):
-    bad = "other" if f.metadata["kind"] == "enumeration" else math.nan
-    with pytest.raises(ParameterError, match=f"^{f.name} = .*allowed"):
-        GearMeshParams(**{f.name: bad})
-
-
 P = paper()
 
 
@@ -295,11 +142,6 @@ P = paper()
         (lambda: solve_gearmesh(P, power=1.0, speed=6e3), "speed = 6000.0 rad/s, allowed"),
         (lambda: solve_gearmesh(P, **POINT, oil_temperature=27.0), "oil_temperature = 27.0 K"),
         (lambda: solve_gearmesh(P, **POINT, fidelity="best"), "fidelity = 'best', allowed: 'clo"),
-        (lambda: paper(addendum=0.4), "addendum = 0.4, .* contact ratio is 0.72"),
-        (lambda: paper(effective_roughness=7e-5), "effective_roughness = 7e-05, allowed"),
-        (lambda: paper(effective_roughness=7e-6), "effective_roughness = 7e-06, allowed"),
-        (lambda: paper(f0=0.02), "f0 = 0.02, allowed: 0.02466 .. 1"),
-        (lambda: paper(pinion_teeth=200), "friction_law = 'li-seireg'.*0.2.*= 'iso'"),
     ],
 )
 def test_bad_input_is_named(call, message):

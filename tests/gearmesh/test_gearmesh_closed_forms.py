@@ -270,23 +270,3 @@ def test_refused_tooth_numbers_are_those_that_interfere() -> None:
                 paper(**fits, pinion_teeth=least - 1)
             mesh = Mesh(ratio, least, 0.254, phi, addendum)
             assert end_of_contact(mesh) < 1.0  # of the two ends the start interferes first
-
-
-@pytest.mark.parametrize(
-    ("addendum", "degrees"), [(1.0, 14.5), (1.2, 17.0), (1.5, 14.5), (1.25, 20.0)]
-)
-def test_with_more_than_two_pairs_in_contact_the_loss_is_still_the_sliding_summed(
-    addendum: float, degrees: float
-) -> None:
-    """Many phases of one base pitch, pairs sharing equally; the middle rule errs by 1/n^2."""
-    p = paper(gear_ratio=3.0, pinion_teeth=70, addendum=addendum, friction_law="constant",
-                       pressure_angle=math.radians(degrees))  # fmt: skip
-    approach, recess = path_of_contact(mesh_of(p))
-    assert approach + recess > 1.8
-    phases = (np.arange(200_000) + 0.5) / 200_000
-    places = phases[:, None] + np.arange(-4.0, 5.0)
-    touching = (places >= -approach) & (places <= recess)
-    slid = np.where(touching, np.abs(places), 0.0).sum(axis=1) / touching.sum(axis=1)
-    factor = slid.mean() * 2.0 * math.pi * (1.0 + 1.0 / 3.0) / 70.0
-    r = solve_gearmesh(p, power=7500.0, speed=180.0)
-    assert r.friction_power == pytest.approx(p.constant_friction * factor * 7500.0, rel=3e-5)

@@ -17,7 +17,6 @@ from thrustwasher.model.oil_laws import (
     density,
     kinematic_viscosity,
     law_viscosity,
-    level_line,
     walther,
 )
 from thrustwasher.model.registry import find_model
@@ -57,12 +56,6 @@ def test_the_sheets_viscosities_are_those_of_astm_d341_and_between_them_it_is_st
     assert walther(nu) == pytest.approx(0.5 * (walther(46e-6) + walther(6.8e-6)), rel=1e-12)
 
 
-def test_an_oil_expands_by_seven_in_ten_thousand_a_kelvin():
-    assert density(870.0, 288.15) == 870.0
-    slope = density(870.0, 289.15) / density(870.0, 288.15) - 1.0
-    assert slope == pytest.approx(-7.2e-4, rel=0.01)
-
-
 @pytest.mark.parametrize("name", named_oils())
 @pytest.mark.parametrize("key", MODELS)
 def test_a_models_law_is_within_one_percent_and_errs_alike_at_four_temperatures(name, key):
@@ -87,12 +80,6 @@ def test_the_page_has_the_named_oils_with_the_errors_of_their_laws():
         errors = (100.0 * oil(name).worst_error(spec) for spec in (washer, mesh))
         assert f"| {name} | {numbers} | {row.standard}: " in text
         assert f" | {' | '.join(f'{x:.2f} %' for x in errors)} |\n" in text.split(f"| {name} |")[1]
-
-
-def test_the_level_line_of_a_parabola():
-    x = [0.01 * i for i in range(101)]
-    height, slope, error = level_line(x, [v * v for v in x])
-    assert (height, slope, error) == pytest.approx((-0.125, 1.0, 0.125))
 
 
 def test_a_name_sets_viscosity_and_density_and_no_more():

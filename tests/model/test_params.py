@@ -1,4 +1,4 @@
-"""Parameters of the washer: every field bounded, documented and checked by name."""
+"""Parameters of every model: each bounded, documented, checked by name and in its place."""
 
 import math
 from dataclasses import fields
@@ -7,18 +7,20 @@ import pytest
 
 from thrustwasher import ParameterError, WasherParams
 from thrustwasher.model.parameters import as_numbers
+from thrustwasher.model.registry import HELPERS, MODELS, find_spec, kernel_of
 from thrustwasher.washer.kernels import layout
-from thrustwasher.washer.parameters import BODIES, MATERIAL, SPEC
+from thrustwasher.washer.parameters import BODIES, MATERIAL
 
-FIELDS = fields(WasherParams)
-REALS = [f for f in FIELDS if f.metadata["kind"] == "real"]
-CHOICES = [f for f in FIELDS if f.metadata["kind"] == "enumeration"]
+SPECS = [find_spec(key) for key in (*MODELS, *HELPERS)]
+FIELDS = [(spec, f) for spec in SPECS for f in fields(spec.params)]
+each_model = pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)
+each_field = pytest.mark.parametrize(("spec", "f"), FIELDS, ids=lambda x: getattr(x, "name", x))
 
 
-@pytest.mark.parametrize("f", FIELDS, ids=lambda f: f.name)
-def test_every_field_says_what_it_is(f):
+@each_field
+def test_every_field_says_what_it_is(spec, f):
     assert f.metadata["help"] and f.metadata["unit"]
-    if f.metadata["kind"] == "real":
+    if f.metadata["kind"] in ("real", "integer"):
         assert f.metadata["min"] <= f.default <= f.metadata["max"]
     elif f.metadata["kind"] == "boolean":
         assert isinstance(f.default, bool)
@@ -26,57 +28,53 @@ def test_every_field_says_what_it_is(f):
         assert f.default in f.metadata["options"]
 
 
-@pytest.mark.parametrize("f", REALS, ids=lambda f: f.name)
-def test_values_out_of_range_are_refused_by_name(f):
-    low, high = f.metadata["min"], f.metadata["max"]
-    for value in (
-        math.nan,
-        math.inf,
-        -math.inf,
-        low - 1e-6 - abs(low),
-        high * 1.01 + 1e-9,
-        "1",
-        None,
-    ):
+@each_field
+def test_values_out_of_range_are_refused_by_name(spec, f):
+    about, bad = f.metadata, [math.nan, "something", None]
+    if about["kind"] in ("real", "integer"):
+        low, high = about["min"], about["max"]
+        bad += [math.inf, -math.inf, low - 1e-6 - abs(low), high * 1.01 + 1e-9]
+        allowed = [f"{high:g}"] if about["kind"] == "real" else []
+    else:
+        allowed = [repr(name) for name in about.get("options", ())]
+    for value in bad:
         with pytest.raises(ParameterError) as caught:
-            WasherParams(**{f.name: value})
+            spec.params(**{f.name: value})
         message = str(caught.value)
         assert message.startswith(f"{f.name} = {value!r}") and "allowed" in message
-        assert f"{high:g}" in message
+        assert all(text in message for text in allowed)
 
 
-@pytest.mark.parametrize("f", CHOICES, ids=lambda f: f.name)
-def test_unknown_choices_are_refused_with_the_known_ones(f):
-    with pytest.raises(ParameterError) as caught:
-        WasherParams(**{f.name: "something"})
-    assert all(repr(name) in str(caught.value) for name in f.metadata["options"])
-    for name in f.metadata["options"]:
-        assert getattr(WasherParams(**{f.name: name}), f.name) == name
-
-
-@pytest.mark.parametrize(
-    ("change", "named"),
-    [
-        ({"gear_inner_radius": 0.0111}, "gear_inner_radius"),
-        ({"gear_inner_radius": 0.0227}, "gear_inner_radius"),
-        ({"inner_radius": 0.02}, "gear_inner_radius"),
-        ({"outer_radius": 0.9}, "outer_radius"),
-        ({"friction_load_min": 2000.0}, "friction_load_min"),
-        ({"friction_pressure_min": 2e6}, "friction_pressure_min"),
-    ],
-)
-def test_fields_that_contradict_each_other_are_refused(change, named):
-    with pytest.raises(ParameterError, match=named):
-        WasherParams(**change)
-
-
-def test_an_unknown_parameter_is_refused():
+@each_model
+def test_an_unknown_parameter_is_refused(spec):
     with pytest.raises(TypeError, match="rougness"):
-        WasherParams(rougness=1e-6)
+        spec.params(rougness=1e-6)
 
 
-def test_fields_fill_the_kernels_parameters_in_order():
-    names = [*(f.name for f in FIELDS), "fidelity"]
+@each_model
+def test_no_parameter_is_called_like_an_input_or_an_output(spec):
+    """They share one name space in the FMU."""
+    names = {f.name for f in fields(spec.params)}
+    assert names.isdisjoint(s.name for s in (*spec.inputs, *spec.outputs))
+
+
+@each_model
+def test_the_kernels_arrays_are_as_long_as_the_lists(spec):
+    k, reals = kernel_of(spec), [s for s in spec.outputs if s.kind == "real"]
+    assert k.N_PARAM == len(fields(spec.params)) + 1 and k.NINP == len(spec.inputs)
+    assert (k.NOUT, k.NIOUT) == (len(reals), len(spec.outputs) - len(reals))
+
+
+@pytest.mark.parametrize("key", ["clutch", "gearmesh"])
+def test_places_of_parameters_are_named_in_order(key):
+    spec = find_spec(key)
+    names = [n[2:].lower() for n in vars(kernel_of(spec).L) if n.startswith("P_")]
+    assert names == [*(f.name for f in fields(spec.params)), "fidelity"]
+
+
+def test_places_of_the_washers_parameters_are_those_of_their_names():
+    """A material has one place for all bodies, with the three bodies' own behind it."""
+    names = [*(f.name for f in fields(WasherParams)), "fidelity"]
     places = {n: place for n, place in vars(layout).items() if n.startswith("P_")}
     own = [f"{name}_{body}" for name in MATERIAL for body in BODIES]
     assert [n for n in names if n not in own] == [names[place] for place in places.values()]
@@ -85,14 +83,7 @@ def test_fields_fill_the_kernels_parameters_in_order():
     for name in MATERIAL:
         place = names.index(name)
         assert names[place + 1 : place + 4] == [f"{name}_{body}" for body in BODIES]
-    assert len(as_numbers(WasherParams())) == layout.N_PARAM - 1 == layout.P_FIDELITY
     numbers = as_numbers(WasherParams(friction_law="constant", conduction="rotating"))
     assert numbers[names.index("friction_law")] == 2.0
     assert numbers[names.index("conduction")] == 3.0
     assert numbers[names.index("outer_radius")] == 0.0227
-
-
-def test_no_parameter_is_called_like_an_input_or_an_output():
-    """They share one name space in the FMU."""
-    names = {f.name for f in FIELDS}
-    assert names.isdisjoint(s.name for s in (*SPEC.inputs, *SPEC.outputs))

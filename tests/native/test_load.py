@@ -91,31 +91,6 @@ def test_every_listed_function_is_there_and_described(library):
         assert entries.library_of(entry.function.__module__, entry.function.__name__)
 
 
-def test_plain_python_gives_the_same_numbers():
-    code = (
-        "from thrustwasher import *\n"
-        "r = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)\n"
-        "c = solve_clutch(ClutchParams(), load=9000.0, speed=50.0, fidelity='boundary')\n"
-        "print(r.flash_rise.hex(), r.friction_torque.hex(), c.friction_torque.hex())\n"
-    )
-    native, plain = child(code), child(code, NUMBA_DISABLE_JIT="1")
-    for a, b in zip(native, plain, strict=True):
-        assert float.fromhex(a) == pytest.approx(float.fromhex(b), rel=1e-12)
-
-
-@pytest.mark.slow
-def test_the_jit_gives_the_same_bits(tmp_path):
-    code = (
-        "import sys\nfrom thrustwasher import *\n"
-        "r = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)\n"
-        "c = solve_clutch(ClutchParams(), load=9000.0, speed=50.0)\n"
-        "print(r.flash_rise.hex(), c.friction_torque.hex(), 'numba' in sys.modules)\n"
-    )
-    native = child(code)
-    jit = child(code, THRUSTWASHER_KERNELS="jit", NUMBA_CACHE_DIR=str(tmp_path))
-    assert native == [*jit[:2], "False"] and jit[2] == "True"
-
-
 def test_an_unknown_way_is_refused_by_name():
     code = (
         "from thrustwasher.errors import EnvironmentProblem\n"

@@ -177,7 +177,7 @@ def test_columns_that_are_not_kept_are_in_the_file_alone(tmp_path):
     assert "status" in run_sweep("gearmesh", over, workers=1, keep=False).columns  # no file
 
 
-@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+@pytest.mark.parametrize("suffix", ["csv", pytest.param("parquet", marks=pytest.mark.slow)])
 def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, monkeypatch, suffix):
     """30 outputs are 240 bytes a point; inputs and what is done stay, on lines of 100 points."""
     monkeypatch.setattr(sweep_table, "CHUNK", 1000)

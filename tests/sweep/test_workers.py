@@ -69,41 +69,6 @@ def test_a_process_that_is_killed_costs_nothing_but_time(tmp_path, monkeypatch):
     assert same(table, run_sweep("clutch", OVER, workers=1))
 
 
-def _listen():
-    """Take the signal again: a shell's background jobs inherit that it is ignored."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-def test_ctrl_c_leaves_a_state_that_the_same_command_goes_on_from(tmp_path):
-    out = tmp_path / "map.csv"
-    words = [sys.executable, "-m", "thrustwasher", "sweep", "clutch", "--over", "load [kN]=1:9:n60",
-             "--over", "speed=5:300:n1500", "--workers", "2", "--out", str(out)]  # fmt: skip
-    # measured, it may be interrupted where coverage holds its lock, and then waits for itself
-    own = {name: x for name, x in os.environ.items() if not name.startswith("COVERAGE")}
-    process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True,
-                               preexec_fn=_listen, env=own)  # fmt: skip
-    journal = journal_of(out)
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline:
-        if journal.exists() and journal.stat().st_size > 30_000:
-            break
-        time.sleep(0.01)
-    os.killpg(process.pid, signal.SIGINT)
-    _, said = process.communicate(timeout=30)
-    assert (process.returncode, said.splitlines()[-1]) == (130, "thrustwasher sweep: stopped")
-    assert "Traceback" not in said and not out.exists()
-    seen = []
-    over = {"load [kN]": "1:9:n60", "speed": "5:300:n1500"}
-    with pytest.raises(KeyboardInterrupt):
-
-        def stop(done, total):
-            seen.append(done)
-            raise KeyboardInterrupt
-
-        run_sweep("clutch", over, workers=1, out=out, progress=stop)
-    assert 0 < seen[0] < 90_000
-
-
 def half_a_message(begun):
     """Begin to send a result of 1000 bytes, as a worker that is stopped there; for a minute."""
     frame = sys._getframe()
@@ -165,8 +130,11 @@ def test_a_cluster_that_loses_a_worker_loses_no_point(tmp_path, monkeypatch):
                 killed.set()
 
         table = run_sweep(
-            "clutch", over, cluster=cluster.scheduler_address, out=tmp_path / "map.csv",
+            "clutch",
+            over,
+            cluster=cluster.scheduler_address,
+            out=tmp_path / "map.csv",
             progress=kill_one,
-        )  # fmt: skip
+        )
     assert killed.is_set() and once_each(firsts, len(table))
     assert same(table, run_sweep("clutch", over, workers=1))

@@ -6,6 +6,7 @@ import mpmath as mp
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from thrustwasher.tribology.greenwood_tripp import (
     area_integrals,
@@ -99,3 +100,24 @@ def test_the_area_integrals_are_exact_to_13_digits(u):
     second, first = area_integrals(u)
     assert second == pytest.approx(float((1 + big**2) * tail - big * pdf), rel=2e-13)
     assert first == pytest.approx(float(pdf - big * tail), rel=1e-13)
+
+
+def test_two_rough_surfaces_are_every_pair_of_their_summits():
+    """Pairs r apart overlap by w - r^2/(4 beta) and touch as spheres of half the tip radius."""
+    density, tip, scatter, stiff, t = 3e9, 2e-5, 4e-7, 1.1e11, 1.3
+
+    def pair_sum(law):
+        def over_offsets(w):
+            return quad(lambda v: 2.0 * math.pi * 2.0 * tip * law(v), 0.0, w)[0]
+
+        def weighted(s):
+            return over_offsets(scatter * (s - t)) * math.exp(-0.5 * s * s)
+
+        total = quad(weighted, t, t + 9.0, epsabs=0.0, epsrel=1e-10)[0]
+        return density**2 * total / math.sqrt(2.0 * math.pi)
+
+    scale, group = pressure_scale(scatter, stiff, density, tip), density * tip * scatter
+    force = pair_sum(lambda w: 4.0 / 3.0 * stiff * math.sqrt(0.5 * tip) * w**1.5)
+    area = pair_sum(lambda w: math.pi * 0.5 * tip * w)
+    assert scale * height_integrals(t)[0] == pytest.approx(force, rel=1e-8)
+    assert (math.pi * group) ** 2 * area_integrals(t)[0] == pytest.approx(area, rel=1e-8)

@@ -70,8 +70,14 @@ def test_bisection_in_load_finds_the_fold_of_the_continuation(curve, kind):
     branch = "film" if kind == "film_lost" else "contact"
     for _ in range(12):
         middle = 0.5 * (there + gone)
-        r = solve_washer(WasherParams(), load=fold.load + middle, speed=545.0, tilt=0.002,
-                         branch=branch, throw=False)  # fmt: skip
+        r = solve_washer(
+            WasherParams(),
+            load=fold.load + middle,
+            speed=545.0,
+            tilt=0.002,
+            branch=branch,
+            throw=False,
+        )
         assert r.status is Status.NO_BRANCH or not r.status.is_failure
         if not r.status.is_failure:
             there = middle
@@ -134,10 +140,10 @@ FAR = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=pytest.mark.slow) if n == "much oil on a large disc" else n
-             for n in FAR],
-)  # fmt: skip
+*SHORT, LONG = FAR
+
+
+@pytest.mark.parametrize("name", [*SHORT, pytest.param(LONG, marks=pytest.mark.slow)])
 def test_curves_of_washers_far_from_the_default_reach_their_ends(name):
     changes, place, low, high = FAR[name]
     curve = load_curve(WasherParams(**changes), **place, load_min=low, load_max=high)

@@ -1,13 +1,10 @@
 """What no two outputs of a solve may contradict: heat, torque, flow and materials, anywhere."""
 
-import math
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from sampling import sizes
 
-from thrustwasher import ParameterError, WasherParams, solve_washer
+from thrustwasher import WasherParams, solve_washer
 from thrustwasher.errors import Status
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.constants import contact_pair
@@ -31,9 +28,12 @@ def test_friction_power_reaches_the_oil_at_every_point_of_the_box(name, n):
     worst = 0.0
     for _ in range(n):
         r = solve_washer(
-            LAWS[name], load=10.0 ** rng.uniform(0.0, 3.7), speed=rng.uniform(-2000.0, 2000.0),
-            tilt=rng.uniform(0.0, 4e-3), oil_temperature=rng.uniform(240.0, 420.0),
-        )  # fmt: skip
+            LAWS[name],
+            load=10.0 ** rng.uniform(0.0, 3.7),
+            speed=rng.uniform(-2000.0, 2000.0),
+            tilt=rng.uniform(0.0, 4e-3),
+            oil_temperature=rng.uniform(240.0, 420.0),
+        )
         assert r.friction_power == pytest.approx(r.friction_torque * r.speed, rel=1e-14)
         worst = max(worst, abs(r.oil_heat / r.friction_power - 1.0))
     assert worst < 1e-8
@@ -105,25 +105,3 @@ def test_a_washer_that_conducts_badly_is_the_warmer_one():
     worse = WasherParams(conductivity_washer=0.5)
     one, other = (solve_washer(p, **BASE).fields() for p in (WasherParams(), worse))
     assert other.washer_temperature.mean() > one.washer_temperature.mean()
-
-
-BAD = [
-    ({"oil_heat_capacity": 0.0}, ["oil_heat_capacity", "0", "J/(kg.K)", "500", "5000"]),
-    ({"oil_density": math.nan}, ["oil_density", "nan", "kg/m3", "500", "1500"]),
-    ({"oil_supply_temperature": 480.0}, ["oil_supply_temperature", "480", "K", "473.15"]),
-    ({"oil_supply_temperature": 100.0}, ["oil_supply_temperature", "100", "K", "233.15"]),
-    ({"conductivity": 0.0}, ["conductivity", "0", "W/(m.K)", "0.1", "500"]),
-    ({"conductivity_washer": 0.01}, ["conductivity_washer", "0.01", "W/(m.K)", "0.1", "500"]),
-    ({"yield_strength": 1e11, "youngs_modulus": 1e10}, ["yield_strength", "youngs_modulus", "Pa"]),
-    ({"film_heat_fraction": 0.5}, ["film_heat_fraction", "0.5", "oil_cooling"]),
-    ({"cavity_shear": "liquid", "oil_cooling": False}, ["cavity_shear", "liquid", "oil_cooling"]),
-]
-
-
-@pytest.mark.parametrize(("changes", "words"), BAD, ids=[str(c) for c, _ in BAD])
-def test_what_cannot_be_is_said_in_one_line(changes, words):
-    with pytest.raises(ParameterError) as caught:
-        replace(WasherParams(), **changes)
-    message = str(caught.value)
-    assert "\n" not in message
-    assert [w for w in words if w not in message] == []

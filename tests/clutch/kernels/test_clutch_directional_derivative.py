@@ -68,7 +68,7 @@ def worn_in(unit, rng):
 def test_derivatives_are_those_of_differences_under_any_option(rung, seed):
     rng = np.random.default_rng(seed)
     for _ in range(20):
-        unit = random_pack(rng, [rung])
+        unit = random_pack(rng, [rung], friction_scale=(1.0, 1.0, 1.7)[seed])
         worn_in(unit, rng)
         point = random_point(rng)
         assert disagreement(unit, point, scale_at(point)).max() < 1e-6
@@ -156,13 +156,15 @@ def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
         for seed in np.diag(scale):
             _, found = passed(unit, point, sizes, tuple(seed.tolist()))
             best = np.inf
-            for h in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5):  # a corner may be near
+            for h in (1e-3, 1e-2, 1e-4, 1e-1, 1e-5):  # a corner may be near
                 ends = [passed(unit, point + x * h * seed, sizes, (0.0,) * 4)[0]
                         for x in (1.0, -1.0, 0.5, -0.5)]  # fmt: skip
                 wanted = (8.0 * (ends[2] - ends[3]) - (ends[0] - ends[1])) / (6.0 * h)
                 wrong, size = np.abs(found - wanted), np.abs(wanted)
                 film = wrong[0] / max(size[0], 1e-6)  # a change by less is none
                 best = min(best, max(film, wrong[1:].max() / max(size[1:].max(), 1e-9)))
+                if best < 1e-6:
+                    break
             assert best < 1e-6
 
 

@@ -1,45 +1,12 @@
 """The clutch's step: the common contract of kernels, its heat and its energy."""
 
-from dataclasses import fields
-
 import numpy as np
 import pytest
 from clutch_pack import Pack
-from hypothesis import given
-from hypothesis import strategies as st
 
 from thrustwasher.clutch.kernels import layout as k
 from thrustwasher.clutch.kernels.pack_friction import ADHESIVE, BOUNDARY, FILM, MIXED
-from thrustwasher.clutch.parameters import SPEC, ClutchParams
 from thrustwasher.errors import Status
-
-
-def test_the_arrays_are_laid_out_as_the_lists_say():
-    names = [n[2:].lower() for n in vars(k) if n.startswith("P_")]
-    assert names == [f.name for f in fields(ClutchParams)] + ["fidelity"]
-    assert k.N_PARAM == len(names) and k.NINP == len(SPEC.inputs)
-    reals = [s for s in SPEC.outputs if s.kind == "real"]
-    assert (k.NOUT, k.NIOUT) == (len(reals), len(SPEC.outputs) - len(reals))
-
-
-@pytest.mark.parametrize("fidelity", list(SPEC.fidelities))
-def test_dt_0_leaves_the_state_to_the_bit(fidelity):
-    pack = Pack(fidelity)
-    for dt in (1e-3, 0.0, 1e-3):
-        before = pack.state.copy()
-        assert pack.step(5000.0, 80.0, dt) == 0
-        assert (pack.state.tobytes() == before.tobytes()) == (dt == 0.0)
-
-
-def test_reading_outputs_between_steps_changes_nothing():
-    quiet, curious = Pack("stribeck"), Pack("stribeck")
-    for i in range(50):
-        load, slip = 5000.0 * i / 50, 300.0 - 6.0 * i
-        quiet.step(load, slip, 1e-3)
-        curious.step(load, slip, 1e-3)
-        curious.step(100.0, 7.0, 0.0)
-        curious.step(load, slip, 0.0)
-    assert quiet.state.tobytes() == curious.state.tobytes()
 
 
 def test_capacity_is_faces_times_friction_times_load_times_radius():
@@ -95,27 +62,6 @@ def test_energy_of_a_falling_slip_converges_with_the_square_of_the_step():
         errors.append(abs(pack.out[k.O_ENERGY] - exact))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert orders == pytest.approx([2.0, 2.0], abs=0.1)
-
-
-def test_heat_never_comes_back():
-    pack, last = Pack("stribeck"), 0.0
-    rng = np.random.default_rng(5)
-    for _ in range(300):
-        pack.step(rng.uniform(0, 9000), rng.choice([0.0, rng.uniform(-300, 300)]), 1e-3)
-        assert pack.out[k.O_ENERGY] >= last
-        last = pack.out[k.O_ENERGY]
-
-
-@given(st.floats(0.0, 1e6), st.floats(-5000.0, 5000.0), st.floats(240.0, 470.0))
-def test_friction_is_passive_odd_and_below_capacity(load, slip, oil):
-    pack = Pack("stribeck")
-    assert pack.step(load, slip, 1e-3, oil) == 0
-    torque = pack.out[k.O_TORQUE]
-    assert pack.out[k.O_POWER] >= 0.0 and torque * slip >= 0.0
-    assert abs(torque) <= pack.out[k.O_CAPACITY] and np.isfinite(pack.out).all()
-    mirror = Pack("stribeck")
-    mirror.step(load, -slip, 1e-3, oil)
-    assert mirror.out[k.O_TORQUE] == -torque
 
 
 def test_an_interface_above_523_k_is_said():

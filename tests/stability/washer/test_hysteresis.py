@@ -14,13 +14,7 @@ import numpy as np
 import pytest
 from curves import traced
 
-from thrustwasher import WasherParams
-from thrustwasher.errors import Status
-from thrustwasher.model.parameters import as_numbers
-from thrustwasher.washer.kernels import layout as L
-from thrustwasher.washer.kernels import step as kernel
-
-from washer_runs import followed, is_sound, solve  # isort: skip
+from washer_runs import followed, is_sound, solve, stepped  # isort: skip
 
 LOW, HIGH = 550.0, 1150.0
 
@@ -58,8 +52,11 @@ def test_the_loop_closes(fine):
 def test_the_film_goes_and_comes_back_at_the_two_folds(fine):
     loads, _, results = fine
     lost, regained = (f.load for f in traced().folds)
-    steps = [(a, b, r.branch) for (a, r0), (b, r) in pairwise(zip(loads, results, strict=True))
-             if r.branch != r0.branch]  # fmt: skip
+    steps = [
+        (a, b, r.branch)
+        for (a, r0), (b, r) in pairwise(zip(loads, results, strict=True))
+        if r.branch != r0.branch
+    ]
     (a, b, gone), (c, d, back) = steps
     assert (gone, back) == ("contact", "film")
     assert a < lost < b and d < regained < c
@@ -85,20 +82,10 @@ def test_the_area_of_the_loop_is_the_same_whenever_and_however_finely_it_is_run(
 
 def test_an_fmu_goes_round_the_same_loop_twice():
     """In one instance's memory, step after step: the second round is the first."""
-    par = np.zeros(kernel.NPAR)
-    par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), L.FIELD]
-    assert kernel.derive(par) == Status.OK
-    state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
-    out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
-    rounds = []
-    for _ in range(2):
-        torques = []
-        for load in path(41):
-            inp = np.array([load, 545.0, 0.002, 297.15, 0.0])
-            assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) < 10
-            torques.append(out[0])
-        rounds.append(torques)
-    assert rounds[1] == pytest.approx(rounds[0], rel=1e-5)
+    found = stepped([*path(41)] * 2)
+    assert all(status < 10 for status, _ in found)
+    torques = [torque for _, torque in found]
+    assert torques[81:] == pytest.approx(torques[:81], rel=1e-5)
 
 
 def test_one_jump_there_and_one_back_end_where_they_began():

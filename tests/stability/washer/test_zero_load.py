@@ -7,18 +7,14 @@ Cure: the library refuses loads below 1 N by name; a washer in a scene takes les
     on.
 """
 
-import numpy as np
+import itertools
+
 import pytest
 
 from thrustwasher import ParameterError
 from thrustwasher.errors import Status
-from thrustwasher.model.parameters import as_numbers
-from thrustwasher.washer.kernels import layout as L
-from thrustwasher.washer.kernels import step as kernel
-from thrustwasher.washer.parameters import WasherParams
 
-from washer_runs import followed, is_sound, solve  # isort: skip
-import itertools
+from washer_runs import followed, is_sound, solve, stepped  # isort: skip
 
 
 def test_the_least_load_is_answered():
@@ -42,15 +38,8 @@ def test_no_load_is_refused_in_words_by_the_library():
 
 def test_a_washer_in_a_scene_goes_on_when_the_load_is_gone():
     """The step takes a load below 1 N, even a negative one, as 1 N."""
-    par = np.zeros(kernel.NPAR)
-    par[: kernel.N_PARAM] = [*as_numbers(WasherParams()), L.FIELD]
-    assert kernel.derive(par) == Status.OK
-    state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
-    out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
-    torques = []
-    for load in (300.0, 20.0, 1.0, 0.0, -30.0, 1.0, 20.0, 300.0):
-        inp = np.array([load, 545.0, 0.002, 297.15, 0.0])
-        assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) == Status.OK
-        torques.append(out[0])
+    found = stepped((300.0, 20.0, 1.0, 0.0, -30.0, 1.0, 20.0, 300.0))
+    assert {status for status, _ in found} == {Status.OK}
+    torques = [torque for _, torque in found]
     assert torques[2:6] == pytest.approx([torques[2]] * 4, rel=1e-6)
     assert torques[::-1] == pytest.approx(torques, rel=1e-5)

@@ -152,19 +152,6 @@ def test_heat_stored_is_that_of_a_slab_but_for_a_few_percent():
         assert stored / one == pytest.approx(slab, rel=0.065 if now < 10.0 else 5e-3)
 
 
-def test_a_steady_body_passes_on_what_enters():
-    b = bodies()
-    b.f.temp[:] = 30.0
-    ladder.start_terms(b.w, HERE)
-    one, two = b.areas()
-    out = 30.0 * (b.m.carrier_conductivity / b.m.carrier_thickness * one
-                  + b.m.gear_conductivity / b.m.gear_thickness * two)  # fmt: skip
-    assert ladder.far_heat(b.m, b.f) == pytest.approx(out, rel=1e-12)
-    flux = 30.0 * b.m.carrier_conductivity / b.m.carrier_thickness
-    b.go(0.7, flux, flux)
-    assert b.f.temp[b.carrier] == pytest.approx(30.0, rel=1e-12)
-
-
 def test_a_lumped_body_follows_the_exponential_of_its_time():
     b = bodies(body_storage="lumped")
     for h in (0.5, 1.0, 1.5):
@@ -199,15 +186,6 @@ def test_the_washer_stores_all_it_takes():
         b.go(h, 0.0)
         gain = 0.5 * FLUX * h / (p.density * p.specific_heat * p.washer_thickness)
         assert b.f.temp[b.m.washer_at] - before == pytest.approx(gain, rel=1e-9)
-
-
-@pytest.mark.parametrize("h", [1e-4, 1e-2, 1.0, 1e4])
-def test_both_stages_have_nearly_the_same_coefficient(h):
-    b = bodies()
-    ladder.set_stage(b.w, HERE, h)
-    first = b.f.small[L.OUT_CARRIER : L.OUT_SIZE].copy()
-    ladder.set_end(b.w, HERE, h)
-    assert b.f.small[L.OUT_CARRIER : L.OUT_SIZE] == pytest.approx(first, rel=0.25)
 
 
 def test_a_change_that_lasts_for_a_long_step_is_a_steady_one():

@@ -160,17 +160,6 @@ def test_a_derivative_leaves_the_next_step_as_it_was():
     assert np.array_equal(one.state, two.state)
 
 
-def test_torque_is_odd_and_the_film_even_in_speed():
-    slopes = []
-    for speed in (700.0, -700.0):
-        washer, inp = Washer(), np.array((466.0, speed, 0.0014, 315.0))
-        washer.step(inp)
-        washer.polish(inp)
-        slopes.append(washer.sens(inp, np.array([0.0, 1.0, 0.0, 0.0]))[1])
-    np.testing.assert_allclose(slopes[0][0], slopes[1][0], rtol=1e-8)
-    np.testing.assert_allclose(slopes[0][2], -slopes[1][2], rtol=1e-8)
-
-
 def test_at_a_fold_there_is_no_derivative():
     washer = Washer()
     speed, tilt, oil = 545.0, 0.002, 297.15

@@ -14,9 +14,17 @@ from thrustwasher.washer.kernels.workspace import Point
 from thrustwasher.washer.parameters import CONDUCTION, SPEC
 
 from washer_setup import (  # isort: skip
-    BASE, Bench, bench, bodies, full_gear, order, settle, tilted,
-)  # fmt: skip
+    BASE,
+    Bench,
+    bench,
+    bodies,
+    full_gear,
+    order,
+    settle,
+    tilted,
+)
 
+GRID = (7, 20)  # what is tested holds on any mesh; some of these kernels run as plain Python
 CONDUCTIVITY, OIL = 60.5, 0.145
 PAPER = preset_part(SPEC, "paper").parameters
 DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
@@ -70,6 +78,16 @@ def test_an_evenly_heated_stack_is_exact_on_every_grid(grid, split, conduction, 
         assert [24.0 + x[0, 0] for x in bodies(b)] == pytest.approx(tabled, abs=1e-8)
 
 
+@pytest.mark.parametrize("conduction", CONDUCTION)
+def test_with_an_insulated_gear_all_heat_leaves_through_the_carrier(conduction):
+    b = full_gear(GRID, heat_split=0.3, conduction=conduction, gear_far_face="insulated", **DRY)
+    heat_given(b, np.full(GRID, 1e5))
+    first = 1e5 * 0.01 / CONDUCTIVITY
+    last = first + 0.7 * 1e5 * (1e-5 / OIL + 6.35e-4 / (2.0 * CONDUCTIVITY))
+    for found, rise in zip(bodies(b), (first, last, last), strict=True):
+        np.testing.assert_allclose(found, rise, rtol=1e-10)
+
+
 @pytest.mark.parametrize("changes", [PAPER, {}])
 def test_an_annulus_alone_converges_with_order_two(changes):
     """Oil that conducts from wall to wall no more leaves the carrier on its own: Bessel."""
@@ -98,7 +116,7 @@ def at_random(b, seed=1):
 @pytest.mark.parametrize("name", LAWS)
 def test_heat_made_is_heat_out_at_any_temperature(name):
     """What the residual adds up to is heat out less heat made: nothing is lost in between."""
-    b = bench((10, 32), **LAWS[name])
+    b = bench(GRID, **LAWS[name])
     m, f = b.m, b.f
     q, made = at_random(b)
     carrier, _, gear = bodies(b)
@@ -113,7 +131,7 @@ def test_heat_made_is_heat_out_at_any_temperature(name):
 @pytest.mark.parametrize("name", LAWS)
 def test_torque_times_speed_is_the_heat_made(name):
     """Pressure flow included: what it makes in all faces is its share of the torque."""
-    b = bench((10, 32), **LAWS[name])
+    b = bench(GRID, **LAWS[name])
     m, f = b.m, b.f
     _, made = at_random(b)
     area = np.outer(m.weight1, m.weight_t)
@@ -130,13 +148,15 @@ def test_torque_times_speed_is_the_heat_made(name):
 
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_only_the_wanted_share_of_film_heat_enters(share):
-    b = bench((10, 32), film_heat_fraction=share, **DRY)
+    b = bench(GRID, film_heat_fraction=share, **DRY)
     q = tilted(b.m, 20.0)  # no contact at all
     made = evaluate(b.m, BASE, q, b.f, False)
     whole = (
-        np.outer(b.m.weight1, b.m.weight_t) * (BASE.speed * b.radius) ** 2 * b.node("mu")
+        np.outer(b.m.weight1, b.m.weight_t)
+        * (BASE.speed * b.radius) ** 2
+        * b.node("mu")
         / b.node("ht")
-    ).sum()  # fmt: skip
+    ).sum()
     assert made == pytest.approx(share * whole, rel=1e-12)
 
 
@@ -144,7 +164,7 @@ def test_only_the_wanted_share_of_film_heat_enters(share):
 @pytest.mark.parametrize("split", [0.5, 0.3, 0.0])
 def test_matrix_is_the_difference_of_the_residual(split, conduction):
     """solve(rhs) = x means: the residual changes by rhs along x, viscosity following."""
-    b = bench((10, 32), heat_split=split, film_heat_fraction=0.7, conduction=conduction, **DRY)
+    b = bench(GRID, heat_split=split, film_heat_fraction=0.7, conduction=conduction, **DRY)
     m, f = b.m, b.f
     touching(b)
     rng = np.random.default_rng(2)
@@ -167,7 +187,7 @@ def test_matrix_is_the_difference_of_the_residual(split, conduction):
 @pytest.mark.parametrize("name", LAWS)
 def test_change_of_the_residual_is_the_difference(name, speed):
     """Over positions, temperatures and the operating point, pressure, flows and liquid follow."""
-    b = bench((10, 32), **LAWS[name])
+    b = bench(GRID, **LAWS[name])
     m, f = b.m, b.f
     base = BASE._replace(speed=speed)
     q, _ = at_random(b, seed=4)
@@ -209,12 +229,14 @@ def test_dry_friction_has_its_published_ends_and_its_slope():
 @pytest.mark.parametrize("option", ["carrier", "rotating"])
 def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
     """At temperatures that a body of rings can have, the 2-D body's nodes add up to its rings."""
-    rings, whole = bench((10, 32), conduction=option), bench((10, 32), conduction="all")
+    rings, whole = bench(GRID, conduction=option), bench(GRID, conduction="all")
     q, _ = at_random(rings)
     column = whole.m.film_step
     whole.f.temp[:] = 0.0
     for j in range(rings.m.n_t):
-        whole.f.temp[j * column : j * column + 10] = rings.f.temp[j * rings.m.film_step :][:10]
+        whole.f.temp[j * column : j * column + GRID[0]] = rings.f.temp[j * rings.m.film_step :][
+            : GRID[0]
+        ]
     for part, values in zip(
         bodies(whole, np.arange(whole.f.temp.size)), bodies(rings), strict=True
     ):
@@ -231,7 +253,7 @@ def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
 
 
 def test_a_washer_at_rest_stays_at_oil_temperature():
-    b = bench((10, 32))
+    b = bench(GRID)
     pt = Point(300.0, 0.0, 0.002, 297.15, 297.15)
     settle(b.m, pt, touching(b), b.f)
     assert np.all(b.f.temp == 0.0)

@@ -26,7 +26,7 @@ from thrustwasher.washer.parameters import SPEC
 
 from washer_setup import BASE, bench, full_gear, settle, tilted  # isort: skip
 
-GRID = (6, 16)  # what is tested holds on any mesh; these kernels run as plain Python
+GRID = (5, 12)  # what is tested holds on any mesh; these kernels run as plain Python
 DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
 STATES = {
     "film": ({"ratio": 9.0}, {}),

@@ -150,23 +150,6 @@ def test_lines_of_another_map_are_neither_taken_nor_harmed(tmp_path):
     assert journal.read_bytes() == before
 
 
-def test_two_runs_do_not_make_one_file_the_second_stops_at_once(tmp_path, monkeypatch):
-    from thrustwasher.washer.map import map_build
-
-    def check(params, *rest, **options):
-        """Begin a second run while the first one checks, when all its lines are solved."""
-        monkeypatch.setattr(map_build, "find_reach", lambda _: pytest.fail("it went to work"))
-        with pytest.raises(ParameterError, match=r"x\.twm\.journal: another run is writing"):
-            make_map(params, out, box=TINY, fidelity="field", workers=1)
-        monkeypatch.undo()
-        return real(params, *rest, **options)
-
-    out, real = tmp_path / "x.twm", map_build.check_map
-    monkeypatch.setattr(map_build, "check_map", check)
-    make_map(WasherParams(), out, box=TINY, fidelity="field", workers=1, points=4)
-    assert [p.name for p in tmp_path.iterdir()] == ["x.twm"]
-
-
 def test_a_build_that_solves_nothing_leaves_nothing(tmp_path, monkeypatch):
     def fail(*_):
         raise SolveError("no film is thick enough")

@@ -1,4 +1,8 @@
-"""A step that fails leaves the memory as it was, to the bit; one that succeeds holds numbers."""
+"""What every kernel's step keeps to: its memory is the state alone, whatever happens.
+
+A step that fails leaves the state as it was, to the bit, and so does one of no length; one that
+succeeds holds numbers; what the work array holds does not matter.
+"""
 
 import numpy as np
 import pytest
@@ -12,11 +16,17 @@ from thrustwasher.gearmesh.kernels import step as gear_step
 from thrustwasher.model.prepare import filled
 from thrustwasher.transmission import parameters as transmission_params
 from thrustwasher.transmission.kernels import step as transmission_step
+from thrustwasher.washer import parameters as washer_params
+from thrustwasher.washer.kernels import step as washer_step
 
 HOSTILE = [
     0.0, -0.0, 1.0, -1.0, 1e-320, 1e-30, 1e6, -1e6, 1e30, 1e150, -1e150, 1e300, -1e300,
     np.inf, -np.inf, np.nan,
 ]  # fmt: skip
+WASHERS = [
+    (washer_step, washer_params.SPEC, changes, "field")
+    for changes in ({}, {"thermal_mode": "transient"})
+]
 CASES = [
     (step, parameters.SPEC, {}, "field"),
     (step, parameters.SPEC, {"input_course": "linear"}, "field"),
@@ -38,9 +48,9 @@ CASES = [
 
 def good_inputs(spec, rng):
     """Return inputs in their ranges, closer to their start than to the ends."""
-    return np.array([
-        np.clip(s.start + rng.uniform(-1.0, 1.0) * s.nominal, s.low, s.high) for s in spec.inputs
-    ])  # fmt: skip
+    return np.array(
+        [np.clip(s.start + rng.uniform(-1.0, 1.0) * s.nominal, s.low, s.high) for s in spec.inputs]
+    )
 
 
 @sizes(5, 25)
@@ -72,3 +82,26 @@ def test_what_fails_leaves_no_trace(k, spec, changes, fidelity, n):
                 failures.add(Status(status).name)
             assert status == 0 or status >= 10
     assert "BAD_INPUT" in failures
+
+
+@pytest.mark.parametrize("rubbish", [np.nan, 1e300, -1.0])
+@pytest.mark.parametrize(("k", "spec", "changes", "fidelity"), [*CASES, *WASHERS])
+def test_looks_and_what_work_holds_change_nothing(k, spec, changes, fidelity, rubbish):
+    rng = np.random.default_rng(3)
+    par = filled(spec, spec.params(**changes), fidelity, k.NPAR, k.derive)
+    quiet, looked = np.zeros(k.NSTATE), np.zeros(k.NSTATE)
+    work, other_work = np.zeros(k.NWORK), np.zeros(k.NWORK)
+
+    def stepped(inp, state, work, dt):
+        out, iout = np.full(k.NOUT, np.nan), np.full(k.NIOUT, -7, np.int32)
+        status = k.step(par, inp, state, work, out, iout, 0.0, dt)
+        return status, out.tobytes(), iout.tobytes(), state.tobytes()
+
+    for _ in range(10):
+        inp = good_inputs(spec, rng)
+        before = looked.tobytes()
+        for look in (good_inputs(spec, rng), inp):
+            other_work[:] = rubbish
+            assert stepped(look, looked, other_work, 0.0)[3] == before
+        other_work[:] = rubbish
+        assert stepped(inp, looked, other_work, 1e-3) == stepped(inp, quiet, work, 1e-3)

@@ -137,7 +137,8 @@ def test_the_choice_of_master_reaches_the_transmission():
         ("title = 3", "clutch", "", r"title = 3, allowed: a text"),
         ("shift = 3", "clutch", "", r"shift = 3, allowed: a table \[shift\]"),
         ("step = nan", "clutch", "", r"step"),
-        ("master_tolerance = 2", "clutch", "", r"= 2.0, allowed: 1e-09 \.\. 0\.1"),
+        ("master_tolerance = 1e-4", "clutch", "", "master_tolerance: there is no step-doubling"),
+        ('master = "step-doubling"', "clutch", "", "allowed: .*; there is no step-d"),
     ],
 )
 def test_what_is_wrong_is_named(tmp_path, top, table, inside, message):

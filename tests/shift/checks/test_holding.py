@@ -162,7 +162,7 @@ def test_the_default_shift_has_nothing_to_tell(tmp_path):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--master-tolerance", "0.1", "--no-report"], "--master step-doubling"),
+        (["--master-tolerance", "0.1", "--no-report"], "estimates the error of its step"),
         (["--out", "somewhere", "--no-report"], "--no-report writes no files"),
         (["--platforms", "local", "--no-report"], "--ssp"),
     ],

@@ -91,16 +91,6 @@ def test_second_runs_stay_within_the_steps_a_run_may_have():
     assert parts_of_a_step(scene, 1e-6, 100) == 0.5
 
 
-def test_steps_by_tolerance_are_judged_by_a_smaller_tolerance():
-    scene = load_scene("msl").with_options(
-        master="step-doubling", master_tolerance=1e-2, stop_time=2.3
-    )
-    run = run_shift(scene, instances(scene))
-    found = step_error(run, made, run_shift)
-    true = errors_between(run, shift("msl", step=2.5e-4, stop_time=2.3), 1.0)
-    assert found.tolerance is not None and found.relative > 0.3 * max(true.values())
-
-
 def test_advice_is_1_2_or_5():
     assert [rounded(x) for x in (0.011, 0.049, 2e-3, 0.99)] == pytest.approx(
         [0.01, 0.02, 2e-3, 0.5]

@@ -137,16 +137,6 @@ def renamed(problem: Exception, part: str, time: float) -> SolveError:
     return SolveError(f"{part} at t = {time:g} s: {problem}")
 
 
-def with_state(part: ConnectedPart, master: str) -> Capable:
-    """Return a part's instance as one that saves its state; ParameterError if it cannot."""
-    if not can(part.instance, "saves_state"):
-        raise ParameterError(
-            f"master = {master!r}: {part.name} cannot save its state, allowed: with parts that can "
-            "(canGetAndSetFMUstate); 'gauss-seidel' and 'jacobi' need no state"
-        )
-    return capable(part.instance)
-
-
 @contextmanager
 def _named(part: str, time: float) -> Iterator[None]:
     """Name part and time if something fails inside."""

@@ -20,7 +20,7 @@ import numpy as np
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import Array
 from ..cosim.schedule import Correct, Schedule, gauss_seidel
-from ..cosim.system import ConnectedPart, System, can, capable, with_state
+from ..cosim.system import Capable, ConnectedPart, System, can, capable
 from ..scene.connections import SPEED
 
 NAME = "linearly-implicit"
@@ -119,7 +119,7 @@ class Correction:
     def _look_ahead(self, t: float, h: float) -> list[float]:
         """Return the outputs that a step with the present torques would end with; renew S."""
         hub = self.hub
-        instance = with_state(hub, NAME)
+        instance = _with_state(hub)
         inputs, outputs, start = list(hub.inputs), hub.outputs, instance.get_state()
         try:
             hub.step(t, h)
@@ -182,6 +182,16 @@ def _wire(slot: int, part: ConnectedPart, output: int) -> Wire:
     return Wire(slot, part, output, places, names.index(SPEED) if signed else None)
 
 
+def _with_state(part: ConnectedPart) -> Capable:
+    """Return a part's instance as one that saves its state; ParameterError if it cannot."""
+    if not can(part.instance, "saves_state"):
+        raise ParameterError(
+            f"master = {NAME!r}: {part.name} cannot save its state, allowed: with parts that can "
+            "(canGetAndSetFMUstate); 'gauss-seidel' and 'jacobi' need no state"
+        )
+    return capable(part.instance)
+
+
 def slope(part: ConnectedPart, output: str, given: str) -> float:
     """Return d(output)/d(input) at the part's present inputs, memory held.
 
@@ -193,7 +203,7 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
         return capable(part.instance).directional_derivative([output], [given], [1.0])[0]
     if not can(part.instance, "saves_state"):
         raise ParameterError(
-            f"master = 'linearly-implicit': {part.name} has neither directional derivatives nor a "
+            f"master = {NAME!r}: {part.name} has neither directional derivatives nor a "
             "state that can be saved, allowed: with parts that have one of them, such as the "
             "native FMUs"
         )
@@ -203,7 +213,7 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
     ends = part.inputs[k] - width, part.inputs[k] + width
     if signal.low is not None and ends[0] < signal.low:
         return 0.0  # at its limit, where models have corners: an open pack, a wheel at rest
-    keeper = with_state(part, NAME)
+    keeper = _with_state(part)
     state = keeper.get_state()
     try:
         found = []

@@ -28,16 +28,10 @@ from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
 from ..key_figures.figure_list import FIGURES
+from ..masters.master import FIXED_STEPS
 from .connections import MESHES, PARTS, REQUIRED
 from .doubts import doubts
-from .scene import (
-    STEP_RANGE,
-    TOLERANCE_RANGE,
-    Part,
-    Published,
-    Scene,
-    shift_of_pressures,
-)  # fmt: skip
+from .scene import STEP_RANGE, Part, Published, Scene, shift_of_pressures
 from .scene_tables import BEARING_TABLES, driveline_table, vehicle_of
 from .sequence import checked_sequence, read_sequence
 
@@ -47,7 +41,6 @@ NUMBERS = {
     "start_time": ("s", -1e6, 1e6),
     "stop_time": ("s", -1e6, 1e6),
     "step": ("s", *STEP_RANGE),
-    "master_tolerance": ("1", *TOLERANCE_RANGE),
     "oil_temperature": ("K", 233.15, 473.15),
 }
 ONE_OIL = 1.2  # ratio of viscosities up to which parts may be said to have one oil
@@ -153,6 +146,8 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
 
 def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
     where = f"scene {name!r}"
+    if "master_tolerance" in table:
+        raise ParameterError(f"{where}: master_tolerance: {FIXED_STEPS}")
     nothing_else(where, table, [*TEXTS, *NUMBERS, *TABLES])
     for key, value in table.items():
         if key in TEXTS and not isinstance(value, str):

@@ -108,6 +108,8 @@ def _parse(name: str) -> dict[str, Any]:
         raise ParameterError(
             f"scene = {name!r}, allowed: {', '.join(known)} or the path of a .toml file{hint}"
         )
+    if "master_tolerance" in table:
+        raise ParameterError(f"scene {name!r}: master_tolerance: {FIXED_STEPS}")
     if isinstance(table.get("oil"), str):
         table["oil"] = oil_table("oil", table["oil"])
     for part, spec in PARTS.items():
@@ -146,8 +148,6 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
 
 def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
     where = f"scene {name!r}"
-    if "master_tolerance" in table:
-        raise ParameterError(f"{where}: master_tolerance: {FIXED_STEPS}")
     nothing_else(where, table, [*TEXTS, *NUMBERS, *TABLES])
     for key, value in table.items():
         if key in TEXTS and not isinstance(value, str):

@@ -114,7 +114,8 @@ def _parse(name: str) -> dict[str, Any]:
         table["oil"] = oil_table("oil", table["oil"])
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
-            own = table[part] = plainly_named(other_names_of(spec.params), table[part])
+            with within(f"scene {name!r} [{part}]"):
+                own = table[part] = plainly_named(other_names_of(spec.params), table[part])
             if isinstance(own.get("part"), str) and name.endswith(".toml"):
                 own["part"] = str(Path(name).parent / own["part"])  # lies beside the scene
     return table

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
 
 from ..errors import ParameterError
@@ -16,7 +16,7 @@ from ..model.parameters import (
     flag,
     other_names,
     quantity,
-)  # fmt: skip
+)
 from ..model.spec import ModelSpec, Rule, Signal, Terminal, output
 from .bearings import BEARINGS, bearing_fields, rubbing, two_ends
 
@@ -88,53 +88,71 @@ def _order(name: str) -> Rule:
 
 RULES = (
     Rule("ring_teeth = {ring_teeth}, allowed: above sun_teeth ({sun_teeth})"),
-    Rule("planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
-         "{sun_teeth}), within one tooth with profile_shifted, or 0", _planet_teeth),
-    Rule("shaft_damping = {shaft_damping} N.m.s/rad, allowed: 0 with a rigid shaft "
-         "(shaft_stiffness = 0)"),
-    Rule("initial_twist = {initial_twist} rad, allowed: 0 with a rigid shaft "
-         "(shaft_stiffness = 0)"),
-    Rule("planets = {planets}, allowed: numbers that divide sun_teeth + ring_teeth ({sun_teeth} + "
-         "{ring_teeth}), or they cannot be put in"),
-    Rule("planets = {planets}, allowed: so many that their tips do not meet: (sun_teeth + "
-         "planet_teeth) sin(pi/planets) above planet_teeth + 2", _room),
-    Rule("piston_outer_radius = {piston_outer_radius} m, allowed: from piston_inner_radius "
-         "({piston_inner_radius} m) on"),
-    Rule("piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
-         "({piston_outer_radius} m)"),
+    Rule(
+        "planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
+        "{sun_teeth}), within one tooth with profile_shifted, or 0",
+        _planet_teeth,
+    ),
+    Rule(
+        "shaft_damping = {shaft_damping} N.m.s/rad, allowed: 0 with a rigid shaft "
+        "(shaft_stiffness = 0)"
+    ),
+    Rule(
+        "initial_twist = {initial_twist} rad, allowed: 0 with a rigid shaft (shaft_stiffness = 0)"
+    ),
+    Rule(
+        "planets = {planets}, allowed: numbers that divide sun_teeth + ring_teeth ({sun_teeth} + "
+        "{ring_teeth}), or they cannot be put in"
+    ),
+    Rule(
+        "planets = {planets}, allowed: so many that their tips do not meet: (sun_teeth + "
+        "planet_teeth) sin(pi/planets) above planet_teeth + 2",
+        _room,
+    ),
+    Rule(
+        "piston_outer_radius = {piston_outer_radius} m, allowed: from piston_inner_radius "
+        "({piston_inner_radius} m) on"
+    ),
+    Rule(
+        "piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
+        "({piston_outer_radius} m)"
+    ),
     *map(_order, COURSES),
     *map(two_ends, BEARINGS),
     *map(rubbing, BEARINGS),
-)  # fmt: skip
+)
 
 
 def _piston(pack: str) -> dict[str, Any]:
-    return {
-        f"{pack}_piston_area": quantity(8e-3, "m2", 0.0, 10.0, f"area of the {pack}'s piston"),
-        f"{pack}_return_spring": quantity(
-            3e4, "Pa", 0.0, 1e8, f"pressure that holds the {pack}'s return spring"
-        ),
-        f"{pack}_fill_volume": quantity(
-            0.0, "m3", 0.0, 0.1, f"oil that fills the {pack}'s piston (0: filled at once)"
-        ),
-        f"{pack}_fill_flow": quantity(
-            1e-4, "m3/s", 1e-9, 1.0, f"flow that fills or empties the {pack}"
-        ),
-        f"{pack}_pressure_lag": quantity(
-            0.0, "s", 0.0, 10.0, f"time constant of the {pack}'s pressure behind its command"
+    its = f"the {pack}'s"
+    given = {
+        "piston_area": (8e-3, "m2", 0.0, 10.0, f"area of {its} piston"),
+        "return_spring": (3e4, "Pa", 0.0, 1e8, f"pressure that holds {its} return spring"),
+        "fill_volume": (0.0, "m3", 0.0, 0.1, f"oil that fills {its} piston (0: filled at once)"),
+        "fill_flow": (1e-4, "m3/s", 1e-9, 1.0, f"flow that fills or empties the {pack}"),
+        "pressure_lag": (
+            0.0,
+            "s",
+            0.0,
+            10.0,
+            f"time constant of {its} pressure behind its command",
         ),
     }
+    return {f"{pack}_{name}": quantity(*about) for name, about in given.items()}
 
 
 def _course(name: str, unit: str, low: float, high: float, text: str) -> dict[str, Any]:
-    numbers = range(1, POINTS + 1)
+    time, value = f"{text}: time of point", f"{text}: value of point"
+    n = range(1, POINTS + 1)
     return {
         f"{name}_points": count(0, 0, POINTS, f"number of points of the {text} over time"),
-        **{f"{name}_time_{i}": quantity(0.0, "s", -1e6, 1e6, f"{text}: time of point {i}")
-           for i in numbers},
-        **{f"{name}_{i}": quantity(0.0, unit, low, high, f"{text}: value of point {i}")
-           for i in numbers},
-    }  # fmt: skip
+        **{f"{name}_time_{i}": quantity(0.0, "s", -1e6, 1e6, f"{time} {i}") for i in n},
+        **{f"{name}_{i}": quantity(0.0, unit, low, high, f"{value} {i}") for i in n},
+    }
+
+
+def _force(text: str) -> Any:
+    return quantity(5898.0, "N", 0.0, 1e6, text, read_by=(("actuation", "command"),))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,22 +192,8 @@ class _TransmissionParams:
     engine_start_time: float = quantity(0.0, "s", -1e9, 1e9, "time the engine torque is turned on")
     load_torque: float = quantity(250.0, "N.m", 0.0, 1e6, "load torque at load_speed, grows as w^2")
     load_speed: float = quantity(100.0, "rad/s", 1e-3, 1e4, "output speed load_torque belongs to")
-    clutch_force: float = quantity(
-        5898.0,
-        "N",
-        0.0,
-        1e6,
-        "clutch load at shift_command = 1",
-        read_by=(("actuation", "command"),),
-    )
-    brake_force: float = quantity(
-        5898.0,
-        "N",
-        0.0,
-        1e6,
-        "brake load at shift_command = 0",
-        read_by=(("actuation", "command"),),
-    )
+    clutch_force: float = _force("clutch load at shift_command = 1")
+    brake_force: float = _force("brake load at shift_command = 0")
     washers: int = count(8, 0, 100, "number of thrust washers on all planets together")
     washer_radius: float = quantity(0.0085, "m", 1e-3, 1.0, "radius the washer's load acts at")
     thrust_share: float = quantity(0.1, "1", 0.0, 1.0, "share of tilting couple washers take")
@@ -251,8 +255,17 @@ for _name, _about in COURSES.items():
 TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionParams", _MORE))
 
 
+def _input(name: str, unit: str, text: str, low: float, high: float, nominal: float) -> Signal:
+    return Signal(name=name, unit=unit, help=text, low=low, high=high, nominal=nominal, start=0.0)
+
+
 def _torque(name: str, text: str) -> Signal:
-    return Signal(name=name, unit="N.m", help=text, low=-1e6, high=1e6, nominal=100.0, start=0.0)
+    return _input(name, "N.m", text, -1e6, 1e6, 100.0)
+
+
+def _pressure(pack: str) -> Signal:
+    text = f"pressure of the {pack} beside its course, at the step's end"
+    return _input(f"{pack}_pressure", "Pa", text, 0.0, 1e8, 1e5)
 
 
 INPUTS = (
@@ -260,30 +273,54 @@ INPUTS = (
     _torque("brake_torque", "brake's torque capacity (coupling torque: friction torque)"),
     _torque("washer_torque", "friction torque of one thrust washer"),
     _torque("mesh_torque", "friction torque of one sun mesh, referred to the planet"),
-    Signal(name="shift_command", unit="1", help="0 first gear, 1 second gear, at the step's end",
-           low=0.0, high=1.0, nominal=1.0, start=0.0),
-    *(Signal(name=f"{pack}_pressure", unit="Pa", low=0.0, high=1e8, nominal=1e5, start=0.0,
-             help=f"pressure of the {pack} beside its course, at the step's end")
-      for pack in ("clutch", "brake")),
+    _input("shift_command", "1", "0 first gear, 1 second gear, at the step's end", 0.0, 1.0, 1.0),
+    *map(_pressure, ("clutch", "brake")),
     _torque("engine_torque_input", "torque of an engine model, beside the engine's own"),
     _torque("load_torque_input", "torque of a vehicle model against the output, beside the load's"),
     _torque("ring_mesh_torque", "friction torque of one ring mesh, referred to the planet"),
-)  # fmt: skip
+)
 _ENGINE, _LOAD = ("engine_torque_input",), ("load_torque_input",)
 _TORQUES = (*(signal.name for signal in INPUTS[:4]), *_ENGINE, *_LOAD, "ring_mesh_torque")
-_PACKS = (
-    *_TORQUES[:2],
-    *_ENGINE,
-    *_LOAD,
-)  # drag decides only who holds a clutch beyond its capacity, not how much
-_COMMAND = ("shift_command",)
+# Drag decides only who holds a clutch beyond its capacity, not how much.
+_PACKS = (*_TORQUES[:2], *_ENGINE, *_LOAD)
+_PRESSED = {pack: ("shift_command", f"{pack}_pressure") for pack in ("clutch", "brake")}
+
+
+def _flag(name: str, text: str, events: str, depends: tuple[str, ...]) -> Signal:
+    rises, _, falls = events.partition(", ")
+    return Signal(
+        name=name, unit="1", kind="boolean", help=text, depends=depends, events=(rises, falls)
+    )
+
+
+def _of_piston(pack: str) -> tuple[Signal, ...]:
+    return (
+        output(
+            f"{pack}_piston_pressure",
+            "Pa",
+            1e5,
+            f"pressure at the {pack}'s piston",
+            (f"{pack}_pressure",),
+        ),
+        output(f"{pack}_filled_time", "s", 1.0, f"time the {pack} was last filled (-1: never)"),
+        output(f"{pack}_kiss_time", "s", 1.0, f"time the {pack}'s piston last touched (-1: never)"),
+    )
+
+
+def _bearing_torque(gear: str) -> Signal:
+    text = f"friction of the {gear}'s thrust bearing against its first shaft"
+    return output(f"{gear}_bearing_torque", "N.m", 0.1, text, _TORQUES)
+
+
+def _filled(pack: str) -> Signal:
+    text = f"the {pack}'s piston has all its oil and can press"
+    return _flag(f"{pack}_filled", text, f"{pack} filled, {pack} empties", (f"{pack}_pressure",))
+
 
 OUTPUTS = (
-    output("clutch_load", "N", 5e3, "axial force on the clutch pack",
-           (*_COMMAND, "clutch_pressure")),
+    output("clutch_load", "N", 5e3, "axial force on the clutch pack", _PRESSED["clutch"]),
     output("clutch_speed", "rad/s", 100.0, "slip of the clutch, driven gear minus drum"),
-    output("brake_load", "N", 5e3, "axial force on the brake pack",
-           (*_COMMAND, "brake_pressure")),
+    output("brake_load", "N", 5e3, "axial force on the brake pack", _PRESSED["brake"]),
     output("brake_speed", "rad/s", 100.0, "slip of the brake, speed of the drum"),
     output("washer_load", "N", 100.0, "axial load on one thrust washer", _TORQUES),
     output("washer_speed", "rad/s", 100.0, "speed of a planet on its pin"),
@@ -321,37 +358,67 @@ OUTPUTS = (
     output("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
     output("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
     output("output_torque", "N.m", 100.0, "torque of gears and bearings on the carrier", _TORQUES),
-    output("output_acceleration", "rad/s2", 10.0, "acceleration of the vehicle, at the output",
-           _TORQUES),
+    output(
+        "output_acceleration",
+        "rad/s2",
+        10.0,
+        "acceleration of the vehicle, at the output",
+        _TORQUES,
+    ),
     output("clutch_hub_speed", "rad/s", 100.0, "speed of the clutch's hub, the driven gear"),
     output("clutch_drum_speed", "rad/s", 100.0, "speed of the clutch's drum"),
     output("brake_hub_speed", "rad/s", 100.0, "speed of the brake's hub, the drum"),
     output("brake_drum_speed", "rad/s", 100.0, "speed of the brake's housing: 0"),
-    *(output(f"{pack}_piston_pressure", "Pa", 1e5, f"pressure at the {pack}'s piston",
-             (f"{pack}_pressure",)) for pack in ("clutch", "brake")),
-    *(output(f"{pack}_filled_time", "s", 1.0, f"time the {pack} was last filled (-1: never)")
-      for pack in ("clutch", "brake")),
-    *(output(f"{pack}_kiss_time", "s", 1.0, f"time the {pack}'s piston last touched (-1: never)")
-      for pack in ("clutch", "brake")),
-    *(output(f"{gear}_bearing_torque", "N.m", 0.1,
-             f"friction of the {gear}'s thrust bearing against its first shaft", _TORQUES)
-      for gear in ("sun", "ring")),
+    *chain.from_iterable(zip(*map(_of_piston, ("clutch", "brake")), strict=True)),
+    *map(_bearing_torque, ("sun", "ring")),
     output("bearing_power", "W", 100.0, "heat of both thrust bearings, mean of the step", _TORQUES),
     output("bearing_heat", "J", 100.0, "heat of both thrust bearings since the start"),
-    Signal(name="clutch_locked", unit="1", kind="boolean", depends=_TORQUES,
-           help="the clutch sticks, its slip is exactly zero",
-           events=("clutch locked", "clutch broke away")),
-    Signal(name="brake_locked", unit="1", kind="boolean", depends=_TORQUES,
-           help="the brake sticks, the drum stands still",
-           events=("brake locked", "brake broke away")),
-    *(Signal(name=f"{pack}_filled", unit="1", kind="boolean", depends=(f"{pack}_pressure",),
-             help=f"the {pack}'s piston has all its oil and can press",
-             events=(f"{pack} filled", f"{pack} empties")) for pack in ("clutch", "brake")),
-    Signal(name="events", unit="1", kind="integer",
-           help="lock-ups and break-aways located so far"),
-    Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-           depends=_TORQUES, help="how the last step was solved"),
-)  # fmt: skip
+    _flag(
+        "clutch_locked",
+        "the clutch sticks, its slip is exactly zero",
+        "clutch locked, clutch broke away",
+        _TORQUES,
+    ),
+    _flag(
+        "brake_locked",
+        "the brake sticks, the drum stands still",
+        "brake locked, brake broke away",
+        _TORQUES,
+    ),
+    *map(_filled, ("clutch", "brake")),
+    Signal(name="events", unit="1", kind="integer", help="lock-ups and break-aways located so far"),
+    Signal(
+        name="solver_status",
+        unit="1",
+        kind="enumeration",
+        type="SolverStatus",
+        depends=_TORQUES,
+        help="how the last step was solved",
+    ),
+)
+
+
+def _plug(name: str, kind: str, text: str, **members: str) -> Terminal:
+    """Return a terminal: torques flow in, all else are signals; ``members``: their variables."""
+    found = tuple((v, m, "inflow" if m == "tau" else "signal") for m, v in members.items())
+    return Terminal(name=name, kind=f"thrustwasher.{kind}", help=text, members=found)
+
+
+def _pack_plug(pack: str) -> Terminal:
+    text = f"Slip speed and load of the {pack} out, its torque in"
+    return _plug(
+        pack, "PackFlange", text, w=f"{pack}_speed", tau=f"{pack}_torque", load=f"{pack}_load"
+    )
+
+
+# An upshift, from row to row: the brake lets go while the clutch takes over and locks.
+_COURSE = (
+    (0.0, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    (0.2, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    (0.5, 150.0, 0.0, 0.05, 0.2, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0),
+    (0.7, 300.0, 0.0, 0.05, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    (1.0, 300.0, 0.0, 0.05, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+)
 
 SPEC = ModelSpec(
     key="transmission",
@@ -365,31 +432,38 @@ SPEC = ModelSpec(
     kernel="thrustwasher.transmission.kernels.step",
     rules=RULES,
     terminals=(
-        *(Terminal(name=pack, kind="thrustwasher.PackFlange",
-                   help=f"Slip speed and load of the {pack} out, its torque in",
-                   members=((f"{pack}_speed", "w", "signal"), (f"{pack}_torque", "tau", "inflow"),
-                            (f"{pack}_load", "load", "signal")))
-          for pack in ("clutch", "brake")),
-        Terminal(name="mesh", kind="thrustwasher.MeshFlange",
-                 help="Speed and torque of a planet in the sun mesh out, its friction torque in",
-                 members=(("mesh_speed", "w", "signal"), ("mesh_torque", "tau", "inflow"),
-                          ("mesh_load", "load", "signal"))),
-        Terminal(name="washer", kind="thrustwasher.WasherFlange",
-                 help="Speed, load and tilt of one washer out, its torque in",
-                 members=(("washer_speed", "w", "signal"), ("washer_torque", "tau", "inflow"),
-                          ("washer_load", "load", "signal"), ("washer_tilt", "tilt", "signal"))),
-        Terminal(name="input_shaft", kind="thrustwasher.ShaftFlange",
-                 help="Speed of the engine out, its torque in",
-                 members=(("engine_speed", "w", "signal"),
-                          ("engine_torque_input", "tau", "inflow"))),
-        Terminal(name="output_shaft", kind="thrustwasher.ShaftFlange",
-                 help="Speed of the vehicle at the output out, its torque against it in",
-                 members=(("vehicle_speed", "w", "signal"),
-                          ("load_torque_input", "tau", "inflow"))),
+        *map(_pack_plug, ("clutch", "brake")),
+        _plug(
+            "mesh",
+            "MeshFlange",
+            "Speed and torque of a planet in the sun mesh out, its friction torque in",
+            w="mesh_speed",
+            tau="mesh_torque",
+            load="mesh_load",
+        ),
+        _plug(
+            "washer",
+            "WasherFlange",
+            "Speed, load and tilt of one washer out, its torque in",
+            w="washer_speed",
+            tau="washer_torque",
+            load="washer_load",
+            tilt="washer_tilt",
+        ),
+        _plug(
+            "input_shaft",
+            "ShaftFlange",
+            "Speed of the engine out, its torque in",
+            w="engine_speed",
+            tau="engine_torque_input",
+        ),
+        _plug(
+            "output_shaft",
+            "ShaftFlange",
+            "Speed of the vehicle at the output out, its torque against it in",
+            w="vehicle_speed",
+            tau="load_torque_input",
+        ),
     ),
-    # An upshift: the brake lets go while the clutch takes over and locks.
-    course=tuple((*row, 0.0, 0.0, 0.0, 0.0, 0.0) for row in (
-        (0.0, 0.0, 400.0, 0.05, 0.2, 0.0), (0.2, 0.0, 400.0, 0.05, 0.2, 0.0),
-        (0.5, 150.0, 0.0, 0.05, 0.2, 0.6), (0.7, 300.0, 0.0, 0.05, 0.2, 1.0),
-        (1.0, 300.0, 0.0, 0.05, 0.2, 1.0))),
-)  # fmt: skip
+    course=_COURSE,
+)

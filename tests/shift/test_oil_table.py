@@ -52,7 +52,7 @@ def test_a_parts_own_oil_overrides_and_is_said(tmp_path):
     scene = changed(tmp_path, "[mesh]\noil_density = 900.0")
     assert scene.parts["mesh"].params.oil_density == 900.0
     assert scene.parts["ring_mesh"].params.oil_density == 850.0
-    assert _remarks(scene, scene) == ["mesh: oil_density of its own, not of the scene's oil"]
+    assert _remarks(scene) == ["mesh: oil_density of its own, not of the scene's oil"]
 
 
 @pytest.mark.parametrize("base", ["planetary-sun", "planetary"])  # without and with an oil

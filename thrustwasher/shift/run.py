@@ -25,7 +25,7 @@ from .scene.scene import Part, Scene
 from .shift_result import Cost, ShiftResult
 
 Progress = Callable[[int, int], None]
-STRETCH = 0.02  # s between two looks at the progress, at least
+INTERVAL = 0.02  # s between two looks at the progress, at least
 
 
 def run_shift(
@@ -62,7 +62,7 @@ def run_shift(
     if scene.sequence is not None:
         raise ParameterError(f"scene {scene.name!r}: it has a [sequence], allowed: run_sequence")
     made_for, scene = scene, scene.with_options(step=step, master=master)
-    messages, found = _remarks(made_for, scene), _of_other_masters(made_for, scene)
+    messages, found = _remarks(scene), _of_other_masters(made_for, scene)
     system = connected(scene, instances)
     run = _laid_out(scene, system, messages)
     system.initialize(scene.start_time)
@@ -160,16 +160,16 @@ def result_of(
 
 
 def _drive(advance: Callable[[int, int], None], n: int, progress: Progress | None) -> None:
-    """Carry the run to its end in stretches that a person at a terminal does not notice."""
-    done, stretch = 0, max(1, n // 100)
+    """Carry the run to its end in intervals that a person at a terminal does not notice."""
+    done, interval = 0, max(1, n // 100)
     while done < n:
-        begin, stop = perf_counter(), min(done + stretch, n)
+        begin, stop = perf_counter(), min(done + interval, n)
         advance(done, stop)
         done = stop
         if progress is not None:
             progress(done, n)
-        if perf_counter() - begin < STRETCH:
-            stretch *= 2
+        if perf_counter() - begin < INTERVAL:
+            interval *= 2
 
 
 def advance_of(run: Run, compiled: bool | None) -> Callable[[int, int], None]:
@@ -216,13 +216,13 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
         instance = instances[name]
         if not hasattr(instance, "get"):
             continue
-        wanted = _numbers(part)
-        found = capable(instance).get(list(wanted))
-        for key, has in zip(wanted, found, strict=True):
-            if has != wanted[key]:
+        expected = _numbers(part)
+        found = capable(instance).get(list(expected))
+        for key, has in zip(expected, found, strict=True):
+            if has != expected[key]:
                 raise ParameterError(
                     f"{name}: the instance was made with {key} = {has:.9g}, scene "
-                    f"{scene.name!r} has {wanted[key]:.9g}; make it with "
+                    f"{scene.name!r} has {expected[key]:.9g}; make it with "
                     f"scene.parts[{name!r}].parameters()"
                 )
 
@@ -234,7 +234,7 @@ def _numbers(part: Part) -> dict[str, float]:
     return {**dict(zip(names, as_numbers(part.params), strict=True)), "fidelity": rung}
 
 
-def _remarks(made_for: Scene, scene: Scene) -> list[str]:
+def _remarks(scene: Scene) -> list[str]:
     """Return what a reader has to know before looking at any number."""
     remarks = list(scene.notes)
     gearbox = scene.parts["transmission"].params

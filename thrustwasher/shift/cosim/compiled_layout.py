@@ -31,7 +31,7 @@ def can_compile(run: Run) -> bool:
 
 
 class CompiledLoop:
-    """Steps the parts in compiled code; comes back to Python when one has something to say."""
+    """Steps the parts in compiled code; comes back to Python when one has logged something."""
 
     def __init__(self, run: Run) -> None:
         from . import compiled_loop as c
@@ -42,7 +42,7 @@ class CompiledLoop:
         n, recorder, hub = len(self.parts), run.recorder, run.system.transmission
         self._report = np.zeros(3, np.int64)
         self._spent, self._calls = np.zeros(n), np.zeros(n, np.int64)
-        self._told, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
+        self._back, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
         clock, tick = wall_clock(self._ticks)
         self._now = np.zeros(recorder.rows.shape[1])
         played = [p.instance.at(run.time[:-1]) for p in self.parts
@@ -50,7 +50,7 @@ class CompiledLoop:
         recorded = np.concatenate(played, axis=1) if played else np.zeros((1, 1))
         self._arguments: list[Any] = [
             np.array(self._operations, np.int64), np.array(self._places, np.int64), self._now,
-            self._told.ctypes.data, clock, tick, np.zeros(n), self._spent, self._calls, run.time,
+            self._back.ctypes.data, clock, tick, np.zeros(n), self._spent, self._calls, run.time,
             run.h, run.commands, recorder.input_place(hub, hub.input_names.index(COMMAND)),
             recorder.rows, recorded,
         ]  # fmt: skip
@@ -98,7 +98,7 @@ class CompiledLoop:
             self._played += count
             return
         fmu = capable(part.instance).machine()
-        call = {"component": fmu.component, "said": fmu.said, "third": fmu.third}
+        call = {"component": fmu.component, "logged": fmu.said, "third": fmu.third}
 
         def travel(kind: int, groups: Any, first: int) -> None:
             for group in groups:

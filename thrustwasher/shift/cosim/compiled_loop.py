@@ -16,9 +16,9 @@ from ...numerics.jit import kernel, way
 PULL, BEGIN, SET, STEP, GET, END, REPLAY = range(7)
 # Columns of an operation. REFERENCES .. FIRST: of a group of values of one type, VALUES its
 # address; PULL: how many pairs of places, and where in ``places`` they begin; REPLAY: how many
-# values, the column of the first one, and its place. SAID: address of a number that is not 0 once
+# values, the column of the first one, and its place. LOGGED: address of a number that is not 0 once
 # the part has logged something. THIRD: whether it is one of FMI 3.
-KIND, PART, FUNCTION, COMPONENT, REFERENCES, COUNT, VALUES, TYPE, FIRST, SAID, THIRD = range(11)
+KIND, PART, FUNCTION, COMPONENT, REFERENCES, COUNT, VALUES, TYPE, FIRST, LOGGED, THIRD = range(11)
 WIDTH = 11
 REAL, INT32, INT64, BYTE = range(4)  # types of values
 # What the caller hands over and gets back: the point, the operation to go on with, the status of
@@ -115,11 +115,11 @@ def _call(op: NDArray[np.int64]) -> int:
 
 
 @kernel
-def _step(op: NDArray[np.int64], t: float, h: float, told: int) -> int:
+def _step(op: NDArray[np.int64], t: float, h: float, back: int) -> int:
     """Let a part step and return the status."""
     function, component = op[FUNCTION], op[COMPONENT]
     if op[THIRD]:
-        status: int = step3(function)(component, t, h, 0, told, told + 8, told + 16, told + 24)
+        status: int = step3(function)(component, t, h, 0, back, back + 8, back + 16, back + 24)
     else:
         status = step2(function)(component, t, h, 0)
     return status
@@ -128,7 +128,7 @@ def _step(op: NDArray[np.int64], t: float, h: float, told: int) -> int:
 @kernel
 def run_operations(
     operations: NDArray[np.int64], places: NDArray[np.int64], now: NDArray[np.float64],
-    told: int, clock: NDArray[np.int64], tick: float, begun: NDArray[np.float64],
+    back: int, clock: NDArray[np.int64], tick: float, begun: NDArray[np.float64],
     spent: NDArray[np.float64], calls: NDArray[np.int64], time: NDArray[np.float64], h: float,
     commands: NDArray[np.float64], command: int, rows: NDArray[np.float64],
     recorded: NDArray[np.float64], stop: int, report: NDArray[np.int64],
@@ -167,12 +167,12 @@ def run_operations(
                 status = _call(op)
             elif kind == STEP:
                 calls[part] += 1
-                status = _step(op, time[i], h, told)
+                status = _step(op, time[i], h, back)
             else:
                 status = _call(op)
                 if status <= WARNING:
                     _take(op, now, places)
-            if status > WARNING or int64s(op[SAID])[0] != 0:
+            if status > WARNING or int64s(op[LOGGED])[0] != 0:
                 report[LAST_STATUS] = status
                 return REPORTED
         for k in range(len(now)):

@@ -88,11 +88,11 @@ class ConnectedPart:
         self.input_names = [s.name for s in spec.inputs]
         self.output_names = [s.name for s in spec.outputs]
         for kind in ("input", "output"):
-            found, wanted = (getattr(one, f"{kind}_names") for one in (instance, self))
-            if list(found) != wanted:
+            found, expected = (getattr(one, f"{kind}_names") for one in (instance, self))
+            if list(found) != expected:
                 raise ParameterError(
                     f"{name}: the instance has the {kind}s {', '.join(found)}, "
-                    f"{spec.name} of this version has {', '.join(wanted)}; build it again"
+                    f"{spec.name} of this version has {', '.join(expected)}; build it again"
                 )
         self.inputs = [float(s.start or 0.0) for s in spec.inputs]
         self.outputs = [0.0] * len(self.output_names)

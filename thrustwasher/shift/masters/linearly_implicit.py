@@ -102,15 +102,15 @@ class Correction:
 
     def words(self) -> list[str]:
         """Say what a reader has to know of the corrections of a run."""
-        said = [
+        messages = [
             f"{name}: no directional derivatives here (native FMUs have them); {NAME} took "
             "differences of its outputs" for name in sorted(self.by_differences)
         ]  # fmt: skip
-        said += [
+        messages += [
             f"{name}: no derivative in {n} steps; there its torque was passed on as it came"
             for name, n in self.without.items()
         ]
-        return said + [
+        return messages + [
             f"{name}: friction falls with slip, H c/J down to {gain:.2g}: the driveline itself is "
             "unstable there and the step is long beside its growth; nothing was damped"
             for name, gain in self.worst.items() if gain < -LONG
@@ -124,9 +124,9 @@ class Correction:
         try:
             hub.step(t, h)
             ahead = hub.outputs
-            wanted = h, [ahead[k] for k in self._whole]
-            if wanted != self._probed or self._age >= REFRESH:
-                self._probed, self._age = wanted, 0
+            now = h, [ahead[k] for k in self._whole]
+            if now != self._probed or self._age >= REFRESH:
+                self._probed, self._age = now, 0
                 columns = []
                 for wire in self.wires:
                     instance.set_state(start)

@@ -11,7 +11,7 @@ from ...model.prepare import check_together
 from ...model.spec import ModelSpec
 from ...model.toml_tables import number
 from ...transmission.bearings import BEARINGS
-from ...transmission.parameters import COURSES, course_points
+from ...transmission.parameters import course_points
 from ...transmission.vehicle import Vehicle
 from ...units import format_quantity
 from ..masters.master import FIXED_STEPS, MASTERS
@@ -155,12 +155,6 @@ class Scene:
         """Whether there is a thrust bearing of the sun and of the ring, by its name."""
         gearbox = self.parts["transmission"].params
         return {name: getattr(gearbox, f"{name}_coefficient") > 0.0 for name in BEARINGS}
-
-    def corners(self) -> set[float]:
-        """Return the times [s] at which a ramp or a course has a corner."""
-        gearbox = self.parts["transmission"].params
-        points = {t for name in COURSES for t, _ in course_points(gearbox, name)}
-        return {self.shift_start, self.shift_start + self.shift_duration} | points
 
     @property
     def kiss_end(self) -> float | None:

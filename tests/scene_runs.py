@@ -72,13 +72,23 @@ def shift(name, *, parts=None, **options):
     return run_shift(scene, instances(scene))
 
 
+def changed(folder, text, base="planetary"):
+    """Return a scene as a file of the folder changes it."""
+    path = folder / "mine.toml"
+    path.write_text(f'base = "{base}"\n{text}', encoding="utf-8")
+    return load_scene(path)
+
+
+def with_all_parts(scene):
+    """Return a scene and an instance for every part, the washer among them."""
+    parts = scene.parts.items()
+    return scene, {n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in parts}
+
+
 @cache
 def real_shift(name):
     """Return a scene's result with its own washer."""
-    scene = load_scene(name)
-    return run_shift(scene, {
-        n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in scene.parts.items()
-    })  # fmt: skip
+    return run_shift(*with_all_parts(load_scene(name)))
 
 
 @cache

@@ -17,10 +17,9 @@ from thrustwasher.study.macro_steps import (
     turns_of,
 )
 
-from .failure_cells import LIES, OK, SAYS, SLOW, Cell, Group, off, table
+from .failure_cells import LIES, OK, SAYS, Cell, Group, off, table
 
 WRONG_HEAT = 0.02
-MANY_STEPS = 10  # of the master for each that was asked for
 SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
 STOP, LOCKED = 1.1, 0.70  # s
 TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4  # of masters
@@ -66,10 +65,7 @@ def _judged(result: ShiftResult, true: float) -> Cell:
     turns = turns_of(slip, STANDING)
     right = abs(error) <= WRONG_HEAT
     if right and turns <= MOST_TURNS:
-        taken = len(result.time) - 1
-        words = f"{taken} steps, heat off by {100 * abs(error):.2g} %"
-        if taken > MANY_STEPS * (result.time[-1] - result.time[0]) / result.scene.step:
-            return Cell(SLOW, f"{taken} steps", words)
+        words = f"{result.steps} steps, heat off by {100 * abs(error):.2g} %"
         return Cell(OK, f"{100 * abs(error):.2f} %", words)
     words = "; ".join(f"{c.pack}: kappa = {c.kappa:.2g}" for c in result.chatter)
     figure = off(error) if not right else "chatters"

@@ -81,24 +81,6 @@ def in_process(scene):
     return run_shift(scene, parts)
 
 
-def test_step_doubling_steps_fmus_as_it_steps_kernels(fmus):
-    """States are saved and given back through FMI."""
-    scene = planetary("step-doubling", duration=0.02)
-    (found, made), wanted = run(scene, fmus, None), in_process(scene)
-    assert made["clutch"].saves_state and found.steps.rejected == wanted.steps.rejected > 0
-    np.testing.assert_allclose(found.time, wanted.time, rtol=1e-9)
-    slip, other = (r.signals["transmission.clutch_speed"] for r in (found, wanted))
-    np.testing.assert_allclose(slip, other, rtol=1e-9)
-
-
-def test_a_part_that_fails_at_any_step_ends_a_run_that_doubles_steps(fmus):
-    """Shorter steps are tried first; the message is the part's own."""
-    scene = replace(with_toy(9500.0), master="step-doubling")
-    failure, _ = run(scene, fmus, None)
-    with pytest.raises(SolveError, match=r"clutch at t = 0\.04.*MAX_ITERATIONS"):
-        raise failure
-
-
 def test_derivatives_through_fmi_correct_the_torques_as_those_of_the_kernels(fmus):
     """Python FMUs have none: there the outputs' differences serve, and the run says so."""
     scene = planetary("linearly-implicit")

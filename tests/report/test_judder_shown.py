@@ -55,12 +55,6 @@ def test_every_kind_of_swing_has_its_words(judder, kind, words):
     assert judder.as_dict()["kind"] == kind
 
 
-def test_a_master_that_chooses_its_steps_is_asked_for_a_smaller_tolerance():
-    adaptive = replace(shown(WORSE), master="step-doubling")
-    assert "lower master_tolerance" in words_on(adaptive)
-    assert "master_tolerance" not in words_on(shown(WORSE))
-
-
 def test_a_swing_that_decays_is_no_warning_and_all_others_are():
     assert summary.warnings(shown(DECAYS)) == summary.warnings(record(washer=False)) == []
     for judder in (GROWS, BY_STEP, HIDDEN, WORSE, STRANGE):

@@ -40,13 +40,6 @@ def test_jerk_before_the_shift_does_not_count():
     assert found(np.where(TIME < 0.05, 3.0, 1.0))["peak_jerk"] == 0.0
 
 
-def test_the_torque_hole_is_measured_from_what_comes_after():
-    felt = np.interp(TIME, [0.2, 0.4, 0.8, 0.82, 0.88], [1.9, 1.1, 1.3, 0.95, 1.2])
-    assert found(felt)["torque_hole"] == pytest.approx(0.25, rel=1e-9)
-    assert found(np.interp(TIME, [0.2, 0.9], [1.9, 1.2]))["torque_hole"] == 0.0
-    assert found(felt, lock=None)["torque_hole"] is None
-
-
 def test_flare_is_what_the_engine_runs_above_first_gear():
     engine = 200.0 * RATIO + 12.0 * np.exp(-(((TIME - 0.4) / 0.02) ** 2))
     assert found(np.ones_like(TIME), engine)["flare"] == pytest.approx(12.0, rel=1e-9)

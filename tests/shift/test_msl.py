@@ -28,6 +28,7 @@ def test_four_digits_at_1_ms(master):
     assert f["lock_speed"] == pytest.approx(LOCK_SPEED, rel=1e-4)
 
 
+@pytest.mark.slow
 @slow_without_jit
 @pytest.mark.parametrize("master", MASTERS)
 def test_five_digits_at_0_1_ms(master):
@@ -55,10 +56,10 @@ def test_lock_time_converges_with_the_order_of_the_capacities(master, extrapolat
 @slow_without_jit
 def test_drum_inertia_delays_the_lock_up_in_proportion():
     """First order in J_r: + 0.0257 s and - 0.419 rad/s per kg m2."""
-    base = shift("msl", stop_time=2.2, step=5e-4).figures
-    for inertia in (0.005, 0.01, 0.02):
+    base = shift("msl", stop_time=2.2).figures
+    for inertia in (0.005, 0.02):
         drum = {"transmission": {"drum_inertia": inertia}}
-        f = shift("msl", stop_time=2.2, step=5e-4, parts=drum).figures
+        f = shift("msl", stop_time=2.2, parts=drum).figures
         assert (f["lock_time"] - base["lock_time"]) / inertia == pytest.approx(0.0257, rel=0.03)
         assert (f["lock_speed"] - base["lock_speed"]) / inertia == pytest.approx(-0.419, rel=0.03)
 

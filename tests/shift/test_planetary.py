@@ -98,11 +98,13 @@ def test_the_course_has_a_torque_and_an_inertia_phase():
 
 @slow_without_jit
 def test_plain_torque_loop_finds_the_same_shift_at_small_steps():
-    """Coupling torque needs steps below 2 w0 J/T = 0.06 ms; it creeps instead of sticking."""
-    limit = 2.0 * 0.1 * 0.1157 / 389.0
-    held = {**SETTLED, **NO_DRAG, "transmission": {"washers": 0, "coupling": "torque"}}
+    """Coupling torque needs steps below 2 w0 J/T; it creeps instead of sticking."""
+    smoothing = 1.0
+    limit = 2.0 * smoothing * 0.1157 / 389.0
+    packs = {pack: {**given, "speed_smoothing": smoothing} for pack, given in SETTLED.items()}
+    held = {**packs, **NO_DRAG, "transmission": {"washers": 0, "coupling": "torque"}}
     r = shift("planetary-sun", parts=held, step=0.5 * limit, stop_time=1.9)
     reference = shift("planetary-sun", parts=SETTLED | NO_DRAG, stop_time=1.9)
     assert r.figures["slip_energy"] == pytest.approx(reference.figures["slip_energy"], rel=2e-3)
-    assert abs(r.signals["transmission.clutch_speed"][-1]) < 0.1
+    assert 0.0 < abs(r.signals["transmission.clutch_speed"][-1]) < smoothing
     assert r.energy["residual_share"] < 1e-9

@@ -4,9 +4,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scene_runs import slow_without_jit
+from scene_runs import slow_without_jit, with_all_parts
 
-from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift import load_scene, run_shift
 
 pytestmark = slow_without_jit
@@ -17,11 +16,7 @@ STOP = 0.75  # s: past lock-up
 def real(step=1e-3):
     """Return the default shift at a step, every part with its own kernels."""
     scene = load_scene("planetary-sun").with_options(step=step, stop_time=STOP)
-    parts = {
-        name: DirectInstance(part.spec, parameters=part.parameters())
-        for name, part in scene.parts.items()
-    }
-    return run_shift(scene, parts)
+    return run_shift(*with_all_parts(scene))
 
 
 def test_all_parts_are_there_and_all_end_well():
@@ -42,6 +37,7 @@ def test_the_book_closes_and_coupling_is_tight():
     assert sum(e[n] for n in parts) + e["residual"] == pytest.approx(e["engine_work"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_halving_the_step_changes_little():
     coarse, fine = real().figures, real(5e-4).figures
     for name in ("slip_energy", "lock_time", "mesh_loss", "slip_energy_per_area"):
@@ -61,10 +57,3 @@ def test_every_figure_of_washer_mesh_and_packs_is_found():
         assert found[name] is not None, name
     assert found["stress_margin_aisi1020"] < found["stress_margin_aisi4340"]
     assert found["mesh_loss"] == r.energy["meshes"]
-
-
-def test_the_mesh_runs_at_the_planets_torque_and_speed():
-    s = real().signals
-    assert (s["mesh.load"][1:] == s["transmission.mesh_load"][:-1]).all()
-    assert (s["mesh.speed"][1:] == s["transmission.mesh_speed"][:-1]).all()
-    assert (s["transmission.mesh_torque"][1:] == s["mesh.friction_torque"][1:]).all()

@@ -9,7 +9,8 @@ from scene_runs import real_shift, shift
 from thrustwasher.report.shift.shift_record import record_of
 from thrustwasher.report.shift.summary import warnings
 
-SHIFTS = ("planetary", "planetary-cold", "planetary-downshift", "planetary-transient", "msl")
+LONG = [pytest.param(n, marks=pytest.mark.slow) for n in ("planetary-cold", "planetary-downshift")]
+SHIFTS = ("planetary", "planetary-transient", "msl", *LONG)
 
 
 @cache

@@ -104,25 +104,6 @@ def test_the_record_and_the_table_hold_both_shifts(run, tmp_path):
     assert len((tmp_path / "all.csv").read_text("utf-8").splitlines()) == len(run.time) + 1
 
 
-@pytest.mark.parametrize(("given", "words"), [
-    ({"shifts": '[[0.0, "up"], [6.0, "up"]]'}, "'up' at 6 s after 'up' at 0 s, allowed: up and"),
-    ({"shifts": '[[6.0, "up"], [0.0, "down"]]'}, "a shift at 0 s, allowed: window"),
-    ({"shifts": '[[0.0, "up"], [1.0, "down"]]'}, "a shift at 1 s, allowed: window"),
-    ({"shifts": '[[0.0, "up"], [8.0, "down"]]'}, "a shift at 8 s"),
-    ({"shifts": '[[0.0, "side"]]'}, "allowed: pairs"),
-    ({"shifts": "[]"}, "allowed: pairs"),
-    ({"more": "[sequence.up]"}, "there is no 'up' here"),
-    ({"window": 0.0}, "window = 0.0 s, allowed"),
-    ({"more": "[sump]\nvolume = 0.0"}, "volume = 0"),
-])  # fmt: skip
-def test_a_sequence_out_of_order_and_a_sump_without_oil_are_refused_in_one_line(
-    given, words, tmp_path
-):
-    with pytest.raises(ParameterError) as told:
-        scene(tmp_path, **given)
-    assert words in str(told.value) and "\n" not in str(told.value)
-
-
 def test_the_still_picture_shows_oil_plates_and_speeds(run):
     from thrustwasher.report.shift.sequence_report import sequence_page
 
@@ -147,13 +128,6 @@ def test_the_page_holds_all_signals_and_a_row_for_each_shift(run):
     )
     assert [row[0] for row in page.sections[0].tables[0].rows] == ["1 up", "2 down"]
     assert len(render(page).encode()) < 2_000_000
-
-
-def test_a_shift_down_by_pistons_needs_its_courses(tmp_path):
-    path = tmp_path / "mine.toml"
-    path.write_text(BODY.partition("[sequence.down]")[0].format(shifts=TWO, stop=9, window=1.3))
-    with pytest.raises(ParameterError, match=r"down\] is missing"):
-        load_scene(path)
 
 
 def test_ramps_of_a_command_go_up_and_down(tmp_path):

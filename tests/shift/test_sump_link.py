@@ -2,21 +2,14 @@
 
 import numpy as np
 import pytest
+from scene_runs import changed, with_all_parts
 
-from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.shift import load_scene, run_shift
+from thrustwasher.shift import run_shift
 
 
 def test_the_oil_of_all_parts_is_the_sumps_and_every_washer_heats_it(tmp_path):
-    path = tmp_path / "mine.toml"
-    path.write_text(
-        'base = "planetary"\nstop_time = 0.02\n[sump]\nvolume = 1e-4\nhousing_capacity = 0.0\n'
-        'conductance = 0.0\n[washer]\nfidelity = "coarse"\n', encoding="utf-8",
-    )  # fmt: skip
-    scene = load_scene(path)
-    instances = {n: DirectInstance(p.spec, parameters=p.parameters())
-                 for n, p in scene.parts.items()}  # fmt: skip
-    s = run_shift(scene, instances).signals
+    text = "stop_time = 0.02\n[sump]\nvolume = 1e-4\nhousing_capacity = 0.0\nconductance = 0.0"
+    s = run_shift(*with_all_parts(changed(tmp_path, text))).signals
     oil = s["sump.temperature"]
     assert oil[0] == 358.15 and oil[-1] > oil[0]
     for part in ("clutch", "brake", "washer", "mesh", "ring_mesh"):
@@ -31,11 +24,7 @@ def test_the_oil_of_all_parts_is_the_sumps_and_every_washer_heats_it(tmp_path):
 
 def test_work_is_motion_load_heat_in_the_parts_and_heat_in_the_sump(tmp_path):
     """Driveline and parts count heat each over their own step: that difference is known."""
-    path = tmp_path / "mine.toml"
-    path.write_text('base = "planetary"\n[sump]\n', encoding="utf-8")
-    scene = load_scene(path)
-    r = run_shift(scene, {n: DirectInstance(p.spec, parameters=p.parameters())
-                          for n, p in scene.parts.items()})  # fmt: skip
+    r = run_shift(*with_all_parts(changed(tmp_path, "stop_time = 0.5\n[sump]")))
     s, h, book = r.signals, np.diff(r.time), r.energy
     count = {"clutch": 1, "brake": 1, "washer": 8, "mesh": 4, "ring_mesh": 4}
     made, stored = (

@@ -22,9 +22,8 @@ def marks():
             for case in cases:
                 yield model, {"cases": cases}, sample, case["name"]
     for way in WAYS:
-        knob, value = ("master_tolerance", "0.01") if way.adaptive else ("macro step", "2 ms")
-        sample = {"family": way.name, "label": f"{way.name}, {value}", "knob": knob, "value": value,
-                  "is_rival": False}  # fmt: skip
+        sample = {"family": way.name, "label": f"{way.name}, 2 ms", "knob": "macro step",
+                  "value": "2 ms", "is_rival": False}  # fmt: skip
         yield "shift", {"scene": "a shift"}, sample, "shift"
 
 

@@ -58,10 +58,3 @@ def test_torques_that_look_ahead_hand_over_without_chatter(limit):
     assert complaint(result, figures(result)) == ""
     found = [abs(errors(way, step, limit)[0]) for step in (8e-3, 2e-3)]
     assert found[1] < 0.1 * found[0] < 0.003
-
-
-def test_a_way_with_a_tolerance_has_it_in_place_of_a_step(limit):
-    truth, apart = limit
-    found = macro_steps.sample(Way("step-doubling"), 1e-3, truth, apart, 1)
-    assert found["knob"] == "master_tolerance" and found["value"] == "0.001"
-    assert not found["failures"] and found["errors"]["lock_time"]["worst"] < 5e-3

@@ -24,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_listed(parser, "shift")
     _options.add_listed(parser, "oil")
+    parser.add_argument("--master-tolerance", help=argparse.SUPPRESS)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -90,18 +91,12 @@ def _load_report() -> None:
 def _scene(arguments: argparse.Namespace, name: str) -> Any:
     """Return the scene of that name with what the options change."""
     from ..shift import load_scene, with_fidelities
-    from ..shift.masters.master import MASTERS
+    from ..shift.masters.master import FIXED_STEPS
 
     step = None if arguments.step is None else parse_quantity(arguments.step, "s", "step")
-    tolerance = arguments.master_tolerance
-    scene = load_scene(name, arguments.oil).with_options(
-        step=step, master=arguments.master,
-        master_tolerance=None if tolerance is None else parse_quantity(tolerance, "1", "tolerance"),
-    )  # fmt: skip
-    if tolerance is not None and not MASTERS[scene.master].adaptive:
-        raise ParameterError(
-            f"--master-tolerance with master {scene.master}, allowed: with --master step-doubling"
-        )
+    if arguments.master_tolerance is not None:
+        raise ParameterError(f"--master-tolerance: {FIXED_STEPS}")
+    scene = load_scene(name, arguments.oil).with_options(step=step, master=arguments.master)
     return with_fidelities(scene, arguments.fidelity)
 
 

@@ -90,13 +90,10 @@ def python_callback(entry: Entry) -> Callback:
 
 
 @cache
-def _pointer(item: str) -> Any:
-    """Return what makes of an address in a whole number one of numbers of a type."""
-    import numba
+def pointer(kind: Any) -> Any:
+    """Return what makes of an address, a whole number, a pointer of one of numba's types."""
+    from numba import types
     from numba.extending import intrinsic
-
-    types: Any = numba.types
-    kind = types.CPointer(getattr(types, item))
 
     @intrinsic
     def at(_typing: Any, address: Any) -> Any:
@@ -117,7 +114,8 @@ def compiled(callback: Callback) -> Any:
     kinds = [types.float64 if t == "float" else types.CPointer(getattr(types, t))
              for t in callback.types]  # fmt: skip
     scope = {"carray": compiler.carray, **callback.scope}
-    scope |= {f"at_{item}": _pointer(item) for item in ITEMS if f"at_{item}(" in callback.source}
+    scope |= {f"at_{item}": pointer(types.CPointer(getattr(types, item)))
+              for item in ITEMS if f"at_{item}(" in callback.source}  # fmt: skip
     exec(callback.source, scope)
     make = compiler.cfunc(types.int32(*kinds), error_model="numpy", boundscheck=False)
     return make(scope["entry"])

@@ -12,13 +12,12 @@ from ..model.parameters import as_numbers
 from ..numerics.jit import Array
 from .checks.holding import doubts_of_packs, failed_because
 from .checks.run_doubts import doubts
-from .cosim.loop import Recorder, Run, Steps, advance_in_python
+from .cosim.loop import Recorder, Run, advance_in_python
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, Stepping, System, capable
 from .key_figures.events_and_phases import find_events, find_phases
 from .key_figures.key_figures import energy_balance, key_figures
 from .masters.master import MASTERS
-from .masters.step_doubling import Doubling
 from .oscillation.chatter import find_chatter
 from .oscillation.judder import find_judder
 from .scene.connections import PACK_INPUTS, wired
@@ -26,7 +25,7 @@ from .scene.scene import Part, Scene
 from .shift_result import Cost, ShiftResult
 
 Progress = Callable[[int, int], None]
-STRETCH = 0.02  # s between two looks at the progress, at least
+INTERVAL = 0.02  # s between two looks at the progress, at least
 
 
 def run_shift(
@@ -63,59 +62,29 @@ def run_shift(
     if scene.sequence is not None:
         raise ParameterError(f"scene {scene.name!r}: it has a [sequence], allowed: run_sequence")
     made_for, scene = scene, scene.with_options(step=step, master=master)
-    messages, found = _remarks(made_for, scene), _of_other_masters(made_for, scene)
+    messages, found = _remarks(scene), _of_other_masters(made_for, scene)
     system = connected(scene, instances)
-    adaptive = MASTERS[scene.master].adaptive
-    if adaptive and compiled:
-        raise ParameterError(
-            f"compiled = True with master = {scene.master!r}, allowed: with masters of fixed steps"
-        )
-    run = None if adaptive else _laid_out(scene, system, messages)
+    run = _laid_out(scene, system, messages)
     system.initialize(scene.start_time)
     check_instances(made_for, instances)
     before = {n: (part.instance.calls, part.instance.wall_time) for n, part in system.parts.items()}
-    if run is None:
-        begin = perf_counter()
-        run, steps = run_adaptive(scene, system, progress)
-    else:
-        run.recorder.keep(0)
-        advance, n = advance_of(run, compiled), len(run.time) - 1
-        steps = Steps(n, 0, run.h, run.h, 0, 0)
-        begin = perf_counter()
-        try:
-            _drive(advance, n, progress)
-        except (ParameterError, SolveError) as problem:
-            why = failed_because(scene, run.time, run.recorder)
-            said = str(problem).rstrip(".")
-            told = f"{said}; {why}" if why else str(problem)
-            raise type(problem)(told) from (problem.__cause__ or problem)
+    run.recorder.keep(0)
+    advance = advance_of(run, compiled)
+    begin = perf_counter()
+    try:
+        _drive(advance, len(run.time) - 1, progress)
+    except (ParameterError, SolveError) as problem:
+        why = failed_because(scene, run.time, run.recorder)
+        message = f"{str(problem).rstrip('.')}; {why}" if why else str(problem)
+        raise type(problem)(message) from (problem.__cause__ or problem)
     wall = perf_counter() - begin
     cost = _costs(scene, system, before, wall)
-    result = result_of(scene, run, steps, wall, cost, messages, found)
+    result = result_of(scene, run, wall, cost, messages, found)
     if not guard:
         return result
     from .checks.guard import guarded, reset
 
     return guarded(result, reset(instances), partial(run_shift, compiled=compiled))
-
-
-def run_adaptive(scene: Scene, system: System, progress: Progress | None) -> tuple[Run, Steps]:
-    """Step an initialized system to the end with a master that chooses its steps itself."""
-    begin, end = scene.start_time, scene.stop_time
-    stops = [*(t for t in scene.corners() if begin < t < end), end]
-    master = Doubling(system, scene.master_tolerance, scene.command, stops, scene.step)
-    master.keep(begin)
-    time, said = begin, 0
-    while time < end:
-        time = master.advance()
-        percent = int(100.0 * (time - begin) / (end - begin))
-        if progress is not None and percent > said:
-            said = percent
-            progress(percent, 100)
-    steps, recorder = master.steps(), master.recorder
-    recorder.rows = recorder.rows[: len(master.time)]
-    commands = np.array([scene.command(t) for t in master.time])
-    return Run(system, [], np.array(master.time), steps.longest, commands, recorder), steps
 
 
 def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
@@ -148,9 +117,13 @@ def _costs(
 
 
 def result_of(
-    scene: Scene, run: Run, steps: Steps, wall: float, cost: list[Cost], messages: list[str],
+    scene: Scene,
+    run: Run,
+    wall: float,
+    cost: list[Cost],
+    messages: list[str],
     found: Sequence[str] = (),
-) -> ShiftResult:  # fmt: skip
+) -> ShiftResult:
     """Read everything from the rows of a finished run."""
     time, signals = run.time, run.recorder.signals()
     events = find_events(scene, time, signals)
@@ -160,7 +133,6 @@ def result_of(
     return ShiftResult(
         scene=scene,
         step=run.h,
-        steps=steps,
         master=scene.master,
         time=time,
         signals=signals,
@@ -179,7 +151,7 @@ def result_of(
         ],
         found=(
             *found,
-            *doubts(scene, run.h, steps, time, signals),
+            *doubts(scene, run.h, time, signals),
             *doubts_of_packs(scene, time, signals, events, figures),
         ),
         judder=judder,
@@ -188,16 +160,16 @@ def result_of(
 
 
 def _drive(advance: Callable[[int, int], None], n: int, progress: Progress | None) -> None:
-    """Carry the run to its end in stretches that a person at a terminal does not notice."""
-    done, stretch = 0, max(1, n // 100)
+    """Carry the run to its end in intervals that a person at a terminal does not notice."""
+    done, interval = 0, max(1, n // 100)
     while done < n:
-        begin, stop = perf_counter(), min(done + stretch, n)
+        begin, stop = perf_counter(), min(done + interval, n)
         advance(done, stop)
         done = stop
         if progress is not None:
             progress(done, n)
-        if perf_counter() - begin < STRETCH:
-            stretch *= 2
+        if perf_counter() - begin < INTERVAL:
+            interval *= 2
 
 
 def advance_of(run: Run, compiled: bool | None) -> Callable[[int, int], None]:
@@ -244,13 +216,13 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
         instance = instances[name]
         if not hasattr(instance, "get"):
             continue
-        wanted = _numbers(part)
-        found = capable(instance).get(list(wanted))
-        for key, has in zip(wanted, found, strict=True):
-            if has != wanted[key]:
+        expected = _numbers(part)
+        found = capable(instance).get(list(expected))
+        for key, has in zip(expected, found, strict=True):
+            if has != expected[key]:
                 raise ParameterError(
                     f"{name}: the instance was made with {key} = {has:.9g}, scene "
-                    f"{scene.name!r} has {wanted[key]:.9g}; make it with "
+                    f"{scene.name!r} has {expected[key]:.9g}; make it with "
                     f"scene.parts[{name!r}].parameters()"
                 )
 
@@ -262,7 +234,7 @@ def _numbers(part: Part) -> dict[str, float]:
     return {**dict(zip(names, as_numbers(part.params), strict=True)), "fidelity": rung}
 
 
-def _remarks(made_for: Scene, scene: Scene) -> list[str]:
+def _remarks(scene: Scene) -> list[str]:
     """Return what a reader has to know before looking at any number."""
     remarks = list(scene.notes)
     gearbox = scene.parts["transmission"].params

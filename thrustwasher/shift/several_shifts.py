@@ -17,7 +17,7 @@ from .checks.step_error import by_step, parts_of_a_step, recorded_parts
 from .checks.step_estimate import StepError, excess
 from .checks.washer_in_time import InTime
 from .checks.windows import Windows
-from .cosim.loop import Recorder, Run, Steps
+from .cosim.loop import Recorder, Run
 from .cosim.schedule import carry_out, gauss_seidel
 from .cosim.system import Stepping, System
 from .run import Progress, check_instances, connected, result_of
@@ -166,7 +166,7 @@ def _finer(
 ) -> ShiftResult:
     """Run one shift once more from where it began, with shorter steps."""
     shift = result.shifts[i].scene
-    n = result.shifts[i].steps.accepted
+    n = result.shifts[i].steps
     steps = round(n * parts_of_a_step(shift, shift.step, n))
     window = shift.stop_time - shift.start_time
     played = recorded_parts(result.scene, result.time, result.signals)
@@ -212,5 +212,4 @@ def _one(
     own_time = time[first:last]
     commands = np.array([shift.command(t) for t in own_time.tolist()])
     run = Run(system, [], own_time, shift.step, commands, own)
-    n = len(own_time) - 1
-    return result_of(shift, run, Steps(n, 0, run.h, run.h, 0, 0), 1.0, [], [])
+    return result_of(shift, run, 1.0, [], [])

@@ -12,10 +12,8 @@ from ..errors import ParameterError
 from ..model.record import absent_outputs, resolve
 from ..storage.whole_files import whole_file
 from .checks.step_estimate import StepError
-from .cosim.loop import Steps
 from .key_figures.events_and_phases import Event, Phase
 from .key_figures.figure_list import KeyFigure
-from .masters.master import MASTERS
 from .oscillation.chatter import Chatter
 from .oscillation.judder import Judder
 from .scene.connections import PARTS
@@ -49,8 +47,7 @@ class ShiftResult:
     """
 
     scene: Scene
-    step: float  # [s]; with a master that chooses its steps the longest one
-    steps: Steps
+    step: float  # [s]
     master: str
     time: NDArray[np.float64]
     signals: dict[str, NDArray[np.float64]]
@@ -76,6 +73,11 @@ class ShiftResult:
     chatter: Sequence[Chatter] = ()  # Packs whose slip flips from step to step
     selection: Selection | None = None
     """Why the rungs are what they are, if they were chosen for a tolerance."""
+
+    @property
+    def steps(self) -> int:
+        """The number of communication steps."""
+        return len(self.time) - 1
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -117,8 +119,7 @@ class ShiftResult:
             **{name: getattr(scene, name) for name in ("title", "start_time", "stop_time")},
             "step": self.step,
             "master": self.master,
-            "master_tolerance": scene.master_tolerance if MASTERS[self.master].adaptive else None,
-            "steps": self.steps._asdict(),
+            "steps": self.steps,
             **{name: getattr(scene, name) for name in RAMP},
             **self.figures,
             **{f"{f.name}_time": f.time for f in self.key_figures if f.time is not None},

@@ -17,7 +17,6 @@ import numpy as np
 from ..errors import ParameterError, SolveError
 from ..fmu.running.direct_instance import DirectInstance
 from ..numerics.jit import Array
-from ..shift.masters.master import MASTERS
 from ..shift.run import run_shift
 from ..shift.scene.connections import PACKS
 from ..shift.scene.scene import Scene
@@ -28,9 +27,6 @@ from .charts.work_precision import Sample
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
 QUICK_STEPS = (1e-2, 2e-3)
-TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of masters that choose their steps
-QUICK_TOLERANCES = (1e-2, 1e-3)
-FIRST_STEP = 1e-3  # of those
 TRUE_STEPS, QUICK_TRUE_STEPS = (1e-4, 5e-5), (4e-4, 2e-4)
 SLOW_SLIP = 0.5  # [rad/s]; with smoothed friction less counts as locked
 STANDING = 1e-3  # [rad/s]
@@ -52,11 +48,6 @@ class Way:
     rung: str = "field"
 
     @property
-    def adaptive(self) -> bool:
-        """It has a tolerance instead of a step."""
-        return MASTERS[self.master].adaptive
-
-    @property
     def name(self) -> str:
         """What the line is called."""
         what = "friction torque" if self.coupling == "torque" else (
@@ -74,15 +65,13 @@ WAYS = (
     Way("gauss-seidel", "torque"),
     Way("jacobi", "torque"),
     Way("linearly-implicit", "torque"),
-    Way("step-doubling"),
-    Way("step-doubling", "torque"),
     Way("gauss-seidel", rung="stribeck"),
     Way("gauss-seidel", rung="closed"),
 )
 
 
 def scene_of(way: Way, step: float) -> Scene:
-    """Return the shift to be run; ``step`` is the first one where the master chooses others."""
+    """Return the shift to be run in steps [s]."""
     scene = load_scene("planetary-sun").with_options(step=step, master=way.master)
     parts = {k: v for k, v in scene.parts.items() if k not in ("washer", "mesh")}
     gearbox = parts["transmission"]
@@ -152,9 +141,8 @@ def study(*, quick: bool = False, progress: Callable[[str], None] = print) -> di
     samples = []
     for way in WAYS:
         progress(f"shift: {way.name}")
-        steps, tolerances = (QUICK_STEPS, QUICK_TOLERANCES) if quick else (STEPS, TOLERANCES)
-        for knob in tolerances if way.adaptive else steps:
-            samples.append(sample(way, knob, truth, uncertainty, 1 if quick else 3))
+        for step in QUICK_STEPS if quick else STEPS:
+            samples.append(sample(way, step, truth, uncertainty, 1 if quick else 3))
     return {
         "scene": "planetary-sun without washers and gear mesh", "truth": truth, "samples": samples,
         "quantities": [q.as_dict() for q in QUANTITIES],
@@ -176,16 +164,14 @@ def small_step_limit(*, quick: bool = False) -> tuple[dict[str, float], dict[str
     return truth, apart
 
 
-def run(way: Way, knob: float) -> ShiftResult:
-    """Run the shift once; ``knob``: the step [s], or the tolerance of an adaptive way."""
-    scene = scene_of(way, FIRST_STEP if way.adaptive else knob)
-    if way.adaptive:
-        scene = scene.with_options(master_tolerance=knob)
+def run(way: Way, step: float) -> ShiftResult:
+    """Run the shift once in steps [s]."""
+    scene = scene_of(way, step)
     return run_shift(scene, instances(scene))
 
 
 def sample(
-    way: Way, knob: float, truth: Mapping[str, float], uncertainty: Mapping[str, float],
+    way: Way, step: float, truth: Mapping[str, float], uncertainty: Mapping[str, float],
     repeats: int,
 ) -> dict[str, Any]:  # fmt: skip
     """Return one sample in the layout of all charts; the cost is per simulated second."""
@@ -194,7 +180,7 @@ def sample(
     count = 0
     try:
         for _ in range(repeats):
-            result = run(way, knob)
+            result = run(way, step)
             span = float(result.time[-1] - result.time[0])
             wall.append(result.wall_time / span)
         count = sum(c.steps for c in result.cost)
@@ -207,11 +193,10 @@ def sample(
     errors: dict[str, dict[str, Any]] = {
         name: {"worst": error, "rms": error, "case": "shift"} for name, error in apart.items()
     }
-    value = f"{knob:g}" if way.adaptive else f"{1e3 * knob:g} ms"
+    value = f"{1e3 * step:g} ms"
     quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
     return Sample(
-        way.name, f"{way.name}, {value}", "master_tolerance" if way.adaptive else "macro step",
-        value, "planetary-sun", errors,
+        way.name, f"{way.name}, {value}", "macro step", value, "planetary-sun", errors,
         {q.name: uncertainty[q.name] / q.size(truth[q.name]) for q in QUANTITIES},
         statistics.median(wall) if wall else math.nan, quartiles[2] - quartiles[0],
         min(wall, default=math.nan), len(wall), math.nan, 0.0, float(count), "steps of all parts",

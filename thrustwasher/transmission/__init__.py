@@ -1,7 +1,8 @@
 """The planetary set with engine, vehicle, clutch and brake.
 
 ================  ==============================================================
-``parameters``    parameters, inputs and outputs: the one list of all interfaces
+``parameters``    parameters; with ``signals`` the one list of all interfaces
+``signals``       inputs, outputs and plugs
 ``bearings``      thrust bearings of sun and ring: parameters and rules
 ``vehicle``       a vehicle as inertia and load of the output
 ``mobility``      how slip and twist answer to torques

@@ -1,4 +1,4 @@
-"""Parameters, inputs and outputs of the shift transmission: the one list of all interfaces."""
+"""Parameters of the shift transmission; with ``signals`` the one list of all interfaces."""
 
 import math
 from collections.abc import Sequence
@@ -16,9 +16,10 @@ from ..model.parameters import (
     flag,
     other_names,
     quantity,
-)  # fmt: skip
-from ..model.spec import ModelSpec, Rule, Signal, Terminal, output
+)
+from ..model.spec import ModelSpec, Rule
 from .bearings import BEARINGS, bearing_fields, rubbing, two_ends
+from .signals import COURSE, INPUTS, OUTPUTS, TERMINALS
 
 ARRANGEMENT = {
     "sun-input": "the sun is driven, the brake holds the ring: first gear 1 + z_r/z_s",
@@ -88,53 +89,71 @@ def _order(name: str) -> Rule:
 
 RULES = (
     Rule("ring_teeth = {ring_teeth}, allowed: above sun_teeth ({sun_teeth})"),
-    Rule("planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
-         "{sun_teeth}), within one tooth with profile_shifted, or 0", _planet_teeth),
-    Rule("shaft_damping = {shaft_damping} N.m.s/rad, allowed: 0 with a rigid shaft "
-         "(shaft_stiffness = 0)"),
-    Rule("initial_twist = {initial_twist} rad, allowed: 0 with a rigid shaft "
-         "(shaft_stiffness = 0)"),
-    Rule("planets = {planets}, allowed: numbers that divide sun_teeth + ring_teeth ({sun_teeth} + "
-         "{ring_teeth}), or they cannot be put in"),
-    Rule("planets = {planets}, allowed: so many that their tips do not meet: (sun_teeth + "
-         "planet_teeth) sin(pi/planets) above planet_teeth + 2", _room),
-    Rule("piston_outer_radius = {piston_outer_radius} m, allowed: from piston_inner_radius "
-         "({piston_inner_radius} m) on"),
-    Rule("piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
-         "({piston_outer_radius} m)"),
+    Rule(
+        "planet_teeth = {planet_teeth}, allowed: half of ring_teeth - sun_teeth ({ring_teeth} - "
+        "{sun_teeth}), within one tooth with profile_shifted, or 0",
+        _planet_teeth,
+    ),
+    Rule(
+        "shaft_damping = {shaft_damping} N.m.s/rad, allowed: 0 with a rigid shaft "
+        "(shaft_stiffness = 0)"
+    ),
+    Rule(
+        "initial_twist = {initial_twist} rad, allowed: 0 with a rigid shaft (shaft_stiffness = 0)"
+    ),
+    Rule(
+        "planets = {planets}, allowed: numbers that divide sun_teeth + ring_teeth ({sun_teeth} + "
+        "{ring_teeth}), or they cannot be put in"
+    ),
+    Rule(
+        "planets = {planets}, allowed: so many that their tips do not meet: (sun_teeth + "
+        "planet_teeth) sin(pi/planets) above planet_teeth + 2",
+        _room,
+    ),
+    Rule(
+        "piston_outer_radius = {piston_outer_radius} m, allowed: from piston_inner_radius "
+        "({piston_inner_radius} m) on"
+    ),
+    Rule(
+        "piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
+        "({piston_outer_radius} m)"
+    ),
     *map(_order, COURSES),
     *map(two_ends, BEARINGS),
     *map(rubbing, BEARINGS),
-)  # fmt: skip
+)
 
 
 def _piston(pack: str) -> dict[str, Any]:
-    return {
-        f"{pack}_piston_area": quantity(8e-3, "m2", 0.0, 10.0, f"area of the {pack}'s piston"),
-        f"{pack}_return_spring": quantity(
-            3e4, "Pa", 0.0, 1e8, f"pressure that holds the {pack}'s return spring"
-        ),
-        f"{pack}_fill_volume": quantity(
-            0.0, "m3", 0.0, 0.1, f"oil that fills the {pack}'s piston (0: filled at once)"
-        ),
-        f"{pack}_fill_flow": quantity(
-            1e-4, "m3/s", 1e-9, 1.0, f"flow that fills or empties the {pack}"
-        ),
-        f"{pack}_pressure_lag": quantity(
-            0.0, "s", 0.0, 10.0, f"time constant of the {pack}'s pressure behind its command"
+    its = f"the {pack}'s"
+    given = {
+        "piston_area": (8e-3, "m2", 0.0, 10.0, f"area of {its} piston"),
+        "return_spring": (3e4, "Pa", 0.0, 1e8, f"pressure that holds {its} return spring"),
+        "fill_volume": (0.0, "m3", 0.0, 0.1, f"oil that fills {its} piston (0: filled at once)"),
+        "fill_flow": (1e-4, "m3/s", 1e-9, 1.0, f"flow that fills or empties the {pack}"),
+        "pressure_lag": (
+            0.0,
+            "s",
+            0.0,
+            10.0,
+            f"time constant of {its} pressure behind its command",
         ),
     }
+    return {f"{pack}_{name}": quantity(*about) for name, about in given.items()}
 
 
 def _course(name: str, unit: str, low: float, high: float, text: str) -> dict[str, Any]:
-    numbers = range(1, POINTS + 1)
+    time, value = f"{text}: time of point", f"{text}: value of point"
+    n = range(1, POINTS + 1)
     return {
         f"{name}_points": count(0, 0, POINTS, f"number of points of the {text} over time"),
-        **{f"{name}_time_{i}": quantity(0.0, "s", -1e6, 1e6, f"{text}: time of point {i}")
-           for i in numbers},
-        **{f"{name}_{i}": quantity(0.0, unit, low, high, f"{text}: value of point {i}")
-           for i in numbers},
-    }  # fmt: skip
+        **{f"{name}_time_{i}": quantity(0.0, "s", -1e6, 1e6, f"{time} {i}") for i in n},
+        **{f"{name}_{i}": quantity(0.0, unit, low, high, f"{value} {i}") for i in n},
+    }
+
+
+def _force(text: str) -> Any:
+    return quantity(5898.0, "N", 0.0, 1e6, text, read_by=(("actuation", "command"),))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,22 +193,8 @@ class _TransmissionParams:
     engine_start_time: float = quantity(0.0, "s", -1e9, 1e9, "time the engine torque is turned on")
     load_torque: float = quantity(250.0, "N.m", 0.0, 1e6, "load torque at load_speed, grows as w^2")
     load_speed: float = quantity(100.0, "rad/s", 1e-3, 1e4, "output speed load_torque belongs to")
-    clutch_force: float = quantity(
-        5898.0,
-        "N",
-        0.0,
-        1e6,
-        "clutch load at shift_command = 1",
-        read_by=(("actuation", "command"),),
-    )
-    brake_force: float = quantity(
-        5898.0,
-        "N",
-        0.0,
-        1e6,
-        "brake load at shift_command = 0",
-        read_by=(("actuation", "command"),),
-    )
+    clutch_force: float = _force("clutch load at shift_command = 1")
+    brake_force: float = _force("brake load at shift_command = 0")
     washers: int = count(8, 0, 100, "number of thrust washers on all planets together")
     washer_radius: float = quantity(0.0085, "m", 1e-3, 1.0, "radius the washer's load acts at")
     thrust_share: float = quantity(0.1, "1", 0.0, 1.0, "share of tilting couple washers take")
@@ -251,108 +256,6 @@ for _name, _about in COURSES.items():
 TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionParams", _MORE))
 
 
-def _torque(name: str, text: str) -> Signal:
-    return Signal(name=name, unit="N.m", help=text, low=-1e6, high=1e6, nominal=100.0, start=0.0)
-
-
-INPUTS = (
-    _torque("clutch_torque", "clutch's torque capacity (coupling torque: friction torque)"),
-    _torque("brake_torque", "brake's torque capacity (coupling torque: friction torque)"),
-    _torque("washer_torque", "friction torque of one thrust washer"),
-    _torque("mesh_torque", "friction torque of one sun mesh, referred to the planet"),
-    Signal(name="shift_command", unit="1", help="0 first gear, 1 second gear, at the step's end",
-           low=0.0, high=1.0, nominal=1.0, start=0.0),
-    *(Signal(name=f"{pack}_pressure", unit="Pa", low=0.0, high=1e8, nominal=1e5, start=0.0,
-             help=f"pressure of the {pack} beside its course, at the step's end")
-      for pack in ("clutch", "brake")),
-    _torque("engine_torque_input", "torque of an engine model, beside the engine's own"),
-    _torque("load_torque_input", "torque of a vehicle model against the output, beside the load's"),
-    _torque("ring_mesh_torque", "friction torque of one ring mesh, referred to the planet"),
-)  # fmt: skip
-_ENGINE, _LOAD = ("engine_torque_input",), ("load_torque_input",)
-_TORQUES = (*(signal.name for signal in INPUTS[:4]), *_ENGINE, *_LOAD, "ring_mesh_torque")
-_PACKS = (
-    *_TORQUES[:2],
-    *_ENGINE,
-    *_LOAD,
-)  # drag decides only who holds a clutch beyond its capacity, not how much
-_COMMAND = ("shift_command",)
-
-OUTPUTS = (
-    output("clutch_load", "N", 5e3, "axial force on the clutch pack",
-           (*_COMMAND, "clutch_pressure")),
-    output("clutch_speed", "rad/s", 100.0, "slip of the clutch, driven gear minus drum"),
-    output("brake_load", "N", 5e3, "axial force on the brake pack",
-           (*_COMMAND, "brake_pressure")),
-    output("brake_speed", "rad/s", 100.0, "slip of the brake, speed of the drum"),
-    output("washer_load", "N", 100.0, "axial load on one thrust washer", _TORQUES),
-    output("washer_speed", "rad/s", 100.0, "speed of a planet on its pin"),
-    output("washer_tilt", "rad", 1e-3, "tilt of a planet against the carrier"),
-    output("mesh_load", "N.m", 10.0, "torque of one planet in its sun and its ring mesh", _TORQUES),
-    output("mesh_speed", "rad/s", 100.0, "speed of a planet against the carrier"),
-    output("engine_speed", "rad/s", 100.0, "speed of engine and driven gear"),
-    output("output_speed", "rad/s", 100.0, "speed of carrier and output"),
-    output("drum_speed", "rad/s", 100.0, "speed of drum and braked gear"),
-    output("drive_torque", "N.m", 100.0, "torque of the engine now", _ENGINE),
-    output("resistance_torque", "N.m", 100.0, "torque of the load now", _LOAD),
-    output("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _PACKS),
-    output("brake_reaction", "N.m", 100.0, "torque the brake really holds", _TORQUES),
-    output("input_tooth_torque", "N.m", 100.0, "torque in the driven gear's teeth", _TORQUES),
-    output("drag_torque", "N.m", 1.0, "drag of washers and meshes at the driven gear", _TORQUES),
-    output("tooth_force", "N", 1e3, "tangential force in one mesh", _TORQUES),
-    output("tilting_couple", "N.m", 10.0, "couple of the axial tooth forces on a planet", _TORQUES),
-    output("sun_thrust", "N", 1e3, "axial force on the sun gear, against the ring's", _TORQUES),
-    output("engine_work", "J", 1e4, "work of the engine since the start"),
-    output("load_work", "J", 1e4, "work into the load since the start"),
-    output("kinetic_energy", "J", 1e4, "kinetic energy of the driveline"),
-    output("kinetic_change", "J", 1e4, "kinetic energy gained since the start"),
-    output("clutch_heat", "J", 1e4, "heat of the clutch since the start, mechanical side"),
-    output("brake_heat", "J", 1e4, "heat of the brake since the start, mechanical side"),
-    output("washer_heat", "J", 100.0, "heat of all washers since the start"),
-    output("mesh_heat", "J", 100.0, "heat of all meshes since the start"),
-    output("energy_residual", "J", 1.0, "energy that the book cannot account for"),
-    output("lock_time", "s", 1.0, "time the clutch last locked (-1: it never did)"),
-    output("lock_speed", "rad/s", 100.0, "engine speed when the clutch last locked"),
-    output("release_time", "s", 1.0, "time the brake last broke away (-1: it never did)"),
-    output("oil_supply_temperature", "K", 300.0, "temperature of the oil sent to every part"),
-    output("vehicle_speed", "rad/s", 100.0, "speed of the vehicle behind the output shaft"),
-    output("shaft_torque", "N.m", 100.0, "torque of the output shaft (rigid: of the load)", _LOAD),
-    output("shaft_twist", "rad", 0.1, "twist of the output shaft, carrier before vehicle"),
-    output("shaft_heat", "J", 100.0, "heat of the shaft's damping since the start"),
-    output("shaft_energy", "J", 100.0, "energy the shaft's spring gained since the start"),
-    output("output_torque", "N.m", 100.0, "torque of gears and bearings on the carrier", _TORQUES),
-    output("output_acceleration", "rad/s2", 10.0, "acceleration of the vehicle, at the output",
-           _TORQUES),
-    output("clutch_hub_speed", "rad/s", 100.0, "speed of the clutch's hub, the driven gear"),
-    output("clutch_drum_speed", "rad/s", 100.0, "speed of the clutch's drum"),
-    output("brake_hub_speed", "rad/s", 100.0, "speed of the brake's hub, the drum"),
-    output("brake_drum_speed", "rad/s", 100.0, "speed of the brake's housing: 0"),
-    *(output(f"{pack}_piston_pressure", "Pa", 1e5, f"pressure at the {pack}'s piston",
-             (f"{pack}_pressure",)) for pack in ("clutch", "brake")),
-    *(output(f"{pack}_filled_time", "s", 1.0, f"time the {pack} was last filled (-1: never)")
-      for pack in ("clutch", "brake")),
-    *(output(f"{pack}_kiss_time", "s", 1.0, f"time the {pack}'s piston last touched (-1: never)")
-      for pack in ("clutch", "brake")),
-    *(output(f"{gear}_bearing_torque", "N.m", 0.1,
-             f"friction of the {gear}'s thrust bearing against its first shaft", _TORQUES)
-      for gear in ("sun", "ring")),
-    output("bearing_power", "W", 100.0, "heat of both thrust bearings, mean of the step", _TORQUES),
-    output("bearing_heat", "J", 100.0, "heat of both thrust bearings since the start"),
-    Signal(name="clutch_locked", unit="1", kind="boolean", depends=_TORQUES,
-           help="the clutch sticks, its slip is exactly zero",
-           events=("clutch locked", "clutch broke away")),
-    Signal(name="brake_locked", unit="1", kind="boolean", depends=_TORQUES,
-           help="the brake sticks, the drum stands still",
-           events=("brake locked", "brake broke away")),
-    *(Signal(name=f"{pack}_filled", unit="1", kind="boolean", depends=(f"{pack}_pressure",),
-             help=f"the {pack}'s piston has all its oil and can press",
-             events=(f"{pack} filled", f"{pack} empties")) for pack in ("clutch", "brake")),
-    Signal(name="events", unit="1", kind="integer",
-           help="lock-ups and break-aways located so far"),
-    Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-           depends=_TORQUES, help="how the last step was solved"),
-)  # fmt: skip
-
 SPEC = ModelSpec(
     key="transmission",
     name="ShiftTransmission",
@@ -364,32 +267,6 @@ SPEC = ModelSpec(
     outputs=OUTPUTS,
     kernel="thrustwasher.transmission.kernels.step",
     rules=RULES,
-    terminals=(
-        *(Terminal(name=pack, kind="thrustwasher.PackFlange",
-                   help=f"Slip speed and load of the {pack} out, its torque in",
-                   members=((f"{pack}_speed", "w", "signal"), (f"{pack}_torque", "tau", "inflow"),
-                            (f"{pack}_load", "load", "signal")))
-          for pack in ("clutch", "brake")),
-        Terminal(name="mesh", kind="thrustwasher.MeshFlange",
-                 help="Speed and torque of a planet in the sun mesh out, its friction torque in",
-                 members=(("mesh_speed", "w", "signal"), ("mesh_torque", "tau", "inflow"),
-                          ("mesh_load", "load", "signal"))),
-        Terminal(name="washer", kind="thrustwasher.WasherFlange",
-                 help="Speed, load and tilt of one washer out, its torque in",
-                 members=(("washer_speed", "w", "signal"), ("washer_torque", "tau", "inflow"),
-                          ("washer_load", "load", "signal"), ("washer_tilt", "tilt", "signal"))),
-        Terminal(name="input_shaft", kind="thrustwasher.ShaftFlange",
-                 help="Speed of the engine out, its torque in",
-                 members=(("engine_speed", "w", "signal"),
-                          ("engine_torque_input", "tau", "inflow"))),
-        Terminal(name="output_shaft", kind="thrustwasher.ShaftFlange",
-                 help="Speed of the vehicle at the output out, its torque against it in",
-                 members=(("vehicle_speed", "w", "signal"),
-                          ("load_torque_input", "tau", "inflow"))),
-    ),
-    # An upshift: the brake lets go while the clutch takes over and locks.
-    course=tuple((*row, 0.0, 0.0, 0.0, 0.0, 0.0) for row in (
-        (0.0, 0.0, 400.0, 0.05, 0.2, 0.0), (0.2, 0.0, 400.0, 0.05, 0.2, 0.0),
-        (0.5, 150.0, 0.0, 0.05, 0.2, 0.6), (0.7, 300.0, 0.0, 0.05, 0.2, 1.0),
-        (1.0, 300.0, 0.0, 0.05, 0.2, 1.0))),
-)  # fmt: skip
+    terminals=TERMINALS,
+    course=COURSE,
+)

@@ -27,14 +27,14 @@ def made(scene, given):
 
 @cache
 def at(name, step):
-    return shift(name, step=step)
+    return shift(name, step=step, stop_time=2.3 if name == "msl" else None)
 
 
 @pytest.mark.parametrize(
     ("name", "step"), [("planetary", 0.01), ("planetary", 0.02), ("msl", 5e-3), ("msl", 2e-3)]
 )
 def test_predicted_errors_are_within_a_factor_of_two_of_the_true_ones(name, step):
-    run, true = at(name, step), at(name, 1e-4 if name == "planetary" else 2.5e-4)
+    run, true = at(name, step), at(name, 2e-4 if name == "planetary" else 2.5e-4)
     said, known = step_error(run, made, run_shift).errors(), errors_between(run, true, 1.0)
     for figure in ("lock_time", "heat"):
         assert 0.5 * known[figure] < said[figure] < 2.0 * known[figure]
@@ -89,16 +89,6 @@ def test_second_runs_stay_within_the_steps_a_run_may_have():
     assert parts_of_a_step(scene, 0.1, 50) == 128.0
     assert parts_of_a_step(scene, 1e-3, MAX_STEPS) == 0.5
     assert parts_of_a_step(scene, 1e-6, 100) == 0.5
-
-
-def test_steps_by_tolerance_are_judged_by_a_smaller_tolerance():
-    scene = load_scene("msl").with_options(
-        master="step-doubling", master_tolerance=1e-2, stop_time=2.3
-    )
-    run = run_shift(scene, instances(scene))
-    found = step_error(run, made, run_shift)
-    true = errors_between(run, shift("msl", step=2.5e-4, stop_time=2.3), 1.0)
-    assert found.tolerance is not None and found.relative > 0.3 * max(true.values())
 
 
 def test_advice_is_1_2_or_5():

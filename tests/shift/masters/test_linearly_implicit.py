@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scene_runs import NO_DRAG, instances, shift
+from scene_runs import NO_DRAG, PetroffWasher, instances, shift
 
+from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.shift import load_scene, run_shift
 
 MASTER = "linearly-implicit"
@@ -52,3 +53,12 @@ def late_drag(master):
 def test_drag_is_that_of_the_load_it_changes_itself():
     """The ramp changes the teeth's load; held, their drag is that of a step before."""
     assert late_drag(MASTER) < 0.1 * late_drag("gauss-seidel")
+
+
+def test_a_part_that_gives_no_slope_is_named():
+    scene = load_scene("planetary-sun").with_options(master=MASTER, stop_time=0.01)
+    scene = replace(scene, parts={n: p for n, p in scene.parts.items() if n != "mesh"})
+    made = instances(scene)
+    assert isinstance(made["washer"], PetroffWasher)
+    with pytest.raises((ParameterError, SolveError), match=f"{MASTER}.*washer"):
+        run_shift(scene, made)

@@ -11,11 +11,9 @@ from typing import Any, NamedTuple
 
 # C types of values -> how a compiled loop calls them.
 KINDS = {
-    ctypes.c_double: "real", ctypes.c_int: "int32", ctypes.c_int32: "int32",
-    ctypes.c_int64: "int64", ctypes.c_bool: "byte",
+    ctypes.c_double: "REAL", ctypes.c_int: "INT32", ctypes.c_int32: "INT32",
+    ctypes.c_int64: "INT64", ctypes.c_bool: "BYTE",
 }  # fmt: skip
-
-
 # Of both versions: type of a variable -> (name in calls, C type).
 TYPES: dict[int, dict[str, tuple[str, Any]]] = {
     2: {"Real": ("Real", ctypes.c_double), "Integer": ("Integer", ctypes.c_int),
@@ -139,6 +137,7 @@ class MachineGroup(NamedTuple):
     function: int
     references: int  # address of the value references
     places: list[int]  # where the values stand among all inputs or outputs
+    values: int  # address of the values
     kind: str
 
 
@@ -168,7 +167,8 @@ def machine_of(protocol: Protocol, inputs: Table, outputs: Table, said: Any) -> 
 def _group(group: Group, function: Any) -> MachineGroup:
     kind = KINDS[group.values._type_]
     references = ctypes.addressof(group.references)
-    return MachineGroup(_address(function), references, group.places, kind)
+    values = ctypes.addressof(group.values)
+    return MachineGroup(_address(function), references, group.places, values, kind)
 
 
 def _address(function: Any) -> int:

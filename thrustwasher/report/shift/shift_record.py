@@ -116,7 +116,6 @@ class Record:
     """Why the rungs are what they are (``shift.tolerance``); None: they were named."""
     guard: Any = None
     """How they were checked after the run, and what was run again; None: they were not."""
-    steps: Any = None
     """None: all as long as ``step``."""
     reach: float | None = None
     """Way of the vehicle per angle of the output [m/rad]; None: there is no vehicle."""
@@ -216,6 +215,5 @@ def record_of(result: Any) -> Record:
         chatter=result.chatter,
         selection=result.selection,
         guard=result.guard,
-        steps=result.steps if result.steps.shortest < result.steps.longest else None,
         reach=scene.vehicle.reach if scene.vehicle else None,
     )

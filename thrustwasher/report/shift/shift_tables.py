@@ -209,7 +209,7 @@ def settings(record: Record) -> dict[str, str]:
     rungs = [f"{name} {row[1]}" for name, rows in tables for row in rows if row[0] == "fidelity"]
     given = {
         "scene": f"{record.name}: {record.title}",
-        "communication step": say(record.step, "s") if record.steps is None else "chosen",
+        "communication step": say(record.step, "s"),
         "master": record.master,
         "rungs": ", ".join(rungs),
         "temperature of the oil": say(record.oil_temperature, "K"),

@@ -137,7 +137,7 @@ def failed_because(scene: Scene, time: Array, recorder: Recorder) -> str:
     """
     signals = recorder.signals()
     done = np.flatnonzero(np.isfinite(signals["transmission.clutch_load"]))
-    told = list(scene.warnings)
+    reasons = list(scene.warnings)
     if len(done):
         reached = {name: values[: done[-1] + 1] for name, values in signals.items()}
         locked = np.logical_or(*(reached[f"transmission.{p}_locked"] > 0.5 for p in PACKS))
@@ -146,8 +146,8 @@ def failed_because(scene: Scene, time: Array, recorder: Recorder) -> str:
             since = float(time[held[-1]]) if len(held) else float(time[0])
             now = "neither is pressed" if _open(reached)[-1] else "they only slip"
             speed = float(reached["transmission.engine_speed"][-1])
-            told.insert(0, (
+            reasons.insert(0, (
                 f"since {since:.4g} s no pack held ({now} at {time[done[-1]]:.4g} s) and the "
                 f"engine reached {say(speed, 'rad/s')}: look at the pressures of both packs"
             ))  # fmt: skip
-    return "; ".join(told)
+    return "; ".join(reasons)

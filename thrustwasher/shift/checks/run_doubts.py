@@ -9,7 +9,6 @@ from ...errors import ParameterError, Status
 from ...model.advice import outside_verified
 from ...numerics.jit import Array
 from ...units import format_quantity as say
-from ..cosim.loop import Steps
 from ..key_figures.figure_list import FILM_SPEED
 from ..scene.doubts import idle_parameters
 from ..scene.scene import Scene
@@ -20,17 +19,17 @@ MOST_OUTSIDE = 0.05  # share of a run's points that a map may leave to the field
 ROOM = 1e-6  # of a box's width
 
 
-def doubts(scene: Scene, step: float, steps: Steps, time: Array, signals: Signals) -> Iterator[str]:
+def doubts(scene: Scene, step: float, time: Array, signals: Signals) -> Iterator[str]:
     """Yield what must not be missed, a line each."""
     yield from dict.fromkeys((*scene.warnings, *idle_parameters(scene)))
-    yield from _of_times(scene, step, steps)
+    yield from _of_times(scene, step)
     yield from _of_solvers(scene, time, signals)
     yield from _of_boxes(scene, signals)
     yield from _of_maps(scene, signals)
     yield from _of_dry_friction(scene, time, signals)
 
 
-def _of_times(scene: Scene, step: float, steps: Steps) -> Iterator[str]:
+def _of_times(scene: Scene, step: float) -> Iterator[str]:
     begin, end = scene.shift_start, scene.shift_start + scene.shift_duration
     if begin < scene.start_time:
         yield (
@@ -48,15 +47,10 @@ def _of_times(scene: Scene, step: float, steps: Steps) -> Iterator[str]:
             f"The run ends at {scene.stop_time:.4g} s, before the pressures of the shift have "
             f"settled at {end:.4g} s: figures are those so far; set a later stop_time"
         )
-    if steps.shortest == steps.longest and abs(step / scene.step - 1.0) > OTHER_STEP:
+    if abs(step / scene.step - 1.0) > OTHER_STEP:
         yield (
             f"The step is {say(step, 's', digits=4)}, not {say(scene.step, 's', digits=4)}: whole "
             "steps end at the stop time"
-        )
-    if steps.forced:
-        yield (
-            f"{steps.forced} steps of the least length err more than master_tolerance: something "
-            "jumps there; take a larger master_tolerance or coupling 'capacity'"
         )
 
 

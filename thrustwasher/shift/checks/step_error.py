@@ -16,7 +16,7 @@ from ..cosim.recorded import Recorded
 from ..cosim.system import Stepping
 from ..masters.master import MASTERS
 from ..scene.connections import DIRECT
-from ..scene.scene import MAX_STEPS, STEP_RANGE, TOLERANCE_RANGE, Scene
+from ..scene.scene import MAX_STEPS, STEP_RANGE, Scene
 from ..shift_result import ShiftResult
 from .step_estimate import LIMITS, StepError, excess
 
@@ -24,7 +24,6 @@ SAFE = 0.8  # of a limit: what an advice has to keep
 TRIED = 2.0  # of the step that the error's order says would do: the longest that is tried
 LEAST, ENOUGH = 4, 4000  # the second run: steps as short at least; so many of them do
 LEAST_HEAT, LEAST_JERK = 1e-4, 1.0  # of the work done, m/s3: shares of less say nothing
-LESS = 0.25  # of master_tolerance, whose root the error goes with
 Run = Callable[[Scene, Mapping[str, Stepping]], ShiftResult]
 Make = Callable[[Scene, Mapping[str, Stepping]], dict[str, Stepping]]
 
@@ -38,16 +37,12 @@ def step_error(result: ShiftResult, make: Make, run: Run) -> StepError:
     scene = result.scene
     played = recorded_parts(scene, result.time, result.signals)
 
-    def again(**changes: float) -> ShiftResult:
-        other = replace(scene, **changes)  # type: ignore[arg-type]
+    def again(step: float) -> ShiftResult:
+        other = replace(scene, step=step)
         return run(other, make(other, played))
 
-    if MASTERS[scene.master].adaptive:
-        less = LESS * scene.master_tolerance
-        return by_tolerance(result, again(master_tolerance=less, step=LESS**0.5 * scene.step))
-    parts = parts_of_a_step(scene, result.step, result.steps.accepted)
-    finer = again(step=result.step / parts)
-    return by_step(result, finer, lambda step: again(step=step))
+    parts = parts_of_a_step(scene, result.step, result.steps)
+    return by_step(result, again(result.step / parts), again)
 
 
 def recorded_parts(scene: Scene, time: Array, signals: Mapping[str, Array]) -> dict[str, Recorded]:
@@ -93,23 +88,6 @@ def by_step(
             advice = rounded(0.5 * advice)
         advice = advice if again else rounded(SAFE * h / over)
     return StepError(step=h, compared_with=fine, advice=advice, **errors)
-
-
-def by_tolerance(result: ShiftResult, finer: ShiftResult) -> StepError:
-    """Return the errors of a run whose steps follow ``master_tolerance``, by one with less of it.
-
-    Steps go with its square root or, where they are as long as can be, with the first step; so do
-    errors of first order.
-    """
-    errors = errors_between(result, finer, 1.0 / (1.0 - LESS**0.5))
-    tolerance, step, over = result.scene.master_tolerance, result.scene.step, excess(errors)
-    if over > 1.0:
-        tolerance = max(rounded(tolerance * (SAFE / over) ** 2), TOLERANCE_RANGE[0])
-        step = rounded(step * SAFE / over)
-    return StepError(
-        step=result.step, compared_with=finer.step, advice=step, tolerance=tolerance,
-        **errors,
-    )  # fmt: skip
 
 
 def errors_between(run: ShiftResult, finer: ShiftResult, factor: float) -> dict[str, float]:

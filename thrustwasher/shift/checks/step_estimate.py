@@ -23,9 +23,6 @@ class StepError(NamedTuple):
     heat: float
     lock_time: float | None = None
     peak_jerk: float | None = None
-    tolerance: float | None = None
-    """master_tolerance that would do, with ``advice`` as its first step, of a master that chooses
-    its steps; None: others."""
 
     @property
     def relative(self) -> float:
@@ -54,12 +51,6 @@ class StepError(NamedTuple):
         if self.suffices:
             return []
         step, advice = (say(x, "s", digits=4) for x in (self.step, self.advice))
-        if self.tolerance is not None:
-            return [
-                f"master_tolerance is too large: the steps err by about {self.words()}; "
-                f"{self.tolerance:.2g} with a first step of {advice} would do "
-                "(--master-tolerance, --step)"
-            ]
         return [
             f"The communication step of {step} is too long: it errs by about {self.words()}; "
             f"{advice} would do (--step)"

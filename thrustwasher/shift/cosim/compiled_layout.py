@@ -31,7 +31,7 @@ def can_compile(run: Run) -> bool:
 
 
 class CompiledLoop:
-    """Steps the parts in compiled code; comes back to Python when one has something to say."""
+    """Steps the parts in compiled code; comes back to Python when one has logged something."""
 
     def __init__(self, run: Run) -> None:
         from . import compiled_loop as c
@@ -41,21 +41,18 @@ class CompiledLoop:
         self._lay_out()
         n, recorder, hub = len(self.parts), run.recorder, run.system.transmission
         self._report = np.zeros(3, np.int64)
-        self._begun, self._spent = np.zeros(n), np.zeros(n)
-        self._calls = np.zeros(n, np.int64)
-        self._told, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
-        self._clock, tick = wall_clock(self._ticks)
+        self._spent, self._calls = np.zeros(n), np.zeros(n, np.int64)
+        self._back, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
+        clock, tick = wall_clock(self._ticks)
         self._now = np.zeros(recorder.rows.shape[1])
-        columns = (self._operations, self._places, [a.third if a else 0 for a in self.addresses],
-                   [a.said if a else 0 for a in self.addresses])  # fmt: skip
         played = [p.instance.at(run.time[:-1]) for p in self.parts
                   if isinstance(p.instance, Recorded)]  # fmt: skip
         recorded = np.concatenate(played, axis=1) if played else np.zeros((1, 1))
         self._arguments: list[Any] = [
-            *(np.array(column, np.int64) for column in columns), self._now, *self._buffers,
-            self._told.ctypes.data, self._clock, tick, self._ticks, self._begun, self._spent,
-            self._calls, run.time, run.h, run.commands,
-            recorder.input_place(hub, hub.input_names.index(COMMAND)), recorder.rows, recorded,
+            np.array(self._operations, np.int64), np.array(self._places, np.int64), self._now,
+            self._back.ctypes.data, clock, tick, np.zeros(n), self._spent, self._calls, run.time,
+            run.h, run.commands, recorder.input_place(hub, hub.input_names.index(COMMAND)),
+            recorder.rows, recorded,
         ]  # fmt: skip
         self._run(0)  # compiled or loaded before time counts
 
@@ -64,17 +61,7 @@ class CompiledLoop:
         return self.codes.run_operations(*[*self._arguments, stop, self._report])
 
     def _lay_out(self) -> None:
-        """List the operations of one communication step, and make the buffers they use."""
-        c = self.codes
-        self._kinds = {"real": c.REAL, "int32": c.INT32, "int64": c.INT64, "byte": c.BYTE}
-        self.addresses: list[Any] = [
-            None if isinstance(p.instance, Recorded) else capable(p.instance).machine()
-            for p in self.parts
-        ]
-        room = sum(len(p.input_names) + len(p.output_names) for p in self.parts)
-        types = (np.float64, np.int32, np.int64, np.uint8)
-        self._buffers: list[NDArray[Any]] = [np.zeros(room, t) for t in types]
-        self._used = [0] * len(self._buffers)
+        """List the operations of one communication step."""
         self._places: list[int] = []
         self._operations: list[list[int]] = []
         self._played = 0  # columns of what is recorded
@@ -103,32 +90,30 @@ class CompiledLoop:
         self._add(self.codes.PULL, number, count=len(part.sources), first=first)
 
     def _step(self, number: int) -> None:
-        c, part, addresses = self.codes, self.parts[number], self.addresses[number]
-        recorder = self.run.recorder
-        if addresses is None:
+        c, part, recorder = self.codes, self.parts[number], self.run.recorder
+        inputs, outputs = recorder.input_place(part, 0), recorder.output_place(part, 0)
+        if isinstance(part.instance, Recorded):
             count = len(part.output_names)
-            self._add(c.REPLAY, number, count=count, offset=self._played,
-                      first=recorder.output_place(part, 0))  # fmt: skip
+            self._add(c.REPLAY, number, count=count, values=self._played, first=outputs)
             self._played += count
             return
-        self._add(c.BEGIN, number)
-        for group in addresses.setters:
-            self._call(c.SET, number, group, recorder.input_place(part, 0))
-        self._add(c.STEP, number, function=addresses.step, component=addresses.component)
-        for group in addresses.getters:
-            self._call(c.GET, number, group, recorder.output_place(part, 0))
-        self._add(c.END, number)
+        fmu = capable(part.instance).machine()
+        call = {"component": fmu.component, "logged": fmu.said, "third": fmu.third}
 
-    def _call(self, kind: int, number: int, group: Any, first: int) -> None:
-        values = self._kinds[group.kind]
-        buffer, offset, count = self._buffers[values], self._used[values], len(group.places)
-        self._used[values] += count
-        self._add(
-            kind, number, function=group.function, component=self.addresses[number].component,
-            references=group.references, count=count, offset=offset, type=values,
-            buffer=buffer.ctypes.data + offset * buffer.itemsize, first=len(self._places),
-        )  # fmt: skip
-        self._places += [first + place for place in group.places]
+        def travel(kind: int, groups: Any, first: int) -> None:
+            for group in groups:
+                self._add(
+                    kind, number, function=group.function, references=group.references,
+                    count=len(group.places), values=group.values, type=getattr(c, group.kind),
+                    first=len(self._places), **call,
+                )  # fmt: skip
+                self._places.extend(first + place for place in group.places)
+
+        self._add(c.BEGIN, number)
+        travel(c.SET, fmu.setters, inputs)
+        self._add(c.STEP, number, function=fmu.step, **call)
+        travel(c.GET, fmu.getters, outputs)
+        self._add(c.END, number)
 
     def advance(self, i: int, stop: int) -> None:
         """Step from point ``i`` to point ``stop``."""

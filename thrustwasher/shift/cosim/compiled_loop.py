@@ -5,7 +5,6 @@ list for one point after another. Numbers and addresses in, numbers out. It stop
 reports something and can be entered again at the operation that follows.
 """
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,11 +14,12 @@ from ...numerics.jit import kernel, way
 
 # Kinds of operations
 PULL, BEGIN, SET, STEP, GET, END, REPLAY = range(7)
-# Columns of an operation. REFERENCES .. FIRST: of a group of values of one type; PULL: how many
-# pairs of places, and where in ``places`` they begin; REPLAY: how many values, the first one's
-# place and column.
-KIND, PART, FUNCTION, COMPONENT, REFERENCES, COUNT, BUFFER, OFFSET, TYPE, FIRST = range(10)
-WIDTH = 10
+# Columns of an operation. REFERENCES .. FIRST: of a group of values of one type, VALUES its
+# address; PULL: how many pairs of places, and where in ``places`` they begin; REPLAY: how many
+# values, the column of the first one, and its place. LOGGED: address of a number that is not 0 once
+# the part has logged something. THIRD: whether it is one of FMI 3.
+KIND, PART, FUNCTION, COMPONENT, REFERENCES, COUNT, VALUES, TYPE, FIRST, LOGGED, THIRD = range(11)
+WIDTH = 11
 REAL, INT32, INT64, BYTE = range(4)  # types of values
 # What the caller hands over and gets back: the point, the operation to go on with, the status of
 # the last call.
@@ -27,156 +27,118 @@ AT_POINT, AT_OPERATION, LAST_STATUS = range(3)
 DONE, REPORTED = range(2)
 WARNING = 1
 
-# Calls of C functions by their address, for compiled code; in plain Python they do not exist.
-Foreign = Callable[[int, tuple[Any, ...]], int]  # address, arguments
+
+def _only_compiled(_address: int) -> Any:
+    raise NotImplementedError("only compiled code has pointers")
 
 
-def _only_compiled(*_: Any) -> int:
-    raise NotImplementedError("only compiled code can call the function at an address")
-
-
-values2: Foreign = _only_compiled  # int f(word, word, word, word)
-values3: Foreign = _only_compiled  # int f(word, word, word, word, word)
-step2: Foreign = _only_compiled  # int f(word, double, double, int)
-step3: Foreign = _only_compiled  # int f(word, double, double, int, word, word, word, word)
-clock_posix: Foreign = _only_compiled  # int f(int, word)
-clock_windows: Foreign = _only_compiled  # int f(word)
-number_at: Any = _only_compiled  # the 64-bit integer at an address
+# What stands at an address: numbers, C functions of both FMI versions, clocks of both systems.
+reals = int32s = int64s = bytes_ = _only_compiled
+values2 = values3 = step2 = step3 = clock_posix = clock_windows = _only_compiled
 
 if way() in ("emit", "jit"):
-    from llvmlite import ir
-    from numba import types
-    from numba.core import cgutils
-    from numba.extending import intrinsic
+    import numba
 
-    INT = ir.IntType(32)
-    WORD = ir.IntType(64)  # an address or a length
-    DOUBLE = ir.DoubleType()
+    from ...native.callbacks import pointer
 
-    def _foreign(*kinds: Any) -> Any:
-        """Return a call of the C function at an address: ``int f(kinds...)``."""
-        unpack: Any = cgutils.unpack_tuple
+    types: Any = numba.types
 
-        @intrinsic
-        def call(_typing: Any, function: Any, arguments: Any) -> Any:
-            def code(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-                address, packed = values
-                pointer = builder.inttoptr(address, ir.FunctionType(INT, kinds).as_pointer())
-                given = unpack(builder, packed, len(kinds))
-                cut = [
-                    builder.trunc(v, k) if v.type == WORD and k == INT else v
-                    for v, k in zip(given, kinds, strict=True)
-                ]
-                return builder.call(pointer, cut)
+    def _function(*takes: Any) -> Any:
+        """Return what makes of an address a C function ``int f(takes...)``."""
+        return pointer(types.ExternalFunctionPointer(types.int32(*takes), None))
 
-            return types.int32(types.int64, arguments), code
-
-        return call
-
-    @intrinsic
-    def _integer_at(_typing: Any, address: Any) -> Any:
-        def code(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-            return builder.load(builder.inttoptr(values[0], WORD.as_pointer()))
-
-        return types.int64(types.int64), code
-
-    number_at = _integer_at
-    values2 = _foreign(WORD, WORD, WORD, WORD)
-    values3 = _foreign(WORD, WORD, WORD, WORD, WORD)
-    step2 = _foreign(WORD, DOUBLE, DOUBLE, INT)
-    step3 = _foreign(WORD, DOUBLE, DOUBLE, INT, WORD, WORD, WORD, WORD)
-    clock_posix = _foreign(INT, WORD)
-    clock_windows = _foreign(WORD)
+    reals, int32s, int64s, bytes_ = (
+        pointer(types.CPointer(t)) for t in (types.float64, types.int32, types.int64, types.uint8)
+    )
+    _word, _real, _int = types.int64, types.float64, types.int32
+    values2 = _function(_word, _word, _word, _word)
+    values3 = _function(_word, _word, _word, _word, _word)
+    step2 = _function(_word, _real, _real, _int)
+    step3 = _function(_word, _real, _real, _int, _word, _word, _word, _word)
+    clock_posix = _function(_int, _word)
+    clock_windows = _function(_word)
 
 
 @kernel
-def _seconds(clock: NDArray[np.int64], tick: float, ticks: NDArray[np.int64]) -> float:
+def _seconds(clock: NDArray[np.int64], tick: float) -> float:
     """Return the time of the wall clock; ``clock``: function, its number or -1, place of ticks."""
     if clock[0] == 0:
         return 0.0
+    ticks = int64s(clock[2])
     if clock[1] < 0:
-        clock_windows(clock[0], (clock[2],))
+        clock_windows(clock[0])(clock[2])
         return float(ticks[0]) * tick
-    clock_posix(clock[0], (clock[1], clock[2]))
+    clock_posix(clock[0])(clock[1], clock[2])
     return float(ticks[0]) + 1e-9 * float(ticks[1])
 
 
 @kernel
-def _fill(
-    op: NDArray[np.int64], now: NDArray[np.float64], places: NDArray[np.int64],
-    reals: NDArray[np.float64], ints: NDArray[np.int32], longs: NDArray[np.int64],
-    bytes_: NDArray[np.uint8],
-) -> None:  # fmt: skip
-    """Put present values into the group's buffer; whole numbers lose what is behind the point."""
+def _fill(op: NDArray[np.int64], now: NDArray[np.float64], places: NDArray[np.int64]) -> None:
+    """Put present values where the FMU reads them; whole numbers lose what is behind the point."""
     for j in range(op[COUNT]):
-        value, at = now[places[op[FIRST] + j]], op[OFFSET] + j
+        value = now[places[op[FIRST] + j]]
         if op[TYPE] == REAL:
-            reals[at] = value
+            reals(op[VALUES])[j] = value
         elif op[TYPE] == INT32:
-            ints[at] = np.int32(value)
+            int32s(op[VALUES])[j] = np.int32(value)
         elif op[TYPE] == INT64:
-            longs[at] = np.int64(value)
+            int64s(op[VALUES])[j] = np.int64(value)
         else:
-            bytes_[at] = np.uint8(value != 0.0)
+            bytes_(op[VALUES])[j] = np.uint8(value != 0.0)
 
 
 @kernel
-def _take(
-    op: NDArray[np.int64], now: NDArray[np.float64], places: NDArray[np.int64],
-    reals: NDArray[np.float64], ints: NDArray[np.int32], longs: NDArray[np.int64],
-    bytes_: NDArray[np.uint8],
-) -> None:  # fmt: skip
-    """Take present values out of the group's buffer."""
+def _take(op: NDArray[np.int64], now: NDArray[np.float64], places: NDArray[np.int64]) -> None:
+    """Take present values from where the FMU has written them."""
     for j in range(op[COUNT]):
-        place, at = places[op[FIRST] + j], op[OFFSET] + j
+        place = places[op[FIRST] + j]
         if op[TYPE] == REAL:
-            now[place] = reals[at]
+            now[place] = reals(op[VALUES])[j]
         elif op[TYPE] == INT32:
-            now[place] = float(ints[at])
+            now[place] = float(int32s(op[VALUES])[j])
         elif op[TYPE] == INT64:
-            now[place] = float(longs[at])
+            now[place] = float(int64s(op[VALUES])[j])
         else:
-            now[place] = 1.0 if bytes_[at] else 0.0
+            now[place] = 1.0 if bytes_(op[VALUES])[j] else 0.0
 
 
 @kernel
-def _call(op: NDArray[np.int64], third: bool) -> int:
+def _call(op: NDArray[np.int64]) -> int:
     """Set or get a group of values and return the status."""
-    first = (op[COMPONENT], op[REFERENCES], op[COUNT], op[BUFFER])
-    if third:
-        return values3(op[FUNCTION], (first[0], first[1], first[2], first[3], op[COUNT]))
-    return values2(op[FUNCTION], first)
+    function, component, references = op[FUNCTION], op[COMPONENT], op[REFERENCES]
+    count, values = op[COUNT], op[VALUES]
+    if op[THIRD]:
+        status: int = values3(function)(component, references, count, values, count)
+    else:
+        status = values2(function)(component, references, count, values)
+    return status
 
 
 @kernel
-def _step(op: NDArray[np.int64], third: bool, t: float, h: float, told: int) -> int:
+def _step(op: NDArray[np.int64], t: float, h: float, back: int) -> int:
     """Let a part step and return the status."""
-    if third:
-        places = (told, told + 8, told + 16, told + 24)
-        return step3(
-            op[FUNCTION],
-            (op[COMPONENT], t, h, np.int64(0), places[0], places[1], places[2], places[3]),
-        )
-    return step2(op[FUNCTION], (op[COMPONENT], t, h, np.int64(0)))
+    function, component = op[FUNCTION], op[COMPONENT]
+    if op[THIRD]:
+        status: int = step3(function)(component, t, h, 0, back, back + 8, back + 16, back + 24)
+    else:
+        status = step2(function)(component, t, h, 0)
+    return status
 
 
 @kernel
 def run_operations(
-    operations: NDArray[np.int64], places: NDArray[np.int64], third: NDArray[np.int64],
-    said: NDArray[np.int64], now: NDArray[np.float64], reals: NDArray[np.float64],
-    ints: NDArray[np.int32], longs: NDArray[np.int64], bytes_: NDArray[np.uint8],
-    told: int, clock: NDArray[np.int64], tick: float, ticks: NDArray[np.int64],
-    begun: NDArray[np.float64], spent: NDArray[np.float64], calls: NDArray[np.int64],
-    time: NDArray[np.float64], h: float, commands: NDArray[np.float64], command: int,
-    rows: NDArray[np.float64], recorded: NDArray[np.float64], stop: int,
-    report: NDArray[np.int64],
+    operations: NDArray[np.int64], places: NDArray[np.int64], now: NDArray[np.float64],
+    back: int, clock: NDArray[np.int64], tick: float, begun: NDArray[np.float64],
+    spent: NDArray[np.float64], calls: NDArray[np.int64], time: NDArray[np.float64], h: float,
+    commands: NDArray[np.float64], command: int, rows: NDArray[np.float64],
+    recorded: NDArray[np.float64], stop: int, report: NDArray[np.int64],
 ) -> int:  # fmt: skip
     """Work through the operations for the points from ``report[AT_POINT]`` to ``stop``.
 
     Returns DONE, or REPORTED if the call before operation ``report[AT_OPERATION]`` had a status
-    above WARNING or its part said something (the number at its address in ``said`` is not 0).
-    ``now`` holds the present values of all parts, ``rows`` gets them at every point; ``recorded``
-    has a row for each step, what parts give that only play a record.
+    above WARNING or its part logged something. ``now`` holds the present values of all parts,
+    ``rows`` gets them at every point; ``recorded`` has a row for each step, what parts give that
+    only play a record.
     """
     n = len(operations)
     while report[AT_POINT] < stop:
@@ -192,25 +154,25 @@ def run_operations(
                 continue
             if kind == REPLAY:
                 for j in range(op[COUNT]):
-                    now[op[FIRST] + j] = recorded[i, op[OFFSET] + j]
+                    now[op[FIRST] + j] = recorded[i, op[VALUES] + j]
                 continue
             if kind == BEGIN:
-                begun[part] = _seconds(clock, tick, ticks)
+                begun[part] = _seconds(clock, tick)
                 continue
             if kind == END:
-                spent[part] += _seconds(clock, tick, ticks) - begun[part]
+                spent[part] += _seconds(clock, tick) - begun[part]
                 continue
             if kind == SET:
-                _fill(op, now, places, reals, ints, longs, bytes_)
-                status = _call(op, third[part] != 0)
+                _fill(op, now, places)
+                status = _call(op)
             elif kind == STEP:
                 calls[part] += 1
-                status = _step(op, third[part] != 0, time[i], h, told)
+                status = _step(op, time[i], h, back)
             else:
-                status = _call(op, third[part] != 0)
+                status = _call(op)
                 if status <= WARNING:
-                    _take(op, now, places, reals, ints, longs, bytes_)
-            if status > WARNING or number_at(said[part]) != 0:
+                    _take(op, now, places)
+            if status > WARNING or int64s(op[LOGGED])[0] != 0:
                 report[LAST_STATUS] = status
                 return REPORTED
         for k in range(len(now)):

@@ -23,9 +23,7 @@ class Recorder:
         self.rows: NDArray[np.float64] = np.full((n, width), np.nan)
 
     def keep(self, i: int) -> None:
-        """Copy the present values to row ``i``; in some runs the number of points is not known."""
-        if i >= len(self.rows):
-            self.rows = np.concatenate([self.rows, np.full_like(self.rows, np.nan)])
+        """Copy the present values to row ``i``."""
         row, at = self.rows[i], 0
         for part in self.parts:
             for values in (part.inputs, part.outputs):
@@ -55,17 +53,6 @@ class Recorder:
             for name in (*part.input_names, *part.output_names)
         ]  # fmt: skip
         return {name: self.rows[:, i] for i, name in enumerate(names)}
-
-
-class Steps(NamedTuple):
-    """Communication steps taken and rolled back, and the lengths [s] of those taken."""
-
-    accepted: int
-    rejected: int
-    shortest: float
-    longest: float
-    located: int  # events that became communication points
-    forced: int  # steps of the least length, taken although they err more than the tolerance
 
 
 class Run(NamedTuple):

@@ -17,7 +17,7 @@ class Recorded:
     stands still is not moved by them.
     """
 
-    saves_state = gives_derivatives = True
+    gives_derivatives = True
 
     def __init__(
         self, names: tuple[Sequence[str], Sequence[str]], part: str, time: Array,
@@ -58,14 +58,3 @@ class Recorded:
     ) -> list[float]:
         """Return zeros: outputs follow time alone."""
         return [0.0] * len(unknowns)
-
-    def get_state(self) -> list[float]:
-        """Return the present outputs."""
-        return self._now
-
-    def set_state(self, state: list[float]) -> None:
-        """Go back to outputs."""
-        self._now = state
-
-    def free_state(self, state: list[float]) -> None:
-        """Do nothing."""

@@ -88,11 +88,11 @@ class ConnectedPart:
         self.input_names = [s.name for s in spec.inputs]
         self.output_names = [s.name for s in spec.outputs]
         for kind in ("input", "output"):
-            found, wanted = (getattr(one, f"{kind}_names") for one in (instance, self))
-            if list(found) != wanted:
+            found, expected = (getattr(one, f"{kind}_names") for one in (instance, self))
+            if list(found) != expected:
                 raise ParameterError(
                     f"{name}: the instance has the {kind}s {', '.join(found)}, "
-                    f"{spec.name} of this version has {', '.join(wanted)}; build it again"
+                    f"{spec.name} of this version has {', '.join(expected)}; build it again"
                 )
         self.inputs = [float(s.start or 0.0) for s in spec.inputs]
         self.outputs = [0.0] * len(self.output_names)
@@ -135,16 +135,6 @@ class ConnectedPart:
 def renamed(problem: Exception, part: str, time: float) -> SolveError:
     """Return the same problem with part and time in front."""
     return SolveError(f"{part} at t = {time:g} s: {problem}")
-
-
-def with_state(part: ConnectedPart, master: str) -> Capable:
-    """Return a part's instance as one that saves its state; ParameterError if it cannot."""
-    if not can(part.instance, "saves_state"):
-        raise ParameterError(
-            f"master = {master!r}: {part.name} cannot save its state, allowed: with parts that can "
-            "(canGetAndSetFMUstate); 'gauss-seidel' and 'jacobi' need no state"
-        )
-    return capable(part.instance)
 
 
 @contextmanager

@@ -29,7 +29,7 @@ class Event(NamedTuple):
 
 
 class Phase(NamedTuple):
-    """A stretch of the shift [s]."""
+    """An interval of the shift [s]."""
 
     name: str
     start: float

@@ -304,7 +304,9 @@ def washer_figures(time: Array, signals: Signals) -> Found:
     lost = float(np.sum(np.diff(time)[distress[1:]]))
     return {
         "peak_washer_load": peak(signals["transmission.washer_load"], time),
-        "least_washer_film_ratio": least_film("washer", time, signals),
+        "least_washer_film_ratio": least_turning(
+            signals["washer.film_ratio"], signals["washer.speed"], time
+        ),
         "washer_distress_time": (lost, None),
     }
 
@@ -353,11 +355,6 @@ def bearing_figures(scene: Scene, time: Array, signals: Signals) -> Found:
         "bearing_loss": (float(signals["transmission.bearing_heat"][-1]), None),
         "peak_bearing_power": peak(signals["transmission.bearing_power"], time),
     }
-
-
-def least_film(part: str, time: Array, signals: Signals) -> tuple[float | None, float | None]:
-    """Return the least film ratio of a part above FILM_SPEED, and its time."""
-    return least_turning(signals[f"{part}.film_ratio"], signals[f"{part}.speed"], time)
 
 
 def least_turning(values: Array, speed: Array, time: Array) -> tuple[float | None, float | None]:

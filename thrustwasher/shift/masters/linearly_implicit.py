@@ -20,7 +20,7 @@ import numpy as np
 from ...errors import ParameterError, SolveError
 from ...numerics.jit import Array
 from ..cosim.schedule import Correct, Schedule, gauss_seidel
-from ..cosim.system import ConnectedPart, System, can, capable, with_state
+from ..cosim.system import Capable, ConnectedPart, System, can, capable
 from ..scene.connections import SPEED
 
 NAME = "linearly-implicit"
@@ -102,15 +102,15 @@ class Correction:
 
     def words(self) -> list[str]:
         """Say what a reader has to know of the corrections of a run."""
-        said = [
+        messages = [
             f"{name}: no directional derivatives here (native FMUs have them); {NAME} took "
             "differences of its outputs" for name in sorted(self.by_differences)
         ]  # fmt: skip
-        said += [
+        messages += [
             f"{name}: no derivative in {n} steps; there its torque was passed on as it came"
             for name, n in self.without.items()
         ]
-        return said + [
+        return messages + [
             f"{name}: friction falls with slip, H c/J down to {gain:.2g}: the driveline itself is "
             "unstable there and the step is long beside its growth; nothing was damped"
             for name, gain in self.worst.items() if gain < -LONG
@@ -119,14 +119,14 @@ class Correction:
     def _look_ahead(self, t: float, h: float) -> list[float]:
         """Return the outputs that a step with the present torques would end with; renew S."""
         hub = self.hub
-        instance = with_state(hub, NAME)
+        instance = _with_state(hub)
         inputs, outputs, start = list(hub.inputs), hub.outputs, instance.get_state()
         try:
             hub.step(t, h)
             ahead = hub.outputs
-            wanted = h, [ahead[k] for k in self._whole]
-            if wanted != self._probed or self._age >= REFRESH:
-                self._probed, self._age = wanted, 0
+            now = h, [ahead[k] for k in self._whole]
+            if now != self._probed or self._age >= REFRESH:
+                self._probed, self._age = now, 0
                 columns = []
                 for wire in self.wires:
                     instance.set_state(start)
@@ -182,6 +182,16 @@ def _wire(slot: int, part: ConnectedPart, output: int) -> Wire:
     return Wire(slot, part, output, places, names.index(SPEED) if signed else None)
 
 
+def _with_state(part: ConnectedPart) -> Capable:
+    """Return a part's instance as one that saves its state; ParameterError if it cannot."""
+    if not can(part.instance, "saves_state"):
+        raise ParameterError(
+            f"master = {NAME!r}: {part.name} cannot save its state, allowed: with parts that can "
+            "(canGetAndSetFMUstate); 'gauss-seidel' and 'jacobi' need no state"
+        )
+    return capable(part.instance)
+
+
 def slope(part: ConnectedPart, output: str, given: str) -> float:
     """Return d(output)/d(input) at the part's present inputs, memory held.
 
@@ -193,7 +203,7 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
         return capable(part.instance).directional_derivative([output], [given], [1.0])[0]
     if not can(part.instance, "saves_state"):
         raise ParameterError(
-            f"master = 'linearly-implicit': {part.name} has neither directional derivatives nor a "
+            f"master = {NAME!r}: {part.name} has neither directional derivatives nor a "
             "state that can be saved, allowed: with parts that have one of them, such as the "
             "native FMUs"
         )
@@ -203,7 +213,7 @@ def slope(part: ConnectedPart, output: str, given: str) -> float:
     ends = part.inputs[k] - width, part.inputs[k] + width
     if signal.low is not None and ends[0] < signal.low:
         return 0.0  # at its limit, where models have corners: an open pack, a wheel at rest
-    keeper = with_state(part, NAME)
+    keeper = _with_state(part)
     state = keeper.get_state()
     try:
         found = []

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ..cosim import schedule
 from ..cosim.schedule import Schedule
 from ..cosim.system import System
-from . import linearly_implicit, step_doubling
+from . import linearly_implicit
 
 
 class Master(NamedTuple):
@@ -19,7 +19,6 @@ class Master(NamedTuple):
     schedule: Callable[[System], Schedule]
     torque_age: int  # how many steps the torques that the transmission receives are old
     in_python: bool = False  # it works beside the instances in every step: no compiled loop
-    adaptive: bool = False  # it chooses its steps itself; communication points then lie anywhere
 
 
 MASTERS: dict[str, Master] = {
@@ -29,6 +28,9 @@ MASTERS: dict[str, Master] = {
     "jacobi": Master(schedule.jacobi, 1),
     # As gauss-seidel, torques corrected to the end of the step by their derivatives.
     linearly_implicit.NAME: Master(linearly_implicit.schedule, 0, in_python=True),
-    # As gauss-seidel, steps as long as master_tolerance allows, with rollback.
-    step_doubling.NAME: Master(schedule.gauss_seidel, 0, in_python=True, adaptive=True),
 }
+# What is said to who asks for the master step-doubling or its tolerance.
+FIXED_STEPS = (
+    "there is no step-doubling any more; every run estimates the error of its step (step_error) "
+    "and names a step that would do"
+)

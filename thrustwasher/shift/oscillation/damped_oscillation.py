@@ -1,4 +1,4 @@
-"""Fit of a growing or decaying oscillation to a stretch of a signal."""
+"""Fit of a growing or decaying oscillation to an interval of a signal."""
 
 from typing import NamedTuple
 
@@ -23,7 +23,7 @@ class Oscillation(NamedTuple):
 
     @property
     def amplitude(self) -> float:
-        """Of the oscillation in the middle of the stretch."""
+        """Of the oscillation in the middle of the interval."""
         return float(np.hypot(self.cosine, self.sine))
 
     def values(self, time: Array) -> Array:

@@ -99,7 +99,7 @@ def judder_figures(found: Judder | None) -> Found:
     return {**figures, "judder_growth": (found.growth, found.start)}
 
 
-class _Stretch(NamedTuple):
+class _Interval(NamedTuple):
     """Points without a change of what sticks, and who rubs there."""
 
     places: Places
@@ -108,7 +108,7 @@ class _Stretch(NamedTuple):
 
 
 class _Window(NamedTuple):
-    """A stretch of some periods: the oscillation in it, slopes of the packs, eigenvalues.
+    """An interval of some periods: the oscillation in it, slopes of the packs, eigenvalues.
 
     ``stepped`` is the mode with what the master adds.
     """
@@ -126,20 +126,20 @@ def find_judder(scene: Scene, time: Array, signals: Signals) -> Judder | None:
     gearbox = scene.parts["transmission"].params
     if not gearbox.shaft_stiffness:
         return None
-    stretches = [s for s in _stretches(scene, time, signals) if len(s.places) >= LEAST_SAMPLES]
-    if not stretches:
+    intervals = [s for s in _intervals(scene, time, signals) if len(s.places) >= LEAST_SAMPLES]
+    if not intervals:
         return None
-    stretch = max(stretches, key=lambda s: time[s.places[-1]] - time[s.places[0]])
-    found = list(_windows(scene, time, signals, stretch))
+    interval = max(intervals, key=lambda s: time[s.places[-1]] - time[s.places[0]])
+    found = list(_windows(scene, time, signals, interval))
     most = np.max(np.abs(signals["transmission.shaft_torque"]))
     found = [w for w in found if w.fit.amplitude > LEAST_AMPLITUDE * most]
     if not found:
         return None
-    return _judged(scene, time, signals, stretch, found)
+    return _judged(scene, time, signals, interval, found)
 
 
-def _stretches(scene: Scene, time: Array, signals: Signals) -> Iterator[_Stretch]:
-    """Give every stretch in which a pack slips under a command that does not change."""
+def _intervals(scene: Scene, time: Array, signals: Signals) -> Iterator[_Interval]:
+    """Give every interval in which a pack slips under a command that does not change."""
     ramp = scene.shift_start, scene.shift_start + scene.shift_duration
     sides = (time > ramp[0]).astype(int) + (time >= ramp[1])
     stuck = {p: signals[f"transmission.{p}_locked"] > 0.5 for p in PACKS}
@@ -153,18 +153,18 @@ def _stretches(scene: Scene, time: Array, signals: Signals) -> Iterator[_Stretch
         during = ramp[0] < time[i] < ramp[1]
         if rubbing and not during:
             held = tuple(p for p in PACKS if stuck[p][i])
-            yield _Stretch(places[1:], rubbing, held)  # the first point is of the change
+            yield _Interval(places[1:], rubbing, held)  # the first point is of the change
 
 
-def _windows(scene: Scene, time: Array, signals: Signals, stretch: _Stretch) -> Iterator[_Window]:
+def _windows(scene: Scene, time: Array, signals: Signals, interval: _Interval) -> Iterator[_Window]:
     """Give what the oscillation is in windows of some periods, and what it should be.
 
     Communication points may lie anywhere; the step of a window is its mean.
     """
-    places, torque = stretch.places, signals["transmission.shaft_torque"]
-    speed, t = signals["transmission.vehicle_speed"], time[stretch.places]
-    slopes = _slopes(scene, signals, stretch, places[:1], None)
-    modes = _modes(scene, slopes, stretch.held, float(speed[places[0]]), 0.0)
+    places, torque = interval.places, signals["transmission.shaft_torque"]
+    speed, t = signals["transmission.vehicle_speed"], time[interval.places]
+    slopes = _slopes(scene, signals, interval, places[:1], None)
+    modes = _modes(scene, slopes, interval.held, float(speed[places[0]]), 0.0)
     if modes is None:
         return
     mode = modes[0]
@@ -181,16 +181,16 @@ def _windows(scene: Scene, time: Array, signals: Signals, stretch: _Stretch) -> 
         oscillation = fit_oscillation(time[inside], torque[inside], mode.real, mode.imag)
         if oscillation is None:
             continue
-        slopes = _slopes(scene, signals, stretch, inside, oscillation.values(time[inside]) ** 2)
+        slopes = _slopes(scene, signals, interval, inside, oscillation.values(time[inside]) ** 2)
         vehicle = float(np.mean(speed[inside]))
-        modes = _modes(scene, slopes, stretch.held, vehicle, step)
+        modes = _modes(scene, slopes, interval.held, vehicle, step)
         if modes is not None:
             mode = modes[0]
             yield _Window(oscillation, slopes, vehicle, step, *modes)
 
 
 def _slopes(
-    scene: Scene, signals: Signals, stretch: _Stretch, inside: Places, weights: Array | None
+    scene: Scene, signals: Signals, interval: _Interval, inside: Places, weights: Array | None
 ) -> dict[str, float]:
     """Return the slopes of the packs that rub, as means over places.
 
@@ -198,7 +198,7 @@ def _slopes(
     weight the mean slope does the same work in a period (integrate by parts).
     """
     found = {}
-    for pack in stretch.rubbing:
+    for pack in interval.rubbing:
         part = scene.parts[pack]
         values = capacity_slopes(part.params, part.fidelity, pack, signals, inside)
         found[pack] = float(np.average(values, weights=weights))
@@ -221,7 +221,7 @@ def _modes(
 
 
 def _judged(
-    scene: Scene, time: Array, signals: Signals, stretch: _Stretch, found: list[_Window]
+    scene: Scene, time: Array, signals: Signals, interval: _Interval, found: list[_Window]
 ) -> Judder:  # fmt: skip
     """Return the verdict's numbers: means over the windows in which the oscillation is small."""
     gearbox = scene.parts["transmission"].params
@@ -237,17 +237,17 @@ def _judged(
             [w.stepped for w in found],
         )
     )
-    slopes = {p: float(np.mean([w.slopes[p] for w in found])) for p in stretch.rubbing}
+    slopes = {p: float(np.mean([w.slopes[p] for w in found])) for p in interval.rubbing}
     pack = min(slopes, key=lambda p: slopes[p])
     vehicle = float(np.mean([w.vehicle for w in found]))
     half = 0.5 * PERIODS * 2.0 * math.pi / mode.imag
-    locks, stuck_amplitude = _stick_slip(time, signals, pack, stretch, 2.0 * math.pi / mode.imag)
+    locks, stuck_amplitude = _stick_slip(time, signals, pack, interval, 2.0 * math.pi / mode.imag)
     return Judder(
         pack=pack, start=found[0].fit.middle - half, end=found[-1].fit.middle + half,
         frequency=oscillation.imag / (2.0 * math.pi), growth=oscillation.real,
         amplitude=max(highest.fit.amplitude, stuck_amplitude), locks=locks, slope=slopes[pack],
         damping=gearbox.shaft_damping,
-        limit_damping=damping_limit_of(gearbox, slopes, stretch.held, vehicle),
+        limit_damping=damping_limit_of(gearbox, slopes, interval.held, vehicle),
         mode_frequency=mode.imag / (2.0 * math.pi), mode_growth=mode.real,
         step_growth=stepped.real - mode.real, step=float(np.mean([w.step for w in found])),
         scatter=float(np.std([w.fit.growth - w.mode.real for w in found])),
@@ -255,15 +255,15 @@ def _judged(
 
 
 def _stick_slip(
-    time: Array, signals: Signals, pack: str, stretch: _Stretch, period: float
+    time: Array, signals: Signals, pack: str, interval: _Interval, period: float
 ) -> tuple[int, float]:
-    """Return how often the pack stuck from the stretch on, and the oscillation [N m] meanwhile.
+    """Return how often the pack stuck from the interval on, and the oscillation [N m] meanwhile.
 
     Few lock-ups are the end of a shift, not stick-slip: then the oscillation is 0.
     """
     stuck = signals[f"transmission.{pack}_locked"] > 0.5
     locks = np.flatnonzero(stuck[1:] & ~stuck[:-1]) + 1
-    locks = locks[locks > stretch.places[0]]
+    locks = locks[locks > interval.places[0]]
     if len(locks) < FEW:
         return len(locks), 0.0
     torque = signals["transmission.shaft_torque"]

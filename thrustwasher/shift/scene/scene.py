@@ -11,16 +11,15 @@ from ...model.prepare import check_together
 from ...model.spec import ModelSpec
 from ...model.toml_tables import number
 from ...transmission.bearings import BEARINGS
-from ...transmission.parameters import COURSES, course_points
+from ...transmission.parameters import course_points
 from ...transmission.vehicle import Vehicle
 from ...units import format_quantity
-from ..masters.master import MASTERS
+from ..masters.master import FIXED_STEPS, MASTERS
 
 MAX_STEPS = 500_000  # all signals of so many steps still fit into memory
 STEP_RANGE = (1e-6, 1.0)  # s
 STEPS_OF_A_SHIFT = 20.0  # at least
 PRESSED = 0.9  # of the greatest pressure: below it a pack that lets go is meant to
-TOLERANCE_RANGE = (1e-9, 0.1)  # of master_tolerance
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,8 +81,6 @@ class Scene:
     stop_time: float
     step: float
     master: str
-    master_tolerance: float = 1e-4
-    """Relative error of one step that a master with error control allows."""
     oil_temperature: float
     shift_start: float
     shift_duration: float
@@ -159,12 +156,6 @@ class Scene:
         gearbox = self.parts["transmission"].params
         return {name: getattr(gearbox, f"{name}_coefficient") > 0.0 for name in BEARINGS}
 
-    def corners(self) -> set[float]:
-        """Return the times [s] at which a ramp or a course has a corner."""
-        gearbox = self.parts["transmission"].params
-        points = {t for name in COURSES for t, _ in course_points(gearbox, name)}
-        return {self.shift_start, self.shift_start + self.shift_duration} | points
-
     @property
     def kiss_end(self) -> float | None:
         """Where the engaging pack's course leaves the kiss point [s]; None without pistons.
@@ -200,13 +191,9 @@ class Scene:
         step: float | None = None,
         master: str | None = None,
         stop_time: float | None = None,
-        master_tolerance: float | None = None,
     ) -> "Scene":
         """Return the scene with another step, master or end; what hangs on them is adapted."""
-        given: dict[str, Any] = {
-            "step": step, "master": master, "stop_time": stop_time,
-            "master_tolerance": master_tolerance,
-        }  # fmt: skip
+        given: dict[str, Any] = {"step": step, "master": master, "stop_time": stop_time}
         return replace(self, **{k: x for k, x in given.items() if x is not None}).checked()
 
     def checked(self) -> "Scene":
@@ -214,9 +201,9 @@ class Scene:
         where = f"scene {self.name!r}"
         if self.master not in MASTERS:
             options = " or ".join(repr(n) for n in MASTERS)
-            raise ParameterError(f"{where}: master = {self.master!r}, allowed: {options}")
+            gone = f"; {FIXED_STEPS}" if self.master == "step-doubling" else ""
+            raise ParameterError(f"{where}: master = {self.master!r}, allowed: {options}{gone}")
         number(where, "step", self.step, ("s", *STEP_RANGE))
-        number(where, "master_tolerance", self.master_tolerance, ("1", *TOLERANCE_RANGE))
         span = self.stop_time - self.start_time
         if not self.step <= span <= MAX_STEPS * self.step and not self.sequence:
             raise ParameterError(

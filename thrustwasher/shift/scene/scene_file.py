@@ -28,16 +28,10 @@ from ...model.part_file import load_part, preset_part
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
 from ..key_figures.figure_list import FIGURES
+from ..masters.master import FIXED_STEPS
 from .connections import MESHES, PARTS, REQUIRED
 from .doubts import doubts
-from .scene import (
-    STEP_RANGE,
-    TOLERANCE_RANGE,
-    Part,
-    Published,
-    Scene,
-    shift_of_pressures,
-)  # fmt: skip
+from .scene import STEP_RANGE, Part, Published, Scene, shift_of_pressures
 from .scene_tables import BEARING_TABLES, driveline_table, vehicle_of
 from .sequence import checked_sequence, read_sequence
 
@@ -47,7 +41,6 @@ NUMBERS = {
     "start_time": ("s", -1e6, 1e6),
     "stop_time": ("s", -1e6, 1e6),
     "step": ("s", *STEP_RANGE),
-    "master_tolerance": ("1", *TOLERANCE_RANGE),
     "oil_temperature": ("K", 233.15, 473.15),
 }
 ONE_OIL = 1.2  # ratio of viscosities up to which parts may be said to have one oil
@@ -115,11 +108,14 @@ def _parse(name: str) -> dict[str, Any]:
         raise ParameterError(
             f"scene = {name!r}, allowed: {', '.join(known)} or the path of a .toml file{hint}"
         )
+    if "master_tolerance" in table:
+        raise ParameterError(f"scene {name!r}: master_tolerance: {FIXED_STEPS}")
     if isinstance(table.get("oil"), str):
         table["oil"] = oil_table("oil", table["oil"])
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
-            own = table[part] = plainly_named(other_names_of(spec.params), table[part])
+            with within(f"scene {name!r} [{part}]"):
+                own = table[part] = plainly_named(other_names_of(spec.params), table[part])
             if isinstance(own.get("part"), str) and name.endswith(".toml"):
                 own["part"] = str(Path(name).parent / own["part"])  # lies beside the scene
     return table

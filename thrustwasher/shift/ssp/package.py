@@ -25,14 +25,14 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
     used = [_meta(part.spec) for part in system.components]
     units = {m["unit"] for found in used for m in found.values() if m["kind"] == "real"}
     units |= {s.unit for p in system.components for s in p.spec.outputs if s.kind == "real"}
-    told = {
+    given = {
         **system._asdict(), "tool": tool, "date": date, "places": BORDER["places"],
         "values_of": values_of, "units": {name: exponents(name) for name in units},
     }  # fmt: skip
     return {
-        "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", plain=False, **told),
-        "Parts.ssd": filled(HERE / "system.ssd.jinja", plain=True, **told),
-        "documentation/index.html": filled(HERE / "page.html.jinja", **told),
+        "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", plain=False, **given),
+        "Parts.ssd": filled(HERE / "system.ssd.jinja", plain=True, **given),
+        "documentation/index.html": filled(HERE / "page.html.jinja", **given),
     }
 
 
@@ -47,14 +47,14 @@ def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:
     for name, value in {**part.parameters, **part.starts}.items():
         value = PASSED_ON.get((part.name, name), value)
         meta = known.get(name, {"kind": "real", "unit": ""})
-        kind, said = meta["kind"], {"value": str(value)}
+        kind, attributes = meta["kind"], {"value": str(value)}
         if kind == "enumeration":
             continue
         if kind == "real":
-            said = {"value": repr(float(value)), "unit": meta["unit"]}
+            attributes = {"value": repr(float(value)), "unit": meta["unit"]}
         else:
-            said["value"] = str(bool(value)).lower() if kind == "boolean" else str(int(value))
-        yield name, kind.capitalize(), said
+            attributes["value"] = str(bool(value)).lower() if kind == "boolean" else str(int(value))
+        yield name, kind.capitalize(), attributes
 
 
 def _meta(spec: ModelSpec) -> dict[str, Mapping[str, Any]]:

@@ -8,7 +8,6 @@ from ...errors import ParameterError, SolveError
 from ...ladder.own_tables import RUNS, build_where_it_pays
 from ..checks import step_error
 from ..checks.guard import guarded
-from ..masters.master import MASTERS
 from ..run import Progress, run_shift
 from ..scene.connections import DIRECT
 from ..scene.scene import Scene
@@ -63,11 +62,6 @@ def run_auto(
         result = run(scene)
         result = replace(result, messages=[*result.messages, *remarks])
         return guarded(result, given, second) if guard else result
-    if MASTERS[scene.master].adaptive:
-        raise ParameterError(
-            f"master = {scene.master!r}, allowed with a fidelity that is to be chosen: masters "
-            "with fixed steps; or name the fidelities"
-        )
     trials = trial_runs(scene, pool, compiled)
     steps = max(1, round((scene.stop_time - scene.start_time) / scene.step))
     if build_maps:

@@ -14,7 +14,7 @@ from ...report.palette import BLUE, GREY
 from ...report.style import label, new_figure, styled
 from ...storage.digests import DATA
 from ...templates import template
-from ..macro_steps import FIRST_STEP, WAYS
+from ..macro_steps import WAYS
 from . import chart_text as text
 from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
 
@@ -29,7 +29,6 @@ OF_PACKS = "--fidelity clutch={rung} --fidelity brake={rung}"
 OPTIONS = {  # of commands, by what changes along a series
     "rung": "--fidelity {value}", "grid": "--grid {value}",
     "step": '--fidelity {rung} --step "{value}"', "macro step": f'--step "{{value}}" {OF_PACKS}',
-    "master_tolerance": f"--step {FIRST_STEP:g} --master-tolerance {{value}} {OF_PACKS}",
 }  # fmt: skip
 HOW = (
     "Errors are measured against converged values on a fixed list of operating points with the "
@@ -125,7 +124,7 @@ def _data(record: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Section:
-    heads = ["way", "step or tolerance", "per simulated second",
+    heads = ["way", "step", "per simulated second",
              *(q["name"] for q in study["quantities"]), "what was wrong"]  # fmt: skip
     rows = [
         [s["family"], s["value"], text.seconds(s["call_median"]),
@@ -135,8 +134,8 @@ def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
     ]  # fmt: skip
     words = (
         f"The scene is {study['scene']}. Errors are those of quantities that a shift does not "
-        "forget, against the limit that gauss-seidel and jacobi tend to. step-doubling has a "
-        "tolerance in place of a step. Where friction torques are handed over, H T/(J w) is "
+        "forget, against the limit that gauss-seidel and jacobi tend to. Where friction torques "
+        "are handed over, H T/(J w) is "
         "34 for each ms of step H, with the clutch's torque T at lock-up, its smoothing w and "
         "the inertia J that it sees: held torques are stable below 2, without oscillation "
         "below 1, late ones below 1 and 1/4."

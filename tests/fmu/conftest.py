@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from built import built_fmu
-from toy.places import HERE, TOY_SLAVES, TOY_START
+from toy.places import HERE, TOY_SOURCES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.stepper import DirectInstance, Instance
@@ -15,7 +15,7 @@ from thrustwasher.model.registry import all_specs
 
 @pytest.fixture(scope="session")
 def toy_fmu():
-    return built_fmu(TOY.key, target="python", sources=TOY_SLAVES)
+    return built_fmu(TOY.key, target="python", sources=TOY_SOURCES)
 
 
 @pytest.fixture(scope="session")

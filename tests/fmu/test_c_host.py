@@ -8,7 +8,7 @@ from sampling import sizes
 from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.stepper import DirectInstance, unpack
 from thrustwasher.model.registry import all_specs
 
@@ -25,7 +25,7 @@ def clean(said):
 
 @pytest.mark.parametrize("spec", all_specs(), ids=lambda spec: spec.name)
 def test_every_fmu_runs_in_a_bare_host(spec, fmus):
-    outputs = [v for v in variables(spec) if v.causality == "output" and v.type == "Real"]
+    outputs = [v for v in interface(spec).variables if v.causality == "output" and v.type == "Real"]
     read = f"get_real {' '.join(str(v.reference) for v in outputs)}"
     said = talk(fmus[spec.name], "version", "instantiate", "initialize", read, "steps 0 3", read,
                 "last", "release")  # fmt: skip
@@ -84,6 +84,6 @@ def test_a_refused_value_shows_in_the_next_step_which_is_discarded(
 
 
 def test_the_toy_has_the_references_used_here():
-    names = [v.name for v in variables(TOY)]
+    names = [v.name for v in interface(TOY).variables]
     assert names[1:4] == list(TOY_START) and names[11:15] == [
         "friction_torque", "temperature", "temperature_rise", "energy"]  # fmt: skip

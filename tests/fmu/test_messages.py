@@ -8,8 +8,8 @@ from fmpy.fmi1 import FMICallException
 from thrustwasher import load_part
 from thrustwasher.errors import Status
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.description.model_description import log_categories
-from thrustwasher.fmu.running.core import Core, Mode
+from thrustwasher.fmu.description.interface import interface
+from thrustwasher.fmu.running.core import Core
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
 from thrustwasher.model.registry import all_specs
 
@@ -129,7 +129,7 @@ def test_without_logging_only_errors_and_warnings_are_said(listen):
 
 
 def test_every_category_that_is_declared_can_be_heard():
-    declared = {spec.name: set(log_categories(spec)) for spec in all_specs()}
+    declared = {spec.name: set(interface(spec).categories) for spec in all_specs()}
     always = {"logStatusWarning", "logStatusError", "logAll"}
     assert declared == {
         "ThrustWasher": always | {"logEvents", "logNonlinearSystems"},
@@ -153,13 +153,12 @@ def test_an_input_that_leaves_box_or_verified_range_is_told_once_and_solved(tmp_
     path = tmp_path / "boxed.toml"
     path.write_text(BOXED)
     (native,) = build([str(path)], out=tmp_path, platforms=["linux64"])
-    mesh, core = Listener(native), Core(load_part(path).model)
+    mesh, core = Listener(native), Core(interface(load_part(path).model))
     course = [(40.0, 300.0), (60.0, 300.0), (61.0, 430.0), (40.0, 430.0), (60.0, 300.0)]
     mesh.begin(load=40.0, speed=180.0, oil_temperature=300.0)
-    core.mode = Mode.INITIALIZING
+    core.begin(0.0)
     _set(core, [40.0, 180.0, 300.0])
     core.leave_initialization()
-    core.mode = Mode.STEPPING
     said = core.advice()
     for i, (load, oil) in enumerate(course):
         mesh.set(load=load, oil_temperature=oil)

@@ -10,7 +10,7 @@ from toy.places import TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.core import Core, Mode
 from thrustwasher.fmu.running.loading import IN_USE, KEPT, prune
 from thrustwasher.fmu.stepper import DirectInstance, Instance, unpack
@@ -66,7 +66,7 @@ def test_an_input_moves_exactly_the_outputs_that_list_it(name, toy):
         toy.set_inputs(list(values.values()))
         after = [*toy.outputs()[:-1], after[-1]]
     moved = {n for n, a, b in zip(toy.output_names, before, after, strict=True) if a != b}
-    assert moved == {v.name for v in variables(TOY) if name in v.depends}
+    assert moved == {v.name for v in interface(TOY).variables if name in v.depends}
 
 
 def test_an_output_is_solved_at_most_once_per_change(direct_toy, monkeypatch):
@@ -197,7 +197,7 @@ def test_an_emptied_cache_is_filled_again(toy_fmu, tmp_path, monkeypatch):
 def test_the_core_solves_what_the_kernel_solves():
     from toy import kernel
 
-    core = Core(TOY)
+    core = Core(interface(TOY))
     core.mode = Mode.STEPPING
     core.set([1, 2, 3], [500.0, 20.0, 310.0], "Real")
     core.advance(0.0, H)

@@ -5,7 +5,7 @@ import random
 import needed
 import pytest
 from built import built_fmu
-from toy.places import TOY_SLAVES, TOY_START
+from toy.places import TOY_SOURCES, TOY_START
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, SolveError
@@ -24,7 +24,7 @@ def linker():
 
 @pytest.fixture(scope="module", params=[2, 3], ids=["fmi2", "fmi3"])
 def native_toy(request, linker):
-    return built_fmu(TOY.key, fmi=request.param, sources=TOY_SLAVES, local=True)
+    return built_fmu(TOY.key, fmi=request.param, sources=TOY_SOURCES, local=True)
 
 
 @pytest.fixture(

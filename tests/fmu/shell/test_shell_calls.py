@@ -7,6 +7,7 @@ import pytest
 from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
 from shelltoy.spec import SPEC as TOY
 
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables, call_table
 from thrustwasher.model.spec import tailored
 
@@ -261,7 +262,7 @@ def summed(data):
 @both
 def test_a_part_of_ones_own_has_its_name_and_its_start_values(fmi, tmp_path):
     part = tailored(TOY, {"discs": 5, "fidelity": "fine"}, {"load": 7.0}, name="Mine")
-    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(part, GUID))
+    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(interface(part), GUID))
     script = MADE + taking(["load", "discs", "fidelity"], part) + "take real 99\n"
     replies = run(fmi, toy_library(), script, resources=tmp_path)
     assert sorted(x for r in replies for x in r.values) == [2.0, 5.0, 7.0]

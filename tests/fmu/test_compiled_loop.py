@@ -6,7 +6,7 @@ import numba
 import numpy as np
 import pytest
 from built import built_fmu
-from toy.places import TOY_SOURCES
+from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, SolveError
@@ -26,7 +26,7 @@ def fmus(request):
     target, _, version = request.param.partition("-fmi")
     options = {"target": target, "fmi": int(version), "local": True}
     made = [built_fmu(model, **options) for model in MODELS]
-    made.append(built_fmu(TOY.key, sources=TOY_SOURCES, **options))
+    made.append(built_fmu(TOY.key, sources=TOY_SLAVES, **options))
     return {path.stem: path for path in made}
 
 

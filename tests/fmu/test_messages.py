@@ -1,9 +1,6 @@
-"""What native FMUs tell: events once, advice once per change, counts on request, errors always."""
-
-import ctypes
+"""What native FMUs of the models tell: events once, advice once per change, counts per step."""
 
 import pytest
-from fmpy.fmi1 import FMICallException
 
 from thrustwasher import load_part
 from thrustwasher.errors import Status
@@ -13,21 +10,18 @@ from thrustwasher.fmu.running.core import Core
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
 from thrustwasher.model.registry import all_specs
 
-OK, WARNING, ERROR = 0, 1, 3
 H = 1e-3
 
 
 class Listener:
     """A native FMU that keeps what it logs as (status, category, text)."""
 
-    def __init__(self, path, logging=True):
+    def __init__(self, path):
         self.said = Messages()
         folder = unpack(path)
         described = description(folder)
         self.references = {v.name: v.valueReference for v in described.modelVariables}
         self.fmu = instantiate(folder, described, "heard", self.said)
-        if not logging:
-            self.fmu.fmi2SetDebugLogging(self.fmu.component, 0, 0, None)
 
     def begin(self, **inputs):
         self.fmu.setupExperiment()
@@ -38,10 +32,6 @@ class Listener:
     def set(self, **inputs):
         self.fmu.setReal([self.references[name] for name in inputs], list(inputs.values()))
 
-    def only(self, *names):
-        array = (ctypes.c_char_p * len(names))(*[name.encode() for name in names])
-        self.fmu.fmi2SetDebugLogging(self.fmu.component, 1, len(names), array)
-
     def heard(self, category):
         return [text for _, kind, text in self.said if kind == category]
 
@@ -50,8 +40,8 @@ class Listener:
 def listen(natives):
     made = []
 
-    def open_(name, **options):
-        made.append(Listener(natives[name], **options))
+    def open_(name):
+        made.append(Listener(natives[name]))
         return made[-1]
 
     yield open_
@@ -109,23 +99,6 @@ def test_advice_is_told_once_per_change(listen):
         washer.fmu.doStep(i * H, H)
     warnings = washer.heard("logStatusWarning")
     assert [Status.OUTSIDE_VERIFIED.name in text for text in warnings] == [True, True]
-
-
-def test_a_category_can_be_chosen(listen):
-    washer = listen("ThrustWasher")
-    washer.begin(load=300.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
-    washer.only("logStatusError")
-    washer.fmu.doStep(0.0, H)
-    with pytest.raises(FMICallException):
-        washer.set(load=float("nan"))
-    assert {kind for _, kind, _ in washer.said} == {"logStatusError"}
-
-
-def test_without_logging_only_errors_and_warnings_are_said(listen):
-    clutch = listen("WetClutch", logging=False)
-    with pytest.raises(FMICallException):
-        clutch.begin(load=float("nan"))
-    assert [(status, kind) for status, kind, _ in clutch.said] == [(ERROR, "logStatusError")]
 
 
 def test_every_category_that_is_declared_can_be_heard():

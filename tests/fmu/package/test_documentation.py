@@ -37,9 +37,13 @@ _pages = {}
 def shown(spec, target="native"):
     if (spec.name, target) not in _pages:
         _pages[spec.name, target] = page(
-            interface(spec), model_folder(spec, source_folder()), target=target, fmi=2, guid="1234abcd",
+            interface(spec),
+            model_folder(spec, source_folder()),
+            target=target,
+            fmi=2,
+            guid="1234abcd",
             platforms=("linux64", "win64"),
-        )  # fmt: skip
+        )
     return _pages[spec.name, target]
 
 

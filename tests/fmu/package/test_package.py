@@ -5,7 +5,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from toy.places import TOY_SOURCES
+from toy.places import TOY_SLAVES
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError
@@ -16,14 +16,14 @@ from thrustwasher.model.registry import all_specs
 from thrustwasher.native.files import write
 
 
-def test_building_in_another_process_gives_the_same_bytes(tmp_path, toy_fmu, run_child):
+def test_building_in_another_process_gives_the_same_bytes(tmp_path, python_toy, run_child):
     code = (
         "import sys; from pathlib import Path; from thrustwasher.fmu.build import build;"
         "build([sys.argv[1]], target='python', out=Path(sys.argv[2]), sources=Path(sys.argv[3]))"
     )
-    run_child(code, TOY.key, tmp_path, TOY_SOURCES)
+    run_child(code, TOY.key, tmp_path, TOY_SLAVES)
     again = tmp_path / "python-fmi2" / "ToyClutch.fmu"
-    assert again.read_bytes() == toy_fmu.read_bytes()
+    assert again.read_bytes() == python_toy.read_bytes()
 
 
 def test_the_guid_follows_the_content(tmp_path):
@@ -47,8 +47,8 @@ def test_the_guid_follows_the_content(tmp_path):
     assert guid() in found and len(found) == 7
 
 
-def test_the_zip_is_sorted_undated_and_has_plain_names(toy_fmu):
-    with zipfile.ZipFile(toy_fmu) as zipped:
+def test_the_zip_is_sorted_undated_and_has_plain_names(python_toy):
+    with zipfile.ZipFile(python_toy) as zipped:
         entries = zipped.infolist()
         assert zipped.testzip() is None
     names = [e.filename for e in entries]

@@ -11,7 +11,7 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.package.model_sources import source_folder
@@ -53,8 +53,8 @@ def toy_library(flags: tuple[str, ...] = ("-O2",)) -> Path:
     files = [shell / name for name in c_tables.SHELL_FILES]
     library = folder / "toy.so"
     _compile("-std=c99", *STRICT, *flags, "-shared", "-fPIC", "-fvisibility=hidden", "-I", folder,
-             "-I", shell, "-I", headers(), folder / "model.c", *files, HERE / "shelltoy" / "toy.c",
-             "-o", library, "-lm")  # fmt: skip
+             "-I", shell, "-I", headers(), folder / "model.c", *files,
+             HERE.parent / "toy" / "toy.c", "-o", library, "-lm")  # fmt: skip
     return library
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 from shell_runs import BEGUN, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import interface
 

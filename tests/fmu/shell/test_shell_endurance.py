@@ -18,7 +18,7 @@ from shell_runs import (
     threads,
     toy_library,
 )
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.model.registry import find_spec

@@ -5,7 +5,7 @@ import zlib
 
 import pytest
 from shell_runs import BEGUN, MADE, SANITIZED, last, needs_gcc, putting, run, taking, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables

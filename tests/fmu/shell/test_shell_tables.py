@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from shell_runs import GUID, MADE, needs_gcc, run, taking, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.package.model_sources import source_folder

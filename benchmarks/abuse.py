@@ -32,7 +32,7 @@ import files
 
 from thrustwasher.cli._fmu_cache import fmu_paths
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.loading import description, unpack
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import find_spec
@@ -133,7 +133,7 @@ def soak(
     """Step a native FMU for a long time."""
     spec = find_spec(model)
     folder = unpack(fmu_paths([spec.name], "native")[spec.name])
-    found = variables(spec)
+    found = interface(spec).variables
     ins = [v for v in found if v.causality == "input"]
     outs = [v for v in found if v.causality == "output" and v.type == "Real"]
     names, places = [v.name for v in ins], [v.name for v in outs]

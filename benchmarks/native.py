@@ -10,7 +10,7 @@ import tempfile
 from importlib import metadata
 from pathlib import Path
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables
 from thrustwasher.fmu.shell.platform_libraries import headers as fmi_headers
 from thrustwasher.fmu.shell.platform_libraries import library, shell
@@ -44,13 +44,13 @@ def headers() -> Path:
 def empty_library(spec: ModelSpec) -> bytes:
     """Return a library of the shell with this model's tables and a step that does nothing."""
     files: dict[str, str | bytes] = {**shell(), **fmi_headers(), "empty.c": EMPTY}
-    files |= c_tables.sources(spec)
+    files |= c_tables.sources(interface(spec))
     return link.shared_library(files, platform=PLATFORMS["linux64"], name="empty")
 
 
 def timed(program: Path, made: Path, spec: ModelSpec, n: int) -> tuple[float, float, int]:
     """Return seconds to instantiate and initialize, seconds a step, and how often it failed."""
-    found = variables(spec)
+    found = interface(spec).variables
     starts = [v.start or 0.0 for v in found if v.causality == "input"]
     point = spec.course[1][1:] if spec.course else starts  # a point of the reference run
     inputs = [v.reference for v in found if v.causality == "input"]
@@ -76,7 +76,7 @@ def main() -> None:
         print(f"{'model':18}{'make + init [ms]':>18}{'step [us]':>12}{'protocol [us]':>15}")
         for spec in [find_spec(name) for name in names] or all_specs():
             made = folder / f"{spec.name}.so"
-            (folder / c_tables.PART).write_bytes(c_tables.part_file(spec, GUID))
+            (folder / c_tables.PART).write_bytes(c_tables.part_file(interface(spec), GUID))
             made.write_bytes(library(spec, platform="linux64"))
             birth, step, bad = timed(program, made, spec, STEPS.get(spec.key, 2000))
             made.write_bytes(empty_library(spec))

@@ -74,7 +74,7 @@ def test_modules_and_files_that_are_named_exist(page):
     assert sorted(f for f in files if not (ROOT / f).exists()) == []
     first = "|".join(p.name for p in PACKAGE.iterdir() if p.is_dir())
     inside = set(re.findall(rf"`((?:thrustwasher/)?(?:{first})/[\w/.]*)`", text))
-    inside |= set(re.findall(r"`(\w+\.py)`", text)) - {"slave.py", "build_fmu.py", "__init__.py"}
+    inside |= set(re.findall(r"`(\w+\.py)`", text)) - {"build_fmu.py", "__init__.py"}
     places = (PACKAGE, PACKAGE.parent)
     assert [f for f in inside if not any((p / f).exists() for p in places)] == []
 

@@ -88,7 +88,7 @@ def test_any_source_counts(tmp_path, monkeypatch):
     (tmp_path / "shell").mkdir()
     monkeypatch.setattr("thrustwasher.fmu.package.model_sources.source_folder", lambda: tmp_path)
     seen = set()
-    for name in ("slave.py", "readme.md", "shell/lifecycle.c", "shell/shell.h"):
+    for name in ("model.toml", "readme.md", "shell/lifecycle.c", "shell/shell.h"):
         (tmp_path / name).write_text("x")
         seen.add(_fmu_cache.source_digest("python"))
     (tmp_path / "shell/lifecycle.c").write_text("y")

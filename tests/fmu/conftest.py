@@ -4,18 +4,33 @@ import os
 import subprocess
 import sys
 
+import needed
 import pytest
 from built import built_fmu
-from toy.places import HERE, TOY_SLAVES, TOY_START
+from toy.places import HERE, TOY_SLAVES
 from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import all_specs
 
 
 @pytest.fixture(scope="session")
-def toy_fmu():
+def python_toy():
     return built_fmu(TOY.key, target="python", sources=TOY_SLAVES)
+
+
+def native_toy(fmi):
+    needed.linker()
+    return built_fmu(TOY.key, fmi=fmi, sources=TOY_SLAVES, local=True)
+
+
+@pytest.fixture(scope="session")
+def fmi2_toy():
+    return native_toy(2)
+
+
+@pytest.fixture(scope="session")
+def fmi3_toy():
+    return native_toy(3)
 
 
 @pytest.fixture(scope="session")
@@ -31,20 +46,6 @@ def natives():
 
 
 @pytest.fixture
-def toy(toy_fmu):
-    with Instance(toy_fmu) as instance:
-        instance.initialize(inputs=TOY_START)
-        yield instance
-
-
-@pytest.fixture
-def direct_toy():
-    instance = DirectInstance(TOY)
-    instance.initialize(inputs=TOY_START)
-    return instance
-
-
-@pytest.fixture
 def run_child():
     """Run Python code in a fresh process and return what it prints."""
 
@@ -52,8 +53,11 @@ def run_child():
         path = os.pathsep.join([str(HERE), str(HERE.parents[1]), os.environ.get("PYTHONPATH", "")])
         done = subprocess.run(
             [sys.executable, "-c", code, *map(str, args)],
-            env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=500,
-        )  # fmt: skip
+            env={**os.environ, "PYTHONPATH": path},
+            capture_output=True,
+            text=True,
+            timeout=500,
+        )
         assert not check or done.returncode == 0, done.stderr
         return done.stdout.strip() if check else done
 

@@ -28,7 +28,7 @@ def test_every_finding_has_a_name_and_a_sentence():
 
 def test_what_the_tests_run_on_works():
     checks = found()
-    for name in ("Python", "numpy", "numba", "fmpy", "pythonfmu", "slave files"):
+    for name in ("Python", "numpy", "numba", "fmpy", "pythonfmu", "FMU sources"):
         assert checks[name].ok, checks[name].text
     assert "nothing has to be compiled" in checks["compiled kernels"].text
     assert "libraries of all FMUs are shipped" in checks["native FMUs, compiler"].text

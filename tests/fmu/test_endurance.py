@@ -46,34 +46,34 @@ print("done")
 
 
 @pytest.mark.slow
-def test_two_thousand_instances_neither_crash_nor_eat_memory(toy_fmu, run_child):
-    before, after, path_entries = json.loads(run_child(CYCLES, toy_fmu, 2000))
+def test_two_thousand_instances_neither_crash_nor_eat_memory(python_toy, run_child):
+    before, after, path_entries = json.loads(run_child(CYCLES, python_toy, 2000))
     assert (after - before) / 1800 < 20_000  # bytes per instance
     assert path_entries < 20
 
 
 @pytest.mark.slow
-def test_two_thousand_resets_keep_memory_flat(toy_fmu, run_child):
-    before, after, _ = json.loads(run_child(RESETS, toy_fmu, 2000))
+def test_two_thousand_resets_keep_memory_flat(python_toy, run_child):
+    before, after, _ = json.loads(run_child(RESETS, python_toy, 2000))
     assert (after - before) / 1800 < 2_000
 
 
-def test_different_fmus_live_in_one_process_twice_each(toy_fmu, fmus, run_child):
+def test_different_fmus_live_in_one_process_twice_each(python_toy, fmus, run_child):
     others = [fmus["WetClutch"], fmus["ShiftTransmission"]]
-    assert run_child(TOGETHER, toy_fmu, *others) == "done"
+    assert run_child(TOGETHER, python_toy, *others) == "done"
 
 
 @sizes(1, 8)
-def test_processes_end_cleanly(toy_fmu, run_child, n):
+def test_processes_end_cleanly(python_toy, run_child, n):
     code = CYCLES.replace("200]", "1]")
-    ends = [run_child(code, toy_fmu, 3, check=False).returncode for _ in range(n)]
+    ends = [run_child(code, python_toy, 3, check=False).returncode for _ in range(n)]
     assert ends == [0] * n
 
 
 @sizes(1, 4)
-def test_a_process_that_forgets_to_close_ends_cleanly_too(toy_fmu, run_child, n):
+def test_a_process_that_forgets_to_close_ends_cleanly_too(python_toy, run_child, n):
     code = "import sys; from thrustwasher.fmu.stepper import Instance; f = Instance(sys.argv[1])"
-    ends = [run_child(code, toy_fmu, check=False).returncode for _ in range(n)]
+    ends = [run_child(code, python_toy, check=False).returncode for _ in range(n)]
     assert ends == [0] * n
 
 
@@ -91,8 +91,8 @@ fmu.freeInstance()
 
 
 @sizes(2, 12)
-def test_a_host_that_unloads_the_library_ends_cleanly(toy_fmu, run_child, tmp_path, n):
-    run = [run_child(PLAIN, toy_fmu, tmp_path / str(i), check=False) for i in range(n)]
+def test_a_host_that_unloads_the_library_ends_cleanly(python_toy, run_child, tmp_path, n):
+    run = [run_child(PLAIN, python_toy, tmp_path / str(i), check=False) for i in range(n)]
     assert [done.returncode for done in run] == [0] * n, run[-1].stderr
 
 

@@ -1,33 +1,27 @@
-"""What native FMUs tell: events once, advice once per change, counts on request, errors always."""
-
-import ctypes
+"""What native FMUs of the models tell: events once, advice once per change, counts per step."""
 
 import pytest
-from fmpy.fmi1 import FMICallException
 
 from thrustwasher import load_part
 from thrustwasher.errors import Status
 from thrustwasher.fmu.build import build
-from thrustwasher.fmu.description.model_description import log_categories
-from thrustwasher.fmu.running.core import Core, Mode
+from thrustwasher.fmu.description.interface import interface
+from thrustwasher.fmu.running.core import Core
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
 from thrustwasher.model.registry import all_specs
 
-OK, WARNING, ERROR = 0, 1, 3
 H = 1e-3
 
 
 class Listener:
     """A native FMU that keeps what it logs as (status, category, text)."""
 
-    def __init__(self, path, logging=True):
+    def __init__(self, path):
         self.said = Messages()
         folder = unpack(path)
         described = description(folder)
         self.references = {v.name: v.valueReference for v in described.modelVariables}
         self.fmu = instantiate(folder, described, "heard", self.said)
-        if not logging:
-            self.fmu.fmi2SetDebugLogging(self.fmu.component, 0, 0, None)
 
     def begin(self, **inputs):
         self.fmu.setupExperiment()
@@ -38,10 +32,6 @@ class Listener:
     def set(self, **inputs):
         self.fmu.setReal([self.references[name] for name in inputs], list(inputs.values()))
 
-    def only(self, *names):
-        array = (ctypes.c_char_p * len(names))(*[name.encode() for name in names])
-        self.fmu.fmi2SetDebugLogging(self.fmu.component, 1, len(names), array)
-
     def heard(self, category):
         return [text for _, kind, text in self.said if kind == category]
 
@@ -50,8 +40,8 @@ class Listener:
 def listen(natives):
     made = []
 
-    def open_(name, **options):
-        made.append(Listener(natives[name], **options))
+    def open_(name):
+        made.append(Listener(natives[name]))
         return made[-1]
 
     yield open_
@@ -111,25 +101,8 @@ def test_advice_is_told_once_per_change(listen):
     assert [Status.OUTSIDE_VERIFIED.name in text for text in warnings] == [True, True]
 
 
-def test_a_category_can_be_chosen(listen):
-    washer = listen("ThrustWasher")
-    washer.begin(load=300.0, speed=545.0, tilt=2e-3, oil_temperature=297.15)
-    washer.only("logStatusError")
-    washer.fmu.doStep(0.0, H)
-    with pytest.raises(FMICallException):
-        washer.set(load=float("nan"))
-    assert {kind for _, kind, _ in washer.said} == {"logStatusError"}
-
-
-def test_without_logging_only_errors_and_warnings_are_said(listen):
-    clutch = listen("WetClutch", logging=False)
-    with pytest.raises(FMICallException):
-        clutch.begin(load=float("nan"))
-    assert [(status, kind) for status, kind, _ in clutch.said] == [(ERROR, "logStatusError")]
-
-
 def test_every_category_that_is_declared_can_be_heard():
-    declared = {spec.name: set(log_categories(spec)) for spec in all_specs()}
+    declared = {spec.name: set(interface(spec).categories) for spec in all_specs()}
     always = {"logStatusWarning", "logStatusError", "logAll"}
     assert declared == {
         "ThrustWasher": always | {"logEvents", "logNonlinearSystems"},
@@ -153,13 +126,12 @@ def test_an_input_that_leaves_box_or_verified_range_is_told_once_and_solved(tmp_
     path = tmp_path / "boxed.toml"
     path.write_text(BOXED)
     (native,) = build([str(path)], out=tmp_path, platforms=["linux64"])
-    mesh, core = Listener(native), Core(load_part(path).model)
+    mesh, core = Listener(native), Core(interface(load_part(path).model))
     course = [(40.0, 300.0), (60.0, 300.0), (61.0, 430.0), (40.0, 430.0), (60.0, 300.0)]
     mesh.begin(load=40.0, speed=180.0, oil_temperature=300.0)
-    core.mode = Mode.INITIALIZING
+    core.begin(0.0)
     _set(core, [40.0, 180.0, 300.0])
     core.leave_initialization()
-    core.mode = Mode.STEPPING
     said = core.advice()
     for i, (load, oil) in enumerate(course):
         mesh.set(load=load, oil_temperature=oil)

@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import all_specs, find_spec, kernel_of
 
@@ -36,7 +36,7 @@ def drawn(spec, rng):
 @pytest.mark.parametrize("name", NAMES)
 def test_the_kernel_has_the_lengths_of_the_list(name):
     spec = find_spec(name)
-    kernel, found = kernel_of(spec), variables(spec)
+    kernel, found = kernel_of(spec), interface(spec).variables
     held = {s: sum(v.store == s for v in found) for s in ("par", "inp", "out", "iout")}
     lengths = (kernel.N_PARAM, kernel.NINP, kernel.NOUT, kernel.NIOUT)
     assert tuple(held.values()) == lengths
@@ -203,7 +203,7 @@ def test_exactly_the_listed_inputs_move_an_output_at_once(name):
                 direct.set_inputs(changed)
                 pairs = zip(spec.outputs, before, direct.outputs(), strict=True)
                 seen |= {(signal.name, output.name) for output, a, b in pairs if a != b}
-    listed = {(i, v.name) for v in variables(spec) for i in v.depends}
+    listed = {(i, v.name) for v in interface(spec).variables for i in v.depends}
     unseen = {(i, output) for i, model, output in UNSEEN if model == name}
     assert seen <= listed
     assert listed - seen == unseen

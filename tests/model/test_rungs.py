@@ -19,7 +19,7 @@ from thrustwasher.clutch.kernels import layout
 from thrustwasher.clutch.kernels import step as clutch_step
 from thrustwasher.clutch.kernels.constants import derive_rings
 from thrustwasher.errors import Status
-from thrustwasher.fmu.description.interface import enumerations
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.gearmesh import parameters as gearmesh_params
 from thrustwasher.gearmesh.kernels import layout as gear_layout
 from thrustwasher.gearmesh.kernels import step as gear_step
@@ -91,7 +91,7 @@ def test_the_ladder_has_its_rungs_in_this_order():
 
 @pytest.mark.parametrize(("model", "rung"), RUNGS)
 def test_the_fmu_counts_rungs_from_one(model, rung):
-    items = {i.name: i.value for i in enumerations(SPECS[model][0])["Fidelity"]}
+    items = {i.name: i.value for i in interface(SPECS[model][0]).enumerations["Fidelity"]}
     assert items[rung] == LADDER[model].index(rung) + 1
 
 

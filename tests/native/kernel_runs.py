@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables, platform_libraries
 from thrustwasher.model.registry import all_specs, find_spec, kernel_of
 from thrustwasher.native.library import linked_objects
@@ -28,7 +28,7 @@ def probe(model: str, level: str) -> ctypes.CDLL:
     spec = find_spec(model)
     linux = PLATFORMS["linux64"]
     platform = replace(linux, levels=tuple(one for one in linux.levels if one.name == level))
-    files = {**c_tables.sources(spec), "probe.c": (HERE / "probe.c").read_bytes()}
+    files = {**c_tables.sources(interface(spec)), "probe.c": (HERE / "probe.c").read_bytes()}
     name = f"{model}_{level}"
     files |= platform_libraries.dispatch()
     made = linked_objects(files, objects(spec.kernel, [platform]), platform, name, EXPORTS)
@@ -98,7 +98,7 @@ class Run:
 
 def parameters(model: str) -> list[float]:
     """Return the start values of all parameters, the fidelity last."""
-    return [v.start for v in variables(find_spec(model)) if v.causality == "parameter"]
+    return [v.start for v in interface(find_spec(model)).parameters]
 
 
 def course(model: str, steps: int) -> tuple[np.ndarray, float]:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from kernel_runs import HERE, MODELS, Python, Run, course, parameters
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables, platform_libraries
 from thrustwasher.model.registry import find_spec
 from thrustwasher.native import link
@@ -72,7 +72,7 @@ def stepped(model: str, platform: str, before, folder) -> np.ndarray:
     if platform not in needed.linker().platforms:
         needed.missing(f"{link.find_linker().name} does not build for {platform}: {needed.DEV}")
     spec, target = find_spec(model), PLATFORMS[platform]
-    found = variables(spec)
+    found = interface(spec).variables
     inputs = [v.reference for v in found if v.causality == "input"]
     outputs = [v.reference for v in found if v.store == "out"]
     rows, dt = course(model, STEPS)
@@ -82,7 +82,7 @@ def stepped(model: str, platform: str, before, folder) -> np.ndarray:
     file = f"{spec.name}.{target.extension}"
     made = platform_libraries.library(spec, platform=platform)
     (folder / file).write_bytes(made)
-    (folder / c_tables.PART).write_bytes(c_tables.part_file(spec, GUID))
+    (folder / c_tables.PART).write_bytes(c_tables.part_file(interface(spec), GUID))
     program, name = built(platform)
     (folder / name).write_bytes(program)
     (folder / name).chmod(0o755)

@@ -15,6 +15,7 @@ from ..model.registry import all_specs, find_spec
 from ..model.spec import ModelSpec
 from ..native.files import Note, write, zipped
 from ..native.link import this_platform
+from .description.interface import Interface, interface
 from .description.model_description import description, terminals_and_icons
 from .documentation.html_page import accuracy, page
 from .documentation.reference_results import reference_files
@@ -51,7 +52,7 @@ def build(
         same version there
     fmi : 2 or 3; the Python target knows 2 only
     out : folder of the results; existing files are replaced at once
-    sources : folder with one folder per model (slave.py, readme.md); None: those of this package
+    sources : folder with one folder per model (readme.md, icon.png); None: those of this package
     platforms : native only, what to build for ("linux64", "win64", "aarch64-linux",
         "darwin-x86_64", "darwin-arm64"); None: all that are shipped or can be linked here
     note : is called with one sentence before each step that takes time
@@ -79,14 +80,14 @@ def build(
         places = [this_platform().name] if local else chosen(platforms, say, specs)
     paths = []
     for spec in specs:
-        folder = model_folder(spec, sources or source_folder())
+        shown, folder = interface(spec), model_folder(spec, sources or source_folder())
         files = contents(
-            spec, folder, target=target, fmi=fmi, platforms=places, note=say, local=local
+            shown, folder, target=target, fmi=fmi, platforms=places, note=say, local=local
         )
         if not maps:
             files = {n: data for n, data in files.items() if not n.startswith("resources/map-")}
         if terminals:
-            files |= _icons(spec, folder, 3)
+            files |= _icons(shown, folder, 3)
         path = Path(out) / f"{target}-fmi{fmi}" / f"{spec.name}.fmu"
         write(path, zipped(files, first=DESCRIPTION))
         paths.append(path)
@@ -145,7 +146,13 @@ def pack_native(
     places = chosen(platforms, say, [spec])
     folder = model_folder(spec, source_folder())
     files = contents(
-        spec, folder, target="native", fmi=2, platforms=places, note=say, reference=False
+        interface(spec),
+        folder,
+        target="native",
+        fmi=2,
+        platforms=places,
+        note=say,
+        reference=False,
     )
     return zipped(files, first=DESCRIPTION)
 
@@ -164,22 +171,31 @@ def _check(target: str, fmi: int, platforms: Sequence[str] | None, maps: bool) -
 
 
 def contents(
-    spec: ModelSpec, folder: Path, *, target: str, fmi: int, platforms: Sequence[str], note: Note,
-    local: bool = False, reference: bool = True,
-) -> dict[str, bytes]:  # fmt: skip
+    shown: Interface,
+    folder: Path,
+    *,
+    target: str,
+    fmi: int,
+    platforms: Sequence[str],
+    note: Note,
+    local: bool = False,
+    reference: bool = True,
+) -> dict[str, bytes]:
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
-    native = target == "native"
+    spec, native = shown.spec, target == "native"
     tools = made_of(spec, local=local) if native else ""
-    guid = identifier(spec, folder, target=target, fmi=fmi, tools=f"{tools} {accuracy(spec)}")
+    guid = identifier(shown, folder, target=target, fmi=fmi, tools=f"{tools} {accuracy(spec)}")
     if native:
-        own = native_contents(spec, fmi=fmi, guid=guid, platforms=platforms, note=note, local=local)
+        own = native_contents(
+            shown, fmi=fmi, guid=guid, platforms=platforms, note=note, local=local
+        )
     else:
-        own = _python_contents(spec, folder, guid)
+        own = _python_contents(shown, folder, guid)
     reference = reference and not local
     note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     derivatives = native and has_derivatives(spec)
-    described = description(spec, fmi=fmi, guid=guid, derivatives=derivatives)
-    told = partial(page, spec, folder, target=target, fmi=fmi, guid=guid, platforms=platforms)
+    described = description(shown, fmi=fmi, guid=guid, derivatives=derivatives)
+    told = partial(page, shown, folder, target=target, fmi=fmi, guid=guid, platforms=platforms)
     try:
         results, text = (reference_files(spec) if reference else {}), told(runs=reference)
     except SolveError as problem:  # a part need not have a solution all over the usual inputs
@@ -188,31 +204,33 @@ def contents(
     return {
         DESCRIPTION: described,
         "documentation/index.html": text.encode(),
-        **_icons(spec, folder, fmi),
+        **_icons(shown, folder, fmi),
         **licences(target, platforms),
         **results,
         **own,
     }
 
 
-def _icons(spec: ModelSpec, folder: Path, fmi: int) -> dict[str, bytes]:
+def _icons(shown: Interface, folder: Path, fmi: int) -> dict[str, bytes]:
     """Return the model's picture at the place of this version, and the terminals of FMI 3."""
     file, place = folder / "icon.png", "terminalsAndIcons"
     icon = file.read_bytes() if file.is_file() else b""
     if fmi == 2:
         return {"model.png": icon} if icon else {}
-    listed = {f"{place}/terminalsAndIcons.xml": terminals_and_icons(spec, icon=bool(icon))}
+    listed = {f"{place}/terminalsAndIcons.xml": terminals_and_icons(shown, icon=bool(icon))}
     return listed | ({f"{place}/icon.png": icon} if icon else {})
 
 
-def _python_contents(spec: ModelSpec, folder: Path, guid: str) -> dict[str, bytes]:
+def _python_contents(shown: Interface, folder: Path, guid: str) -> dict[str, bytes]:
     """Return what only the Python target carries: pythonfmu, the slave, what the host must have."""
     module = f"thrustwasher_fmu_{folder.name}_{guid[:8]}"
-    template = (folder / "slave.py").read_text("utf-8")
-    slave = template.replace("@VERSION@", package_version()).replace("@GUID@", guid)
-    slave = slave.replace("@DIGEST@", content_digest(spec))
+    spec, version = shown.spec, package_version()
+    slave = (Path(__file__).parent / "python" / "slavemodule.txt").read_text("utf-8")
+    told = {"model": spec.key, "version": version, "digest": content_digest(spec), "guid": guid}
+    for name, text in told.items():
+        slave = slave.replace(f"@{name}@", text)
     needs = (source_folder() / "documentation" / "externalDependencies.txt").read_text("utf-8")
-    needs = needs.format(version=package_version(), pythonfmu=metadata.version("pythonfmu"))
+    needs = needs.format(version=version, pythonfmu=metadata.version("pythonfmu"))
     return {
         "documentation/externalDependencies.txt": needs.encode(),
         f"resources/{module}.py": slave.encode(),

@@ -40,7 +40,7 @@ def diagnose() -> list[Check]:
         ("compiled kernels", _kernels),
         ("kept maps", _kept),
         ("temporary folder", lambda: _writable(tempfile.gettempdir())),
-        ("slave files", lambda: str(source_folder())),
+        ("FMU sources", lambda: str(source_folder())),
         ("Python FMU", _binary),
         ("native FMUs, compiler", _compiler),
         ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),

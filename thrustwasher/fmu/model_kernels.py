@@ -6,7 +6,6 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from ..model.record import resolve
 from ..model.registry import kernel_of
 from ..model.spec import ModelSpec
 from ..native.library import is_ready
@@ -21,11 +20,6 @@ def has_derivatives(spec: ModelSpec) -> bool:
 def is_compiled(spec: ModelSpec) -> bool:
     """Tell if the model's kernels are compiled, so that their first call takes no minutes."""
     return way() == "python" or is_ready(spec.kernel)
-
-
-def count_places(spec: ModelSpec) -> tuple[tuple[str, int], ...]:
-    """Return (text, place in ``work``) of everything the model's solver counts."""
-    return tuple((text, int(resolve(where))) for text, where in spec.counts)
 
 
 def package_version() -> str:

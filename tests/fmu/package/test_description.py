@@ -8,7 +8,7 @@ from fmpy import read_model_description
 from lxml import etree
 from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import enumerations, variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.description.model_description import (
     REAL_TYPES,
     declared_type,
@@ -25,7 +25,7 @@ each_fmi = pytest.mark.parametrize("fmi", [2, 3])
 
 
 def written(spec, fmi=2, **options):
-    return etree.fromstring(description(spec, fmi=fmi, guid="0", **options))
+    return etree.fromstring(description(interface(spec), fmi=fmi, guid="0", **options))
 
 
 @each_spec
@@ -39,26 +39,26 @@ def test_the_description_keeps_to_the_schema(spec, fmi, derivatives):
 @each_spec
 def test_fmpy_reads_fmi_3_and_finds_nothing(spec, tmp_path):
     file = tmp_path / "modelDescription.xml"
-    file.write_bytes(description(spec, fmi=3, guid="0"))
+    file.write_bytes(description(interface(spec), fmi=3, guid="0"))
     read = read_model_description(str(file))
-    assert [v.name for v in read.modelVariables] == [v.name for v in variables(spec)]
+    assert [v.name for v in read.modelVariables] == [v.name for v in interface(spec).variables]
     assert read.fmiVersion == "3.0" and read.coSimulation.modelIdentifier == spec.name
 
 
 @each_spec
 def test_the_terminals_keep_to_the_schema_and_name_variables(spec):
     schema = etree.XMLSchema(etree.parse(SCHEMAS / "fmi3" / "fmi3TerminalsAndIcons.xsd"))
-    tree = etree.fromstring(terminals_and_icons(spec))
+    tree = etree.fromstring(terminals_and_icons(interface(spec)))
     assert schema.validate(tree), schema.error_log
     members = {e.get("variableName") for e in tree.iter("TerminalMemberVariable")}
-    assert members and members <= {v.name for v in variables(spec)}
+    assert members and members <= {v.name for v in interface(spec).variables}
 
 
 @each_spec
 def test_every_variable_is_written_as_it_is_listed(spec):
     read = written(spec).findall("ModelVariables/ScalarVariable")
-    assert len(read) == len(variables(spec))
-    for element, v in zip(read, variables(spec), strict=True):
+    assert len(read) == len(interface(spec).variables)
+    for element, v in zip(read, interface(spec).variables, strict=True):
         assert element.get("name") == v.name
         assert int(element.get("valueReference")) == v.reference
         assert element.get("variability") == v.variability
@@ -80,12 +80,12 @@ def test_units_types_and_enumerations_that_are_used_are_defined(spec):
     for body in tree.findall("ModelVariables/ScalarVariable/*"):
         assert body.get("unit") in {None, *units}
         assert body.get("declaredType") in {None, *types}
-    assert set(enumerations(spec)) <= types
+    assert set(interface(spec).enumerations) <= types
 
 
 @each_spec
 def test_a_temperature_difference_is_not_shown_as_a_temperature(spec):
-    relative = [v for v in variables(spec) if v.relative]
+    relative = [v for v in interface(spec).variables if v.relative]
     for body in written(spec).findall("ModelVariables/ScalarVariable/Real"):
         name = body.getparent().get("name")
         assert (body.get("relativeQuantity") == "true") == (name in {v.name for v in relative})
@@ -96,7 +96,7 @@ def test_a_temperature_difference_is_not_shown_as_a_temperature(spec):
 @each_spec
 def test_structure_lists_outputs_with_their_inputs_and_initial_unknowns_with_parameters(spec):
     tree = written(spec)
-    found = variables(spec)
+    found = interface(spec).variables
     outputs = [v for v in found if v.causality == "output"]
     parameters = {v.name for v in found if v.causality == "parameter"}
     for part, extra in (("Outputs", set()), ("InitialUnknowns", parameters)):
@@ -202,8 +202,8 @@ def test_the_flags_of_fmi_3_are_these(spec):
 
 @each_spec
 def test_the_two_targets_of_fmi_2_differ_in_guid_and_derivatives_only(spec):
-    python = description(spec, fmi=2, guid="a")
-    native = description(spec, fmi=2, guid="b", derivatives=True)
+    python = description(interface(spec), fmi=2, guid="a")
+    native = description(interface(spec), fmi=2, guid="b", derivatives=True)
     flag = b'providesDirectionalDerivative="%s"'
     assert native.count(flag % b"true") == native.count(b'guid="b"') == 1
     back = native.replace(flag % b"true", flag % b"false").replace(b'guid="b"', b'guid="a"')
@@ -221,7 +221,7 @@ def test_a_reader_sees_degrees_celsius_rpm_and_micrometres(fmus):
 
 
 PLUGS = {
-    f"{spec.name}.{t.name}": (t, {v.name: v for v in variables(spec)})
+    f"{spec.name}.{t.name}": (t, {v.name: v for v in interface(spec).variables})
     for spec in all_specs()
     for t in spec.terminals
 }

@@ -9,7 +9,7 @@ from markupsafe import escape
 from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import EnvironmentProblem, Status
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.documentation.html_page import accuracy, page, slope
 from thrustwasher.fmu.documentation.markup import markup
 from thrustwasher.fmu.package import licences as module
@@ -37,9 +37,13 @@ _pages = {}
 def shown(spec, target="native"):
     if (spec.name, target) not in _pages:
         _pages[spec.name, target] = page(
-            spec, model_folder(spec, source_folder()), target=target, fmi=2, guid="1234abcd",
+            interface(spec),
+            model_folder(spec, source_folder()),
+            target=target,
+            fmi=2,
+            guid="1234abcd",
             platforms=("linux64", "win64"),
-        )  # fmt: skip
+        )
     return _pages[spec.name, target]
 
 
@@ -75,7 +79,7 @@ def test_the_page_is_whole_and_asks_for_nothing(spec, target):
 @each_spec
 def test_every_variable_status_and_plug_is_named(spec):
     text = shown(spec)
-    for v in variables(spec)[1:]:
+    for v in interface(spec).variables[1:]:
         assert f"<td>{v.name}</td>" in text
         if v.causality != "output" and v.type == "Real":
             assert f"<td>{v.low:g} .. {v.high:g}</td>" in text
@@ -104,7 +108,7 @@ def test_the_equations_and_their_source_are_there(spec):
     assert "](curve.svg)" in text and 'src="data:image/svg+xml;base64,' in markup(text, folder)
     assert text.startswith(f"# {spec.name}\n")
     assert "Source" in text and "## Validity" in text and text.count("```") >= 4
-    known = {v.name for other in all_specs() for v in variables(other)}
+    known = {v.name for other in all_specs() for v in interface(other).variables}
     options = {item for f in spec.params.__dataclass_fields__.values()
                for item in f.metadata.get("options", ())}  # fmt: skip
     named = set(re.findall(r"`([a-z_]+)`", text))

@@ -8,7 +8,7 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 from lxml import etree
 
-from thrustwasher.fmu.description.model_description import default_experiment
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.documentation.reference_results import FOLDER, reference_files
 from thrustwasher.model.registry import all_specs, find_spec
 
@@ -47,7 +47,7 @@ def test_the_default_experiment_gives_the_reference_results(name, fmus, tmp_path
 def test_the_inputs_of_the_reference_run_move_and_no_status_warns(name, fmus, tmp_path):
     folder = unzipped(fmus[name], tmp_path)
     inputs, outputs = (read_csv(folder / f"{name}_{end}.csv") for end in ("in", "out"))
-    stop, _ = default_experiment(find_spec(name))
+    stop, _ = interface(find_spec(name)).experiment
     assert inputs.dtype.names[1:] == tuple(s.name for s in find_spec(name).inputs)
     assert any(np.ptp(inputs[n]) > 0 for n in inputs.dtype.names[1:])
     assert (inputs["time"][0], inputs["time"][-1]) == (0.0, stop)

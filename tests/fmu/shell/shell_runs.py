@@ -11,9 +11,9 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.package.model_sources import source_folder
 from thrustwasher.fmu.shell import c_tables
 from thrustwasher.fmu.shell.platform_libraries import library as native_library
@@ -46,15 +46,15 @@ def _compile(*arguments) -> None:
 def toy_library(flags: tuple[str, ...] = ("-O2",)) -> Path:
     """Return the shell linked with the toy's C functions; its part.bin lies beside it."""
     folder = Path(tempfile.mkdtemp(dir=_folder.name))
-    for name, text in c_tables.sources(TOY).items():
+    for name, text in c_tables.sources(interface(TOY)).items():
         (folder / name).write_text(text)
-    (folder / c_tables.PART).write_bytes(c_tables.part_file(TOY, GUID))
+    (folder / c_tables.PART).write_bytes(c_tables.part_file(interface(TOY), GUID))
     shell = source_folder() / "shell"
     files = [shell / name for name in c_tables.SHELL_FILES]
     library = folder / "toy.so"
     _compile("-std=c99", *STRICT, *flags, "-shared", "-fPIC", "-fvisibility=hidden", "-I", folder,
-             "-I", shell, "-I", headers(), folder / "model.c", *files, HERE / "shelltoy" / "toy.c",
-             "-o", library, "-lm")  # fmt: skip
+             "-I", shell, "-I", headers(), folder / "model.c", *files,
+             HERE.parent / "toy" / "toy.c", "-o", library, "-lm")  # fmt: skip
     return library
 
 
@@ -73,7 +73,7 @@ def model_library(model: str) -> Path:
     spec = find_spec(model)
     library = Path(tempfile.mkdtemp(dir=_folder.name)) / f"{spec.name}.so"
     library.write_bytes(native_library(spec, platform="linux64"))
-    (library.parent / c_tables.PART).write_bytes(c_tables.part_file(spec, GUID))
+    (library.parent / c_tables.PART).write_bytes(c_tables.part_file(interface(spec), GUID))
     return library
 
 
@@ -126,12 +126,12 @@ def last(fmi: int, script: str) -> Reply:
 
 def ref(name: str) -> int:
     """Return a value reference of the toy."""
-    return next(v.reference for v in variables(TOY) if v.name == name)
+    return next(v.reference for v in interface(TOY).variables if v.name == name)
 
 
 def taking(names, spec=TOY) -> str:
     """Return the commands that read variables by name, one line for each type."""
-    found = {v.name: v for v in variables(spec)}
+    found = {v.name: v for v in interface(spec).variables}
     lines = []
     for kind, letter in LETTERS.items():
         references = [str(found[n].reference) for n in names if found[n].type == kind]
@@ -142,7 +142,7 @@ def taking(names, spec=TOY) -> str:
 
 def putting(spec=TOY, **values) -> str:
     """Return the commands that set variables by name, one line for each type."""
-    found = {v.name: v for v in variables(spec)}
+    found = {v.name: v for v in interface(spec).variables}
     lines = []
     for kind, letter in LETTERS.items():
         pairs = [f"{found[n].reference} {float(x).hex()}" for n, x in values.items()

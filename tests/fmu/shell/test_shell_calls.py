@@ -5,8 +5,9 @@ import zlib
 
 import pytest
 from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables, call_table
 from thrustwasher.model.spec import tailored
 
@@ -132,8 +133,8 @@ def test_without_a_logger_everything_works_and_nothing_is_said(fmi, oddity):
 @both
 def test_unknown_references_and_wrong_types_are_named(fmi):
     cases = {
-        "take real 99": "value reference 99 is unknown in ShellToy",
-        "put real 4294967295 1": "value reference 4294967295 is unknown in ShellToy",
+        "take real 99": "value reference 99 is unknown in ToyClutch",
+        "put real 4294967295 1": "value reference 4294967295 is unknown in ToyClutch",
         f"take whole {ref('load')}": "load is of type",
         f"take real {ref('regime')}": "regime is of type Enumeration, not",
         f"take boolean {ref('steps')}": "steps is of type",
@@ -230,7 +231,7 @@ def test_dependencies_of_fmi_3_are_those_of_the_list():
     (lambda data: None, "missing"),
     (lambda data: data[:-1], "damaged"),
     (lambda data: data + b"0", "damaged"),
-    (lambda data: data.replace(b"ShellToy", b"ShellTop"), "damaged"),
+    (lambda data: data.replace(b"ToyClutch", b"ToyClutcH"), "damaged"),
     (lambda data: b"twpart0" + data[7:], "damaged"),
     (lambda data: summed(data[:8] + b"another build..." + data[24:-4]), "another build"),
 ])  # fmt: skip
@@ -261,7 +262,7 @@ def summed(data):
 @both
 def test_a_part_of_ones_own_has_its_name_and_its_start_values(fmi, tmp_path):
     part = tailored(TOY, {"discs": 5, "fidelity": "fine"}, {"load": 7.0}, name="Mine")
-    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(part, GUID))
+    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(interface(part), GUID))
     script = MADE + taking(["load", "discs", "fidelity"], part) + "take real 99\n"
     replies = run(fmi, toy_library(), script, resources=tmp_path)
     assert sorted(x for r in replies for x in r.values) == [2.0, 5.0, 7.0]

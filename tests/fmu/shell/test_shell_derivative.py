@@ -4,9 +4,9 @@ import math
 
 import pytest
 from shell_runs import BEGUN, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 
 pytestmark = needs_gcc
 both = pytest.mark.parametrize("fmi", [2, 3])
@@ -126,7 +126,7 @@ def test_until_the_initialization_ends_parameters_are_knowns_as_the_description_
 def test_a_host_may_name_all_that_an_output_depends_on_and_seed_one_of_them(fmi):
     """So hosts solve loops at the start: what counts nothing may be of any type."""
     here = MADE + "enter 0\n" + POINT
-    parameters = [v.reference for v in variables(TOY) if v.causality == "parameter"]
+    parameters = [v.reference for v in interface(TOY).variables if v.causality == "parameter"]
     named = " ".join(f"{r} {int(r == RADIUS)}" for r in parameters)
     alone = last(fmi, here + f"derive {TORQUE} {RADIUS} 1 {SPEED} 0\n")
     found = last(fmi, here + f"derive {TORQUE} {named} {SPEED} 0\n")

@@ -18,9 +18,9 @@ from shell_runs import (
     threads,
     toy_library,
 )
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.model.registry import find_spec
 
 both = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
@@ -41,10 +41,10 @@ def test_ten_thousand_instances_leave_no_memory_behind(fmi):
 def everything(spec):
     """Return a script that uses every part of the shell on a model, and leaves nothing behind."""
     inputs = {s.name: s.start or 0.0 for s in spec.inputs}
-    real = [v for v in variables(spec) if v.type == "Real"]
+    real = [v for v in interface(spec).variables if v.type == "Real"]
     outputs = [v.reference for v in real if v.causality == "output"]
     known = [v.reference for v in real if v.causality == "input"]
-    all_values = taking([v.name for v in variables(spec)], spec)
+    all_values = taking([v.name for v in interface(spec).variables], spec)
     script = BEGUN + putting(spec, **inputs) + all_values
     for i in range(3):
         script += f"step {i * 1e-3!r} 1e-3\n" + all_values
@@ -75,8 +75,8 @@ def test_valgrind_finds_nothing_in_the_models(model):
 
 
 def job(spec, library, n):
-    inputs = [v for v in variables(spec) if v.causality == "input"]
-    outputs = [v for v in variables(spec) if v.causality == "output" and v.type == "Real"]
+    inputs = [v for v in interface(spec).variables if v.causality == "input"]
+    outputs = [v for v in interface(spec).variables if v.causality == "output" and v.type == "Real"]
     ranges = [f"{v.reference} {v.low!r} {v.high!r}" for v in inputs]
     parts = [library, GUID, n, len(inputs), *ranges, len(outputs), *(v.reference for v in outputs)]
     return " ".join(map(str, parts)) + "\n"

@@ -2,7 +2,7 @@
 
 import pytest
 from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, run, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, Status
 from thrustwasher.fmu.running.direct_instance import DirectInstance
@@ -55,7 +55,7 @@ def test_what_the_solver_took_is_told_in_every_step(fmi):
 def test_advice_is_a_warning_given_once_also_to_hosts_that_log_nothing(fmi):
     told = said(fmi, f"make toy {GUID} 0\n" + heated()[0])
     assert len(told) == 1 and told[0].startswith(
-        "1 toy logStatusWarning ShellToy at t = 0.1 s: HOT"
+        "1 toy logStatusWarning ToyClutch at t = 0.1 s: HOT"
     )
     assert Status.HOT.advice in told[0]
 
@@ -96,7 +96,7 @@ def test_a_name_may_be_missing_or_too_long(fmi):
     long = last(fmi, f"make {'n' * 500} {GUID} 0\nstep 0 1\n").messages[0].split(" ")[1]
     assert set(long) == {"n"}
     assert last(fmi, f"make - {GUID} 0\nstep 0 1\n").messages[0].split(" ")[1] in (
-        "ShellToy",
+        "ToyClutch",
         "NULL",
     )
 

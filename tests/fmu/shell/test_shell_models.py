@@ -10,7 +10,7 @@ from shell_runs import GUID, MADE, model_library, needs_linux, run, taking
 from twin import Twin
 
 from thrustwasher.errors import SolveError
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec
 
@@ -36,7 +36,7 @@ def jump(spec, rng):
 
 def vary_parameters(twin, rng):
     """Set some parameters a little off their start, and the fidelity; a bare library has no map."""
-    found = [v for v in variables(twin.spec) if v.causality == "parameter"]
+    found = [v for v in interface(twin.spec).variables if v.causality == "parameter"]
     values = {}
     for v in rng.sample(found, min(5, len(found))):
         if v.type == "Real" and v.low <= v.start * 1.01 <= v.high:
@@ -112,8 +112,8 @@ def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model
     if not hasattr(kernel, "sens"):
         pytest.skip(f"the kernel of {model} has no derivatives")
     twin = Twin(spec, GUID)
-    outputs = [v for v in variables(spec) if v.store == "out" and v.depends]
-    inputs = [v for v in variables(spec) if v.causality == "input"]
+    outputs = [v for v in interface(spec).variables if v.store == "out" and v.depends]
+    inputs = [v for v in interface(spec).variables if v.causality == "input"]
 
     def slope(unknown, seed):
         core = twin.core

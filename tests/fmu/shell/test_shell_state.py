@@ -5,8 +5,9 @@ import zlib
 
 import pytest
 from shell_runs import BEGUN, MADE, SANITIZED, last, needs_gcc, putting, run, taking, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables
 
 pytestmark = needs_gcc
@@ -90,7 +91,7 @@ def test_numbers_that_no_run_leaves_behind_do_no_harm_with_a_right_checksum(fmi,
 def test_states_of_other_builds_and_pointers_that_are_none_are_refused(fmi, tmp_path):
     other = "f" * 32
     script = f"make toy {other} 0\nenter 0\nleave\nsave 0\nwrite 0 {tmp_path}/other\n"
-    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(TOY, other))
+    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(interface(TOY), other))
     run(fmi, toy_library(), script, resources=tmp_path)
     reply = last(fmi, BEGUN + f"read 0 {tmp_path}/other\n")
     assert reply.status == 3 and "bytes of another model or version" in reply.messages[-1]

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 from shell_runs import GUID, MADE, needs_gcc, run, taking, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.package.model_sources import source_folder
 from thrustwasher.fmu.shell import c_tables, call_table
 from thrustwasher.model.registry import all_specs
@@ -33,14 +33,14 @@ def test_the_table_of_calls_has_every_function_of_the_standard(fmi, number):
 
 def test_a_part_has_the_tables_of_its_model_and_a_file_of_its_own():
     part = tailored(TOY, {"discs": 5, "fidelity": "fine"}, {"load": 7.0}, name="Mine")
-    assert c_tables.sources(part) == c_tables.sources(TOY)
-    assert c_tables.part_file(part, GUID) != c_tables.part_file(TOY, GUID)
-    assert c_tables.part_file(TOY, GUID) != c_tables.part_file(TOY, "other")
+    assert c_tables.sources(interface(part)) == c_tables.sources(interface(TOY))
+    assert c_tables.part_file(interface(part), GUID) != c_tables.part_file(interface(TOY), GUID)
+    assert c_tables.part_file(interface(TOY), GUID) != c_tables.part_file(interface(TOY), "other")
 
 
 def test_every_name_in_a_rule_is_a_parameter_and_every_file_is_there():
     for spec in all_specs():
-        known = {v.name for v in variables(spec) if v.causality == "parameter"}
+        known = {v.name for v in interface(spec).variables if v.causality == "parameter"}
         for rule in spec.rules:
             assert set(re.findall(r"\{(\w+)\}", rule.text)) <= known, rule.text
     shell = source_folder() / "shell"
@@ -57,7 +57,7 @@ def test_sentences_become_c_whatever_they_hold():
 @needs_gcc
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_numbers_reach_c_to_the_bit(fmi):
-    found = [v for v in variables(TOY) if v.causality in ("input", "parameter")]
+    found = [v for v in interface(TOY).variables if v.causality in ("input", "parameter")]
     replies = run(fmi, toy_library(), MADE + taking([v.name for v in found]))
     got = sorted(x for r in replies for x in r.values)
     assert got == sorted(v.start for v in found)

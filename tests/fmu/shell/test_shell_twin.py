@@ -5,7 +5,7 @@ import random
 
 import pytest
 from shell_runs import GUID, needs_gcc, run, toy_library
-from shelltoy.spec import SPEC as TOY
+from toy.spec import SPEC as TOY
 from twin import Twin
 
 pytestmark = needs_gcc

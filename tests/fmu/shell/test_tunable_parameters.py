@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import pytest
 from shell_runs import GUID, model_library, needs_linux, putting, run, taking
 
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.model.registry import all_specs, find_spec
 
@@ -92,7 +92,7 @@ class Host:
 
 
 def test_these_are_all_of_them():
-    found = {(s.key, v.name) for s in all_specs() for v in variables(s)
+    found = {(s.key, v.name) for s in all_specs() for v in interface(s).variables
              if v.variability == "tunable"}  # fmt: skip
     assert found == {(c.model, c.name) for c in CASES}
 
@@ -116,7 +116,7 @@ def test_the_shell_tunes_as_the_core_does_to_the_bit(case):
     spec = find_spec(case.model)
     core = DirectInstance(spec, parameters=case.fixed)
     core.initialize(0.0, case.inputs)
-    reference = next(v.reference for v in variables(spec) if v.name == case.name)
+    reference = next(v.reference for v in interface(spec).variables if v.name == case.name)
     for i in range(5):
         if i == 3:
             core.core.set([reference], [case.new], "Real")
@@ -143,7 +143,7 @@ def test_the_state_carries_the_value_also_as_bytes(case, way, tmp_path):
     assert kept and second[1:] == first[-n:]
     back = Host(case, way).say("save 0").tune(**new).steps(1).say("restore 0")
     back.script += taking([case.name], back.spec)
-    start = next(v.start for v in variables(back.spec) if v.name == case.name)
+    start = next(v.start for v in interface(back.spec).variables if v.name == case.name)
     assert back.answers()[-1] == [start]
 
 

@@ -5,7 +5,7 @@ from itertools import groupby
 from shell_runs import LETTERS
 
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.description.interface import variables
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.core import Core, Mode
 
 ERROR = 3
@@ -16,8 +16,8 @@ class Twin:
 
     def __init__(self, spec, guid):
         self.spec, self.script, self.expected = spec, "", []
-        self.core, self.states = Core(spec), {}
-        self.variables = {v.name: v for v in variables(spec)}
+        self.core, self.states = Core(interface(spec)), {}
+        self.variables = {v.name: v for v in interface(spec).variables}
         self._ask(f"make twin {guid} 0", lambda: None)
 
     def _ask(self, command, answer):
@@ -52,24 +52,17 @@ class Twin:
                       lambda r=references, k=kind: self.core.get(r, k))  # fmt: skip
 
     def begin(self, start=0.0):
-        def time_and_mode():
-            self.core.time, self.core.mode = start, Mode.INITIALIZING
-
         self._ask(f"setup {start!r}", lambda: None)
-        self._ask(f"enter {start!r}", time_and_mode)
+        self._ask(f"enter {start!r}", lambda: self.core.begin(start))
 
     def leave(self):
-        def start_point():
-            self.core.leave_initialization()
-            self.core.mode = Mode.STEPPING
-
-        self._ask("leave", start_point)
+        self._ask("leave", lambda: self.core.leave_initialization())
 
     def step(self, t, h):
         self._ask(f"step {float(t).hex()} {float(h).hex()}", lambda: self.core.advance(t, h))
 
     def reset(self):
-        self._ask("reset", lambda: setattr(self, "core", Core(self.spec)))
+        self._ask("reset", lambda: setattr(self, "core", Core(interface(self.spec))))
 
     def save(self, slot):
         self._ask(f"save {slot}", lambda: self.states.update({slot: self.core.snapshot()}))

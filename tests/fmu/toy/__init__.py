@@ -1,1 +1,1 @@
-"""A cheap model with everything an FMU can have: memory, every type of variable, every failure."""
+"""A cheap model that can do and say all a model can, and fails on command; also written in C."""

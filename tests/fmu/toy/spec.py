@@ -1,33 +1,37 @@
 from dataclasses import dataclass
 
-from thrustwasher.errors import ParameterError
-from thrustwasher.model.parameters import check_ranges, choice, count, flag, quantity
-from thrustwasher.model.spec import ModelSpec, Signal, Terminal
+from thrustwasher.model.parameters import check_ranges, check_rules, choice, count, flag, quantity
+from thrustwasher.model.spec import ModelSpec, Rule, Signal, Terminal
+
+RULES = (
+    Rule("inner_radius = {inner_radius} m, allowed: below outer_radius ({outer_radius} m)"),
+    Rule("law = {law} with dry = {dry} and discs = {discs}, allowed: 'viscous' only with oil"),
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToyParams:
-    inner_radius: float = quantity(0.05, "m", 1e-3, 1.0, "inner radius of the toy disc")
-    outer_radius: float = quantity(0.1, "m", 1e-3, 1.0, "outer radius of the toy disc")
-    heat_capacity: float = quantity(100.0, "J/K", 1.0, 1e6, "heat capacity of the toy disc")
-    discs: int = count(2, 1, 20, "number of discs in the toy")
+    inner_radius: float = quantity(0.05, "m", 1e-6, 1e7, "inner radius of the toy disc")
+    outer_radius: float = quantity(0.1, "m", 1e-6, 1e7, "outer radius of the toy disc")
+    heat_capacity: float = quantity(
+        100.0, "J/K", 1.0, 1e6, "heat capacity of the toy disc", tunable=True
+    )
+    discs: int = count(2, 1, 20, "number of discs in the toy (13: cannot be used)")
     dry: bool = flag(False, "no oil between the toy discs")
     law: str = choice("viscous", {"viscous": "grows with the speed", "dry": "does not grow"},
                       "ToyLaw", "law of the toy friction")  # fmt: skip
 
     def __post_init__(self):
         check_ranges(self)
-        if self.inner_radius >= self.outer_radius:
-            raise ParameterError(
-                f"inner_radius = {self.inner_radius!r} m, allowed: below outer_radius "
-                f"({self.outer_radius!r} m)"
-            )
+        from .kernel import broken_rule
+
+        check_rules(self, RULES, broken_rule)
 
 
 SPEC = ModelSpec(
     key="toy.spec:SPEC",
     name="ToyClutch",
-    help="A disc that warms up by friction, for tests of the packing",
+    help="A disc that warms up by friction, for tests of FMUs",
     params=ToyParams,
     fidelities={"coarse": "one explicit step", "fine": "ten explicit steps"},
     default_fidelity="coarse",
@@ -47,13 +51,19 @@ SPEC = ModelSpec(
         Signal(name="temperature_rise", unit="K", nominal=10.0, relative=True,
                help="temperature of the discs above the oil"),
         Signal(name="energy", unit="J", nominal=1e3, help="friction work done so far"),
+        Signal(name="film_ratio", unit="1", nominal=1.0, depends=("load",),
+               help="film over roughness of the toy"),
         Signal(name="regime", unit="1", kind="enumeration", type="Regime", low=1, high=4,
                depends=("speed",), help="lubrication regime of the toy"),
-        Signal(name="hot", unit="1", kind="boolean", help="warmer than the toy allows"),
+        Signal(name="hot", unit="1", kind="boolean", help="warmer than the toy allows",
+               events=("too hot", "cool again")),
+        Signal(name="steps", unit="1", kind="integer", help="number of steps the toy has made"),
         Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
                depends=("load",), help="how the last solution was obtained"),
     ),
     kernel="toy.kernel",
+    counts=(("substeps", "toy.kernel:SUBSTEPS"),),
+    rules=RULES,
     terminals=(
         Terminal(name="shaft", kind="thrustwasher.Toy", help="Slip speed in, friction torque out",
                  members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow"))),

@@ -1,18 +1,29 @@
-"""One list of variables per model: everything an FMU shows comes from here.
+"""The interface of a model as FMUs show it: everything they show comes from here.
 
-The list is made from the parameter dataclass and the model's inputs and outputs. Value references
-count 0, 1, 2, ... over ``time``, inputs, parameters (dataclass fields, then ``fidelity``), outputs;
-they are the same for every target and FMI version.
+It is made from the parameter dataclass and the model's inputs and outputs. Value references count
+0, 1, 2, ... over ``time``, inputs, parameters (dataclass fields, then ``fidelity``), outputs; they
+are the same for every target and FMI version.
 """
 
 import sys
 from collections.abc import Iterator
 from dataclasses import MISSING, Field, dataclass, fields
+from functools import cached_property
 from typing import Any
 
 from ...errors import Status
+from ...model.record import resolve
 from ...model.spec import REGIMES, ModelSpec, Signal
 
+LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
+    "logStatusWarning": "Results that need care, such as distress or too hot",
+    "logStatusError": "Refused values and failed steps, with the reason",
+    "logNonlinearSystems": "What the solver took in each step",
+    "logEvents": "Film lost or regained, lock and break-away: once each",
+    "logAll": "Everything, also tracebacks of defects",
+}
+MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
+EVENT_OUTPUTS = ("film_ratio", "engine_speed", "temperature")  # beside the inputs in messages
 LARGEST = sys.float_info.max  # bound of a variable without bounds: NaN and infinity still fail
 
 
@@ -58,48 +69,120 @@ class Variable:
         return low, LARGEST if self.high is None else self.high
 
 
-EVENT_OUTPUTS = ("film_ratio", "engine_speed", "temperature")  # beside the inputs in messages
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Interface:
+    """All that an FMU shows of a model; ``interface`` makes it, whatever writes or runs takes it.
 
-
-def ranges(spec: ModelSpec, room: int = 0) -> tuple[list[tuple[float, float]], ...]:
-    """Return the part's box and the verified range of every input, and of ``room`` places in all.
-
-    Where there is none it is as wide as numbers are.
+    ``variables`` are in the order of their value references, ``enumerations`` by type name.
     """
-    wide = (-LARGEST, LARGEST)
-    found = (
-        [spec.box.get(s.name, wide) for s in spec.inputs],
-        [(s.verified[0], s.verified[1]) if s.verified else wide for s in spec.inputs],
-    )
-    return tuple(own + [wide] * (room - len(own)) for own in found)
+
+    spec: ModelSpec
+    variables: tuple[Variable, ...]
+    enumerations: dict[str, tuple[Item, ...]]
+
+    @cached_property
+    def inputs(self) -> tuple[Variable, ...]:
+        """The inputs."""
+        return self._of("input")
+
+    @cached_property
+    def parameters(self) -> tuple[Variable, ...]:
+        """The parameters."""
+        return self._of("parameter")
+
+    @cached_property
+    def outputs(self) -> tuple[Variable, ...]:
+        """The outputs."""
+        return self._of("output")
+
+    def _of(self, causality: str) -> tuple[Variable, ...]:
+        return tuple(v for v in self.variables if v.causality == causality)
+
+    @cached_property
+    def status_slot(self) -> int | None:
+        """The place of ``solver_status`` in ``iout``."""
+        return next((v.slot for v in self.outputs if v.type_name == "SolverStatus"), None)
+
+    @cached_property
+    def point(self) -> tuple[Variable, ...]:
+        """What a message about an event says of the operating point."""
+        return tuple(v for v in self.variables if v in self.inputs or v.name in EVENT_OUTPUTS)
+
+    @cached_property
+    def switches(self) -> tuple[tuple[int, tuple[str, str]], ...]:
+        """Outputs that make events: place in ``iout``, texts of becoming true and false."""
+        pairs = zip(self.outputs, self.spec.outputs, strict=True)
+        return tuple((v.slot, signal.events) for v, signal in pairs if signal.events)
+
+    @cached_property
+    def counts(self) -> tuple[tuple[str, int], ...]:
+        """What the model's solver counts: text, place in ``work``."""
+        return tuple((text, int(resolve(where))) for text, where in self.spec.counts)
+
+    @cached_property
+    def categories(self) -> dict[str, str]:
+        """The categories this model sends messages in, with what they mean."""
+        silent = set() if self.spec.counts else {"logNonlinearSystems"}
+        if not self.switches:
+            silent.add("logEvents")
+        return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}
+
+    @property
+    def experiment(self) -> tuple[float, float]:
+        """Stop time and step size [s] of the default experiment; the start time is 0."""
+        step = self.spec.step_size
+        return min(self.spec.stop_time, MOST_STEPS * step), step
+
+    def ranges(self, room: int = 0) -> tuple[list[tuple[float, float]], ...]:
+        """Return the part's box and the verified range of every input, of ``room`` places in all.
+
+        Where there is none it is as wide as numbers are.
+        """
+        wide, inputs = (-LARGEST, LARGEST), self.spec.inputs
+        found = (
+            [self.spec.box.get(s.name, wide) for s in inputs],
+            [(s.verified[0], s.verified[1]) if s.verified else wide for s in inputs],
+        )
+        return tuple(own + [wide] * (room - len(own)) for own in found)
 
 
-_made: dict[int, tuple[ModelSpec, tuple[Variable, ...]]] = {}
+_made: dict[int, Interface] = {}
 
 
-def variables(spec: ModelSpec) -> tuple[Variable, ...]:
-    """Return the variables of a model in the order of their value references."""
+def interface(spec: ModelSpec) -> Interface:
+    """Return the interface of a model, made once for each record."""
     if id(spec) not in _made:
-        time = {
-            "name": "time", "type": "Real", "causality": "independent", "store": "time", "slot": 0,
-            "variability": "continuous", "initial": None, "unit": "s",
-            "help": "time of the present communication point",
-        }  # fmt: skip
-        entries = [time, *(_signal(s, "inp", i) for i, s in enumerate(spec.inputs))]
-        entries += (_parameter(i, f) for i, f in enumerate(fields(spec.params)))
-        entries += [_fidelity(spec), *_outputs(spec)]
-        items = enumerations(spec)
+        items = _enumerations(spec)
+        entries = list(_entries(spec))
         for entry in entries:
             if entry["type"] == "Enumeration":
                 numbers = [item.value for item in items[entry["type_name"]]]
                 entry["low"], entry["high"] = min(numbers), max(numbers)
         made = tuple(Variable(reference=i, **entry) for i, entry in enumerate(entries))
-        _made[id(spec)] = spec, made
-    return _made[id(spec)][1]
+        _made[id(spec)] = Interface(spec=spec, variables=made, enumerations=items)
+    return _made[id(spec)]
 
 
-def enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
-    """Return the enumerations that occur in this model, by type name."""
+def _entries(spec: ModelSpec) -> Iterator[dict[str, Any]]:
+    """Give what variables are made of, in the order of their value references."""
+    yield {
+        "name": "time",
+        "type": "Real",
+        "causality": "independent",
+        "store": "time",
+        "slot": 0,
+        "variability": "continuous",
+        "initial": None,
+        "unit": "s",
+        "help": "time of the present communication point",
+    }
+    yield from (_signal(s, "inp", i) for i, s in enumerate(spec.inputs))
+    yield from (_parameter(i, f) for i, f in enumerate(fields(spec.params)))
+    yield _fidelity(spec)
+    yield from _outputs(spec)
+
+
+def _enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
     found = {"Fidelity": _counted(spec.fidelities)}
     for f in fields(spec.params):
         if f.metadata["kind"] == "enumeration":

@@ -6,26 +6,17 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from ...model.spec import ModelSpec
 from ...model.toml_tables import table_beside
 from ...templates import filled
 from ...units import UNITS, exponents
 from ..model_kernels import package_version
 from ..package.model_sources import PACKAGE
-from .interface import Variable, enumerations, variables
+from .interface import Interface, Variable
 
 HERE = Path(__file__).parent
 # In FMI 3 enumerations are 64-bit integers, whole numbers 32-bit ones; order as in tables.h.
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 Attributes = dict[str, Any]  # of an element; those that are None are left out
-LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
-    "logStatusWarning": "Results that need care, such as distress or too hot",
-    "logStatusError": "Refused values and failed steps, with the reason",
-    "logNonlinearSystems": "What the solver took in each step",
-    "logEvents": "Film lost or regained, lock and break-away: once each",
-    "logAll": "Everything, also tracebacks of defects",
-}
-MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
 RELEASED = 1767225600  # without git and SOURCE_DATE_EPOCH: 2026-01-01
 # unit -> its display units
 DISPLAY = {
@@ -36,22 +27,27 @@ DISPLAY = {
 REAL_TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml")
 
 
-def description(spec: ModelSpec, *, fmi: int, guid: str, derivatives: bool = False) -> bytes:
+def description(shown: Interface, *, fmi: int, guid: str, derivatives: bool = False) -> bytes:
     """Return the model description; ``derivatives``: the binary has directional ones."""
-    found = variables(spec)
-    stop, step = default_experiment(spec)
+    found = shown.variables
     return filled(
-        HERE / "modelDescription.xml.jinja", spec=spec, fmi=fmi, guid=guid, stop=stop, step=step,
-        derivatives=str(derivatives).lower(), head=head(spec), units=units(found),
-        types=types(found), enumerations=enumerations(spec), kinds=TYPES,
-        categories=log_categories(spec), structure=structure(found),
+        HERE / "modelDescription.xml.jinja",
+        shown=shown,
+        fmi=fmi,
+        guid=guid,
+        derivatives=str(derivatives).lower(),
+        head=head(shown),
+        units=units(found),
+        types=types(found),
+        kinds=TYPES,
+        structure=structure(shown),
         variables=[(v, head_attributes(v), value_attributes(v)) for v in found],
-    )  # fmt: skip
+    )
 
 
-def terminals_and_icons(spec: ModelSpec, *, icon: bool = True) -> bytes:
+def terminals_and_icons(shown: Interface, *, icon: bool = True) -> bytes:
     """Return torque and speed as one plug; a file of FMI 3.0."""
-    return filled(HERE / "terminalsAndIcons.xml.jinja", terminals=spec.terminals, icon=icon)
+    return filled(HERE / "terminalsAndIcons.xml.jinja", terminals=shown.spec.terminals, icon=icon)
 
 
 def declared_type(v: Variable) -> str | None:
@@ -90,27 +86,20 @@ def _last_commit() -> str:
     return answer.stdout.strip()
 
 
-def default_experiment(spec: ModelSpec) -> tuple[float, float]:
-    """Return (stop time, step size) [s]; the start time is 0."""
-    return min(spec.stop_time, MOST_STEPS * spec.step_size), spec.step_size
-
-
-def log_categories(spec: ModelSpec) -> dict[str, str]:
-    """Return the categories this model sends messages in."""
-    silent = set() if spec.counts else {"logNonlinearSystems"}
-    if not any(signal.events for signal in spec.outputs):
-        silent.add("logEvents")
-    return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}
-
-
-def head(spec: ModelSpec) -> dict[str, str]:
+def head(shown: Interface) -> dict[str, str]:
     """Return the attributes of the root that both versions have."""
+    authors, version = "The thrustwasher authors", package_version()
     return {
-        "modelName": spec.name, "description": spec.help, "author": "The thrustwasher authors",
-        "version": package_version(), "copyright": "The thrustwasher authors",
-        "license": "BSD-3-Clause", "generationTool": f"thrustwasher {package_version()}",
-        "generationDateAndTime": generation_date(), "variableNamingConvention": "structured",
-    }  # fmt: skip
+        "modelName": shown.spec.name,
+        "description": shown.spec.help,
+        "author": authors,
+        "version": version,
+        "copyright": authors,
+        "license": "BSD-3-Clause",
+        "generationTool": f"thrustwasher {version}",
+        "generationDateAndTime": generation_date(),
+        "variableNamingConvention": "structured",
+    }
 
 
 def units(found: tuple[Variable, ...]) -> list[tuple[str, dict[str, int], list[Attributes]]]:
@@ -156,17 +145,17 @@ def value_attributes(v: Variable) -> Attributes:
             "relativeQuantity": relative, **shown}  # fmt: skip
 
 
-def structure(found: tuple[Variable, ...]) -> list[tuple[str, str, list[Any]]]:
+def structure(shown: Interface) -> list[tuple[str, str, list[Any]]]:
     """Return name of the list in FMI 2, of an element in FMI 3, and pairs: output, what it needs.
 
     While running an output depends on the inputs that act at once, when it is initialized also on
     every parameter. Without a list the standard reads "depends on everything".
     """
-    parameters = {v.name for v in found if v.causality == "parameter"}
-    outputs = [v for v in found if v.causality == "output"]
+    parameters = {v.name for v in shown.parameters}
 
     def needs(more: set[str]) -> list[Any]:
-        return [(v, [k for k in found if k.name in more.union(v.depends)]) for v in outputs]
+        known = [(v, more.union(v.depends)) for v in shown.outputs]
+        return [(v, [k for k in shown.variables if k.name in names]) for v, names in known]
 
     return [
         ("Outputs", "Output", needs(set())),

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...model.spec import ModelSpec
 from ...templates import filled
-from ..description.model_description import default_experiment
+from ..description.interface import interface
 from ..running.direct_instance import DirectInstance
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
@@ -51,7 +51,7 @@ def reference_run(spec: ModelSpec) -> Rows:
 
     Numbers of less than a millionth of the nominal value become 0.
     """
-    stop, h = default_experiment(spec)
+    stop, h = interface(spec).experiment
     course = np.array(input_rows(spec))
     times = h * np.arange(round(stop / h) + 1)
     columns = [np.interp(times, course[:, 0], values) for values in course.T[1:]]

@@ -8,7 +8,7 @@ from pathlib import Path
 from ...errors import EnvironmentProblem
 from ...model.registry import MODELS as HOMES
 from ...model.spec import ModelSpec
-from ..description.interface import enumerations, variables
+from ..description.interface import Interface
 from ..model_kernels import content_digest, package_version
 
 PACKAGE = Path(str(files(__name__.partition(".")[0])))
@@ -18,7 +18,7 @@ TEXTS = (".py", ".c", ".h", ".md", ".html", ".jinja", ".toml", ".txt", ".svg", "
 
 
 def source_folder() -> Path:
-    """Return the folder of the slaves: beside the package in a source tree, else in it."""
+    """Return the folder of shell and texts: beside the package in a source tree, else in it."""
     for folder in (PACKAGE / "_fmu_src", PACKAGE.parent / "fmu_src"):
         if folder.is_dir():
             return folder
@@ -28,7 +28,7 @@ def source_folder() -> Path:
 
 
 def model_folder(spec: ModelSpec, sources: Path) -> Path:
-    """Return the folder of a model's slave and readme, such as ``thrust_washer``.
+    """Return the folder of a model's readme and icon, such as ``thrust_washer``.
 
     Of a model outside this package that is the folder of its record.
     """
@@ -39,7 +39,7 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
 
 
 def identifier(
-    spec: ModelSpec, folder: Path, *, target: str, fmi: int, tools: str = "",
+    shown: Interface, folder: Path, *, target: str, fmi: int, tools: str = "",
     shared: Path | None = None,
 ) -> str:  # fmt: skip
     """Return 32 hex digits over all that decides what an FMU contains.
@@ -49,9 +49,10 @@ def identifier(
     packing, target, FMI version, package version and ``tools``: the versions of the compilers, and
     whatever else goes in. No clock, no path, no chance.
     """
+    spec = shown.spec
     own = spec.name, spec.help, spec.box, spec.notes, spec.course, spec.stop_time, spec.step_size
-    shown = variables(spec), enumerations(spec), spec.terminals, own
-    hashed = hashlib.sha256(repr(shown).encode())
+    said = shown.variables, shown.enumerations, spec.terminals, own
+    hashed = hashlib.sha256(repr(said).encode())
     hashed.update(f"{content_digest(spec)} {target} {fmi} {package_version()} {tools}".encode())
     beside = shared or source_folder()
     for root in (*OWN, folder, *(beside / name for name in SHARED)):

@@ -15,7 +15,6 @@ import sys
 import traceback
 from collections.abc import Callable
 from functools import wraps
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,7 @@ from pythonfmu.enums import Fmi2Status
 
 from ...errors import EnvironmentProblem, ParameterError, SolveError, Status
 from ...model.registry import find_spec
-from ..description.model_description import LOG_CATEGORIES
+from ..description.interface import LOG_CATEGORIES, interface
 from ..model_kernels import content_digest, package_version
 from ..running.core import Core, Mode
 from ..running.snapshot import Snapshot, from_bytes
@@ -76,11 +75,12 @@ def _getter(kind: str, convert: Callable[[float], Any]) -> Callable[..., Any]:
 
 
 class Slave(Fmi2Slave):  # type: ignore[misc]
-    """Base class; a model's slave file names the model and what it was built with."""
+    """Base class; the module inside an FMU names the model and what it was built with."""
 
     model = ""
     version = digest = guid = ""
     log_categories = LOG_CATEGORIES
+    start_time = 0.0
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -101,44 +101,37 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             # pythonfmu drops messages unless the host has logging on
             logging.getLogger("thrustwasher").error("%s", problem)
             raise problem
-        self.core = Core(spec)
+        self.core = Core(interface(spec))
 
     @_safe
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
     ) -> None:
         """Keep the start time."""
-        start = float(start_time)
-        if not isfinite(start):
-            raise ParameterError(f"start time = {start!r} s, allowed: a finite number")
-        self.core.time = start
+        self.start_time = float(start_time)
 
     @_safe
     def enter_initialization_mode(self) -> None:
         """From here on outputs can be read."""
-        self.core.mode = Mode.INITIALIZING
+        self.core.begin(self.start_time)
 
     @_safe
     def exit_initialization_mode(self) -> None:
         """Check the rules between parameters and solve the start point."""
-        self.core.mode = Mode.STEPPING  # the host cannot be told of a failure and will go on
-        self.core.leave_initialization()
-        self._warn()
+        try:
+            self.core.leave_initialization()
+        finally:
+            self.core.mode = Mode.STEPPING  # the host cannot be told of a failure and will go on
+        for text in self.core.advice():
+            self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
     @_safe
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance; False after a failure, with everything as it was."""
-        expected = self.core.time
         self.core.advance(current_time, step_size)
-        if abs(current_time - expected) > 1e-6 * step_size:
-            self.tell(f"step from t = {current_time:g} s, but the last one ended at "
-                      f"{expected:g} s; the host's time counts", Fmi2Status.warning)  # fmt: skip
-        for event in self.core.events:
-            self.tell(event, Fmi2Status.ok, "logEvents")
-        effort = self.core.effort
-        if effort:
-            self.tell(effort, Fmi2Status.ok, "logNonlinearSystems")
-        self._warn()
+        for category, text in self.core.messages():
+            is_warning = category == "logStatusWarning"
+            self.tell(text, Fmi2Status.warning if is_warning else Fmi2Status.ok, category)
         return True
 
     @_safe
@@ -195,11 +188,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             self.tell(story, Fmi2Status.ok, "logAll")
         elif isinstance(problem, ParameterError):
             self.core.latch = Status.BAD_INPUT
-
-    def _warn(self) -> None:
-        """Warn once when an input leaves its range or the solution begins to need care."""
-        for text in self.core.advice():
-            self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
 
 def _settle_library(folder: str | None, model: str) -> None:

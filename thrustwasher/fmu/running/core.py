@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 from enum import IntEnum
 from functools import partial
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,9 @@ import numpy as np
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.prepare import fill_table, wants_table
 from ...model.registry import kernel_of
-from ...model.spec import ModelSpec
 from ...native.load import bound
-from ..description.interface import EVENT_OUTPUTS, Variable, enumerations, ranges, variables
-from ..model_kernels import content_digest, count_places
+from ..description.interface import Interface, Variable
+from ..model_kernels import content_digest
 from .snapshot import Snapshot
 
 # What is said of an input outside the part's box, and outside what was verified: before it, behind.
@@ -42,11 +42,11 @@ class Core:
     or leaves everything as it was, except the status that tells why.
     """
 
-    def __init__(self, spec: ModelSpec) -> None:
-        kernel = kernel_of(spec)
-        self.spec, self._derive = spec, kernel.derive
+    def __init__(self, shown: Interface) -> None:
+        kernel = kernel_of(shown.spec)
+        self.shown, self.spec, self._derive = shown, shown.spec, kernel.derive
         self._broken_rule = getattr(kernel, "broken_rule", None)
-        self.variables = variables(spec)
+        self.variables = shown.variables
         self.par, self.inp = np.zeros(kernel.NPAR), np.zeros(kernel.NINP)
         self.state, self.work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
         self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
@@ -58,10 +58,7 @@ class Core:
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.NOUT)
         self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
-        self.status_slot = next((v.slot for v in self.variables if v.type_name == "SolverStatus"
-                                 and v.store == "iout"), None)  # fmt: skip
-        self._inputs = [v for v in self.variables if v.causality == "input"]
-        self._ranges = ranges(spec, len(self._inputs))
+        self._ranges = shown.ranges()
         self._beyond = [[False] * len(own) for own in self._ranges]
         self._warned = 0  # the status that was last told
         self.time, self.mode = 0.0, Mode.INSTANTIATED
@@ -71,10 +68,8 @@ class Core:
         # variables whose last value was not taken over, and why if the newest call refused it
         self.refused: dict[int, str] = {}
         self.events: list[str] = []  # what happened in the last step
-        events = {signal.name: signal.events for signal in spec.outputs if signal.events}
-        self._switches = [(v.slot, events[v.name]) for v in self.variables if v.name in events]
-        self._seen = [0 for _ in self._switches]  # at the last communication point
-        self._counts = count_places(spec)
+        self.late = ""  # what is said if the last step did not begin where the one before ended
+        self._seen = [0 for _ in shown.switches]  # at the last communication point
         for v in self.variables:
             if v.start is not None:
                 self._arrays[v.store][v.slot] = v.start
@@ -130,7 +125,7 @@ class Core:
     def _value(self, v: Variable) -> float:
         if v.store == "time":
             return self.time
-        if self.latch and v.store == "iout" and v.slot == self.status_slot:
+        if self.latch and v.store == "iout" and v.slot == self.shown.status_slot:
             return self.latch
         value: float = self._arrays[v.store].item(v.slot)
         return value
@@ -158,8 +153,8 @@ class Core:
         unit = "" if v.unit == "1" else f" {v.unit}"
         allowed = f"{low:g} .. {high:g}{unit}"
         if v.type_name:
-            allowed = ", ".join(f"{i.value} ({i.name})"
-                                for i in enumerations(self.spec)[v.type_name])  # fmt: skip
+            items = self.shown.enumerations[v.type_name]
+            allowed = ", ".join(f"{i.value} ({i.name})" for i in items)
         text = f"{v.name} = {value:g}{unit} is outside {allowed}; the value is not taken over."
         if v.unit == "K" and not v.relative and low <= value + 273.15 <= high:
             text += f" Did you mean {value + 273.15:g} K ({value:g} degC)?"
@@ -194,11 +189,18 @@ class Core:
             named[f.name] = value
         return self.spec.params(**named)
 
+    def begin(self, start_time: float) -> None:
+        """Enter initialization at a time [s]."""
+        if not isfinite(start_time):
+            raise ParameterError(f"start time = {start_time!r} s, allowed: a finite number")
+        self.time, self.mode = start_time, Mode.INITIALIZING
+
     def leave_initialization(self) -> None:
-        """Check the parameters and solve the start point; the caller changes the mode."""
+        """Check the parameters and solve the start point; after a failure the mode stays."""
         self._check_complete("start", self.time, "parameter")
         self.prepare()
         self.refresh()
+        self.mode = Mode.STEPPING
         self.note_switches()  # how a run starts is no event
 
     def _check_complete(self, what: str, t: float, *causalities: str) -> None:
@@ -241,24 +243,40 @@ class Core:
             self.time, self.latch = before, rc
             raise SolveError(self._story(rc, f"t = {t:g} s, step {h:g} s"))
         self.time, self.dirty, self.latch, self._unsolved = t + h, False, 0, ""
-        if self._switches:
+        self.late = ""
+        if abs(t - before) > 1e-6 * h:
+            self.late = f"step from t = {t:g} s, but the last one ended at {before:g} s; "
+            self.late += "the host's time counts"
+        if self._seen:
             self.events = self.note_switches()
+
+    def messages(self) -> list[tuple[str, str]]:
+        """Return (category, text) of all that a host has to be told after a step."""
+        told = [("logStatusWarning", self.late)] + [("logEvents", text) for text in self.events]
+        told.append(("logNonlinearSystems", self.effort))
+        told += [("logStatusWarning", text) for text in self.advice()]
+        return [(category, text) for category, text in told if text]
 
     def note_switches(self) -> list[str]:
         """Return one sentence for each event since the last communication point."""
-        seen, self._seen = self._seen, [self.iout.item(slot) for slot, _ in self._switches]
-        pairs = zip(self._switches, seen, self._seen, strict=True)
+        switches = self.shown.switches
+        seen, self._seen = self._seen, [self.iout.item(slot) for slot, _ in switches]
+        pairs = zip(switches, seen, self._seen, strict=True)
         return [
-            f"{self.spec.name} at t = {self.time:g} s: {texts[0 if now else 1]}; {self._point()}"
+            f"{self._here}: {texts[0 if now else 1]}; {self._point(self.shown.point)}"
             for (_, texts), before, now in pairs
             if now != before
         ]
 
     @property
+    def _here(self) -> str:
+        return f"{self.spec.name} at t = {self.time:g} s"
+
+    @property
     def effort(self) -> str:
         """What the last solve took, "" if the model's solver counts nothing."""
-        counted = [f"{text}: {self.work.item(place):g}" for text, place in self._counts]
-        return f"{self.spec.name} at t = {self.time:g} s, " + ", ".join(counted) if counted else ""
+        counted = [f"{text}: {self.work.item(place):g}" for text, place in self.shown.counts]
+        return f"{self._here}, {', '.join(counted)}" if counted else ""
 
     def _solve(self, h: float) -> int:
         """Call the kernel; after a failure ``state`` and the outputs are what they were."""
@@ -278,20 +296,21 @@ class Core:
         self._step_into(out, iout, self.time, 0.0)
 
     def _story(self, rc: int, where: str) -> str:
-        point = self._point(show=())
+        point = self._point(self.shown.inputs)
         return f"{self.spec.name} at {where}, {point}: {Status(rc).name}: {Status(rc).advice}"
 
-    def _point(self, show: tuple[str, ...] = EVENT_OUTPUTS) -> str:
-        """Return the inputs in words, and those of the outputs in ``show`` that there are."""
-        wanted = [v for v in self.variables if v.causality == "input" or v.name in show]
-        values = [(v, self._value(v)) for v in wanted]
+    def _point(self, variables: Sequence[Variable]) -> str:
+        """Return the values of variables in words."""
+        values = [(v, self._value(v)) for v in variables]
         return ", ".join(f"{v.name} = {x:g} {v.unit}".removesuffix(" 1") for v, x in values)
 
     def advice(self) -> list[str]:
         """Return what the host has to be warned of now, each once until it has passed."""
-        said, unverified, begin = [], False, f"{self.spec.name} at t = {self.time:g} s: "
+        said, unverified, begin = [], False, f"{self._here}: "
         for k, (name, words) in enumerate(RANGES):
-            for i, (v, (low, high)) in enumerate(zip(self._inputs, self._ranges[k], strict=True)):
+            for i, (v, (low, high)) in enumerate(
+                zip(self.shown.inputs, self._ranges[k], strict=True)
+            ):
                 value, unit = self.inp.item(v.slot), f" {v.unit}".removesuffix(" 1")
                 beyond = value < low or value > high
                 unverified |= bool(k) and beyond
@@ -302,14 +321,15 @@ class Core:
         status, found = self.status, [text for *_, text in sorted(said)]
         told = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
         if not told and Status.OK < status < FIRST_FAILURE:
-            found.append(f"{begin}{status.name}: {status.advice}; {self._point()}")
+            found.append(f"{begin}{status.name}: {status.advice}; {self._point(self.shown.point)}")
         self._warned = status
         return found
 
     @property
     def status(self) -> Status:
         """How the last solution was obtained."""
-        solved = 0 if self.status_slot is None else self.iout.item(self.status_slot)
+        slot = self.shown.status_slot
+        solved = 0 if slot is None else self.iout.item(slot)
         return Status(self.latch or solved)
 
     def snapshot(self) -> Snapshot:

@@ -9,8 +9,8 @@ import numpy as np
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, suggestion
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
-from ..description.interface import Variable, enumerations, variables
-from .core import Core, Mode
+from ..description.interface import Variable, interface
+from .core import Core
 from .snapshot import from_bytes
 
 
@@ -20,11 +20,11 @@ class DirectInstance:
     def __init__(self, spec: ModelSpec, *, parameters: Mapping[str, Any] | None = None) -> None:
         start = perf_counter()
         self.spec = spec
-        found = variables(spec)
-        self._inputs = [v.reference for v in found if v.causality == "input"]
+        self.shown = interface(spec)
+        self._inputs = [v.reference for v in self.shown.inputs]
+        self._outputs = [v.reference for v in self.shown.outputs]
         self.input_names = [s.name for s in spec.inputs]
         self.output_names = [s.name for s in spec.outputs]
-        self._outputs = [v.reference for v in found if v.causality == "output"]
         self._parameters = dict(parameters or {})
         self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
         self._sens = getattr(kernel_of(spec), "sens", None)
@@ -40,8 +40,8 @@ class DirectInstance:
 
     def reset(self) -> None:
         """Go back to the start values and the parameters given at construction."""
-        self.core = Core(self.spec)
-        items = enumerations(self.spec)
+        self.core = Core(self.shown)
+        items = self.shown.enumerations
         for name, value in self._parameters.items():
             v = self._find(name, "parameter")
             numbers = {i.name: i.value for i in items.get(v.type_name or "", ())}
@@ -57,11 +57,10 @@ class DirectInstance:
                 f"{self.spec.name} was stepped before and stands at t = {self.core.time:g} s; "
                 "call reset() before it is initialized again"
             )
-        self.core.time, self.core.mode = start_time, Mode.INITIALIZING
+        self.core.begin(start_time)
         for name, value in (inputs or {}).items():
             self.core.set([self._find(name, "input").reference], [float(value)], "Real")
         self.core.leave_initialization()
-        self.core.mode = Mode.STEPPING
         self.initialize_time = perf_counter() - start
 
     def set_inputs(self, values: Sequence[float]) -> None:
@@ -113,7 +112,7 @@ class DirectInstance:
 
     def _find(self, name: str, causality: str | None = None) -> Variable:
         """Return a variable by name, of any causality or of one."""
-        known = {v.name: v for v in self.core.variables if causality in (None, v.causality)}
+        known = {v.name: v for v in self.shown.variables if causality in (None, v.causality)}
         return known.get(name) or unknown(name, list(known))
 
     def get_state(self) -> Any:

@@ -7,15 +7,15 @@ import hashlib
 import struct
 import zlib
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
 from ...model.registry import kernel_of
-from ...model.spec import ModelSpec
 from ...native.shipped import digest_now
-from ..description.interface import EVENT_OUTPUTS, Variable, enumerations, ranges, variables
-from ..description.model_description import LOG_CATEGORIES, TYPES, log_categories
-from ..model_kernels import count_places, has_derivatives
+from ..description.interface import LOG_CATEGORIES, Interface, Variable
+from ..description.model_description import TYPES
+from ..model_kernels import has_derivatives
 from . import call_table
 
 SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
@@ -29,55 +29,62 @@ VERSIONS = (2, 3)  # of FMI, both in one library
 PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
 
 
-def sources(spec: ModelSpec) -> dict[str, str]:
+def sources(shown: Interface) -> dict[str, str]:
     """Return model.h and model.c, file name -> text."""
-    lists = _lists(spec)
-    header, tables = _header(spec, lists), _tables(lists)
-    build = hashlib.sha256(f"{digest_now(spec.kernel)}{header}{tables}".encode()).hexdigest()[:16]
+    header, tables = _texts(shown)
+    build = build_of(shown)
     return {"model.h": header.replace("@BUILD@", build), "model.c": tables}
 
 
-def part_file(spec: ModelSpec, guid: str) -> bytes:
+@cache
+def _texts(shown: Interface) -> tuple[str, str]:
+    lists = _lists(shown)
+    return _header(shown, lists), _tables(lists)
+
+
+def build_of(shown: Interface) -> str:
+    """Return 16 hex digits over kernels and tables, by which a library knows its parts."""
+    texts = digest_now(shown.spec.kernel), *_texts(shown)
+    return hashlib.sha256("".join(texts).encode()).hexdigest()[:16]
+
+
+def part_file(shown: Interface, guid: str) -> bytes:
     """Return resources/part.bin: build of the library, identifier, name, start values, ranges.
 
     ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
-    build = sources(spec)["model.h"].partition('#define BUILD "')[2][:16]
-    words = (text.encode().ljust(WORD, b"\0") for text in (guid, spec.name))
-    starts = [v.start or 0.0 for v in variables(spec)]
-    ends = [
-        x for pairs in ranges(spec, max(kernel_of(spec).NINP, 1)) for pair in pairs for x in pair
-    ]
-    numbers = [*starts, *ends]
-    body = b"".join((MAGIC, build.encode(), *words, struct.pack(f"<{len(numbers)}d", *numbers)))
+    words = (text.encode().ljust(WORD, b"\0") for text in (guid, shown.spec.name))
+    starts = [v.start or 0.0 for v in shown.variables]
+    ranges = shown.ranges(max(kernel_of(shown.spec).NINP, 1))
+    numbers = [*starts, *(x for pairs in ranges for pair in pairs for x in pair)]
+    body = b"".join(
+        (MAGIC, build_of(shown).encode(), *words, struct.pack(f"<{len(numbers)}d", *numbers))
+    )
     return body + struct.pack("<I", zlib.crc32(body))
 
 
-def _lists(spec: ModelSpec) -> dict[str, tuple[str, list[str]]]:
+def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     """Return name of the table -> (C type, rows).
 
     Categories, types and causalities are in the order of the enums in tables.h.
     """
-    names = list(enumerations(spec))
-    inputs = [signal.name for signal in spec.inputs]
+    names = list(shown.enumerations)
+    inputs = [v.name for v in shown.inputs]
     assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
-    found = variables(spec)
-    events = {s.name: s.events for s in spec.outputs if s.events}
-    declared = log_categories(spec)
     return {
-        "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in found]),
+        "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in shown.variables]),
         "ENUMERATIONS": ("Enumeration", [
             _row(_text(name), len(items), f"ITEMS_{name}")
-            for name, items in enumerations(spec).items()]),
+            for name, items in shown.enumerations.items()]),
         "STATUSES": ("StatusText", [
             _row(int(s), _text(s.name), _text(s.advice)) for s in sorted(Status)]),
         "SWITCHES": ("Switch", [
-            _row(v.slot, *map(_text, events[v.name])) for v in found if v.name in events]),
+            _row(slot, *map(_text, events)) for slot, events in shown.switches]),
         "COUNTS": ("Count", [
-            _row(_text(text), place) for text, place in count_places(spec)]),
-        "RULES": ("Rule", [_row(_text(rule.text)) for rule in spec.rules]),
+            _row(_text(text), place) for text, place in shown.counts]),
+        "RULES": ("Rule", [_row(_text(rule.text)) for rule in shown.spec.rules]),
         "CATEGORIES": ("Category", [
-            _row(_text(name), int(name in declared)) for name in LOG_CATEGORIES]),
+            _row(_text(name), int(name in shown.categories)) for name in LOG_CATEGORIES]),
         "TYPES": ("TypeText", [_row(*map(_text, names)) for names in TYPES.items()]),
         "ACCESS": ("Access", [_row(*modes) for modes in call_table.ACCESS.values()]),
         "MODES": ("ModeText", [
@@ -87,7 +94,7 @@ def _lists(spec: ModelSpec) -> dict[str, tuple[str, list[str]]]:
             _row(_text(f"fmi{fmi}{name}"), modes, _text(call_table.DECLINED[fmi].get(name)))
             for fmi in VERSIONS for name, modes in call_table.CALLS[fmi].items()]),
         **{f"ITEMS_{name}": ("Item", [_row(item.value, _text(item.name)) for item in items])
-           for name, items in enumerations(spec).items()},
+           for name, items in shown.enumerations.items()},
     }  # fmt: skip
 
 
@@ -103,20 +110,18 @@ def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
     )  # fmt: skip
 
 
-def _header(spec: ModelSpec, lists: dict[str, tuple[str, list[str]]]) -> str:
-    kernel = kernel_of(spec)
-    found = variables(spec)
-    status = [v for v in found if v.type_name == "SolverStatus"]
+def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
+    kernel = kernel_of(shown.spec)
+    status = -1 if shown.status_slot is None else shown.status_slot
     numbers = {
         **{name: getattr(kernel, name) for name in SIZES},
-        "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
+        "IO_STATUS": status, "FIRST_FAILURE": FIRST_FAILURE,
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
         **{f"TABLE_{name}": value for name, value in getattr(kernel, "TABLE", {"ROOM": 0}).items()},
         "HAS_RULES": int(hasattr(kernel, "broken_rule")),
-        "HAS_SENS": int(has_derivatives(spec)),
+        "HAS_SENS": int(has_derivatives(shown.spec)),
     }  # fmt: skip
-    shown = [v for v in found if v.causality == "input" or v.name in EVENT_OUTPUTS]
     return "\n".join([
         "/* Generated: what the shell knows about this model. */",
         "#ifndef THRUSTWASHER_MODEL_H", "#define THRUSTWASHER_MODEL_H", "",
@@ -124,7 +129,7 @@ def _header(spec: ModelSpec, lists: dict[str, tuple[str, list[str]]]) -> str:
         '#define BUILD "@BUILD@"',
         *(f"#define {name} {value}" for name, value in numbers.items()), "",
         f"/* The variables that say at which point an event happened. */\n"
-        f"#define POINT {{{', '.join([*(str(v.reference) for v in shown), '-1'])}}}", "",
+        f"#define POINT {{{', '.join([*(str(v.reference) for v in shown.point), '-1'])}}}", "",
         "/* Places in CALLS. */", "enum {",
         *(f"    CALL_fmi{fmi}{name}," for fmi in VERSIONS for name in call_table.CALLS[fmi]),
         "};", "",

@@ -22,6 +22,7 @@ from ...native.library import linked_objects
 from ...native.link import COMMON, Linker, find_linker, local_linker, this_level, this_platform
 from ...native.objects import kept_folder, objects
 from ...native.targets import PLATFORMS, Platform
+from ..description.interface import Interface, interface
 from ..package.model_sources import source_folder
 from . import c_tables, call_table
 
@@ -75,7 +76,7 @@ def made_of(spec: ModelSpec, *, local: bool) -> str:
 
 
 def native_contents(
-    spec: ModelSpec, *, fmi: int, guid: str, platforms: Sequence[str], note: Note,
+    shown: Interface, *, fmi: int, guid: str, platforms: Sequence[str], note: Note,
     local: bool = False,
 ) -> dict[str, bytes]:  # fmt: skip
     """Return the libraries, each at its place, and the resources that they read.
@@ -83,14 +84,14 @@ def native_contents(
     The two libraries of macOS share one file in FMI 2. ``local``: if they have to be linked and
     compiled, then for use on this machine only, the soonest way.
     """
-    found: dict[str, list[bytes]] = {}
+    spec, found = shown.spec, dict[str, list[bytes]]()
     for name in platforms:
         made = library(spec, platform=name, local=local, note=note)
         target = PLATFORMS[name]
         folder = target.fmi2 if fmi == 2 else target.fmi3
         found.setdefault(f"binaries/{folder}/{spec.name}.{target.extension}", []).append(made)
     return {
-        f"resources/{c_tables.PART}": c_tables.part_file(spec, guid),
+        f"resources/{c_tables.PART}": c_tables.part_file(shown, guid),
         **{f"resources/map-{k}.bin": data for k, data in enumerate(_maps(spec, local))},
         **{p: parts[0] if len(parts) == 1 else universal(parts) for p, parts in found.items()},
     }
@@ -165,7 +166,7 @@ def library_digest(spec: ModelSpec) -> str:
 
 def sources(spec: ModelSpec) -> dict[str, bytes]:
     """Return the C files of a model's libraries, but the standard's headers."""
-    tables = {name: text.encode() for name, text in c_tables.sources(spec).items()}
+    tables = {name: text.encode() for name, text in c_tables.sources(interface(spec)).items()}
     return {**shell(), **dispatch(), **tables}
 
 

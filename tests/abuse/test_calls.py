@@ -27,11 +27,3 @@ def test_any_call_is_answered_right_or_refused_by_name(model, n):
         calls.solve_once(model, rng)
 
     one()
-
-
-@pytest.mark.abuse
-@examples(15)
-@given(rng=randoms)
-@pytest.mark.parametrize("rung", ["coarse", "field"])
-def test_any_washer_on_a_mesh_is_answered_right_or_refused_by_name(rung, rng):
-    calls.solve_once("washer", rng, rungs=[rung])

@@ -48,7 +48,7 @@ TABLE = [
     ("washer --laod 300", "; did you mean --load?"),
     ("washer --grid 9", "grid = '9', allowed: two node counts as in 9x32"),
     ("washer --branch up", "invalid choice: 'up'"),
-    ("washer --fidelity feild", "'feild', allowed: 'map' or 'coarse' or 'field'"),
+    ("washer --fidelity feild", "'feild', allowed: 'map' or 'field' or 'fine' or 'auto:TOLERANCE'"),
     ("washer --set roughness=0.5", "did you mean 5e-07 m (0.5 um)?"),
     ("washer --set rougness=1um", "did you mean roughness?"),
     ("washer --set roughness", "allowed: NAME=VALUE"),

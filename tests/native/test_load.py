@@ -95,7 +95,7 @@ def test_plain_python_gives_the_same_numbers():
     code = (
         "from thrustwasher import *\n"
         "r = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)\n"
-        "c = solve_clutch(ClutchParams(), load=9000.0, speed=50.0, fidelity='boundary')\n"
+        "c = solve_clutch(ClutchParams(), load=9000.0, speed=50.0, fidelity='stribeck')\n"
         "print(r.flash_rise.hex(), r.friction_torque.hex(), c.friction_torque.hex())\n"
     )
     native, plain = child(code), child(code, NUMBA_DISABLE_JIT="1")

@@ -11,7 +11,7 @@ def test_the_oil_of_all_parts_is_the_sumps_and_every_washer_heats_it(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(
         'base = "planetary"\nstop_time = 0.02\n[sump]\nvolume = 1e-4\nhousing_capacity = 0.0\n'
-        'conductance = 0.0\n[washer]\nfidelity = "coarse"\n', encoding="utf-8",
+        'conductance = 0.0\n', encoding="utf-8",
     )  # fmt: skip
     scene = load_scene(path)
     instances = {n: DirectInstance(p.spec, parameters=p.parameters())

@@ -9,6 +9,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.part_file import PartFile, part_text, usual_name
 from ..model.registry import models_with_points
+from ..model.rungs import rung_named
 from ..sweep.axes import find_place, places, split_settings
 from ..units import format_quantity, parse_quantity
 from . import _options, _output, _table
@@ -78,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
         record = {**inputs, **found.as_dict(), **pack, "wall_time": wall_time}
         _output.print_json(record | {"warnings": [*found.warnings, *doubts]})
         return 0
-    rung = arguments.fidelity or part.fidelity
+    rung = rung_named(part.spec, arguments.fidelity or part.fidelity)
     _say(part, found, doubts, rung if given else part.spec.default_fidelity)
     return 0
 

@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.prepare import fill_table, wants_table
 from ...model.registry import kernel_of
+from ...model.rungs import gone_rung
 from ...model.spec import ModelSpec
 from ...native.load import bound
 from ..description.interface import EVENT_OUTPUTS, Variable, enumerations, ranges, variables
@@ -63,7 +64,7 @@ class Core:
         self._inputs = [v for v in self.variables if v.causality == "input"]
         self._ranges = ranges(spec, len(self._inputs))
         self._beyond = [[False] * len(own) for own in self._ranges]
-        self._warned = 0  # the status that was last told
+        self._warned = -1  # the status that was last told, -1: nothing yet
         self.time, self.mode = 0.0, Mode.INSTANTIATED
         self.dirty, self.prepared = True, False
         self.latch = 0  # the failure to be seen in solver_status until something changes
@@ -300,6 +301,10 @@ class Core:
                     said.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
                 self._beyond[k][i] = beyond
         status, found = self.status, [text for *_, text in sorted(said)]
+        if self._warned < 0:
+            number = int(self.par.item(len(fields(self.spec.params))))
+            rung = list(self.spec.fidelities)[number - 1]
+            found = [*(begin + text for text in gone_rung(self.spec, rung)), *found]
         told = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
         if not told and Status.OK < status < FIRST_FAILURE:
             found.append(f"{begin}{status.name}: {status.advice}; {self._point()}")

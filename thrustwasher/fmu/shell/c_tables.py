@@ -11,6 +11,7 @@ from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
 from ...model.registry import kernel_of
+from ...model.rungs import gone_rung
 from ...model.spec import ModelSpec
 from ...native.shipped import digest_now
 from ..description.interface import EVENT_OUTPUTS, Variable, enumerations, ranges, variables
@@ -76,6 +77,9 @@ def _lists(spec: ModelSpec) -> dict[str, tuple[str, list[str]]]:
         "COUNTS": ("Count", [
             _row(_text(text), place) for text, place in count_places(spec)]),
         "RULES": ("Rule", [_row(_text(rule.text)) for rule in spec.rules]),
+        "GONE_RUNGS": ("Item", [
+            _row(number, _text(line)) for number, name in enumerate(spec.fidelities, 1)
+            for line in gone_rung(spec, name)]),
         "CATEGORIES": ("Category", [
             _row(_text(name), int(name in declared)) for name in LOG_CATEGORIES]),
         "TYPES": ("TypeText", [_row(*map(_text, names)) for names in TYPES.items()]),
@@ -110,6 +114,7 @@ def _header(spec: ModelSpec, lists: dict[str, tuple[str, list[str]]]) -> str:
     numbers = {
         **{name: getattr(kernel, name) for name in SIZES},
         "IO_STATUS": status[0].slot if status else -1, "FIRST_FAILURE": FIRST_FAILURE,
+        "RUNG": next(v.slot for v in found if v.name == "fidelity"),
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
         **{f"TABLE_{name}": value for name, value in getattr(kernel, "TABLE", {"ROOM": 0}).items()},

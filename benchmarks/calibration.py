@@ -60,7 +60,7 @@ RIGS = (
     Rig("washer", WasherParams(), {"viscosity_scale": 7e-5, "viscosity_exponent": 1.1},
         grid(load=[50.0, 200.0], speed=[400.0, 953.0], oil_temperature=[300.0, 330.0],
              tilt=[2e-3]),
-        ("friction_torque",), "coarse"),
+        ("friction_torque",), "field"),
     Rig("clutch", ClutchParams(friction_law="wang"), {"shear_floor": 0.4, "decay_speed": 2.0},
         grid(load=[2e3, 5e3], speed=[5.0, 20.0, 30.0, 45.0, 60.0, 80.0, 120.0, 160.0],
              oil_temperature=[350.0]),

@@ -66,7 +66,7 @@ def pool_of(case: Case, n: int) -> Pool:
     new = reference_points(dataclasses.replace(case, seed=SEED), source, n)
     known = new + reference_points(case, source, case.n)
     errors = {}
-    for rung in case.spec.fidelities:
+    for rung in case.spec.rungs:
         cards = {c.chart: c for c in fresh_cards(case.spec.key, rung, case.params)}
         if cards:
             errors[rung] = [error_at(case, rung, t, cards.get(t.chart)) for t in known]

@@ -104,16 +104,13 @@ def main() -> None:
         ("clutch field, contact rise", engagement(), {"contact_rise": True}),
         ("clutch field, impermeable lining", engagement(), {"permeability": 0.0}),
     ]
-    cases += [
-        (f"clutch {f}", engagement(), {"fidelity": f}) for f in ("fine", "stribeck", "boundary")
-    ]
+    cases += [(f"clutch {f}", engagement(), {"fidelity": f}) for f in ("fine", "stribeck")]
     for name, course, parameters in cases:
         measure(name, run, "WetClutch", course, parameters)
     run = runner("GearMesh")
     for name, parameters in (
         ("gear mesh field", {}),
         ("gear mesh, viscosity at the inlet", {"viscosity_at": "inlet"}),
-        ("gear mesh closed", {"fidelity": "closed"}),
     ):
         measure(name, run, "GearMesh", mesh_course(), dict(parameters))
 

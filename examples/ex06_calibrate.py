@@ -28,7 +28,7 @@ def main() -> float:
     for estimate in less.estimates:
         print(f"  {estimate.name:14} {'told' if estimate.identifiable else estimate.reason}")
     pack = found.params
-    torque = solve_clutch(pack, load=6000.0, speed=50.0, fidelity="boundary").friction_torque
+    torque = solve_clutch(pack, load=6000.0, speed=50.0, fidelity="stribeck").friction_torque
     print(f"\nTorque of the fitted pack at 6 kN and 50 rad/s: {torque:.1f} N m")
     return found.params.decay_speed
 

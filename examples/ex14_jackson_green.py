@@ -42,7 +42,7 @@ def elsewhere(params: WasherParams) -> str:
     return f"{share:.0f} % | {film.friction_torque:.3f} N m, +{rise:.1f} K"
 
 
-def main(fidelity: str = "coarse", most: int = 2) -> float:
+def main(fidelity: str = "field", most: int = 2) -> float:
     data, values = read(), []
     for name, start, fit in FITS[:most]:
         found = calibrate(start, data, fit=fit, fidelity=fidelity)

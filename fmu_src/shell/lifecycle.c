@@ -11,7 +11,8 @@ int reset(Instance *m) {
     m->now.mode = INSTANTIATED;
     m->now.dirty = 1;
     memset(m->beyond, 0, sizeof m->beyond);
-    m->unsolved = m->warned = m->work_fits = m->last_step = m->table_ready = 0;
+    m->unsolved = m->work_fits = m->last_step = m->table_ready = 0;
+    m->warned = -1;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];
         if (v->store == STORE_PAR) m->now.par[v->slot] = m->part.starts[i];

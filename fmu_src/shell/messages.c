@@ -23,10 +23,16 @@ static void add_point(Text *t, const Instance *m, int with_outputs) {
     }
 }
 
-void tell_failure(const Instance *m, int32_t status, double t, double h) {
+/* The beginning of a sentence: the part and a time [s]. */
+static Text begun(const Instance *m, double time) {
     Text text = {0};
     add(&text, "%s at t = ", m->part.name);
-    add_number(&text, t);
+    add_number(&text, time);
+    return text;
+}
+
+void tell_failure(const Instance *m, int32_t status, double t, double h) {
+    Text text = begun(m, t);
     add(&text, " s, ");
     if (h > 0.0) {
         add(&text, "step ");
@@ -131,11 +137,6 @@ void tell_late_step(const Instance *m, double t, double expected) {
     tell(&m->log, WARNING, LOG_WARNING, &text);
 }
 
-static void begin_text(Text *t, const Instance *m) {
-    add(t, "%s at t = ", m->part.name);
-    add_number(t, m->now.time);
-}
-
 /* One sentence for each event since the last communication point. */
 void tell_switches(Instance *m) {
     for (int i = 0; i < N_SWITCHES; i++) {
@@ -144,8 +145,7 @@ void tell_switches(Instance *m) {
         if (now == m->now.seen[i]) continue;
         m->now.seen[i] = now;
         if (!m->log.on[LOG_EVENTS] && !m->log.on[LOG_ALL]) continue;
-        Text text = {0};
-        begin_text(&text, m);
+        Text text = begun(m, m->now.time);
         add(&text, " s: %s; ", now ? s->on : s->off);
         add_point(&text, m, 1);
         tell(&m->log, GOOD, LOG_EVENTS, &text);
@@ -155,8 +155,7 @@ void tell_switches(Instance *m) {
 /* What the last solve took. */
 void tell_effort(const Instance *m) {
     if (!m->log.on[LOG_SOLVER] && !m->log.on[LOG_ALL]) return;
-    Text text = {0};
-    begin_text(&text, m);
+    Text text = begun(m, m->now.time);
     add(&text, " s");
     for (int i = 0; i < N_COUNTS; i++) {
         add(&text, ", %s: ", COUNTS[i].text);
@@ -178,8 +177,7 @@ static int tell_ranges(Instance *m) {
             uint8_t *told = &m->beyond[k][v->slot], is_beyond = value < range[0] || value > range[1];
             unverified |= k && is_beyond;
             if (is_beyond && !*told) {
-                Text text = {0};
-                begin_text(&text, m);
+                Text text = begun(m, m->now.time);
                 add(&text, " s: %s", begin[k]);
                 add_quantity(&text, v, value);
                 add(&text, " is outside ");
@@ -195,13 +193,18 @@ static int tell_ranges(Instance *m) {
 
 /* Warn once when the solution begins to need care. */
 void tell_advice(Instance *m) {
+    for (int i = 0; m->warned < 0 && i < N_GONE_RUNGS; i++) {
+        if (GONE_RUNGS[i].number != m->now.par[RUNG]) continue;
+        Text text = begun(m, m->now.time);
+        add(&text, " s: %s", GONE_RUNGS[i].name);
+        tell(&m->log, WARNING, LOG_WARNING, &text);
+    }
     int unverified = tell_ranges(m);
     int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
     if (m->now.latch) status = m->now.latch;
     int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified);
     if (!told && status > STATUS_OK && status < FIRST_FAILURE) {
-        Text text = {0};
-        begin_text(&text, m);
+        Text text = begun(m, m->now.time);
         add(&text, " s: %s: %s; ", status_text(status)->name, status_text(status)->advice);
         add_point(&text, m, 1);
         tell(&m->log, WARNING, LOG_WARNING, &text);

@@ -59,7 +59,7 @@ typedef struct {
     Log log;
     Part part;
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
-    int32_t warned;    /* the status the host was last told */
+    int32_t warned;    /* the status the host was last told, -1: nothing yet */
     uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that it was told are outside their ranges */
     int32_t work_fits; /* `work` belongs to the present solution */
     int32_t last_step; /* what the last step returned */

@@ -88,7 +88,7 @@ def test_a_product_is_named_as_the_combination_that_is_told():
 
 def test_roughness_is_not_told_by_the_torque_of_a_full_film():
     rig = BY_MODEL["washer"]
-    assert (run_sweep("washer", points=rig.points, fidelity="coarse")["film_ratio"] > 6.0).all()
+    assert (run_sweep("washer", points=rig.points)["film_ratio"] > 6.0).all()
     found = rig_fit(rig, fit=("viscosity_scale", "roughness"))
     assert told(found) == {"viscosity_scale"}
     assert "roughness" in found["roughness"].reason
@@ -157,7 +157,7 @@ def test_points_may_have_parameters_of_their_own():
 def test_folds_tell_how_well_the_far_faces_are_cooled():
     truth = WasherParams(carrier_thickness=7e-3)
     point = {"speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0}
-    loads = fold_loads(truth, point, "coarse")
+    loads = fold_loads(truth, point, "field")
     data = {name: [value, value] for name, value in point.items()} | {
         "load": [None, 200.0],
         "friction_torque": [None, 0.13],
@@ -165,9 +165,7 @@ def test_folds_tell_how_well_the_far_faces_are_cooled():
         "film_regain_load": [loads["film_regain_load"], None],
     }
     errors = {"film_loss_load": 1.0, "film_regain_load": 1.0, "friction_torque": 1e3}
-    found = calibrate(
-        WasherParams(), data, fit="carrier_thickness", errors=errors, fidelity="coarse"
-    )
+    found = calibrate(WasherParams(), data, fit="carrier_thickness", errors=errors)
     assert found.params.carrier_thickness == pytest.approx(7e-3, rel=1e-4)
     assert "1 film_loss_load" in str(found)
 
@@ -183,12 +181,12 @@ def test_a_fit_is_plain_data_and_sentences():
 def test_a_part_is_where_the_fit_starts(tmp_path):
     path = tmp_path / "mesh.toml"
     path.write_text(
-        'model = "gearmesh"\nname = "Mine"\nfidelity = "closed"\n[parameters]\n'
+        'model = "gearmesh"\nname = "Mine"\nfidelity = "fine"\n[parameters]\n'
         'friction_law = "constant"\nface_width = "30 mm"\n'
     )
     data = {**POINTS, "friction_torque": TORQUE}
     found = calibrate(load_part(path), data, fit="constant_friction")
-    assert found.params.face_width == 0.03 and found.points.plan.fidelity == "closed"
+    assert found.params.face_width == 0.03 and found.points.plan.fidelity == "fine"
 
 
 GOOD = {**POINTS, "friction_torque": [0.1, 0.2, 0.3, -0.2]}
@@ -239,7 +237,7 @@ def test_wrong_input_is_named(changes, more, message):
     [
         (
             {"speed": 136.0, "tilt": 2e-3, "film_loss_load": 900.0},
-            {"fidelity": "coarse"},
+            {"fidelity": "field"},
             SolveError,
             r"point 1 \(load 300, speed 136.* no such fold",
         ),

@@ -265,6 +265,6 @@ def test_wrong_words_for_a_model_are_one_line(words, named, mesh, tmp_path, caps
 def test_a_failed_fit_leaves_no_file(tmp_path, capsys):
     data = write(tmp_path / "slow.csv", "speed,tilt,film_loss_load", [136.0], [2e-3], [900.0])
     out = tmp_path / "out.toml"
-    words = ["washer", data, "--fit", "heat_split", "--fidelity", "coarse", "--out", str(out)]
+    words = ["washer", data, "--fit", "heat_split", "--out", str(out)]
     assert main(["calibrate", *words]) == 3
     assert "point 1" in capsys.readouterr().err and not out.exists()

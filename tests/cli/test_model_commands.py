@@ -99,19 +99,19 @@ def test_units_grids_and_settings_reach_the_model(capsys):
 @pytest.mark.parametrize("preset", preset_parts(MESH_SPEC))
 def test_settings_change_a_preset(preset, capsys):
     words = [*words_of("gearmesh", MESH), "--preset", preset, "--set", "steel=AISI1020"]
-    record = told([*words, "--set", "pinion_teeth=30", "--fidelity", "closed"], capsys)
+    record = told([*words, "--set", "pinion_teeth=30", "--fidelity", "fine"], capsys)
     params = GearMeshParams.preset(preset, steel="AISI1020", pinion_teeth=30)
-    expected = solve_gearmesh(params, **MESH, fidelity="closed")
+    expected = solve_gearmesh(params, **MESH, fidelity="fine")
     assert record["asperity_temperature"] == expected.asperity_temperature
     assert record["modification_factor"] == record["modification_factor_aisi1020"]
-    assert (record["preset"], record["fidelity"]) == (preset, "closed")
+    assert (record["preset"], record["fidelity"]) == (preset, "fine")
 
 
 def test_settings_change_the_papers_washer(capsys):
-    words = [*words_of("washer", WASHER), "--preset", "paper", "--fidelity", "coarse"]
+    words = [*words_of("washer", WASHER), "--preset", "paper"]
     record = told([*words, "--set", "pressure_flow_shear=true"], capsys)
     params = WasherParams.preset("paper", pressure_flow_shear=True)
-    expected = solve_washer(params, **WASHER, fidelity="coarse")
+    expected = solve_washer(params, **WASHER)
     assert record["friction_torque"] == expected.friction_torque
     assert (record["preset"], record["parameters"]["oil_cooling"]) == ("paper", False)
     assert record["throughflow_heat"] == 0.0

@@ -65,21 +65,21 @@ def test_a_command_solves_the_part(mine, capsys):
 
 
 def test_a_command_solves_it_with_the_part_s_rung_unless_another_is_asked_for(mine, capsys):
-    mine.write_text(mine.read_text().replace('fidelity = "field"', 'fidelity = "coarse"'))
-    for words, rung in (([], "coarse"), (["--fidelity", "field"], "field")):
+    mine.write_text(mine.read_text().replace('fidelity = "field"', 'fidelity = "fine"'))
+    for words, rung in (([], "fine"), (["--fidelity", "field"], "field")):
         capsys.readouterr()
         assert main(["washer", "--part", str(mine), *words, "--json"]) == 0
         assert json.loads(capsys.readouterr().out)["fidelity"] == rung
 
 
 def test_a_sweep_takes_the_part_and_its_rung(mine, capsys):
-    mine.write_text(mine.read_text().replace('fidelity = "field"', 'fidelity = "coarse"'))
+    mine.write_text(mine.read_text().replace('fidelity = "field"', 'fidelity = "fine"'))
     capsys.readouterr()
     assert main(["sweep", str(mine), "--over", "load=300,400", "--speed", "953"]) == 0
     head, first, _ = capsys.readouterr().out.splitlines()
     row = dict(zip(head.split(","), first.split(","), strict=True))
     expected = solve_washer(
-        load_part(mine).params, load=300.0, speed=953.0, tilt=0.002, fidelity="coarse"
+        load_part(mine).params, load=300.0, speed=953.0, tilt=0.002, fidelity="fine"
     )
     assert float(row["friction_torque [N.m]"]) == pytest.approx(expected.friction_torque, rel=1e-6)
 

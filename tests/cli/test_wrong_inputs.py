@@ -48,7 +48,7 @@ TABLE = [
     ("washer --laod 300", "; did you mean --load?"),
     ("washer --grid 9", "grid = '9', allowed: two node counts as in 9x32"),
     ("washer --branch up", "invalid choice: 'up'"),
-    ("washer --fidelity feild", "'feild', allowed: 'map' or 'coarse' or 'field'"),
+    ("washer --fidelity feild", "'feild', allowed: 'map' or 'field' or 'fine' or 'auto:TOLERANCE'"),
     (
         "washer --oil 'kinematic_viscosity_40=46cSt,kinematic_viscosity_100=7cSt,density_15=0.87'",
         "did you mean 870 kg/m3 (0.87 g/cm3)?",

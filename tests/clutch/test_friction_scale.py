@@ -12,7 +12,7 @@ from thrustwasher.ladder.card import load_cards
 POINT = {"load": 3000.0, "speed": 50.0, "oil_temperature": 350.0}
 
 
-@pytest.mark.parametrize("rung", SPEC.fidelities)
+@pytest.mark.parametrize("rung", SPEC.rungs)
 @pytest.mark.parametrize("law", FRICTION_LAWS)
 def test_the_torque_of_a_settled_pack_is_as_the_scale(rung, law):
     plain, half = (

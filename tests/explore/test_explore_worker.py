@@ -87,7 +87,7 @@ def test_a_branch_that_is_asked_for_is_kept_fresh_and_its_absence_is_told():
     assert lost["missing"] and lost["outputs"]["branch"] == "film"
 
 
-@pytest.mark.parametrize("rung", ["coarse", "field"])
+@pytest.mark.parametrize("rung", ["field", "fine"])
 @pytest.mark.parametrize("conduction", ["carrier", "all", "rotating"])
 @pytest.mark.parametrize("oil_cooling", [True, False])
 def test_fields_are_those_of_python(rung, conduction, oil_cooling):

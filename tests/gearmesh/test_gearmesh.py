@@ -141,7 +141,7 @@ P = paper()
         (lambda: solve_gearmesh(P, power=math.nan, speed=1.0), "power = nan W, allowed"),
         (lambda: solve_gearmesh(P, power=1.0, speed=6e3), "speed = 6000.0 rad/s, allowed"),
         (lambda: solve_gearmesh(P, **POINT, oil_temperature=27.0), "oil_temperature = 27.0 K"),
-        (lambda: solve_gearmesh(P, **POINT, fidelity="best"), "fidelity = 'best', allowed: 'clo"),
+        (lambda: solve_gearmesh(P, **POINT, fidelity="best"), "fidelity = 'best', allowed: 'fie"),
     ],
 )
 def test_bad_input_is_named(call, message):

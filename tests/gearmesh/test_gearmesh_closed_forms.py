@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from closed_forms.flash_temperature import (
-    ELLIPTIC,
     Body,
     atan_flash,
-    blok_flash,
     even_share,
     film_rise,
     pinion_flash,
@@ -222,19 +220,6 @@ def test_the_literal_reading_is_eq_3_and_eq_12_as_printed(
                               body_of(p).effusivity)  # fmt: skip
         rounded = long / (3.0 * math.pi**0.25 * 0.591 / 2.36) ** 2
         assert getattr(r, f"modification_factor_{steel}") == pytest.approx(rounded, rel=1e-11)
-
-
-@pytest.mark.parametrize(("options", "power", "speed"), SOME)
-def test_the_closed_rung_is_bloks_flash_temperature(
-    options: Any, power: float, speed: float
-) -> None:
-    p = paper(**options)
-    r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL, fidelity="closed")
-    flanks, load, width = contact(p, power, speed)
-    speeds = flanks.speed_pinion, flanks.speed_gear
-    blok = blok_flash(load, p.constant_friction, *speeds, width, body_of(p).effusivity, ELLIPTIC)
-    assert r.flash_rise == pytest.approx(blok, rel=1e-12)
-    assert r.viscosity == pytest.approx(viscosity(p, OIL), rel=1e-13)
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), SOME)

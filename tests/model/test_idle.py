@@ -12,7 +12,7 @@ from thrustwasher.model.registry import all_models
 def test_defaults_and_presets_have_nothing_idle_on_any_rung(model):
     spec = find_part(model).spec
     for part in (find_part(model), *preset_parts(spec).values()):
-        for rung in ("", *spec.fidelities):
+        for rung in ("", *spec.rungs):
             assert idle_warnings(model, part.params, rung) == ()
 
 
@@ -25,7 +25,7 @@ def test_defaults_and_presets_have_nothing_idle_on_any_rung(model):
         ("clutch", ClutchParams(plough_weight=0.2, stick_speed=2.0), "field",
          "plough_weight = 0.2, stick_speed = 2 m/s has no effect: read by friction_law = wang"),
         ("clutch", ClutchParams(table_friction_0=0.05), "closed",
-         "table_friction_0 = 0.05 has no effect: read by fidelity = boundary or"),
+         "table_friction_0 = 0.05 has no effect: read by fidelity = stribeck or"),
         ("gearmesh", GearMeshParams(partition_share=0.3), "field",
          "partition_share = 0.3 has no effect: read by film_heat = atan only; film_heat is loss"),
     ],

@@ -90,7 +90,7 @@ def test_bodies_that_store_heat_warm_up_towards_their_steady_state():
     assert first < middle < last < steady.temperature + 1e-3
 
 
-@pytest.mark.parametrize("rung", ["closed", "boundary", "stribeck", "field", "fine"])
+@pytest.mark.parametrize("rung", ["closed", "stribeck", "field", "fine"])
 @pytest.mark.parametrize("point", [(9000.0, 2.0), (0.0, 50.0), (9000.0, 0.0), (2000.0, -120.0)])
 def test_a_pack_that_slips_for_ever_takes_power(rung, point):
     load, speed = point
@@ -99,7 +99,7 @@ def test_a_pack_that_slips_for_ever_takes_power(rung, point):
     assert r.friction_torque == pytest.approx(r.contact_torque + r.viscous_torque, rel=1e-12)
 
 
-@pytest.mark.parametrize("rung", ["closed", "boundary", "stribeck", "field", "fine"])
+@pytest.mark.parametrize("rung", ["closed", "stribeck", "field", "fine"])
 @pytest.mark.parametrize("course", ["linear", "constant"])
 def test_a_pack_heats_up_while_it_closes(rung, course):
     options = ClutchParams.__dataclass_fields__["input_course"].metadata["options"]

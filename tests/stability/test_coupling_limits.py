@@ -64,7 +64,7 @@ def at_work(fmus, slope, deviation=10.0, rest=DRIVE, brake=0.0, ring=None, **gea
     speeds = {f"table_speed_{k}": high * RADIUS + k - 1.0 for k in range(1, 6)}
     values = {f"table_friction_{k}": end for k in range(1, 6)}
     clutch = {
-        "fidelity": "boundary", "friction_law": "table", "faces": 10, "effective_radius": RADIUS,
+        "fidelity": "stribeck", "friction_law": "table", "faces": 10, "effective_radius": RADIUS,
         "table_friction_0": start, **speeds, **values, "speed_smoothing": 1e-3,
     }  # fmt: skip
     return gearbox_and_clutch(fmus, _gearbox(SLIP + deviation, ring, gearbox), clutch, brake)

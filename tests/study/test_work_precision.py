@@ -171,4 +171,4 @@ def test_every_configuration_has_a_label_of_its_own(model):
     found = [rung.label for rung in series_of(model)]
     assert len(set(found)) == len(found)
     assert {r.label for r in series_of(model, quick=True)} <= set(found)
-    assert set(spec_of(model).fidelities) <= set(found)
+    assert set(spec_of(model).rungs) <= set(found)

@@ -99,7 +99,7 @@ def test_a_journal_is_on_disk_after_a_second_and_a_crash_costs_no_more(tmp_path,
         ({"over": {**OVER, "speed": "50:300:25"}}, "speed"),
         ({"at": {"oil_temperature": 320.0}}, "oil_temperature"),
         ({"at": {"steel": "AISI1020"}}, "parameters"),
-        ({"fidelity": "closed"}, "fidelity"),
+        ({"fidelity": "fine"}, "fidelity"),
     ],
 )
 def test_another_sweep_is_refused_and_what_differs_is_named(tmp_path, changed, says):

@@ -118,17 +118,17 @@ def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypat
 
     asked = {}
 
-    def choose_closed(model, box, **options):
+    def choose_fine(model, box, **options):
         asked.update(options, model=model, box=box)
-        return choose.Choice("closed", 0.01, 1e-6, ("gear mesh: closed", "because"))
+        return choose.Choice("fine", 0.01, 1e-6, ("gear mesh: fine", "because"))
 
-    monkeypatch.setattr(choose, "choose", choose_closed)
+    monkeypatch.setattr(choose, "choose", choose_fine)
     over = {"load": [10.0, 40.0], "speed": [50.0, 150.0]}
     table = run_sweep("gearmesh", over, fidelity="auto:0.05")
     assert (asked["model"], asked["tol"], asked["n_calls"]) == ("gearmesh", 0.05, 4)
     assert asked["box"]["load"] == (10.0, 40.0) and asked["box"]["speed"] == (50.0, 150.0)
-    assert (table.fidelity, "because" in table.choice) == ("closed", True)
-    named = run_sweep("gearmesh", over, fidelity="closed")
+    assert (table.fidelity, "because" in table.choice) == ("fine", True)
+    named = run_sweep("gearmesh", over, fidelity="fine")
     assert (table["friction_torque"] == named["friction_torque"]).all()
     with pytest.raises(ParameterError, match="without varied parameters"):
         run_sweep("gearmesh", {**over, "pinion_teeth": [30, 40]}, fidelity="auto:0.05")
@@ -186,7 +186,7 @@ def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, mo
     for n in (40, 40, 400):  # the first one loads what is needed
         over = {"power": "1 kW:30 kW:n100", "speed": f"100:300:n{n}"}
         tracemalloc.start()
-        run_sweep("gearmesh", over, fidelity="closed", out=tmp_path / f"{len(peaks)}.{suffix}",
+        run_sweep("gearmesh", over, out=tmp_path / f"{len(peaks)}.{suffix}",
                   workers=1, keep=False)  # fmt: skip
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()

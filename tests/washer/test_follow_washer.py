@@ -79,7 +79,7 @@ def test_a_course_can_be_written_as_json():
         ({"load": [300.0]}, r"load: shape \(1,\)"),
         ({"load": [300.0, 0.0]}, r"load\[1\] = 0.0 N"),
         ({"tilt": float("nan")}, r"tilt\[0\] = nan rad"),
-        ({"fidelity": "map"}, "allowed: 'coarse', 'field' or 'fine'"),
+        ({"fidelity": "map"}, "allowed: 'field' or 'fine'"),
     ],
 )
 def test_what_cannot_be_followed_is_named(change, words):

@@ -212,23 +212,21 @@ def _default(field: Any) -> str:
 
 def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bool = False) -> None:
     """Add ``--fidelity`` with one sentence per rung, and ``auto`` where the cards may choose."""
-    words = [f"{name}: {text}" for name, text in spec.fidelities.items()]
-    allowed: dict[str, Any] = {"choices": list(spec.fidelities)}
+    words = [f"{name}: {text}" for name, text in spec.rungs.items()]
     if auto:
         words.append("auto:0.01: the cheapest rung whose torque is verified to 1 % at this point")
-        allowed = {"type": _rung_or_auto(spec), "metavar": "RUNG"}
     usual = spec.default_fidelity
     help = "; ".join([*words, f"default {usual} or the part file's"]).replace("%", "%%")
-    parser.add_argument("--fidelity", help=help, **allowed)
+    parser.add_argument("--fidelity", help=help, type=_rung(spec, auto), metavar="RUNG")
 
 
-def _rung_or_auto(spec: "ModelSpec") -> Callable[[str], str]:
+def _rung(spec: "ModelSpec", auto: bool) -> Callable[[str], str]:
     """Return the check of the option's text."""
 
     def check(text: str) -> str:
-        if text not in spec.fidelities and not text.startswith("auto"):
-            known = " or ".join(repr(name) for name in spec.fidelities)
-            raise argparse.ArgumentTypeError(f"{text!r}, allowed: {known} or 'auto:TOLERANCE'")
+        if text not in spec.fidelities and not (auto and text.startswith("auto")):
+            known = " or ".join(map(repr, [*spec.rungs, *(["auto:TOLERANCE"] if auto else [])]))
+            raise argparse.ArgumentTypeError(f"{text!r}, allowed: {known}")
         return text
 
     return check

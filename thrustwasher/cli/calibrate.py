@@ -10,6 +10,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.part_file import PartFile, is_part, part_text, usual_name
 from ..model.registry import models_with_points
+from ..model.rungs import rung_named
 from ..sweep.axes import find_place, places, split_settings
 from ..units import format_quantity, parse_quantity
 from . import _options, _output, _table
@@ -90,8 +91,11 @@ def _command(arguments: argparse.Namespace, base: PartFile, given: list[str]) ->
     words = ["thrustwasher", base.spec.key]
     if given and is_part(given[0]):
         words += ["--part", shlex.quote(given[0])]
-    for option in ("preset", "oil", "fidelity"):
-        if value := getattr(arguments, option):
+    options = {"preset": arguments.preset, "oil": arguments.oil}
+    if arguments.fidelity:
+        options["fidelity"] = rung_named(base.spec, arguments.fidelity)
+    for option, value in options.items():
+        if value:
             words += [f"--{option}", shlex.quote(value)]
     return " ".join(words)
 

@@ -3,6 +3,7 @@
 import argparse
 
 from ..model.registry import all_models
+from ..model.rungs import gone_rung
 from . import _options, _output
 
 HELP = "write one page in which a part is tried in any browser, without Python"
@@ -29,6 +30,8 @@ def run(arguments: argparse.Namespace) -> int:
     part = _options.with_oil(arguments, part, ())
     out = f"explore-{part.name}.html" if arguments.out is None else arguments.out
     target = _output.check_file(out, "--out", (".html", ".htm"))
+
+    _output.warn(gone_rung(part.spec, part.fidelity))
 
     from ..explore.page import page
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from ..errors import SolveError, Status
 from ..model.parameters import check_number
 from ..model.prepare import course_of, rising
+from ..model.rungs import rung_named
 from ..model.spec import REGIMES
 from ..numerics.jit import Array
 from .kernels import advance as clutch_advance
@@ -160,7 +161,8 @@ def engage_clutch(
     hottest = float(columns["temperature"].max())
     status = Status.HOT if hottest > k.HOT_LIMIT else Status.OK
     return Engagement(
-        time=points, load=forces, speed=slips, **columns, substeps=substeps, fidelity=fidelity,
+        time=points, load=forces, speed=slips, **columns, substeps=substeps,
+        fidelity=rung_named(SPEC, fidelity),
         regime=[
             stages[pack_friction.regime_of(par, u, slip) - 1]
             for u, slip in zip(columns["film_ratio"], slips, strict=True)

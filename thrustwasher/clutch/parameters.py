@@ -38,7 +38,7 @@ N_TABLE = 5
 OF_TABLE = (("friction_law", "table"),)
 OF_WANG = (("friction_law", "wang"),)
 OVER_SPEED = (  # the rung closed has the constant law
-    *(("fidelity", rung) for rung in ("boundary", "stribeck", "field", "fine")),
+    *(("fidelity", rung) for rung in ("stribeck", "field", "fine")),
     ("friction_law", "constant"),
 )
 WITH_FILM = tuple(("fidelity", rung) for rung in ("field", "fine"))

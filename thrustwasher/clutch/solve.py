@@ -12,6 +12,7 @@ from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.registry import find_model
+from ..model.rungs import rung_named
 from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
 from ..units import format_quantity
@@ -194,9 +195,8 @@ def solve_clutch(
     speed : slip [rad/s], with its sign
     oil_temperature : [K]
     drum_speed : [rad/s] of the drum, with its sign; the hub turns by the slip faster
-    fidelity : "closed" (constant coefficient), "boundary" (coefficient over slip speed, no heat),
-        "stribeck" (with heat), "field" (with heat and shear of the oil) or "fine" (the same in
-        rings, ``temperature`` their mean by area)
+    fidelity : "closed" (constant coefficient), "stribeck" (coefficient over slip speed), "field"
+        (shear of the oil too) or "fine" (the same in rings, ``temperature`` their mean by area)
     start : an earlier result to start the search for the film from
     throw : False returns the best estimate with its status instead of raising SolveError
 
@@ -225,10 +225,9 @@ def solve_clutch(
     oil = check_number("oil_temperature", oil_temperature, "K", *OIL.range)
     drum = check_number("drum_speed", drum_speed, "rad/s", *DRUM.range)
     par = prepare(params, fidelity)
-    heated = speed != 0.0 and fidelity != "boundary"
     guess = start.film_ratio if start else 1.0
     ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
-    if heated and steady.steady_cooling(par, load, ratio) == 0.0:
+    if speed != 0.0 and steady.steady_cooling(par, load, ratio) == 0.0:
         raise ParameterError(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
         )
@@ -252,7 +251,7 @@ def solve_clutch(
         regime=list(REGIMES)[pack_friction.regime_of(par, ratio, speed) - 1],
         status=status,
         iterations=int(turns + s.iterations),
-        fidelity=fidelity,
+        fidelity=rung_named(SPEC, fidelity),
         warnings=(
             *doubts_of_pack(params, fidelity),
             *_light(params, load, fidelity),

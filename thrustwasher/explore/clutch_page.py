@@ -55,7 +55,7 @@ VIEW = View(
     calls=("broken_rule", "derive", "load_memory", "settle_film", "advance", "fill_outputs",
            "mean_surface", "stored_heat"),
     layout=numbers_of(layout, HOT=Status.HOT),
-    rungs={name: {"code": code} for code, name in enumerate(SPEC.fidelities, 1)},
+    rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     main=("faces", "roughness", "initial_film", "permeability", "steel_thickness"),
     figures=("friction_torque_max", "temperature_max", "energy", "power_max", "film_ratio_min",
              "boundary_from"),

@@ -9,6 +9,7 @@ from ..ladder.card_parts import FEW
 from ..model.oil import named_oils, oil
 from ..model.part_file import PartFile
 from ..model.record import Model, resolve
+from ..model.rungs import rung_named
 from ..model.spec import REGIMES, Signal
 from ..units import UNITS, readable_units
 from .view import View
@@ -48,7 +49,8 @@ def describe(
 ) -> dict[str, Any]:
     """Return the JSON object of a model's page; ``point``: value of each input at the start."""
     spec = model.spec
-    rung = part.fidelity if part.fidelity in view.rungs else spec.default_fidelity
+    rung = rung_named(spec, part.fidelity)
+    rung = rung if rung in view.rungs else spec.default_fidelity
     params = part.params
     return {
         "key": spec.key, "name": part.name if part.name != spec.name else f"My{spec.name}",
@@ -59,7 +61,7 @@ def describe(
         "given": {f.name: getattr(params, f.name) for f in fields(spec.params)},
         "oils": {name: oil(name).parameters_for(spec) for name in named_oils()},
         "outputs": outputs_of(model, view), "units": readable_units(), "scales": UNITS,
-        "rungs": spec.fidelities, "rung": rung, "usual_rung": spec.default_fidelity,
+        "rungs": spec.rungs, "rung": rung, "usual_rung": spec.default_fidelity,
         "rules": [rule.text for rule in spec.rules],
         "cards": [_card(c) for name in view.rungs for c in fresh_cards(spec.key, name, params)],
         "few": FEW, "safety": SAFETY,

@@ -20,7 +20,7 @@ VIEW = View(
     page="gearmesh_view",
     calls=("broken_rule", "derive", "solve_point"),
     layout=numbers_of(layout),
-    rungs={name: {"code": code} for code, name in enumerate(SPEC.fidelities, 1)},
+    rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     main=("pinion_teeth", "gear_ratio", "normal_module", "face_width", "helix_angle",
           "friction_law"),
     figures=("friction_torque", "friction_power", "film_ratio", "bulk_temperature", "flash_max",

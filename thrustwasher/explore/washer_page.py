@@ -43,7 +43,7 @@ VIEW = View(
             "sizes": {"par": size_of_par(*GRIDS[name]), "state": size_of_state(*GRIDS[name]),
                       "work": layout.N_HEAD + size_of_work(*GRIDS[name])},
         }
-        for name in ("coarse", "field", "fine")
+        for name in ("field", "fine")
     },
     main=("roughness", "washer_thickness", "asperity_radius", "viscosity_exponent", "heat_split"),
     figures=("friction_torque", "temperature", "film_thickness", "film_ratio", "branch", "distress",

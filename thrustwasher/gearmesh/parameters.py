@@ -158,10 +158,6 @@ RULES = (
 
 OF_ATAN = (("film_heat", "atan"),)
 OF_LOSS = (("film_heat", "loss"),)
-OVER_PATH = (  # the rung closed has the constant law
-    *(("fidelity", rung) for rung in ("stribeck", "field", "fine")),
-    ("friction_law", "constant"),
-)
 BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed"))
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
 
@@ -237,9 +233,7 @@ class GearMeshParams:
         "Ra for the ISO law (0: composite RMS over sqrt 2)",
         overrides=("surface", "sigma_rms"),
     )
-    friction_law: str = choice(
-        "iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction", read_by=OVER_PATH
-    )
+    friction_law: str = choice("iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
     f0: float = quantity(
         0.12, "1", 0.0, 1.0, "coefficient of friction without any film", read_by=BY_FILM
     )
@@ -250,7 +244,7 @@ class GearMeshParams:
         1.0,
         "coefficient of the constant law",
         tunable=True,
-        read_by=(("friction_law", "constant"), ("fidelity", "closed")),
+        read_by=(("friction_law", "constant"),),
     )
     eyring_stress: float = quantity(
         5e6,

@@ -12,6 +12,7 @@ from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
+from ..model.rungs import rung_named
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.operating_point import solve_point
@@ -157,8 +158,7 @@ def solve_gearmesh(
     speed : of the pinion [rad/s], -5000 .. 5000; the loss torque takes its sign. 0 is allowed
         without power only: the torque power/speed would have no bound (1e5 N m is the largest)
     oil_temperature : of the oil [K], 233.15 .. 473.15; the gears' bodies are as warm as they get
-    fidelity : "field"; "closed": constant_friction, viscosity of the oil supplied; "fine": twice as
-        many positions
+    fidelity : "field"; "fine": twice as many positions, the paper's heat at every one of them
     start : an earlier result; taken for the sake of one call for all models, not needed: there is
         one solution and it is found from any point
     throw : False returns the best estimate with its status instead of raising SolveError
@@ -204,9 +204,10 @@ def solve_gearmesh(
     ]  # fmt: skip
     absent = dict.fromkeys(absent_outputs(params))
     said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
-    point = {"status": status, "fidelity": fidelity, "limits": limits_assumed(params)} | _size(
-        params, par
-    )
+    point = {
+        "status": status, "fidelity": rung_named(SPEC, fidelity), "limits": limits_assumed(params),
+        **_size(params, par),
+    }  # fmt: skip
     result = _result(par, field.tolist(), torque, speed, absent | point)
     return replace(result, warnings=(*said, *_failures(result), *doubts))
 

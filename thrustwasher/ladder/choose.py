@@ -30,7 +30,7 @@ def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, 
     """
     rung, _, given = text.partition(":") if isinstance(text, str) else ("", "", "")
     if rung != AUTO and text not in spec.fidelities:
-        options = " or ".join(map(repr, spec.fidelities))
+        options = " or ".join(map(repr, spec.rungs))
         raise ParameterError(
             f"{where}: fidelity = {text!r}, allowed: {options} or 'auto:TOLERANCE'"
         )

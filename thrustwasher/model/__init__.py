@@ -10,6 +10,7 @@
 ``kept``        what a part keeps of its preset though what it belongs to was changed
 ``point``       an operating point: what is given, what a part's box fixes, what is left to defaults
 ``oil``         an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
+``rungs``       names of rungs, and which one runs in the place of one that is gone
 ``prepare``     from parameters to what a kernel takes: rules, constants, tables
 ==============  ===============================================================================
 

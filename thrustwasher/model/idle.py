@@ -13,16 +13,20 @@ from typing import Any
 from ..units import format_quantity
 from .part_file import find_part, preset_parts
 from .registry import find_model
+from .rungs import gone_rung
 
 
 @lru_cache(maxsize=256)
 def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...]:
     """Return a line for all parameters of one's own that one choice leaves unread.
 
-    A value that is the default or that of a preset is none of one's own; neither is 0 where that
-    stands for no value. ``fidelity``: the rung, "" if it is not known.
+    A line on a rung that is gone comes first. A value that is the default or that of a preset is
+    none of one's own; neither is 0 where that stands for no value. ``fidelity``: the rung, "" if
+    it is not known.
     """
     found: dict[str, list[str]] = {}
+    spec = find_model(model).spec
+    gone, fidelity = gone_rung(spec, fidelity), spec.successors.get(fidelity, fidelity)
     metadata = {f.name: f.metadata for f in fields(params) if "read_by" in f.metadata}
     for name, m in metadata.items():
         own = getattr(params, name)
@@ -30,7 +34,7 @@ def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...
             if all(own != getattr(start, name) for start in _starts(model)):
                 why = _why(params, _roots(metadata, params, name), fidelity)
                 found.setdefault(why, []).append(_shown(name, own, m))
-    return tuple(f"{', '.join(names)} {why}" for why, names in found.items())
+    return (*gone, *(f"{', '.join(names)} {why}" for why, names in found.items()))
 
 
 @cache

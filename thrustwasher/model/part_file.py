@@ -41,6 +41,7 @@ from .parameters import (
 from .point import command_inputs, own_inputs, point_of
 from .record import resolve
 from .registry import find_model
+from .rungs import rung_named
 from .spec import ModelSpec, tailored
 from .toml_tables import nothing_else, number, parse, read_file, read_value, unknown
 
@@ -82,8 +83,8 @@ class PartFile:
         starts = {s.name: self.inside(s.name, s.start or 0.0) for s in self.spec.inputs}
         course = tuple((t, *map(self.inside, names, row)) for t, *row in self.spec.course)
         return tailored(
-            self.spec, {**self.parameters, "fidelity": self.fidelity}, starts, course=course,
-            **self.told,
+            self.spec, {**self.parameters, "fidelity": rung_named(self.spec, self.fidelity)},
+            starts, course=course, **self.told,
         )  # fmt: skip
 
     @property
@@ -237,9 +238,7 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
         spec = find_model(table["model"]).spec
         name = checked_name(table["name"])
         fidelity = table.get("fidelity", spec.default_fidelity)
-        if fidelity not in spec.fidelities:
-            rungs = " or ".join(map(repr, spec.fidelities))
-            raise ParameterError(f"fidelity = {fidelity!r}, allowed: {rungs}")
+        rung_named(spec, fidelity)
     parameters = read_parameters(f"{where} [parameters]", spec, table.get("parameters", {}))
     own = None
     if "oil" in table:
@@ -323,7 +322,7 @@ def _lines(part: PartFile) -> Iterator[str]:
     yield f"name = {json.dumps(part.name)}  # of its FMU: letters, digits and _"
     for key in ("description", "notes"):
         yield f"{key} = {json.dumps(getattr(part, key), ensure_ascii=False)}"
-    rungs = " or ".join(part.spec.fidelities)
+    rungs = " or ".join(part.spec.rungs)
     yield f"fidelity = {json.dumps(part.fidelity)}  # {rungs}"
     params = part.params
     is_in = part.oil and part.oil.is_in(part.spec, params)  # or it is not this oil any more

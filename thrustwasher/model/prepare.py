@@ -15,13 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import ParameterError, Status
 from .parameters import as_numbers, check_rules
 from .record import resolve
+from .rungs import rung_named
 from .spec import ModelSpec, Tables
 
 Array = NDArray[np.float64]
-OFFLINE = (
-    "fidelity = 'reference' is no rung to solve with: it takes long and comes with an uncertainty; "
-    "call thrustwasher.study.reference_{0}.reference_{0}"
-)
 
 
 def filled(
@@ -32,14 +29,10 @@ def filled(
     It is for solutions without a past: a washer's bodies are taken as steady. ParameterError if the
     rung is not one of the model's, or the parameters cannot be used together.
     """
-    if fidelity == "reference":
-        raise ParameterError(OFFLINE.format(spec.key))
-    rungs = list(spec.fidelities)
-    if fidelity not in rungs:
-        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(map(repr, rungs))}")
+    rung = rung_named(spec, fidelity)
     if getattr(params, "thermal_mode", "quasi_steady") != "quasi_steady":
         params = replace(params, thermal_mode="quasi_steady")
-    numbers = [*as_numbers(params), rungs.index(fidelity) + 1]
+    numbers = [*as_numbers(params), list(spec.fidelities).index(rung) + 1]
     par = np.zeros(size)
     par[: len(numbers)] = numbers
     status = Status(derive(par))

@@ -141,6 +141,13 @@ class ModelSpec:
     kind: str = ""
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     notes: str = ""
+    # Fidelities that are gone -> the next better one, which the kernel runs under their number.
+    successors: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def rungs(self) -> dict[str, str]:
+        """The fidelities there are, each with its sentence."""
+        return {n: text for n, text in self.fidelities.items() if n not in self.successors}
 
     @property
     def real_outputs(self) -> list[str]:

@@ -19,6 +19,7 @@ from ..model.part_file import PartFile, find_part
 from ..model.point import from_box, taken_text
 from ..model.record import resolve
 from ..model.registry import find_model, spec_of
+from ..model.rungs import rung_named
 from ..model.spec import ModelSpec
 from .axes import MOST_POINTS, Axis, Place, find_place, places, read_axis
 
@@ -205,13 +206,14 @@ def _assemble(
     for name in varied:
         shown[name] = rows[name]
         units[name] = next(p.unit for p in order if p.name == name)
+    rung = rung_named(spec, fidelity)
     plan = Plan(
-        spec, fidelity, inputs, shown, units, starts, params, params_of,
+        spec, rung, inputs, shown, units, starts, params, params_of,
         taken=taken_text(box, default, spec.inputs),
         warnings=(
             *_idle(params, fidelity, spec.key), *_of_oil(part, params, inputs),
             *_outside(part, inputs),
-            *_doubt(spec, fidelity, params, np.repeat(params_of, np.diff(starts)), inputs),
+            *_doubt(spec, rung, params, np.repeat(params_of, np.diff(starts)), inputs),
         ),
     )  # fmt: skip
     plan.identity.update(_identity(plan, base, fixed, varied))

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import ParameterError, SolveError, Status
 from ..model.parameters import as_numbers
 from ..model.prepare import course_of, rising
+from ..model.rungs import gone_rung, rung_named
 from ..numerics.jit import Array
 from .kernel_arguments import constants
 from .kernels import layout as L
@@ -56,6 +57,8 @@ class WasherCourse:
     thermal_mode: str
     fidelity: str
     grid: tuple[int, int]
+    warnings: tuple[str, ...] = ()
+    """What a reader must not miss, a line each."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields as a dictionary that JSON can hold; status by name."""
@@ -87,7 +90,7 @@ def follow_washer(
     load, speed, tilt, oil_temperature, far_face_temperature : (n,) values [N], [rad/s], [rad], [K],
         [K] at the points, or one number each; the last with ``gear_far_face = "bulk"``, all or none
         of it 0 (the oil's)
-    fidelity : "coarse", "field" or "fine"
+    fidelity : "field" or "fine"
     grid : (n_r, n_theta), overrides the nodes of the fidelity
 
     Raises
@@ -126,17 +129,17 @@ def follow_washer(
             "far_face_temperature = 0 at some points, allowed: at all of them (the oil's) or none"
         )
     if fidelity == "map":
-        raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'coarse', 'field' or 'fine'")
-    inputs = np.column_stack(columns)
-    run = Follower(params, resolve_grid(fidelity, grid))
+        raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'field' or 'fine'")
+    inputs, rung = np.column_stack(columns), rung_named(SPEC, fidelity)
+    run = Follower(params, resolve_grid(rung, grid))
     rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
     said: list[Status] = []
 
     def packed(n: int) -> WasherCourse:
         """Return the first points."""
         return WasherCourse(
-            time=points[:n], distress=lost[:n].copy(), status=said, fidelity=fidelity,
-            thermal_mode=params.thermal_mode, grid=run.grid,
+            time=points[:n], distress=lost[:n].copy(), status=said, fidelity=rung,
+            thermal_mode=params.thermal_mode, grid=run.grid, warnings=gone_rung(SPEC, fidelity),
             **{s.name: inputs[:n, k].copy() for k, s in enumerate(SPEC.inputs)},
             **{name: rows[:n, k].copy() for k, name in enumerate(SPEC.real_outputs)},
         )  # fmt: skip

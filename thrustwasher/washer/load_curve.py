@@ -12,6 +12,7 @@ from ..errors import ParameterError, SolveError, Status
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.record import OwnOutputs
+from ..model.rungs import gone_rung, rung_named
 from ..numerics.jit import Array
 from ..numerics.status import OK
 from .kernel_arguments import constants, work_array
@@ -46,6 +47,7 @@ class LoadCurve:
 
     points: list[WasherResult]  # ordered by falling film_thickness
     folds: list[Fold]  # empty if the curve is single-valued
+    told: tuple[str, ...] = ()  # warnings of the curve as a whole
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -62,7 +64,7 @@ class LoadCurve:
                 found.setdefault(re.split(r"[=\d]", text)[0], []).append(told)
         n = len(points)
         lines = (f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
-        return (*idle, *lines)
+        return (*self.told, *idle, *lines)
 
 
 def load_curve(
@@ -101,7 +103,8 @@ def load_curve(
     >>> [f"{fold.kind} {fold.load:.0f} N" for fold in curve.folds]
     ['film_lost 956 N', 'film_regained 659 N']
     """
-    nodes = resolve_grid(fidelity, grid)
+    rung = rung_named(SPEC, fidelity)
+    nodes = resolve_grid(rung, grid)
     check_number("load_min", load_min, "N", 1.0, 1e4)
     check_number("load_max", load_max, "N", load_min, 1e4)
     if load_min == load_max:
@@ -111,7 +114,7 @@ def load_curve(
     point = check_point(params, load_min, speed, tilt, oil_temperature, far_face_temperature)
     here = Continuation(params, point, nodes)
     here.enter(load_min)
-    points: list[WasherResult] = [here.result(fidelity)]
+    points: list[WasherResult] = [here.result(rung)]
     folds: list[Fold] = []
     places = [here.film]  # smoothed film thicknesses
     top = 0  # the highest point since the film was regained, the lowest since it was lost
@@ -129,7 +132,7 @@ def load_curve(
         if by_load:
             here.to_load(STEEP * here.load)
         places.append(here.film)
-        points.append(here.result(fidelity))
+        points.append(here.result(rung))
         gain = points[-1].load - points[top].load
         noise = SHALLOW * points[top].load + 1e-3
         if gain < -noise if rising else gain > noise:
@@ -139,7 +142,7 @@ def load_curve(
             top = len(points) - 1
         elif gain > 0.0 if rising else gain < 0.0:
             top = len(points) - 1
-    return LoadCurve(_labelled(points, folds), folds)
+    return LoadCurve(_labelled(points, folds), folds, gone_rung(SPEC, fidelity))
 
 
 def fold_loads(params: WasherParams, point: Mapping[str, float], fidelity: str) -> dict[str, float]:

@@ -52,7 +52,7 @@ BODY_STORAGE = {
 
 THERMAL_MODES = {
     "quasi_steady": "steady temperatures at every instant",
-    "transient": "carrier, washer and gear store heat (fidelity coarse, field or fine)",
+    "transient": "carrier, washer and gear store heat (fidelity field or fine)",
 }
 THERMAL_STARTS = {
     "steady": "as warm as the first operating point makes it",
@@ -125,9 +125,9 @@ RULES = (
     Rule("film_heat_fraction = {film_heat_fraction}, allowed: 1 with oil_cooling, which carries "
          "the film's heat away already"),
     Rule("cavity_shear = liquid, allowed: with oil_cooling, which knows where the liquid is"),
-    Rule("thermal_mode = transient, allowed: with fidelity coarse, field or fine; a map has "
+    Rule("thermal_mode = transient, allowed: with fidelity field or fine; a map has "
          "no bodies that could store heat"),
-    Rule("gear_far_face = bulk, allowed: with fidelity coarse, field or fine; a map is for oil or "
+    Rule("gear_far_face = bulk, allowed: with fidelity field or fine; a map is for oil or "
          "insulated"),
 )  # fmt: skip
 

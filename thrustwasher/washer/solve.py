@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
 from ..model.parameters import check_number
-from ..model.prepare import OFFLINE
+from ..model.rungs import gone_rung, rung_named
 from ..native.load import bound
 from ..numerics.jit import Array
 from .kernel_arguments import Recent, constants, work_array
@@ -26,10 +26,7 @@ from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, Inputs, WasherResult
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
-GRIDS = {
-    "map": kernel.FIELD_GRID, "coarse": kernel.COARSE_GRID, "field": kernel.FIELD_GRID,
-    "fine": kernel.FINE_GRID,
-}  # fmt: skip
+GRIDS = {"map": kernel.FIELD_GRID, "field": kernel.FIELD_GRID, "fine": kernel.FINE_GRID}
 BOTH = (
     "load = {:.4g} N lies between two folds: with friction_torque = {:.4g} N m the branch {!r} has "
     "a solution too, which one a washer is on depends on how it came there; this one is {!r}"
@@ -42,15 +39,10 @@ OK = Status.OK
 LARGEST_GRID = (129, 512)
 
 
-def resolve_grid(fidelity: str, grid: tuple[int, int] | None) -> tuple[int, int]:
+def resolve_grid(rung: str, grid: tuple[int, int] | None) -> tuple[int, int]:
     """Return (n_r, n_theta) or raise ParameterError naming what is wrong."""
-    if fidelity == "reference":
-        raise ParameterError(OFFLINE.format("washer"))
-    if fidelity not in GRIDS:
-        known = " or ".join(repr(name) for name in GRIDS)
-        raise ParameterError(f"fidelity = {fidelity!r}, allowed: {known}")
     if grid is None:
-        return GRIDS[fidelity]
+        return GRIDS[rung]
     try:
         n_r, n_t = (int(n) for n in grid)
         whole = (n_r, n_t) == tuple(grid)
@@ -130,8 +122,8 @@ def solve_washer(
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15
     far_face_temperature : [K] at the gear's far face, with ``gear_far_face = "bulk"``; 0: the oil's
-    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64), "coarse" (8 x 20) or "map", which
-        answers outside its box with the field; the result says so
+    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64) or "map", which answers outside its box
+        with the field; the result says so
     grid : (n_r, n_theta), overrides the nodes of the fidelity
     branch : "film" or "contact", the one wanted where several solutions exist; without it the
         branch of ``start``, else the film branch up to its fold and the contact branch beyond
@@ -160,21 +152,22 @@ def solve_washer(
     >>> f"{r.friction_torque:.3f} N m, film ratio {r.film_ratio:.1f}, {r.branch}"
     '0.258 N m, film ratio 20.8, film'
     """
-    nodes = resolve_grid(fidelity, grid)
+    rung, told = rung_named(SPEC, fidelity), gone_rung(SPEC, fidelity)
+    nodes = resolve_grid(rung, grid)
     point = check_point(params, load, speed, tilt, oil_temperature, far_face_temperature)
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     wanted = BRANCHES[branch] if branch is not None else 0.0
     found: WasherResult | None = None
-    asked = fidelity
-    if fidelity == "map":
+    if rung == "map":
         if grid is not None:
             raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
         found = _map_solver()(params, point, wanted, start)
-        fidelity = "map" if found else "field"  # outside the map
-    result = found or _solve(params, point, fidelity, nodes, wanted, start, grid is None)
-    if fidelity != asked:
-        result = replace(result, warnings=(NOT_IN_MAP, *result.warnings))
+        if not found:  # outside the map
+            rung, told = "field", (NOT_IN_MAP,)
+    result = found or _solve(params, point, rung, nodes, wanted, start, grid is None)
+    if told:
+        result = replace(result, warnings=(*told, *result.warnings))
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
         result = _with_embedded_estimate(result, wanted)
     if throw and result.status is Status.NO_BRANCH:

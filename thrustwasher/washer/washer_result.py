@@ -150,7 +150,7 @@ class WasherResult:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""
         if self.grid == NO_MESH:
             raise ParameterError(
-                f"fidelity = {self.fidelity!r} has no fields; allowed: 'coarse', 'field' or 'fine'"
+                f"fidelity = {self.fidelity!r} has no fields; allowed: 'field' or 'fine'"
             )
         par = constants(self.params, self.grid)
         m = washer_model(par)

@@ -22,7 +22,7 @@ def run(pack, n=900):
     return into_oil
 
 
-@pytest.mark.parametrize("fidelity", list(SPEC.fidelities))
+@pytest.mark.parametrize("fidelity", SPEC.rungs)
 @pytest.mark.parametrize("course", ["held", "linear"])
 @pytest.mark.parametrize("rise", [False, True])
 def test_heat_made_is_stored_or_in_the_oil(fidelity, course, rise):
@@ -30,7 +30,7 @@ def test_heat_made_is_stored_or_in_the_oil(fidelity, course, rise):
     into_oil = run(pack)
     made, stored = pack.out[k.O_ENERGY], pack.out[k.O_STORED_HEAT]
     assert made > 1e3 and made == pytest.approx(stored + into_oil, rel=1e-9)
-    assert (stored == 0.0) == (fidelity == "boundary")
+    assert stored > 0.0
 
 
 @pytest.mark.parametrize("fidelity", ["stribeck", "field", "fine"])

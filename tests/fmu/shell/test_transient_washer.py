@@ -9,7 +9,7 @@ from thrustwasher.fmu.stepper import Instance
 from thrustwasher.washer.parameters import SPEC
 
 POINT = {"load": 650.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
-IN_TIME = {"thermal_mode": "transient", "fidelity": "coarse"}
+IN_TIME = {"thermal_mode": "transient"}
 TORQUE, MEAN = 0, 1
 
 

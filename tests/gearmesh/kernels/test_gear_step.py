@@ -36,7 +36,7 @@ class Mesh:
 
 
 @pytest.mark.parametrize(("preset", "rest"), [("paper", 1e-3), (None, 0.02)])
-@pytest.mark.parametrize("fidelity", list(SPEC.fidelities))
+@pytest.mark.parametrize("fidelity", SPEC.rungs)
 @pytest.mark.parametrize("load", [0.0, 40.0])
 @pytest.mark.parametrize("speed", [0.0, 180.0])
 def test_nothing_is_infinite_at_rest_or_without_load(preset, rest, fidelity, load, speed):

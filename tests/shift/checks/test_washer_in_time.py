@@ -9,7 +9,8 @@ from scene_runs import instances, real_shift, slow_without_jit
 from thrustwasher import WasherParams, follow_washer
 from thrustwasher.shift import load_scene, run_shift
 from thrustwasher.shift.checks.guard import followed_washers
-from thrustwasher.shift.checks.washer_in_time import COMPARED, follow_recorded
+from thrustwasher.shift.checks.washer_in_time import COMPARED, QUICK, follow_recorded
+from thrustwasher.washer.solve import GRIDS
 
 pytestmark = slow_without_jit
 
@@ -28,7 +29,7 @@ def relieved():
 def test_a_hot_washer_that_is_relieved_is_not_steady():
     time, signals = relieved()
     assert signals["friction_torque"][-1] == pytest.approx(0.250, abs=1e-3)
-    found = follow_recorded(WasherParams(), "field", time, signals, 5e-3)
+    found = follow_recorded(WasherParams(), GRIDS["field"], time, signals, 5e-3)
     for after, torque, ratio in ((0.02, 1.63, 0.91), (1.0, 1.44, 0.99), (4.0, 0.66, 1.5)):
         course = [np.interp(0.1 + after, found.time, column) for column in found.values.T]
         assert course[0] == pytest.approx(torque, rel=0.06)
@@ -44,10 +45,10 @@ def test_few_instants_do_what_all_of_them_do():
     every = slice(None, 500, 4)
     signals = {n: run.signals[f"washer.{n}"][every] for n in (*names, *COMPARED)}
     params = run.scene.parts["washer"].params
-    found = follow_recorded(params, "coarse", run.time[every], signals, 5e-3)
+    found = follow_recorded(params, QUICK, run.time[every], signals, 5e-3)
     in_time = replace(params, thermal_mode="transient")
     inputs = {n: signals[n] for n in names}
-    full = follow_washer(in_time, time=run.time[every], **inputs, fidelity="coarse")
+    full = follow_washer(in_time, time=run.time[every], **inputs, grid=QUICK)
     at = np.searchsorted(full.time, found.time)
     assert len(found.time) < 0.2 * len(full.time)
     assert found.values[:, 0] == pytest.approx(full.friction_torque[at], rel=5e-3)
@@ -64,7 +65,7 @@ def test_the_default_washer_is_steady_and_so_is_one_that_rests():
     inputs = {"load": 50.0, "speed": 0.0, "tilt": 1e-3, "oil_temperature": 350.0}
     outputs = {"friction_torque": 0.0, "film_ratio": 2.5, "temperature_max": 350.0}
     still = {n: np.full(3, x) for n, x in (inputs | outputs).items()}
-    assert follow_recorded(WasherParams(), "coarse", time, still, 5e-3).differences == []
+    assert follow_recorded(WasherParams(), QUICK, time, still, 5e-3).differences == []
 
 
 def test_a_washer_in_time_is_not_followed_again():

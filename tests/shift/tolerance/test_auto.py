@@ -47,11 +47,11 @@ def auto(*wishes, stop=STOP):
 
 def test_a_scene_file_asks_for_all_parts_and_for_one(tmp_path):
     file = tmp_path / "s.toml"
-    file.write_text('base = "planetary-sun"\nfidelity = "auto:0.02"\n[mesh]\nfidelity = "closed"\n')
+    file.write_text('base = "planetary-sun"\nfidelity = "auto:0.02"\n[mesh]\nfidelity = "fine"\n')
     found = {n: (p.fidelity, p.tolerance) for n, p in load_scene(file).parts.items()}
     assert found == {
         "transmission": ("rigid", None), "clutch": ("field", 0.02), "brake": ("field", 0.02),
-        "washer": ("field", 0.02), "mesh": ("closed", None),
+        "washer": ("field", 0.02), "mesh": ("fine", None),
     }  # fmt: skip
 
 
@@ -60,8 +60,8 @@ def test_auto_alone_is_one_percent():
 
 
 def test_later_wishes_overrule_earlier_ones():
-    parts = auto("auto:0.02", "mesh=closed", "clutch=auto:0.1").parts
-    assert parts["mesh"].fidelity == "closed" and parts["mesh"].tolerance is None
+    parts = auto("auto:0.02", "mesh=fine", "clutch=auto:0.1").parts
+    assert parts["mesh"].fidelity == "fine" and parts["mesh"].tolerance is None
     assert (parts["brake"].tolerance, parts["clutch"].tolerance) == (0.02, 0.1)
     assert auto("auto", "field").parts == load_scene("planetary-sun").with_options(
         stop_time=STOP
@@ -84,8 +84,8 @@ def test_a_wish_that_cannot_be_is_named(wish, text):
 
 
 def test_the_rung_to_compare_with_is_never_below_the_default():
-    assert above(gearmesh_params.SPEC, "closed") == "field"
-    assert above(parameters.SPEC, "boundary") == "field"
+    assert above(gearmesh_params.SPEC, "field") == "fine"
+    assert above(parameters.SPEC, "closed") == "field"
     assert above(washer_params.SPEC, list(washer_params.SPEC.fidelities)[-1]) is None
 
 
@@ -95,7 +95,7 @@ def trials(wish="auto:0.01"):
     return trial_runs(scene, Pool(made(log))), log
 
 
-@pytest.mark.parametrize(("cards", "rung"), [(("card",), "map"), ((), "coarse")])
+@pytest.mark.parametrize(("cards", "rung"), [(("card",), "map"), ((), "field")])
 def test_trial_runs_take_a_cheap_rung_for_the_washer_and_leave_the_others_theirs(
     monkeypatch, cards, rung
 ):
@@ -110,7 +110,7 @@ def test_one_trial_run_tries_the_finest_rungs_of_all_but_the_washer(monkeypatch)
     found, _ = trials()
     rungs = {n: p.fidelity for n, p in found.finest.scene.parts.items()}
     assert rungs == {"transmission": "rigid", "clutch": "fine", "brake": "fine",
-                     "washer": "coarse", "mesh": "fine"}  # fmt: skip
+                     "washer": "field", "mesh": "fine"}  # fmt: skip
     assert found.finest.step == found.coarse.step
 
 

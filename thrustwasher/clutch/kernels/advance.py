@@ -67,20 +67,19 @@ def warm_up(
     ``power_start``, ``power_end``: of a face [W]; ``cooling`` of the pack's faces [W/(m2 K)].
     """
     block, n = int(par[L.D_FIRST]) + k * L.N_PACK, 1 + int(par[L.D_MODES])
-    if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
-        for i in range(n):
-            place = np.uintp(L.W_NOW + L.Y_HEAT + k * n + i)
-            level = oil if i == 0 else 0.0
-            rate = par[np.uintp(block + L.D_DECAY + i)]
-            if i == 0:
-                rate = par[np.uintp(block + L.D_GAIN)] * cooling * par[np.uintp(block + L.D_AREA)]
-            decay, first, second = exponential_weights(rate * duration)
-            gain = power_start * first + (power_end - power_start) * second
-            work[place] = (
-                level
-                + (work[place] - level) * decay
-                + (par[np.uintp(block + L.D_GAIN + i)] * gain * duration)
-            )
+    for i in range(n):
+        place = np.uintp(L.W_NOW + L.Y_HEAT + k * n + i)
+        level = oil if i == 0 else 0.0
+        rate = par[np.uintp(block + L.D_DECAY + i)]
+        if i == 0:
+            rate = par[np.uintp(block + L.D_GAIN)] * cooling * par[np.uintp(block + L.D_AREA)]
+        decay, first, second = exponential_weights(rate * duration)
+        gain = power_start * first + (power_end - power_start) * second
+        work[place] = (
+            level
+            + (work[place] - level) * decay
+            + (par[np.uintp(block + L.D_GAIN + i)] * gain * duration)
+        )
     work[np.uintp(L.W_NOW + L.Y_ENERGY)] += 0.5 * (power_start + power_end) * duration
 
 

@@ -80,11 +80,8 @@ def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> 
         status = load_memory(par, load, oil, state, work)
         if status == OK:
             status = settle(par, course, duration, state[L.S_POWER], work)
-        if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
-            work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
         settle_film(par, load, work)
-    if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
-        work[L.W_SURFACE_CHANGE] = heat_of_a_ramp(par, inp, state, seed)
+    work[L.W_SURFACE_CHANGE] = heat_of_a_ramp(par, inp, state, seed)
     return work[L.W_SETTLED_LOAD] * seed[L.I_LOAD], status
 
 
@@ -99,8 +96,7 @@ def directional_derivative(
     point is on. Returns 0 or the status of a failure.
     """
     started = state[L.S_STARTED] != 0.0
-    follows_oil = par[L.P_FIDELITY] == L.BOUNDARY_ONLY or not started
-    heat = seed[L.I_OIL] if follows_oil else 0.0
+    heat = 0.0 if started else seed[L.I_OIL]
     film = work[L.W_SETTLED_LOAD] * seed[L.I_LOAD]
     status = OK
     for k in range(int(par[L.D_RINGS])):
@@ -112,6 +108,6 @@ def directional_derivative(
     scratch = work[L.W_VARIED : L.W_VARIED + L.NOUT]
     change = (seed[L.I_LOAD], seed[L.I_SPEED], film, seed[L.I_DRUM])
     ring_outputs(par, point, change, work, scratch, dout)
-    dout[L.O_TEMPERATURE] = seed[L.I_OIL] if follows_oil else 0.0
+    dout[L.O_TEMPERATURE] = heat
     dout[L.O_ENERGY] = dout[L.O_OIL_HEAT] = dout[L.O_STORED_HEAT] = 0.0
     return NOT_FINITE if status == OK and not are_finite(dout) else status

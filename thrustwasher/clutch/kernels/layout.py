@@ -93,7 +93,7 @@ W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
 ) = range(16)  # fmt: skip
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 
-CLOSED, BOUNDARY_ONLY, STRIBECK, FIELD, FINE = range(1, 6)  # fidelity
+CLOSED, STRIBECK, FIELD, FINE = 1, 3, 4, 5  # fidelity; 2 had no heat and runs as STRIBECK
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 BOUNDARY_DATA = 2  # friction_data
 N_TABLE = 5  # points above standstill

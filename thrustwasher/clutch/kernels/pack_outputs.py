@@ -90,7 +90,7 @@ def stored_heat(par: Array, work: Array, first: float) -> float:
     for k in range(int(par[L.D_RINGS])):
         total += (work[np.uintp(place)] - first) / ring_of(par, k)[L.D_GAIN]
         place += 1 + int(par[L.D_MODES])
-    return 0.0 if par[L.P_FIDELITY] == L.BOUNDARY_ONLY else par[L.P_FACES] * total
+    return par[L.P_FACES] * total
 
 
 @kernel

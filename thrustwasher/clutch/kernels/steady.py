@@ -45,7 +45,7 @@ def steady_temperature(
     temperature (the oil thins), so there is one root; should the shear ratio be told to rise with
     temperature there may be more, and one of them is found.
     """
-    if par[L.P_FIDELITY] == L.BOUNDARY_ONLY or slip == 0.0:
+    if slip == 0.0:
         return oil, OK, 0
     scale = abs(slip) / steady_cooling(par, load, u)
     low, high, bracketed = oil, oil, False

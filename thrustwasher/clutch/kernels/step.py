@@ -46,8 +46,6 @@ def step(
     work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
     work[L.W_PROPOSED], work[L.W_DURATION] = state[L.S_SUBSTEP], dt
     status = load_memory(par, load, oil, state, work)
-    if par[L.P_FIDELITY] == L.BOUNDARY_ONLY:
-        work[np.uintp(L.W_NOW + L.Y_HEAT)] = oil
     if linear:
         if started and status == OK:
             course = (
@@ -74,9 +72,7 @@ def step(
         temperature, hottest = mean_surface(par, work)
         energy = par[L.P_FACES] * work[np.uintp(L.W_NOW + L.Y_ENERGY)]
     elif linear and started:
-        energy = state[L.S_SHOWN_ENERGY]
-        if par[L.P_FIDELITY] != L.BOUNDARY_ONLY:
-            temperature = state[L.S_SHOWN_TEMPERATURE]
+        energy, temperature = state[L.S_SHOWN_ENERGY], state[L.S_SHOWN_TEMPERATURE]
         if par[L.P_FIDELITY] != L.FINE:
             hottest = temperature
     if energy < state[L.S_SHOWN_ENERGY]:

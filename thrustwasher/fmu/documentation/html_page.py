@@ -53,7 +53,7 @@ def page(
 
 def accuracy(spec: ModelSpec) -> Rows:
     """Return what cards say of the parameters it starts with, and its map's own check: rows."""
-    rungs, params = list(spec.fidelities), spec.params()
+    rungs, params = list(spec.rungs), spec.params()
     own = spec.kind != ""
     found = [card for card in load_cards(spec.key, params) if card.fidelity in rungs
              and (card.params.name == "default" or (own and not card.stale(params)))]  # fmt: skip

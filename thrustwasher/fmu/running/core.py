@@ -12,6 +12,7 @@ import numpy as np
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.prepare import fill_table, wants_table
 from ...model.registry import kernel_of
+from ...model.rungs import gone_rung
 from ...native.load import bound
 from ..description.interface import Interface, Variable
 from ..model_kernels import content_digest
@@ -60,7 +61,7 @@ class Core:
         self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
         self._ranges = shown.ranges()
         self._beyond = [[False] * len(own) for own in self._ranges]
-        self._warned = 0  # the status that was last told
+        self._warned = -1  # the status that was last told, -1: nothing yet
         self.time, self.mode = 0.0, Mode.INSTANTIATED
         self.dirty, self.prepared = True, False
         self.latch = 0  # the failure to be seen in solver_status until something changes
@@ -319,6 +320,10 @@ class Core:
                     said.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
                 self._beyond[k][i] = beyond
         status, found = self.status, [text for *_, text in sorted(said)]
+        if self._warned < 0:
+            number = int(self.par.item(len(fields(self.spec.params))))
+            rung = list(self.spec.fidelities)[number - 1]
+            found = [*(begin + text for text in gone_rung(self.spec, rung)), *found]
         told = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
         if not told and Status.OK < status < FIRST_FAILURE:
             found.append(f"{begin}{status.name}: {status.advice}; {self._point(self.shown.point)}")

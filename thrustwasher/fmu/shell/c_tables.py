@@ -12,6 +12,7 @@ from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
 from ...model.registry import kernel_of
+from ...model.rungs import gone_rung
 from ...native.shipped import digest_now
 from ..description.interface import LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
@@ -83,6 +84,9 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
         "COUNTS": ("Count", [
             _row(_text(text), place) for text, place in shown.counts]),
         "RULES": ("Rule", [_row(_text(rule.text)) for rule in shown.spec.rules]),
+        "GONE_RUNGS": ("Item", [
+            _row(number, _text(line)) for number, name in enumerate(shown.spec.fidelities, 1)
+            for line in gone_rung(shown.spec, name)]),
         "CATEGORIES": ("Category", [
             _row(_text(name), int(name in shown.categories)) for name in LOG_CATEGORIES]),
         "TYPES": ("TypeText", [_row(*map(_text, names)) for names in TYPES.items()]),
@@ -116,6 +120,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
     numbers = {
         **{name: getattr(kernel, name) for name in SIZES},
         "IO_STATUS": status, "FIRST_FAILURE": FIRST_FAILURE,
+        "RUNG": next(v.slot for v in shown.parameters if v.name == "fidelity"),
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
         **{f"TABLE_{name}": value for name, value in getattr(kernel, "TABLE", {"ROOM": 0}).items()},

@@ -113,7 +113,7 @@ def derive(par: Array) -> int:
     mean = MEAN_OVER_RMS * par[L.D_SIGMA]
     par[L.D_MEAN] = par[L.P_MEAN_ROUGHNESS] if par[L.P_MEAN_ROUGHNESS] > 0.0 else mean
     by_speed = math.sqrt(par[L.D_V1]) / (math.sqrt(par[L.D_V1]) + math.sqrt(par[L.D_V2]))
-    constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE and par[L.P_FIDELITY] != L.CLOSED
+    constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE
     par[L.D_SHARE] = par[L.P_PARTITION_SHARE] if constant else by_speed
     derive_limits(par)
     derive_body(par)

@@ -12,7 +12,7 @@ from ...numerics.smoothing import smoothstep_slope, soft_size, soft_size_slope
 from ...tribology.greenwood_williamson import bounded_slopes
 from . import layout as L
 from .contact import thermal_stress
-from .flank_temperature import LOWEST_OIL, settled_rise
+from .flank_temperature import LOWEST_OIL
 from .mesh_point import (
     LEAST_LINE_LOAD,
     MECHANICAL,
@@ -49,21 +49,12 @@ def film_changes(
     _, thins, exponent = viscosity_follows(par)
     rise, slope = field[L.F_SURFACE_RISE], field[L.F_STRESS_SLOPE]
     factor = 0.5 * (speed + width)
-    if par[L.P_FIDELITY] == L.STRIBECK:
-        warm, warmer = settled_rise(
-            cold, colder, field[L.F_FREE_RISE], factor + shear, exponent * b
-        )
-        held = shear - exponent * b * (colder + warmer) / ((cold + warm) * (cold + warm))
-        held += exponent * steep * colder
-        stress = slope * held + (1.0 - slope) * cap
-        rising = rise * (factor + stress)
-    else:  # rise = factor x stress(rise), solved for the change of the rise
-        warmth = cold + rise
-        thinning = exponent * b / (warmth * warmth)
-        held = shear + colder * (exponent * steep - thinning)
-        stress = slope * held + (1.0 - slope) * cap
-        rising = rise * (factor + stress) / (1.0 + rise * slope * thinning)
-        stress -= slope * thinning * rising
+    warmth = cold + rise  # rise = factor x stress(rise), solved for the change of the rise
+    thinning = exponent * b / (warmth * warmth)
+    held = shear + colder * (exponent * steep - thinning)
+    stress = slope * held + (1.0 - slope) * cap
+    rising = rise * (factor + stress) / (1.0 + rise * slope * thinning)
+    stress -= slope * thinning * rising
     surface = change + rising
 
     if thins and field[L.F_SURFACE] >= LOWEST_OIL:

@@ -38,15 +38,13 @@ def friction_coefficient(
     The second number is its slope over the logarithm of what it follows: the film with Li &
     Seireg's law, ISO's unbounded value with that of ISO.
     """
-    if par[L.P_FIDELITY] != L.CLOSED:
-        if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
-            radius, f0, roughness = par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS]
-            return contact.li_seireg(film, radius, f0, roughness)
-        if par[L.P_FRICTION_LAW] == L.ISO:
-            rolling, radius = par[L.D_ROLLING] * speed, par[L.D_PITCH_RADIUS]
-            return contact.iso_and_slope(
-                line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0]
-            )
+    if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
+        return contact.li_seireg(film, par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS])
+    if par[L.P_FRICTION_LAW] == L.ISO:
+        rolling, radius = par[L.D_ROLLING] * speed, par[L.D_PITCH_RADIUS]
+        return contact.iso_and_slope(
+            line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0]
+        )
     return par[L.P_CONSTANT_FRICTION], 0.0
 
 
@@ -66,7 +64,7 @@ def viscosity_follows(par: Array) -> tuple[bool, bool, float]:
 
     The power is that of the viscosity in the shear stress: 0.3 where the film thins with it.
     """
-    warm = par[L.P_VISCOSITY_AT] == L.AT_SURFACE and par[L.P_FIDELITY] != L.CLOSED
+    warm = par[L.P_VISCOSITY_AT] == L.AT_SURFACE
     thins = warm and par[L.P_FILM_VISCOSITY] == L.AT_SURFACE
     exponent = (0.3 if thins else 1.0) if warm else 0.0
     return warm, thins, exponent
@@ -99,22 +97,16 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
     taken = par[L.D_SHARE] * sliding * width  # heat into the pinion per stress, [m2/s]
     factor = taken * flank.surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
     warm, thins, exponent = viscosity_follows(par)
-    status, iterations = OK, 0
-    if par[L.P_FIDELITY] == L.STRIBECK:
-        surface, stress, slope = flank.closed_flank(
-            oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
-        )
-    else:
-        surface, stress, slope, status, iterations = flank.heated_flank(
-            oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
-        )
+    surface, stress, slope, status, iterations = flank.heated_flank(
+        oil, factor, shear, cap, exponent, par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+    )
     viscosity = viscosity_at(par, surface) if warm else bulk
     if thins:
         film *= math.exp(0.7 * math.log(viscosity / bulk))
     field[L.F_VISCOSITY], field[L.F_FILM], field[L.F_SURFACE] = viscosity, film, surface
     field[L.F_RATIO] = film / par[L.D_SIGMA]
     field[L.F_BULK_VISCOSITY], field[L.F_STRESS_SLOPE] = bulk, slope
-    field[L.F_SURFACE_RISE], field[L.F_FREE_RISE] = factor * stress, factor * shear
+    field[L.F_SURFACE_RISE] = factor * stress
     field[L.F_FILM_RISE] = taken * stress * flank.film_factor(
         film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
         par[L.D_OIL_CAPACITY],
@@ -210,13 +202,9 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
         par, field[L.F_FILM], line_load, turning, field[L.F_BULK_VISCOSITY]
     )
     field[L.F_FRICTION_SLOPE] = slope
-    v1, v2 = par[L.D_V1] * turning, par[L.D_V2] * turning
     rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)  # no load, no heat
-    if par[L.P_FIDELITY] == L.CLOSED:
-        rise = flank.blok_rise(friction, rubbing, v1, v2, width, par[L.D_EFFUSIVITY])
-    else:
-        heat = par[L.D_SHARE] * friction * rubbing * field[L.F_SLIDING]
-        rise = flank.flash_rise(heat, width, v1, par[L.D_EFFUSIVITY])
+    heat = par[L.D_SHARE] * friction * rubbing * field[L.F_SLIDING]
+    rise = flank.flash_rise(heat, width, par[L.D_V1] * turning, par[L.D_EFFUSIVITY])
     field[L.F_FRICTION], field[L.F_FLASH], field[L.F_BULK] = friction, rise, oil
     field[L.F_WEIGHT] = contact_weight(par, field[L.F_RATIO])
     stress_asperities(par, oil, field)

@@ -1,8 +1,7 @@
 # mypy: disable-error-code="no-any-return"
 """Friction along the path of contact, and how it changes with load, speed and viscosities.
 
-All changes given are relative. The closed rung and the laws "constant" and "iso" have one friction
-for the whole path.
+All changes given are relative. The laws "constant" and "iso" have one friction for the whole path.
 """
 
 import math
@@ -26,7 +25,7 @@ def is_uniform(par: Array) -> bool:
     """Tell if one coefficient of friction holds for the whole path whatever the film does."""
     law = par[L.P_FRICTION_LAW]
     varies = law == L.LI_SEIREG or law == L.MIXED_FRICTION
-    return par[L.P_FIDELITY] == L.CLOSED or not varies
+    return not varies
 
 
 @kernel
@@ -38,7 +37,7 @@ def film_scale(line: float, turning: float, viscosity: float) -> float:
 @kernel
 def mean_friction(par: Array, line: float, turning: float, oil: float) -> tuple[float, float]:
     """Return the standard's mean coefficient [-] (or the constant one) and its log slope."""
-    if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == 3.0:
+    if par[L.P_FRICTION_LAW] == 3.0:
         return par[L.P_CONSTANT_FRICTION], 0.0
     rolling = floored(par[L.D_ROLLING] * turning, LEAST_ROLLING)
     unit = line * par[L.D_UNIT_LOAD] / par[L.D_LOAD]

@@ -12,7 +12,7 @@ from .shift_record import Part, Record
 TURNING = 1.0  # [rad/s] a washer slower than this needs no film
 FILM_SPEED = 10.0  # [rad/s] below, film vanishes with speed and its least value says nothing
 LEAST_LOAD = 1.0  # [N] the washer in a run takes a smaller load as this
-WITH_FIELDS = ("coarse", "field", "fine")  # rungs that leave maps over the washer
+WITH_FIELDS = ("field", "fine")  # rungs that leave maps over the washer
 
 
 class Extreme(NamedTuple):

@@ -3,7 +3,7 @@
 Inputs are those that the run has recorded: a washer hardly feeds back. From the steady state at
 the first instant its bodies store heat and give it back; what it gives then is compared with the
 steady states of the run. Instants lie where straight lines between them keep to the recorded
-inputs and outputs, and closer where the two differ. The coarse mesh comes first; where it finds
+inputs and outputs, and closer where the two differ. A quick mesh comes first; where it finds
 nothing near a limit, that is enough.
 """
 
@@ -19,13 +19,14 @@ from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ...washer.follow import Follower
 from ...washer.parameters import SPEC, WasherParams
-from ...washer.solve import resolve_grid
+from ...washer.solve import GRIDS
 from ..key_figures.figure_list import FILM_SPEED
 from ..scene.scene import Part
 
 CLOSE = 0.05  # of a signal's range: what straight lines between instants may be off
 LIKELY = 0.5  # of a limit: from here on instants are set closer
-NEARLY = 0.8  # of a limit: what the coarse mesh may find where the finer one is not asked
+QUICK = (8, 20)  # nodes of the quick mesh
+NEARLY = 0.8  # of a limit: what the quick mesh may find where the finer one is not asked
 TURN, CLEAR = 0.5, 3.0  # of a limit: the difference may change so much then; beyond, it is clear
 MOST = 100  # instants set closer
 LEAST_STEPS, LEAST_TIME = 5, 5e-3  # [steps], [s]: shorter differences are passed over
@@ -92,20 +93,22 @@ def washer_in_time(
     own = {n: signals[f"{name}.{n}"] for n in (*(s.name for s in SPEC.inputs), *COMPARED)}
     rung = "field" if part.fidelity == "map" else part.fidelity
     shortest = max(LEAST_STEPS * step, LEAST_TIME)
-    quick = follow_recorded(part.params, "coarse", time, own, shortest)
-    if rung == "coarse" or (quick.worst < NEARLY and not quick.stopped):
+    quick = follow_recorded(part.params, QUICK, time, own, shortest)
+    if quick.worst < NEARLY and not quick.stopped:
         return quick
-    return follow_recorded(part.params, rung, time, own, shortest)
+    return follow_recorded(part.params, GRIDS[rung], time, own, shortest)
 
 
 def follow_recorded(
-    params: WasherParams, rung: str, time: Array, signals: dict[str, Array], shortest: float
-) -> InTime:
+    params: WasherParams, grid: tuple[int, int], time: Array, signals: dict[str, Array],
+    shortest: float,
+) -> InTime:  # fmt: skip
     """Follow a washer along recorded inputs and compare it with the recorded steady outputs.
 
     Parameters
     ----------
-    params, rung : the washer, and which of its meshes
+    params : the washer
+    grid : its nodes, (n_r, n_theta)
     time : (n,) points [s]
     signals : (n,) values at the points of each input and of ``COMPARED``, SI units
     shortest : what lasts no longer [s] is no difference
@@ -125,7 +128,7 @@ def follow_recorded(
         return _over(steady[at], values, greatest, turning[at])
 
     places, values, stopped = _walk(
-        Follower(params, resolve_grid(rung, None)), time, inputs,
+        Follower(params, grid), time, inputs,
         sorted({*_instants(time, inputs, steady), min(rest, len(time) - 1)}), rest, over,
     )  # fmt: skip
     off = values - steady[places]

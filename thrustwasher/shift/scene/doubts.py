@@ -35,13 +35,13 @@ def doubts(scene: Scene) -> Iterator[str]:
 
 
 def idle_parameters(scene: Scene) -> Iterator[str]:
-    """Say which parameters have no effect beside others, or on the rung of their part."""
+    """Say which rungs are gone, and which parameters have no effect beside others or on theirs."""
     for name, part in scene.parts.items():
-        is_pack = isinstance(part.params, ClutchParams)
+        is_pack, rung = isinstance(part.params, ClutchParams), part.asked or part.fidelity
         for line in (
-            doubts_of_pack(part.params, part.fidelity)
+            doubts_of_pack(part.params, rung)
             if is_pack
-            else idle_warnings(part.spec.key, part.params, part.fidelity)
+            else idle_warnings(part.spec.key, part.params, rung)
         ):
             yield f"[{name}] {line}"
 

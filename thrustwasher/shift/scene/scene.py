@@ -8,6 +8,7 @@ from typing import Any
 from ...errors import ParameterError, within
 from ...ladder.choose import rung_and_tolerance
 from ...model.prepare import check_together
+from ...model.rungs import rung_named
 from ...model.spec import ModelSpec
 from ...model.toml_tables import number
 from ...transmission.bearings import BEARINGS
@@ -33,6 +34,8 @@ class Part:
     """Asked for with fidelity "auto": the rung is still to be chosen; None: it is as it stands."""
     told: dict[str, Any] = field(default_factory=dict, compare=False)
     """What a package says of it: name and notes of its part file, if it has one."""
+    asked: str = field(default="", compare=False)
+    """Name by which the rung was asked for; it may be that of one that is gone."""
 
     def parameters(self) -> dict[str, Any]:
         """Return all parameters by name, the fidelity among them, as an FMU takes them."""
@@ -41,7 +44,13 @@ class Part:
 
     def at(self, rung: str) -> "Part":
         """Return the part with a rung that stands."""
-        return replace(self, fidelity=rung, tolerance=None)
+        return replace(self, fidelity=rung, tolerance=None, asked="")
+
+    def asked_for(self, where: str, text: object) -> "Part":
+        """Return the part at the rung that a text asks for: "field", "auto" or "auto:0.01"."""
+        asked, tolerance = rung_and_tolerance(where, self.spec, text)
+        rung = rung_named(self.spec, asked)
+        return replace(self, fidelity=rung, tolerance=tolerance, asked=asked)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -272,6 +281,5 @@ def with_fidelities(scene: Scene, wishes: Sequence[str]) -> Scene:
                 f"fidelity = {wish!r}: there is no part {name!r} here, allowed: {', '.join(parts)}"
             )
         for n in names:
-            rung, tolerance = rung_and_tolerance(f"part {n!r}", parts[n].spec, text)
-            parts[n] = replace(parts[n], fidelity=rung, tolerance=tolerance)
+            parts[n] = parts[n].asked_for(f"part {n!r}", text)
     return replace(scene, parts=parts).checked()

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ParameterError, suggestion, within
-from ...ladder.choose import rung_and_tolerance
 from ...model.oil import (
     SHEET,
     VISCOSITY,
@@ -326,7 +325,7 @@ def _part(
     own = {k: x for k, x in values.items() if x != getattr(spec.params(), k)}
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values = usual | values | common
-    fidelity, tolerance = rung_and_tolerance(where, spec, given.pop("fidelity", rung))
+    rung = given.pop("fidelity", rung)
     nothing_else(where, given, ["fidelity", "part", "preset", *known, *earlier])
     known |= earlier
     for key, value in given.items():
@@ -335,8 +334,8 @@ def _part(
         values[key] = read_value(where, key, value, known[key])
     with within(where):
         params = spec.params(**values)
-    part = Part(spec=spec, fidelity=fidelity, params=params, tolerance=tolerance, told=told)
-    return part, lost
+    part = Part(spec=spec, fidelity=spec.default_fidelity, params=params, told=told)
+    return part.asked_for(where, rung), lost
 
 
 def _start(spec: ModelSpec, file: Any, preset: Any) -> tuple[dict[str, Any], str, dict[str, Any]]:

@@ -105,10 +105,9 @@ def trial_runs(scene: Scene, pool: Pool, compiled: bool | None = None) -> TrialR
 
 
 def cheap_rung(name: str, part: Part) -> str:
-    """Return the rung for trial runs: of a washer its map, if a card knows one, or `coarse`."""
-    if name not in DIRECT:
-        return part.spec.default_fidelity
-    return "map" if fresh_cards(part.spec.key, "map", part.params) else "coarse"
+    """Return the rung for trial runs: of a washer its map, if a card knows one, or its default."""
+    known = name in DIRECT and fresh_cards(part.spec.key, "map", part.params)
+    return "map" if known else part.spec.default_fidelity
 
 
 def finest_of(spec: ModelSpec) -> str:

@@ -70,7 +70,7 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
 def _points(study: Mapping[str, Any], model: str) -> dict[str, list[list[str]]]:
     """Return the words of every mark in a study's drawing: way, errors, worst case, command."""
     found: dict[str, list[list[str]]] = {}
-    rungs = find_spec(model).fidelities if "cases" in study else {}
+    rungs = find_spec(model).rungs if "cases" in study else {}
     per = "a call" if rungs else "a simulated second"
     for q in study["quantities"]:
         for s in study["samples"]:

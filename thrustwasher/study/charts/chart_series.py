@@ -59,7 +59,7 @@ def rungs(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     counted = spec.counts[0][0] if spec.counts else "calls"
     return [
         Configuration("rungs", name, "rung", name, partial(KernelMethod, spec, name), counted)
-        for name in spec.fidelities
+        for name in spec.rungs
     ]
 
 

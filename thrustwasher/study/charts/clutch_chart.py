@@ -65,7 +65,7 @@ def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every rung, and those with a moving film over the communication step."""
     rungs = [
         Configuration("rungs", name, "rung", name, partial(ClutchMethod, name, USUAL_STEP), "steps")
-        for name in spec.fidelities
+        for name in spec.rungs
     ]
     steps = [
         Configuration(f"{name} over the step", f"{name}, {1e3 * h:g} ms", "step", f"{1e3 * h:g} ms",

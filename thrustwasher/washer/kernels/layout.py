@@ -40,7 +40,7 @@ IN_ALL, ONLY_CARRIER, ONLY_ROTATING = 1.0, 2.0, 3.0  # of conduction
 ONLY_LIQUID, LUMPED = 2.0, 2.0  # of cavity_shear and body_storage
 INSULATED, BULK = 2.0, 3.0  # of gear_far_face
 QUASI_STEADY, TRANSIENT, FROM_OIL = 1.0, 2.0, 2.0
-MAP, COARSE, FIELD, FINE = range(1, 5)
+MAP, FIELD, FINE = 1, 3, 4  # fidelity; 2 was coarser and runs as FIELD
 # Behind them: nodes, and the radial one at the gear's inner radius; RMS roughness of film 1 and
 # gap 2 [m]; (carrier^2 - washer^2)/film 1^2; means and scatters of the summits [m].
 (
@@ -110,7 +110,6 @@ OUT_OIL, FAR_CARRIER, FAR_GEAR = 132, 135, 137
 N_SMALL = 144
 # Right sides and solutions of the film, node by node: the step at fixed positions, its slopes.
 AT_FIXED, OVER_POSITIONS = 0, 1
-N_PRESSED = 3  # of the forces: the film presses on all but the gear
 N_KEPT = 3  # solutions that ``remember`` has room for
 N_TERMS = 4  # of the ladder through the thickness of a body
 

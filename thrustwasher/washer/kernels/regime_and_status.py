@@ -72,7 +72,7 @@ def broken_rule(par: Array) -> int:
     if not cooled and par[L.P_CAVITY_SHEAR] == L.ONLY_LIQUID:
         return 27
     # the fidelity may be unknown yet
-    if par.size >= L.N_PARAM and not par[L.P_FIDELITY] >= L.COARSE:
+    if par.size >= L.N_PARAM and not par[L.P_FIDELITY] > L.MAP:
         if par[L.P_THERMAL_MODE] == L.TRANSIENT:
             return 28
         if par[L.P_GEAR_FAR_FACE] == L.BULK:

@@ -28,8 +28,7 @@ from .workspace import (
     workspace_of,
 )
 
-COARSE_GRID = (8, 20)  # radial and circumferential nodes of fidelity "coarse"
-FIELD_GRID = (10, 32)  # of "field"
+FIELD_GRID = (10, 32)  # radial and circumferential nodes of fidelity "field"
 FINE_GRID = (19, 64)  # of "fine"
 NPAR = size_of_par(*FINE_GRID)
 NSTATE = size_of_state(*FINE_GRID)
@@ -52,9 +51,7 @@ __all__ = [
 def derive(par: Array) -> int:
     """Fill ``par`` behind its ``N_PARAM`` parameters: contact tables, scalars, mesh if any."""
     n_r, n_t = FIELD_GRID
-    if par[L.P_FIDELITY] == L.COARSE:
-        n_r, n_t = COARSE_GRID
-    elif par[L.P_FIDELITY] == L.FINE:
+    if par[L.P_FIDELITY] == L.FINE:
         n_r, n_t = FINE_GRID
     return derive_grid(par, n_r, n_t)
 

@@ -203,7 +203,8 @@ def test_every_point_of_the_box_has_an_answer_that_obeys(n):
 
 def obeys(**point):
     r = solve_washer(WasherParams(), **point)
-    assert r.status is (Status.DISTRESS if r.distress else Status.OK)
+    good = Status.HOT if r.temperature_max > 523.0 else Status.OK
+    assert r.status is (Status.DISTRESS if r.distress else good)
     assert r.branch in ("film", "contact")
     assert r.friction_torque * r.speed >= 0.0
     assert r.temperature_max >= r.temperature >= r.oil_temperature - 1e-9

@@ -169,7 +169,7 @@ def test_standard_output_that_cannot_be_written_is_said(words, monkeypatch, caps
     [
         ["curve", "--speed", "545", "--tilt", "0.002", "--out", "/proc/x/c.csv"],
         ["calibrate", str(MEASURED), "--plot", "/proc/x/fit.png"],
-        ["shift", "--out", "/proc/x"], ["shift", "--out", "/proc/x", "--ssp", "/proc/x/s.ssp"],
+        ["shift", "--out", "/proc/x"], ["shift", "--ssp", "/proc/x/s.ssp"],
         ["build", "--out", "/proc/x"], ["chart", "--out", "/proc/x"],
         [*SWEEP, "/proc/x/t.csv"], [*MAP, "/proc/x/m.twm"],
     ],

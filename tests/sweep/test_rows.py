@@ -113,22 +113,25 @@ def test_a_map_that_was_never_built_is_an_error_not_a_table_of_failures():
         run_sweep("washer", {"load": [100.0]}, at={"roughness": 4.321e-7}, fidelity="map")
 
 
-def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypatch):
+def test_a_tolerance_is_handed_to_the_choice_with_the_box_of_all_points(monkeypatch):
     from thrustwasher.ladder import choose
 
     asked = {}
 
-    def choose_closed(model, box, **options):
+    def choose_fine(model, box, **options):
         asked.update(options, model=model, box=box)
-        return choose.Choice("closed", 0.01, 1e-6, ("gear mesh: closed", "because"))
+        return choose.Choice("fine", 0.01, 1e-6, ("gear mesh: fine", "because"))
 
-    monkeypatch.setattr(choose, "choose", choose_closed)
+    monkeypatch.setattr(choose, "choose", choose_fine)
     over = {"load": [10.0, 40.0], "speed": [50.0, 150.0]}
     table = run_sweep("gearmesh", over, fidelity="auto:0.05")
     assert (asked["model"], asked["tol"], asked["n_calls"]) == ("gearmesh", 0.05, 4)
     assert asked["box"]["load"] == (10.0, 40.0) and asked["box"]["speed"] == (50.0, 150.0)
-    assert (table.fidelity, "because" in table.choice) == ("closed", True)
-    named = run_sweep("gearmesh", over, fidelity="closed")
+    assert {(p["load"], p["speed"]) for p in asked["points"]} == {
+        (load, speed) for load in over["load"] for speed in over["speed"]
+    }
+    assert (table.fidelity, "because" in table.choice) == ("fine", True)
+    named = run_sweep("gearmesh", over, fidelity="fine")
     assert (table["friction_torque"] == named["friction_torque"]).all()
     with pytest.raises(ParameterError, match="without varied parameters"):
         run_sweep("gearmesh", {**over, "pinion_teeth": [30, 40]}, fidelity="auto:0.05")

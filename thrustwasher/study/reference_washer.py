@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolveError, Status
-from ..ladder.card_parts import QUANTITIES
+from ..ladder.error_table import QUANTITIES
 from ..model.part_file import made_of
 from ..washer.kernel_arguments import constants
 from ..washer.kernels.constants import WasherModel, washer_model

@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ParameterError, Status
-from ...ladder.card import load_cards
-from ...ladder.card_parts import QUANTITIES
+from ...ladder.error_table import QUANTITIES, load_tables
 from ...ladder.formats import shown_error
 from ...model.prepare import tables_of
 from ...model.registry import MODELS, find_model, find_spec
@@ -53,21 +52,20 @@ def page(
 
 
 def accuracy(spec: ModelSpec) -> Rows:
-    """Return what cards say of the parameters it starts with, and its map's own check: rows."""
-    rungs, params = list(spec.fidelities), spec.params()
+    """Return the measured errors with the parameters it starts with, and its map's own check."""
     own = spec.kind != ""
-    found = [card for card in load_cards(spec.key, params) if card.fidelity in rungs
-             and (card.params.name == "default" or (own and not card.stale(params)))]  # fmt: skip
-    found.sort(key=lambda card: (rungs.index(card.fidelity), card.chart or ""))
     return _of_map(spec) + [
         (
-            f"{card.fidelity} {card.chart or ''}".strip(),
-            ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in card.envelope.items()),
-            str(card.held_out.n),
-            *map(card.shown_worst, QUANTITIES),
-            f"version {card.package['version']}",
+            f"{rung.fidelity} {chart.name or ''}".strip(),
+            ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in rung.box.items()),
+            str(chart.points),
+            *(shown_error(rung.worst_anywhere(q, chart), unit) for q, unit in QUANTITIES.items()),
+            f"version {table.version}",
         )
-        for card in found
+        for table in load_tables(spec.key, spec.params())
+        for rung in table.rungs
+        for chart in rung.charts
+        if table.name == "default" or (own and not table.stale(rung))
     ]
 
 
@@ -83,9 +81,9 @@ def _of_map(spec: ModelSpec) -> Rows:
     held, units = card["held_out"], {s.name: s.unit for s in spec.inputs}
     box = ", ".join(f"{n} {low:g} .. {high:g} {units[n]}" for n, (low, high) in card["box"].items())
     return [(f"{tables.rung}, when built", box, str(held["points"]),
-             shown_error(held["torque"], "relative", None),
-             shown_error(held["temperature"], "absolute", "K"), "-",
-             shown_error(held["film_ratio"], "absolute", None),
+             shown_error(held["torque"], None),
+             shown_error(held["temperature"], "K"), "-",
+             shown_error(held["film_ratio"], "1"),
              "x".join(map(str, card.get("checked_on", ()))) + " nodes")]  # fmt: skip
 
 

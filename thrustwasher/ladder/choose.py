@@ -23,6 +23,8 @@ from .formats import shown_error
 AUTO = "auto"
 TOLERANCE = 0.01  # of "auto" alone
 TOLERANCES = (1e-6, 0.5)
+# The rung above halves all widths and errs by a quarter: the difference is 3/4 of the error.
+OF_DIFFERENCE = 4.0 / 3.0
 
 
 def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
@@ -55,7 +57,7 @@ def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, 
 class Choice:
     """The rung to take and its largest error in the box; ``str()`` gives the reasons.
 
-    ``is_verified``: a table of measured errors promises the error. Otherwise it is the difference
+    ``is_verified``: a table of measured errors promises the error. Otherwise it is estimated
     from the rung above at some points, infinite if there is none above. ``seconds`` are those of
     all calls, NaN where no table speaks.
     """
@@ -115,7 +117,7 @@ def choose(
         "film_ratio" (1)
     tol : largest error allowed, above 0
     n_calls : how often the rung will be called, for ``Choice.seconds``
-    safety : factor on the largest error or difference found, at least 1
+    safety : factor on the largest error found, at least 1
     params : the parameter object; default: the model's defaults
     among : rungs to choose from; default: all that can be chosen
     points : inputs at which rungs are compared where no table speaks; default: 30 over the box
@@ -216,7 +218,7 @@ def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> C
     where = "there" if compared.size == 1 else f"at {compared.size} points"
     for rung, above in pairwise(rungs):
         difference = compared.difference(rung, above)
-        error = asked.safety * difference
+        error = asked.safety * OF_DIFFERENCE * difference
         if error <= asked.tol:
             words = (
                 f"{asked.model}: {rung}, no table of errors speaks here; {where} it is "

@@ -202,7 +202,7 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
     point: Any = known.point
     r = solve_washer(params, **point, fidelity=fidelity, branch=known.branch, throw=False)
     values: Values = {name: getattr(r, name) for name in QUANTITIES}
-    if fidelity == "map" and (r.fidelity != "map" or r.status is Status.OUTSIDE_VERIFIED):
+    if r.fidelity != fidelity:  # the map has handed over to the field
         return Answer(values, ref.OUTSIDE)
     if r.status is Status.NO_BRANCH and known.beside_fold:
         return Answer(values, ref.OTHER_SIDE)

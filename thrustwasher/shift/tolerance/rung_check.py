@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError, Status
+from ...model.prepare import tables_of
 from ...numerics.jit import Array
 from ..cosim.system import Stepping
 from ..scene.connections import SPEED, WITHOUT_PAST
@@ -42,7 +43,8 @@ def check_part(
     names = [s.name for s in part.spec.inputs]
     inputs = np.column_stack([result.signals[f"{chosen.part}.{name}"] for name in names])
     moving = _moving(names, inputs)
-    outside = _outside(chosen, result, moving)
+    looks_up = tables_of(part.spec, part.fidelity) is not None
+    outside = _outside(chosen, result, moving) if looks_up else ""
     places = _points(chosen, result, inputs, moving)
     solved, failed = _solved(
         lambda: take(chosen.part, part.at(higher)),
@@ -74,7 +76,7 @@ def _moving(names: Sequence[str], inputs: Array) -> Places:
 
 
 def _outside(chosen: Selected, result: ShiftResult, moving: Places) -> str:
-    """Say when the rung itself left what it is verified for; empty if it did not."""
+    """Say when a rung that looks up left what it is verified for; empty if it did not."""
     status = result.signals.get(f"{chosen.part}.solver_status")
     left = moving[status[moving] == Status.OUTSIDE_VERIFIED] if status is not None else moving[:0]
     if not len(left):

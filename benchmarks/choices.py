@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from thrustwasher import SolveError, choose
+from thrustwasher import Choice, SolveError, choose
 from thrustwasher.errors import ParameterError
 from thrustwasher.ladder.choose import rungs_of
 from thrustwasher.ladder.error_table import Interval, fresh_rungs
@@ -110,10 +110,14 @@ def random_box(points: Points, rng: np.random.Generator) -> dict[str, Interval]:
 
 
 class Outcome(NamedTuple):
-    """What came of a request; the error is in units of the tolerance."""
+    """What came of a request; the error is in units of the tolerance.
+
+    ``promised``: the choice says an error; the last rung without a table has none.
+    """
 
     group: str
     rung: str | None
+    promised: bool
     error: float
     in_order: bool
 
@@ -123,35 +127,42 @@ def ask(points: Points, rng: np.random.Generator) -> Outcome:
     case, box = points.case, random_box(points, rng)
     tol = float(np.exp(rng.uniform(*np.log(TOLERANCES))))
     rungs = [*points.errors, None]
-    taken, stricter = (_chosen(case, box, t) for t in (tol, 0.5 * tol))
+    choice, strict = (_chosen(case, box, t) for t in (tol, 0.5 * tol))
+    taken, stricter = (c and c.fidelity for c in (choice, strict))
     error = 0.0 if taken is None else points.worst(taken, box) / tol
+    promised = choice is not None and math.isfinite(choice.error)
     known = "table" if fresh_rungs(case.spec.key, case.params) else "no table"
     group = f"{case.spec.key}, {known}"
-    return Outcome(group, taken, error, rungs.index(taken) <= rungs.index(stricter))
+    order = rungs.index(taken) <= rungs.index(stricter)
+    return Outcome(group, taken, promised, error, order)
 
 
-def _chosen(case: Case, box: dict[str, Interval], tol: float) -> str | None:
+def _chosen(case: Case, box: dict[str, Interval], tol: float) -> Choice | None:
     try:
-        return choose(case.spec.key, box, tol=tol, params=case.params).fidelity
+        return choose(case.spec.key, box, tol=tol, params=case.params)
     except SolveError:
         return None
 
 
 def report(outcomes: list[Outcome]) -> None:
     """Print how often the word was kept, by model."""
-    print("| model | requests | answered | within tolerance | largest error / tolerance | none "
-          "dearer than a stricter one | rungs taken |")  # fmt: skip
-    print("|---|---|---|---|---|---|---|")
+    print("| model | requests | with a promise | kept | largest error / tolerance | last rung "
+          "without one | refused | none dearer than a stricter one | rungs taken |")  # fmt: skip
+    print("|" + "---|" * 9)
     for group in [*dict.fromkeys(o.group for o in outcomes), "all"]:
         mine = [o for o in outcomes if group in (o.group, "all")]
-        answered = [o for o in mine if o.rung]
-        kept = sum(o.error <= 1.0 for o in answered)
-        worst = max((o.error for o in answered), default=0.0)
-        taken = {r: sum(o.rung == r for o in answered) for r in dict.fromkeys(o.rung for o in mine)}
+        promised = [o for o in mine if o.promised]
+        kept = sum(o.error <= 1.0 for o in promised)
+        worst = max((o.error for o in promised), default=0.0)
+        taken = {r: sum(o.rung == r for o in mine) for r in dict.fromkeys(o.rung for o in mine)}
+        last, refused = (
+            sum(o.rung is not None and not o.promised for o in mine),
+            sum(o.rung is None for o in mine),
+        )
         rungs = ", ".join(f"{r} {n}" for r, n in taken.items() if r)
         order = sum(o.in_order for o in mine)
-        print(f"| {group} | {len(mine)} | {len(answered)} | {kept} | {worst:.2g} | {order} "
-              f"| {rungs} |")  # fmt: skip
+        print(f"| {group} | {len(mine)} | {len(promised)} | {kept} | {worst:.2g} | {last} "
+              f"| {refused} | {order} | {rungs} |")  # fmt: skip
 
 
 def main() -> None:

@@ -3,7 +3,7 @@
 python benchmarks/shift.py [--tolerance 0.01] [--scene planetary] [--repeats 9] [--converged]
 
 Native FMUs through FMPy, one process, one thread; medians over repeats, quartiles in brackets. The
-time of a run is that of its communication steps; trial runs, choice and check stand apart, because
+time of a run is that of its communication steps; choice and check stand apart, because
 they are made once for a scene, and so do building, loading and the first solve.
 ``--converged`` also runs the finest rung of every part at an eighth of the step, which takes
 minutes: the truth that both runs are compared with. Counts need no machine.
@@ -131,8 +131,7 @@ def main() -> None:
     print(*(quick[-1].selection.words() if quick[-1].selection else []), sep="\n")
     print(f"\ndefault rungs: {said(times[0])}; {calls(slow[-1])}")
     print(f"at {given.tolerance:g}: {said(times[1])}, {ratio:.1f} times faster; {calls(quick[-1])}")
-    trials = [r.selection.trial_seconds for r in quick if r.selection]
-    print(f"with trial runs, choice and check: {said(whole)}, of which trial runs {said(trials)}")
+    print(f"with choice and check: {said(whole)}")
     if quick[-1].guard:
         checks = [r.guard.seconds for r in quick if r.guard]
         print(f"guard, {said(checks)}: {quick[-1].guard.closing()}\n")

@@ -1,8 +1,8 @@
-"""Tie cards to the kernels as they are now: ``python benchmarks/stamp.py``.
+"""Tie tables of errors to the kernels as they are now: ``python benchmarks/stamp.py``.
 
 For a change of the kernels' sources that moves no number: files renamed or split, comments, a
-function beside the others. The errors in the cards stay as they were measured; the tests of the
-shipped cards solve points of each again. After any other change measure anew:
+function beside the others. The errors stay as they were measured; the tests of the shipped tables
+solve points of each again. After any other change measure anew:
 ``python -m thrustwasher.study.verify``.
 """
 
@@ -11,29 +11,29 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from thrustwasher.ladder.card import Card, files_of, read_card
-from thrustwasher.ladder.card_parts import Sources
-from thrustwasher.storage.digests import DATA, kernel_digest
-from thrustwasher.study.card_writer import write_card
+from thrustwasher.ladder.error_table import ErrorTable, read_tables, sources_of, write_tables
+from thrustwasher.storage.digests import DATA
 
 
-def stamped(card: Card) -> Card:
-    """Return a card tied to today's kernels."""
-    files = (*files_of(card.model, card.fidelity), *card.built)
-    return replace(card, kernels=Sources(files, kernel_digest(files)))
+def stamped(table: ErrorTable) -> ErrorTable:
+    """Return a table tied to today's kernels."""
+    rungs = [replace(r, sources=sources_of(table.model, r.fidelity, r.files)) for r in table.rungs]
+    return replace(table, rungs=tuple(rungs))
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Stamp the stale cards of a folder, the package's if none is named."""
+    """Stamp the tables of a folder, the package's if none is named."""
     if len(arguments) > 1:
         print("usage: python benchmarks/stamp.py [FOLDER]", file=sys.stderr)
         return 2
-    folder = Path(arguments[0]) if arguments else DATA / "cards"
-    cards = [read_card(path) for path in sorted(folder.rglob("*.json"))]
-    stale = [card for card in cards if card.stale()]
-    for card in stale:
-        write_card(stamped(card), folder)
-    print(f"{len(stale)} of {len(cards)} cards stamped")
+    changed, known = 0, 0
+    for path in sorted((Path(arguments[0]) if arguments else DATA / "cards").glob("*.json")):
+        old = read_tables(path)
+        new = [stamped(table) for table in old]
+        write_tables(new, path)
+        changed += sum(a != b for a, b in zip(old, new, strict=True))
+        known += len(old)
+    print(f"{changed} of {known} tables stamped")
     return 0
 
 

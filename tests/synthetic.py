@@ -1,67 +1,70 @@
-"""Cards made up for tests: of any rung, over any cells, with any errors."""
+"""Tables of errors made up for tests: of any rungs, over any regions, with any errors."""
 
-import dataclasses
-
-from thrustwasher.clutch.parameters import ClutchParams
-from thrustwasher.gearmesh.parameters import GearMeshParams
-from thrustwasher.ladder import card_parts as part
-from thrustwasher.ladder.card import Card, files_of
-from thrustwasher.storage.digests import kernel_digest, params_digest
+from thrustwasher.ladder import error_table as home
+from thrustwasher.ladder.error_table import (
+    Axis,
+    Chart,
+    Division,
+    ErrorTable,
+    RungErrors,
+    sources_of,
+)
+from thrustwasher.storage.digests import params_digest
 from thrustwasher.washer.parameters import WasherParams
 
-PARAMS = {"washer": WasherParams, "clutch": ClutchParams, "gearmesh": GearMeshParams}
-ENVELOPE = {
-    "load": part.Axis(20.0, 2000.0, "N", "log"),
-    "speed": part.Axis(50.0, 1400.0, "rad/s", "log"),
-    "tilt": part.Axis(1e-3, 3e-3, "rad", "log"),
-    "oil_temperature": part.Axis(290.0, 400.0, "K", "linear"),
+WHOLE = {
+    "load": Axis(20.0, 2000.0, "N", "log"),
+    "speed": Axis(50.0, 1400.0, "rad/s", "log"),
+    "tilt": Axis(1e-3, 3e-3, "rad", "log"),
+    "oil_temperature": Axis(290.0, 400.0, "K", "linear"),
 }
-EDGES = ((20.0, 200.0, 2000.0), (50.0, 250.0, 1400.0))
 BOX = {"load": (30.0, 1000.0), "speed": (100.0, 1000.0), "tilt": (2e-3, 2e-3),
        "oil_temperature": (300.0, 300.0)}  # fmt: skip
+CALLS = {"map": 2e-6, "field": 2e-4, "fine": 2e-3}
 
 
-RUNGS = ("map", "coarse", "field", "fine")
+def regions(worst, kelvin=0.1):
+    """Return a division into light and heavy loads by slow and fast speeds: rows of errors."""
+    if not isinstance(worst, list):
+        worst = [[worst] * 2] * 2
+    loads, speeds = ((20.0, 200.0), (200.0, 2000.0)), ((50.0, 250.0), (250.0, 1400.0))
+    return Division(("load", "speed"), tuple(
+        (*load, *speed, 75, worst[i][j], kelvin, 1e-9, 1e-3)
+        for i, load in enumerate(loads) for j, speed in enumerate(speeds)
+    ))  # fmt: skip
 
 
-def table(value, shape=(2, 2)):
-    """Return a value for all cells, or the rows given."""
-    if isinstance(value, list | tuple):
-        return tuple(tuple(row) for row in value)
-    return tuple((value,) * shape[1] for _ in range(shape[0]))
+def film_ratios(*worst):
+    """Return a division by the film ratio: below 3, 3 .. 5, above 5."""
+    ends = ((-1e9, 3.0), (3.0, 5.0), (5.0, 1e9))
+    return Division(("film_ratio",), tuple(
+        (*end, 30, error, 0.1, 1e-9, 1e-3) for end, error in zip(ends, worst, strict=True)
+    ))  # fmt: skip
 
 
-def errors(worst, n=75, kind="relative"):
-    unit, floor = (None, 1e-3) if kind == "relative" else ("K", None)
-    worst = table(worst)
-    counts = table(n, (len(worst), len(worst[0])))
-    return part.Errors(kind, unit, floor, worst, counts)
-
-
-def card(fidelity="field", worst=5e-3, median=2e-4, *, model="washer", n=75, iqr=None, first=0.2,
-         build=0.0, built=False, chart=None, branch=None, envelope=None, edges=EDGES, outside=0,
-         uncertainty=1e-5, kelvin=0.1, fold=None, params=None, name="default",
-         **changed):  # fmt: skip
-    """Return a card; what is not given is usual."""
-    params = params or PARAMS[model]()
-    files = files_of(model, "field" if fidelity == "coarse" else fidelity)
-    iqr = 0.05 * median if iqr is None else iqr
-    shape = (len(edges[0]) - 1, len(edges[1]) - 1)
-    made = Card(
-        schema=2, model=model, fidelity=fidelity, chart=chart, branch=branch, fold=fold,
-        params=part.ParameterSet(name, params_digest(params), {}),
-        kernels=part.Sources((*files, *(("maps/x.twm",) if built else ())), kernel_digest(files)),
-        package={"version": "0.4.0", "commit": None, "dirty": None}, made="2026-01-01T00:00:00Z",
-        envelope=envelope or ENVELOPE,
-        errors={
-            "friction_torque": errors(table(worst, shape), n),
-            "temperature": errors(table(kelvin, shape), n, "absolute"),
-        },
-        cells=part.Cells(("load", "speed"), edges, table(outside, shape)), by_film_ratio=None,
-        held_out=part.HeldOut(300, 0, 0, 7),
-        reference=part.Reference("reference", None, ("two grids extrapolated",),
-                                 {"friction_torque": uncertainty, "temperature": 1e-4}),
-        cost=part.Cost(median, iqr, first, build),
-        machine={"cpu": "a cpu", "cores": 2},
+def rung(fidelity="field", worst=5e-3, *more, box=None, beside_fold=0.0, sources=None, files=(),
+         **charts):  # fmt: skip
+    """Return a rung of the washer: one chart of ``worst``, or several by name."""
+    found = charts or {"": worst}
+    return RungErrors(
+        fidelity, sources or sources_of("washer", fidelity), files, CALLS[fidelity], box or WHOLE,
+        tuple(Chart(name or None, 300, 1e-3, beside_fold, (regions(errors), *more))
+              for name, errors in found.items()),
     )  # fmt: skip
-    return dataclasses.replace(made, **changed)
+
+
+def table(*rungs, params=None, name="default"):
+    """Return a table of the washer."""
+    return ErrorTable(
+        "washer", name, params_digest(params or WasherParams()), {}, "2026-01-01T00:00:00Z",
+        "0.4.0", "a cpu, 2 cores", ("two grids extrapolated",), rungs,
+    )  # fmt: skip
+
+
+def put(folder, monkeypatch, *rungs, **options):
+    """Put a table of the washer in the place of all others; return its file."""
+    path = folder / "washer.json"
+    home.write_tables([table(*rungs, **options)], path)
+    monkeypatch.setattr(home, "table_folders", lambda: [folder])
+    home.forget()
+    return path

@@ -17,8 +17,9 @@ from calls import REFUSED, RIGHT, Wrong, say_if_wrong
 from thrustwasher import ParameterError, SolveError
 from thrustwasher.cli import main
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.ladder import card as cards
+from thrustwasher.ladder.error_table import read_tables
 from thrustwasher.shift import load_scene
+from thrustwasher.storage.digests import DATA
 from thrustwasher.storage.journal import Journal
 from thrustwasher.sweep.run_sweep import journal_of, run_sweep
 from thrustwasher.washer.kernels.map import map_layout as L
@@ -81,21 +82,21 @@ def _differs(written, taken):
 
 
 class Cards:
-    """Cards: refused, or the card that was written."""
+    """Tables of errors: refused, or the tables that were written."""
 
     def __init__(self, folder):
         self.path = Path(folder) / "spoiled.json"
-        whole = sorted((Path(cards.__file__).parents[1] / "data" / "cards").rglob("*.json"))
-        self.cards = [cards.read_card(path) for path in whole[::7]]
+        whole = sorted((DATA / "cards").glob("*.json"))
+        self.files = [(path.read_bytes(), read_tables(path)) for path in whole]
 
     def __call__(self, rng):
-        card = rng.choice(self.cards)
-        self.path.write_bytes(damage.text(rng, card.as_json().encode()))
+        data, tables = rng.choice(self.files)
+        self.path.write_bytes(damage.text(rng, data))
         try:
-            found = cards.read_card(self.path)
+            found = read_tables(self.path)
         except ParameterError as error:
             return one_line(error, "spoiled.json")
-        say_if_wrong([] if found == card else ["another card"], self.path.read_bytes())
+        say_if_wrong([] if found == tables else ["another table"], self.path.read_bytes())
         return RIGHT
 
 

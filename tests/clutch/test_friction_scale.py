@@ -1,4 +1,4 @@
-"""The factor on a pack's law of friction: torque, heat and derivatives follow; cards do not."""
+"""The factor on a pack's law of friction: torque, heat and derivatives follow; tables do not."""
 
 from dataclasses import replace
 
@@ -7,7 +7,7 @@ import pytest
 
 from thrustwasher import ClutchParams, calibrate, solve_clutch
 from thrustwasher.clutch.parameters import FRICTION_LAWS, SPEC
-from thrustwasher.ladder.card import load_cards
+from thrustwasher.ladder.error_table import load_tables
 
 POINT = {"load": 3000.0, "speed": 50.0, "oil_temperature": 350.0}
 
@@ -30,9 +30,9 @@ def test_shear_of_the_oil_is_not_scaled():
     assert opened[0].friction_torque == opened[1].friction_torque > 0.0
 
 
-def test_no_card_speaks_for_another_scale():
-    assert load_cards("clutch", ClutchParams())
-    assert load_cards("clutch", ClutchParams(friction_scale=0.9)) == []
+def test_no_table_speaks_for_another_scale():
+    assert load_tables("clutch", ClutchParams())
+    assert load_tables("clutch", ClutchParams(friction_scale=0.9)) == []
 
 
 def test_a_fitted_law_is_that_of_the_points_and_has_the_scale_one():

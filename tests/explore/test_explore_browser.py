@@ -18,7 +18,7 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.ladder.card import SAFETY, fresh_cards
+from thrustwasher.ladder.error_table import SAFETY, fresh_rungs
 from thrustwasher.model.part_file import find_part
 from thrustwasher.study.reference_clutch import HELD, RISE, TIMES
 
@@ -273,8 +273,9 @@ def test_the_clutch_says_the_error_of_its_cards_engagement(opened, rung):
     at = {"load": 4000.0, "speed": 200.0, "oil_temperature": 330.0}
     ramp = "[0,1000,4000,4000,4000,4000,4000,4000,4000]"
     address = f"#speed=200&oil_temperature=330&fidelity={rung}&ramp={ramp}"
-    card = next(c for c in fresh_cards("clutch", rung, ClutchParams()) if c.chart == "engagement")
-    error = 100 * SAFETY * card.error_of("friction_torque", at)
+    box = {name: (value, value) for name, value in at.items()}
+    known = fresh_rungs("clutch", ClutchParams())[rung]
+    error = 100 * SAFETY * known.worst("friction_torque", box, "engagement")
     said = opened("clutch", address).page.text_content("#state")
     assert f"(load up in {RISE} s, slip down from {HELD} to {TIMES[-1]} s, drum at rest" in said
     assert float(re.search(r"at most ([\d.]+) %$", said)[1]) == pytest.approx(error, rel=0.06)

@@ -113,7 +113,7 @@ def test_a_map_that_was_never_built_is_an_error_not_a_table_of_failures():
         run_sweep("washer", {"load": [100.0]}, at={"roughness": 4.321e-7}, fidelity="map")
 
 
-def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypatch):
+def test_a_tolerance_is_handed_to_the_choice_with_the_box_of_all_points(monkeypatch):
     from thrustwasher.ladder import choose
 
     asked = {}
@@ -127,6 +127,9 @@ def test_a_tolerance_is_handed_to_the_cards_with_the_box_of_all_points(monkeypat
     table = run_sweep("gearmesh", over, fidelity="auto:0.05")
     assert (asked["model"], asked["tol"], asked["n_calls"]) == ("gearmesh", 0.05, 4)
     assert asked["box"]["load"] == (10.0, 40.0) and asked["box"]["speed"] == (50.0, 150.0)
+    assert {(p["load"], p["speed"]) for p in asked["points"]} == {
+        (load, speed) for load in over["load"] for speed in over["speed"]
+    }
     assert (table.fidelity, "because" in table.choice) == ("fine", True)
     named = run_sweep("gearmesh", over, fidelity="fine")
     assert (table["friction_torque"] == named["friction_torque"]).all()
@@ -177,7 +180,7 @@ def test_columns_that_are_not_kept_are_in_the_file_alone(tmp_path):
     assert "status" in run_sweep("gearmesh", over, workers=1, keep=False).columns  # no file
 
 
-@pytest.mark.parametrize("suffix", ["csv", pytest.param("parquet", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
 def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, monkeypatch, suffix):
     """30 outputs are 240 bytes a point; inputs and what is done stay, on lines of 100 points."""
     monkeypatch.setattr(sweep_table, "CHUNK", 1000)
@@ -186,7 +189,7 @@ def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, mo
     for n in (40, 40, 400):  # the first one loads what is needed
         over = {"power": "1 kW:30 kW:n100", "speed": f"100:300:n{n}"}
         tracemalloc.start()
-        run_sweep("gearmesh", over, out=tmp_path / f"{len(peaks)}.{suffix}",
+        run_sweep("gearmesh", over, fidelity="closed", out=tmp_path / f"{len(peaks)}.{suffix}",
                   workers=1, keep=False)  # fmt: skip
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()

@@ -85,9 +85,9 @@ def _turns(value: float, unit: str) -> str:
 
 
 def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:
-    """Return the rung asked for by name, or the one that the cards choose at ``point``.
+    """Return the rung asked for by name, or the one that is chosen at ``point``.
 
-    Why it was chosen is written to standard error; SolveError if none is verified here.
+    Why it was chosen is written to standard error; SolveError if none holds the tolerance.
     """
     if asked in spec.fidelities:
         return asked

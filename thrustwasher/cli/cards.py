@@ -1,17 +1,16 @@
-"""``thrustwasher cards``: each rung's verified error, where, its cost; of one's own part too."""
+"""``thrustwasher cards``: each rung's measured error, its cost; of one's own part too."""
 
 import argparse
 from typing import Any
 
 from ..errors import ParameterError
-from ..ladder.card import VERIFY
 from ..model.part_file import is_part, load_part
-from ..model.registry import ladder_of, models_with_cards, spec_of
+from ..model.registry import ladder_of, models_with_cards
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
 TOL, POINTS = "0.01", 60  # by default
-HELP = "list the verified errors of all rungs, or verify those of a part file"
+HELP = "list the measured errors of all rungs, or measure those of a part file"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,90 +23,108 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """List the cards, fresh or not; files that are no cards come last."""
-    from ..ladder.card import load_cards, refused_files
+    """List the tables, fresh or not; files that cannot be read come last."""
+    from ..ladder.error_table import VERIFY, load_tables, refused_files
 
     if arguments.model and is_part(arguments.model):
-        return _verify(arguments)
+        return _measure(arguments)
     if arguments.model and arguments.model not in models_with_cards():
-        ladder_of(arguments.model)  # says which there are
+            ladder_of(arguments.model)  # says which there are
     _options.refuse_unused(arguments, "cards that are listed", ["workers"], tol=TOL, points=POINTS)
-    wanted = [arguments.model] if arguments.model else list(models_with_cards())
-    found = {m: sorted(load_cards(m), key=_order(m)) for m in wanted}
-    begin = f"{arguments.model}-" if arguments.model else ""
-    refused = {name: why for name, why in refused_files().items() if name.startswith(begin)}
+    models = [arguments.model] if arguments.model else list(models_with_cards())
+    found = {model: load_tables(model) for model in models}
+    begin = arguments.model or ""
+    refused = {n: why for n, why in refused_files().items() if n.startswith(begin)}
     if arguments.json:
-        records = [_record(card) for cards in found.values() for card in cards]
+        records = [record for mine in found.values() for t in mine for record in _records(t)]
         _output.print_json({"cards": records, "refused": refused})
         return 0
-    for model, cards in found.items():
-        _print_model(model, cards)
+    for model, tables in found.items():
+        for table in tables:
+            _print_table(table)
+        if not tables:
+            print(f"{model}: no cards; make them: {VERIFY} {model}")
     for name, why in refused.items():
         print(f"{name}: refused: {why}")
     return 0
 
 
-def _verify(arguments: argparse.Namespace) -> int:
-    """Verify the rungs of a part file and list what was found."""
+def _measure(arguments: argparse.Namespace) -> int:
+    """Measure the rungs of a part file and list what was found."""
     part = load_part(arguments.model)
-    ladder_of(part.spec.key)  # ParameterError where no rung has a card
+    ladder_of(part.spec.key)  # ParameterError where no rung can be chosen
     if arguments.workers is not None and arguments.workers < 1:
         raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     tol = parse_quantity(arguments.tol, "1", "tol")
 
-    from ..study.own_cards import make_own_cards
+    from ..study.verify import measure_part
 
-    cards = make_own_cards(part.spec, part.params, part.box, tol=tol, points=arguments.points,
-                           workers=arguments.workers, progress=_output.time_left)  # fmt: skip
+    table = measure_part(
+        part.spec,
+        part.params,
+        part.box,
+        tol=tol,
+        points=arguments.points,
+        workers=arguments.workers,
+        progress=_output.time_left,
+    )
     warnings = part.oil_warnings
     _options.tell_oil(part)
     _output.warn(warnings)
     if arguments.json:
-        found = {"cards": [_record(card) for card in cards], "refused": {}}
+        found = {"cards": _records(table), "refused": {}}
         _output.print_json(found | {"warnings": warnings} | _options.oil_record(part))
         return 0
-    _print_model(part.spec.key, cards)
-    print(f"  {arguments.points} points and none beyond: with 95 % confidence at most "
-          f"{3.0 / arguments.points:.0%} of the box is worse")  # fmt: skip
+    _print_table(table)
+    print(
+        f"  {arguments.points} points and none beyond: with 95 % confidence at most "
+        f"{3.0 / arguments.points:.0%} of the box is worse"
+    )
     return 0
 
 
-def _order(model: str) -> Any:
-    """Return the key that sorts cards by parameter set, then by rung as in the ladder."""
-    place = {rung: k for k, rung in enumerate(spec_of(model).fidelities)}
-    return lambda card: (card.params.name, place.get(card.fidelity, 99), card.chart or "")
+def _print_table(table: Any) -> None:
+    """Print what is known of a parameter set: a row per rung and chart."""
+    from ..ladder.error_table import QUANTITIES
+    from ..ladder.formats import shown_error
+
+    box = table.rungs[0].box.items()
+    spans = ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in box)
+    print(f"{table.model}, {table.name} parameters: {spans}")
+    rows = [("rung", f"{'torque':>10} {'temp.':>10} {'a call':>8}", "")]
+    for rung in table.rungs:
+        for chart in rung.charts:
+            torque, heat = (
+                shown_error(rung.worst_anywhere(q, chart), QUANTITIES[q])
+                for q in ("friction_torque", "temperature")
+            )
+            call = format_quantity(rung.call, "s", digits=2)
+            state = f"{chart.points} points; {table.stale(rung) or 'fresh'}"
+            name = f"{rung.fidelity} {chart.name or ''}".strip()
+            rows.append((name, f"{torque:>10} {heat:>10} {call:>8}", state))
+    _output.print_rows(rows)
 
 
-def _print_model(model: str, cards: list[Any]) -> None:
-    """Print a table per parameter set."""
-    if not cards:
-        print(f"{model}: no cards; make them: {VERIFY} {model}")
-    for name in dict.fromkeys(card.params.name for card in cards):
-        mine = [card for card in cards if card.params.name == name]
-        spans = ", ".join(
-            f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in mine[0].envelope.items()
-        )
-        print(f"{model}, {name} parameters: {spans}")
-        rows = []
-        for card in mine:
-            errors = [card.shown_worst(q) for q in ("friction_torque", "temperature")]
-            time = format_quantity(card.cost.call_median_s, "s", digits=2)
-            rung = f"{card.fidelity} {card.chart or ''}".strip()
-            told = f"{card.held_out.n} points; {card.stale() or 'fresh'}"
-            rows.append((rung, f"{errors[0]:>10} {errors[1]:>10} {time:>8}", told))
-        _output.print_rows([("rung", f"{'torque':>10} {'temp.':>10} {'a call':>8}", ""), *rows])
+def _records(table: Any) -> list[dict[str, Any]]:
+    """Return a record per rung and chart."""
+    return [_record(table, rung, chart) for rung in table.rungs for chart in rung.charts]
 
 
-def _record(card: Any) -> dict[str, Any]:
-    """Return what a program wants to know of a card."""
+def _record(table: Any, rung: Any, chart: Any) -> dict[str, Any]:
+    """Return what a program wants to know of a rung's errors on a chart."""
+    from ..ladder.error_table import QUANTITIES
+
+    name = [table.model, rung.fidelity, chart.name, table.name]
     return {
-        "name": card.name, "model": card.model, "fidelity": card.fidelity, "chart": card.chart,
-        "parameters": card.params.name, "made": card.made, "stale": card.stale(),
-        "points": card.held_out.n, "failed": card.held_out.failed,
-        "outside": card.held_out.outside,
-        "envelope": {n: [a.min, a.max, a.unit] for n, a in card.envelope.items()},
-        "worst": {q: card.worst(q) for q in card.errors},
-        "reference_uncertainty": dict(card.reference.uncertainty),
-        "call_median_s": card.cost.call_median_s, "call_iqr_s": card.cost.call_iqr_s,
-        "first_call_s": card.cost.first_call_s,
-    }  # fmt: skip
+        "name": "-".join(part for part in name if part and part != "default"),
+        "model": table.model,
+        "fidelity": rung.fidelity,
+        "chart": chart.name,
+        "parameters": table.name,
+        "made": table.made,
+        "stale": table.stale(rung),
+        "points": chart.points,
+        "envelope": {n: [a.min, a.max, a.unit] for n, a in rung.box.items()},
+        "worst": {q: rung.worst_anywhere(q, chart) for q in QUANTITIES},
+        "call_median_s": rung.call,
+    }

@@ -106,8 +106,7 @@ def _one_shift(arguments: argparse.Namespace, scene: Any) -> Any:
 
     with _fmu_instances(scene, arguments.fmu) as make:
         _get_ready(arguments)
-        return run_auto(scene, make, guard=not arguments.no_guard, build_maps=True,
-                        progress=_progress(scene))  # fmt: skip
+        return run_auto(scene, make, guard=not arguments.no_guard, progress=_progress(scene))
 
 
 def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
@@ -186,26 +185,13 @@ def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any
 
     names = {part.spec.name for part in scene.parts.values()}
     paths = fmu_paths(names, target)
-    known = _tables(scene)
     with ExitStack() as alive:
 
         def make(name: str, part: Any) -> Any:
-            nonlocal known
-            if _tables(scene) != known:  # a map was built: it goes into the FMU
-                known = _tables(scene)
-                paths.update(fmu_paths(names, target))
             path = paths[part.spec.name]
             return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
 
         yield make
-
-
-def _tables(scene: Any) -> list[Any]:
-    """Return the files in which parts look up, and when they were written."""
-    from ..model.prepare import tables_of
-
-    found = filter(None, (tables_of(part.spec) for part in scene.parts.values()))
-    return [(path, path.stat().st_mtime_ns) for tables in found for path in tables.paths()]
 
 
 def _write(result: Any, folder: Path) -> None:

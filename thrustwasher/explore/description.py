@@ -4,8 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, fields
 from typing import Any, get_type_hints
 
-from ..ladder.card import SAFETY, Card, fresh_cards
-from ..ladder.card_parts import FEW
+from ..ladder.error_table import QUANTITIES, SAFETY, Chart, RungErrors, fresh_rungs
 from ..model.oil import named_oils, oil
 from ..model.part_file import PartFile
 from ..model.record import Model, resolve
@@ -63,8 +62,9 @@ def describe(
         "outputs": outputs_of(model, view), "units": readable_units(), "scales": UNITS,
         "rungs": spec.rungs, "rung": rung, "usual_rung": spec.default_fidelity,
         "rules": [rule.text for rule in spec.rules],
-        "cards": [_card(c) for name in view.rungs for c in fresh_cards(spec.key, name, params)],
-        "few": FEW, "safety": SAFETY,
+        "cards": [_card(rung, chart) for name, rung in fresh_rungs(spec.key, params).items()
+                  if name in view.rungs for chart in rung.charts],
+        "safety": SAFETY,
         **view.more, "python": {"params": view.params, "solve": view.solve},
         "worker": view.worker_data(spec),
     }  # fmt: skip
@@ -85,12 +85,14 @@ def _parameter(f: Any, view: View) -> dict[str, Any]:
             **{key: m[key] for key in keys if key in m}}  # fmt: skip
 
 
-def _card(card: Card) -> dict[str, Any]:
-    errors, by = card.errors[QUANTITY], card.by_film_ratio
+def _card(rung: RungErrors, chart: Chart) -> dict[str, Any]:
+    """Return what was measured on a chart: the ends of each region and its error of the torque."""
+    error = list(QUANTITIES).index(QUANTITY) - len(QUANTITIES)
     return {
-        "fidelity": card.fidelity, "branch": card.branch, "chart": card.chart,
-        "envelope": {name: asdict(axis) for name, axis in card.envelope.items()},
-        "axes": card.cells.axes, "edges": card.cells.edges, "worst": errors.worst, "n": errors.n,
-        "by": by and {"edges": by.edges, "worst": by.worst[QUANTITY]},
-        "uncertainty": card.reference.uncertainty.get(QUANTITY, 0.0),
+        "fidelity": rung.fidelity, "chart": chart.name,
+        "envelope": {name: asdict(axis) for name, axis in rung.box.items()},
+        "divisions": [
+            {"axes": d.axes, "rows": [[*row[: 2 * len(d.axes)], row[error]] for row in d.rows]}
+            for d in chart.divisions
+        ],
     }  # fmt: skip

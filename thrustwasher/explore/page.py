@@ -8,7 +8,7 @@ from typing import Any
 
 from .. import __version__
 from ..errors import ParameterError
-from ..ladder.card import error_estimate
+from ..ladder.error_table import error_estimate
 from ..model.part_file import PartFile
 from ..model.record import resolve
 from ..model.registry import all_models, find_model

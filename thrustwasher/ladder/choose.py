@@ -1,26 +1,30 @@
-"""Choose the cheapest rung that holds a tolerance over a box of inputs; nothing is solved here."""
+"""Choose a rung: the first, in the order of cost, that holds a tolerance over a box of inputs.
+
+What it errs by is known from a table of measured errors. Where none speaks of the parameters or of
+the box, the rung is compared with the one above it at some points.
+"""
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 from ..errors import ParameterError, SolveError
 from ..model.parameters import params_of
+from ..model.prepare import tables_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
 from ..units import format_quantity as say
-from .boxes import Part, Request, checked_box
-from .candidates import Candidate, Plan, candidates, plans
-from .card import VERIFY
-from .card_parts import QUANTITIES
-from .formats import plain, shown_error, shown_share
+from .compare import Comparison, Point, points_of
+from .error_table import QUANTITIES, SAFETY, Interval, RungErrors, fresh_rungs, load_tables
+from .formats import shown_error
 
 AUTO = "auto"
 TOLERANCE = 0.01  # of "auto" alone
 TOLERANCES = (1e-6, 0.5)
-REJECTED = ("cheaper but too coarse", "dearer and too coarse", "would hold too",
-            "not verified in this box")  # fmt: skip
+# The rung above halves all widths and errs by a quarter: the difference is 3/4 of the error.
+OF_DIFFERENCE = 4.0 / 3.0
 
 
 def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
@@ -51,43 +55,59 @@ def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The rung to take, what it promises and what it costs; ``str()`` gives the reasons.
+    """The rung to take and its largest error in the box; ``str()`` gives the reasons.
 
-    ``outside`` is the choice for the part of the box where the rung does not answer or is not
-    verified, with ``share`` of the box and ``where`` in words. Its ``error`` is infinite where no
-    card speaks: ``is_verified`` is then False.
+    ``is_verified``: a table of measured errors promises the error. Otherwise it is estimated
+    from the rung above at some points, infinite if there is none above. ``seconds`` are those of
+    all calls, NaN where no table speaks.
     """
 
     fidelity: str
     error: float
     seconds: float
     reasons: tuple[str, ...]
-    outside: "Choice | None" = None
-    share: float = 1.0
-    where: str = ""
-
-    @property
-    def is_verified(self) -> bool:
-        """True if a card speaks for every part of the box."""
-        return math.isfinite(self.error) and (self.outside is None or self.outside.is_verified)
+    is_verified: bool = True
 
     def __str__(self) -> str:
         return "\n  ".join(self.reasons)
 
 
+def rungs_of(spec: ModelSpec, params: Any) -> list[str]:
+    """Return the rungs that can be chosen with these parameters, cheapest first.
+
+    ParameterError: none can be chosen of this model.
+    """
+    ladder = ladder_of(spec.key)
+    return [
+        rung
+        for rung in ladder.kernels
+        if _has_table(spec, rung, params)
+        and all(getattr(params, n) == value for n, value in ladder.only.get(rung, {}).items())
+    ]
+
+
+def _has_table(spec: ModelSpec, rung: str, params: Any) -> bool:
+    """Tell if a rung needs no file to look its answers up in, or has one for these parameters."""
+    try:
+        tables = tables_of(spec, rung)
+        return tables is None or tables.find(params) is not None
+    except ParameterError:
+        return False
+
+
 def choose(
     model: str,
-    box: Mapping[str, float | tuple[float, float]],
+    box: Mapping[str, float | Interval],
     *,
     quantity: str = "friction_torque",
     tol: float,
     n_calls: float = 1,
-    safety: float = 1.5,
+    safety: float = SAFETY,
     params: Any = None,
     among: Sequence[str] | None = None,
-    loaded: bool = False,
+    points: Sequence[Point] | None = None,
 ) -> Choice:
-    """Return the cheapest rung whose verified error stays within ``tol`` over a box of inputs.
+    """Return the cheapest rung whose error stays within ``tol`` over a box of inputs.
 
     Parameters
     ----------
@@ -95,12 +115,12 @@ def choose(
     box : (low, high) for every input of the model, SI units; a single number is a point
     quantity : "friction_torque" (tol is relative), "temperature" (K), "film_thickness" (m) or
         "film_ratio" (1)
-    tol : largest error wanted, above 0
-    n_calls : how often the rung will be called: what is spent once weighs less the more calls
-    safety : factor on the largest held-out error, at least 1
+    tol : largest error allowed, above 0
+    n_calls : how often the rung will be called, for ``Choice.seconds``
+    safety : factor on the largest error found, at least 1
     params : the parameter object; default: the model's defaults
-    among : rungs to choose from; default: all that can have cards
-    loaded : the model has been used before, so that no rung costs a first call
+    among : rungs to choose from; default: all that can be chosen
+    points : inputs at which rungs are compared where no table speaks; default: 30 over the box
 
     Returns
     -------
@@ -109,31 +129,148 @@ def choose(
     Raises
     ------
     ParameterError : an argument is wrong; it is named with what is allowed
-    SolveError : no rung holds the tolerance; the best that can be had is named
+    SolveError : by its table no rung holds the tolerance; the best that can be had is named
 
     Notes
     -----
-    The error of a rung over the box is ``safety`` times the larger of its worst held-out error in
-    the cells that the box touches and the uncertainty of the reference. What that promises is
-    statistical: with n independent points and none above tol, less than 3/n of the verified box is
-    above tol, with 95 % confidence. The same cards give the same answer.
+    The error of a rung in a table is ``safety`` times the largest found in the regions that the box
+    touches. With n random points in the table's box and none above tol, less than 3/n of the box is
+    above tol, with 95 % confidence. The same tables and points give the same answer, and a larger
+    tolerance never a dearer rung.
     """
-    ladder, spec = ladder_of(model), spec_of(model)  # ParameterError where no rung has a card
-    rungs = [name for name in spec.fidelities if name in ladder.kernels]
-    request = Request(
-        spec, checked_box(spec, box), quantity, _above("tol", tol, 0.0, False),
-        _above("n_calls", n_calls, 1.0), _above("safety", safety, 1.0), loaded,
-    )  # fmt: skip
+    spec = spec_of(model)
+    params, whole = params_of(spec, params), checked_box(spec, box)
     if quantity not in QUANTITIES:
         raise ParameterError(f"quantity = {quantity!r}, allowed: {' or '.join(QUANTITIES)}")
-    for name in among or ():
-        if name not in rungs:
-            raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, rungs))}")
-    wanted = [name for name in rungs if among is None or name in among]
-    if not wanted:
-        raise ParameterError(f"among: no rung, allowed: some of {', '.join(map(repr, rungs))}")
-    found, refused = candidates(spec, params_of(spec, params), wanted)
-    return decide(request, found, refused)
+    asked = _Request(
+        spec.key,
+        quantity,
+        _above("tol", tol, 0.0, belongs=False),
+        _above("safety", safety, 1.0),
+        _above("n_calls", n_calls, 1.0),
+    )
+    rungs = rungs_of(spec, params)
+    if among is not None:
+        for name in among:
+            if name not in rungs:
+                raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, rungs))}")
+        rungs = [name for name in rungs if name in among]
+    if not rungs:
+        raise ParameterError("among: no rung, allowed: at least one")
+    # What need not be given is zero in all tables.
+    plain_inputs = all(whole[s.name] == (0.0, 0.0) for s in spec.inputs if s.optional)
+    fresh = fresh_rungs(spec.key, params) if plain_inputs else {}
+    known = {
+        rung: asked.safety * worst
+        for rung in rungs
+        if rung in fresh and (worst := fresh[rung].worst(quantity, whole)) is not None
+    }
+    if known:
+        found = _by_table(asked, known, fresh)
+    else:
+        compared = Comparison(spec, params, points or points_of(whole), quantity)
+        found = _by_comparison(asked, rungs, compared)
+    return replace(found, reasons=(*found.reasons, *_stale(spec, params, rungs)))
+
+
+class _Request(NamedTuple):
+    """What is asked for: of which model, which error of what, between calls so many."""
+
+    model: str
+    quantity: str
+    tol: float
+    safety: float
+    n_calls: float
+
+    def shown(self, error: float) -> str:
+        """Return an error of the quantity as a person reads it."""
+        return shown_error(error, QUANTITIES[self.quantity])
+
+
+def _by_table(asked: _Request, known: dict[str, float], fresh: dict[str, RungErrors]) -> Choice:
+    """Return the first rung whose measured error holds; SolveError if none does."""
+    chosen = next((rung for rung, error in known.items() if error <= asked.tol), None)
+    if chosen is None:
+        best = min(known, key=lambda rung: known[rung])
+        raise SolveError(
+            f"{asked.model}: no rung reaches {asked.shown(asked.tol)} in {asked.quantity}; the "
+            f"best is {best} with {asked.shown(known[best])}. Ask for less, or name a rung"
+        )
+    rung = fresh[chosen]
+    lines = [
+        f"{asked.model}: {chosen}, {asked.quantity} within {asked.shown(known[chosen])} "
+        f"(asked {asked.shown(asked.tol)}), {say(rung.call, 's', digits=2)} per call"
+    ]
+    if rung.beside_folds and asked.quantity == "friction_torque":
+        promise = asked.shown(asked.safety * rung.beside_folds)
+        lines.append(f"within 5 % of a fold's load: {promise}, if the branch is the same")
+    for other, error in known.items():
+        if other != chosen:
+            words = "too coarse" if error > asked.tol else "would hold too"
+            call = say(fresh[other].call, "s", digits=2)
+            lines.append(f"{words}: {other}, {asked.shown(error)} in {call}")
+    return Choice(chosen, known[chosen], asked.n_calls * rung.call, tuple(lines))
+
+
+def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> Choice:
+    """Return the first rung that the one above confirms at the points, or the last."""
+    coarse: list[str] = []
+    where = "there" if compared.size == 1 else f"at {compared.size} points"
+    for rung, above in pairwise(rungs):
+        difference = compared.difference(rung, above)
+        error = asked.safety * OF_DIFFERENCE * difference
+        if error <= asked.tol:
+            words = (
+                f"{asked.model}: {rung}, no table of errors speaks here; {where} it is "
+                f"{asked.shown(difference)} from {above} (asked {asked.shown(asked.tol)})"
+            )
+            return Choice(rung, error, math.nan, (words, *coarse), False)
+        coarse.append(f"too coarse: {rung}, {asked.shown(difference)} from {above}")
+    words = f"{asked.model}: {rungs[-1]}, the last rung; no table of errors speaks here"
+    return Choice(rungs[-1], math.inf, math.nan, (words, *coarse), False)
+
+
+def _stale(spec: ModelSpec, params: Any, rungs: list[str]) -> list[str]:
+    """Say why errors of rungs in the tables of these parameters do not count."""
+    found = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.rungs)
+    return [f"not asked: {r.fidelity}: {why}" for r, why in found if why and r.fidelity in rungs]
+
+
+def checked_box(spec: ModelSpec, box: Mapping[str, float | Interval]) -> dict[str, Interval]:
+    """Return a box with an interval for every input, also of numbers, or say what is wrong."""
+    names = [s.name for s in spec.inputs]
+    for name in box:
+        if name not in names:
+            raise ParameterError(f"box: {name!r} is no input; allowed: {', '.join(names)}")
+    found: dict[str, Interval] = {}
+    for signal in spec.inputs:
+        if signal.name not in box and not signal.optional:
+            raise ParameterError(
+                f"box: {signal.name} [{signal.unit}] is missing; every input is required: "
+                + ", ".join(names)
+            )
+        given = box.get(signal.name, signal.start or 0.0)
+        low, high = found[signal.name] = _interval(signal.name, given, signal.unit)
+        least, largest = signal.range
+        if low < least or high > largest:
+            raise ParameterError(
+                f"box: {signal.name} = {low:g} .. {high:g} {signal.unit}, "
+                f"allowed: {least:g} .. {largest:g} {signal.unit}"
+            )
+    return found
+
+
+def _interval(name: str, given: float | Interval, unit: str) -> Interval:
+    try:
+        ends = (given, given) if isinstance(given, int | float) else given
+        low, high = (float(x) for x in ends)
+    except (TypeError, ValueError):
+        raise ParameterError(
+            f"box: {name} = {given!r}, allowed: a number or (low, high) in {unit}"
+        ) from None
+    if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+        raise ParameterError(f"box: {name} = {given!r} {unit}, allowed: low <= high, both finite")
+    return low, high
 
 
 def _above(name: str, value: float, low: float, belongs: bool = True) -> float:
@@ -146,90 +283,3 @@ def _above(name: str, value: float, low: float, belongs: bool = True) -> float:
         span = f"{low:g} or more" if belongs else f"above {low:g}"
         raise ParameterError(f"{name} = {value!r}, allowed: {span}")
     return number
-
-
-def decide(request: Request, found: list[Candidate], refused: dict[str, str]) -> Choice:
-    """Return the choice among the candidates, in the ladder's order; SolveError if nothing fits.
-
-    A pure function of cards and request. ``refused``: rung -> why its card does not count.
-    """
-    options = plans(request, found)
-    if not options:
-        raise SolveError(_refusal(request, found, refused))
-    best, seen = options[0], options[0].seen
-    asked = shown_error(request.tol, seen.kind, seen.unit)
-    lines = [
-        f"{request.spec.key}: {best.rung.fidelity}{seen.charts}, {request.quantity} within "
-        f"{seen.promise} (asked {asked}), {say(best.rung.call, 's', digits=2)} per call",
-        *_outside_lines(request, best),
-    ]
-    lines += _others(request, found, best) + [f"not asked: {r}: {w}" for r, w in refused.items()]
-    return _choice(best, tuple(lines))
-
-
-def _choice(plan: Plan, lines: tuple[str, ...]) -> Choice:
-    """Return a plan and what follows it as choices."""
-    after = None if plan.outside is None else _choice(plan.outside, ())
-    return Choice(
-        plan.rung.fidelity, plan.seen.error, plan.seconds, lines, after, plan.share, plan.where
-    )
-
-
-def _outside_lines(request: Request, plan: Plan) -> list[str]:
-    """Say what serves where the chosen rung does not."""
-    lines = []
-    after = plan.outside
-    while after is not None:
-        part = f"outside it ({shown_share(after.share)} of the box, {after.where})"
-        if math.isinf(after.seen.error):
-            lines.append(f"{part}: no card speaks there; {after.rung.fidelity}, not verified")
-        else:
-            rung, promise = after.rung, after.seen.promise
-            call = say(rung.call, "s", digits=2)
-            lines.append(f"{part}: {rung.fidelity}, within {promise}, {call}")
-        after = after.outside
-    return [*lines, *filter(None, [plan.seen.beside_folds])]
-
-
-def _others(request: Request, found: list[Candidate], best: Plan) -> list[str]:
-    """Say of every rung that was not taken why: too coarse, dearer, or not verified here."""
-    groups: dict[str, list[str]] = {words: [] for words in REJECTED}
-    cheaper, coarser, holds, away = groups.values()
-    for rung in found:
-        if rung is best.rung:
-            continue
-        seen = rung.over([Part(request.box)], request)
-        if seen is None:
-            away.append(rung.fidelity)
-            continue
-        text = f"{rung.fidelity} {seen.promise}"
-        if seen.error > request.tol:
-            (cheaper if rung.call <= best.rung.call else coarser).append(text)
-        else:
-            holds.append(f"{text} in {say(rung.call, 's', digits=2)}")
-    return [f"{words}: {', '.join(texts)}" for words, texts in groups.items() if texts]
-
-
-def _refusal(request: Request, found: list[Candidate], refused: dict[str, str]) -> str:
-    """Say that nothing fits, the best there is, and what to do."""
-    key = request.spec.key
-    if not found:
-        why = "; ".join(f"{rung}: {why}" for rung, why in refused.items())
-        return f"{key}: no rung has a card that holds here: {why}"
-    stale = "".join(f"; {rung}: {why}" for rung, why in refused.items() if "card; make" not in why)
-    seen = [(rung, rung.over([Part(request.box)], request)) for rung in found]
-    here = [(s.error, rung.fidelity, s) for rung, s in seen if s is not None]
-    if not here:
-        envelope = found[-1].envelope
-        spans = ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in envelope.items())
-        return (
-            f"{key}: the box lies outside what was verified for {request.quantity} ({spans}); "
-            f"name a rung yourself, or move the box{stale}"
-        )
-    error, rung, s = min(here, key=lambda x: x[0])
-    asked = f"{request.tol:.0e}" if request.tol < 1e-3 else plain(request.tol)
-    unit = "" if s.unit in (None, "1") else f" {s.unit}"
-    return (
-        f"{key}: no rung reaches {asked}{unit} in {request.quantity}; the best is {rung} with "
-        f"{plain(error)}{unit}. Ask for less, or verify a finer one: {VERIFY} {key} {rung}{stale}"
-    )

@@ -1,15 +1,15 @@
-"""How errors and shares are written for a person."""
+"""How errors are written for a person."""
 
-import math
+UNKNOWN = 1e6  # an error from here on says that there is no answer
 
 
-def shown_error(error: float, kind: str, unit: str | None) -> str:
-    """Return "0.8 %" for a relative error, "0.03 K" for an absolute one."""
-    if math.isinf(error):
-        return "not verified"
-    if kind == "relative":
+def shown_error(error: float, unit: str | None) -> str:
+    """Return "0.8 %" for a relative error (unit None), "0.03 K" for an absolute one."""
+    if not error < UNKNOWN:
+        return "not known"
+    if unit is None:
         return f"{plain(100.0 * error)} %"
-    return f"{plain(error)} {unit}" if unit and unit != "1" else plain(error)
+    return f"{plain(error)} {unit}" if unit != "1" else plain(error)
 
 
 def plain(value: float) -> str:
@@ -18,8 +18,3 @@ def plain(value: float) -> str:
     if "e" in text and 1e-3 <= abs(value) < 1e5:
         return f"{float(text):.0f}"
     return text
-
-
-def shown_share(share: float) -> str:
-    """Return a share of the box; a small one is not called none."""
-    return "under 0.1 %" if share < 1e-3 else f"{plain(100.0 * share)} %"

@@ -1,67 +1,19 @@
-"""A map of one's own parameters: built when asked for, or with its cards where that pays.
-
-What building costs is estimated from the box: lines and held-out points times the seconds that one
-takes. What it saves are calls of the rung that solves.
-"""
+"""A map of one's own part: built unless one is kept that serves."""
 
 from collections.abc import Callable
-from time import perf_counter
 from typing import Any
 
 from ..errors import ParameterError, SolveError
 from ..model.parameters import check_number
 from ..model.part_file import PartFile
 from ..model.prepare import tables_of
-from ..model.record import resolve
-from ..model.registry import ladder_of
-from ..model.spec import ModelSpec, Tables
+from ..model.spec import Tables
 from ..native.files import to_stderr
 from ..processes import usable_cores
-from .boxes import Box
-from .card import OWN, SAFETY, fresh_cards
+from .error_table import Box
 
-MAKER = "thrustwasher.study.own_cards:make_own_cards"
-POINTS = 30  # held out, for who waits for a run
-# Seconds on one core: a line of a map, a held-out point with its reference, a call of "field"; what
-# starting and timing take. Only their ratios count.
-LINE, POINT, CALL, ONCE = 0.021, 0.25, 6e-4, 4.0
+LINE = 0.021  # seconds that a line of a map takes on one core, about
 LONGER = "up to ten times that if all its lines need a finer mesh"
-RUNS = 20  # so often a scene is run, or one like it with the same part; chosen here
-
-
-def build_where_it_pays(
-    spec: ModelSpec, params: Any, box: Box, *, tol: float, calls: float, needed: Box | None = None,
-    say: Callable[[str], None] = to_stderr,
-) -> str:  # fmt: skip
-    """Build map and cards for ``box`` if ``calls`` look-ups save more time than that takes.
-
-    ``needed`` is what a kept map has to cover to be left as it is. Returns what was done in one
-    line, empty if nothing. Parameters that the shipped cards speak of are left alone.
-    """
-    tables = tables_of(spec)
-    cards = [c for rung in ladder_of(spec.key).kernels for c in fresh_cards(spec.key, rung, params)]
-    if tables is None or any(not c.params.name.startswith(OWN) for c in cards):
-        return ""
-    try:
-        if any(c.fidelity == tables.rung for c in cards):
-            known = tables.box(params)
-            if serves(tables, params, needed or box, tol):
-                return ""
-            box = {n: (min(a, known[n][0]), max(b, known[n][1])) for n, (a, b) in box.items()
-                   if n in known}  # fmt: skip
-        lines = tables.lines(params, box, tol / SAFETY)
-        takes = (lines * LINE + POINTS * POINT) / usable_cores() + ONCE
-        if calls * CALL < takes:
-            return ""
-        say(f"{spec.key}: builds a map of its own, once, about {takes:.0f} s; {LONGER}")
-        began = perf_counter()
-        resolve(MAKER)(spec, params, box, tol=tol / SAFETY, points=POINTS)
-    except (ParameterError, SolveError) as problem:
-        return f"{spec.key}: no map of its own: {problem}"
-    return (
-        f"{spec.key}: a map of its own and cards from {POINTS} held-out points were made in "
-        f"{perf_counter() - began:.0f} s and are kept"
-    )
 
 
 def build_missing(

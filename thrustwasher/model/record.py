@@ -111,12 +111,14 @@ class Ladder:
     """What the choice of a rung and the making of its cards need to know."""
 
     kernels: Mapping[str, tuple[str, ...]]
-    """Rungs that can be the cheapest at a tolerance up to 10 % -> modules that compute them."""
+    """Rungs that can be chosen, in the order of their cost -> modules that compute them."""
     boxes: Mapping[str, Mapping[str, Scaled]]
     """Parameter set -> range of every input: "default", a scene, or "scene.part"."""
     part: str  # of a scene, where a parameter set names none
     references: str  # dotted name: where reference values come from
     chart: str  # dotted name: what the chart shows, at which operating points
+    only: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    """Rung -> parameters and the values with which alone it differs from the one before."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,13 +9,11 @@ from __future__ import annotations
 import itertools
 import math
 import statistics
-import subprocess
 import sys
 import time
 import timeit
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -23,7 +21,6 @@ import numpy as np
 from ..model.prepare import fill_table, filled
 from ..model.registry import HELPERS, find_spec, kernel_of
 from ..model.spec import ModelSpec
-from .card_cases import cases
 from .reference_cache import source_of
 from .reference_values import ReferencePoint
 
@@ -35,17 +32,6 @@ LEAST = 5e-8  # [s] a call is never taken for less
 WALK = 0.003  # load and speed move by so much from call to call
 TURN = 20  # calls in one direction
 STEP = 1e-3  # s, for parts that have states
-FIRST = """
-import time, json, sys
-import thrustwasher
-began = time.perf_counter()
-from thrustwasher.model.registry import spec_of
-from thrustwasher.study.reference_cache import answer
-from thrustwasher.study.reference_values import ReferencePoint
-point = ReferencePoint({point!r}, None, None, {{}}, {{}})
-answer({model!r}, spec_of({model!r}).params(), {fidelity!r}, point)
-print(time.perf_counter() - began)
-"""
 
 
 @dataclass(frozen=True)
@@ -117,25 +103,12 @@ def _walk(load: float, speed: float, falls: bool) -> list[tuple[float, float]]:
 
 def call_cost(
     spec: ModelSpec, params: Any, fidelity: str, known: Sequence[ReferencePoint]
-) -> Timing:
-    """Return the cost of a call: the median of a few points of a chart."""
+) -> float:
+    """Return the seconds of a call: the median of a few points of a chart."""
     away = sorted((t for t in known if not t.beside_fold), key=lambda t: t.point["load"])
     some = [away[k * (len(away) - 1) // 4] for k in (1, 2, 3)]
     found = []
     for t in some:
         spent = time_call(stepper(spec, params, fidelity, t, idle_step())).least
         found.append(time_call(stepper(spec, params, fidelity, t)).less(spent))
-    return sorted(found, key=lambda t: t.median)[1]
-
-
-@cache
-def first_call(model: str, fidelity: str) -> float:
-    """Return the seconds of the first solve in a new process, compiled code in the cache.
-
-    Default parameters, the first held-out point; all parameter sets of a rung have this value.
-    """
-    code = FIRST.format(model=model, fidelity=fidelity, point=cases(model)[0].point(0))
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600
-    )
-    return float(done.stdout.split()[-1])
+    return sorted(t.median for t in found)[1]

@@ -15,7 +15,7 @@ from ..native.files import user_cache
 from ..processes import Run, run_here
 from ..storage.digests import closure, kernel_digest, params_digest
 from ..storage.journal import Journal
-from .card_cases import Case
+from .cases import Case
 from .reference_values import FAILED, MARGIN, Answer, ReferencePoint, Source
 
 
@@ -34,27 +34,36 @@ def answer(model: str, params: Any, fidelity: str, known: ReferencePoint) -> Ans
 
 
 def reference_points(
-    case: Case, source: Source, n: int, progress: Callable[[int], None] = lambda k: None,
+    case: Case,
+    source: Source,
+    n: int,
+    progress: Callable[[int], None] = lambda k: None,
     run: Run = run_here,
-) -> list[ReferencePoint]:  # fmt: skip
+) -> list[ReferencePoint]:
     """Return the reference's answers at ``n`` points; what is kept is not solved again.
 
     A run that is stopped goes on where it was.
     """
-    axes = [asdict(a) for a in case.envelope.values()]
-    what = [kernel_digest(closure(*source.kernels)), params_digest(case.params), axes, case.seed,
-            list(source.routes), list(source.grid or ()), MARGIN]  # fmt: skip
+    axes = [asdict(a) for a in case.box.values()]
+    what = [
+        kernel_digest(closure(*source.kernels)),
+        params_digest(case.params),
+        axes,
+        case.seed,
+        list(source.routes),
+        list(source.grid or ()),
+        MARGIN,
+    ]
     digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
     path = user_cache() / "references" / f"{case.spec.key}-{case.name}-{digest}.journal"
     with closing(Journal(path, {"source": digest}, "set of reference values")) as journal:
         known = {
             k: [ReferencePoint(**r) for r in json.loads(text)] for k, text in journal.entries()
         }
-        numbers = case.numbers(n)
-        left = [k for k in numbers if k not in known]
+        left = [k for k in range(n) if k not in known]
         rows = run(partial(source.solve, case.params), [case.point(k) for k in left], 1)
         for k, row in zip(left, rows, strict=True):
             known[k] = row
             journal.put(k, json.dumps([asdict(r) for r in row]).encode())
             progress(len(known))
-        return [point for k in numbers for point in known[k]]
+        return [point for k in range(n) for point in known[k]]

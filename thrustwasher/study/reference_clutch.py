@@ -17,7 +17,7 @@ from ..clutch.kernels.constants import derive_rings
 from ..clutch.parameters import ClutchParams
 from ..clutch.solve import prepare, solve_clutch, steady_pack
 from ..errors import ParameterError, SolveError, Status
-from ..ladder.card_parts import QUANTITIES
+from ..ladder.error_table import QUANTITIES
 from . import reference_values as ref
 from .reference_values import Answer, Point, ReferencePoint, ReferenceValues, Source, Values
 

@@ -14,7 +14,7 @@ from ..gearmesh.kernels.operating_point import solve_point
 from ..gearmesh.kernels.path_of_contact import N_NODES, NODES, WEIGHTS, derive_path
 from ..gearmesh.parameters import GearMeshParams
 from ..gearmesh.solve import pinion_torque, prepare, solve_gearmesh
-from ..ladder.card_parts import QUANTITIES
+from ..ladder.error_table import QUANTITIES
 from .reference_values import OK, Answer, Point, ReferencePoint, ReferenceValues, Source, Values
 
 TOLERANCE = 1e-12

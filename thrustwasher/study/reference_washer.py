@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolveError, Status
-from ..ladder.card_parts import QUANTITIES
+from ..ladder.error_table import QUANTITIES
 from ..model.part_file import made_of
 from ..washer.kernel_arguments import constants
 from ..washer.kernels.constants import WasherModel, washer_model
@@ -202,7 +202,7 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
     point: Any = known.point
     r = solve_washer(params, **point, fidelity=fidelity, branch=known.branch, throw=False)
     values: Values = {name: getattr(r, name) for name in QUANTITIES}
-    if fidelity == "map" and (r.fidelity != "map" or r.status is Status.OUTSIDE_VERIFIED):
+    if r.fidelity != fidelity:  # the map has handed over to the field
         return Answer(values, ref.OUTSIDE)
     if r.status is Status.NO_BRANCH and known.beside_fold:
         return Answer(values, ref.OTHER_SIDE)

@@ -1,4 +1,4 @@
-"""What a chart or a card says about its making: the machine, versions, state of the sources."""
+"""What a chart or a table says about its making: the machine, versions, state of the sources."""
 
 import os
 import platform
@@ -7,12 +7,9 @@ import sys
 import time
 import timeit
 from contextlib import suppress
-from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
-
-from ..ladder.card import VERIFY
 
 SCHEMA = 1
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -36,24 +33,6 @@ def surroundings(command: str) -> dict[str, Any]:
         "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
         "calibration_s": calibration(),
     }  # fmt: skip
-
-
-@cache
-def _once() -> dict[str, Any]:
-    return surroundings(VERIFY)
-
-
-def this_machine() -> dict[str, Any]:
-    """Return what the seconds of a card depend on."""
-    m = _once()["machine"]
-    kept = {name: m[name] for name in ("cpu", "cores", "os", "python", "numpy", "numba")}
-    return {**kept, "threads": 1, "load": m["load"] or 0.0}
-
-
-def this_package() -> dict[str, Any]:
-    """Return the package's version and, in a checkout, its commit and if it was changed since."""
-    package = _once()["package"]
-    return {name: package[name] for name in ("version", "commit", "dirty")}
 
 
 def load() -> float | None:

@@ -1,132 +1,190 @@
-"""Write cards: each rung's error at random held-out points against a reference, and its cost.
+"""Measure each rung's error at random points against a reference, and write the tables.
 
-python -m thrustwasher.study.verify [MODEL] [FIDELITY] [--sample N] [--params NAME] [--out DIR]
+python -m thrustwasher.study.verify [MODEL] [--set NAME] [--points N] [--out DIR]
 
-Without FIDELITY only cards that are stale or missing are made; a run that is stopped goes on where
-it was, because reference values and finished cards are kept.
+Only parameter sets of which a rung is stale or missing are measured, unless one is named. A run
+that is stopped goes on where it was, because reference values are kept.
 """
 
 import argparse
 import sys
-import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError, SolveError
-from ..ladder.card import VERIFY, Card, forget, fresh_cards
+from ..errors import ParameterError
+from ..ladder.choose import rungs_of
+from ..ladder.error_table import (
+    OWN,
+    VERIFY,
+    Axis,
+    Box,
+    ErrorTable,
+    RungErrors,
+    forget,
+    fresh_rungs,
+    own_folder,
+    read_tables,
+    sources_of,
+    write_tables,
+)
 from ..model.prepare import tables_of
-from ..model.registry import ladder_of, models_with_cards
+from ..model.registry import models_with_cards
 from ..model.spec import ModelSpec
-from ..storage.digests import DATA
-from .card_cases import POINTS_IN_PART, Case, cases
-from .card_writer import make_card, write_card
-from .costs import call_cost, first_call
+from ..processes import Run, run_here, runner, usable_cores
+from ..storage.digests import DATA, changed_fields, params_digest
+from .cases import POINTS, Case, cases, own_case
+from .costs import call_cost
+from .measured_chart import chart_of
 from .reference_cache import answer, reference_points, source_of
 from .reference_values import ReferencePoint
+from .surroundings import surroundings
 
-HELP = "measure the rungs against the reference and write their cards"
+HELP = "measure the rungs against the reference and write the tables"
+USUAL = 60  # points of a part of one's own
+Show = Callable[[int, int], None]
+Progress = Callable[[str], Show]
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Make the cards asked for; return 0, or 1 if some could not be made."""
+    """Measure what is asked for; return 0."""
     parser = argparse.ArgumentParser(VERIFY, description=HELP)
     parser.add_argument("model", nargs="?", choices=list(models_with_cards()), help="default: all")
-    parser.add_argument("fidelity", nargs="?", help="rung; default: all whose cards are not fresh")
-    parser.add_argument("--sample", type=int, metavar="N", help="held-out points; default: 500")
-    parser.add_argument("--params", metavar="NAME", help="parameter set; default: all")
+    parser.add_argument("--set", metavar="NAME", help="parameter set; default: those not fresh")
+    parser.add_argument("--points", type=int, metavar="N", default=POINTS, help="default: 500")
     parser.add_argument("--out", type=Path, default=DATA / "cards", metavar="DIR")
     options = parser.parse_args(argv)
-    rungs = ladder_of(options.model).kernels if options.model else {}
-    if options.fidelity and options.fidelity not in rungs:
-        parser.error(f"fidelity = {options.fidelity!r}, allowed: {', '.join(rungs)}")
-    failed = 0
     for model in [options.model] if options.model else list(models_with_cards()):
+        path = options.out / f"{model}.json"
+        known = {t.name: t for t in read_tables(path)} if path.exists() else {}
         for case in cases(model):
-            if options.params in (None, case.name):
-                failed += _case(case, options.fidelity, options.sample or case.n, options.out)
-    return 1 if failed else 0
+            rungs = rungs_of(case.spec, case.params)
+            stale = set(rungs) - set(fresh_rungs(model, case.params))
+            if case.name == options.set or (options.set is None and stale):
+                known[case.name] = measured(case, options.points, _shown(case))
+                write_tables(list(known.values()), path)
+                forget()
+                print(_summary(known[case.name]), file=sys.stderr, flush=True)
+    return 0
 
 
-def _case(case: Case, only: str | None, n: int, out: Path) -> int:
-    """Make the cards of one parameter set; return how many rungs failed."""
-    spec, params = case.spec, case.params
-    usable = [rung for rung in ladder_of(spec.key).kernels if holds(spec, rung, params)]
-    wanted = [only] if only else [r for r in usable if not fresh_cards(spec.key, r, params)]
-    if not wanted:
-        _say(f"{case.spec.key} {case.name}: nothing to do")
-        return 0
-    began = time.perf_counter()
-    known = known_points(case, n)
-    _say(f"\r{case.spec.key} {case.name}: {len(known)} reference values at {n} points, "
-         f"{time.perf_counter() - began:.0f} s")  # fmt: skip
-    failed = 0
-    for rung in wanted:
-        try:
-            its_case = case_of(case, rung)
-            mine = known if its_case is case else known_points(its_case, n)
-            for card in rung_cards(its_case, rung, mine):
-                write_card(card, out)
-                _say(summary(card))
-        except (SolveError, ParameterError, OSError, ValueError) as error:
-            failed += 1
-            _say(f"{case.spec.key} {case.name} {rung}: no card: {error}")
+def measure_part(
+    spec: ModelSpec,
+    params: Any,
+    box: Box,
+    *,
+    tol: float = 0.01,
+    points: int = USUAL,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> ErrorTable:
+    """Build a part's map if its model has maps, measure its rungs, keep both; return the table.
+
+    ``box`` holds (low, high) [SI] of the inputs it is meant for, ``tol`` is relative, of the map's
+    torque; ``progress`` is called with a label and returns ``show(done, total)``. ParameterError:
+    box, tolerance or number of points is not allowed; SolveError: the map cannot be made.
+    """
+    case, tables = own_case(spec, params, box, points), tables_of(spec)
+    count = workers or usable_cores()
+    show = progress or (lambda _label: lambda _done, _total: None)
+    if tables:
+        tables.build(params, box, tol, count, show)
+    with runner(count) as run:
+        table = measured(case, points, show("random points"), run)
+    write_tables([table], own_folder() / f"{spec.key}-{case.name}.json")
     forget()
-    return failed
+    return table
 
 
-def known_points(case: Case, n: int) -> list[ReferencePoint]:
-    """Return the reference values of a case, of a part of its box fewer."""
-    n = n if case.part is None else min(n, POINTS_IN_PART)
-
-    def show(k: int) -> None:
-        if sys.stderr.isatty() or k % 50 == 0:
-            end = "" if sys.stderr.isatty() else "\n"
-            text = f"\r{case.spec.key} {case.name}: reference {k}/{n}"
-            print(text, end=end, file=sys.stderr, flush=True)
-
-    return reference_points(case, source_of(case.spec.key), n, show)
-
-
-def holds(spec: ModelSpec, rung: str, params: Any) -> bool:
-    """Tell if a rung can be used with a parameter set at all; a map may not be there."""
-    try:
-        tables = tables_of(spec, rung)
-        return tables is None or tables.find(params) is not None
-    except ParameterError:
-        return False
-
-
-def case_of(case: Case, rung: str) -> Case:
-    """Return the case for a rung: a map is verified where it lies."""
-    tables = tables_of(case.spec, rung)
-    return case.within(tables.box(case.params)) if tables else case
-
-
-def rung_cards(case: Case, rung: str, known: list[ReferencePoint]) -> Iterator[Card]:
-    """Yield the cards of a rung, one per chart, from the reference values."""
-    blank = ReferencePoint(case.point(0), None, None, {}, {})
-    answer(case.spec.key, case.params, rung, blank)  # compiled from now on
-    once = first_call(case.spec.key, rung)
-    for chart in dict.fromkeys(t.chart for t in known):
-        mine = [t for t in known if t.chart == chart]
-        pairs = [(t, answer(case.spec.key, case.params, rung, t)) for t in mine]
-        timing = call_cost(case.spec, case.params, rung, mine)
-        yield make_card(case, rung, chart, pairs, timing, once)
-
-
-def summary(card: Card) -> str:
-    """Return a line of what a card says."""
-    text = ", ".join(f"{q} {card.shown_worst(q)}" for q in card.errors)
-    h = card.held_out
-    return (
-        f"  {card.name}: n {h.n}, failed {h.failed}, outside {h.outside}; {text}; "
-        f"{1e6 * card.cost.call_median_s:.3g} us"
+def measured(case: Case, n: int, show: Show, run: Run = run_here) -> ErrorTable:
+    """Return the errors of a case's rungs at ``n`` random points of its box."""
+    spec, params, source = case.spec, case.params, source_of(case.spec.key)
+    known = reference_points(case, source, n, lambda k: show(k, n), run)
+    rungs = [rung_errors(case, rung, known) for rung in rungs_of(spec, params)]
+    around = surroundings(VERIFY)
+    machine, package = around["machine"], around["package"]
+    return ErrorTable(
+        spec.key,
+        case.name,
+        params_digest(params),
+        changed_fields(params),
+        datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        package["version"],
+        f"{machine['cpu']}, {machine['cores']} cores",
+        source.routes,
+        tuple(rungs),
     )
 
 
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+def rung_errors(case: Case, rung: str, known: Sequence[ReferencePoint]) -> RungErrors:
+    """Return the errors of one rung beside reference values, in what of the box it covers."""
+    key, files = case.spec.key, _files(case, rung)
+    box = _covered(case, rung)
+    inside = [t for t in known if all(a.min <= t.point[n] <= a.max for n, a in box.items())]
+    charts, calls = [], [0.0]
+    for name in dict.fromkeys(t.chart for t in inside if not t.beside_fold):
+        mine = [t for t in inside if t.chart == name]
+        pairs = [(t, answer(key, case.params, rung, t)) for t in mine]
+        charts.append(chart_of(name, pairs, box))
+        calls.append(call_cost(case.spec, case.params, rung, mine))
+    call = float(f"{max(calls):.3g}")
+    return RungErrors(rung, sources_of(key, rung, files), files, call, dict(box), tuple(charts))
+
+
+def _covered(case: Case, rung: str) -> dict[str, Axis]:
+    """Return the part of a case's box that a rung covers: a map may cover less."""
+    tables = tables_of(case.spec, rung)
+    spans = tables.box(case.params) if tables else {}
+    found = {}
+    for name, axis in case.box.items():
+        low, high = spans.get(name, (axis.min, axis.max))
+        slack = 1e-9 * abs(axis.max)
+        found[name] = Axis(
+            axis.min if low <= axis.min + slack else low,
+            axis.max if high >= axis.max - slack else high,
+            axis.unit,
+            axis.scale,
+        )
+    return found
+
+
+def _files(case: Case, rung: str) -> tuple[str, ...]:
+    """Return the file that a rung looks its answers up in, as its digest names it."""
+    tables, home = tables_of(case.spec, rung), DATA.resolve()
+    if tables is None:
+        return ()
+    path = tables.find(case.params).path
+    if path.is_relative_to(home):
+        return (path.relative_to(home).as_posix(),)
+    if not case.name.startswith(OWN):
+        raise ParameterError(
+            f"{rung} for the {case.name} parameters = {path}, allowed: one that is shipped; a "
+            "table speaks for a file below thrustwasher/data"
+        )
+    return (path.as_posix(),)
+
+
+def _shown(case: Case) -> Show:
+    """Return what says how far the reference values are."""
+
+    def show(k: int, n: int) -> None:
+        if k % 50 == 0 or k == n:
+            text = f"{case.spec.key} {case.name}: reference {k}/{n}"
+            print(text, file=sys.stderr, flush=True)
+
+    return show
+
+
+def _summary(table: ErrorTable) -> str:
+    """Return a line of what a table says."""
+    worst = [
+        f"{r.fidelity} {c.name or ''}: {r.worst_anywhere('friction_torque', c):.3g} at "
+        f"{c.points} points"
+        for r in table.rungs
+        for c in r.charts
+    ]
+    return f"{table.model} {table.name}: largest error of the torque: {', '.join(worst)}"
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..ladder import choose as chooser
-from ..ladder.own_tables import build_where_it_pays
+from ..ladder.compare import rows_to_compare
 from ..model.advice import quantity_text, range_text
 from ..model.idle import idle_warnings
 from ..model.oil import oil_doubts
@@ -42,7 +42,7 @@ class Plan:
     params: tuple[Any, ...]  # parameter objects; None: broken rule
     params_of: NDArray[np.int64]  # (n_lines,) index into params
     identity: dict[str, str] = field(default_factory=dict)  # digests by what they stand for
-    choice: str = ""  # why the cards chose this rung, if they did
+    choice: str = ""  # why this rung was chosen, if it was
     taken: str = ""  # the inputs that were not given, and where their values come from
     warnings: tuple[str, ...] = ()  # of points outside the part's box
 
@@ -80,27 +80,23 @@ def make_plan(
 
 
 def _chosen(plan: Plan, tolerance: float) -> Plan:
-    """Return the plan with the rung that the cards choose for all of its points."""
+    """Return the plan with the rung that is chosen for all of its points."""
     if len(plan.params) != 1:
         raise ParameterError("fidelity = 'auto': allowed: without varied parameters")
-    if np.isnan(plan.inputs).all(axis=0).any():
+    rows = plan.inputs[np.isfinite(plan.inputs).all(axis=1)]
+    if not len(rows):
         raise ParameterError(
             "fidelity = 'auto': no point has allowed inputs to choose for; change them or name "
             "a rung"
         )
-    low, high = np.nanmin(plan.inputs, axis=0).tolist(), np.nanmax(plan.inputs, axis=0).tolist()
-    box = {s.name: (a, b) for s, a, b in zip(plan.spec.inputs, low, high, strict=True)}
-    built = build_where_it_pays(plan.spec, plan.params[0], box, tol=tolerance, calls=plan.n_rows)
+    names, low, high = [s.name for s in plan.spec.inputs], rows.min(0), rows.max(0)
     choice = chooser.choose(
-        plan.spec.key, box, tol=tolerance, n_calls=plan.n_rows, params=plan.params[0]
-    )
+        plan.spec.key, dict(zip(names, zip(low, high, strict=True), strict=True)), tol=tolerance,
+        n_calls=plan.n_rows, params=plan.params[0],
+        points=[dict(zip(names, row, strict=True)) for row in rows_to_compare(rows).tolist()],
+    )  # fmt: skip
     identity = {**plan.identity, "fidelity": choice.fidelity}
-    return replace(
-        plan,
-        fidelity=choice.fidelity,
-        choice="\n".join(filter(None, [built, str(choice)])),
-        identity=identity,
-    )
+    return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
 
 
 def _held(at: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec) -> list[Axis]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import ParameterError, Status
-from ..ladder.card import error_estimate
+from ..ladder.error_table import error_estimate
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..numerics.jit import Array
@@ -128,9 +128,9 @@ class WasherResult:
 
     @property
     def error_estimate(self) -> float | None:
-        """[-] relative, of friction_torque; by a card or, with ``grid``, a second solve, else None.
+        """[-] relative, of friction_torque; by its table or, with ``grid``, by a second solve.
 
-        Cards were measured for their own parameters and box; nobody knows it elsewhere.
+        Tables were measured for their own parameters and box; elsewhere it is None.
         """
         if self._error != BY_CARD:
             return self._error

@@ -15,7 +15,7 @@ from thrustwasher.fmu.documentation.markup import markup
 from thrustwasher.fmu.package import licences as module
 from thrustwasher.fmu.package.licences import PLACE, licences, listed_licences
 from thrustwasher.fmu.package.model_sources import model_folder, source_folder
-from thrustwasher.ladder.card import load_cards
+from thrustwasher.ladder.error_table import load_tables
 from thrustwasher.model.registry import all_specs, find_spec
 
 QUICK = [TOY, find_spec("WetClutch"), find_spec("GearMesh"), find_spec("ShiftTransmission")]
@@ -116,18 +116,16 @@ def test_the_equations_and_their_source_are_there(spec):
 
 
 @pytest.mark.parametrize("name", ["washer", "clutch", "gearmesh"])
-def test_the_figures_of_accuracy_are_those_of_the_cards(name):
-    cards = [card for card in load_cards(name) if card.params.name == "default"]
+def test_the_figures_of_accuracy_are_those_of_the_table(name):
+    table = next(t for t in load_tables(name) if t.name == "default")
+    known = [(r, c) for r in table.rungs for c in r.charts]
     rows = accuracy(find_spec(name))
-    assert {row[0] for row in rows} == {f"{c.fidelity} {c.chart or ''}".strip() for c in cards}
-    assert [row[2] for row in rows] and sum(int(row[2]) for row in rows) == sum(
-        card.held_out.n for card in cards
-    )
-    one = next(card for card in cards if card.fidelity == "field")
-    worst = max(e for row in one.errors["friction_torque"].worst for e in row if e is not None)
-    row = next(row for row in rows if row[0] == f"field {one.chart or ''}".strip())
-    assert float(row[3].removesuffix(" %")) == pytest.approx(100.0 * worst, rel=0.05)
-    assert f"<td>{row[3]}</td>" in shown(find_spec(name)).replace("\n", "")
+    assert [row[0] for row in rows] == [f"{r.fidelity} {c.name or ''}".strip() for r, c in known]
+    assert [row[2] for row in rows] == [str(c.points) for _, c in known]
+    for row, (rung, chart) in zip(rows, known, strict=True):
+        worst = rung.worst_anywhere("friction_torque", chart)
+        assert float(row[3].removesuffix(" %")) == pytest.approx(100.0 * worst, rel=0.05)
+    assert f"<td>{rows[0][3]}</td>" in shown(find_spec(name)).replace("\n", "")
 
 
 def test_the_stiffest_spring_of_a_clutch_is_at_zero_slip():

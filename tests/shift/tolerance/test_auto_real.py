@@ -7,7 +7,7 @@ import pytest
 from scene_runs import slow_without_jit
 
 from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.ladder.card import fresh_cards
+from thrustwasher.ladder.error_table import fresh_rungs
 from thrustwasher.shift import load_scene, run_auto, with_fidelities
 
 pytestmark = slow_without_jit
@@ -27,8 +27,8 @@ def run(*wishes):
 
 
 def at_tolerance():
-    if not fresh_cards("washer", "map", load_scene("planetary").parts["washer"].params):
-        pytest.skip("the cards of the washer's map are older than its kernels")
+    if "map" not in fresh_rungs("washer", load_scene("planetary").parts["washer"].params):
+        pytest.skip("the table of the washer's map is older than its kernels")
     return run(f"washer=auto:{TOLERANCE}")
 
 

@@ -6,14 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ParameterError, Status
-from ...ladder.card import load_cards
-from ...ladder.card_parts import QUANTITIES
+from ...ladder.error_table import QUANTITIES, load_tables
 from ...ladder.formats import shown_error
 from ...model.prepare import tables_of
 from ...model.registry import MODELS, find_model, find_spec
 from ...model.spec import ModelSpec
 from ...templates import filled
-from ..description.interface import Interface, interface
+from ..description.interface import enumerations, variables
 from ..model_kernels import package_version
 from ..package.licences import listed_licences
 from ..package.model_sources import source_folder
@@ -26,7 +25,7 @@ WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
 
 
 def page(
-    shown: Interface, folder: Path, *, target: str, fmi: int, guid: str, platforms: Sequence[str],
+    spec: ModelSpec, folder: Path, *, target: str, fmi: int, guid: str, platforms: Sequence[str],
     runs: bool = True,
 ) -> str:  # fmt: skip
     """Return the page.
@@ -35,14 +34,15 @@ def page(
     False the model is not run for the slope of its torque, and need not be compiled for this
     Python.
     """
-    spec, icon = shown.spec, folder / "icon.png"
+    found = variables(spec)
+    icon = folder / "icon.png"
     return filled(
         source_folder() / "documentation" / "index.html",
         spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
         version=package_version(), reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
-        usual=interface(find_spec(spec.key)).variables if spec.kind else (), shown=shown,
-        statuses=sorted(Status),
+        usual=variables(find_spec(spec.key)) if spec.kind else (), found=found,
+        enumerations=enumerations(spec), statuses=sorted(Status),
         advice=find_model(spec.key).wiring if spec.key in MODELS else (),
         feedthrough=_feedthrough(spec), slope=_slope_words(spec, runs),
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
@@ -52,21 +52,20 @@ def page(
 
 
 def accuracy(spec: ModelSpec) -> Rows:
-    """Return what cards say of the parameters it starts with, and its map's own check: rows."""
-    rungs, params = list(spec.rungs), spec.params()
+    """Return the measured errors with the parameters it starts with, and its map's own check."""
     own = spec.kind != ""
-    found = [card for card in load_cards(spec.key, params) if card.fidelity in rungs
-             and (card.params.name == "default" or (own and not card.stale(params)))]  # fmt: skip
-    found.sort(key=lambda card: (rungs.index(card.fidelity), card.chart or ""))
     return _of_map(spec) + [
         (
-            f"{card.fidelity} {card.chart or ''}".strip(),
-            ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in card.envelope.items()),
-            str(card.held_out.n),
-            *map(card.shown_worst, QUANTITIES),
-            f"version {card.package['version']}",
+            f"{rung.fidelity} {chart.name or ''}".strip(),
+            ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in rung.box.items()),
+            str(chart.points),
+            *(shown_error(rung.worst_anywhere(q, chart), unit) for q, unit in QUANTITIES.items()),
+            f"version {table.version}",
         )
-        for card in found
+        for table in load_tables(spec.key, spec.params())
+        for rung in table.rungs
+        for chart in rung.charts
+        if table.name == "default" or (own and not table.stale(rung))
     ]
 
 
@@ -82,9 +81,9 @@ def _of_map(spec: ModelSpec) -> Rows:
     held, units = card["held_out"], {s.name: s.unit for s in spec.inputs}
     box = ", ".join(f"{n} {low:g} .. {high:g} {units[n]}" for n, (low, high) in card["box"].items())
     return [(f"{tables.rung}, when built", box, str(held["points"]),
-             shown_error(held["torque"], "relative", None),
-             shown_error(held["temperature"], "absolute", "K"), "-",
-             shown_error(held["film_ratio"], "absolute", None),
+             shown_error(held["torque"], None),
+             shown_error(held["temperature"], "K"), "-",
+             shown_error(held["film_ratio"], "1"),
              "x".join(map(str, card.get("checked_on", ()))) + " nodes")]  # fmt: skip
 
 

@@ -1,21 +1,50 @@
-"""A shift at a tolerance: trial runs, a rung for every part, the run and its check."""
+"""A shift at a tolerance: a run with the cheapest rungs, the choice, its check, further runs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from ...errors import ParameterError, SolveError
-from ...ladder.own_tables import RUNS, build_where_it_pays
 from ..checks import step_error
 from ..checks.guard import guarded
+from ..cosim.system import Stepping
 from ..run import Progress, run_shift
 from ..scene.connections import DIRECT
-from ..scene.scene import Scene
+from ..scene.scene import Part, Scene
 from ..shift_result import ShiftResult
 from .rung_check import check_part
-from .selection import select
+from .selection import first_rung, select
 from .selection_record import Check, CheckRecord, Selected, Selection
-from .trial_run import Make, Pool, TrialRuns, step_share, trial_runs, with_rungs
+
+STEP_SHARE = 0.3  # of the tolerance asked for is the communication step's
+Make = Callable[[str, Part], Stepping]
+
+
+class Pool:
+    """Instances by part, rung and parameters; one that has been used is reset."""
+
+    def __init__(self, make: Make) -> None:
+        self._make = make
+        self._made: dict[tuple[str, str, Any], Stepping] = {}
+
+    def take(self, name: str, part: Part) -> Stepping:
+        """Return an instance that has not been started."""
+        key = name, part.fidelity, part.params
+        used: Any = self._made.get(key)
+        if used is not None and hasattr(used, "reset"):
+            used.reset()
+        else:
+            self._made[key] = self._make(name, part)
+        return self._made[key]
+
+    def all_of(self, scene: Scene) -> dict[str, Stepping]:
+        """Return an instance for every part of a scene."""
+        return self.all_but(scene, {})
+
+    def all_but(self, scene: Scene, given: Mapping[str, Stepping]) -> dict[str, Stepping]:
+        """Return an instance for every part of a scene, those that are given as they are."""
+        return {n: given.get(n) or self.take(n, part) for n, part in scene.parts.items()}
 
 
 def run_auto(
@@ -23,7 +52,6 @@ def run_auto(
     make: Make,
     *,
     guard: bool = True,
-    build_maps: bool = False,
     progress: Progress | None = None,
     compiled: bool | None = None,
 ) -> ShiftResult:
@@ -37,8 +65,6 @@ def run_auto(
     guard : check the run afterwards: its step by a second run with shorter ones, washers that were
         taken as steady by following them in time, and rungs that were chosen; run again a rung
         higher where one does not hold, or in time where a washer of a tolerance is not steady
-    build_maps : build the map of a washer that no card speaks of where that pays, and keep it;
-        ``make`` has to find it
     progress, compiled : as in ``run_shift``
 
     Returns
@@ -57,28 +83,36 @@ def run_auto(
     second, given = partial(run_shift, compiled=compiled), pool.all_but
 
     scene, remarks = _without_choice(scene)
-    wanted = [p.tolerance for p in scene.parts.values() if p.tolerance]
+    wanted = {n: p for n, p in scene.parts.items() if p.tolerance}
     if not wanted:
         result = run(scene)
         result = replace(result, messages=[*result.messages, *remarks])
         return guarded(result, given, second) if guard else result
-    trials = trial_runs(scene, pool, compiled)
-    steps = max(1, round((scene.stop_time - scene.start_time) / scene.step))
-    if build_maps:
-        remarks += _own_maps(scene, trials, steps)
-    chosen = select(scene, trials, steps, guard)
-    selection = Selection(chosen, step_share(trials, scene.step, min(wanted)), trials.seconds)
-    result = run(with_rungs(scene, {c.part: c.rung for c in chosen}))
+    result = run(with_rungs(scene, {n: first_rung(p, guard) for n, p in wanted.items()}))
+    chosen = select(scene, result, guard)
+    rungs = {c.part: c.rung for c in chosen}
+    if any(result.scene.parts[name].fidelity != rung for name, rung in rungs.items()):
+        result = run(with_rungs(scene, rungs))
     if guard:
         result = _checked(result, chosen, pool, run)
         result = _followed(scene, guarded(result, given, second), run, given, second)
-    return replace(result, selection=selection, messages=[*result.messages, *remarks])
+        remarks += _step_remarks(result, min(p.tolerance or 1.0 for p in wanted.values()))
+    return replace(result, selection=Selection(chosen), messages=[*result.messages, *remarks])
+
+
+def with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:
+    """Return the scene with these rungs, as they stand."""
+    changed = {name: scene.parts[name].at(rung) for name, rung in rungs.items()}
+    return replace(scene, parts={**scene.parts, **changed})
 
 
 def _followed(
-    scene: Scene, result: ShiftResult, run: Callable[[Scene], ShiftResult], given: step_error.Make,
+    scene: Scene,
+    result: ShiftResult,
+    run: Callable[[Scene], ShiftResult],
+    given: step_error.Make,
     second: step_error.Run,
-) -> ShiftResult:  # fmt: skip
+) -> ShiftResult:
     """Repeat a run in time where a washer whose rung was to be chosen is not steady in it.
 
     Where that fails the run before it counts, with its warning, and why.
@@ -93,9 +127,10 @@ def _followed(
         return replace(result, found=(*result.found, words))
     words = "; ".join(text for n, w in result.in_time.items() for text in w.warnings(n, "so"))
     return replace(
-        again, guard=result.guard,
+        again,
+        guard=result.guard,
         messages=[*again.messages, f"{words} the run was repeated with thermal_mode transient"],
-    )  # fmt: skip
+    )
 
 
 def _in_time(scene: Scene) -> Scene:
@@ -110,32 +145,28 @@ def _in_time(scene: Scene) -> Scene:
 
 
 def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:
-    """Return the scene with default rungs for parts that no card speaks of, and what to say."""
+    """Return the scene with default rungs for parts that follow heat in time, and what to say."""
     parts, remarks = dict(scene.parts), []
     for name, part in parts.items():
         if part.tolerance and getattr(part.params, "thermal_mode", "") == "transient":
             parts[name] = replace(part, tolerance=None)
             remarks.append(
-                f"{name}: {part.fidelity}, its default; cards speak of steady states, and "
+                f"{name}: {part.fidelity}, its default; errors are measured in steady states, and "
                 "thermal_mode is transient"
             )
     return replace(scene, parts=parts), remarks
 
 
-def _own_maps(scene: Scene, trials: TrialRuns, steps: int) -> list[str]:
-    """Build maps of parts that are judged by themselves, where that pays; return what was done."""
-    said = []
-    for name in DIRECT:
-        part = scene.parts.get(name)
-        if part is not None and part.tolerance:
-            box = trials.box(name, part.spec)
-            seen = {n: trials.seen(name, n) for n in box}
-            said.append(
-                build_where_it_pays(
-                    part.spec, part.params, box, tol=part.tolerance, calls=RUNS * steps, needed=seen
-                )
-            )
-    return [words for words in said if words]
+def _step_remarks(result: ShiftResult, tolerance: float) -> list[str]:
+    """Say that the communication step errs by more than its share of a tolerance, if so."""
+    error, share = result.step_error, STEP_SHARE * tolerance
+    if error is None or error.relative <= share:
+        return []
+    return [
+        f"communication step {error.step:g} s: it errs by about {100.0 * error.relative:.2g} %, "
+        f"more than its share of {100.0 * share:.2g} %; {error.step * share / error.relative:.2g} "
+        "s would do"
+    ]
 
 
 def _checked(
@@ -143,14 +174,14 @@ def _checked(
 ) -> ShiftResult:
     """Check a run and repeat it with higher rungs until every part holds or has its last one.
 
-    Where such a run fails, the last one that came to its end is returned, and why.
+    Only parts whose rung has changed are checked again: the others' inputs hardly move. Where a
+    repeated run fails, the last one that came to its end is returned, and why.
     """
-    watched = [c for c in chosen if c.verified and c.above]
-    checks: list[Check] = []
+    watched, checks = chosen, list[Check]()
     again: list[str] = []
     earlier, stopped = 0.0, ""
     while True:
-        looked = [check_part(len(again) + 1, c, result, pool) for c in watched]
+        looked = [check_part(len(again) + 1, c, result, pool.take) for c in watched]
         found = [check for check in looked if check is not None]
         checks += found
         higher = {check.part: check.above for check in found if not check.holds}
@@ -164,6 +195,7 @@ def _checked(
             break
         again.append(words)
         result, earlier = better, earlier + result.wall_time
+        watched = [c for c in chosen if c.part in higher]
     if not checks:
         return result
     return replace(result, guard=CheckRecord(checks, again, earlier, stopped))

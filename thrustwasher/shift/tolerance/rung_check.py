@@ -1,11 +1,10 @@
-"""After a run: check of the rungs that were chosen for it.
+"""After a run: a rung that was chosen for it, compared with the one above.
 
-The choice rests on cards and on the inputs that trial runs have seen. The inputs that the run
-itself has recorded are compared with those, and the rung above is solved at some thirty recorded
-points: those with the extremes of inputs and of what is compared, those after changes of regime,
-and others spread over the run. A model whose outputs follow from the inputs of the moment is solved
-at these points only; one with a past of its own, such as a pack's film and temperature, follows the
-whole record, since it would have another past in strides.
+The rung above is solved at some thirty recorded points: those with the extremes of inputs and of
+what is compared, those after changes of regime, and others spread over the run. A model whose
+outputs follow from the inputs of the moment is solved at these points only; one with a past of its
+own, such as a pack's film and temperature, follows the whole record, since it would have another
+past in strides.
 """
 
 from collections.abc import Callable, Sequence
@@ -15,14 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError, Status
+from ...model.prepare import tables_of
 from ...numerics.jit import Array
 from ..cosim.system import Stepping
 from ..scene.connections import SPEED, WITHOUT_PAST
 from ..scene.scene import Part
 from ..shift_result import ShiftResult
-from .selection import above, still_verified
 from .selection_record import Check, Difference, Selected
-from .trial_run import Pool
 
 Places = NDArray[np.intp]
 POINTS = 30
@@ -31,25 +29,43 @@ NEAR = 5  # steps
 REGIMES = ("regime", "solver_status", "distress")  # outputs whose change is a change of regime
 
 
-def check_part(run: int, chosen: Selected, result: ShiftResult, pool: Pool) -> Check | None:
-    """Compare the rung of one part in a finished run with the one above; None: there is none."""
+def check_part(
+    run: int, chosen: Selected, result: ShiftResult, take: Callable[[str, Part], Stepping]
+) -> Check | None:
+    """Compare the rung of one part in a finished run with the one above; None: there is none.
+
+    ``take`` returns an instance of a part by its name.
+    """
     begin, part = perf_counter(), result.scene.parts[chosen.part]
-    first = part.fidelity == chosen.rung
-    higher = chosen.above if first else above(part.spec, part.fidelity)
+    higher = chosen.after(part.fidelity)
     if higher is None:
         return None
     names = [s.name for s in part.spec.inputs]
     inputs = np.column_stack([result.signals[f"{chosen.part}.{name}"] for name in names])
     moving = _moving(names, inputs)
-    outside = _outside(chosen, part, result, names, inputs, moving) if first else ""
+    looks_up = tables_of(part.spec, part.fidelity) is not None
+    outside = _outside(chosen, result, moving) if looks_up else ""
     places = _points(chosen, result, inputs, moving)
     solved, failed = _solved(
-        lambda: pool.take(chosen.part, part.at(higher)), result.time, inputs, places,
+        lambda: take(chosen.part, part.at(higher)),
+        result.time,
+        inputs,
+        places,
         chosen.model in WITHOUT_PAST,
-    )  # fmt: skip
+    )
     worst = _farthest(chosen, part, result, solved)
-    return Check(run, chosen.part, part.fidelity, higher, chosen.tolerance, len(solved),
-                 tuple(failed), worst, outside, perf_counter() - begin)  # fmt: skip
+    return Check(
+        run,
+        chosen.part,
+        part.fidelity,
+        higher,
+        chosen.tolerance,
+        len(solved),
+        tuple(failed),
+        worst,
+        outside,
+        perf_counter() - begin,
+    )
 
 
 def _moving(names: Sequence[str], inputs: Array) -> Places:
@@ -59,27 +75,13 @@ def _moving(names: Sequence[str], inputs: Array) -> Places:
     return np.flatnonzero(inputs[:, names.index(SPEED)])
 
 
-def _outside(
-    chosen: Selected, part: Part, result: ShiftResult, names: Sequence[str], inputs: Array,
-    moving: Places,
-) -> str:  # fmt: skip
-    """Say how the run left what the rung is verified for; empty if it did not."""
+def _outside(chosen: Selected, result: ShiftResult, moving: Places) -> str:
+    """Say when a rung that looks up left what it is verified for; empty if it did not."""
     status = result.signals.get(f"{chosen.part}.solver_status")
-    if status is not None:
-        said = moving[status[moving] == Status.OUTSIDE_VERIFIED]
-        if len(said):
-            return f"it says itself from t = {result.time[said[0]]:.4g} s that it is not verified"
-    seen = {name: (float(v.min()), float(v.max())) for name, v in zip(names, inputs.T, strict=True)}
-    for name, (low, high) in seen.items():
-        least, most = chosen.box[name]
-        if not least <= low <= high <= most:
-            if still_verified(chosen, part, seen):
-                return ""
-            return (
-                f"{name} of {low:.4g} .. {high:.4g} left {least:.4g} .. {most:.4g}, for which it "
-                "was chosen"
-            )
-    return ""
+    left = moving[status[moving] == Status.OUTSIDE_VERIFIED] if status is not None else moving[:0]
+    if not len(left):
+        return ""
+    return f"it says itself from t = {result.time[left[0]]:.4g} s that it is not verified"
 
 
 def _points(chosen: Selected, result: ShiftResult, inputs: Array, moving: Places) -> list[int]:

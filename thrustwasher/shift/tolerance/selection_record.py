@@ -1,11 +1,9 @@
 """What was chosen for a run at a tolerance and why, and what its check found: plain data."""
 
+from itertools import pairwise
 from math import inf, isnan
 from typing import Any, NamedTuple
 
-from ...units import format_quantity as say
-
-STEP_SHARE = 0.3  # of the tolerance asked for is the communication step's
 Box = dict[str, tuple[float, float]]
 
 
@@ -27,65 +25,50 @@ class Scale(NamedTuple):
 
 
 class Selected(NamedTuple):
-    """The rung of one part and why."""
+    """The rungs of one part that may serve, cheapest first, and why."""
 
     part: str
     model: str
-    rung: str
-    above: str | None
-    """The rung that the check compares with; None: there is none, or no card chose."""
+    rungs: tuple[str, ...]
     tolerance: float  # the rung's share of the tolerance asked for
-    verified: bool  # False: no card speaks for these parameters, and the model's default serves
+    verified: bool  # a table of measured errors speaks of the first one
     words: tuple[str, ...]
-    box: Box
+    box: Box  # the inputs that the first run has recorded
     scales: tuple[Scale, ...]
 
-
-class StepShare(NamedTuple):
-    """The largest error that the step makes in a figure, estimated, and the figure."""
-
-    step: float
-    tolerance: float
-    error: float
-    figure: str
-
     @property
-    def suffices(self) -> bool:
-        """True if the error stays within the step's share of the tolerance."""
-        return self.error <= STEP_SHARE * self.tolerance
+    def rung(self) -> str:
+        """The rung that was chosen."""
+        return self.rungs[0]
 
-    def words(self) -> str:
-        """Return it as a sentence."""
-        share = 100.0 * STEP_SHARE * self.tolerance
-        text = (
-            f"communication step {say(self.step, 's')}: about {100.0 * self.error:.2g} % in "
-            f"{self.figure.replace('_', ' ')}"
-        )
-        if self.suffices:
-            return f"{text}, within its share of {share:.2g} %"
-        wanted = self.step * STEP_SHARE * self.tolerance / self.error
-        return f"{text}, more than its share of {share:.2g} %; {wanted:.2g} s would do"
+    def after(self, rung: str) -> str | None:
+        """Return the next rung after one of them; None: it is the last."""
+        return dict(pairwise(self.rungs)).get(rung)
 
 
 class Selection(NamedTuple):
-    """What was chosen for a run, why, and what finding it took."""
+    """What was chosen for a run, and why."""
 
     parts: list[Selected]
-    step: StepShare
-    trial_seconds: float
 
     def words(self) -> list[str]:
         """Return the reasons, line by line."""
-        return [line for part in self.parts for line in part.words] + [self.step.words()]
+        return [line for part in self.parts for line in part.words]
 
     def as_dict(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
         parts = [
-            {"part": p.part, "rung": p.rung, "above": p.above, "tolerance": p.tolerance,
-             "verified": p.verified, "box": p.box} for p in self.parts
-        ]  # fmt: skip
-        return {"parts": parts, "step_error": self.step.error, "step_figure": self.step.figure,
-                "scout_time": self.trial_seconds, "reasons": self.words()}  # fmt: skip
+            {
+                "part": p.part,
+                "rung": p.rung,
+                "above": p.after(p.rung),
+                "tolerance": p.tolerance,
+                "verified": p.verified,
+                "box": p.box,
+            }
+            for p in self.parts
+        ]
+        return {"parts": parts, "reasons": self.words()}
 
 
 class Difference(NamedTuple):
@@ -147,9 +130,14 @@ class CheckRecord(NamedTuple):
         checks = [
             {**c._asdict(), "worst": c.worst._asdict(), "holds": c.holds} for c in self.checks
         ]
-        return {"checks": checks, "run_again": self.again, "stopped": self.stopped or None,
-                "time": self.seconds, "earlier_time": self.earlier_seconds,
-                "closing": self.closing()}  # fmt: skip
+        return {
+            "checks": checks,
+            "run_again": self.again,
+            "stopped": self.stopped or None,
+            "time": self.seconds,
+            "earlier_time": self.earlier_seconds,
+            "closing": self.closing(),
+        }
 
     def closing(self) -> str:
         """Return what happened in one line."""

@@ -189,36 +189,26 @@ function show(name, value) {
   if (name === "distress") place.className = value ? "bad" : "";
 }
 
-function cellOf(edges, value) {
-  if (!(value >= edges[0] && value <= edges.at(-1))) return -1;
-  return Math.min(edges.filter((e) => value >= e).length - 1, edges.length - 2);
-}
-
 const size = (card, name, values) => (card.envelope[name].min >= 0 ? Math.abs(values[name]) : values[name]);
 const isOutside = (card, name, values) => !(size(card, name, values) >= card.envelope[name].min && size(card, name, values) <= card.envelope[name].max);
 
-/** Return the error that a card promises here, null outside its box. */
-function errorOf(card, values, ratio) {
+/** Return the largest error measured around this point, null outside the card's box. */
+function errorOf(card, values) {
   if (Object.keys(card.envelope).some((name) => isOutside(card, name, values))) return null;
-  const [i, j] = card.axes.map((name, k) => cellOf(card.edges[k], size(card, name, values))), near = [];
-  if (i < 0 || j < 0) return null;
-  const reach = card.n[i][j] >= ABOUT.few ? 0 : 1;
-  for (let a = i - reach; a <= i + reach; a += 1) {
-    for (let b = j - reach; b <= j + reach; b += 1) if (Number.isFinite(card.worst[a]?.[b])) near.push(card.worst[a][b]);
-  }
-  if (!near.length) return null;
-  let found = Math.max(...near);
-  if (card.by && ratio !== undefined) found = Math.min(found, card.by.worst[card.by.edges.filter((e) => ratio >= e).length]);
-  return Math.max(found, card.uncertainty);
+  const at = (name) => (name in card.envelope ? size(card, name, values) : values[name]);
+  const here = (axes, row) => axes.every((name, k) => row[2 * k] <= at(name) && at(name) <= row[2 * k + 1]);
+  const known = card.divisions.filter(({ axes }) => axes.every((name) => Number.isFinite(values[name])));
+  return Math.min(...known.map(({ axes, rows }) => Math.max(...rows.filter((row) => here(axes, row)).map((row) => row.at(-1)))));
 }
 
 /** Return the verified error of the last torque, null where no card knows it, and what is said of it. */
 function verified() {
-  const at = Object.fromEntries(ABOUT.inputs.map((s, i) => [s.name, last.point[i]])), values = view.values?.(at) ?? at, { branch, film_ratio } = last.outputs;
-  const cards = ABOUT.cards.filter((c) => c.fidelity === state.rung && (!view.chart || c.chart === view.chart) && (!c.branch || c.branch === branch));
+  const at = Object.fromEntries(ABOUT.inputs.map((s, i) => [s.name, last.point[i]])), { branch, film_ratio } = last.outputs;
+  const values = { film_ratio, ...(view.values?.(at) ?? at) }, chart = view.chart ?? branch;
+  const cards = ABOUT.cards.filter((c) => c.fidelity === state.rung && (!c.chart || !chart || c.chart === chart));
   if (!ABOUT.cards.length || changes(ABOUT.given).length) return [null, "no error is verified for these parameters"];
   if (!cards.length) return [null, "no error is verified on this rung"];
-  const found = cards.map((c) => errorOf(c, values, film_ratio)).filter((e) => e !== null), error = ABOUT.safety * Math.max(...found);
+  const found = cards.map((c) => errorOf(c, values)).filter((e) => e !== null), error = ABOUT.safety * Math.max(...found);
   if (found.length) return [error, `verified error of the torque ${view.where ?? "here"}: ${error < 1e-5 ? "below 0.001" : `at most ${digits(100 * error, 2)}`} %`];
   const out = Object.entries(cards[0].envelope).filter(([name]) => cards.every((c) => isOutside(c, name, values)));
   const range = ([name, a]) => `${name} ${shown(values[name], a.unit)} (${shown(a.min, a.unit)} .. ${shown(a.max, a.unit)})`;

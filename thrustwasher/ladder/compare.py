@@ -1,0 +1,103 @@
+"""How far a rung is from the one above, at points: what is known where no table speaks."""
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..errors import ParameterError, SolveError
+from ..model.record import resolve
+from ..model.registry import find_model
+from ..model.spec import ModelSpec
+from .error_table import QUANTITIES, Box
+
+POINTS = 30
+FLOOR = 1e-3  # of the largest value: relative differences are taken of at least so much
+Point = Mapping[str, float]
+
+
+def points_of(box: Box, n: int = POINTS) -> list[Point]:
+    """Return ``n`` points spread evenly over a box, ends included; of a point itself.
+
+    An additive recurrence by the generalised golden ratio fills a box of any dimension evenly; it
+    gives the same points each time.
+    """
+    fixed = {name: low for name, (low, _) in box.items()}
+    names = [name for name, (low, high) in box.items() if low < high]
+    if not names:
+        return [fixed]
+    ratio = 2.0
+    for _ in range(60):  # the root of x^(d + 1) = x + 1
+        ratio = (1.0 + ratio) ** (1.0 / (len(names) + 1))
+    shares = np.outer(range(n), ratio ** -np.arange(1.0, len(names) + 1.0)) % 1.0
+    shares /= shares.max(0)  # the least is 0
+    return [
+        fixed | {name: _between(box[name], float(x)) for name, x in zip(names, row, strict=True)}
+        for row in shares
+    ]
+
+
+def _between(interval: tuple[float, float], share: float) -> float:
+    """Return the value at a share of an interval, evenly in its logarithm where that exists."""
+    low, high = interval
+    value = float(low * (high / low) ** share) if low > 0.0 else low + share * (high - low)
+    return min(value, high)
+
+
+def rows_to_compare(rows: Any, n: int = POINTS) -> Any:
+    """Return rows of an array: those with the least and largest values, the rest spread evenly."""
+    ends = np.concatenate([rows.argmin(0), rows.argmax(0)])
+    more = np.linspace(0, len(rows) - 1, min(len(rows), max(n - len(set(ends)), n // 2)))
+    return rows[sorted({*ends.tolist(), *more.round().astype(int).tolist()})]
+
+
+class Comparison:
+    """A model's rungs with some parameters, solved at points; each rung once, when asked for."""
+
+    def __init__(
+        self, spec: ModelSpec, params: Any, points: Sequence[Point], quantity: str
+    ) -> None:
+        self._params, self._points, self._quantity = params, points, quantity
+        self._model = find_model(spec.key)
+        self._known: dict[str, list[float]] = {}
+
+    @property
+    def size(self) -> int:
+        """How many points there are."""
+        return len(self._points)
+
+    def difference(self, rung: str, above: str) -> float:
+        """Return the largest difference of two rungs, as errors are measured.
+
+        Points at which one of them has no solution do not count; infinite if all are such.
+        """
+        pairs = zip(self._solved(rung), self._solved(above), strict=True)
+        both = [(a, b) for a, b in pairs if math.isfinite(a) and math.isfinite(b)]
+        floor = FLOOR * max((abs(b) for _, b in both), default=0.0) or 1e-300
+        relative = QUANTITIES[self._quantity] is None
+        return max(
+            (abs(a - b) / (max(abs(b), floor) if relative else 1.0) for a, b in both),
+            default=math.inf,
+        )
+
+    def _solved(self, rung: str) -> list[float]:
+        if rung not in self._known:
+            self._known[rung] = [self._value(rung, point) for point in self._points]
+        return self._known[rung]
+
+    def _value(self, rung: str, point: Point) -> float:
+        solve, place = self._ways
+        try:
+            result = solve(self._params, **place(dict(point)), fidelity=rung, throw=False)
+        except (ParameterError, SolveError):
+            return math.nan
+        return math.nan if result.status.is_failure else float(getattr(result, self._quantity))
+
+    @cached_property
+    def _ways(self) -> Any:
+        """What solves, and the way from the model's own inputs to those that this takes."""
+        command = self._model.command
+        assert command is not None
+        return resolve(command.solve), resolve(command.back) if command.back else dict

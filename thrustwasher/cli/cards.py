@@ -8,16 +8,31 @@ from ..ladder.card import VERIFY
 from ..model.part_file import is_part, load_part
 from ..model.registry import ladder_of, models_with_cards, spec_of
 from ..units import format_quantity, parse_quantity
-from . import _options, _output
+from . import _output
 
 HELP = "list the verified errors of all rungs, or verify those of a part file"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "cards", models=", ".join(models_with_cards()))
+    models = ", ".join(models_with_cards())
+    parser.add_argument(
+        "model",
+        nargs="?",
+        metavar="MODEL|FILE",
+        help=f"list only {models}; a part file (.toml): verify its rungs in its box, half a minute "
+        "or less",
+    )
     group = parser.add_argument_group("of a part file")
-    _options.add_listed(group, "cards_of_a_part")
+    group.add_argument(
+        "--tol",
+        metavar="X",
+        default="0.01",
+        help="relative error of the map's torque allowed, default 0.01",
+    )
+    group.add_argument(
+        "--points", default=60, metavar="N", type=int, help="held-out points, default 60"
+    )
     group.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 

@@ -143,11 +143,10 @@ def _get_ready(arguments: argparse.Namespace) -> None:
 
 def _load_report() -> None:
     from ..report.html import PAGE
-    from ..report.shift import shift_report, summary  # noqa: F401 (it draws)
+    from ..report.shift import shift_report  # noqa: F401 (it draws)
     from ..templates import template
 
     template(PAGE)
-    summary.words()
 
 
 def _scene(arguments: argparse.Namespace, name: str) -> Any:

@@ -14,18 +14,17 @@ def filled(path: Path, **told: Any) -> bytes:
 
 @cache
 def template(path: Path) -> Any:
-    """Return a template, read once."""
-    return environment(escape=".md" not in path.suffixes).from_string(path.read_text("utf-8"))
-
-
-def environment(*, escape: bool) -> Any:
-    """Return what reads templates; a name that it was not told is an error."""
+    """Return a template, read once; a name that it is not given is an error."""
     from jinja2 import Environment, StrictUndefined  # late: few commands need it
 
-    return Environment(
-        autoescape=escape, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+    reader = Environment(
+        autoescape=".md" not in path.suffixes,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
         keep_trailing_newline=True,
-    )  # fmt: skip
+    )
+    return reader.from_string(path.read_text("utf-8"))
 
 
 def policy_source(text: str) -> str:

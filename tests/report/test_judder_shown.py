@@ -8,6 +8,7 @@ from shift_stand_in import record
 
 from thrustwasher.report.shift import summary
 from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.report.shift.swing_texts import judder_text
 from thrustwasher.shift.oscillation.judder import Judder
 
 GROWS = Judder(
@@ -23,7 +24,7 @@ STRANGE = replace(GROWS, growth=9.0)
 
 
 def words_on(record):
-    return summary.paragraphs("judder", record)[0]
+    return judder_text(record)
 
 
 def shown(judder):

@@ -17,7 +17,7 @@ from thrustwasher.report.model_plots.clutch_plot import clutch_figure
 from thrustwasher.report.model_plots.washer_plots import curve_figure, field_figure
 from thrustwasher.report.shift import overview_plot, shift_report, shift_tables, summary
 from thrustwasher.report.shift.shift_record import KeyFigure, Published
-from thrustwasher.report.shift.summary import trust_texts
+from thrustwasher.report.shift.trust import trust_texts
 from thrustwasher.report.shift.worst_moments import Moment, highest, worst_film
 from thrustwasher.report.style import decade_ticks, new_figure
 

@@ -11,6 +11,7 @@ from thrustwasher.report.shift import shift_tables, summary
 from thrustwasher.report.shift.heat_split import heat_split
 from thrustwasher.report.shift.shift_record import KeyFigure, Part
 from thrustwasher.report.shift.shift_report import shift_page
+from thrustwasher.report.shift.trust import trust_texts
 from thrustwasher.report.shift.usual import beside, ranges, usual_table
 
 
@@ -78,7 +79,7 @@ def test_a_pack_alone_on_a_rig_has_no_ranges_of_a_shift():
 def test_teeth_below_their_limit_are_a_warning_and_said_to_be_an_estimate():
     (words,) = summary.warnings(full(pitting=0.9))
     assert "against pitting is 0.90" in words and "publicly quoted" in words
-    assert "estimates, no rating" in " ".join(summary.trust_texts(full()))
+    assert "estimates, no rating" in " ".join(trust_texts(full()))
 
 
 def test_steels_of_the_paper_are_not_held_against_other_teeth():

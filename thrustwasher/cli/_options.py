@@ -19,7 +19,6 @@ from ..model.part_file import (
 )
 from ..model.record import Option, resolve
 from ..model.registry import find_model, spec_of
-from ..model.toml_tables import table_beside
 from ..sweep.axes import Place
 from ..units import has_unit, parse_quantity
 from ._output import note
@@ -79,7 +78,7 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
         "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
         help=f"change a parameter, e.g. --set {example}; may be repeated",
     )  # fmt: skip
-    add_listed(group, "oil")
+    add_oil(group)
     group.add_argument(
         "--parameters", action=_ListParameters, nargs=0, const=spec,
         help=f"list the parameters of {spec.name} with default, unit and range, and stop",
@@ -247,17 +246,15 @@ def read_options(arguments: argparse.Namespace, options: Iterable[Option]) -> di
     return found
 
 
-def add_listed(parser: Any, command: str, **words: str) -> None:
-    """Add the options of a command that ``options.toml`` lists, in argparse's own words.
-
-    ``words`` fill in the names in braces.
-    """
-    for name, said in table_beside(__file__, "options.toml")[command].items():
-        if isinstance(said.get("metavar"), list):
-            said["metavar"] = tuple(said["metavar"])
-        if isinstance(said.get("default"), int):
-            said["type"] = int
-        parser.add_argument(name, **said | {"help": said["help"].format(**words)})
+def add_oil(parser: Any) -> None:
+    """Add ``--oil``."""
+    parser.add_argument(
+        "--oil",
+        metavar="OIL",
+        help='oil that sets viscosity and density: a name ("ISO VG 46", "Dexron VI", "SAE '
+        '75W-90"), or "kinematic_viscosity_40=46 cSt, kinematic_viscosity_100=6.8 cSt, '
+        'density_15=870"',
+    )
 
 
 def refuse_unused(

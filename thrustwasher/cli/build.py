@@ -18,8 +18,60 @@ HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_mo
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "build")
-    _options.add_listed(parser, "oil")
+    parser.add_argument(
+        "models",
+        metavar="MODEL|FILE.toml",
+        nargs="*",
+        help="names of FMUs, or part files (mine.toml: an FMU with the part's name and values); "
+        "default: all above. CommandSource, a ramp for a shift command, is built when named",
+    )
+    parser.add_argument(
+        "--target",
+        choices=["native", "python"],
+        default="native",
+        help="native: compiled, needs nothing where it runs (default); python: needs this package "
+        "on the machine that runs it",
+    )
+    parser.add_argument(
+        "--fmi",
+        choices=[2, 3],
+        default=2,
+        type=int,
+        help="FMI version; default 2; 3 for target native only",
+    )
+    parser.add_argument(
+        "--platforms",
+        metavar="LIST",
+        help="native only: names with commas (linux64, win64, aarch64-linux, darwin-x86_64, "
+        "darwin-arm64), all, or local; default: all (of what was edited: those that can be "
+        "linked here)",
+    )
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        default="dist",
+        help="the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
+    )
+    parser.add_argument(
+        "--no-maps",
+        action="store_true",
+        help="native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
+        "refused then",
+    )
+    parser.add_argument(
+        "--tol",
+        metavar="X",
+        default="0.01",
+        help="relative error of the torque allowed in the map of a part file's washer, which is "
+        "built and kept if there is none; default 0.01",
+    )
+    parser.add_argument(
+        "--terminals",
+        action="store_true",
+        help="put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON object with the paths")
+    _options.add_oil(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -27,8 +27,53 @@ SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "calibrate", models=", ".join(models_with_points()))
-    _options.add_listed(parser, "oil")
+    models = ", ".join(models_with_points())
+    parser.add_argument(
+        "files",
+        metavar="[PART] DATA.csv",
+        nargs="*",
+        help=f"PART: {models} or a part file (.toml); DATA.csv: columns named as inputs, "
+        "parameters, measured outputs and <output>_error (standard deviation). Without PART "
+        "friction of a clutch: speed, load, friction and, if known, friction_error and "
+        'oil_temperature. A unit may follow in brackets, as in "speed [rpm]"',
+    )
+    parser.add_argument(
+        "--fit",
+        metavar="NAMES",
+        help="parameters to fit, separated by commas; without PART constants of the friction law, "
+        "default plough_weight,shear_floor,stick_speed,decay_speed",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="what is held, and where the fit starts; an input that all points share; may be "
+        "repeated",
+    )
+    parser.add_argument(
+        "--error",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="standard deviation of an output: friction_torque=2%%, of its value; may be repeated",
+    )
+    parser.add_argument(
+        "--bounds",
+        metavar="NAME=LOW:HIGH",
+        action="append",
+        default=[],
+        help="narrower range of a parameter; may be repeated",
+    )
+    parser.add_argument(
+        "--confidence",
+        metavar="P",
+        default="0.95",
+        help="probability of the intervals; above 0, below 1, default 0.95",
+    )
+    parser.add_argument("--preset", metavar="NAME", help="preset to start from, e.g. paper")
+    parser.add_argument("--fidelity", metavar="RUNG", help="rung of the model, default the part's")
+    _options.add_oil(parser)
     _output.add_targets(
         parser, plot="draw points, fit and residuals", instead="sentences",
         out="part file to write with the fitted values (.toml); never over one",

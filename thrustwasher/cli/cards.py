@@ -15,9 +15,24 @@ HELP = "list the measured errors of all rungs, or measure those of a part file"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "cards", models=", ".join(models_with_cards()))
+    models = ", ".join(models_with_cards())
+    parser.add_argument(
+        "model",
+        nargs="?",
+        metavar="MODEL|FILE",
+        help=f"list only {models}; a part file (.toml): verify its rungs in its box, half a minute "
+        "or less",
+    )
     group = parser.add_argument_group("of a part file")
-    _options.add_listed(group, "cards_of_a_part")
+    group.add_argument(
+        "--tol",
+        metavar="X",
+        default=TOL,
+        help="relative error of the map's torque allowed, default 0.01",
+    )
+    group.add_argument(
+        "--points", default=POINTS, metavar="N", type=int, help="held-out points, default 60"
+    )
     group.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 
@@ -29,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.model and is_part(arguments.model):
         return _measure(arguments)
     if arguments.model and arguments.model not in models_with_cards():
-            ladder_of(arguments.model)  # says which there are
+        ladder_of(arguments.model)  # says which there are
     _options.refuse_unused(arguments, "cards that are listed", ["workers"], tol=TOL, points=POINTS)
     models = [arguments.model] if arguments.model else list(models_with_cards())
     found = {model: load_tables(model) for model in models}

@@ -8,14 +8,34 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from . import _options, _output
+from . import _output
 
 HELP = "measure error and cost of every way to solve the models here, and draw the charts"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "chart")
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        default="charts",
+        help="folder for chart.json, chart.html, chart.md and the drawings; default charts",
+    )
+    parser.add_argument(
+        "--only",
+        choices=["stability"],
+        help="measure nothing, draw this part alone: where methods fail, and the limits of "
+        "coupling, as stability.md beside the chart's page; with --out FILE.md that page "
+        "alone",
+    )
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="few cases and repeats: minutes become half a minute, and the numbers a first look",
+    )
+    parser.add_argument(
+        "--draw", metavar="FILE.json", help="measure nothing, draw what an earlier run measured"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

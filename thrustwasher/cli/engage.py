@@ -29,7 +29,15 @@ MAX_POINTS = 200_000
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, SPEC.inputs)
-    _options.add_listed(parser, "engage")
+    parser.add_argument(
+        "--duration", default="0.5 s", help="time from the start to zero slip [s], default 0.5 s"
+    )
+    parser.add_argument(
+        "--ramp",
+        default="0.1 s",
+        help="time in which the load rises to its value [s], default 0.1 s",
+    )
+    parser.add_argument("--step", default="1 ms", help="distance of the points [s], default 1 ms")
     _options.add_parameters(parser, SPEC)
     _options.add_fidelity(parser, SPEC)
     _output.add_targets(parser, out="write all points as CSV", plot="draw the engagement")

@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"part file, or model with its defaults: {models}; default {USUAL}",
     )  # fmt: skip
     parser.add_argument("--preset", help="preset of the model, `thrustwasher part list` names them")
-    _options.add_listed(parser, "oil")
+    _options.add_oil(parser)
     parser.add_argument(
         "--out", metavar="PAGE.html", help="file to write, default explore-NAME.html"
     )

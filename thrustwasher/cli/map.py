@@ -23,7 +23,20 @@ HELP = "chart a washer's solutions for look-up (build), list maps, check one aga
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "map")
+    parser.add_argument("deed", choices=["build", "list", "check"], help="what to do")
+    parser.add_argument("file", nargs="?", help="build: a part file (.toml); check: the map file")
+    parser.add_argument(
+        "--fidelity", help="mesh to chart: fine, field; default: as the tolerance needs"
+    )
+    parser.add_argument("--out", metavar="FILE", help="default washer.twm, PART.twm of a part file")
+    parser.add_argument(
+        "--points",
+        default=60,
+        metavar="N",
+        type=int,
+        help="held-out points of the check, default 60",
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
     parser.add_argument("--tol", "--tolerance", dest="tolerance", metavar="X",
                         help="relative error of the torque allowed, default 0.005")  # fmt: skip
     parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")

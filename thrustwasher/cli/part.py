@@ -28,8 +28,29 @@ NEW = ("name", "preset", "settings", "out")  # of a new part alone
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "part", models=", ".join(m.key for m in all_models()))
-    _options.add_listed(parser, "oil")
+    models = ", ".join(m.key for m in all_models())
+    parser.add_argument("deed", choices=["new", "check", "list"], help="what to do")
+    parser.add_argument(
+        "subject",
+        nargs="?",
+        metavar="MODEL|FILE",
+        help=f"new: the model, {models}; check: the part file; list: the model, default all",
+    )
+    parser.add_argument("--name", help="new: name of the part and of its FMU, default MyMODEL")
+    parser.add_argument("--preset", help="new: preset to start from, `part list` names them")
+    parser.add_argument(
+        "--set",
+        dest="settings",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="new: change a parameter; may be repeated",
+    )
+    parser.add_argument(
+        "--out", metavar="FILE.toml", help="new: file to write, default MODEL.toml; never over one"
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
+    _options.add_oil(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -20,8 +20,48 @@ HELP = "solve a model over ranges of inputs and parameters, on all cores or on a
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    _options.add_listed(parser, "sweep", models=", ".join(models_with_points()))
-    _options.add_listed(parser, "oil")
+    models = ", ".join(models_with_points())
+    parser.add_argument("model", metavar="MODEL|FILE", help=f"{models}, or a part file (.toml)")
+    parser.add_argument(
+        "--over",
+        metavar="NAME=VALUES",
+        action="append",
+        default=[],
+        help="vary an input or parameter: load=50:1850:50 (start:stop:step), load=20:1850:x40 (40 "
+        'values, equal ratios; n40: even), speed=136,545, "oil_temperature [degC]=24,80"; '
+        "may be repeated, the first input runs fastest",
+    )
+    parser.add_argument(
+        "--points", metavar="FILE.csv", help="instead of --over, a file with a point in every line"
+    )
+    parser.add_argument(
+        "--set",
+        dest="settings",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="hold an input or parameter at a value, e.g. --set roughness=4e-7; may be repeated",
+    )
+    parser.add_argument(
+        "--preset", metavar="NAME", help="named set of parameters to start from, e.g. paper"
+    )
+    parser.add_argument(
+        "--fidelity",
+        metavar="RUNG",
+        help="rung of the model, its command's --help lists them; auto:0.01: the cheapest whose "
+        "torque is verified to 1 %% over all points",
+    )
+    parser.add_argument(
+        "--out",
+        metavar="FILE",
+        help="table to write, .csv or .parquet; stopped, the same command goes on. Without: CSV "
+        "to standard output",
+    )
+    parser.add_argument("--workers", metavar="N", help="processes; default: one per core, 1: none")
+    parser.add_argument(
+        "--cluster", metavar="ADDRESS", help="Dask scheduler, e.g. tcp://10.0.0.1:8786, instead"
+    )
+    _options.add_oil(parser)
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
     for name, units in _inputs().items():
         inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)

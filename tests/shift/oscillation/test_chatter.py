@@ -6,7 +6,7 @@ import pytest
 from scene_runs import shift, slow_without_jit
 
 from thrustwasher.report.shift.shift_record import record_of
-from thrustwasher.report.shift.summary import paragraphs
+from thrustwasher.report.shift.swing_texts import chatter_texts
 
 BARE = {"washer": None, "mesh": None}
 
@@ -23,7 +23,7 @@ def test_a_torque_loop_over_its_limit_chatters_and_says_why(master, limit):
     assert found.limit == limit < found.kappa and found.turns > 50
     assert found.inertia == pytest.approx(0.1157, abs=1e-4)
     assert r.as_dict()["chatter"][0]["kappa"] > 1.0
-    text = " ".join(paragraphs("chatter", record_of(r)))
+    text = " ".join(chatter_texts(record_of(r)))
     for words in ("Numerical", "kappa", f"below {limit:g}", 'coupling = "capacity"', master):
         assert words in text
 
@@ -49,4 +49,4 @@ def test_nothing_chatters_where_packs_stick_or_torques_are_corrected():
 def test_a_master_without_a_limit_is_given_none():
     r = bare()
     record = replace(record_of(r), chatter=[replace(c, limit=None) for c in r.chatter])
-    assert "is stable below" not in " ".join(paragraphs("chatter", record))
+    assert "is stable below" not in " ".join(chatter_texts(record))

@@ -9,7 +9,7 @@ from scene_runs import PetroffWasher
 from thrustwasher.errors import SolveError, Status
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift import load_scene, run_auto, with_fidelities
-from thrustwasher.shift.tolerance import run_to_tolerance, rung_check, selection, trial_run
+from thrustwasher.shift.tolerance import run_to_tolerance, rung_check, selection
 from thrustwasher.washer.parameters import SPEC
 
 STOP = 0.3
@@ -56,10 +56,6 @@ def run(monkeypatch):
     """Run the start of a shift with washers of these kinds, ``map`` the first of its rungs."""
     monkeypatch.setattr(selection, "rungs_of", lambda *_: ["map", "field", "fine"])
     monkeypatch.setattr(run_to_tolerance, "guarded", lambda result, *_: result)
-    usual = trial_run.cheap_rung  # washers of trial runs are honest
-    monkeypatch.setattr(
-        trial_run, "cheap_rung", lambda n, part: "fine" if n == "washer" else usual(n, part)
-    )
 
     def given(rungs, **options):
         def make(name, part):

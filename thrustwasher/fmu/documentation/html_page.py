@@ -12,7 +12,7 @@ from ...model.prepare import tables_of
 from ...model.registry import MODELS, find_model, find_spec
 from ...model.spec import ModelSpec
 from ...templates import filled
-from ..description.interface import enumerations, variables
+from ..description.interface import Interface, interface
 from ..model_kernels import package_version
 from ..package.licences import listed_licences
 from ..package.model_sources import source_folder
@@ -25,7 +25,7 @@ WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
 
 
 def page(
-    spec: ModelSpec, folder: Path, *, target: str, fmi: int, guid: str, platforms: Sequence[str],
+    shown: Interface, folder: Path, *, target: str, fmi: int, guid: str, platforms: Sequence[str],
     runs: bool = True,
 ) -> str:  # fmt: skip
     """Return the page.
@@ -34,15 +34,14 @@ def page(
     False the model is not run for the slope of its torque, and need not be compiled for this
     Python.
     """
-    found = variables(spec)
-    icon = folder / "icon.png"
+    spec, icon = shown.spec, folder / "icon.png"
     return filled(
         source_folder() / "documentation" / "index.html",
         spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
         version=package_version(), reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
-        usual=variables(find_spec(spec.key)) if spec.kind else (), found=found,
-        enumerations=enumerations(spec), statuses=sorted(Status),
+        usual=interface(find_spec(spec.key)).variables if spec.kind else (), shown=shown,
+        statuses=sorted(Status),
         advice=find_model(spec.key).wiring if spec.key in MODELS else (),
         feedthrough=_feedthrough(spec), slope=_slope_words(spec, runs),
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),

@@ -140,6 +140,11 @@ class Record:
         return "the engine's work" if self.energy["engine_work"] else "the kinetic energy"
 
     @property
+    def sticks_and_slips(self) -> bool:
+        """Whether the engaging pack sticks and slips in turn at the end."""
+        return bool(self.phases) and self.phases[-1].name == "stick-slip"
+
+    @property
     def rated_teeth(self) -> bool:
         """Whether there are teeth whose safeties count, those heated by their own loss."""
         mesh = self.part("mesh")

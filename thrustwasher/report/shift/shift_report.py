@@ -5,9 +5,17 @@ from ..html import Card, Page, Plot, Section
 from . import shift_tables, summary
 from .live_washer import live_washer
 from .overview_plot import overview_figure
+from .section_texts import (
+    USUAL_TEXT,
+    cost_texts,
+    rung_texts,
+    simulated_texts,
+    temperature_texts,
+)
 from .shift_data import page_data, run_data, slip_of
 from .shift_record import Record
-from .summary import paragraphs
+from .swing_texts import judder_text
+from .trust import trust_texts
 from .usual import beside, usual_table
 from .worst_moments import Moment, highest, solve_moment, worst_film
 
@@ -37,7 +45,7 @@ def shift_page(record: Record) -> Page:
     sections = [
         *_usual_sections(record),
         Section(
-            "course", "The shift over time", texts=paragraphs("temperatures", record),
+            "course", "The shift over time", texts=temperature_texts(record),
             widgets=["plots"], tables=[shift_tables.phase_table(record)],
             plots=[Plot("overview", overview_figure(record), OVERVIEW_CAPTION, bitmap=True,
                         still=True)],
@@ -49,14 +57,14 @@ def shift_page(record: Record) -> Page:
                 tables=[shift_tables.energy_table(record), shift_tables.heat_table(record)]),
         Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
         *rung_sections(record),
-        Section("cost", "Time spent", texts=paragraphs("cost", record),
+        Section("cost", "Time spent", texts=cost_texts(record),
                 tables=[shift_tables.cost_table(record)]),
         Section(
             "parameters", "What was simulated",
-            texts=paragraphs("simulated", record),
+            texts=simulated_texts(record),
             tables=shift_tables.parameter_tables(record),
         ),
-        Section("trust", "How far to trust it", texts=summary.trust_texts(record)),
+        Section("trust", "How far to trust it", texts=trust_texts(record)),
     ]  # fmt: skip
     return Page(
         title=record.title,
@@ -87,7 +95,7 @@ def _usual_sections(record: Record) -> list[Section]:
     if not table.rows:
         return []
     title = "Beside what is usual"
-    return [Section("usual", title, texts=paragraphs("usual", record), tables=[table])]
+    return [Section("usual", title, texts=[USUAL_TEXT], tables=[table])]
 
 
 CARDS = (
@@ -136,7 +144,7 @@ def _judder_sections(record: Record) -> list[Section]:
     """Return how the output shaft swings while a pack slips, and why."""
     if record.judder is None:
         return []
-    texts, tables = paragraphs("judder", record), [shift_tables.judder_table(record)]
+    texts, tables = [judder_text(record)], [shift_tables.judder_table(record)]
     return [Section("judder", TITLES[record.judder.kind], texts=texts, tables=tables)]
 
 
@@ -144,7 +152,7 @@ def rung_sections(record: Record) -> list[Section]:
     """Return which rungs ran and why, how far off they were and what was run again."""
     if record.selection is None:
         return []
-    texts = [*record.selection.words(), *paragraphs("rungs", record)]
+    texts = [*record.selection.words(), *rung_texts(record)]
     if record.guard is None:
         return [Section("rungs", "Rungs", texts=texts)]
     tables = [shift_tables.check_table(record)]

@@ -1,54 +1,36 @@
-"""What the report says of a shift in sentences; they stand in ``words.jinja``."""
+"""What the report says of a shift at its top: what happened, and what a reader must not miss."""
 
-import math
 import re
 from collections.abc import Sequence
-from functools import cache
-from pathlib import Path
+from functools import partial
 from typing import Any
 
-from ...templates import environment
 from ...units import format_quantity
-from .shift_record import PACKS, Record, record_of
-from .shift_tables import source_texts
-from .usual import of_meshes
-from .worst_moments import highest, least_margin
+from .shift_record import Record, record_of
+from .swing_texts import chatter_texts, judder_text
+from .what_happened import pitting_safety, scuffing_safety, sentences, stress_words
+from .worst_moments import least_margin
+
+__all__ = ["sentences", "step_words", "warnings", "warnings_of", "warnings_of_all"]
+say = partial(format_quantity, digits=3)
+SHEARED = 0.5  # share of the torque from which on the oil carries it
 
 QUANTITY = re.compile(r"-?\d\S*( [^\s\d.]\S*)?")  # a number, and a word behind it: mostly its unit
 
 
-@cache
-def words() -> Any:
-    """Return the template, whose macros are functions."""
-    reader = environment(escape=False)
-    reader.filters["f"] = lambda value, text: format(value, text)
-    reader.filters["say"] = lambda value, unit, digits=3: format_quantity(
-        value, unit, digits=digits
-    )
-    reader.globals.update(highest=highest, least_margin=least_margin, pi=math.pi,
-                          pitting=of_meshes("pitting_safety"),
-                          scuffing=of_meshes("scuffing_safety"))  # fmt: skip
-    text = Path(__file__).with_name("words.jinja").read_text("utf-8")
-    return reader.from_string(text).module
-
-
-def paragraphs(name: str, *told: Any) -> list[str]:
-    """Return what a macro of the template says of what it is told, a text for each paragraph."""
-    said = str(getattr(words(), name)(*told))
-    return [re.sub(r"[ \n]+", " ", text).strip(" ") for text in said.split("¶")[1:]]
-
-
-def sentences(record: Record) -> list[str]:
-    """Return the course, the heat of the engaging pack, then what sits at the planets or the book.
-
-    Three sentences; a fourth if there are both washers and gear meshes.
-    """
-    return paragraphs("sentences", record)
-
-
-def warnings(record: Record) -> list[str]:
+def warnings(r: Record) -> list[str]:
     """Return what a reader must not miss: doubts about the figures, then faults they show."""
-    return [*record.found, *paragraphs("warnings", record)]
+    judder = [judder_text(r)] if r.judder and r.judder.kind != "decaying" else []
+    return [
+        *r.found,
+        *_not_locked(r),
+        *_tie_up(r),
+        *judder,
+        *chatter_texts(r),
+        *_washers_in_distress(r),
+        *_teeth_overloaded(r),
+        *(f"From {e.time:.4g} s on: {e.text}." for e in r.events if "hotter" in e.text),
+    ]
 
 
 def warnings_of(result: Any) -> list[str]:
@@ -82,8 +64,76 @@ def step_words(result: Any) -> list[str]:
             for i, error in result.step_errors.items()]  # fmt: skip
 
 
-def trust_texts(record: Record) -> list[str]:
-    """Return what the numbers are worth."""
-    rungs = {part.parameters.get("fidelity") for part in record.parts
-             if part.name in PACKS and record.presses(part.name)}  # fmt: skip
-    return paragraphs("trust", record, rungs == {"field"}, source_texts(record))
+def _not_locked(r: Record) -> list[str]:
+    """Return that the pack slips at the end, unless the words on judder say it."""
+    if r.sticks_and_slips:
+        if r.judder and r.judder.stick_slip:
+            return []
+        start = r.phases[-1].start
+        return [
+            f"The {r.engaging} never held: from {start:.4g} s to the end it stuck and slipped in "
+            "turn."
+        ]
+    if r.figures["lock_time"] is not None:
+        return []
+    return [f"The {r.engaging} did not lock: the shift is not finished at the end of the run."]
+
+
+def _tie_up(r: Record) -> list[str]:
+    """Return what a tie-up was and where it came from; nothing where there was none."""
+    lasted, most = r.figure("tie_up_duration"), r.figure("tie_up_torque")
+    pack, other = r.engaging, r.releasing
+    if lasted is None or most is None or lasted.value is None or most.value is None:
+        return []
+    begin = lasted.time or r.ramp_start
+    before = r.at(f"transmission.{other}_reaction", r.ramp_start) or 0.0
+    text = (
+        f"Tie-up: from {begin:.4g} s on both packs worked against each other for "
+        f"{say(lasted.value, 's')}. The torque of the {other} turned from {say(before, 'N.m')} to "
+        f"{say(most.value, 'N.m')}, and it took up {say(r.figures.get('tie_up_heat') or 0.0, 'J')} "
+        "of heat meanwhile."
+    )
+    oil, whole = (abs(r.at(f"{pack}.{n}_torque", begin) or 0.0) for n in ("viscous", "friction"))
+    if whole and oil / whole >= SHEARED:
+        text += (
+            f" The {pack} closed early: {oil / whole:.0%} of its torque at {begin:.4g} s was shear "
+            f"of the oil, supplied at {say(r.oil_temperature, 'K')}."
+        )
+    return [text]
+
+
+def _washers_in_distress(r: Record) -> list[str]:
+    """Return that the film was lost, and that a washer would turn in its seat."""
+    found, distress, margin = [], r.figures.get("washer_distress_time") or 0.0, least_margin(r)
+    if distress > 0.0:
+        found.append(
+            f"Thermo-viscous distress: the washers' oil film was lost for {say(distress, 's')}. "
+            "Torque and temperatures of that time are those of the equations; no real film "
+            "survives there."
+        )
+    if margin and margin.value < 1.0:
+        load = say(r.at("washer.load", margin.time) or 0.0, "N")
+        found.append(
+            f"Gap 2 cannot hold the washers: at {margin.time:.4g} s, under a load of {load}, dry "
+            f"friction between washer and gear can take {margin.value:.2g} times the friction "
+            "torque of film 1. The washer would turn with less than the gear's speed; the model "
+            "assumes that the two turn together."
+        )
+    return found
+
+
+def _teeth_overloaded(r: Record) -> list[str]:
+    """Return that stress is beyond endurance, or a safety below 1."""
+    found = []
+    if stress := stress_words(r, over=1.0):
+        found.append(
+            f"Tooth stress beyond endurance: {stress}. It is the stress of one straight pair of "
+            "teeth that carries the whole load; hardened flanks endure more than these steels."
+        )
+    for words, safety in (("pitting", pitting_safety(r)), ("scuffing", scuffing_safety(r))):
+        if safety is not None and safety < 1.0:
+            found.append(
+                f"The teeth may not last: their least safety against {words} is {safety:.2f}, by "
+                "formulas as standards are publicly quoted."
+            )
+    return found
